@@ -1,0 +1,174 @@
+//! Functions that every version from 7.2 to 10 has.
+//!
+//! Two kinds, told apart by what the headers say of the result:
+//! [`truth!`] declares those that answer `int` in old versions and `bool` in
+//! new ones; the plain `extern` block those that have one type everywhere.
+use crate::types::{
+    IOSTREAM, PL_blob_t, PL_engine_t, PL_fid_t, atom_t, control_t, foreign_t, functor_t, module_t,
+    pl_function_t, predicate_t, qid_t, record_t, term_t,
+};
+use std::ffi::{c_char, c_int, c_uchar, c_void};
+
+/// Declares functions whose result is a truth value: `int` in old headers,
+/// `bool` in new ones. A `bool` leaves all but the low byte of the result
+/// register undefined, and an `int` that is 0 or 1 has its value there, so
+/// the low byte is right for both.
+macro_rules! truth {
+    ($($name:ident($($arg:ident: $type:ty),*);)*) => {$(
+        #[inline]
+        pub unsafe fn $name($($arg: $type),*) -> c_int {
+            unsafe extern "C" {
+                #[allow(clashing_extern_declarations, reason = "wrapped under its own name")]
+                fn $name($($arg: $type),*) -> u8;
+            }
+            c_int::from(unsafe { $name($($arg),*) })
+        }
+    )*};
+}
+
+truth! {
+    PL_get_arg(index: c_int, t: term_t, a: term_t);
+    PL_get_atom(t: term_t, a: *mut atom_t);
+    PL_get_blob(t: term_t, blob: *mut *mut c_void, len: *mut usize, kind: *mut *mut PL_blob_t);
+    PL_get_bool(t: term_t, value: *mut c_int);
+    PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize);
+    PL_get_float(t: term_t, f: *mut f64);
+    PL_get_functor(t: term_t, f: *mut functor_t);
+    PL_get_int64(t: term_t, i: *mut i64);
+    PL_get_list(l: term_t, h: term_t, t: term_t);
+    PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32);
+    PL_get_nil(l: term_t);
+    PL_get_stream(t: term_t, s: *mut *mut IOSTREAM, flags: c_int);
+    PL_get_string(t: term_t, s: *mut *mut c_char, len: *mut usize);
+    PL_initialise(argc: c_int, argv: *mut *mut c_char);
+    PL_is_atom(t: term_t);
+    PL_is_blob(t: term_t, kind: *mut *mut PL_blob_t);
+    PL_is_initialised(argc: *mut c_int, argv: *mut *mut *mut c_char);
+    PL_is_integer(t: term_t);
+    PL_is_string(t: term_t);
+    PL_is_variable(t: term_t);
+    PL_predicate_info(p: predicate_t, name: *mut atom_t, arity: *mut usize, m: *mut module_t);
+    PL_put_atom(t: term_t, a: atom_t);
+    PL_put_blob(t: term_t, blob: *mut c_void, len: usize, kind: *mut PL_blob_t);
+    PL_put_bool(t: term_t, value: c_int);
+    PL_put_chars(t: term_t, flags: c_int, len: usize, chars: *const c_char);
+    PL_put_float(t: term_t, f: f64);
+    PL_put_functor(t: term_t, f: functor_t);
+    PL_put_int64(t: term_t, i: i64);
+    PL_put_nil(l: term_t);
+    PL_put_string_nchars(t: term_t, len: usize, chars: *const c_char);
+    PL_put_term(t1: term_t, t2: term_t);
+    PL_put_variable(t: term_t);
+    PL_raise_exception(exception: term_t);
+    PL_recorded(record: record_t, t: term_t);
+    PL_release_stream(s: *mut IOSTREAM);
+    PL_unify(t1: term_t, t2: term_t);
+    PL_unify_arg(index: usize, t: term_t, a: term_t);
+    PL_unify_atom(t: term_t, a: atom_t);
+    PL_unify_blob(t: term_t, blob: *mut c_void, len: usize, kind: *mut PL_blob_t);
+    PL_unify_bool(t: term_t, n: c_int);
+    PL_unify_chars(t: term_t, flags: c_int, len: usize, s: *const c_char);
+    PL_unify_compound(t: term_t, f: functor_t);
+    PL_unify_float(t: term_t, f: f64);
+    PL_unify_int64(t: term_t, i: i64);
+    PL_unify_list(l: term_t, h: term_t, t: term_t);
+    PL_unify_nil(l: term_t);
+    PL_unify_string_nchars(t: term_t, len: usize, chars: *const c_char);
+}
+
+unsafe extern "C" {
+    // Atoms, functors, modules, predicates
+    pub fn PL_register_atom(a: atom_t);
+    pub fn PL_unregister_atom(a: atom_t);
+    pub fn PL_new_functor(name: atom_t, arity: usize) -> functor_t;
+    pub fn PL_functor_name(f: functor_t) -> atom_t;
+    pub fn PL_functor_arity(f: functor_t) -> c_int;
+    pub fn PL_new_module(name: atom_t) -> module_t;
+    pub fn PL_module_name(m: module_t) -> atom_t;
+    pub fn PL_pred(f: functor_t, m: module_t) -> predicate_t;
+    pub fn PL_blob_data(a: atom_t, len: *mut usize, kind: *mut *mut PL_blob_t) -> *mut c_void;
+
+    // Terms
+    pub fn PL_new_term_ref() -> term_t;
+    pub fn PL_new_term_refs(n: usize) -> term_t;
+    pub fn PL_reset_term_refs(t: term_t);
+    pub fn PL_term_type(t: term_t) -> c_int;
+    pub fn PL_compare(t1: term_t, t2: term_t) -> c_int;
+    pub fn PL_record(t: term_t) -> record_t;
+    pub fn PL_erase(record: record_t);
+
+    // Frames, exceptions, signals
+    pub fn PL_open_foreign_frame() -> PL_fid_t;
+    pub fn PL_close_foreign_frame(frame: PL_fid_t);
+    pub fn PL_discard_foreign_frame(frame: PL_fid_t);
+    pub fn PL_rewind_foreign_frame(frame: PL_fid_t);
+    pub fn PL_clear_exception();
+    pub fn PL_handle_signals() -> c_int;
+
+    // Foreign predicates
+    pub fn PL_register_foreign_in_module(
+        module: *const c_char,
+        name: *const c_char,
+        arity: c_int,
+        function: pl_function_t,
+        flags: c_int,
+        ...
+    ) -> c_int;
+    pub fn PL_foreign_control(control: control_t) -> c_int;
+    pub fn PL_foreign_context_address(control: control_t) -> *mut c_void;
+    pub fn _PL_retry_address(address: *mut c_void) -> foreign_t;
+
+    // Engines
+    pub fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
+    pub fn PL_destroy_engine(engine: PL_engine_t) -> c_int;
+    pub fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
+    pub fn PL_thread_attach_engine(attributes: *mut c_void) -> c_int;
+    pub fn PL_thread_destroy_engine() -> c_int;
+
+    // Streams
+    pub fn _PL_streams() -> *mut *mut IOSTREAM;
+    pub fn Sclearerr(s: *mut IOSTREAM);
+    pub fn Sferror(s: *mut IOSTREAM) -> c_int;
+    pub fn Sflush(s: *mut IOSTREAM) -> c_int;
+    pub fn Sfputs(q: *const c_char, s: *mut IOSTREAM) -> c_int;
+    pub fn Sfread(data: *mut c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
+    pub fn Sfwrite(data: *const c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
+}
+
+/// Declares functions that take a query, narrowing it to what C expects.
+macro_rules! of_query {
+    ($($name:ident -> $result:ty;)*) => {$(
+        #[inline]
+        pub unsafe fn $name(query: qid_t) -> $result {
+            unsafe extern "C" {
+                fn $name(query: usize) -> $result;
+            }
+            unsafe { $name(narrow(query)) }
+        }
+    )*};
+}
+
+of_query! {
+    PL_close_query -> c_int;
+    PL_cut_query -> c_int;
+    PL_exception -> term_t;
+    PL_next_solution -> c_int;
+}
+
+pub unsafe fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> qid_t {
+    unsafe extern "C" {
+        fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> usize;
+    }
+    unsafe { PL_open_query(m, flags, pred, t0) as qid_t }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "a query is as wide as a pointer; it was widened by PL_open_query"
+)]
+fn narrow(query: qid_t) -> usize {
+    query as usize
+}
+
+/// Bytes of a saved state, as `PL_set_resource_db_mem` takes them.
+pub(crate) type ResourceData = *const c_uchar;

@@ -1,0 +1,38 @@
+//! The low layer under the [`swipl`] crate, written by hand.
+//!
+//! The published `swipl-fli` is made by bindgen from the headers of whichever
+//! SWI-Prolog is installed, and links that version's library. A binary made so
+//! runs with that version alone. This crate has the same name, version and
+//! interface, as far as `swipl` uses it, and differs in four points:
+//!
+//! * **Nothing is linked.** The process that loads the library is SWI-Prolog
+//!   and resolves the symbols. Neither libclang nor SWI-Prolog is needed to
+//!   build.
+//! * **One binary for every version from 7.2 to 10.** Functions that return
+//!   `int` in old headers and `bool` in new ones are called as returning a
+//!   byte, which is right for both ([`functions`]). Functions that old versions
+//!   lack are looked up when first used ([`late`]).
+//! * **32 bit.** [`qid_t`] is wide enough for `swipl`, which turns a
+//!   `u64` into one, and is narrowed where it is passed on.
+//! * Arities and counts are passed as `usize`: a callee that takes an `int`
+//!   reads the low half of the register, or, on 32 bit, the same word.
+//!
+//! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
+//!
+//! [`swipl`]: https://docs.rs/swipl
+#![allow(
+    missing_docs,
+    non_camel_case_types,
+    non_snake_case,
+    non_upper_case_globals,
+    clippy::missing_safety_doc,
+    reason = "names are C's, and documented in SWI-Prolog's manual"
+)]
+
+pub mod functions;
+pub mod late;
+pub mod types;
+
+pub use functions::*;
+pub use late::*;
+pub use types::*;

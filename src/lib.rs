@@ -1,0 +1,1 @@
+//! Foreign library of the pack `ev3dev`.
