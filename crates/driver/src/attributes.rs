@@ -1,0 +1,48 @@
+//! Any attribute of any device, by its name.
+//!
+//! Most are read and written as they are. A few mean more: a motor's `command`
+//! starts something that must be stopped at the end, a sensor's `mode` is
+//! written only when it differs and then needs time to settle.
+use crate::Interrupted;
+use crate::devices::{Class, Devices};
+use crate::error::Result;
+use crate::value::Value;
+use crate::{motor, sensor};
+
+/// Reads an attribute; `None` where the device is absent.
+///
+/// # Errors
+/// The kernel's, as EACCES for an attribute that can only be written;
+/// [`Error::Malformed`](crate::Error::Malformed).
+pub fn read(devices: &Devices, class: Class, port: &str, name: &str) -> Result<Option<Value>> {
+    let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
+    devices.with(class, port, |device| match (class, index) {
+        (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
+        _ => device.text(name).map(|text| Value::parse(&text)),
+    })
+}
+
+/// Writes an attribute; `None` where the device is absent.
+///
+/// # Errors
+/// The kernel's, as EINVAL for a value that is not accepted, EACCES for an
+/// attribute that can only be read; [`Error::Interrupted`](crate::Error).
+pub fn write(
+    devices: &Devices,
+    class: Class,
+    port: &str,
+    name: &str,
+    text: &str,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    if (class, name) == (Class::Sensor, "mode") {
+        return match devices.find(class, port)? {
+            Some(sensor) => sensor::set_mode(devices, &sensor, text, interrupted),
+            None => Ok(None),
+        };
+    }
+    devices.with(class, port, |device| match (class, name) {
+        (Class::TachoMotor, "command") => motor::command(devices, device, text),
+        _ => device.write(name, text),
+    })
+}
