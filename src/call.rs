@@ -58,11 +58,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// A time in seconds, or `None` for one without end.
+    /// A time in seconds, or `None` for one without end: an atom, or more than
+    /// can be counted.
     pub(crate) fn seconds(&self, term: &Term) -> PrologResult<Option<Duration>> {
-        let seconds = self.float(term)?;
-        // Also none: more than can be counted.
-        Ok(Duration::try_from_secs_f64(seconds).ok())
+        if term.is_atom() {
+            return Ok(None);
+        }
+        Ok(Duration::try_from_secs_f64(self.float(term)?).ok())
     }
 
     /// The elements of a list.

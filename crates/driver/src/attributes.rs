@@ -9,6 +9,30 @@ use crate::error::Result;
 use crate::value::Value;
 use crate::{motor, sensor};
 
+/// Attributes that hold an integer and nothing else.
+const INTEGERS: [&str; 20] = [
+    "count_per_m",
+    "count_per_rot",
+    "decimals",
+    "duty_cycle",
+    "duty_cycle_sp",
+    "full_travel_count",
+    "hold_pid/Kd",
+    "hold_pid/Ki",
+    "hold_pid/Kp",
+    "max_speed",
+    "num_values",
+    "position",
+    "position_sp",
+    "ramp_down_sp",
+    "ramp_up_sp",
+    "speed",
+    "speed_pid/Kd",
+    "speed_pid/Ki",
+    "speed_pid/Kp",
+    "speed_sp",
+];
+
 /// Reads an attribute; `None` where the device is absent.
 ///
 /// # Errors
@@ -18,6 +42,7 @@ pub fn read(devices: &Devices, class: Class, port: &str, name: &str) -> Result<O
     let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
     devices.with(class, port, |device| match (class, index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
+        _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),
         _ => device.text(name).map(|text| Value::parse(&text)),
     })
 }
