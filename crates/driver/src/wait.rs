@@ -80,9 +80,7 @@ pub fn wait_for(
         let mut nearest = None;
         for watch in watches.iter_mut().filter(|watch| !watch.is_done) {
             match watch.look(now)? {
-                Look::Runs(slice) => {
-                    nearest = Some(nearest.map_or(slice, |n: Duration| n.min(slice)))
-                }
+                Look::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
                 Look::Blocked => {
                     reason = Reason::Stalled;
                     return Ok(None);
