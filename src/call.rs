@@ -85,7 +85,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// What the driver answered; its error as an exception.
     pub(crate) fn check<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
-        result.or_else(|error| raise(self, error))
+        result.or_else(|error| raise(self, &error))
     }
 
     /// What the driver found; a failure if it found nothing.

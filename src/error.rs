@@ -11,14 +11,14 @@ use std::path::Path;
 use swipl::prelude::*;
 
 /// Raises a driver's error.
-pub(crate) fn raise<T, C: QueryableContextType>(call: &Call<C>, error: Error) -> PrologResult<T> {
+pub(crate) fn raise<T, C: QueryableContextType>(call: &Call<C>, error: &Error) -> PrologResult<T> {
     if matches!(error, Error::Interrupted) {
         // Whoever interrupted has raised an exception already.
         return Err(PrologError::Exception);
     }
     let context = call.context;
-    let formal = formal(context, &error)?;
-    throw(call, &formal, &message(&error))
+    let formal = formal(context, error)?;
+    throw(call, &formal, &message(error))
 }
 
 /// Raises `instantiation_error` for a variable, else `type_error`.

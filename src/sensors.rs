@@ -41,10 +41,11 @@ predicates! {
         }
     }
 
-    /// sensor_values_(?Port, +Types, +Mode, -Value0, -Value1, -Value2)
+    /// sensor_values_(?Port, +Types, +Mode, ?Values): values is a compound of
+    /// three, values 0 to 2.
     #[module("ev3dev_sensors")]
     #[name("sensor_values_")]
-    nondet fn sensor_values<IntoIter<Arc<Device>>>(context, port, types, mode, v0, v1, v2) {
+    nondet fn sensor_values<IntoIter<Arc<Device>>>(context, port, types, mode, values) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
@@ -52,13 +53,13 @@ predicates! {
         },
         call(sensors) => {
             let call = Call::of(context, "sensor_value", 4);
-            let mode = call.text(mode)?;
+            let (mode, values) = (call.text(mode)?, call.arguments::<3>(values)?);
             let read = |device: &Arc<Device>| {
                 let (mode, interrupted) = (Some(&*mode), &mut call.interrupted());
                 call.found(sensor::read_all(&devices(), device, mode, [0, 1, 2], interrupted))
             };
             call.next(sensors, read, |device, read| {
-                [v0, v1, v2].into_iter().zip(read).try_for_each(|(v, read)| unify_value(v, read))?;
+                values.iter().zip(read).try_for_each(|(term, read)| unify_value(term, read))?;
                 unify_port(port, device.port())
             })
         }

@@ -135,7 +135,7 @@ col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
     col_rgb_raw(Port, Red, Green, Blue).
 
 col_rgb_raw(Port, Red, Green, Blue) :-
-    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', Red, Green, Blue).
+    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', rgb(Red, Green, Blue)).
 
 %!  us_dist_cm(?Port, -Centimetres) is nondet.
 %!  us_dist_inches(?Port, -Inches) is nondet.
