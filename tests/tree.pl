@@ -7,7 +7,13 @@
             put_attribute/3,            % +Port, +Attribute, +Text
             get_attribute/3,            % +Port, +Attribute, -Text
             written/2,                  % +Port, -Attributes
-            later/2                     % +Seconds, :Goal
+            written/1,                  % -Attributes
+            tree_root/1,                % -Directory
+            later/2,                    % +Seconds, :Goal
+            meanwhile/2,                % :Other, :Goal
+            eventually/1,               % :Goal
+            obey/1,                     % +Port
+            warnings/2                  % :Goal, -Warnings
           ]).
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
@@ -17,24 +23,30 @@
 /** <module> Plain directory trees shaped like ev3dev's
 
 A tree holds files as the kernel shows them after plugging in, and stores what
-is written. Nothing in it moves; later/2 makes a thread play the kernel's part.
+is written. Nothing in it moves; later/2 and meanwhile/2 make a thread play the
+kernel's part.
 */
 
 :- meta_predicate
     with_tree(0),
     with_tree(+, 0),
-    later(+, 0).
+    later(+, 0),
+    meanwhile(0, 0),
+    eventually(0),
+    warnings(0, -).
 
 :- dynamic
     root/1,                             % Directory
     plugged/2,                          % Port, Directory
-    numbered/2.                         % Class, Number of the next device
+    numbered/2,                         % Class, Number of the next device
+    warned/1.                           % Term of a message
 
 %!  with_tree(:Goal)
 %!  with_tree(+Devices, :Goal)
 %
-%   Call Goal once with a fresh tree as the tree in use. Devices is a list of
-%   Port-Type, by default the paper's robot with all its sensors.
+%   Call Goal with a fresh tree as the tree in use; it may leave choice points.
+%   Devices is a list of Port-Type, by default the paper's robot with all its
+%   sensors.
 
 with_tree(Goal) :-
     with_tree([ in1-'lego-ev3-us',
@@ -50,7 +62,7 @@ with_tree(Goal) :-
 with_tree(Devices, Goal) :-
     setup_call_cleanup(
         make_tree(Devices),
-        once(Goal),
+        Goal,
         drop_tree).
 
 make_tree(Devices) :-
@@ -66,12 +78,19 @@ drop_tree :-
     retractall(numbered(_, _)),
     delete_directory_and_contents(Root).
 
+%!  tree_root(-Directory)
+%
+%   Directory of the tree in use, as with_tree/1 made it.
+
+tree_root(Directory) :-
+    root(Directory).
+
 %!  plug(+Port, +Type)
 %
 %   Plug a device in: a new directory with the next number of its class.
 
 plug(Port, Type) :-
-    class(Type, Class, Prefix),
+    once(class(Type, Class, Prefix)),
     root(Root),
     next_number(Class, Number),
     format(atom(Directory), "~w/~w/~w~w", [Root, Class, Prefix, Number]),
@@ -104,20 +123,28 @@ attribute_path(Port, Attribute, Path) :-
     plugged(Port, Directory),
     atomic_list_concat([Directory, Attribute], /, Path).
 
+%!  put_attribute(+Port, +Attribute, +Text)
+%
+%   What the kernel shows from now on.
+
 put_attribute(Port, Attribute, Text) :-
     plugged(Port, Directory),
     write_text(Directory, Attribute, Text).
 
 %!  get_attribute(+Port, +Attribute, -Text)
 %
-%   Text is an atom, without the newline that ends it.
+%   Text is an atom: the first line, as a longer text may be cut only a moment
+%   after the new one was written.
 
 get_attribute(Port, Attribute, Text) :-
     attribute_path(Port, Attribute, Path),
-    read_file_to_string(Path, String0, []),
-    (   string_concat(String, "\n", String0)
-    ->  atom_string(Text, String)
-    ;   atom_string(Text, String0)
+    setup_call_cleanup(
+        open(Path, read, Stream),
+        read_line_to_string(Stream, Line),
+        close(Stream)),
+    (   Line == end_of_file
+    ->  Text = ''
+    ;   atom_string(Text, Line)
     ).
 
 %!  written(+Port, -Attributes)
@@ -127,7 +154,7 @@ get_attribute(Port, Attribute, Text) :-
 
 written(Port, Attributes) :-
     get_attribute(Port, driver_name, Type),
-    class(Type, Class, _),
+    once(class(Type, Class, _)),
     findall(Attribute=Text,
             ( attribute(Class, Type, Attribute, Text0),
               get_attribute(Port, Attribute, Text),
@@ -135,12 +162,33 @@ written(Port, Attributes) :-
             ),
             Attributes).
 
+%!  written(-Attributes)
+%
+%   What was written to any device, as a list of Port-Attribute=Text.
+
+written(Attributes) :-
+    findall(Port-Attribute,
+            ( plugged(Port, _),
+              written(Port, Written),
+              member(Attribute, Written)
+            ),
+            Attributes).
+
+% A text that is there already is cut afterwards, so that nobody who reads in
+% between finds an empty file.
 write_text(Directory, Attribute, Text) :-
     atomic_list_concat([Directory, Attribute], /, Path),
     setup_call_cleanup(
-        open(Path, write, Stream),
-        format(Stream, "~w~n", [Text]),
+        open(Path, update, Stream),
+        ( format(Stream, "~w~n", [Text]),
+          flush_output(Stream),
+          set_end_of_stream(Stream)
+        ),
         close(Stream)).
+
+                /*******************************
+                *           THREADS            *
+                *******************************/
 
 %!  later(+Seconds, :Goal)
 %
@@ -148,6 +196,81 @@ write_text(Directory, Attribute, Text) :-
 
 later(Seconds, Goal) :-
     thread_create(( sleep(Seconds), Goal ), _, [detached(true)]).
+
+%!  meanwhile(:Other, :Goal)
+%
+%   Call Goal once while Other runs in another thread. Other is ended with
+%   Goal. If Other fails or throws before that, so does this.
+
+meanwhile(Other, Goal) :-
+    setup_call_cleanup(
+        thread_create(Other, Thread),
+        once(Goal),
+        ( catch(thread_signal(Thread, throw(over)), _, true),
+          thread_join(Thread, Status)
+        )),
+    (   Status = exception(Error),
+        Error \== over
+    ->  throw(Error)
+    ;   Status \== false
+    ).
+
+%!  eventually(:Goal)
+%
+%   Wait until Goal succeeds, and commit to that.
+%
+%   @error assertion_failed(eventually(Goal)) if it does not within 10 s
+
+eventually(Goal) :-
+    get_time(Now),
+    Deadline is Now + 10,
+    repeat,
+    (   call(Goal)
+    ->  true
+    ;   get_time(Then),
+        Then > Deadline
+    ->  throw(assertion_failed(eventually(Goal)))
+    ;   sleep(0.002),
+        fail
+    ),
+    !.
+
+%!  obey(+Port)
+%
+%   Play the motor at Port through one position move: wait for its command,
+%   run, go half-way, be at the end and rest.
+
+obey(Port) :-
+    eventually(get_attribute(Port, command, 'run-to-rel-pos')),
+    put_attribute(Port, state, running),
+    get_number(Port, position, From),
+    get_number(Port, position_sp, Distance),
+    Half is From + Distance // 2,
+    End is From + Distance,
+    sleep(0.02),
+    put_attribute(Port, position, Half),
+    sleep(0.02),
+    put_attribute(Port, position, End),
+    put_attribute(Port, state, '').
+
+get_number(Port, Attribute, Number) :-
+    get_attribute(Port, Attribute, Text),
+    atom_number(Text, Number).
+
+%!  warnings(:Goal, -Warnings)
+%
+%   Call Goal once, succeed whether it does or not, and instead of printing
+%   its warnings return them as a list of message terms.
+
+warnings(Goal, Warnings) :-
+    retractall(warned(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(Term, warning, _) :-
+                     assertz(tree:warned(Term))),
+                Clause),
+        ignore(Goal),
+        erase(Clause)),
+    findall(Term, retract(warned(Term)), Warnings).
 
                 /*******************************
                 *           DEVICES            *
