@@ -223,9 +223,9 @@ impl<'a> Watch<'a> {
     }
 
     fn look(&mut self, now: Duration) -> Result<Look> {
-        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
-            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
-        })?;
+        let (runs, stalled) = self
+            .motor
+            .with_word("state", |state| (has(state, "running"), has(state, "stalled")))?;
         if runs {
             self.has_run = true;
             self.was_quiet = false;
@@ -237,10 +237,12 @@ impl<'a> Watch<'a> {
             }
             return Ok(Look::Runs(self.slice(now)?));
         }
-        if !holds && !self.is_confirmed()? {
+        if !self.is_confirmed()? {
             return Ok(Look::Runs(SHORT_SLICE));
         }
-        if !holds && !self.is_over(now)? {
+        // Not even `holding` is believed at once: it may be that of the move
+        // before.
+        if !self.is_over(now)? {
             return Ok(Look::Runs(self.slice(now)?));
         }
         self.is_done = true;
