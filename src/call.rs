@@ -1,5 +1,6 @@
 //! One call of a native predicate: its arguments, its answers.
 use crate::error::raise;
+use compact_str::{CompactString, ToCompactString};
 use ev3_driver::Value;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -17,27 +18,27 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The text of an atom or a string.
-    pub(crate) fn text(&self, term: &Term) -> PrologResult<String> {
-        let atom = term.get_atom_name(|name| name.map(str::to_owned))?;
+    pub(crate) fn text(&self, term: &Term) -> PrologResult<CompactString> {
+        let atom = term.get_atom_name(|name| name.map(CompactString::from))?;
         let text = match atom {
-            None => term.get_str(|text| text.map(str::to_owned))?,
+            None => term.get_str(|text| text.map(CompactString::from))?,
             atom => atom,
         };
         text.map_or_else(|| self.wrong_type("atom", term), Ok)
     }
 
     /// The text of an atom or a string, or `None` for a variable.
-    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<String>> {
+    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<CompactString>> {
         if term.is_var() { Ok(None) } else { self.text(term).map(Some) }
     }
 
     /// The text of an atom, a string or a number, as it is written to a file.
-    pub(crate) fn value(&self, term: &Term) -> PrologResult<String> {
+    pub(crate) fn value(&self, term: &Term) -> PrologResult<CompactString> {
         if let Some(integer) = attempt_opt(self.integer_of(term))? {
-            return Ok(integer.to_string());
+            return Ok(integer.to_compact_string());
         }
         if term.term_type() == TermType::Float {
-            return Ok(term.get::<f64>()?.to_string());
+            return Ok(term.get::<f64>()?.to_compact_string());
         }
         self.text(term)
     }
@@ -111,10 +112,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             let Some(value) = attempt_opt(read(&item))? else {
                 continue;
             };
+            if items.len() == 0 {
+                return unify(&item, &value).map(|()| false);
+            }
             let frame = self.context.open_frame();
             if attempt(unify(&item, &value))? {
                 frame.close();
-                return Ok(items.len() > 0);
+                return Ok(true);
             }
             frame.discard();
         }

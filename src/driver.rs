@@ -2,10 +2,12 @@
 use crate::call::{Call, unify_atom, unify_value};
 use crate::error::wrong_value;
 use crate::state::{devices, use_files};
+use compact_str::CompactString;
 use ev3_driver::device::{read_value, write_file};
 use ev3_driver::devices::Detected;
-use ev3_driver::{Class, attributes};
+use ev3_driver::{Class, Device, attributes};
 use std::path::Path;
+use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
@@ -47,7 +49,8 @@ predicates! {
             let call = Call::of(context, "device", 4);
             let class = class_of(&call, class)?;
             let bound = Bound::of(&call, port, kind, path)?;
-            let mut detected = call.check(listed(class, bound.port.as_deref()))?;
+            let devices = call.check(listed(class, bound.port.as_deref()))?;
+            let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
         },
@@ -60,24 +63,21 @@ predicates! {
     /// attribute_(+Class, ?Port, +Attribute, ?Value)
     #[module("ev3dev_driver")]
     #[name("attribute_")]
-    nondet fn attribute<IntoIter<Detected>>(context, class, port, attribute, value) {
+    nondet fn attribute<AttributeReads>(context, class, port, attribute, value) {
         setup => {
             let call = Call::of(context, "attribute", 4);
-            let class = class_of(&call, class)?;
-            call.text(attribute)?;
-            let port = call.text_if_bound(port)?;
-            let detected = call.check(listed(class, port.as_deref()))?;
-            Ok(Some(detected.into_iter()))
-        },
-        call(detected) => {
-            let call = Call::of(context, "attribute", 4);
             let (class, name) = (class_of(&call, class)?, call.text(attribute)?);
-            let read = |device: &Detected| {
-                call.found(attributes::read(&devices(), class, &device.port, &name))
+            let devices = call.check(listed(class, call.text_if_bound(port)?.as_deref()))?;
+            Ok(Some(AttributeReads { devices: devices.into_iter(), name }))
+        },
+        call(reads) => {
+            let (call, name) = (Call::of(context, "attribute", 4), &reads.name);
+            let read = |device: &Arc<Device>| {
+                call.found(attributes::read(&devices(), device, name))
             };
-            call.next(detected, read, |device, read| {
+            call.next(&mut reads.devices, read, |device, read| {
                 unify_value(value, read)?;
-                unify_port(port, &device.port)
+                unify_port(port, device.port())
             })
         }
     }
@@ -98,7 +98,7 @@ predicates! {
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
-        let read = call.check(read_value(devices().tree(), Path::new(&path)))?;
+        let read = call.check(read_value(devices().tree(), Path::new(path.as_str())))?;
         unify_value(value, &read)
     }
 
@@ -107,7 +107,7 @@ predicates! {
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
-        call.check(write_file(devices().tree(), Path::new(&path), &text))
+        call.check(write_file(devices().tree(), Path::new(path.as_str()), &text))
     }
 
     /// sysfs_(-Root)
@@ -123,15 +123,15 @@ predicates! {
     semidet fn sysfs_use(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);
         let root = call.text(root)?;
-        call.check(use_files(root))
+        call.check(use_files(root.as_str()))
     }
 }
 
 /// What a call knows of the device it asks for.
 struct Bound {
-    port: Option<String>,
-    kind: Option<String>,
-    path: Option<String>,
+    port: Option<CompactString>,
+    kind: Option<CompactString>,
+    path: Option<CompactString>,
 }
 
 impl Bound {
@@ -150,7 +150,7 @@ impl Bound {
 
     fn admits(&self, device: &Detected) -> bool {
         let admits =
-            |bound: &Option<String>, text: &str| bound.as_deref().is_none_or(|b| b == text);
+            |bound: &Option<CompactString>, text: &str| bound.as_deref().is_none_or(|b| b == text);
         let port = self.port.as_deref().map(ev3_driver::port::short);
         port.is_none_or(|port| port == device.port)
             && admits(&self.kind, &device.driver)
@@ -158,12 +158,18 @@ impl Bound {
     }
 }
 
+/// Devices whose attribute is still to be read.
+struct AttributeReads {
+    devices: IntoIter<Arc<Device>>,
+    name: CompactString,
+}
+
 /// The devices of a class: all, or the one at a port.
-fn listed(class: Class, port: Option<&str>) -> ev3_driver::Result<Vec<Detected>> {
+fn listed(class: Class, port: Option<&str>) -> ev3_driver::Result<Vec<Arc<Device>>> {
     let devices = devices();
     Ok(match port {
-        Some(port) => devices.find(class, port)?.iter().map(|device| device.detected()).collect(),
-        None => devices.all(class)?.iter().map(|device| device.detected()).collect(),
+        Some(port) => devices.find(class, port)?.into_iter().collect(),
+        None => devices.all(class)?.to_vec(),
     })
 }
 
@@ -181,8 +187,8 @@ pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
 }
 
 fn class_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Class> {
-    let name = call.text(term)?;
-    match Class::ALL.into_iter().find(|class| class.directory() == name) {
+    let named = |name: &str| Class::ALL.into_iter().find(|class| class.directory() == name);
+    match term.get_atom_name(|name| name.and_then(named))? {
         Some(class) => Ok(class),
         None => wrong_value(call, "device_class", term),
     }

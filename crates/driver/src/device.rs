@@ -5,6 +5,7 @@ use crate::motor::Motion;
 use crate::tree::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
 use std::time::Duration;
 
@@ -14,6 +15,16 @@ const PAGE: usize = 4096;
 /// Room for a number, a mode, or a motor's state.
 const SHORT: usize = 64;
 
+/// How long a device in a plain tree is believed to be there, in microseconds:
+/// less than it takes to delete one.
+const PRESENT_FOR_US: u32 = 100;
+
+/// Room for most attributes.
+const LINE: usize = 256;
+
+/// How long another program may take from emptying a plain file to writing it.
+const WRITTEN_WITHIN_MS: u32 = 20;
+
 /// A motor or a sensor.
 pub struct Device {
     class: Class,
@@ -21,6 +32,10 @@ pub struct Device {
     driver: Box<str>,
     path: PathBuf,
     entry: Entry,
+    /// Its address, which tells whether it is still there.
+    presence: Box<dyn Node>,
+    /// When it was last found to be there, in microseconds, wrapping around.
+    present_at_us: AtomicU32,
     first_seen: Duration,
     tree: Arc<dyn Tree>,
     attributes: RwLock<Vec<Arc<Attribute>>>,
@@ -38,12 +53,15 @@ impl Device {
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
         let (address, driver) = identity(&**tree, &path)?;
+        let presence = open(&**tree, &path.join("address"), Access::Read)?;
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
             driver: driver.into(),
             path,
             entry,
+            presence,
+            present_at_us: AtomicU32::default(),
             first_seen: tree.now(),
             tree: Arc::clone(tree),
             attributes: RwLock::default(),
@@ -107,6 +125,29 @@ impl Device {
         self.first_seen
     }
 
+    /// Fails as a read of an unplugged device does, where the reads themselves
+    /// do not notice (see [`Node::check_present`]). What was found is believed
+    /// for [`PRESENT_FOR_US`].
+    ///
+    /// # Errors
+    /// ENODEV.
+    pub fn check_present(&self) -> Result<()> {
+        if !self.presence.is_plain() {
+            return Ok(());
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "only differences count")]
+        let now = self.tree.now().as_micros() as u32;
+        let checked = self.present_at_us.load(Ordering::Relaxed);
+        if now.wrapping_sub(checked) < PRESENT_FOR_US {
+            return Ok(());
+        }
+        self.presence
+            .check_present()
+            .map_err(|source| Error::Read { path: self.path.join("address"), source })?;
+        self.present_at_us.store(now, Ordering::Relaxed);
+        Ok(())
+    }
+
     /// What the motor was last told to do.
     pub(crate) fn motion(&self) -> MutexGuard<'_, Option<Motion>> {
         self.motion.lock().unwrap_or_else(PoisonError::into_inner)
@@ -128,7 +169,10 @@ impl Device {
     pub fn number(&self, attribute: &str) -> Result<i64> {
         let attribute = self.attribute(attribute);
         let mut buffer = [0; SHORT];
-        let text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        let mut text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        if text.is_empty() && attribute.is_plain(self.tree())? {
+            text = first_line(attribute.read_written(self.tree(), &mut buffer)?);
+        }
         integer(text).ok_or_else(|| attribute.malformed(text, "an integer"))
     }
 
@@ -183,9 +227,12 @@ impl Device {
     /// else the kernel's.
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
-        let mut buffer = [0; PAGE + 1];
-        let bytes = attribute.read(self.tree(), &mut buffer)?;
-        text_of(&attribute.path, bytes)
+        let mut line = [0; LINE];
+        if let Ok(bytes) = attribute.read(self.tree(), &mut line) {
+            return text_of(&attribute.path, bytes);
+        }
+        let mut page = [0; PAGE + 1];
+        text_of(&attribute.path, attribute.read(self.tree(), &mut page)?)
     }
 
     /// Writes an attribute.
@@ -295,6 +342,24 @@ impl Attribute {
         let bytes = read_node(node, &self.path, buffer)?;
         drop(whole);
         Ok(bytes)
+    }
+
+    /// Whether the file only stores what is written to it.
+    pub(crate) fn is_plain(&self, tree: &dyn Tree) -> Result<bool> {
+        Ok(self.reader(tree)?.is_plain())
+    }
+
+    /// Reads a plain file that is found empty: another program may be about
+    /// to write it, which empties it first.
+    fn read_written<'a>(&self, tree: &dyn Tree, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+        for _ in 0..WRITTEN_WITHIN_MS {
+            // Whether or not it slept, the next read tells.
+            let _ = tree.pause(&[], Duration::from_millis(1));
+            if !self.read(tree, &mut *buffer)?.is_empty() {
+                break;
+            }
+        }
+        self.read(tree, buffer)
     }
 
     fn write(&self, tree: &dyn Tree, text: &str) -> Result<()> {

@@ -66,6 +66,7 @@ pub fn read_all<const N: usize>(
 ) -> Result<Option<[Value; N]>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
         let guard = in_use(devices, sensor, interrupted)?;
+        sensor.check_present()?;
         if let Some(mode) = mode {
             ensure_mode(devices, sensor, mode, interrupted)?;
         }
@@ -237,10 +238,11 @@ fn has_changed(devices: &Devices, sensor: &mut Arc<Device>) -> Result<bool> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn at(devices: &Devices, port: &str, types: &[String]) -> Result<Vec<Arc<Device>>> {
+pub fn at(devices: &Devices, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
     let sensor = devices.find(Class::Sensor, port)?;
-    let is_meant =
-        |sensor: &Arc<Device>| types.is_empty() || types.iter().any(|kind| kind == sensor.driver());
+    let is_meant = |sensor: &Arc<Device>| {
+        types.is_empty() || types.iter().any(|kind| kind.as_ref() == sensor.driver())
+    };
     Ok(sensor.into_iter().filter(is_meant).collect())
 }
 
@@ -248,14 +250,18 @@ pub fn at(devices: &Devices, port: &str, types: &[String]) -> Result<Vec<Arc<Dev
 ///
 /// # Errors
 /// The kernel's.
-pub fn with_mode(devices: &Devices, types: &[String], mode: &str) -> Result<Vec<Arc<Device>>> {
+pub fn with_mode(
+    devices: &Devices,
+    types: &[impl AsRef<str>],
+    mode: &str,
+) -> Result<Vec<Arc<Device>>> {
     let all = devices.all(Class::Sensor)?;
     let is_meant = |sensor: &&Arc<Device>| {
         if types.is_empty() {
             // A sensor that cannot tell its modes has none.
             sensor.text("modes").is_ok_and(|modes| modes.split(' ').any(|name| name == mode))
         } else {
-            types.iter().any(|kind| kind == sensor.driver())
+            types.iter().any(|kind| kind.as_ref() == sensor.driver())
         }
     };
     Ok(all.iter().filter(is_meant).cloned().collect())
