@@ -7,6 +7,7 @@ use crate::value::{Value, first_line, integer};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
+use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 /// The kernel's limit on an attribute's text: a page.
@@ -44,8 +45,8 @@ pub struct Device {
     constants: RwLock<Vec<(&'static str, Box<str>, i64)>>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
-    /// Held while a sensor is put into a mode and read in it.
-    in_use: Mutex<()>,
+    /// The thread that is putting a sensor into a mode and reading it there.
+    user: Mutex<Option<ThreadId>>,
 }
 
 impl Device {
@@ -67,7 +68,7 @@ impl Device {
             attributes: RwLock::default(),
             constants: RwLock::default(),
             motion: Mutex::default(),
-            in_use: Mutex::default(),
+            user: Mutex::default(),
         })
     }
 
@@ -153,13 +154,24 @@ impl Device {
         self.motion.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The lock on the sensor's mode, if nobody holds it.
-    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, ()>> {
-        match self.in_use.try_lock() {
-            Ok(guard) => Some(guard),
-            Err(std::sync::TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
-            Err(std::sync::TryLockError::WouldBlock) => None,
+    /// The right to change the sensor's mode, if no other thread has it. A
+    /// thread that has it gets it again: a signal that it handles while it
+    /// waits may ask for the same sensor.
+    pub(crate) fn try_use(&self) -> Option<Use<'_>> {
+        let me = thread::current().id();
+        let mut user = self.user();
+        match *user {
+            None => {
+                *user = Some(me);
+                Some(Use { device: self, is_outermost: true })
+            }
+            Some(holder) if holder == me => Some(Use { device: self, is_outermost: false }),
+            Some(_) => None,
         }
+    }
+
+    fn user(&self) -> MutexGuard<'_, Option<ThreadId>> {
+        self.user.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// An integer attribute.
@@ -267,6 +279,20 @@ impl Device {
             attributes.push(Arc::clone(&attribute));
             attribute
         })
+    }
+}
+
+/// The right to change a sensor's mode; given back when dropped.
+pub(crate) struct Use<'a> {
+    device: &'a Device,
+    is_outermost: bool,
+}
+
+impl Drop for Use<'_> {
+    fn drop(&mut self) {
+        if self.is_outermost {
+            *self.device.user() = None;
+        }
     }
 }
 

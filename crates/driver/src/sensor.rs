@@ -5,7 +5,7 @@
 //! angle), so it is written only when it differs. After a real change the first
 //! values are still those of the old mode: they are waited out, once.
 use crate::Interrupted;
-use crate::device::Device;
+use crate::device::{Device, Use};
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
 use crate::value::Value;
@@ -155,10 +155,12 @@ fn ensure_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<()> {
-    if sensor.with_word("mode", |present| present == mode)? {
-        return Ok(());
+    // Looked at again afterwards: a signal that was handled meanwhile may have
+    // read the sensor in another mode.
+    while !sensor.with_word("mode", |present| present == mode)? {
+        write_mode(devices, sensor, mode, interrupted)?;
     }
-    write_mode(devices, sensor, mode, interrupted)
+    Ok(())
 }
 
 fn write_mode(
@@ -179,7 +181,7 @@ fn in_use<'a>(
     devices: &Devices,
     sensor: &'a Device,
     interrupted: Interrupted,
-) -> Result<std::sync::MutexGuard<'a, ()>> {
+) -> Result<Use<'a>> {
     loop {
         match sensor.try_use() {
             Some(guard) => return Ok(guard),
