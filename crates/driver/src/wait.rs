@@ -9,7 +9,7 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::Devices;
 use crate::error::{Error, Result};
-use crate::motor::End;
+use crate::motor::{End, Motion};
 use crate::tree::Node;
 use std::sync::Arc;
 use std::time::Duration;
@@ -191,6 +191,9 @@ fn until(
 /// One motor under observation.
 struct Watch<'a> {
     motor: &'a Device,
+    /// What the motor was told when the wait began. A stop by another thread
+    /// meanwhile does not change where it was to go.
+    motion: Option<Motion>,
     has_run: bool,
     is_done: bool,
     /// Whether the last look found nothing running.
@@ -214,6 +217,7 @@ impl<'a> Watch<'a> {
     fn new(motor: &'a Device) -> Self {
         Self {
             motor,
+            motion: *motor.motion(),
             has_run: false,
             is_done: false,
             was_quiet: false,
@@ -246,8 +250,7 @@ impl<'a> Watch<'a> {
             return Ok(Look::Runs(self.slice(now)?));
         }
         self.is_done = true;
-        let stopped_short = self.has_run && !self.is_at_end()?;
-        Ok(Look::Done(if stopped_short { Reason::Stopped } else { Reason::Reached }))
+        Ok(Look::Done(if self.is_at_end()? { Reason::Reached } else { Reason::Stopped }))
     }
 
     /// Whether a missing flag can be believed. A plain file is empty for a
@@ -259,7 +262,7 @@ impl<'a> Watch<'a> {
 
     /// Whether a motor that does not run has run already, rather than not yet.
     fn is_over(&self, now: Duration) -> Result<bool> {
-        let started = self.motor.motion().map(|motion| motion.started);
+        let started = self.motion.map(|motion| motion.started);
         let is_late = started.is_none_or(|started| now.saturating_sub(started) >= GRACE);
         Ok(is_late || self.has_run || self.target().is_some() && self.is_at_end()?)
     }
@@ -267,7 +270,7 @@ impl<'a> Watch<'a> {
     /// Whether the motor is where its motion was to end: at the target, or
     /// beyond it, as a motor that coasts.
     fn is_at_end(&self) -> Result<bool> {
-        let end = self.motor.motion().map(|motion| motion.end);
+        let end = self.motion.map(|motion| motion.end);
         Ok(match end {
             Some(End::Position { from, target }) => {
                 let direction = (target - from).signum();
@@ -280,7 +283,7 @@ impl<'a> Watch<'a> {
     }
 
     fn target(&self) -> Option<i64> {
-        match self.motor.motion().map(|motion| motion.end) {
+        match self.motion.map(|motion| motion.end) {
             Some(End::Position { target, .. }) => Some(target),
             _ => None,
         }
@@ -306,8 +309,7 @@ impl<'a> Watch<'a> {
     /// How long to sleep before the next look: until shortly before the end
     /// that can be predicted.
     fn slice(&mut self, now: Duration) -> Result<Duration> {
-        let motion = *self.motor.motion();
-        let left = match motion.map(|motion| (motion.started, motion.end)) {
+        let left = match self.motion.map(|motion| (motion.started, motion.end)) {
             Some((_, End::Position { target, .. })) => {
                 let position = self.motor.number("position")?;
                 let speed = self.motor.number("speed")?.unsigned_abs();
