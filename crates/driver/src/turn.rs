@@ -38,6 +38,9 @@ const STUCK_FOR: Duration = Duration::from_secs(2);
 /// How far the robot may turn the wrong way, in degrees.
 const ASTRAY: f64 = 20.0;
 
+/// The farthest turn, in degrees: the gyro counts with 16 bits.
+const FARTHEST: f64 = 32_767.0;
+
 /// How often the turn is corrected.
 const CORRECTIONS: u32 = 5;
 
@@ -70,8 +73,8 @@ pub enum Ended {
     Missed(f64),
 }
 
-/// Turns a robot on the spot. `None` if a motor or the gyro is absent, or the
-/// speed is 0 or beyond the motors'.
+/// Turns a robot on the spot. `None` if a motor or the gyro is absent, the
+/// speed is 0 or beyond the motors', or the angle beyond what the gyro counts.
 ///
 /// Its zero does not matter: the gyro is read at the start, and not reset.
 ///
@@ -91,6 +94,9 @@ pub fn by_gyro(
     let Some(fastest) = fastest(&motors, turn.speed)? else {
         return Ok(None);
     };
+    if turn.degrees.is_nan() || turn.degrees.abs() > FARTHEST {
+        return Ok(None);
+    }
     let Some(start) = angle(devices, gyro, interrupted)? else {
         return Ok(None);
     };
