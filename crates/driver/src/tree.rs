@@ -42,6 +42,7 @@ pub trait Tree: Send + Sync {
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>>;
 
     /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted.
+    /// A pattern below `/sys/class` matches in this tree.
     ///
     /// # Errors
     /// [`Error::Pattern`].
@@ -138,6 +139,13 @@ impl Tree for Files {
     }
 
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>> {
+        let pattern = match pattern.strip_prefix("/sys/class/") {
+            Some(rest) => {
+                let root = glob::Pattern::escape(&self.root.to_string_lossy());
+                &format!("{root}/{rest}")
+            }
+            None => pattern,
+        };
         let paths = glob::glob(pattern)
             .map_err(|source| Error::Pattern { pattern: pattern.to_owned(), source })?;
         // Directories that cannot be listed hold no devices of ours.
