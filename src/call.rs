@@ -37,16 +37,21 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         if let Some(integer) = attempt_opt(self.integer_of(term))? {
             return Ok(integer.to_compact_string());
         }
+        if term.is_integer() {
+            return crate::error::too_long(self);
+        }
         if term.term_type() == TermType::Float {
             return Ok(term.get::<f64>()?.to_compact_string());
         }
         self.text(term)
     }
 
-    /// A number, integer or float.
+    /// A number, integer or float. An integer beyond all floats is infinite:
+    /// as impossible a speed, angle or time as that.
     pub(crate) fn float(&self, term: &Term) -> PrologResult<f64> {
         match attempt_opt(term.get::<f64>())? {
             Some(float) => Ok(float),
+            None if term.is_integer() => Ok(f64::INFINITY),
             None => self.wrong_type("number", term),
         }
     }
@@ -55,6 +60,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn integer(&self, term: &Term) -> PrologResult<i64> {
         match attempt_opt(self.integer_of(term))? {
             Some(integer) => Ok(integer),
+            None if term.is_integer() => crate::error::too_long(self),
             None => self.wrong_type("integer", term),
         }
     }

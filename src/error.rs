@@ -47,6 +47,13 @@ pub(crate) fn wrong_value<T, C: QueryableContextType>(
     throw(call, &formal, "")
 }
 
+/// Raises the error for an integer of more than 64 bits.
+pub(crate) fn too_long<T, C: QueryableContextType>(call: &Call<C>) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: representation_error(int64_t)}?;
+    throw(call, &formal, "")
+}
+
 /// Raises `error(Formal, context(Name/Arity, Message))`; an empty message
 /// stays unbound.
 fn throw<T, C: QueryableContextType>(
