@@ -71,12 +71,16 @@ must_be_length(Length) :-
 %!  stop is semidet.
 %
 %   Stop both motors of the robot, with `brake`. Does not wait until they
-%   stand. May be called from another thread while the robot moves.
+%   stand. May be called from another thread while the robot moves. If one is
+%   not connected, stops the other one and fails.
 
 stop :-
     robot(_, _, Left, Right),
-    motor_stop(Left),
-    motor_stop(Right).
+    (   motor_stop(Left)
+    ->  motor_stop(Right)
+    ;   motor_stop(Right),
+        fail
+    ).
 
 %!  go(+Speed) is semidet.
 %
