@@ -56,6 +56,7 @@ motor_run(Port, Speed) :-
 %   They start at the same moment, or not at all. Does not wait.
 
 motors_run(Runs) :-
+    must_be(list, Runs),
     (   motors_run_(Runs)
     ->  true
     ;   why_not(Runs)
@@ -102,6 +103,7 @@ motor_run(Port, Speed, Angle, Options) :-
 %   failure and errors are those of motor_run/4.
 
 motors_turn(Moves, Options) :-
+    must_be(list, Moves),
     turn_options(Options, Native),
     (   motor_turn_(Moves, Native, Reason)
     ->  turn_ended(Reason, Moves)
@@ -204,7 +206,8 @@ motor_stop(Port, StopAction) :-
 
 run_forever(Port, Speed) :-
     CountsPerSecond is round(Speed),
-    (   run_forever_(Port, CountsPerSecond)
+    (   abs(CountsPerSecond) < 2 ** 31,
+        run_forever_(Port, CountsPerSecond)
     ->  true
     ;   debug(ev3dev, "~w cannot run at ~w counts/s",
               [Port, CountsPerSecond]),
