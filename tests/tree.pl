@@ -41,6 +41,15 @@ kernel's part.
     numbered/2,                         % Class, Number of the next device
     warned/1.                           % Term of a message
 
+% In memory where one can, as it is a hundred files for each test.
+:- initialization(
+       (   getenv('TMPDIR', _)
+       ->  true
+       ;   catch(access_file('/dev/shm', write), _, fail)
+       ->  set_prolog_flag(tmp_dir, '/dev/shm')
+       ;   true
+       )).
+
 %!  with_tree(:Goal)
 %!  with_tree(+Devices, :Goal)
 %
@@ -67,7 +76,7 @@ with_tree(Devices, Goal) :-
 
 make_tree(Devices) :-
     tmp_file(ev3dev, Root),
-    make_directory(Root),
+    make_directory_path(Root),
     assertz(root(Root)),
     forall(member(Port-Type, Devices), plug(Port, Type)),
     ev3_sysfs(Root).
