@@ -122,7 +122,8 @@ turn_options(Options, options(Action, RampUp, RampDown, Wait, Timeout)) :-
     must_be_ramp(ramp_up_sp, RampUp),
     must_be_ramp(ramp_down_sp, RampDown).
 
-must_be_ramp(_, default) :-
+must_be_ramp(_, Milliseconds) :-
+    Milliseconds == default,
     !.
 must_be_ramp(Attribute, Milliseconds) :-
     must_be(integer, Milliseconds),
@@ -131,7 +132,8 @@ must_be_ramp(Attribute, Milliseconds) :-
     ;   domain_error(Attribute, Milliseconds)
     ).
 
-must_be_timeout(infinite) :-
+must_be_timeout(Seconds) :-
+    Seconds == infinite,
     !.
 must_be_timeout(Seconds) :-
     must_be(number, Seconds),
