@@ -29,8 +29,9 @@ Speeds are in percent of the motor's highest speed, angles in degrees of its
 shaft, both any arithmetic expression. Where there is an angle, its sign and
 that of the speed together make the direction.
 
-Every motor that the program has started is stopped when Prolog halts, unless
-the flag `ev3dev_stop_at_halt` is `false`.
+Every motor that the program has started is stopped when Prolog halts, or is
+ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
+`false`.
 
 All predicates fail if there is no motor at a port, and if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
@@ -293,6 +294,27 @@ stop_at_halt :-
     ->  stop_started_
     ;   true
     ).
+
+% SIGTERM, and SIGINT where nobody debugs, end Prolog at once and without its
+% at_halt/1 goals. Handlers of the program's own are left alone.
+halt_on(Signal) :-
+    on_signal(Signal, Handler, Handler),
+    (   ends_at_once(Handler)
+    ->  on_signal(Signal, _, halt_by)
+    ;   true
+    ).
+
+ends_at_once(default).
+ends_at_once('$foreign_function'(_)).
+
+halt_by(Signal) :-
+    status(Signal, Status),
+    halt(Status).
+
+status(int, 130).
+status(term, 143).
+
+:- halt_on(term), halt_on(int).
 
 :- multifile prolog:message//1.
 
