@@ -228,11 +228,11 @@ meanwhile(Other, Goal) :-
 %
 %   Wait until Goal succeeds, and commit to that.
 %
-%   @error assertion_failed(eventually(Goal)) if it does not within 10 s
+%   @error assertion_failed(eventually(Goal)) if it does not within 5 s
 
 eventually(Goal) :-
     get_time(Now),
-    Deadline is Now + 10,
+    Deadline is Now + 5,
     repeat,
     (   call(Goal)
     ->  true

@@ -1,0 +1,70 @@
+:- module(child,
+          [ run_program/4,              % +Text, +Options, -Status, -Output
+            start_program/3,            % +Text, +Options, -Child
+            end_program/3               % +Child, -Status, -Output
+          ]).
+:- use_module(library(filesex)).
+:- use_module(library(option)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+
+/** <module> Prolog programs in processes of their own
+
+For what is only seen from outside: how a program loads, ends, and what it
+leaves behind. Such a program finds library(ev3dev) of this working copy.
+*/
+
+:- prolog_load_context(directory, Tests),
+   file_directory_name(Tests, Home),
+   atom_concat(Home, '/prolog', Library),
+   assertz(library_directory_under_test(Library)).
+
+:- dynamic library_directory_under_test/1.
+
+%!  run_program(+Text, +Options, -Status, -Output)
+%
+%   Load a program from a file, run it, and wait for its end. Status is
+%   exit(Code) or killed(Signal), Output what it printed and complained of.
+%   Options:
+%
+%     - goal(+Goal)
+%       Call it after loading.
+%     - cwd(+Directory)
+%     - env(+Variable=Value)
+
+run_program(Text, Options, Status, Output) :-
+    start_program(Text, Options, Child),
+    end_program(Child, Status, Output).
+
+%!  start_program(+Text, +Options, -Child)
+%
+%   As run_program/4, and do not wait. Child is child(Pid, Stream, File).
+
+start_program(Text, Options, child(Pid, Out, File)) :-
+    tmp_file_stream(text, File, Stream),
+    library_directory_under_test(Library),
+    format(Stream, ":- asserta(user:file_search_path(library, ~q)).~n~s~n",
+           [Library, Text]),
+    close(Stream),
+    option(goal(Goal), Options, true),
+    option(cwd(Directory), Options, '.'),
+    (   option(env(Variable=Value), Options)
+    ->  format(atom(Assignment), "~w=~w", [Variable, Value])
+    ;   Assignment = 'EV3DEV_TEST=1'
+    ),
+    current_prolog_flag(executable, Swipl),
+    process_create(path(env),
+                   [ Assignment, Swipl, '-q', '-f', none, '-l', file(File),
+                     '-g', Goal, '-t', halt, '--on-error=status',
+                     '--on-warning=status' ],
+                   [ process(Pid), cwd(Directory), stdin(null),
+                     stdout(pipe(Out)), stderr(pipe(Out)) ]).
+
+%!  end_program(+Child, -Status, -Output)
+
+end_program(child(Pid, Out, File), Status, Output) :-
+    read_stream_to_codes(Out, Codes),
+    close(Out),
+    string_codes(Output, Codes),
+    process_wait(Pid, Status),
+    delete_file(File).

@@ -1,0 +1,95 @@
+:- use_module(tree).
+:- use_module(child).
+:- use_module(library(ev3dev)).
+:- use_module(library(lists)).
+:- use_module(library(process)).
+
+% What the motors were told last, once a program is over.
+
+% The program, run on a tree of its own, ends with Status; then outB has had
+% the command B and outC the command C.
+after_program(Text, Options, Status, B-C) :-
+    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( tree_root(Root),
+                program(Text, Program),
+                run_program(Program, [env('EV3DEV_SYSFS'=Root)|Options], Status, _),
+                get_attribute(outB, command, B),
+                get_attribute(outC, command, C) )).
+
+program(Text, Program) :-
+    string_concat(":- use_module(library(ev3dev)).\n", Text, Program).
+
+:- begin_tests(halt).
+
+test(motors_that_were_started_are_stopped,
+     [ forall(member(Start, [ "motor_run(outB, 20)",
+                              "motor_run(outB, 20, 360, [wait(false)])",
+                              "run_forever(outB, 200)",
+                              "(speed_sp(outB, 200), motor_start(outB))",
+                              "command(outB, 'run-direct')" ])),
+       true(Status-C == exit(0)-(stop-'')) ]) :-
+    format(string(Text), "main :- ~s.", [Start]),
+    after_program(Text, [goal(main)], Status, C).
+test(motors_that_were_stopped_are_left_alone, true(C == 'run-timed'-'')) :-
+    % As another program's doing
+    after_program("main :- motor_run(outB, 20), motor_stop(outB),
+                           command_file(outB, F), file_write(F, 'run-timed').",
+                  [goal(main)], exit(0), C).
+test(the_flag_leaves_them_running, true(C == 'run-forever'-'')) :-
+    after_program("main :- set_prolog_flag(ev3dev_stop_at_halt, false),
+                           motor_run(outB, 20).",
+                  [goal(main)], exit(0), C).
+test(the_flag_may_be_set_before_loading, true(C == 'run-forever')) :-
+    with_tree([outB-'lego-ev3-l-motor'],
+              ( tree_root(Root),
+                run_program(":- create_prolog_flag(ev3dev_stop_at_halt, false, []).
+                             :- use_module(library(ev3dev)).
+                             main :- motor_run(outB, 20).",
+                            [env('EV3DEV_SYSFS'=Root), goal(main)], _, _),
+                get_attribute(outB, command, C) )).
+test(an_uncaught_error_stops_them, true(Failed-C == failed-(stop-''))) :-
+    after_program("main :- motor_run(outB, 20), atom_length(_, _).",
+                  [goal(main)], Status, C),
+    ( Status == exit(0) -> Failed = Status ; Failed = failed ).
+test(a_failed_goal_stops_them, true(C == stop-'')) :-
+    after_program("main :- motor_run(outB, 20), fail.", [goal(main)], _, C).
+test(halt_within_the_program_stops_them, true(Status-C == exit(3)-(stop-''))) :-
+    after_program("main :- motor_run(outB, 20), halt(3).", [goal(main)], Status, C).
+test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
+    after_program("main :- command_file(outB, _), state_file(outB, F),
+                           file_write(F, running),
+                           thread_create(motor_run(outB, 20, 3600), _),
+                           wait, halt.
+                   wait :- repeat, command_file(outB, F),
+                           file_read(F, 'run-to-rel-pos'), !.",
+                  [goal(main)], _, C).
+
+:- end_tests(halt).
+
+:- begin_tests(signals).
+
+test(a_program_that_is_told_to_end_stops_its_motors,
+     [ forall(( member(Signal, [term, int, hup]),
+                member(Wait, [ "repeat, sleep(0.01), fail",
+                               "motor_wait([outB, outC], [], _)" ]) )),
+       true(C == stop-stop) ]) :-
+    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( tree_root(Root),
+                put_attribute(outB, state, running),
+                put_attribute(outC, state, running),
+                format(string(Text),
+                       "main :- motors_run([run(outB, 20), run(outC, 20)]), ~s.",
+                       [Wait]),
+                program(Text, Program),
+                start_program(Program, [env('EV3DEV_SYSFS'=Root), goal(main)], Child),
+                Child = child(Pid, _, _),
+                eventually(get_attribute(outC, command, 'run-forever')),
+                process_kill(Pid, Signal),
+                catch(eventually(get_attribute(outC, command, stop)), _, true),
+                get_attribute(outB, command, B1),
+                get_attribute(outC, command, C1),
+                C = B1-C1,
+                catch(process_kill(Pid, kill), _, true),
+                end_program(Child, _, _) )).
+
+:- end_tests(signals).

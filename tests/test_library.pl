@@ -1,0 +1,120 @@
+:- use_module(tree).
+:- use_module(child).
+:- use_module(library(lists)).
+:- use_module(library(ev3dev)).
+:- use_module(library(readutil)).
+
+                /*******************************
+                *           EXPORTS            *
+                *******************************/
+
+:- begin_tests(exports).
+
+exported(driver,
+         [ subsystem_detect/4, file_read/2, file_write/2,
+           tacho_motor/1, tacho_motor/2, tacho_motor/3,
+           ev3_large_motor/1, ev3_medium_motor/1, nxt_motor/1, servo_motor/1,
+           lego_sensor/1, lego_sensor/2, lego_sensor/3,
+           motor_attribute/3, sensor_attribute/3,
+           command/2, command_file/2, speed/2, speed_file/2,
+           speed_sp/2, speed_sp_file/2, max_speed/2, max_speed_file/2,
+           position/2, position_file/2, position_sp/2, position_sp_file/2,
+           state/2, state_file/2, motor_states/2,
+           mode/2, mode_file/2, value/3, value_file/3,
+           decimals/2, decimals_file/2, ev3_sysfs/1, ev3_devices/0 ]).
+exported(sensors,
+         [ light_sensor/1, ultrasonic_sensor/1, gyro_sensor/1, touch_sensor/1,
+           infrared_sensor/1, col_ambient/2, col_reflect/2, col_color/2,
+           col_rgb_raw/2, col_rgb_raw/4, us_dist_cm/2, us_dist_inches/2,
+           us_listen/2, gyro_ang/2, gyro_rate/2, gyro_reset/1, touch/2,
+           ir_prox/2, sensor_reading/3, sensor_value/4, adjust_val/3 ]).
+exported(motors,
+         [ motor_run/2, motor_run/3, motor_run/4, motors_run/1,
+           motors_turn/2, motor_start/1, motor_stop/1, motor_stop/2,
+           stop_all_motors/0, motor_reset/1, run_forever/2, speed_adjust/3,
+           motor_wait_while/2, motor_wait_until/2, motor_wait/3 ]).
+exported(robot,
+         [ set_robot/4, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
+           turn/2 ]).
+
+test(are_these_and_no_others, true(Missing-More == []-[])) :-
+    findall(P, ( exported(_, Ps), member(P, Ps) ), Expected),
+    findall(P,
+            ( exports(ev3dev, P) ; reexported(P) ),
+            Found0),
+    sort(Found0, Found),
+    subtract(Expected, Found, Missing),
+    subtract(Found, Expected, More).
+test(each_is_defined,
+     [ forall(( exported(_, Ps), member(Name/Arity, Ps) )) ]) :-
+    functor(Head, Name, Arity),
+    once(predicate_property(Head, defined)).
+
+exports(Module, P) :-
+    module_property(Module, exports(Ps)),
+    member(P, Ps).
+
+reexported(P) :-
+    module_property(ev3dev, file(File)),
+    module_property(Module, file(Other)),
+    file_directory_name(File, Directory),
+    atom_concat(Directory, '/ev3dev/', Layer),
+    sub_atom(Other, 0, _, _, Layer),
+    memberchk(Module, [ev3dev_driver, ev3dev_motors, ev3dev_sensors, ev3dev_robot]),
+    exports(Module, P).
+
+:- end_tests(exports).
+
+                /*******************************
+                *           LOADING            *
+                *******************************/
+
+:- begin_tests(loading).
+
+test(prints_nothing, true(Status-Output == exit(0)-"")) :-
+    run_program(":- use_module(library(ev3dev)).", [], Status, Output).
+test(works_from_any_folder, true(Status-Output == exit(0)-"ok")) :-
+    run_program(":- use_module(library(ev3dev)).
+                 main :- ( tacho_motor(nothing) -> true ; write(ok) ).",
+                [goal(main), cwd('/')], Status, Output).
+test(each_layer_loads_alone,
+     [ forall(member(Layer, [driver, motors, sensors, robot])),
+       true(Status-Output == exit(0)-"") ]) :-
+    format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
+    run_program(Program, [], Status, Output).
+test(takes_the_tree_from_the_environment, true(Status-Output == exit(0)-"[outA,outB,outC,outD]")) :-
+    with_tree(( tree_root(Root),
+                run_program(":- use_module(library(ev3dev)).
+                             main :- findall(P, tacho_motor(P), Ps), print(Ps).",
+                            [goal(main), env('EV3DEV_SYSFS'=Root)],
+                            Status, Output) )).
+test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
+    run_program(":- use_module(library(ev3dev)).",
+                [env('EV3DEV_SYSFS'='/nowhere/at/all')], Status, Output),
+    assertion(Status \== exit(0)),
+    ( sub_string(Output, _, _, _, "/nowhere/at/all") -> Named = true ; Named = Output ).
+
+:- end_tests(loading).
+
+                /*******************************
+                *          THE BINARY          *
+                *******************************/
+
+% A dynamic library names those that it needs in its string table.
+:- begin_tests(binary).
+
+test(needs_no_libswipl, true(Needs == none)) :-
+    foreign_library(File),
+    read_file_to_string(File, Bytes, [encoding(octet)]),
+    (   sub_string(Bytes, _, _, _, "libswipl.so")
+    ->  Needs = libswipl
+    ;   Needs = none
+    ).
+
+foreign_library(File) :-
+    current_foreign_library(File, _),
+    atom(File),
+    file_base_name(File, 'ev3dev.so'),
+    !.
+
+:- end_tests(binary).
