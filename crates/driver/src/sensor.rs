@@ -155,9 +155,12 @@ fn ensure_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<()> {
-    // Looked at again afterwards: a signal that was handled meanwhile may have
-    // read the sensor in another mode.
-    while !sensor.with_word("mode", |present| present == mode)? {
+    // Twice: a signal that was handled meanwhile may have read the sensor in
+    // another mode.
+    for _ in 0..2 {
+        if sensor.with_word("mode", |present| present == mode)? {
+            break;
+        }
         write_mode(devices, sensor, mode, interrupted)?;
     }
     Ok(())
