@@ -1,0 +1,5 @@
+//! The simulator through its files, as a program sees it.
+
+mod attributes;
+mod desk;
+mod motors;
