@@ -19,6 +19,8 @@ const SKIN: f64 = 0.02;
 const MARGIN: f64 = 1.0;
 /// A contact is over when the hull is this far off again, in cm.
 const CONTACT_OVER: f64 = 0.5;
+/// Slower than this is standing still, in rad/s: what the solver leaves of a wheel at rest.
+const REST: f64 = 1e-7;
 const ROUNDS: usize = 16;
 
 /// What acts on one motor shaft during a tick.
@@ -169,6 +171,11 @@ impl Body {
 
         let mut limits = self.limits(loads);
         solve(omega, &inverse, &mut limits);
+        for (omega, load) in omega.iter_mut().zip(loads) {
+            if load.jammed || omega.abs() < REST {
+                *omega = 0.0;
+            }
+        }
         self.report(&limits[2..], &mut hit);
         self.free_way -= self.way_bound(*omega, reach);
         self.roll_on(omega, robot, scene);

@@ -21,13 +21,14 @@ struct Stamp {
     at_us: u64,
 }
 
-/// The number of edges below an angle in degrees: two for each.
+/// The number of edges below an angle in degrees: two for each. A motor starts in the middle
+/// between two of them.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "a shaft does not turn 10^15 times"
 )]
 fn edge(angle: f64) -> i64 {
-    libm::floor(angle * 2.0) as i64
+    libm::floor(angle * 2.0 + 0.5) as i64
 }
 
 /// A counter of edges with its newest time stamps.
@@ -90,7 +91,7 @@ impl Encoder {
                 reason = "a share of 2000 microseconds"
             )]
             let after_us = {
-                let share = (line as f64 / 2.0 - from) / (to - from);
+                let share = ((line as f64 - 0.5) / 2.0 - from) / (to - from);
                 (share.clamp(0.0, 1.0) * TICK_US as f64) as u64
             };
             self.push(start_us + after_us);

@@ -1,17 +1,14 @@
 //! A brick on a desk, in the words of a shell.
 
+use std::fmt::Display;
 use std::time::Duration;
 
-use ev3_sim::{Errno, Machine, Options, Pose, RobotSpec, WorldSpec};
+use ev3_sim::{Errno, Machine, Options, RobotSpec, WorldSpec};
 
 /// outA, outB (left), outC (right) of the default robot.
 pub(crate) const A: &str = "tacho-motor/motor0/";
 pub(crate) const B: &str = "tacho-motor/motor1/";
 pub(crate) const C: &str = "tacho-motor/motor2/";
-
-pub(crate) fn ms(ms: u64) -> Duration {
-    Duration::from_millis(ms)
-}
 
 pub(crate) struct Desk(pub(crate) Machine);
 
@@ -48,8 +45,8 @@ impl Desk {
     }
 
     /// Writes, and waits as long as the call blocks.
-    pub(crate) fn put(&mut self, path: &str, text: impl ToString) {
-        let text = text.to_string();
+    pub(crate) fn put(&mut self, path: &str, text: impl Display) {
+        let text = format!("{text}");
         match self.try_put(path, &text) {
             Ok(blocks) => self.0.step(blocks),
             Err(error) => panic!("write {text:?} to {path}: {error:?}"),
@@ -80,11 +77,15 @@ impl Desk {
         self.number(&format!("{motor}speed"))
     }
 
+    fn ms_since(&self, start: Duration) -> u64 {
+        u64::try_from(self.0.now().saturating_sub(start).as_millis()).unwrap()
+    }
+
     /// Steps 2 ms at a time until the state is this; answers how long it took.
     pub(crate) fn until(&mut self, motor: &str, state: &str, within_ms: u64) -> u64 {
         let start = self.0.now();
         while self.state(motor) != state {
-            let passed = u64::try_from((self.0.now() - start).as_millis()).unwrap();
+            let passed = self.ms_since(start);
             assert!(
                 passed < within_ms,
                 "{:?} after {passed} ms, not {state:?}",
@@ -92,10 +93,6 @@ impl Desk {
             );
             self.step(2);
         }
-        u64::try_from((self.0.now() - start).as_millis()).unwrap()
-    }
-
-    pub(crate) fn pose(&self) -> Pose {
-        self.0.pose()
+        self.ms_since(start)
     }
 }

@@ -2,4 +2,10 @@
 
 mod attributes;
 mod desk;
+mod golden;
+mod motion;
 mod motors;
+mod plugs;
+mod properties;
+mod sensors;
+mod world;
