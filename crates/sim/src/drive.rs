@@ -6,9 +6,7 @@
 //! and not more (friction at most its torque, an obstacle only pushes). So a robot at a wall
 //! stops its own motors, and a motor too weak for its friction does not creep.
 
-use parry2d_f64::math::Vec2;
-
-use crate::geometry::{Pose, sin_cos};
+use crate::geometry::{Pose, Vec2, sin_cos};
 use crate::robot::{RobotSpec, Wheel};
 use crate::scene::{Contact, Scene};
 use crate::{ItemId, TICK_SECONDS};
@@ -209,8 +207,8 @@ impl Body {
         let (sin, cos) = sin_cos(self.pose.heading);
         let contact = |contact: &Contact| {
             let arm = contact.point - self.pose.point();
-            let ahead = Vec2::new(sin, cos).dot(contact.normal) / 2.0;
-            let turn = Vec2::new(arm.y, -arm.x).dot(contact.normal) / self.axle;
+            let ahead = Vec2::new(sin, cos).dot(&contact.normal) / 2.0;
+            let turn = Vec2::new(arm.y, -arm.x).dot(&contact.normal) / self.axle;
             Limit {
                 gain: [self.roll[0] * (ahead + turn), self.roll[1] * (ahead - turn)],
                 target: (SKIN - contact.gap).min(0.0) / TICK_SECONDS,

@@ -2,7 +2,12 @@
 //!
 //! Sines and cosines come from the `libm` crate, not from the platform: the same bits everywhere.
 
-use parry2d_f64::math::{Pose2, Rot2, Vec2};
+use parry2d_f64::math::{Isometry, Rotation, Translation, Vector};
+
+/// A vector, or a point as the vector to it.
+pub(crate) type Vec2 = Vector<f64>;
+/// A frame of reference in the world.
+pub(crate) type Frame = Isometry<f64>;
 
 /// Where something is and which way it looks: centimetres and degrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,18 +32,15 @@ impl Pose {
     }
 
     /// The frame whose x is to the right of this pose and whose y lies ahead of it.
-    pub(crate) fn frame(&self) -> Pose2 {
+    pub(crate) fn frame(&self) -> Frame {
         let (sin, cos) = sin_cos(self.heading);
-        Pose2 {
-            rotation: Rot2::from_cos_sin_unchecked(cos, -sin),
-            translation: Vec2::new(self.x, self.y),
-        }
+        frame(self.point(), cos, -sin)
     }
 
     /// A pose given in this one's frame, in the world's.
     #[must_use]
     pub fn compose(&self, inner: &Pose) -> Pose {
-        let point = self.frame().transform_point(Vec2::new(inner.x, inner.y));
+        let point = outside(&self.frame(), inner.point());
         Pose {
             x: point.x,
             y: point.y,
@@ -49,6 +51,24 @@ impl Pose {
     pub(crate) fn point(&self) -> Vec2 {
         Vec2::new(self.x, self.y)
     }
+}
+
+/// A frame at a point, turned counter-clockwise by the angle with this cosine and sine.
+pub(crate) fn frame(at: Vec2, cos: f64, sin: f64) -> Frame {
+    Frame::from_parts(
+        Translation::from(at),
+        Rotation::from_cos_sin_unchecked(cos, sin),
+    )
+}
+
+/// A point of a frame, in the world.
+pub(crate) fn outside(frame: &Frame, point: Vec2) -> Vec2 {
+    frame.rotation * point + frame.translation.vector
+}
+
+/// The length of a vector.
+pub(crate) fn length(vector: Vec2) -> f64 {
+    libm::hypot(vector.x, vector.y)
 }
 
 /// Sine and cosine of degrees.

@@ -1,12 +1,12 @@
 //! The world as the physics and the sensors need it: shapes to bump into, to see, to stand on.
 
-use parry2d_f64::math::{Pose2, Rot2, Vec2};
+use parry2d_f64::math::Point;
 use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
 use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
 use parry2d_f64::utils::point_in_poly2d;
 
 use crate::colour::Colour;
-use crate::geometry::Pose;
+use crate::geometry::{Frame, Pose, Vec2, frame, length, outside};
 use crate::robot::Hull;
 use crate::world::{Bounds, Item, SpecError, WorldSpec};
 
@@ -30,7 +30,7 @@ enum Solid {
 struct Obstacle {
     id: ItemId,
     solid: Solid,
-    frame: Pose2,
+    frame: Frame,
     reach: f64,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Contact {
 }
 
 impl Obstacle {
-    fn new(id: ItemId, solid: Solid, frame: Pose2) -> Self {
+    fn new(id: ItemId, solid: Solid, frame: Frame) -> Self {
         let reach = match &solid {
             Solid::Box(cuboid) => libm::hypot(cuboid.half_extents.x, cuboid.half_extents.y),
             Solid::Ball(ball) => ball.radius,
@@ -76,27 +76,26 @@ impl Obstacle {
 }
 
 /// The corners of a box around its centre.
-fn corners(cuboid: &Cuboid, frame: &Pose2) -> [Vec2; 4] {
-    let Vec2 { x, y } = cuboid.half_extents;
-    [(x, y), (x, -y), (-x, -y), (-x, y)].map(|(x, y)| frame.transform_point(Vec2::new(x, y)))
+fn corners(cuboid: &Cuboid, frame: &Frame) -> [Vec2; 4] {
+    let (x, y) = (cuboid.half_extents.x, cuboid.half_extents.y);
+    [(x, y), (x, -y), (-x, -y), (-x, y)].map(|(x, y)| outside(frame, Vec2::new(x, y)))
 }
 
 /// Signed distance of a point from a box, and the direction away from the box.
-fn away_from(cuboid: &Cuboid, frame: &Pose2, point: Vec2) -> (f64, Vec2) {
-    let projection = cuboid.project_point(frame, point, false);
-    let offset = point - projection.point;
-    let distance = libm::hypot(offset.x, offset.y);
+fn away_from(cuboid: &Cuboid, frame: &Frame, point: Vec2) -> (f64, Vec2) {
+    let projection = cuboid.project_point(frame, &Point::from(point), false);
+    let offset = point - projection.point.coords;
+    let distance = length(offset);
     let inside = projection.is_inside;
     if distance < 1e-9 {
-        let outwards = point - frame.translation;
-        let length = libm::hypot(outwards.x, outwards.y).max(1e-9);
-        return (0.0, outwards / length);
+        let outwards = point - frame.translation.vector;
+        return (0.0, outwards / length(outwards).max(1e-9));
     }
     let normal = offset / if inside { -distance } else { distance };
     (if inside { -distance } else { distance }, normal)
 }
 
-fn hull_box(hull: Hull, frame: &Pose2) -> Option<(Cuboid, Pose2)> {
+fn hull_box(hull: Hull, frame: &Frame) -> Option<(Cuboid, Frame)> {
     let Hull::Rectangle {
         width,
         length,
@@ -106,14 +105,8 @@ fn hull_box(hull: Hull, frame: &Pose2) -> Option<(Cuboid, Pose2)> {
         return None;
     };
     let cuboid = Cuboid::new(Vec2::new(width / 2.0, length / 2.0));
-    let centre = frame.transform_point(Vec2::new(0.0, offset));
-    Some((
-        cuboid,
-        Pose2 {
-            rotation: frame.rotation,
-            translation: centre,
-        },
-    ))
+    let centre = outside(frame, Vec2::new(0.0, offset));
+    Some((cuboid, Frame::from_parts(centre.into(), frame.rotation)))
 }
 
 /// A world in working order.
@@ -156,7 +149,7 @@ impl Scene {
         let half = [(high[0] - low[0]) / 2.0, (high[1] - low[1]) / 2.0];
         let mut add = |x: f64, y: f64, half_x: f64, half_y: f64| {
             let solid = Solid::Box(Cuboid::new(Vec2::new(half_x, half_y)));
-            let frame = Pose2::from_translation(Vec2::new(x, y));
+            let frame = frame(Vec2::new(x, y), 1.0, 0.0);
             self.obstacles.push(Obstacle::new(BOUNDS, solid, frame));
         };
         add(
@@ -212,7 +205,7 @@ impl Scene {
 
     /// How far a ray goes before it meets something, at most `max`.
     pub(crate) fn cast(&self, from: Vec2, direction: Vec2, max: f64) -> Option<f64> {
-        let ray = Ray::new(from, direction);
+        let ray = Ray::new(Point::from(from), direction);
         let mut nearest = None;
         let mut limit = max;
         for obstacle in &self.obstacles {
@@ -227,8 +220,8 @@ impl Scene {
     /// True if nothing stands between two points.
     pub(crate) fn clear_between(&self, from: Vec2, to: Vec2) -> bool {
         let way = to - from;
-        let length = libm::hypot(way.x, way.y);
-        length < 1e-9 || self.cast(from, way / length, length).is_none()
+        let far = length(way);
+        far < 1e-9 || self.cast(from, way / far, far).is_none()
     }
 
     /// The lamps: where they hang and how bright they are.
@@ -246,8 +239,8 @@ impl Scene {
     pub(crate) fn colour_at(&self, point: Vec2) -> Colour {
         let on_top = self.items.iter().rev().find_map(|(_, item)| match item {
             Item::Patch { corners, colour } => {
-                let corners: Vec<Vec2> = corners.iter().map(|[x, y]| Vec2::new(*x, *y)).collect();
-                point_in_poly2d(point, &corners).then_some(*colour)
+                let corners: Vec<_> = corners.iter().copied().map(Point::from).collect();
+                point_in_poly2d(&Point::from(point), &corners).then_some(*colour)
             }
             Item::Line {
                 points,
@@ -255,9 +248,8 @@ impl Scene {
                 colour,
             } => {
                 let near = |pair: &[[f64; 2]]| {
-                    let [a, b] = [pair[0], pair[1]].map(|[x, y]| Vec2::new(x, y));
-                    let projected = Segment::new(a, b).project_local_point(point, true).point;
-                    libm::hypot(point.x - projected.x, point.y - projected.y) <= width / 2.0
+                    let part = Segment::new(Point::from(pair[0]), Point::from(pair[1]));
+                    part.distance_to_local_point(&Point::from(point), true) <= width / 2.0
                 };
                 points.windows(2).any(near).then_some(*colour)
             }
@@ -271,7 +263,7 @@ impl Scene {
     pub(crate) fn contacts(
         &self,
         hull: Hull,
-        frame: &Pose2,
+        frame: &Frame,
         margin: f64,
         contacts: &mut Vec<Contact>,
     ) -> f64 {
@@ -279,8 +271,8 @@ impl Scene {
         let reach = hull.reach();
         let mut free = f64::INFINITY;
         for obstacle in &self.obstacles {
-            let offset = obstacle.frame.translation - frame.translation;
-            let rough = libm::hypot(offset.x, offset.y) - obstacle.reach - reach;
+            let offset = obstacle.frame.translation.vector - frame.translation.vector;
+            let rough = length(offset) - obstacle.reach - reach;
             if rough > free.min(20.0).max(margin) {
                 free = free.min(rough);
                 continue;
@@ -326,13 +318,13 @@ impl Scene {
 
     /// True if an obstacle is within `distance` of a straight bumper.
     pub(crate) fn near_bumper(&self, from: Vec2, to: Vec2, distance: f64) -> bool {
-        let bumper = Segment::new(from, to);
-        let here = Pose2::IDENTITY;
+        let bumper = Segment::new(Point::from(from), Point::from(to));
+        let here = Frame::identity();
         let middle = (from + to) / 2.0;
-        let half = libm::hypot(to.x - from.x, to.y - from.y) / 2.0;
+        let half = length(to - from) / 2.0;
         self.obstacles.iter().any(|obstacle| {
-            let offset = obstacle.frame.translation - middle;
-            let rough = libm::hypot(offset.x, offset.y) - obstacle.reach - half;
+            let offset = obstacle.frame.translation.vector - middle;
+            let rough = length(offset) - obstacle.reach - half;
             rough <= distance
                 && query::distance(&here, &bumper, &obstacle.frame, obstacle.shape())
                     .is_ok_and(|gap| gap <= distance)
@@ -344,33 +336,33 @@ impl Scene {
 /// outlines always include a corner of one of them, so it is enough to look at the corners.
 fn touch_points(
     hull: Hull,
-    frame: &Pose2,
+    frame: &Frame,
     obstacle: &Obstacle,
     found: &mut impl FnMut(f64, Vec2, Vec2),
 ) {
     match (hull_box(hull, frame), &obstacle.solid) {
         (None, Solid::Box(cuboid)) => {
-            let (distance, normal) = away_from(cuboid, &obstacle.frame, frame.translation);
+            let (distance, normal) = away_from(cuboid, &obstacle.frame, frame.translation.vector);
             let radius = hull.reach();
             found(
                 distance - radius,
                 normal,
-                frame.translation - normal * radius,
+                frame.translation.vector - normal * radius,
             );
         }
         (None, Solid::Ball(ball)) => {
-            let offset = frame.translation - obstacle.frame.translation;
-            let distance = libm::hypot(offset.x, offset.y).max(1e-9);
+            let offset = frame.translation.vector - obstacle.frame.translation.vector;
+            let distance = length(offset).max(1e-9);
             let normal = offset / distance;
             let radius = hull.reach();
             found(
                 distance - radius - ball.radius,
                 normal,
-                frame.translation - normal * radius,
+                frame.translation.vector - normal * radius,
             );
         }
         (Some((outline, pose)), Solid::Ball(ball)) => {
-            let centre = obstacle.frame.translation;
+            let centre = obstacle.frame.translation.vector;
             let (distance, normal) = away_from(&outline, &pose, centre);
             found(distance - ball.radius, -normal, centre - normal * distance);
         }
@@ -388,23 +380,20 @@ fn touch_points(
 }
 
 /// The solid form of an item, if it has one.
-fn solid(item: &Item) -> Option<(Solid, Pose2)> {
+fn solid(item: &Item) -> Option<(Solid, Frame)> {
     match *item {
         Item::Wall {
             from: [x1, y1],
             to: [x2, y2],
             thickness,
         } => {
-            let length = libm::hypot(x2 - x1, y2 - y1);
-            let rotation = Rot2::from_cos_sin_unchecked((x2 - x1) / length, (y2 - y1) / length);
-            let translation = Vec2::new(f64::midpoint(x1, x2), f64::midpoint(y1, y2));
-            let cuboid = Cuboid::new(Vec2::new(length / 2.0, thickness / 2.0));
+            let way = Vec2::new(x2 - x1, y2 - y1);
+            let long = length(way);
+            let middle = Vec2::new(f64::midpoint(x1, x2), f64::midpoint(y1, y2));
+            let cuboid = Cuboid::new(Vec2::new(long / 2.0, thickness / 2.0));
             Some((
                 Solid::Box(cuboid),
-                Pose2 {
-                    rotation,
-                    translation,
-                },
+                frame(middle, way.x / long, way.y / long),
             ))
         }
         Item::Box { pose, width, depth } => Some((
@@ -416,7 +405,7 @@ fn solid(item: &Item) -> Option<(Solid, Pose2)> {
             radius,
         } => Some((
             Solid::Ball(Ball::new(radius)),
-            Pose2::from_translation(Vec2::new(x, y)),
+            frame(Vec2::new(x, y), 1.0, 0.0),
         )),
         Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } => None,
     }
@@ -430,12 +419,12 @@ mod tests {
     fn rays_meet_walls_boxes_and_circles() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
         let up = Vec2::new(0.0, 1.0);
-        assert_eq!(scene.cast(Vec2::ZERO, up, 255.0), None);
+        assert_eq!(scene.cast(Vec2::zeros(), up, 255.0), None);
         let wall = scene
             .add(Item::wall([-50.0, 100.0], [50.0, 100.0]))
             .unwrap();
         let near = |expected: f64, scene: &Scene| {
-            let distance = scene.cast(Vec2::ZERO, up, 255.0).unwrap();
+            let distance = scene.cast(Vec2::zeros(), up, 255.0).unwrap();
             assert!((distance - expected).abs() < 1e-9, "{distance}");
         };
         near(99.5, &scene);
@@ -455,7 +444,7 @@ mod tests {
             })
             .unwrap();
         near(50.0 - 50.0_f64.sqrt(), &scene);
-        assert!(!scene.clear_between(Vec2::ZERO, Vec2::new(0.0, 60.0)));
+        assert!(!scene.clear_between(Vec2::zeros(), Vec2::new(0.0, 60.0)));
         assert!(scene.remove(diamond) && scene.remove(wall) && !scene.remove(wall));
         near(75.0, &scene);
     }

@@ -1,8 +1,6 @@
 //! What each sensor would measure, here and now.
 
-use parry2d_f64::math::Vec2;
-
-use crate::geometry::{Pose, direction};
+use crate::geometry::{Pose, Vec2, direction, length};
 use crate::noise::Source;
 use crate::scene::Scene;
 use crate::sensor::{Reading, Sense};
@@ -128,11 +126,11 @@ impl View<'_> {
         let mut light = self.scene.ambient;
         for (lamp, intensity) in self.scene.lamps() {
             let way = lamp - here;
-            let distance = libm::hypot(way.x, way.y);
+            let distance = length(way);
             let facing = if distance < 1e-9 {
                 1.0
             } else {
-                way.dot(ahead) / distance
+                way.dot(&ahead) / distance
             };
             if facing > 0.0 && self.scene.clear_between(here, lamp) {
                 let square = distance * distance + LAMP_HEIGHT * LAMP_HEIGHT;
