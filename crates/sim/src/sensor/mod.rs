@@ -2,7 +2,7 @@
 //!
 //! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
 //! arrive, everything shows the old one; for the settling time after that the numbers are still
-//! left over from before. An analog sensor has none of this. What a sensor sees is not decided
+//! those that the new mode showed last, if it was ever read. An analog sensor has none of this. What a sensor sees is not decided
 //! here: [`crate::sense`] looks at the world and hands in [`Reading`]s.
 
 mod attrs;
@@ -48,6 +48,8 @@ pub(crate) struct Sensor {
     last_single_shot: Option<u64>,
     single_shot_wanted: bool,
     reading: Reading,
+    /// What each mode measured last: shown again until the mode has settled.
+    left_over: Vec<Option<Reading>>,
     /// Tick of the reading; the world need not be looked at twice in one tick.
     read_at: Option<u64>,
     now: u64,
@@ -87,6 +89,7 @@ impl Sensor {
             last_single_shot: None,
             single_shot_wanted: false,
             reading: [0; 8],
+            left_over: vec![None; kind.modes.len()],
             read_at: None,
             now,
             angle: 0.0,
@@ -162,29 +165,28 @@ impl Sensor {
         }
     }
 
-    /// The first data of a mode have come.
+    /// The first data of a mode have come. They may be stale; a gyro starts anew.
     fn enter(&mut self, mode: usize) {
         self.pending = None;
+        if self.read_at.take().is_some() && !self.is_gyro() {
+            self.left_over[self.mode] = Some(self.reading);
+        }
         self.mode = mode;
         self.mode_since = self.now;
         self.angle = 0.0;
-        let settling = i32::try_from(self.kind.settling_ms).unwrap_or(0);
-        self.settled_at = if self.instant {
-            self.now
-        } else {
-            self.now + ticks_from_ms(settling)
-        };
-        self.read_at = None;
         self.single_shot_wanted = self.measures_once();
-        if self.single_shot_wanted {
-            self.settled_at = self.now;
+        self.settled_at = self.now;
+        if let Some(stale) = self.left_over[mode].filter(|_| !self.instant && !self.measures_once())
+        {
+            self.reading = stale;
+            self.settled_at += u64::from(self.kind.settling_ms).div_ceil(TICK_MS);
         }
     }
 
     // ---- values ---------------------------------------------------------------------------
 
     /// True if the world should be looked at before the values are read: they are not fresh, and
-    /// not still left over from another mode.
+    /// not still left over from the last time in this mode.
     pub(crate) fn wants_reading(&self) -> bool {
         let stale = self.read_at != Some(self.now) && self.now >= self.settled_at;
         let single = self.measures_once();

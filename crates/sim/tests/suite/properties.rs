@@ -86,7 +86,7 @@ fn everything(desk: &mut Desk) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn slicing_time_changes_nothing(program in deeds(12), slices in prop::collection::vec(1u64..9000, 1..20)) {

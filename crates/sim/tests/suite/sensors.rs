@@ -396,7 +396,19 @@ fn a_mode_change_takes_a_moment_and_leaves_stale_values() {
     );
     desk.0.step(blocks);
     assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR");
-    assert_eq!(value(&mut desk, RIGHT, 0), 92, "left over from before");
+    assert_eq!(
+        value(&mut desk, RIGHT, 0),
+        6,
+        "nothing that could be left over"
+    );
+    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Colour::BLACK);
+    desk.0.add_item(black).unwrap();
+    desk.put(&format!("{RIGHT}mode"), "COL-REFLECT");
+    assert_eq!(
+        value(&mut desk, RIGHT, 0),
+        92,
+        "left over from the last time"
+    );
     desk.step(10);
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
 }

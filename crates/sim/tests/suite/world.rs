@@ -123,7 +123,7 @@ fn collisions_and_events_are_recorded() {
     ] {
         assert!(svg.contains(part), "{part} in {svg}");
     }
-    desk.step(3_600_000);
+    desk.step(1_200_000);
     assert!(desk.0.trace().path().len() <= 2048, "memory stays flat");
 }
 
