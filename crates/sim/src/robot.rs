@@ -154,6 +154,16 @@ impl RobotSpec {
         robot
     }
 
+    /// The default robot with its wheels' wires exchanged, right on outB and left on outC: so the
+    /// paper's Braitenberg vehicle 2 (right eye in2 to outB, left eye in3 to outC) shies away from
+    /// a lamp as it should.
+    #[must_use]
+    pub fn swapped() -> RobotSpec {
+        let mut robot = RobotSpec::default();
+        std::mem::swap(&mut robot.left.port, &mut robot.right.port);
+        robot
+    }
+
     /// Gives every device the errors that such a device might plausibly have.
     #[must_use]
     pub fn with_typical_noise(mut self) -> RobotSpec {
