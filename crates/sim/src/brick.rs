@@ -23,31 +23,44 @@ const TRIGGERS: [&str; 7] = [
 const NONE: usize = 0;
 const TIMER: usize = 2;
 const DEFAULT_ON: usize = 4;
+/// `max_brightness` of the lights in the brick, and of one on an output port.
 const FULL: u32 = 255;
+const FULL_ON_PORT: u32 = 100;
 
 /// A status light.
 #[derive(Clone, Debug)]
 pub(crate) struct Led {
-    pub(crate) name: &'static str,
+    pub(crate) name: String,
     brightness: u32,
+    full: u32,
     trigger: usize,
     delay_on: u32,
     delay_off: u32,
 }
 
 impl Led {
-    pub(crate) fn new(name: &'static str, brightness: u32) -> Self {
+    /// A status light of the brick.
+    pub(crate) fn new(name: &str, brightness: u32) -> Self {
         Led {
-            name,
+            name: name.to_owned(),
             brightness,
+            full: FULL,
             trigger: NONE,
             delay_on: 500,
             delay_off: 500,
         }
     }
 
+    /// A light on an output port in the mode `led`.
+    pub(crate) fn on_port(address: &str) -> Self {
+        Led {
+            full: FULL_ON_PORT,
+            ..Led::new(&format!("{address}::brick-status"), 0)
+        }
+    }
+
     fn set_brightness(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
-        self.brightness = lenient_unsigned(bytes)?.min(FULL);
+        self.brightness = lenient_unsigned(bytes)?.min(self.full);
         if self.brightness == 0 {
             self.trigger = NONE;
         }
@@ -58,7 +71,7 @@ impl Led {
         self.trigger = word(bytes, TRIGGERS.into_iter())?;
         match self.trigger {
             NONE => self.brightness = 0,
-            DEFAULT_ON => self.brightness = FULL,
+            DEFAULT_ON => self.brightness = self.full,
             TIMER => (self.delay_on, self.delay_off) = (500, 500),
             _ => {}
         }
@@ -98,7 +111,7 @@ impl Table for Led {
             },
         )
         .only_while(|l| l.trigger == TIMER),
-        Attr::ro("max_brightness", |_| text(FULL)),
+        Attr::ro("max_brightness", |l| text(l.full)),
         Attr::rw("trigger", |l| text(l.triggers()), Led::set_trigger),
         Attr::rw("uevent", |_| Ok(Vec::new()), |_, bytes| write_uevent(bytes)),
     ];

@@ -32,6 +32,7 @@
 mod attr;
 mod brick;
 mod colour;
+mod dc;
 mod descriptor;
 mod drive;
 mod errno;

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use crate::attr::{Access, Effect};
 use crate::brick::{Battery, Board, LEDS, Led};
+use crate::dc::DcMotor;
 use crate::descriptor::Descriptor;
 use crate::drive::Body;
 use crate::errno::Errno;
@@ -421,16 +422,12 @@ impl Machine {
             _ => "auto",
         };
         let plug = socket.driver(mode);
+        let hardware = match (mode, plug) {
+            ("dc-motor", _) => Some(Hardware::DcMotor(DcMotor::new(port, self.tick))),
+            ("led", _) => Some(Hardware::Led(Led::on_port(port.address()))),
+            (_, plug) => plug.map(|plug| self.driver(port, plug, at_boot)),
+        };
         let instant = self.options.instant;
-        let hardware = plug.map(|plug| match plug {
-            Plug::Motor(kind) => {
-                let count = self.shafts[port.slot()].encoder.count();
-                Hardware::Tacho(Box::new(Tacho::new(kind, port, count, at_boot, self.tick)))
-            }
-            Plug::Sensor(kind) => Hardware::Sensor(Box::new(Sensor::new(
-                kind, port, self.tick, instant, at_boot,
-            ))),
-        });
         let closed = if at_boot || instant {
             0
         } else {
@@ -444,6 +441,22 @@ impl Machine {
         if let Some(Hardware::Port(device)) = self.tree.hardware_mut(lego_port) {
             device.has_tacho = has_tacho;
             device.has_nxt_analog = has_nxt_analog;
+        }
+    }
+
+    /// A fresh driver for a tacho motor or sensor.
+    fn driver(&self, port: Port, plug: Plug, at_boot: bool) -> Hardware {
+        match plug {
+            Plug::Motor(kind) => {
+                let count = self.shafts[port.slot()].encoder.count();
+                Hardware::Tacho(Box::new(Tacho::new(kind, port, count, at_boot, self.tick)))
+            }
+            Plug::Sensor(kind) => {
+                let instant = self.options.instant;
+                Hardware::Sensor(Box::new(Sensor::new(
+                    kind, port, self.tick, instant, at_boot,
+                )))
+            }
         }
     }
 

@@ -42,6 +42,7 @@ impl Machine {
         for hardware in self.tree.all() {
             let due = match hardware {
                 Hardware::Tacho(motor) => motor.next_timer(),
+                Hardware::DcMotor(motor) => motor.next_timer(),
                 Hardware::Sensor(sensor) if sensor.is_sampled() && moving => {
                     Some(next_on_grid(JIFFY_TICKS))
                 }
@@ -85,6 +86,7 @@ impl Machine {
             .filter(|_| self.wired(port));
         match device.and_then(|serial| self.tree.hardware(serial)) {
             Some(Hardware::Tacho(motor)) => motor.bridge(),
+            Some(Hardware::DcMotor(motor)) => motor.bridge(),
             _ => Bridge::Float,
         }
     }
@@ -175,11 +177,15 @@ impl Machine {
             let (count, speed) = (encoder.count(), encoder.speed());
             let device = self.sockets[port as usize].device;
             let hardware = device.and_then(|serial| self.tree.hardware_mut(serial));
-            if let Some(Hardware::Tacho(motor)) = hardware {
-                motor.sample(tick, count, speed);
-                if notify {
-                    motor.notify();
+            match hardware {
+                Some(Hardware::Tacho(motor)) => {
+                    motor.sample(tick, count, speed);
+                    if notify {
+                        motor.notify();
+                    }
                 }
+                Some(Hardware::DcMotor(motor)) => motor.sample(tick),
+                _ => {}
             }
         }
         for index in 0..4 {

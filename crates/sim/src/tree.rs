@@ -6,6 +6,7 @@
 
 use crate::attr::{Access, Effect, Files};
 use crate::brick::{Battery, Board, Led};
+use crate::dc::DcMotor;
 use crate::errno::Errno;
 use crate::motor::Tacho;
 use crate::port::LegoPort;
@@ -84,6 +85,7 @@ const CLASSES: [(Class, &str, &str, bool); 8] = [
 pub(crate) enum Hardware {
     Tacho(Box<Tacho>),
     Sensor(Box<Sensor>),
+    DcMotor(DcMotor),
     Port(LegoPort),
     Led(Led),
     Battery(Battery),
@@ -95,6 +97,7 @@ impl Hardware {
         match self {
             Hardware::Tacho(_) => Class::TachoMotor,
             Hardware::Sensor(_) => Class::LegoSensor,
+            Hardware::DcMotor(_) => Class::DcMotor,
             Hardware::Port(_) => Class::LegoPort,
             Hardware::Led(_) => Class::Leds,
             Hardware::Battery(_) => Class::PowerSupply,
@@ -106,6 +109,7 @@ impl Hardware {
         match self {
             Hardware::Tacho(device) => device.as_ref(),
             Hardware::Sensor(device) => device.as_ref(),
+            Hardware::DcMotor(device) => device,
             Hardware::Port(device) => device,
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
@@ -117,6 +121,7 @@ impl Hardware {
         match self {
             Hardware::Tacho(device) => device.as_mut(),
             Hardware::Sensor(device) => device.as_mut(),
+            Hardware::DcMotor(device) => device,
             Hardware::Port(device) => device,
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
@@ -182,7 +187,7 @@ impl Tree {
         let class = hardware.class();
         let number = &mut self.numbers[class as usize];
         let name = match &hardware {
-            Hardware::Led(led) => led.name.to_owned(),
+            Hardware::Led(led) => led.name.clone(),
             Hardware::Battery(_) => Battery::NAME.to_owned(),
             _ => format!("{}{number}", CLASSES[class as usize].2),
         };

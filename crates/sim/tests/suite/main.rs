@@ -2,6 +2,7 @@
 
 mod attributes;
 mod braitenberg;
+mod dc_motors;
 mod desk;
 mod golden;
 mod motion;
