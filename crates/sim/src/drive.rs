@@ -7,8 +7,9 @@
 //! stops its own motors, and a motor too weak for its friction does not creep.
 
 use crate::geometry::{Pose, Vec2, sin_cos};
+use crate::obstacle::Contact;
 use crate::robot::{RobotSpec, Wheel};
-use crate::scene::{Contact, Scene};
+use crate::scene::Scene;
 use crate::{ItemId, TICK_SECONDS};
 
 /// The hull keeps this far from obstacles, in cm, so that it never quite touches them.

@@ -36,6 +36,7 @@ mod dc;
 mod descriptor;
 mod drive;
 mod errno;
+mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
 mod geometry;
@@ -43,6 +44,8 @@ mod machine;
 mod map;
 mod motor;
 mod noise;
+mod obstacle;
+mod plugs;
 mod port;
 mod robot;
 mod scene;
