@@ -1,9 +1,13 @@
 //! One call of a native predicate: its arguments, its answers.
 use crate::error::raise;
-use compact_str::{CompactString, ToCompactString};
+use crate::words::atom_text;
 use ev3_driver::Value;
+use std::borrow::Cow;
 use std::time::Duration;
 use swipl::prelude::*;
+
+/// The text of an atom or a string.
+pub(crate) type Text = Cow<'static, str>;
 
 /// The call under way of a public predicate, by its name and arity.
 pub(crate) struct Call<'a, C: QueryableContextType> {
@@ -18,30 +22,29 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The text of an atom or a string.
-    pub(crate) fn text(&self, term: &Term) -> PrologResult<CompactString> {
-        let atom = term.get_atom_name(|name| name.map(CompactString::from))?;
-        let text = match atom {
-            None => term.get_str(|text| text.map(CompactString::from))?,
+    pub(crate) fn text(&self, term: &Term) -> PrologResult<Text> {
+        let text = match atom_text(term)? {
+            None => term.get_str(|text| text.map(|text| Text::Owned(text.to_owned())))?,
             atom => atom,
         };
         text.map_or_else(|| self.wrong_type("atom", term), Ok)
     }
 
     /// The text of an atom or a string, or `None` for a variable.
-    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<CompactString>> {
+    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<Text>> {
         if term.is_var() { Ok(None) } else { self.text(term).map(Some) }
     }
 
     /// The text of an atom, a string or a number, as it is written to a file.
-    pub(crate) fn value(&self, term: &Term) -> PrologResult<CompactString> {
+    pub(crate) fn value(&self, term: &Term) -> PrologResult<Text> {
         if let Some(integer) = attempt_opt(self.integer_of(term))? {
-            return Ok(integer.to_compact_string());
+            return Ok(Text::Owned(integer.to_string()));
         }
         if term.is_integer() {
             return crate::error::too_long(self);
         }
         if term.term_type() == TermType::Float {
-            return Ok(term.get::<f64>()?.to_compact_string());
+            return Ok(Text::Owned(term.get::<f64>()?.to_string()));
         }
         self.text(term)
     }

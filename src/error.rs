@@ -42,9 +42,31 @@ pub(crate) fn wrong_value<T, C: QueryableContextType>(
     domain: &str,
     term: &Term,
 ) -> PrologResult<T> {
+    wrong_because(call, domain, term, "")
+}
+
+/// Raises `domain_error(Domain, Term)`, with the reason as the message.
+pub(crate) fn wrong_because<T, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    term: &Term,
+    reason: &str,
+) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: domain_error(#atomable(domain), #term)}?;
-    throw(call, &formal, "")
+    throw(call, &formal, reason)
+}
+
+/// Raises `existence_error(Kind, Name)`, with the reason as the message.
+pub(crate) fn no_such<T, C: QueryableContextType>(
+    call: &Call<C>,
+    kind: &str,
+    name: &str,
+    reason: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: existence_error(#atomable(kind), #atomable(name))}?;
+    throw(call, &formal, reason)
 }
 
 /// Raises the error for an integer of more than 64 bits.
@@ -100,7 +122,7 @@ fn formal<'a, C: QueryableContextType>(
         }
         Error::Write { text, .. } if matches!(error.errno(), Some(Errno::INVAL | Errno::RANGE)) => {
             let value = context.new_term_ref();
-            crate::call::unify_value(&value, &Value::parse(text))?;
+            crate::call::unify_value(&value, &Value::parse(text.clone()))?;
             term! {context: domain_error(#attribute, #&value)}
         }
         error => match error.errno() {

@@ -2,7 +2,6 @@
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use crate::state::devices;
-use compact_str::CompactString;
 use ev3_driver::Class;
 use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction};
 use ev3_driver::wait;
@@ -119,7 +118,7 @@ predicates! {
         let (call, devices) = (Call::of(context, "motor_wait", 3), devices());
         let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
         let timeout = call.seconds(timeout)?;
-        let motors = call.found(motor::find_all(&devices, ports.iter().map(CompactString::as_str)))?;
+        let motors = call.found(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
         let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
         unify_atom(reason, call.check(ended)?.word())
     }

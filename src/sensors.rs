@@ -1,10 +1,9 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
-use crate::call::{Call, unify_value};
+use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
 use crate::error::wrong_value;
 use crate::state::devices;
-use compact_str::CompactString;
-use ev3_driver::{Class, Device, sensor};
+use ev3_driver::{Class, Device, Devices, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -26,15 +25,16 @@ predicates! {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
             let index = index_of(&call, index)?;
-            let sensors = sensors(&call, port, &types, &mode)?.into_iter();
-            Ok(Some(Readings { sensors, mode, index }))
+            let devices = devices();
+            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
+            Ok(Some(Readings { devices, sensors, mode, index }))
         },
         call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
-            let Readings { sensors, mode, index } = readings;
+            let Readings { devices, sensors, mode, index } = readings;
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                call.found(sensor::read(&devices(), device, Some(mode), *index, interrupted))
+                call.found(sensor::read(devices, device, Some(mode), *index, interrupted))
             };
             call.next(sensors, read, |device, read| {
                 unify_value(value, read)?;
@@ -51,15 +51,17 @@ predicates! {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
-            let sensors = sensors(&call, port, &types, &mode)?.into_iter();
-            Ok(Some(Readings { sensors, mode, index: 0 }))
+            let devices = devices();
+            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
+            Ok(Some(Readings { devices, sensors, mode, index: 0 }))
         },
         call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
             let (values, mode) = (call.arguments::<3>(values)?, Some(&*readings.mode));
+            let devices = &readings.devices;
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                call.found(sensor::read_all(&devices(), device, mode, [0, 1, 2], interrupted))
+                call.found(sensor::read_all(devices, device, mode, [0, 1, 2], interrupted))
             };
             call.next(&mut readings.sensors, read, |device, read| {
                 values.iter().zip(read).try_for_each(|(term, read)| unify_value(term, read))?;
@@ -93,8 +95,9 @@ predicates! {
 
 /// Sensors that are still to be read.
 struct Readings {
+    devices: Arc<Devices>,
     sensors: IntoIter<Arc<Device>>,
-    mode: CompactString,
+    mode: Text,
     index: usize,
 }
 
@@ -102,13 +105,14 @@ struct Readings {
 /// are named, all that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
+    devices: &Devices,
     port: &Term,
-    types: &[CompactString],
+    types: &[Text],
     mode: &str,
 ) -> PrologResult<Vec<Arc<Device>>> {
     let found = match call.text_if_bound(port)? {
-        Some(port) => sensor::at(&devices(), &port, types),
-        None => sensor::with_mode(&devices(), types, mode),
+        Some(port) => sensor::at(devices, &port, types),
+        None => sensor::with_mode(devices, types, mode),
     };
     call.check(found)
 }
@@ -117,7 +121,7 @@ fn sensors<C: QueryableContextType>(
 fn types_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     types: &Term<'a>,
-) -> PrologResult<Vec<CompactString>> {
+) -> PrologResult<Vec<Text>> {
     call.list(types)?.iter().map(|kind| call.text(kind)).collect()
 }
 

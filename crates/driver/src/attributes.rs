@@ -55,7 +55,7 @@ fn value(device: &Device, name: &str) -> Result<Value> {
     match (device.class(), index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
         _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),
-        _ => device.text(name).map(|text| Value::parse(&text)),
+        _ => device.text(name).map(Value::parse),
     }
 }
 

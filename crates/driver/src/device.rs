@@ -1,6 +1,7 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
 use crate::devices::{Class, Detected};
 use crate::error::{Access, Error, Result};
+use crate::list::List;
 use crate::motor::Motion;
 use crate::tree::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
@@ -39,14 +40,20 @@ pub struct Device {
     present_at_us: AtomicU32,
     first_seen: Duration,
     tree: Arc<dyn Tree>,
-    attributes: RwLock<Vec<Arc<Attribute>>>,
-    /// Numbers that cannot change while the device is plugged in, by
-    /// attribute, and for some by sensor mode.
-    constants: RwLock<Vec<(&'static str, Box<str>, i64)>>,
+    attributes: List<Attribute>,
+    constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
+}
+
+/// A number that cannot change while the device is plugged in.
+struct Constant {
+    attribute: &'static str,
+    /// The sensor's mode that it belongs to; empty if to any.
+    mode: Box<str>,
+    value: i64,
 }
 
 impl Device {
@@ -65,8 +72,8 @@ impl Device {
             present_at_us: AtomicU32::default(),
             first_seen: tree.now(),
             tree: Arc::clone(tree),
-            attributes: RwLock::default(),
-            constants: RwLock::default(),
+            attributes: List::default(),
+            constants: List::default(),
             motion: Mutex::default(),
             user: Mutex::default(),
         })
@@ -203,21 +210,14 @@ impl Device {
     /// # Errors
     /// As [`number`](Self::number).
     pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
-        let known = |constants: &[(&str, Box<str>, i64)]| {
-            let entry = constants.iter().find(|(a, m, _)| *a == attribute && **m == *mode);
-            entry.map(|(_, _, value)| *value)
-        };
-        let constants = self.constants.read().unwrap_or_else(PoisonError::into_inner);
-        if let Some(value) = known(&constants) {
-            return Ok(value);
+        let is_it =
+            |constant: &Constant| constant.attribute == attribute && *constant.mode == *mode;
+        if let Some(constant) = self.constants.find(is_it) {
+            return Ok(constant.value);
         }
-        drop(constants);
         let value = self.number(attribute)?;
-        let mut constants = self.constants.write().unwrap_or_else(PoisonError::into_inner);
-        if known(&constants).is_none() {
-            constants.push((attribute, mode.into(), value));
-        }
-        Ok(value)
+        let make = || Constant { attribute, mode: mode.into(), value };
+        Ok(self.constants.find_or_push(is_it, make).value)
     }
 
     /// Calls `look` with the text of a short attribute, as `mode` or `state`.
@@ -263,22 +263,10 @@ impl Device {
         self.write(attribute, itoa::Buffer::new().format(number))
     }
 
-    /// The open attribute file, for a wait on its changes.
-    pub(crate) fn attribute(&self, name: &str) -> Arc<Attribute> {
-        let known = |attributes: &[Arc<Attribute>]| {
-            attributes.iter().find(|attribute| *attribute.name == *name).cloned()
-        };
-        let attributes = self.attributes.read().unwrap_or_else(PoisonError::into_inner);
-        if let Some(attribute) = known(&attributes) {
-            return attribute;
-        }
-        drop(attributes);
-        let mut attributes = self.attributes.write().unwrap_or_else(PoisonError::into_inner);
-        known(&attributes).unwrap_or_else(|| {
-            let attribute = Arc::new(Attribute::new(name, &self.path));
-            attributes.push(Arc::clone(&attribute));
-            attribute
-        })
+    /// The attribute of that name, whether or not there is such a file.
+    pub(crate) fn attribute(&self, name: &str) -> &Attribute {
+        let is_it = |attribute: &Attribute| *attribute.name == *name;
+        self.attributes.find_or_push(is_it, || Attribute::new(name, &self.path))
     }
 }
 
@@ -332,7 +320,7 @@ pub fn write_file(tree: &dyn Tree, path: &Path, text: &str) -> Result<()> {
 /// # Errors
 /// As [`read_file`].
 pub fn read_value(tree: &dyn Tree, path: &Path) -> Result<Value> {
-    read_file(tree, path).map(|text| Value::parse(&text))
+    read_file(tree, path).map(Value::parse)
 }
 
 /// An attribute file, opened when first used.
