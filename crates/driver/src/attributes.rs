@@ -10,7 +10,7 @@ use crate::value::Value;
 use crate::{motor, sensor};
 
 /// Attributes that hold an integer and nothing else.
-const INTEGERS: [&str; 20] = [
+const INTEGERS: [&str; 21] = [
     "count_per_m",
     "count_per_rot",
     "decimals",
@@ -31,6 +31,7 @@ const INTEGERS: [&str; 20] = [
     "speed_pid/Ki",
     "speed_pid/Kp",
     "speed_sp",
+    "time_sp",
 ];
 
 /// Reads an attribute; `None` where the device is absent.
@@ -39,7 +40,7 @@ const INTEGERS: [&str; 20] = [
 /// The kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
 pub fn read(devices: &Devices, class: Class, port: &str, name: &str) -> Result<Option<Value>> {
-    let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
+    let index = sensor::VALUES.iter().position(|value| *value == name);
     devices.with(class, port, |device| match (class, index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
         _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),

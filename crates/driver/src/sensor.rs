@@ -31,7 +31,7 @@ const PERMISSIONS_WITHIN: Duration = Duration::from_secs(1);
 const RETRY_EVERY: Duration = Duration::from_millis(20);
 
 /// The files of the values; a sensor has at most eight.
-const VALUES: [&str; 8] =
+pub(crate) const VALUES: [&str; 8] =
     ["value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7"];
 
 /// Reads value `index` of a sensor in a mode, or in its present one, scaled by
@@ -136,7 +136,9 @@ fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value
 /// as ENXIO for a sensor that does not answer.
 pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     let no_value = |mode: String| Error::NoValue { port: sensor.port().to_owned(), mode, index };
-    let attribute = VALUES.get(index).ok_or_else(|| no_value(String::new()))?;
+    let Some(attribute) = VALUES.get(index) else {
+        return Err(no_value(sensor.text("mode")?));
+    };
     match sensor.number(attribute) {
         Err(error) if error.errno() == Some(Errno::NXIO) => {
             // No such value in this mode, or no contact with the sensor.
