@@ -24,6 +24,8 @@ pub struct Device {
     driver: Box<str>,
     path: PathBuf,
     entry: Entry,
+    /// Kept open, so that it tells whether it is still the same device.
+    address: Box<dyn Node>,
     first_seen: Duration,
     tree: Arc<dyn Tree>,
     attributes: RwLock<Vec<Arc<Attribute>>>,
@@ -40,13 +42,15 @@ impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
-        let (address, driver) = identity(&**tree, &path)?;
+        let (node, address) = address_of(&**tree, &path)?;
+        let driver = read_file(&**tree, &path.join("driver_name"))?;
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
             driver: driver.into(),
             path,
             entry,
+            address: node,
             first_seen: tree.now(),
             tree: Arc::clone(tree),
             attributes: RwLock::default(),
@@ -103,6 +107,13 @@ impl Device {
 
     pub(crate) fn entry(&self) -> &Entry {
         &self.entry
+    }
+
+    /// Whether it is what an entry of its class directory stands for. A file
+    /// system may give a new directory the inode number of one that was
+    /// removed; the kernel's devices have each its own.
+    pub(crate) fn is_at(&self, entry: &Entry) -> bool {
+        self.entry == *entry && (!self.address.is_plain() || self.address.read(&mut []).is_ok())
     }
 
     /// When it was first seen, by the tree's clock.
@@ -234,11 +245,20 @@ impl Device {
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where there is no address.
 pub fn identity(tree: &dyn Tree, path: &Path) -> Result<(String, String)> {
-    let address = read_file(tree, &path.join("address"))?;
-    if address.is_empty() {
-        return Err(malformed(&path.join("address"), b"", "an address"));
-    }
+    let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))
+}
+
+/// Reads the `address` of the device at a path; also the open file.
+fn address_of(tree: &dyn Tree, path: &Path) -> Result<(Box<dyn Node>, String)> {
+    let path = path.join("address");
+    let node = open(tree, &path, Access::Read)?;
+    let mut buffer = [0; SHORT];
+    let address = text_of(&path, read_node(&*node, &path, &mut buffer)?)?;
+    if address.is_empty() {
+        return Err(malformed(&path, b"", "an address"));
+    }
+    Ok((node, address))
 }
 
 /// Reads the text of any file, without keeping it open.

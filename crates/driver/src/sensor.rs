@@ -225,8 +225,8 @@ fn patiently<T>(
 fn has_changed(devices: &Devices, sensor: &mut Arc<Device>) -> Result<bool> {
     devices.forget_listings();
     let present = devices.find(Class::Sensor, sensor.port())?;
-    let again = present
-        .filter(|other| other.entry() != sensor.entry() && other.driver() == sensor.driver());
+    let again =
+        present.filter(|other| !Arc::ptr_eq(other, sensor) && other.driver() == sensor.driver());
     let has_changed = again.is_some();
     if let Some(again) = again {
         *sensor = again;
