@@ -83,7 +83,8 @@ impl Speed {
         let max = motor.constant("max_speed")?;
         let counts = match self {
             Self::Percent(percent) => {
-                let counts = (percent / 100.0 * max as f64).floor();
+                // Multiplied first: most percentages are no binary fractions.
+                let counts = (percent * max as f64 / 100.0).floor();
                 // Also false for NaN.
                 (counts.abs() <= max as f64).then_some(counts as i64)
             }
