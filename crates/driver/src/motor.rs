@@ -171,8 +171,8 @@ fn start(devices: &Devices, motor: &Device, word: &str, end: Option<End>) -> Res
     let started = motor.tree().now();
     let id = (motor.class(), motor.port().to_owned());
     if end.is_some() {
-        // Before the command: were we killed in between, it would be one
-        // stop too many rather than one too few.
+        // Before the command: whoever stops all in between makes one stop
+        // too many rather than one too few.
         devices.started().insert(id);
         motor.write("command", word)?;
     } else {
@@ -183,13 +183,15 @@ fn start(devices: &Devices, motor: &Device, word: &str, end: Option<End>) -> Res
     Ok(())
 }
 
-/// Stops a motor.
+/// Stops a motor, in some way even if it does not have that action: the
+/// `BrickPi`'s motors cannot brake.
 ///
 /// # Errors
-/// The kernel's.
+/// The kernel's, as EINVAL for the action.
 pub fn stop(devices: &Devices, motor: &Device, action: StopAction) -> Result<()> {
-    motor.write("stop_action", action.word())?;
-    start(devices, motor, "stop", None)
+    let chosen = motor.write("stop_action", action.word());
+    let stopped = start(devices, motor, "stop", None);
+    chosen.and(stopped)
 }
 
 /// Stops all of these motors, even where one of them fails.
@@ -205,7 +207,7 @@ pub fn stop_all(devices: &Devices, motors: &[Arc<Device>], action: StopAction) -
 }
 
 /// Stops every motor that was started and not stopped since. Motors that are
-/// gone have nothing to stop.
+/// gone have nothing to stop; one that refuses is tried again the next time.
 ///
 /// # Errors
 /// The first that occurred.
@@ -213,10 +215,14 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
     let started = devices.started().clone();
     let mut result = Ok(());
     for (class, port) in started {
-        let stopped = devices.with(class, &port, |motor| stop(devices, motor, StopAction::Brake));
-        result = result.and(stopped.map(drop));
+        match devices.with(class, &port, |motor| stop(devices, motor, StopAction::Brake)) {
+            Ok(Some(())) => {}
+            Ok(None) => {
+                devices.started().remove(&(class, port));
+            }
+            Err(error) => result = result.and(Err(error)),
+        }
     }
-    devices.started().clear();
     result
 }
 
