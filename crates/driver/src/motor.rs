@@ -318,13 +318,13 @@ fn start_moves(
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
-    let ramps = Ramps::set(&motors, options)?;
+    let mut ramps = Ramps(Vec::new());
+    ramps.set(&motors, options)?;
     let mut ends = plans.iter().map(|plan| End::Position {
         from: plan.from,
         target: plan.from.saturating_add(plan.distance),
     });
     start_all(devices, &motors, |motor| start(devices, motor, "run-to-rel-pos", ends.next()))?;
-    ramps.restore()?;
     Ok(Some(motors))
 }
 
@@ -361,29 +361,33 @@ fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
     }))
 }
 
-/// Ramps of one move. The command copies them, so that what was set before can
-/// be put back as soon as the motors run.
-struct Ramps<'a>(Vec<(&'a Device, &'static str, i64)>);
+/// The ramps that the motors had before a move with its own. The command
+/// copies them, so that they are put back as soon as the motors run, or when
+/// they could not start.
+struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
 
-impl<'a> Ramps<'a> {
-    fn set(motors: &'a [Arc<Device>], options: &MoveOptions) -> Result<Self> {
+impl Ramps {
+    fn set(&mut self, motors: &[Arc<Device>], options: &MoveOptions) -> Result<()> {
         let given = [("ramp_up_sp", options.ramp_up_ms), ("ramp_down_sp", options.ramp_down_ms)];
-        let mut before = Vec::new();
         for motor in motors {
             for (attribute, milliseconds) in given {
                 if let Some(milliseconds) = milliseconds {
-                    before.push((&**motor, attribute, motor.number(attribute)?));
+                    self.0.push((Arc::clone(motor), attribute, motor.number(attribute)?));
                     motor.write_number(attribute, milliseconds)?;
                 }
             }
         }
-        Ok(Self(before))
+        Ok(())
     }
+}
 
-    fn restore(self) -> Result<()> {
-        self.0
-            .into_iter()
-            .try_for_each(|(motor, attribute, value)| motor.write_number(attribute, value))
+impl Drop for Ramps {
+    fn drop(&mut self) {
+        // The last first, as a motor may have been named twice. What cannot be
+        // put back belongs to a motor that was unplugged.
+        for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
+            let _ = motor.write_number(attribute, milliseconds);
+        }
     }
 }
 
