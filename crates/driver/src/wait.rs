@@ -94,7 +94,11 @@ pub fn wait_for(
     match waited {
         Ok(true) => Ok(reason),
         Ok(false) => Ok(Reason::Timeout),
-        Err(error) if error.is_gone() => Ok(Reason::Unplugged),
+        Err(error) if error.is_gone() => {
+            // Whoever asks which motor it was need not wait for a new listing.
+            devices.forget_listings();
+            Ok(Reason::Unplugged)
+        }
         Err(error) => Err(error),
     }
 }
