@@ -140,7 +140,7 @@ pub fn wait_for_flag(
 /// # Errors
 /// [`Error::Interrupted`].
 pub fn sleep(devices: &Devices, time: Duration, interrupted: Interrupted) -> Result<()> {
-    let end = devices.tree().now() + time;
+    let end = devices.tree().now().saturating_add(time);
     until(devices, &[], None, interrupted, |now| {
         let left = end.saturating_sub(now);
         Ok((!left.is_zero()).then_some(left))
@@ -274,8 +274,12 @@ impl<'a> Watch<'a> {
         let end = self.motor.motion().map(|motion| motion.end);
         Ok(match end {
             Some(End::Position { from, target }) => {
-                let direction = (target - from).signum();
-                let missing = (target - self.motor.number("position")?) * direction;
+                let position = self.motor.number("position")?;
+                let missing = if target >= from {
+                    target.saturating_sub(position)
+                } else {
+                    position.saturating_sub(target)
+                };
                 missing <= TOLERANCE
             }
             Some(End::Never) => false,
@@ -316,7 +320,7 @@ impl<'a> Watch<'a> {
                 let position = self.motor.number("position")?;
                 let speed = self.motor.number("speed")?.unsigned_abs();
                 let counts = target.abs_diff(position);
-                let milliseconds = (counts * 1000).checked_div(speed);
+                let milliseconds = counts.saturating_mul(1000).checked_div(speed);
                 milliseconds.map_or(SLICE, Duration::from_millis)
             }
             Some((started, End::Time(time))) => (started + time).saturating_sub(now),
