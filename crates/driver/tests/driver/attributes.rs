@@ -263,14 +263,15 @@ fn any_file_can_be_read_and_written_but_none_created() {
 #[test]
 fn an_attribute_by_name_is_a_number_a_fraction_or_a_text() {
     let attributes = [("position", "-5"), ("polarity", "normal"), ("commands", "stop reset")];
-    let (_tree, devices, _) = motor_with(&attributes);
-    let read = |name| attributes::read(&devices, Class::TachoMotor, "outA", name);
+    let (tree, devices, motor) = motor_with(&attributes);
+    let read = |name| attributes::read(&devices, &motor, name);
     assert_eq!(read("position").unwrap(), Some(Value::Integer(-5)));
     assert_eq!(read("polarity").unwrap(), Some(Value::Text("normal".into())));
     assert_eq!(read("commands").unwrap(), Some(Value::Text("stop reset".into())));
     assert_eq!(read("stop_action").unwrap_err().errno(), Some(Errno::NOENT));
-    let absent = attributes::read(&devices, Class::TachoMotor, "outB", "position");
-    assert_eq!(absent.unwrap(), None);
+    tree.unplug(Class::TachoMotor, "motor0");
+    std::thread::sleep(Duration::from_millis(1));
+    assert_eq!(read("position").unwrap(), None);
 }
 
 #[test]
@@ -282,7 +283,9 @@ fn an_attribute_that_is_a_number_must_hold_one() {
         let path = tree.plug(class, "device0", "port1", &[]);
         fs::create_dir(path.join("speed_pid")).unwrap();
         fs::write(path.join(name), "many\n").unwrap();
-        let error = attributes::read(&tree.devices(), class, "port1", name).unwrap_err();
+        let devices = tree.devices();
+        let device = devices.find(class, "port1").unwrap().unwrap();
+        let error = attributes::read(&devices, &device, name).unwrap_err();
         assert!(matches!(error, Error::Malformed { .. }), "{name}: {error}");
     }
 }
@@ -292,7 +295,8 @@ fn value_files_have_one_spelling_each() {
     let tree = PlainTree::new();
     tree.plug(Class::Sensor, "sensor0", "in1", &[("value1", "7"), ("num_values", "2")]);
     let devices = tree.devices();
-    let read = |name| attributes::read(&devices, Class::Sensor, "in1", name);
+    let sensor = devices.find(Class::Sensor, "in1").unwrap().unwrap();
+    let read = |name| attributes::read(&devices, &sensor, name);
     assert_eq!(read("value1").unwrap(), Some(Value::Integer(7)));
     for name in ["value+1", "value01", "value8", "value"] {
         assert_eq!(read(name).unwrap_err().errno(), Some(Errno::NOENT), "{name}");

@@ -148,4 +148,8 @@ impl Node for CountedNode {
     fn is_plain(&self) -> bool {
         self.node.is_plain()
     }
+
+    fn check_present(&self) -> io::Result<()> {
+        self.node.check_present()
+    }
 }

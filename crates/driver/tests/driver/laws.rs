@@ -17,7 +17,7 @@ proptest! {
     #[test]
     fn every_integer_is_read_as_what_it_was_written(number: i64) {
         prop_assert_eq!(integer(number.to_string().as_bytes()), Some(number));
-        prop_assert_eq!(Value::parse(&number.to_string()), Value::Integer(number));
+        prop_assert_eq!(Value::parse(number.to_string()), Value::Integer(number));
     }
 
     #[test]
@@ -29,7 +29,7 @@ proptest! {
     fn a_text_is_a_finite_number_or_stays_what_it_is(
         text in prop_oneof![".*", "[-+]?[0-9]{0,4}[.]?[0-9]{0,4}", "[0-9]{300,320}[.][0-9]"]
     ) {
-        match Value::parse(&text) {
+        match Value::parse(text.clone()) {
             Value::Integer(number) => prop_assert_eq!(text.parse(), Ok(number)),
             Value::Float(number) => {
                 prop_assert!(number.is_finite());

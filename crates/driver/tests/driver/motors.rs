@@ -10,12 +10,12 @@ use ev3_driver::{Errno, Error, attributes};
 use std::sync::Arc;
 use std::time::Duration;
 
-fn run(port: &str, percent: f64) -> Run {
-    Run { port: port.to_owned(), speed: Speed::Percent(percent) }
+fn run(port: &str, percent: f64) -> Run<'_> {
+    Run { port, speed: Speed::Percent(percent) }
 }
 
-fn turn(port: &str, percent: f64, degrees: f64) -> Move {
-    Move { port: port.to_owned(), speed: Speed::Percent(percent), degrees }
+fn turn(port: &str, percent: f64, degrees: f64) -> Move<'_> {
+    Move { port, speed: Speed::Percent(percent), degrees }
 }
 
 fn position(brick: &Brick, port: &str) -> i64 {
@@ -50,7 +50,7 @@ fn motors_that_cannot_all_run_as_asked_are_left_alone() {
     for impossible in [run("outA", 50.0), run("outC", 101.0), run("outC", f64::NAN)] {
         assert!(!run_forever(&devices, &[run("outB", 50.0), impossible]).unwrap());
     }
-    let too_fast = Run { port: "outC".to_owned(), speed: Speed::CountsPerSecond(-1051) };
+    let too_fast = Run { port: "outC", speed: Speed::CountsPerSecond(-1051) };
     assert!(!run_forever(&devices, &[run("outB", 50.0), too_fast]).unwrap());
     assert!(run_forever(&devices, &[]).unwrap());
     assert!(brick.take_written().is_empty());
@@ -389,7 +389,7 @@ fn a_motor_is_stopped_even_if_it_has_not_the_action_asked_for() {
     let devices = brick.devices();
     run_forever(&devices, &[run("outA", 50.0)]).unwrap();
     let all = motors(&devices, &["outA"]);
-    let stopped = stop(&devices, &all[0], StopAction::Brake);
+    let stopped = stop(&all[0], StopAction::Brake);
     assert_eq!(stopped.unwrap_err().errno(), Some(Errno::INVAL));
     assert!(!is_powered(&brick, "outA"));
 }
@@ -401,7 +401,7 @@ fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
     let runs = ["outA", "outB", "outC"].map(|port| run(port, 50.0));
     run_forever(&devices, &runs).unwrap();
     brick.world().motor("outB").refuses.push(("command", Errno::IO));
-    let error = stop_all(&devices, &motors(&devices, &["outA", "outB", "outC"]), StopAction::Brake);
+    let error = stop_all(&motors(&devices, &["outA", "outB", "outC"]), StopAction::Brake);
     assert_eq!(error.unwrap_err().errno(), Some(Errno::IO));
     assert!(!is_powered(&brick, "outA") && !is_powered(&brick, "outC"));
 }
@@ -412,7 +412,7 @@ fn what_was_started_and_only_that_is_stopped_at_the_end() {
     let devices = brick.devices();
     let all = motors(&devices, &["outA", "outB", "outC", "outD"]);
     run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
-    stop(&devices, &all[1], StopAction::Coast).unwrap();
+    stop(&all[1], StopAction::Coast).unwrap();
     let write = |name, text| {
         attributes::write(&devices, Class::TachoMotor, "outC", name, text, &mut || false)
     };
@@ -432,7 +432,7 @@ fn a_reset_motor_need_not_be_stopped_and_a_gone_one_cannot() {
     let brick = Brick::new(&["outA", "outB"]);
     let devices = brick.devices();
     run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
-    reset(&devices, &motors(&devices, &["outA"])[0]).unwrap();
+    reset(&motors(&devices, &["outA"])[0]).unwrap();
     brick.world().motor("outB").is_unplugged = true;
     brick.take_written();
     stop_started(&devices).unwrap();
@@ -455,7 +455,7 @@ fn a_motor_that_could_not_be_stopped_is_tried_again() {
 fn an_unknown_command_is_the_kernels_to_refuse() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    let error = command(&devices, &motors(&devices, &["outA"])[0], "fly").unwrap_err();
+    let error = command(&motors(&devices, &["outA"])[0], "fly").unwrap_err();
     assert_eq!(error.errno(), Some(Errno::INVAL));
 }
 
@@ -469,7 +469,7 @@ fn a_wait_knows_the_end_of_a_command_that_was_given_by_hand() {
     {
         all[0].write("speed_sp", "500").unwrap();
         all[0].write(set_point, number).unwrap();
-        command(&devices, &all[0], word).unwrap();
+        command(&all[0], word).unwrap();
         let started = brick.now();
         let reason = wait_for(&devices, &all, None, &mut brick.attentive()).unwrap();
         assert_eq!(reason, Reason::Reached, "{word}");
@@ -487,6 +487,6 @@ fn absurd_positions_do_not_overflow() {
     let interrupt = &mut brick.interrupting(ms(100));
     let _ = run_to(&devices, &moves, &options, interrupt);
     let all: Vec<Arc<_>> = motors(&devices, &["outA"]);
-    command(&devices, &all[0], "run-to-abs-pos").unwrap();
+    command(&all[0], "run-to-abs-pos").unwrap();
     let _ = wait_for(&devices, &all, Some(ms(100)), &mut brick.attentive());
 }

@@ -163,7 +163,7 @@ fn a_mode_written_as_an_attribute_is_written_only_when_it_differs_and_waited_out
     write("COL-REFLECT");
     assert!(brick.take_written().is_empty());
     write("COL-COLOR");
-    assert_eq!(attributes::read(&devices, Class::Sensor, "in1", "value0").unwrap(), integer(5));
+    assert_eq!(attributes::read(&devices, &sensor(&devices, "in1"), "value0").unwrap(), integer(5));
 }
 
 #[test]
@@ -308,11 +308,11 @@ fn sensors_are_found_by_type_or_by_mode() {
         sensors.iter().map(|sensor| sensor.port().to_owned()).collect()
     };
     let types = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-    assert_eq!(ports(with_mode(&devices, &[], "US-LISTEN").unwrap()), ["in2"]);
-    assert_eq!(ports(with_mode(&devices, &[], "US").unwrap()), [""; 0]);
+    assert_eq!(ports(with_mode(&devices, &[""; 0], "US-LISTEN").unwrap()), ["in2"]);
+    assert_eq!(ports(with_mode(&devices, &[""; 0], "US").unwrap()), [""; 0]);
     let meant = types(&["lego-ev3-ir", "lego-ev3-color"]);
     assert_eq!(ports(with_mode(&devices, &meant, "X").unwrap()), ["in1", "in4"]);
-    assert_eq!(ports(at(&devices, "ev3-ports:in1", &[]).unwrap()), ["in1"]);
+    assert_eq!(ports(at(&devices, "ev3-ports:in1", &[""; 0]).unwrap()), ["in1"]);
     assert_eq!(ports(at(&devices, "in1", &types(&["lego-ev3-us"])).unwrap()), [""; 0]);
-    assert_eq!(ports(at(&devices, "in3", &[]).unwrap()), [""; 0]);
+    assert_eq!(ports(at(&devices, "in3", &[""; 0]).unwrap()), [""; 0]);
 }

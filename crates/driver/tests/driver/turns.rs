@@ -236,8 +236,8 @@ fn an_interrupted_turn_brakes_the_motors() {
 fn a_robot_that_rolls_already_is_turned_and_stopped() {
     let brick = robot(2.2);
     let devices = brick.devices();
-    let runs = ["outB", "outC"]
-        .map(|port| ev3_driver::motor::Run { port: port.to_owned(), speed: Speed::Percent(30.0) });
+    let runs =
+        ["outB", "outC"].map(|port| ev3_driver::motor::Run { port, speed: Speed::Percent(30.0) });
     run_forever(&devices, &runs).unwrap();
     brick.pass(ms(500));
     assert_turned(&brick, &turn(40.0, 90.0, 2.2), ms(5000));

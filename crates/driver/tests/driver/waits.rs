@@ -11,8 +11,7 @@ use std::time::Duration;
 /// Starts a move of some motors at half speed.
 fn start(devices: &Devices, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
-    let moves: Vec<_> =
-        ports.iter().map(|port| Move { port: (*port).to_owned(), speed, degrees }).collect();
+    let moves: Vec<_> = ports.iter().map(|port| Move { port, speed, degrees }).collect();
     let options = MoveOptions { wait: false, ..MoveOptions::default() };
     run_to(devices, &moves, &options, &mut || false).unwrap().unwrap();
 }
@@ -118,7 +117,7 @@ fn a_blocked_motor_is_noticed_where_the_board_flags_no_stall() {
 fn a_motor_that_runs_for_ever_is_waited_for_until_the_time_is_up() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    let run = Run { port: "outA".to_owned(), speed: Speed::Percent(30.0) };
+    let run = Run { port: "outA", speed: Speed::Percent(30.0) };
     run_forever(&devices, &[run]).unwrap();
     let all = motors(&devices, &["outA"]);
     let started = brick.now();
@@ -165,7 +164,7 @@ fn a_motor_that_somebody_else_stops_is_stopped_not_there() {
         asked += 1;
         if asked == 10 {
             // As another thread would.
-            stop(&devices, &all[0], StopAction::Brake).unwrap();
+            stop(&all[0], StopAction::Brake).unwrap();
         }
         false
     });
@@ -281,7 +280,7 @@ fn a_run_that_was_seen_and_is_over_is_not_waited_for_any_longer() {
     let motor = &motors(&devices, &["outA"])[0];
     motor.write("speed_sp", "500").unwrap();
     motor.write("time_sp", "40").unwrap();
-    command(&devices, motor, "run-timed").unwrap();
+    command(motor, "run-timed").unwrap();
     wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
     assert!(brick.now() < ms(50), "{:?}", brick.now());
 }
@@ -291,7 +290,7 @@ fn a_command_that_never_shows_as_running_is_given_100_ms() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
     let motor = &motors(&devices, &["outA"])[0];
-    command(&devices, motor, "run-forever").unwrap();
+    command(motor, "run-forever").unwrap();
     motor.write("command", "stop").unwrap();
     let started = brick.now();
     wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
