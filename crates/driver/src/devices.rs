@@ -134,7 +134,7 @@ impl Devices {
     /// As [`all`](Self::all).
     pub fn has(&self, device: &Device) -> Result<bool> {
         let present = self.find(device.class(), device.port())?;
-        Ok(present.is_some_and(|present| std::ptr::eq(&*present, device)))
+        Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
     /// Does something with the device at a port; `None` where there is none.
