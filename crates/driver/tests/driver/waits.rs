@@ -189,6 +189,25 @@ fn a_motor_that_another_program_stops_is_stopped_not_there() {
 }
 
 #[test]
+fn a_timed_run_that_is_stopped_before_its_time_is_stopped() {
+    for (stop_at, expected) in [(ms(100), Reason::Stopped), (ms(600), Reason::Reached)] {
+        let brick = Brick::new(&["outA"]);
+        let devices = brick.devices();
+        let all = motors(&devices, &["outA"]);
+        all[0].write("speed_sp", "500").unwrap();
+        all[0].write("time_sp", "500").unwrap();
+        command(&all[0], "run-timed").unwrap();
+        let reason = wait_for(&devices, &all, None, &mut || {
+            if brick.now() >= stop_at {
+                all[0].write("command", "stop").unwrap();
+            }
+            false
+        });
+        assert_eq!(reason.unwrap(), expected);
+    }
+}
+
+#[test]
 fn a_motor_may_end_ten_counts_short_of_its_target() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").ends_short = 10;
