@@ -11,7 +11,7 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
 use crate::error::Result;
-use crate::wait::{Reason, wait_for};
+use crate::wait::{Reason, TOLERANCE, has, wait_for};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -128,7 +128,22 @@ impl Default for MoveOptions {
 pub(crate) struct Motion {
     /// When, by the tree's clock.
     pub(crate) started: Duration,
+    /// Whether by `run-to-rel-pos`.
+    is_relative: bool,
     pub(crate) end: End,
+}
+
+impl Motion {
+    fn target(self) -> Option<i64> {
+        match self.end {
+            End::Position { target, .. } => Some(target),
+            End::Time(_) | End::Never => None,
+        }
+    }
+
+    fn relative_target(self) -> Option<i64> {
+        self.target().filter(|_| self.is_relative)
+    }
 }
 
 /// How a motion is meant to end.
@@ -159,7 +174,9 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
         }
         "run-to-rel-pos" => {
             let (from, distance) = (motor.number("position")?, motor.number("position_sp")?);
-            Some(End::Position { from, target: from.saturating_add(distance) })
+            // Since ev3dev-stretch, after another one: from where that was to end.
+            let base = motor.motion().and_then(Motion::relative_target).unwrap_or(from);
+            Some(End::Position { from, target: base.saturating_add(distance) })
         }
         _ => None,
     };
@@ -168,7 +185,8 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
 
 /// Writes a command, and remembers what it started: `None` if it stops.
 fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
-    let motion = end.map(|end| Motion { started: motor.tree().now(), end });
+    let is_relative = word == "run-to-rel-pos";
+    let motion = end.map(|end| Motion { started: motor.tree().now(), is_relative, end });
     if motion.is_some() {
         // Before the command: were we stopped in between, it would be one stop
         // too many rather than one too few.
@@ -304,31 +322,30 @@ fn start_moves(
         }
     }
     for (motor, plan) in motors.iter().zip(&plans) {
-        motor.write_number("position_sp", plan.distance)?;
+        motor.write_number("position_sp", plan.target)?;
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
     let mut ramps = Ramps(Vec::new());
     ramps.set(&motors, options)?;
-    let mut ends = plans.iter().map(|plan| End::Position {
-        from: plan.from,
-        target: plan.from.saturating_add(plan.distance),
-    });
-    start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
+    let mut ends = plans.iter().map(|plan| End::Position { from: plan.from, target: plan.target });
+    start_all(&motors, |motor| start(motor, "run-to-abs-pos", ends.next()))?;
     Ok(Some(motors))
 }
 
 /// A move in the kernel's units.
 struct Plan {
     from: i64,
-    distance: i64,
+    target: i64,
     speed: i64,
 }
 
 /// Converts a move; `None` if it is impossible.
 ///
 /// The kernel ignores the sign of `speed_sp` in position moves, so that of the
-/// speed goes into the distance.
+/// speed goes into the distance. The distance goes into an absolute target:
+/// where a relative one counts from depends on the kernel's release and on what
+/// the motor was told before (`tacho_motor_class.c`).
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -344,11 +361,22 @@ fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
     if counts.abs() > f64::from(i32::MAX) || counts.is_nan() {
         return Ok(None);
     }
-    Ok(Some(Plan {
-        from: motor.number("position")?,
-        distance: counts as i64 * speed.signum(),
-        speed: speed.abs(),
-    }))
+    let from = base(motor)?;
+    let target = from.saturating_add(counts as i64 * speed.signum());
+    // The kernel counts in 32 bits.
+    Ok(i32::try_from(target).is_ok().then_some(Plan { from, target, speed: speed.abs() }))
+}
+
+/// Where a move begins: where the motor is, or where it is held, so that many
+/// moves one after the other do not add up what each is off.
+fn base(motor: &Device) -> Result<i64> {
+    let position = motor.number("position")?;
+    let target = motor.motion().and_then(Motion::target);
+    let is_near = |target: &i64| target.abs_diff(position) <= TOLERANCE;
+    match target.filter(is_near) {
+        Some(target) if motor.with_word("state", |state| has(state, "holding"))? => Ok(target),
+        _ => Ok(position),
+    }
 }
 
 /// The ramps that the motors had before a move with its own. The command

@@ -37,7 +37,7 @@ const TICK: Duration = Duration::from_millis(10);
 
 /// How far from its target a motor may end a move, in tacho counts. The
 /// `BrickPi3` ends its moves within 10.
-const TOLERANCE: i64 = 10;
+pub(crate) const TOLERANCE: u64 = 10;
 
 /// Why a wait ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -288,12 +288,9 @@ impl<'a> Watch<'a> {
         Ok(match motion.end {
             End::Position { from, target } => {
                 let position = self.motor.number("position")?;
-                let missing = if target >= from {
-                    target.saturating_sub(position)
-                } else {
-                    position.saturating_sub(target)
-                };
-                missing <= TOLERANCE
+                let is_beyond =
+                    if target >= from { position >= target } else { position <= target };
+                is_beyond || target.abs_diff(position) <= TOLERANCE
             }
             End::Time(time) => now.saturating_add(TICK) >= motion.started.saturating_add(time),
             End::Never => false,
@@ -340,6 +337,6 @@ impl<'a> Watch<'a> {
 }
 
 /// Whether a flag is among those of a state.
-fn has(state: &str, flag: &str) -> bool {
+pub(crate) fn has(state: &str, flag: &str) -> bool {
     state.split_ascii_whitespace().any(|word| word == flag)
 }

@@ -478,6 +478,22 @@ fn a_wait_knows_the_end_of_a_command_that_was_given_by_hand() {
 }
 
 #[test]
+fn a_wait_knows_where_a_relative_command_counts_from() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    let all = motors(&devices, &["outA"]);
+    all[0].write("speed_sp", "500").unwrap();
+    for distance in ["300", "-300"] {
+        all[0].write("position_sp", distance).unwrap();
+        command(&all[0], "run-to-rel-pos").unwrap();
+        brick.pass(ms(200));
+    }
+    let reason = wait_for(&devices, &all, None, &mut brick.attentive()).unwrap();
+    assert_eq!(reason, Reason::Reached);
+    assert!(position(&brick, "outA").abs() <= 15, "back from under way");
+}
+
+#[test]
 fn absurd_positions_do_not_overflow() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").position = -9e18;
