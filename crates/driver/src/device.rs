@@ -43,8 +43,9 @@ pub struct Device {
     constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
-    /// Held while a sensor is put into a mode and read in it.
-    in_use: Mutex<()>,
+    /// Held while a sensor is put into a mode and read in it. When its values
+    /// will have settled in that mode; zero once they have.
+    in_use: Mutex<Duration>,
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -168,7 +169,7 @@ impl Device {
     }
 
     /// The lock on the sensor's mode, if nobody holds it.
-    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, ()>> {
+    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, Duration>> {
         match self.in_use.try_lock() {
             Ok(guard) => Some(guard),
             Err(std::sync::TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::value::Value;
 use crate::wait::sleep;
 use rustix::io::Errno;
-use std::sync::Arc;
+use std::sync::{Arc, MutexGuard};
 use std::time::Duration;
 
 /// How long values are unsettled after a change of mode, by LEGO's firmware.
@@ -65,16 +65,17 @@ pub fn read_all<const N: usize>(
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let guard = in_use(devices, sensor, interrupted)?;
+        let mut settled_at = in_use(devices, sensor, interrupted)?;
         sensor.check_present()?;
         if let Some(mode) = mode {
-            ensure_mode(devices, sensor, mode, interrupted)?;
+            ensure_mode(sensor, mode, &mut settled_at)?;
         }
+        settle(devices, &mut settled_at, interrupted)?;
         let mut values = [const { Value::Integer(0) }; N];
         for (value, index) in values.iter_mut().zip(indices) {
             *value = read_value(sensor, mode, index)?;
         }
-        drop(guard);
+        drop(settled_at);
         Ok(values)
     })
 }
@@ -91,8 +92,9 @@ pub fn set_mode(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let _guard = in_use(devices, sensor, interrupted)?;
-        ensure_mode(devices, sensor, mode, interrupted)
+        let mut settled_at = in_use(devices, sensor, interrupted)?;
+        ensure_mode(sensor, mode, &mut settled_at)?;
+        settle(devices, &mut settled_at, interrupted)
     })
 }
 
@@ -108,8 +110,9 @@ pub fn restart(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let _guard = in_use(devices, sensor, interrupted)?;
-        write_mode(devices, sensor, mode, interrupted)
+        let mut settled_at = in_use(devices, sensor, interrupted)?;
+        write_mode(sensor, mode, &mut settled_at)?;
+        settle(devices, &mut settled_at, interrupted)
     })
 }
 
@@ -151,28 +154,29 @@ pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     }
 }
 
-fn ensure_mode(
-    devices: &Devices,
-    sensor: &Device,
-    mode: &str,
-    interrupted: Interrupted,
-) -> Result<()> {
+fn ensure_mode(sensor: &Device, mode: &str, settled_at: &mut Duration) -> Result<()> {
     if sensor.with_word("mode", |present| present == mode)? {
         return Ok(());
     }
-    write_mode(devices, sensor, mode, interrupted)
+    write_mode(sensor, mode, settled_at)
 }
 
-fn write_mode(
-    devices: &Devices,
-    sensor: &Device,
-    mode: &str,
-    interrupted: Interrupted,
-) -> Result<()> {
+fn write_mode(sensor: &Device, mode: &str, settled_at: &mut Duration) -> Result<()> {
     sensor.write("mode", mode)?;
     let is_infrared = sensor.driver() == "lego-ev3-ir";
     let settling = if is_infrared { SETTLING_INFRARED } else { SETTLING };
-    sleep(devices, settling, interrupted)
+    *settled_at = sensor.tree().now().saturating_add(settling);
+    Ok(())
+}
+
+/// Waits until the values are those of the mode. Who is interrupted meanwhile
+/// leaves the rest of it to the next.
+fn settle(devices: &Devices, settled_at: &mut Duration, interrupted: Interrupted) -> Result<()> {
+    if !settled_at.is_zero() {
+        sleep(devices, settled_at.saturating_sub(devices.tree().now()), interrupted)?;
+        *settled_at = Duration::ZERO;
+    }
+    Ok(())
 }
 
 /// Waits for the sensor to be ours: another thread that wants it in another
@@ -181,7 +185,7 @@ fn in_use<'a>(
     devices: &Devices,
     sensor: &'a Device,
     interrupted: Interrupted,
-) -> Result<std::sync::MutexGuard<'a, ()>> {
+) -> Result<MutexGuard<'a, Duration>> {
     loop {
         match sensor.try_use() {
             Some(guard) => return Ok(guard),
@@ -217,7 +221,12 @@ fn patiently<T>(
                 Some(_) if error.errno() == Some(Errno::NOENT) => return Err(error),
                 Some(_) => *first_try.get_or_insert(now) + RETRY_FOR,
             },
+            // It introduces itself anew.
             Some(Errno::NXIO | Errno::BUSY | Errno::TIMEDOUT) => {
+                *first_try.get_or_insert(now) + RETRY_FOR
+            }
+            // Then it has no mode, and knows none.
+            Some(Errno::INVAL) if sensor.with_word("mode", str::is_empty).unwrap_or(false) => {
                 *first_try.get_or_insert(now) + RETRY_FOR
             }
             Some(Errno::ACCESS) => sensor.first_seen() + PERMISSIONS_WITHIN,
