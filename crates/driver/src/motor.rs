@@ -10,8 +10,9 @@
 use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::wait::{Reason, TOLERANCE, has, wait_for};
+use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -205,17 +206,28 @@ fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
 pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     let chosen = motor.write("stop_action", action.word());
     let stopped = start(motor, "stop", None);
-    chosen.and(stopped)
+    stopped.and(chosen)
 }
 
-/// Stops all of these motors, even where one of them fails.
+/// Stops a motor as [`stop`] does, and is content if it does not have that
+/// action but stops.
+fn stop_somehow(motor: &Device, action: StopAction) -> Result<()> {
+    let is_action_refused = |error: &Error| {
+        error.errno() == Some(Errno::INVAL)
+            && error.path().is_some_and(|path| path.ends_with("stop_action"))
+    };
+    stop(motor, action).or_else(|error| if is_action_refused(&error) { Ok(()) } else { Err(error) })
+}
+
+/// Stops all of these motors, even where one of them fails, or does not have
+/// that action.
 ///
 /// # Errors
 /// The first that occurred.
 pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     let mut result = Ok(());
     for motor in motors {
-        result = result.and(stop(motor, action));
+        result = result.and(stop_somehow(motor, action));
     }
     result
 }
@@ -229,7 +241,7 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
     let motors = devices.all(Class::TachoMotor)?;
     let mut result = Ok(());
     for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
-        let stopped = stop(motor, StopAction::Brake);
+        let stopped = stop_somehow(motor, StopAction::Brake);
         result = result.and(stopped.or_else(|e| if e.is_stale() { Ok(()) } else { Err(e) }));
     }
     result

@@ -392,6 +392,12 @@ fn a_motor_is_stopped_even_if_it_has_not_the_action_asked_for() {
     let stopped = stop(&all[0], StopAction::Brake);
     assert_eq!(stopped.unwrap_err().errno(), Some(Errno::INVAL));
     assert!(!is_powered(&brick, "outA"));
+    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    stop_all(&all, StopAction::Brake).unwrap();
+    assert!(!is_powered(&brick, "outA"));
+    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    stop_started(&devices).unwrap();
+    assert!(!is_powered(&brick, "outA"));
 }
 
 #[test]
