@@ -275,11 +275,16 @@ fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
     let Some(speeds) = possible else {
         return Ok(false);
     };
+    run_at(&motors, speeds)?;
+    Ok(true)
+}
+
+/// Runs motors at speeds in counts per second until they are stopped.
+pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i64>) -> Result<()> {
     for (motor, speed) in motors.iter().zip(speeds) {
         motor.write_number("speed_sp", speed)?;
     }
-    start_all(&motors, |motor| start(motor, "run-forever", Some(End::Never)))?;
-    Ok(true)
+    start_all(motors, |motor| start(motor, "run-forever", Some(End::Never)))
 }
 
 /// Turns motors by angles, all at once. `None` if one is absent, or the move

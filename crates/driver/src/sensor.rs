@@ -124,7 +124,9 @@ pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
     Ok(Value::scaled(raw, sensor.number("decimals")?))
 }
 
-fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
+/// Reads value `index` once, as it is now; the mode is that which the sensor is
+/// known to be in.
+pub(crate) fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
     let raw = raw_value(sensor, index)?;
     let decimals = match mode {
         Some(mode) => sensor.constant_in("decimals", mode)?,

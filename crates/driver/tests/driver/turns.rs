@@ -216,7 +216,8 @@ fn a_motor_replugged_under_way_does_not_go_on_turning() {
     brick.at(ms(900), |world| {
         world.plug_motor("outB");
     });
-    let _ = turned(&brick, &turn(20.0, 360.0, 2.2));
+    let error = turned(&brick, &turn(20.0, 360.0, 2.2)).unwrap_err();
+    assert!(matches!(error, Error::Gone { port, .. } if port == "outB"));
 }
 
 #[test]
