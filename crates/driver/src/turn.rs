@@ -100,7 +100,9 @@ pub fn by_gyro(
     let Some(start) = angle(devices, gyro, interrupted)? else {
         return Ok(None);
     };
-    let mut control = Control { devices, gyro, motors: &motors, turn, fastest, running: None };
+    let per_degree = counts_per_degree(&motors)? * turn.gearing;
+    let mut control =
+        Control { devices, gyro, motors: &motors, per_degree, fastest, running: None };
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
     let stopped = stop_all(&motors, StopAction::Brake);
     let ended = ended.and_then(|ended| stopped.map(|()| ended));
@@ -110,14 +112,14 @@ pub fn by_gyro(
 /// The robot's angle in degrees once the gyro can tell it; `None` where the
 /// gyro is gone.
 fn angle(devices: &Devices, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<Option<f64>> {
-    Ok(sensor::read(devices, gyro, Some(MODE), 0, interrupted)?.map(degrees))
+    Ok(sensor::read(devices, gyro, Some(MODE), 0, interrupted)?.as_ref().map(degrees))
 }
 
-fn degrees(angle: Value) -> f64 {
+fn degrees(angle: &Value) -> f64 {
     match angle {
         #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
-        Value::Integer(degrees) => degrees as f64,
-        Value::Float(degrees) => degrees,
+        Value::Integer(degrees) => *degrees as f64,
+        Value::Float(degrees) => *degrees,
         Value::Text(_) => f64::NAN,
     }
 }
@@ -135,11 +137,19 @@ fn fastest(motors: &[Arc<Device>], speed: Speed) -> Result<Option<f64>> {
     Ok(slowest.is_finite().then_some(slowest))
 }
 
+/// The wheels' tacho counts for a degree. Both are of one type.
+#[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
+fn counts_per_degree(motors: &[Arc<Device>]) -> Result<f64> {
+    let counts = motors.first().map(|motor| motor.constant("count_per_rot")).transpose()?;
+    Ok(counts.map_or(1.0, |counts| counts as f64 / 360.0))
+}
+
 struct Control<'a> {
     devices: &'a Devices,
     gyro: &'a Arc<Device>,
     motors: &'a [Arc<Device>],
-    turn: &'a Turn,
+    /// Tacho counts of a wheel for a degree of the robot.
+    per_degree: f64,
     /// The fastest speed of a wheel, in counts per second.
     fastest: f64,
     /// What the left wheel was last told to do.
@@ -210,7 +220,7 @@ impl Control<'_> {
     /// Turns the robot at a rate in degrees per second, clockwise positive; 0
     /// brakes. Writes nothing where nothing changes.
     fn run(&mut self, rate: f64) -> Result<()> {
-        let counts = (rate * self.turn.gearing).clamp(-self.fastest, self.fastest).round();
+        let counts = (rate * self.per_degree).clamp(-self.fastest, self.fastest).round();
         #[expect(clippy::cast_possible_truncation, reason = "clamped to a motor's speed")]
         let counts = counts as i64;
         if self.running == Some(counts) {
@@ -239,7 +249,7 @@ impl Control<'_> {
     /// The robot's angle. While it turns there is no time to wait for a gyro
     /// that has lost contact, and after that its angle would be another.
     fn angle(&self) -> Result<f64> {
-        sensor::read_value(self.gyro, Some(MODE), 0).map(degrees)
+        sensor::read_value(self.gyro, Some(MODE), 0).map(|angle| degrees(&angle))
     }
 
     /// The error with the device that is gone, where one is.
