@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog lint demo doc install clean distclean
+.PHONY: all setup build check check-rust check-prolog lint bench demo doc install clean distclean
 
 all: build
 
@@ -43,6 +43,9 @@ lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	$(SWIPL) -g main -t 'halt(1)' tests/lint.pl
+
+bench: build
+	@benches/run.py
 
 demo: build
 	@tools/demo.sh $(EXAMPLE)

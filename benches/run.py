@@ -154,8 +154,9 @@ def rust_worker(root):
     return Worker([str(WORK / "rust/release/ev3dev-bench")], root)
 
 
-def speeds(root, rounds):
-    """Median seconds of each job, by implementation."""
+def measure(root, rounds):
+    """Median seconds of each job, by implementation; the gap between two
+    wheels' commands; the share of CPU time while waiting."""
     prolog, python, rust = (prolog_worker(root), python_worker(root),
                             rust_worker(root))
     workers = {"pack": prolog, "paper": prolog, "python": python,
@@ -178,7 +179,7 @@ def speeds(root, rounds):
     waits = {name: prolog.ask(name, "wait", 1) for name in ("pack", "paper")}
     for worker in {id(w): w for w in workers.values() if w}.values():
         worker.close()
-    return result, gaps, waits
+    return {"seconds": result, "gap_seconds": gaps, "wait_cpu_share": waits}
 
 
 def growth(rounds):
@@ -246,20 +247,24 @@ def instructions(root):
 
 def table(results):
     names = ["pack", "paper", "python", "rust", "floor"]
-    print(f"\n{'microseconds a call':<20}" + "".join(f"{n:>10}" for n in names)
-          + f"{'paper/pack':>12}{'pack/floor':>12}")
-    for job, by_name in results["seconds"].items():
-        cells = "".join(f"{by_name[n] * 1e6:>10.2f}" if n in by_name
-                        else f"{'-':>10}" for n in names)
-        ratio = by_name["paper"] / by_name["pack"]
-        floor = (f"{by_name['pack'] / by_name['floor']:>12.2f}"
-                 if "floor" in by_name else f"{'-':>12}")
-        print(f"{job:<20}{cells}{ratio:>12.0f}{floor}")
-    gaps, waits = results["gap_seconds"], results["wait_cpu_share"]
-    print(f"\nbetween the commands of two wheels: "
-          + ", ".join(f"{n} {s * 1e6:.1f} us" for n, s in gaps.items()))
-    print("CPU time while waiting 2 s: "
-          + ", ".join(f"{n} {s * 100:.2f} %" for n, s in waits.items()))
+    for tree, measured in results["trees"].items():
+        title = f"us a call, tree {'on' if tree == 'disk' else 'in'} {tree}"
+        print(f"\n{title:<28}" + "".join(f"{n:>10}" for n in names)
+              + f"{'paper/pack':>12}{'pack/floor':>12}")
+        for job, by_name in measured["seconds"].items():
+            cells = "".join(f"{by_name[n] * 1e6:>10.2f}" if n in by_name
+                            else f"{'-':>10}" for n in names)
+            ratio = by_name["paper"] / by_name["pack"]
+            floor = (f"{by_name['pack'] / by_name['floor']:>12.2f}"
+                     if "floor" in by_name else f"{'-':>12}")
+            print(f"{job:<28}{cells}{ratio:>12.0f}{floor}")
+        print("between the commands of two wheels: " + ", ".join(
+            f"{n} {s * 1e6:.1f} us"
+            for n, s in measured["gap_seconds"].items()))
+        print("CPU time while waiting 2 s: " + ", ".join(
+            f"{n} {s * 100:.2f} %"
+            for n, s in measured["wait_cpu_share"].items()))
+    print()
     load = results["loading"]
     more = {key: load["library"][key] - load["bare"][key]
             for key in ("seconds", "kilobytes")}
@@ -277,22 +282,27 @@ def main():
     parser.add_argument("--rounds", type=int, default=21)
     parser.add_argument("--no-callgrind", action="store_true")
     options = parser.parse_args()
-    WORK.mkdir(parents=True, exist_ok=True)
-    root = memory() / "ev3dev-bench"
-    make_tree(root, 4)
-    seconds, gaps, waits = speeds(root, options.rounds)
-    results = {
-        "machine": platform.processor() or platform.machine(),
-        "rounds": options.rounds,
-        "seconds": seconds, "gap_seconds": gaps, "wait_cpu_share": waits,
-        "growth_seconds": growth(options.rounds),
-        "loading": loading(options.rounds),
-    }
+    trees = {"disk": WORK / "disk"}
+    if Path("/dev/shm").is_dir():
+        trees["memory"] = Path("/dev/shm") / f"ev3dev-bench-{os.getpid()}"
+    # The one path that is compiled into the rust worker
+    root = WORK / "tree"
+    results = {"machine": platform.processor() or platform.machine(),
+               "rounds": options.rounds, "trees": {}}
+    for name, tree in trees.items():
+        make_tree(tree, 4)
+        root.unlink(missing_ok=True)
+        root.symlink_to(tree)
+        results["trees"][name] = measure(root, options.rounds)
+    results["growth_seconds"] = growth(options.rounds)
+    results["loading"] = loading(options.rounds)
     if not options.no_callgrind and shutil.which("valgrind"):
         results["instructions"] = instructions(root)
-    shutil.rmtree(root)
+    for tree in trees.values():
+        shutil.rmtree(tree)
     table(results)
     (TOP / "benches/results.json").write_text(json.dumps(results, indent=2) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+//! How many simulated seconds pass in a second of wall time, with a program that polls.
+//!
+//! `cargo run --release -p ev3-sim --example speed`
+
+use std::time::{Duration, Instant};
+
+use ev3_sim::{Access, Descriptor, Machine, NodeId};
+
+const SIMULATED: Duration = Duration::from_secs(600);
+const POLL: Duration = Duration::from_millis(10);
+
+fn number(machine: &mut Machine, file: &mut Descriptor) -> i32 {
+    let mut buffer = [0; 32];
+    let length = file
+        .pread(machine, 0, &mut buffer)
+        .expect("the device stays plugged in");
+    let text = std::str::from_utf8(&buffer[..length]).unwrap_or("0");
+    text.trim().parse().unwrap_or(0)
+}
+
+fn drive(
+    machine: &mut Machine,
+    commands: [NodeId; 2],
+    speeds: [NodeId; 2],
+    left: &str,
+    right: &str,
+) {
+    for (node, speed) in speeds.into_iter().zip([left, right]) {
+        machine
+            .write(node, speed.as_bytes())
+            .expect("a legal speed");
+    }
+    for node in commands {
+        machine
+            .write(node, b"run-forever")
+            .expect("a legal command");
+    }
+}
+
+fn main() {
+    let mut machine = Machine::default();
+    let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
+    let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
+    let mut eyes = file(&machine, "lego-sensor/sensor0/value0");
+    let mut colour = file(&machine, "lego-sensor/sensor1/value0");
+    let mut gyro = file(&machine, "lego-sensor/sensor3/value0");
+    let mut state = file(&machine, "tacho-motor/motor1/state");
+    let node = |machine: &Machine, path: &str| open(machine, path, Access::WriteOnly);
+    let commands = ["tacho-motor/motor1/command", "tacho-motor/motor2/command"]
+        .map(|path| node(&machine, path));
+    let speeds = ["tacho-motor/motor1/speed_sp", "tacho-motor/motor2/speed_sp"]
+        .map(|path| node(&machine, path));
+
+    let start = Instant::now();
+    let mut turning = true;
+    while machine.now() < SIMULATED {
+        let near = number(&mut machine, &mut eyes) < 250;
+        number(&mut machine, &mut colour);
+        number(&mut machine, &mut gyro);
+        let mut text = [0; 64];
+        state
+            .pread(&mut machine, 0, &mut text)
+            .expect("the motor stays plugged in");
+        if near != turning {
+            turning = near;
+            let (left, right) = if near {
+                ("200", "-200")
+            } else {
+                ("500", "500")
+            };
+            drive(&mut machine, commands, speeds, left, right);
+        }
+        machine.step(POLL);
+    }
+    let wall = start.elapsed().as_secs_f64();
+    println!(
+        "{:.0} simulated seconds per wall second; {} collisions; ends at {:?}",
+        SIMULATED.as_secs_f64() / wall,
+        machine.trace().collision_count(),
+        machine.pose()
+    );
+}

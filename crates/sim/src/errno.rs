@@ -1,0 +1,66 @@
+//! The error numbers a driver answers with, as Linux numbers them (the same on ARM and x86).
+
+use std::fmt;
+
+/// An error number of the kernel, exactly as `read(2)`, `write(2)` or `open(2)` would set it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Errno(pub i32);
+
+macro_rules! errnos {
+    ($($name:ident = $number:literal, $words:literal;)*) => {
+        impl Errno {
+            $(#[doc = $words] pub const $name: Errno = Errno($number);)*
+
+            /// The symbol and the kernel's words, when this is a number that the simulator uses.
+            const fn describe(self) -> Option<(&'static str, &'static str)> {
+                match self.0 {
+                    $($number => Some((stringify!($name), $words)),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+errnos! {
+    EPERM = 1, "Operation not permitted";
+    ENOENT = 2, "No such file or directory";
+    ENXIO = 6, "No such device or address";
+    EACCES = 13, "Permission denied";
+    EBUSY = 16, "Device or resource busy";
+    ENODEV = 19, "No such device";
+    ENOTDIR = 20, "Not a directory";
+    EISDIR = 21, "Is a directory";
+    EINVAL = 22, "Invalid argument";
+    ERANGE = 34, "Numerical result out of range";
+    EOPNOTSUPP = 95, "Operation not supported";
+    ETIMEDOUT = 110, "Connection timed out";
+}
+
+impl Errno {
+    /// The symbol, such as `EINVAL`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self.describe() {
+            Some((name, _)) => name,
+            None => "errno",
+        }
+    }
+}
+
+impl fmt::Display for Errno {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.describe() {
+            Some((_, words)) => f.write_str(words),
+            None => write!(f, "error number {}", self.0),
+        }
+    }
+}
+
+impl fmt::Debug for Errno {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}({})", self.name(), self.0)
+    }
+}
+
+impl std::error::Error for Errno {}

@@ -1,0 +1,95 @@
+//! An ev3dev brick, its robot and the world around it, simulated.
+//!
+//! [`Machine`] owns everything: a file tree shaped like `/sys/class` of ev3dev-stretch, the
+//! drivers behind the files, motors with inertia and friction, a robot with two driven wheels, and
+//! a flat world with walls, boxes, coloured floors and lamps. It has no clock: time passes only in
+//! [`Machine::step`], in ticks of 2 ms, which is the period of the kernel's motor loop. The same
+//! seed and the same calls give the same bytes on every machine, however time is sliced: all
+//! arithmetic is integer or IEEE `f64`, and sines and cosines come from the `libm` crate.
+//!
+//! ```
+//! use std::time::Duration;
+//! use ev3_sim::{Access, Machine};
+//!
+//! let mut machine = Machine::default();
+//! machine.write_path("tacho-motor/motor1/speed_sp", "300").unwrap();
+//! machine.write_path("tacho-motor/motor1/command", "run-forever").unwrap();
+//! machine.step(Duration::from_secs(1));
+//! assert_eq!(machine.read_path("tacho-motor/motor1/state").unwrap(), "running\n");
+//! let motor = machine.open("tacho-motor/motor1/position", Access::ReadOnly).unwrap();
+//! let text = String::from_utf8(machine.read(motor).unwrap()).unwrap();
+//! assert!((250..300).contains(&text.trim().parse::<i32>().unwrap()), "{text}");
+//! ```
+//!
+//! A program's adapter (in the process, or FUSE) only translates; see [`Descriptor`] for what
+//! `pread` and `poll` do on an open file, and [`Written::blocks`] for calls that take their time.
+//! A [`Machine`] is a plain value: `clone` is a snapshot, assignment restores it.
+//!
+//! How the hardware behaves is told where it is modelled: motors in `motor`, sensors in
+//! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`.
+#![forbid(unsafe_code)]
+
+mod attr;
+mod brick;
+mod colour;
+mod dc;
+mod descriptor;
+mod drive;
+mod errno;
+mod files;
+#[cfg(feature = "fuse")]
+mod fuse;
+mod geometry;
+mod machine;
+mod map;
+mod motor;
+mod noise;
+mod obstacle;
+mod plugs;
+mod port;
+mod robot;
+mod scene;
+mod sense;
+mod sensor;
+mod shaft;
+mod shared;
+mod socket;
+mod svg;
+mod text;
+mod time;
+mod trace;
+mod tree;
+mod world;
+
+pub use attr::Access;
+pub use colour::{Colour, UnknownColour};
+pub use descriptor::Descriptor;
+pub use errno::Errno;
+#[cfg(feature = "fuse")]
+pub use fuse::{Mount, MountError};
+pub use geometry::Pose;
+pub use machine::{Machine, Options, Written};
+pub use motor::{MOTOR_KINDS, MotorKind};
+pub use noise::Noise;
+pub use port::{Port, UnknownPort};
+pub use robot::{Hull, MotorMount, RobotSpec, SensorMount, Wheel};
+pub use scene::ItemId;
+pub use sensor::{Link, SENSOR_KINDS, SensorKind};
+pub use shared::Shared;
+pub use trace::{Action, Collision, Event, Trace};
+pub use tree::{Entry, FileKind, NodeId, Stat};
+pub use world::{Bounds, Item, Point, SpecError, WorldSpec};
+
+/// One turn of the kernel's motor loop.
+const TICK_MS: u64 = 2;
+const TICK_US: u64 = TICK_MS * 1000;
+const TICK_SECONDS: f64 = 0.002;
+/// Kernel timers fire on a grid of 10 ms (HZ = 100).
+const JIFFY_TICKS: u64 = 5;
+/// The motor class looks at its flags every 50 ms.
+const NOTIFY_TICKS: u64 = 25;
+
+/// So many ticks are at least this long. Nothing is negative here.
+fn ticks_from_ms(ms: i32) -> u64 {
+    u64::from(ms.unsigned_abs()).div_ceil(TICK_MS)
+}

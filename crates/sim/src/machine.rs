@@ -1,0 +1,221 @@
+//! The whole: brick, robot and world, and what is true of them.
+//!
+//! What a program does with the files is in `files`, how wires come and go in `plugs`, how time
+//! passes in `time`.
+
+use std::time::Duration;
+
+use crate::brick::{Battery, Board, LEDS, Led};
+use crate::drive::Body;
+use crate::geometry::Pose;
+use crate::port::{LegoPort, Port};
+use crate::robot::RobotSpec;
+use crate::scene::{ItemId, Scene};
+use crate::shaft::Shaft;
+use crate::socket::{Plug, Socket};
+use crate::trace::{Collision, Trace};
+use crate::tree::{Hardware, Tree};
+use crate::world::{Item, SpecError, WorldSpec};
+
+/// How faithful a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Where noise starts from.
+    pub seed: u64,
+    /// A plug that is moved is noticed at once, its files are open at once, and a sensor changes
+    /// its mode at once and settled. Real bricks take their time: 0.4 s for a motor, 1.3 s for a
+    /// serial sensor, 0.5 s more for write permission, some ms for a mode.
+    pub instant: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            seed: 1,
+            instant: false,
+        }
+    }
+}
+
+/// What a successful write did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes taken: all of them.
+    pub length: usize,
+    /// The real call returns only after this time. There is no clock here to wait for, so an
+    /// adapter that has one lets so much time pass before it returns to its caller.
+    pub blocks: Duration,
+}
+
+/// A brick with its robot in its world. `clone` is a snapshot.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    pub(crate) options: Options,
+    pub(crate) now: Duration,
+    pub(crate) tick: u64,
+    pub(crate) tree: Tree,
+    pub(crate) sockets: Vec<Socket>,
+    pub(crate) shafts: [Shaft; 4],
+    pub(crate) battery: u64,
+    pub(crate) robot: RobotSpec,
+    pub(crate) body: Body,
+    pub(crate) scene: Scene,
+    pub(crate) trace: Trace,
+}
+
+impl Default for Machine {
+    /// The default robot in the room, without noise.
+    ///
+    /// # Panics
+    /// Never: the shipped world and robot are valid.
+    fn default() -> Self {
+        Machine::new(
+            &WorldSpec::room(),
+            &RobotSpec::default(),
+            Options::default(),
+        )
+        .expect("the shipped world and robot are valid")
+    }
+}
+
+impl Machine {
+    /// Boots a brick with everything plugged in, standing at the start of the world.
+    ///
+    /// # Errors
+    /// Names what is impossible in the world or the robot, or that the start is inside something.
+    pub fn new(
+        world: &WorldSpec,
+        robot: &RobotSpec,
+        options: Options,
+    ) -> Result<Machine, SpecError> {
+        robot.validate()?;
+        let scene = Scene::new(world)?;
+        let mut tree = Tree::new();
+        let lego_ports = Port::ALL.map(|port| tree.add(Hardware::Port(LegoPort::new(port)), 0));
+        for (name, brightness) in LEDS {
+            tree.add(Hardware::Led(Led::new(name, brightness)), 0);
+        }
+        let battery = tree.add(Hardware::Battery(Battery::new()), 0);
+        tree.add(Hardware::Board(Board), 0);
+        let socket = |(port, lego_port)| Socket {
+            port,
+            plug: None,
+            due: None,
+            device: None,
+            lego_port,
+            forced: None,
+        };
+        let mut machine = Machine {
+            options,
+            now: Duration::ZERO,
+            tick: 0,
+            tree,
+            sockets: Port::ALL.into_iter().zip(lego_ports).map(socket).collect(),
+            shafts: std::array::from_fn(|_| Shaft::new()),
+            battery,
+            robot: robot.clone(),
+            body: Body::new(robot, world.start),
+            scene,
+            trace: Trace::new(),
+        };
+        machine.check_free(&world.start)?;
+        for mount in &robot.motors {
+            machine.sockets[mount.port as usize].plug = Plug::named(&mount.driver, mount.port);
+        }
+        for mount in &robot.sensors {
+            machine.sockets[mount.port as usize].plug = Plug::named(&mount.driver, mount.port);
+        }
+        for port in Port::ALL {
+            if let Some(Plug::Motor(kind)) = machine.sockets[port as usize].plug {
+                machine.shafts[port.slot()].kind = kind;
+            }
+            machine.register(port, true);
+        }
+        machine.trace.tick(0, Duration::ZERO, world.start);
+        Ok(machine)
+    }
+
+    // ---- ground truth ---------------------------------------------------------------------
+
+    /// Where the robot really is. The heading is not reduced to a full turn.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.body.pose
+    }
+
+    /// Lifts the robot to another place, where it stands still. Its gyro does not notice.
+    ///
+    /// # Errors
+    /// If something is in the way there.
+    pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
+        if !pose.is_finite() {
+            return Err(SpecError::new("robot", "has a number that is not finite"));
+        }
+        self.check_free(&pose)?;
+        self.body.place(pose);
+        for port in [self.robot.left.port, self.robot.right.port] {
+            self.shafts[port.slot()].omega = 0.0;
+        }
+        Ok(())
+    }
+
+    fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
+        let Some(id) = self.scene.overlap(self.robot.hull, pose) else {
+            return Ok(());
+        };
+        let items = self.scene.items();
+        let item = items.iter().find(|(other, _)| *other == id);
+        let name = item.map_or_else(|| "bounds".to_owned(), |(_, item)| format!("{item:?}"));
+        Err(SpecError::new(
+            format!("robot at {}, {}", pose.x, pose.y),
+            format!("is inside {name}"),
+        ))
+    }
+
+    /// Everything in the world, with the numbers under which it can be removed.
+    #[must_use]
+    pub fn items(&self) -> &[(ItemId, Item)] {
+        self.scene.items()
+    }
+
+    /// Puts something into the world.
+    ///
+    /// # Errors
+    /// If the item is impossible, or the robot is where it should stand.
+    pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
+        let name = format!("{item:?}");
+        let id = self.scene.add(item)?;
+        if self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
+            self.scene.remove(id);
+            return Err(SpecError::new(name, "is where the robot stands"));
+        }
+        self.body.world_changed();
+        Ok(id)
+    }
+
+    /// Takes something out of the world; false if there is no such item.
+    pub fn remove_item(&mut self, id: ItemId) -> bool {
+        self.body.world_changed();
+        self.scene.remove(id)
+    }
+
+    /// The robot as it was given.
+    #[must_use]
+    pub fn robot(&self) -> &RobotSpec {
+        &self.robot
+    }
+
+    /// What happened so far.
+    #[must_use]
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    pub(crate) fn hit(&mut self, item: ItemId) {
+        self.trace.collision(Collision {
+            at: self.now,
+            item,
+            pose: self.body.pose,
+        });
+    }
+}

@@ -1,0 +1,156 @@
+//! The files of a tacho motor (section 2 of the reference sheet).
+
+use super::{Command, StopAction, Tacho};
+use crate::attr::{Attr, Effect, Table, text, uevent, write_uevent};
+use crate::errno::Errno;
+use crate::text::{strict_int, strict_int_in, word};
+
+const POLARITIES: [&str; 2] = ["normal", "inversed"];
+const LONGEST_RAMP_MS: i32 = 60_000;
+
+impl Tacho {
+    /// Physical numbers to the numbers in the files, and back.
+    fn sign(&self, value: i32) -> i32 {
+        if self.inversed {
+            value.wrapping_neg()
+        } else {
+            value
+        }
+    }
+}
+
+fn joined<T>(words: &[(&str, T)]) -> String {
+    words
+        .iter()
+        .map(|(word, _)| *word)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn chosen<T: Copy>(bytes: &[u8], words: &[(&str, T)]) -> Result<T, Errno> {
+    word(bytes, words.iter().map(|(word, _)| *word)).map(|index| words[index].1)
+}
+
+/// Stores a parsed number in a field.
+macro_rules! store {
+    ($motor:ident . $($field:ident).+ = $value:expr) => {{
+        $motor.$($field).+ = $value;
+        Ok(Effect::Done)
+    }};
+}
+
+impl Table for Tacho {
+    const ATTRS: &'static [Attr<Tacho>] = &[
+        Attr::ro("address", |m| text(m.port.address())),
+        Attr::wo("command", |m, bytes| {
+            m.command(chosen(bytes, &Command::WORDS)?);
+            Ok(Effect::Done)
+        }),
+        Attr::ro("commands", |_| text(joined(&Command::WORDS))),
+        Attr::ro("count_per_rot", |_| text(360)),
+        Attr::ro("driver_name", |m| text(m.kind.driver_name)),
+        Attr::ro("duty_cycle", |m| text(m.sign(m.duty))),
+        Attr::rw(
+            "duty_cycle_sp",
+            |m| text(m.sign(m.set.duty)),
+            |m, bytes| {
+                m.set.duty = m.sign(strict_int_in(bytes, -100, 100)?);
+                if m.last_command == Some(Command::RunDirect) {
+                    m.run_direct(m.set.duty);
+                }
+                Ok(Effect::Done)
+            },
+        ),
+        Attr::rw(
+            "hold_pid/Kd",
+            |m| text(m.hold_pid.kd),
+            |m, b| store!(m.hold_pid.kd = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "hold_pid/Ki",
+            |m| text(m.hold_pid.ki),
+            |m, b| store!(m.hold_pid.ki = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "hold_pid/Kp",
+            |m| text(m.hold_pid.kp),
+            |m, b| store!(m.hold_pid.kp = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::ro("max_speed", |m| text(m.kind.max_speed)),
+        Attr::rw(
+            "polarity",
+            |m| text(POLARITIES[usize::from(m.inversed)]),
+            |m, b| store!(m.inversed = word(b, POLARITIES.into_iter())? == 1),
+        ),
+        Attr::rw(
+            "position",
+            |m| text(m.sign(m.position())),
+            |m, bytes| {
+                let position = strict_int(bytes)?;
+                m.redefine_position(m.sign(position));
+                Ok(Effect::Done)
+            },
+        ),
+        Attr::rw(
+            "position_sp",
+            |m| text(m.sign(m.set.position)),
+            |m, b| store!(m.set.position = m.sign(strict_int(b)?)),
+        ),
+        Attr::rw(
+            "ramp_down_sp",
+            |m| text(m.set.ramp_down_ms),
+            |m, b| store!(m.set.ramp_down_ms = strict_int_in(b, 0, LONGEST_RAMP_MS)?),
+        ),
+        Attr::rw(
+            "ramp_up_sp",
+            |m| text(m.set.ramp_up_ms),
+            |m, b| store!(m.set.ramp_up_ms = strict_int_in(b, 0, LONGEST_RAMP_MS)?),
+        ),
+        Attr::ro("speed", |m| text(m.sign(m.speed))),
+        Attr::rw(
+            "speed_pid/Kd",
+            |m| text(m.speed_pid.kd),
+            |m, b| store!(m.speed_pid.kd = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "speed_pid/Ki",
+            |m| text(m.speed_pid.ki),
+            |m, b| store!(m.speed_pid.ki = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "speed_pid/Kp",
+            |m| text(m.speed_pid.kp),
+            |m, b| store!(m.speed_pid.kp = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "speed_sp",
+            |m| text(m.sign(m.set.speed)),
+            |m, bytes| {
+                let limit = m.kind.max_speed;
+                store!(m.set.speed = m.sign(strict_int_in(bytes, -limit, limit)?))
+            },
+        ),
+        Attr::ro("state", |m| text(m.state())),
+        Attr::rw(
+            "stop_action",
+            |m| {
+                let index = StopAction::WORDS
+                    .iter()
+                    .position(|(_, a)| *a == m.set.stop_action);
+                text(StopAction::WORDS[index.unwrap_or(0)].0)
+            },
+            |m, b| store!(m.set.stop_action = chosen(b, &StopAction::WORDS)?),
+        ),
+        Attr::ro("stop_actions", |_| text(joined(&StopAction::WORDS))),
+        Attr::rw(
+            "time_sp",
+            |m| text(m.set.time_ms),
+            |m, b| store!(m.set.time_ms = strict_int_in(b, 0, i32::MAX)?),
+        ),
+        Attr::rw(
+            "uevent",
+            |m| uevent(m.kind.driver_name, m.port.address()),
+            |_, b| write_uevent(b),
+        ),
+    ];
+}

@@ -1,0 +1,187 @@
+//! The tacho counter and the speed made from it.
+//!
+//! On the EV3 a co-processor counts and time-stamps the edges of two light barriers: 720 edges a
+//! turn, which the driver halves to counts (1 count = 1 degree). A stamp is also written every
+//! 50 ms without an edge. Speed is distance over time across the newest stamps, going back four
+//! at a time until 20 ms are covered, at most 64. So it lags, is coarse when slow, and takes
+//! about 200 ms to reach zero after the wheel has stopped.
+
+use crate::TICK_US;
+
+/// Room for the 64 steps back; a power of two.
+const RING: usize = 128;
+const STEP_BACK: usize = 4;
+const MOST_BACK: usize = 64;
+const WINDOW_US: u64 = 20_000;
+const IDLE_STAMP_US: u64 = 50_000;
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Stamp {
+    edges: i32,
+    at_us: u64,
+}
+
+/// The number of edges below an angle in degrees: two for each. A motor starts in the middle
+/// between two of them.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a shaft does not turn 10^15 times"
+)]
+fn edge(angle: f64) -> i64 {
+    libm::floor(angle * 2.0 + 0.5) as i64
+}
+
+/// A counter of edges with its newest time stamps.
+#[derive(Clone, Debug)]
+pub(crate) struct Encoder {
+    edges: i32,
+    stamps: Box<[Stamp; RING]>,
+    written: usize,
+    speed: i32,
+}
+
+impl Encoder {
+    pub(crate) fn new() -> Self {
+        let stamps = Box::new([Stamp::default(); RING]);
+        Encoder {
+            edges: 0,
+            stamps,
+            written: 1,
+            speed: 0,
+        }
+    }
+
+    /// Counts since boot, truncated towards zero as the driver's integer division does.
+    pub(crate) fn count(&self) -> i32 {
+        self.edges / 2
+    }
+
+    /// Counts per second.
+    pub(crate) fn speed(&self) -> i32 {
+        self.speed
+    }
+
+    /// Follows the shaft through one tick, from and to an angle in degrees.
+    pub(crate) fn turn(&mut self, from: f64, to: f64, tick_start_us: u64) {
+        let crossed = edge(to).wrapping_sub(edge(from));
+        if crossed != 0 {
+            self.stamp_edges(from, to, crossed, tick_start_us);
+        } else if tick_start_us + TICK_US >= self.newest(0).at_us + IDLE_STAMP_US {
+            self.push(tick_start_us + TICK_US);
+        } else {
+            return;
+        }
+        self.speed = self.measure();
+    }
+
+    /// Stamps each edge at the moment at which a shaft of even speed crosses it.
+    fn stamp_edges(&mut self, from: f64, to: f64, crossed: i64, start_us: u64) {
+        let upwards = crossed > 0;
+        for nth in 0..crossed.abs() {
+            let line = if upwards {
+                edge(from) + 1 + nth
+            } else {
+                edge(from) - nth
+            };
+            self.edges = self.edges.wrapping_add(if upwards { 1 } else { -1 });
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "a share of 2000 microseconds"
+            )]
+            let after_us = {
+                let share = ((line as f64 - 0.5) / 2.0 - from) / (to - from);
+                (share.clamp(0.0, 1.0) * TICK_US as f64) as u64
+            };
+            self.push(start_us + after_us);
+        }
+    }
+
+    fn push(&mut self, at_us: u64) {
+        self.stamps[self.written % RING] = Stamp {
+            edges: self.edges,
+            at_us,
+        };
+        self.written += 1;
+    }
+
+    fn newest(&self, back: usize) -> Stamp {
+        self.stamps[(self.written - 1 - back) % RING]
+    }
+
+    fn measure(&self) -> i32 {
+        let newest = self.newest(0);
+        let most = MOST_BACK.min(self.written - 1);
+        let mut back = STEP_BACK.min(most);
+        while back + STEP_BACK <= most && newest.at_us - self.newest(back).at_us < WINDOW_US {
+            back += STEP_BACK;
+        }
+        let oldest = self.newest(back);
+        let span = i64::try_from(newest.at_us - oldest.at_us).unwrap_or(i64::MAX);
+        if span == 0 {
+            return 0;
+        }
+        let edges = i64::from(newest.edges.wrapping_sub(oldest.edges));
+        i32::try_from(edges * 500_000 / span).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(
+        encoder: &mut Encoder,
+        ticks: std::ops::Range<u64>,
+        mut from: f64,
+        per_tick: f64,
+    ) -> f64 {
+        for tick in ticks {
+            encoder.turn(from, from + per_tick, tick * TICK_US);
+            from += per_tick;
+        }
+        from
+    }
+
+    #[test]
+    fn counts_are_degrees_and_speed_is_degrees_per_second() {
+        let mut encoder = Encoder::new();
+        run(&mut encoder, 0..500, 0.0, 1.0);
+        assert_eq!(encoder.count(), 500);
+        assert!(
+            (499..=501).contains(&encoder.speed()),
+            "{}",
+            encoder.speed()
+        );
+        run(&mut encoder, 500..1000, 500.0, -2.0);
+        assert_eq!(encoder.count(), -500);
+        assert!(
+            (-1001..=-999).contains(&encoder.speed()),
+            "{}",
+            encoder.speed()
+        );
+    }
+
+    #[test]
+    fn speed_freezes_then_falls_and_is_zero_200_ms_after_the_last_edge() {
+        let mut encoder = Encoder::new();
+        let end = run(&mut encoder, 0..500, 0.0, 1.0);
+        run(&mut encoder, 500..523, end, 0.0);
+        assert!(
+            encoder.speed() > 490,
+            "frozen for 50 ms: {}",
+            encoder.speed()
+        );
+        run(&mut encoder, 523..530, end, 0.0);
+        assert!(
+            (1..100).contains(&encoder.speed()),
+            "falling: {}",
+            encoder.speed()
+        );
+        run(&mut encoder, 530..590, end, 0.0);
+        assert!(encoder.speed() > 0, "still not zero at 180 ms");
+        run(&mut encoder, 590..605, end, 0.0);
+        assert_eq!(encoder.speed(), 0);
+    }
+}

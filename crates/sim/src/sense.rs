@@ -1,0 +1,197 @@
+//! What each sensor would measure, here and now.
+
+use crate::geometry::{Pose, Vec2, direction, length};
+use crate::noise::Source;
+use crate::scene::Scene;
+use crate::sensor::{Reading, Sense};
+
+/// The ultrasonic cone: this far to each side, in degrees, in so many rays.
+const SONAR_HALF_ANGLE: f64 = 15.0;
+const SONAR_RAYS: u32 = 13;
+/// Nearer than this the sensor cannot measure, farther it hears nothing, in cm.
+const SONAR_NEAR: f64 = 3.0;
+const SONAR_FAR: f64 = 255.0;
+/// Infrared proximity: a narrower cone, 100 % at 70 cm.
+const INFRARED_HALF_ANGLE: f64 = 8.0;
+const INFRARED_RAYS: u32 = 5;
+const INFRARED_FAR: f64 = 70.0;
+/// The colour sensor's spot on the floor has this radius, in cm.
+const SPOT: f64 = 0.4;
+/// How high lamps hang, in cm, and the distance at which their intensity is stated.
+const LAMP_HEIGHT: f64 = 30.0;
+const LAMP_DISTANCE: f64 = 100.0;
+/// A raw RGB part of white paper; the sensor is not calibrated.
+const RAW_WHITE: f64 = 420.0;
+/// What REF-RAW shows in the dark with its LED off.
+const RAW_DARK: f64 = 560.0;
+/// A bumper: half its width, and how far it gives way, in cm.
+const BUMPER_HALF: f64 = 4.0;
+const BUMPER_TRAVEL: f64 = 0.5;
+
+/// A look at the world through one sensor.
+pub(crate) struct View<'a> {
+    pub(crate) scene: &'a Scene,
+    /// Where the sensor is in the world and which way it looks.
+    pub(crate) pose: Pose,
+    /// Degrees since the last reset, for a gyro.
+    pub(crate) angle: f64,
+    /// Degrees per second, for a gyro.
+    pub(crate) rate: f64,
+    pub(crate) noise: Source,
+}
+
+impl View<'_> {
+    /// The values of a mode.
+    pub(crate) fn measure(&mut self, sense: Sense) -> Reading {
+        let mut reading = [0; 8];
+        match sense {
+            Sense::Reflection => reading[0] = self.percent(View::reflection),
+            Sense::Ambient => reading[0] = self.percent(View::light),
+            Sense::Colour => reading[0] = self.colour_code(),
+            Sense::ReflectionRaw => {
+                let dark = RAW_DARK - 3.0 * self.light();
+                let lit = dark - self.reflection() * 4.0;
+                reading[0] = whole(self.noise.disturb(lit).clamp(0.0, 1023.0));
+                reading[1] = whole(dark.clamp(0.0, 1023.0));
+            }
+            Sense::Rgb => {
+                for (value, part) in reading.iter_mut().zip(self.spot()) {
+                    let raw = self.noise.disturb(part / 235.0 * RAW_WHITE);
+                    *value = whole(raw.clamp(0.0, 1023.0));
+                }
+            }
+            Sense::Distance { inches, .. } => reading[0] = self.distance(inches),
+            Sense::Angle => reading[0] = self.gyro_angle(),
+            Sense::Rate => reading[0] = self.gyro_rate(1.0, 440.0),
+            Sense::FineRate => reading[0] = self.gyro_rate(10.0 / 3.0, 1464.0),
+            Sense::AngleAndRate => {
+                reading[0] = self.gyro_angle();
+                reading[1] = self.gyro_rate(1.0, 440.0);
+            }
+            Sense::Proximity => reading[0] = self.percent(View::proximity),
+            // No beacon: heading 0, distance −128, on each of the four channels.
+            Sense::Seek => reading = [0, -128, 0, -128, 0, -128, 0, -128],
+            Sense::RemoteBits => reading[0] = 384,
+            Sense::Touch => reading[0] = i32::from(self.pressed()),
+            Sense::Volts => reading[0] = if self.pressed() { 5000 } else { 0 },
+            Sense::Nothing => {}
+        }
+        reading
+    }
+
+    fn percent(&mut self, measure: impl Fn(&Self) -> f64) -> i32 {
+        let value = measure(self);
+        whole(self.noise.disturb(value).clamp(0.0, 100.0))
+    }
+
+    /// Red, green and blue of the floor, 0–255, averaged over the sensor's spot.
+    fn spot(&self) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        let ring = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+        let diagonal = [(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
+        for (x, y) in ring.into_iter().chain(diagonal) {
+            let colour = self
+                .scene
+                .colour_at(self.pose.point() + Vec2::new(x, y) * SPOT);
+            sum[0] += f64::from(colour.red);
+            sum[1] += f64::from(colour.green);
+            sum[2] += f64::from(colour.blue);
+        }
+        sum.map(|part| part / 9.0)
+    }
+
+    /// Per cent of the red LED's light that comes back.
+    fn reflection(&self) -> f64 {
+        self.spot()[0] / 2.55
+    }
+
+    fn colour_code(&mut self) -> i32 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped to a byte"
+        )]
+        let [red, green, blue] = self
+            .spot()
+            .map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
+        crate::colour::Colour { red, green, blue }.code()
+    }
+
+    /// Light from all around, and from each lamp that is not in a shadow: it falls with the
+    /// square of the distance and with the cosine of the angle at which it comes in.
+    fn light(&self) -> f64 {
+        let here = self.pose.point();
+        let ahead = direction(self.pose.heading);
+        let full = LAMP_DISTANCE * LAMP_DISTANCE + LAMP_HEIGHT * LAMP_HEIGHT;
+        let mut light = self.scene.ambient;
+        for (lamp, intensity) in self.scene.lamps() {
+            let way = lamp - here;
+            let distance = length(way);
+            let facing = if distance < 1e-9 {
+                1.0
+            } else {
+                way.dot(&ahead) / distance
+            };
+            if facing > 0.0 && self.scene.clear_between(here, lamp) {
+                let square = distance * distance + LAMP_HEIGHT * LAMP_HEIGHT;
+                light += intensity * facing * full / square;
+            }
+        }
+        light
+    }
+
+    /// The nearest thing in a cone, if there is one.
+    fn cone(&self, half_angle: f64, rays: u32, far: f64) -> Option<f64> {
+        let here = self.pose.point();
+        let step = 2.0 * half_angle / f64::from(rays - 1);
+        let mut nearest = None;
+        let mut limit = far;
+        for ray in 0..rays {
+            let heading = self.pose.heading - half_angle + step * f64::from(ray);
+            if let Some(distance) = self.scene.cast(here, direction(heading), limit) {
+                limit = distance;
+                nearest = Some(distance);
+            }
+        }
+        nearest
+    }
+
+    fn distance(&mut self, inches: bool) -> i32 {
+        let (unit, out_of_range) = if inches { (2.54, 1003) } else { (1.0, 2550) };
+        let Some(distance) = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR) else {
+            return out_of_range;
+        };
+        let heard = self.noise.disturb(distance).clamp(SONAR_NEAR, SONAR_FAR);
+        whole(heard / unit * 10.0).min(out_of_range)
+    }
+
+    fn proximity(&self) -> f64 {
+        let distance = self.cone(INFRARED_HALF_ANGLE, INFRARED_RAYS, INFRARED_FAR);
+        distance.unwrap_or(INFRARED_FAR) / INFRARED_FAR * 100.0
+    }
+
+    fn gyro_angle(&mut self) -> i32 {
+        // The bias of a gyro is its drift and already in the angle.
+        let jitter = self.noise.jitter();
+        whole(self.angle + jitter)
+    }
+
+    fn gyro_rate(&mut self, per_degree: f64, most: f64) -> i32 {
+        let jitter = self.noise.jitter();
+        whole(((self.rate + jitter) * per_degree).clamp(-most, most))
+    }
+
+    fn pressed(&self) -> bool {
+        let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
+        self.scene
+            .near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "saturates; sensors' numbers are small"
+)]
+fn whole(value: f64) -> i32 {
+    libm::round(value) as i32
+}

@@ -1,0 +1,70 @@
+//! The files of a sensor (section 5.1 of the reference sheet).
+
+use super::Sensor;
+use crate::attr::{Attr, Table, text, uevent, write_uevent};
+use crate::errno::Errno;
+use crate::text::word;
+
+macro_rules! value {
+    ($name:literal, $index:literal) => {
+        Attr::ro($name, |s: &Sensor| text(s.value($index)?)).measured()
+    };
+}
+
+impl Table for Sensor {
+    const ATTRS: &'static [Attr<Sensor>] = &[
+        Attr::ro("address", |s| text(s.port.address())),
+        Attr::ro("bin_data", |s: &Sensor| Ok(s.bin_data()))
+            .size(32)
+            .measured(),
+        Attr::ro("bin_data_format", |s| text(s.mode().format.name())),
+        // No sensor of the EV3 sets has commands; then the list is a lone newline.
+        Attr::wo("command", |_, _| Err(Errno::EINVAL)),
+        Attr::ro("commands", |_| text("")),
+        Attr::ro("decimals", |s| text(s.mode().decimals)),
+        Attr::rw("direct", |_| Err(Errno::EOPNOTSUPP), Sensor::direct).size(255),
+        Attr::ro("driver_name", |s| text(s.kind.driver_name)),
+        Attr::ro("fw_version", |_| text("")),
+        Attr::rw(
+            "mode",
+            |s| {
+                text(if s.out_of_contact() {
+                    ""
+                } else {
+                    s.mode().name
+                })
+            },
+            |s, bytes| s.select(word(bytes, s.kind.modes())?),
+        ),
+        Attr::ro("modes", |s| {
+            text(s.kind.modes().collect::<Vec<_>>().join(" "))
+        }),
+        Attr::ro("num_values", |s| {
+            text(if s.out_of_contact() {
+                0
+            } else {
+                s.mode().values
+            })
+        }),
+        Attr::rw(
+            "poll_ms",
+            |_| Err(Errno::EOPNOTSUPP),
+            |_, _| Err(Errno::EOPNOTSUPP),
+        ),
+        Attr::ro("text_value", |_| Err(Errno::EOPNOTSUPP)),
+        Attr::rw(
+            "uevent",
+            |s| uevent(s.kind.driver_name, s.port.address()),
+            |_, bytes| write_uevent(bytes),
+        ),
+        Attr::ro("units", |s| text(s.mode().units)),
+        value!("value0", 0),
+        value!("value1", 1),
+        value!("value2", 2),
+        value!("value3", 3),
+        value!("value4", 4),
+        value!("value5", 5),
+        value!("value6", 6),
+        value!("value7", 7),
+    ];
+}

@@ -1,0 +1,293 @@
+//! Sensors: what stands between a measurement and the files of `lego-sensor`.
+//!
+//! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
+//! arrive, everything shows the old one; for the settling time after that the numbers are still
+//! those that the new mode showed last, if it was ever read. An analog sensor has none of this. What a sensor sees is not decided
+//! here: [`crate::sense`] looks at the world and hands in [`Reading`]s.
+
+mod attrs;
+mod kind;
+
+pub use kind::{Link, SENSOR_KINDS, SensorKind};
+pub(crate) use kind::{Mode, Sense};
+
+use std::time::Duration;
+
+use crate::attr::Effect;
+use crate::errno::Errno;
+use crate::port::Port;
+use crate::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
+
+/// From a mode message to the first data of the new mode.
+const MODE_LATENCY_MS: i32 = 4;
+/// From the registration of a serial sensor to its first data, when plugging takes its time.
+const FIRST_DATA_MS: i32 = 20;
+/// Ultrasonic single shots must be this far apart, else the sensor locks up.
+const SINGLE_SHOT_MS: i32 = 250;
+/// More than six keep-alive intervals without an answer: contact is lost.
+const MUTE_MS: i32 = 700;
+/// Going back to 2400 baud and introducing oneself again.
+const RESYNC_MS: i32 = 500;
+
+/// What a sensor measured, in whole numbers as the files show them.
+pub(crate) type Reading = [i32; 8];
+
+/// A sensor as the driver sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensor {
+    pub(crate) kind: &'static SensorKind,
+    port: Port,
+    mode: usize,
+    pending: Option<(usize, u64)>,
+    instant: bool,
+    settled_at: u64,
+    first_data_at: u64,
+    mode_since: u64,
+    lost_until: u64,
+    locked: bool,
+    last_single_shot: Option<u64>,
+    single_shot_wanted: bool,
+    reading: Reading,
+    /// What each mode measured last: shown again until the mode has settled.
+    left_over: Vec<Option<Reading>>,
+    /// Tick of the reading; the world need not be looked at twice in one tick.
+    read_at: Option<u64>,
+    now: u64,
+    /// Degrees since the last reset, clockwise.
+    pub(crate) angle: f64,
+    /// Degrees per second, clockwise.
+    pub(crate) rate: f64,
+    pub(crate) events: u32,
+}
+
+impl Sensor {
+    /// A sensor just registered. `instant` leaves every waiting time out.
+    pub(crate) fn new(
+        kind: &'static SensorKind,
+        port: Port,
+        now: u64,
+        instant: bool,
+        at_boot: bool,
+    ) -> Self {
+        let warm = instant || at_boot || kind.link == Link::Analog;
+        let first_data_at = if warm {
+            now
+        } else {
+            now + ticks_from_ms(FIRST_DATA_MS)
+        };
+        Sensor {
+            kind,
+            port,
+            mode: 0,
+            pending: None,
+            instant,
+            settled_at: first_data_at,
+            first_data_at,
+            mode_since: now,
+            lost_until: 0,
+            locked: false,
+            last_single_shot: None,
+            single_shot_wanted: false,
+            reading: [0; 8],
+            left_over: vec![None; kind.modes.len()],
+            read_at: None,
+            now,
+            angle: 0.0,
+            rate: 0.0,
+            events: 0,
+        }
+    }
+
+    pub(crate) fn port(&self) -> Port {
+        self.port
+    }
+
+    pub(crate) fn is_gyro(&self) -> bool {
+        self.kind.driver_name == "lego-ev3-gyro"
+    }
+
+    /// True if it is sampled on the 10 ms grid rather than when it is read.
+    pub(crate) fn is_sampled(&self) -> bool {
+        self.kind.link == Link::Analog
+    }
+
+    pub(crate) fn mode(&self) -> &'static Mode {
+        &self.kind.modes[self.mode]
+    }
+
+    /// True while the line to the sensor is down and being brought up again.
+    fn out_of_contact(&self) -> bool {
+        self.now < self.lost_until
+    }
+
+    fn has_data(&self) -> bool {
+        !self.out_of_contact() && self.now >= self.first_data_at
+    }
+
+    /// Cuts the line for so many ticks: the sensor has to introduce itself again.
+    pub(crate) fn lose_contact(&mut self, ticks: u64) {
+        self.pending = None;
+        self.lost_until = self.now + ticks;
+        self.first_data_at = self.lost_until;
+        self.settled_at = self.lost_until;
+        self.mode_since = self.lost_until;
+    }
+
+    /// The next tick at which something happens by itself.
+    pub(crate) fn next_event(&self) -> Option<u64> {
+        let due = [
+            self.pending.map(|(_, due)| due),
+            Some(self.settled_at),
+            Some(self.lost_until),
+        ];
+        due.into_iter()
+            .flatten()
+            .filter(|tick| *tick > self.now)
+            .min()
+    }
+
+    // ---- time -----------------------------------------------------------------------------
+
+    /// One tick. `rate` is how fast the robot turns, in degrees per second.
+    pub(crate) fn tick(&mut self, now: u64, rate: f64) {
+        self.now = now;
+        self.rate = rate.clamp(-440.0, 440.0);
+        #[expect(clippy::cast_precision_loss, reason = "two milliseconds")]
+        let seconds = TICK_MS as f64 / 1000.0;
+        self.angle = (self.angle + self.rate * seconds).clamp(-32768.0, 32767.0);
+        if let Some((mode, due)) = self.pending {
+            if due <= now {
+                self.enter(mode);
+            }
+        }
+        if self.mode().mute && now >= self.mode_since + ticks_from_ms(MUTE_MS) {
+            self.lose_contact(ticks_from_ms(RESYNC_MS));
+        }
+    }
+
+    /// The first data of a mode have come. They may be stale; a gyro starts anew.
+    fn enter(&mut self, mode: usize) {
+        self.pending = None;
+        if self.read_at.take().is_some() && !self.is_gyro() {
+            self.left_over[self.mode] = Some(self.reading);
+        }
+        self.mode = mode;
+        self.mode_since = self.now;
+        self.angle = 0.0;
+        self.single_shot_wanted = self.measures_once();
+        self.settled_at = self.now;
+        if let Some(stale) = self.left_over[mode].filter(|_| !self.instant && !self.measures_once())
+        {
+            self.reading = stale;
+            self.settled_at += u64::from(self.kind.settling_ms).div_ceil(TICK_MS);
+        }
+    }
+
+    // ---- values ---------------------------------------------------------------------------
+
+    /// True if the world should be looked at before the values are read: they are not fresh, and
+    /// not still left over from the last time in this mode.
+    pub(crate) fn wants_reading(&self) -> bool {
+        let stale = self.read_at != Some(self.now) && self.now >= self.settled_at;
+        let single = self.measures_once();
+        stale && self.has_data() && (!single || self.single_shot_wanted)
+    }
+
+    fn measures_once(&self) -> bool {
+        matches!(self.mode().sense, Sense::Distance { single: true, .. })
+    }
+
+    /// Takes a measurement over. A changed touch sensor wakes those who poll `value0`.
+    pub(crate) fn take(&mut self, reading: Reading) {
+        let mode = self.mode();
+        let old = self.reading[0];
+        for (index, value) in reading.into_iter().enumerate() {
+            self.reading[index] = mode.format.fit(value);
+        }
+        self.read_at = Some(self.now);
+        self.single_shot_wanted = false;
+        if mode.sense == Sense::Touch && old != self.reading[0] {
+            self.events = self.events.wrapping_add(1);
+        }
+    }
+
+    /// True at the sampling times of a sensor that is sampled.
+    pub(crate) fn samples_now(&self) -> bool {
+        self.is_sampled() && self.now % JIFFY_TICKS == 0
+    }
+
+    fn value(&self, index: usize) -> Result<i32, Errno> {
+        if self.has_data() && index < self.mode().values {
+            Ok(self.mode().format.fit(self.reading[index]))
+        } else {
+            Err(Errno::ENXIO)
+        }
+    }
+
+    /// 32 bytes whatever the mode.
+    fn bin_data(&self) -> Vec<u8> {
+        let mut data = vec![0; 32];
+        let width = self.mode().format.bytes();
+        for (index, value) in self.reading.iter().take(self.mode().values).enumerate() {
+            let bytes = value.to_le_bytes();
+            data[index * width..(index + 1) * width].copy_from_slice(&bytes[..width]);
+        }
+        data
+    }
+
+    // ---- writes ---------------------------------------------------------------------------
+
+    /// A write to `mode`, also of the present mode: a select message goes out.
+    fn select(&mut self, mode: usize) -> Result<Effect, Errno> {
+        if self.kind.link == Link::Analog {
+            self.mode = mode;
+            self.read_at = None;
+            return Ok(Effect::Done);
+        }
+        if self.out_of_contact() {
+            return Err(Errno::ENODEV);
+        }
+        if self.locked {
+            return Err(Errno::ETIMEDOUT);
+        }
+        if self.pending.is_some() || self.now < self.first_data_at {
+            return Err(Errno::EBUSY);
+        }
+        if matches!(
+            self.kind.modes[mode].sense,
+            Sense::Distance { single: true, .. }
+        ) {
+            let ready = self
+                .last_single_shot
+                .map(|at| at + ticks_from_ms(SINGLE_SHOT_MS));
+            if !self.instant && ready.is_some_and(|ready| self.now < ready) {
+                self.locked = true;
+                return Err(Errno::ETIMEDOUT);
+            }
+            self.last_single_shot = Some(self.now);
+        }
+        if self.instant {
+            self.enter(mode);
+            return Ok(Effect::Done);
+        }
+        self.pending = Some((mode, self.now + ticks_from_ms(MODE_LATENCY_MS)));
+        Ok(Effect::Blocks(Duration::from_millis(
+            MODE_LATENCY_MS.unsigned_abs().into(),
+        )))
+    }
+
+    /// A message to the sensor itself. The one that does something: 0x11 zeroes the gyro's angle.
+    fn direct(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
+        if self.kind.link == Link::Analog {
+            return Err(Errno::EOPNOTSUPP);
+        }
+        if bytes.len() > 32 {
+            return Err(Errno::EINVAL);
+        }
+        if self.mode().sense == Sense::Angle && bytes.first() == Some(&0x11) {
+            self.angle = 0.0;
+            self.read_at = None;
+        }
+        Ok(Effect::Done)
+    }
+}

@@ -1,0 +1,125 @@
+//! What happened: the way of the robot, collisions, commands and readings. Memory stays bounded
+//! however long a run is.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use crate::geometry::Pose;
+use crate::scene::ItemId;
+
+const PATH_POINTS: usize = 2048;
+const EVENTS: usize = 4096;
+const COLLISIONS: usize = 256;
+/// At first a point of the path is kept every 100 ms.
+const FIRST_SPACING_TICKS: u64 = 50;
+
+/// The robot ran into something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collision {
+    /// Virtual time.
+    pub at: Duration,
+    /// What it ran into.
+    pub item: ItemId,
+    /// Where the robot was.
+    pub pose: Pose,
+}
+
+/// What a program did to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// It wrote the text.
+    Written,
+    /// It read the text: recorded for the values of sensors.
+    Read,
+}
+
+/// One access to a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Virtual time.
+    pub at: Duration,
+    /// Read or written.
+    pub action: Action,
+    /// Path below the class directory.
+    pub path: String,
+    /// The text, without the newline at its end.
+    pub text: String,
+}
+
+/// The record of a run.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    path: Vec<(Duration, Pose)>,
+    spacing: u64,
+    events: VecDeque<Event>,
+    collisions: VecDeque<Collision>,
+    collision_count: u32,
+}
+
+impl Trace {
+    pub(crate) fn new() -> Trace {
+        Trace {
+            path: Vec::new(),
+            spacing: FIRST_SPACING_TICKS,
+            events: VecDeque::new(),
+            collisions: VecDeque::new(),
+            collision_count: 0,
+        }
+    }
+
+    /// The way of the robot from the start, oldest first. On long runs points are farther apart.
+    #[must_use]
+    pub fn path(&self) -> &[(Duration, Pose)] {
+        &self.path
+    }
+
+    /// The newest accesses to files, oldest first.
+    pub fn events(&self) -> impl Iterator<Item = &Event> {
+        self.events.iter()
+    }
+
+    /// The newest collisions, oldest first.
+    pub fn collisions(&self) -> impl Iterator<Item = &Collision> {
+        self.collisions.iter()
+    }
+
+    /// How many collisions there were in all.
+    #[must_use]
+    pub fn collision_count(&self) -> u32 {
+        self.collision_count
+    }
+
+    pub(crate) fn tick(&mut self, tick: u64, at: Duration, pose: Pose) {
+        if tick % self.spacing != 0 {
+            return;
+        }
+        let still = |(_, old): &(Duration, Pose)| *old == pose;
+        if self.path.len() >= 2 && self.path[self.path.len() - 2..].iter().all(still) {
+            self.path.pop();
+        }
+        self.path.push((at, pose));
+        if self.path.len() >= PATH_POINTS {
+            let mut index = 0;
+            self.path.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.spacing *= 2;
+        }
+    }
+
+    pub(crate) fn event(&mut self, event: Event) {
+        if self.events.len() == EVENTS {
+            self.events.pop_front();
+        }
+        self.events.push_back(event);
+    }
+
+    pub(crate) fn collision(&mut self, collision: Collision) {
+        self.collision_count = self.collision_count.saturating_add(1);
+        if self.collisions.len() == COLLISIONS {
+            self.collisions.pop_front();
+        }
+        self.collisions.push_back(collision);
+    }
+}

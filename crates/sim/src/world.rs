@@ -1,0 +1,275 @@
+//! What stands and lies in a world, as plain data: the vocabulary of world files.
+
+use crate::colour::Colour;
+use crate::geometry::Pose;
+
+/// A point in cm.
+pub type Point = [f64; 2];
+
+/// One thing in the world. Lengths in cm, headings in degrees clockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// A wall from a point to another.
+    Wall {
+        /// One end.
+        from: Point,
+        /// The other end.
+        to: Point,
+        /// How thick it is, centred on the line between the ends.
+        thickness: f64,
+    },
+    /// A box.
+    Box {
+        /// Centre and direction of its depth.
+        pose: Pose,
+        /// Extent across its heading.
+        width: f64,
+        /// Extent along its heading.
+        depth: f64,
+    },
+    /// A round thing.
+    Circle {
+        /// Centre.
+        centre: Point,
+        /// Radius.
+        radius: f64,
+    },
+    /// A coloured polygon on the floor. Later patches and lines cover earlier ones.
+    Patch {
+        /// At least three corners, in order.
+        corners: Vec<Point>,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A line on the floor, with round ends and joints.
+    Line {
+        /// At least two points.
+        points: Vec<Point>,
+        /// How wide it is.
+        width: f64,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A lamp, 30 cm above the floor.
+    Lamp {
+        /// Where it hangs.
+        at: Point,
+        /// The percentage that a colour sensor in COL-AMBIENT reads when it looks at the lamp
+        /// from 100 cm. It falls with the square of the distance: of 12 there is left about 100
+        /// at 20 cm, 40 at 50 cm, 3 at 200 cm.
+        intensity: f64,
+    },
+}
+
+impl Item {
+    /// A wall of the usual thickness, 1 cm.
+    #[must_use]
+    pub const fn wall(from: Point, to: Point) -> Item {
+        Item::Wall {
+            from,
+            to,
+            thickness: 1.0,
+        }
+    }
+
+    /// A coloured rectangle on the floor from one corner to the opposite one.
+    #[must_use]
+    pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, colour: Colour) -> Item {
+        Item::Patch {
+            corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]],
+            colour,
+        }
+    }
+
+    /// The word for it in error messages.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Item::Wall { .. } => "wall",
+            Item::Box { .. } => "box",
+            Item::Circle { .. } => "circle",
+            Item::Patch { .. } => "patch",
+            Item::Line { .. } => "line",
+            Item::Lamp { .. } => "lamp",
+        }
+    }
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the item and what is impossible about it.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let fault = match self {
+            Item::Wall {
+                from,
+                to,
+                thickness,
+            } => first_fault([
+                (finite(&[*from, *to]), NOT_FINITE),
+                (
+                    positive(libm::hypot(to[0] - from[0], to[1] - from[1])),
+                    "has no length",
+                ),
+                (positive(*thickness), "needs a thickness above 0"),
+            ]),
+            Item::Box { pose, width, depth } => first_fault([
+                (pose.is_finite(), NOT_FINITE),
+                (
+                    positive(*width) && positive(*depth),
+                    "needs a width and a depth above 0",
+                ),
+            ]),
+            Item::Circle { centre, radius } => first_fault([
+                (finite(&[*centre]), NOT_FINITE),
+                (positive(*radius), "needs a radius above 0"),
+            ]),
+            Item::Patch { corners, .. } => first_fault([
+                (finite(corners), NOT_FINITE),
+                (corners.len() >= 3, "needs at least three corners"),
+            ]),
+            Item::Line { points, width, .. } => first_fault([
+                (finite(points), NOT_FINITE),
+                (
+                    positive(*width) && points.len() >= 2,
+                    "needs two points and a width above 0",
+                ),
+            ]),
+            Item::Lamp { at, intensity } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                (
+                    intensity.is_finite() && *intensity >= 0.0,
+                    "needs an intensity of 0 or more",
+                ),
+            ]),
+        };
+        match fault {
+            Some(reason) => Err(SpecError::new(format!("{} {self:?}", self.kind()), reason)),
+            None => Ok(()),
+        }
+    }
+}
+
+const NOT_FINITE: &str = "has a number that is not finite";
+
+fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'static str> {
+    checks
+        .into_iter()
+        .find(|(fine, _)| !fine)
+        .map(|(_, reason)| reason)
+}
+
+fn finite(points: &[Point]) -> bool {
+    points.iter().flatten().all(|number| number.is_finite())
+}
+
+fn positive(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+/// What is impossible in a world or a robot.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{item}: {reason}")]
+pub struct SpecError {
+    /// The offending item, by kind and content.
+    pub item: String,
+    /// What is wrong with it.
+    pub reason: String,
+}
+
+impl SpecError {
+    pub(crate) fn new(item: impl Into<String>, reason: impl Into<String>) -> Self {
+        SpecError {
+            item: item.into(),
+            reason: reason.into(),
+        }
+    }
+}
+
+/// A rectangle with walls around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub low: Point,
+    /// Upper right corner.
+    pub high: Point,
+}
+
+/// A world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldSpec {
+    /// Everything in it.
+    pub items: Vec<Item>,
+    /// Walls all around, if it ends anywhere.
+    pub bounds: Option<Bounds>,
+    /// Colour of the floor where nothing lies on it.
+    pub floor: Colour,
+    /// Light that comes from everywhere, in the per cent of COL-AMBIENT.
+    pub ambient: f64,
+    /// Where the robot starts.
+    pub start: Pose,
+}
+
+impl Default for WorldSpec {
+    /// An endless white floor, a little light, and nothing else.
+    fn default() -> Self {
+        WorldSpec {
+            items: Vec::new(),
+            bounds: None,
+            floor: Colour::WHITE,
+            ambient: 2.0,
+            start: Pose::default(),
+        }
+    }
+}
+
+impl WorldSpec {
+    /// A room of 200 by 150 cm with two boxes and a pillar; the robot starts in a free corner.
+    #[must_use]
+    pub fn room() -> WorldSpec {
+        WorldSpec {
+            items: vec![
+                Item::Box {
+                    pose: Pose::new(60.0, 105.0, 20.0),
+                    width: 30.0,
+                    depth: 20.0,
+                },
+                Item::Box {
+                    pose: Pose::new(145.0, 60.0, -15.0),
+                    width: 20.0,
+                    depth: 35.0,
+                },
+                Item::Circle {
+                    centre: [110.0, 115.0],
+                    radius: 7.0,
+                },
+            ],
+            bounds: Some(Bounds {
+                low: [0.0, 0.0],
+                high: [200.0, 150.0],
+            }),
+            start: Pose::new(40.0, 40.0, 0.0),
+            ..WorldSpec::default()
+        }
+    }
+
+    /// Checks everything in it, and that the bounds have an inside with the start in it.
+    ///
+    /// # Errors
+    /// Names the first offending item.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        self.items.iter().try_for_each(Item::validate)?;
+        if !(self.ambient.is_finite() && self.ambient >= 0.0) {
+            return Err(SpecError::new("ambient", "must be 0 or more"));
+        }
+        if !self.start.is_finite() {
+            return Err(SpecError::new("start", NOT_FINITE));
+        }
+        if let Some(Bounds { low, high }) = self.bounds {
+            let inside = finite(&[low, high]) && low[0] < high[0] && low[1] < high[1];
+            if !inside {
+                return Err(SpecError::new("bounds", "must have an inside"));
+            }
+        }
+        Ok(())
+    }
+}

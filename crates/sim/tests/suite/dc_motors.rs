@@ -1,0 +1,140 @@
+//! `dc-motor`: duty and nothing else (section 4.1 of the sheet).
+
+use ev3_sim::{Errno, Port};
+
+use crate::desk::Desk;
+
+const M: &str = "dc-motor/motor0/";
+
+/// outA's medium motor, driven as a plain one.
+fn desk() -> Desk {
+    let mut desk = Desk::new();
+    desk.put("lego-port/port4/mode", "dc-motor");
+    desk.step(500);
+    desk
+}
+
+fn file(name: &str) -> String {
+    format!("{M}{name}")
+}
+
+#[test]
+fn files_after_the_mode_was_written() {
+    let mut desk = desk();
+    assert_eq!(desk.try_get("tacho-motor/motor0/state"), Err(Errno::ENOENT));
+    let texts = [
+        ("address", "ev3-ports:outA"),
+        ("driver_name", "rcx-motor"),
+        ("commands", "run-forever run-timed run-direct stop"),
+        ("stop_actions", "coast brake"),
+        ("duty_cycle", "0"),
+        ("duty_cycle_sp", "0"),
+        ("polarity", "normal"),
+        ("ramp_up_sp", "0"),
+        ("ramp_down_sp", "0"),
+        ("time_sp", "0"),
+        ("state", ""),
+    ];
+    for (name, text) in texts {
+        assert_eq!(desk.get(&file(name)), text, "{name}");
+    }
+    assert_eq!(
+        desk.try_get(&file("stop_action")),
+        Err(Errno::EACCES),
+        "write-only"
+    );
+    assert_eq!(desk.get("lego-port/port4/status"), "dc-motor");
+    let refused = [
+        ("command", "reset", Errno::EINVAL),
+        ("stop_action", "hold", Errno::EINVAL),
+        ("duty_cycle_sp", "101", Errno::EINVAL),
+        ("time_sp", "60001", Errno::EINVAL),
+        ("time_sp", "99999999999", Errno::ERANGE),
+        ("ramp_up_sp", "10001", Errno::EINVAL),
+        ("ramp_up_sp", "-1", Errno::EINVAL),
+    ];
+    for (name, text, errno) in refused {
+        assert_eq!(
+            desk.try_put(&file(name), text),
+            Err(errno),
+            "{name} <- {text}"
+        );
+    }
+    desk.put(&file("ramp_up_sp"), " 12 ms");
+    assert_eq!(
+        desk.get(&file("ramp_up_sp")),
+        "12",
+        "junk behind the digits is taken"
+    );
+}
+
+#[test]
+fn ramping_shows_for_100_ms_and_makes_others_wait() {
+    let mut desk = desk();
+    desk.put(&file("duty_cycle_sp"), 60);
+    assert_eq!(desk.get(&file("state")), "");
+    desk.put(&file("command"), "run-forever");
+    assert_eq!(desk.get(&file("state")), "running ramping");
+    assert_eq!(desk.number(&file("duty_cycle")), 60);
+    desk.put(&file("command"), "stop");
+    assert_eq!(
+        desk.get(&file("state")),
+        "running ramping",
+        "the stop waits for the step"
+    );
+    desk.step(110);
+    assert_eq!(desk.get(&file("state")), "");
+    desk.put(&file("command"), "run-forever");
+    desk.step(110);
+    assert_eq!(desk.get(&file("state")), "running");
+    desk.put(&file("command"), "stop");
+    assert_eq!(
+        desk.get(&file("state")),
+        "",
+        "at once when no step is scheduled"
+    );
+}
+
+#[test]
+fn it_turns_the_motor_that_is_plugged_in() {
+    let mut desk = desk();
+    desk.put(&file("polarity"), "inversed");
+    desk.put(&file("duty_cycle_sp"), 50);
+    desk.put(&file("time_sp"), 500);
+    desk.put(&file("command"), "run-timed");
+    desk.step(490);
+    assert_eq!(desk.get(&file("state")), "running");
+    assert_eq!(desk.number(&file("duty_cycle")), -50);
+    assert!(desk.0.shaft_angle(Port::OutA) < -100.0);
+    desk.step(20);
+    assert_eq!(desk.get(&file("state")), "");
+}
+
+#[test]
+fn ramps_follow_the_signed_duty() {
+    let mut desk = desk();
+    desk.put(&file("ramp_down_sp"), 1000);
+    desk.put(&file("duty_cycle_sp"), -50);
+    desk.put(&file("command"), "run-direct");
+    assert_eq!(desk.number(&file("duty_cycle")), -10, "backwards is down");
+    desk.step(250);
+    assert_eq!(desk.number(&file("duty_cycle")), -30);
+    desk.put(&file("duty_cycle_sp"), 0);
+    desk.step(110);
+    assert_eq!(desk.number(&file("duty_cycle")), 0, "up has no ramp");
+    assert!(
+        desk.get(&file("state")).starts_with("running"),
+        "also with duty 0"
+    );
+}
+
+#[test]
+fn a_port_can_be_a_light() {
+    let mut desk = desk();
+    desk.put("lego-port/port7/mode", "led");
+    let light = "leds/ev3-ports:outD::brick-status/brightness";
+    assert_eq!(desk.number(light), 0);
+    desk.step(500);
+    desk.put(light, 255);
+    assert_eq!(desk.number(light), 100);
+}

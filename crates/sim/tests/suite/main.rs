@@ -1,0 +1,13 @@
+//! The simulator through its files, as a program sees it.
+
+mod attributes;
+mod braitenberg;
+mod dc_motors;
+mod desk;
+mod golden;
+mod motion;
+mod motors;
+mod plugs;
+mod properties;
+mod sensors;
+mod world;

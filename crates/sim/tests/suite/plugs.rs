@@ -1,0 +1,157 @@
+//! Wires pulled and put in, and the modes of ports.
+
+use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, RobotSpec, WorldSpec};
+
+use crate::desk::{B, C, Desk};
+
+fn instant() -> Desk {
+    let options = Options {
+        instant: true,
+        ..Options::default()
+    };
+    Desk(Machine::new(&WorldSpec::default(), &RobotSpec::default(), options).unwrap())
+}
+
+#[test]
+fn an_unplugged_device_dies_and_comes_back_under_a_new_number() {
+    let mut desk = instant();
+    let mut old = Descriptor::open(&desk.0, &format!("{B}state"), Access::ReadOnly).unwrap();
+    let mut buffer = [0; 16];
+    old.pread(&mut desk.0, 0, &mut buffer).unwrap();
+    let inode = old.node();
+    assert!(desk.0.unplug(Port::OutB));
+    assert!(!desk.0.unplug(Port::OutB), "there is nothing more to pull");
+    assert_eq!(old.pread(&mut desk.0, 0, &mut buffer), Err(Errno::ENODEV));
+    assert_eq!(desk.0.write(inode, b"x"), Err(Errno::ENODEV));
+    assert!(old.poll(&desk.0), "poll returns at once");
+    assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
+    assert_eq!(desk.get("lego-port/port5/status"), "no-motor");
+    desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
+    assert_eq!(desk.get("tacho-motor/motor3/address"), "ev3-ports:outB");
+    let new = desk.0.resolve("tacho-motor/motor3/state").unwrap();
+    assert!(new > inode, "inode numbers are not used again");
+    assert_eq!(old.pread(&mut desk.0, 0, &mut buffer), Err(Errno::ENODEV));
+}
+
+#[test]
+fn a_pulled_wire_lets_the_motor_coast_and_a_new_one_knows_nothing() {
+    let mut desk = instant();
+    for motor in [B, C] {
+        desk.run(motor, &[("speed_sp", 500)], "run-forever");
+    }
+    desk.step(1000);
+    let counted = desk.position(B);
+    for port in [Port::OutB, Port::OutC] {
+        desk.0.unplug(port);
+    }
+    desk.step(3000);
+    let rest = desk.0.pose().y;
+    desk.step(1000);
+    assert!((desk.0.pose().y - rest).abs() < 1e-9, "stands still");
+    desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
+    let motor = "tacho-motor/motor3/";
+    assert_eq!(desk.number(&format!("{motor}speed_sp")), 0);
+    assert_eq!(desk.state(motor), "");
+    let position = desk.position(motor);
+    assert!(
+        (counted - 1..counted + 5).contains(&position),
+        "what had accumulated: {position}"
+    );
+}
+
+#[test]
+fn plugging_takes_the_time_it_takes() {
+    let mut desk = Desk::new();
+    desk.0.unplug(Port::OutB);
+    desk.step(100);
+    assert!(
+        desk.try_get(&format!("{B}state")).is_ok(),
+        "not noticed yet"
+    );
+    desk.step(30);
+    assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
+    desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
+    desk.step(360);
+    assert!(desk.try_get("tacho-motor/motor3/state").is_err());
+    desk.step(20);
+    assert_eq!(desk.state("tacho-motor/motor3/"), "");
+    // udev has not come by yet.
+    let speed = "tacho-motor/motor3/speed_sp";
+    let mode = |desk: &Desk| desk.0.stat(desk.0.resolve(speed).unwrap()).unwrap().mode;
+    assert_eq!(mode(&desk), 0o644);
+    assert_eq!(desk.try_put(speed, "100"), Err(Errno::EACCES));
+    desk.step(500);
+    assert_eq!(mode(&desk), 0o664);
+    desk.put(speed, 100);
+
+    desk.0.unplug(Port::In2);
+    desk.step(200);
+    desk.0.plug(Port::In2, "lego-ev3-us").unwrap();
+    desk.step(1200);
+    assert!(desk.try_get("lego-sensor/sensor4/mode").is_err());
+    desk.step(72);
+    assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "lego-ev3-us");
+    assert_eq!(
+        desk.try_get("lego-sensor/sensor4/value0"),
+        Err(Errno::ENXIO),
+        "no data yet"
+    );
+    desk.step(600);
+    assert_eq!(desk.number("lego-sensor/sensor4/value0"), 2550);
+}
+
+#[test]
+fn what_does_not_fit_is_refused_by_name() {
+    let mut desk = instant();
+    let error = desk.0.plug(Port::OutB, "lego-ev3-us").unwrap_err();
+    assert!(error.to_string().contains("lego-ev3-us on outB"), "{error}");
+    assert!(desk.0.plug(Port::In1, "lego-ev3-lidar").is_err());
+}
+
+#[test]
+fn a_written_port_mode_makes_the_device_anew() {
+    let mut desk = instant();
+    desk.put("lego-port/port5/mode", "auto");
+    assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
+    assert_eq!(desk.get("tacho-motor/motor3/address"), "ev3-ports:outB");
+    desk.put("lego-port/port5/mode", "raw");
+    assert_eq!(desk.try_get("tacho-motor/motor3/state"), Err(Errno::ENOENT));
+    assert_eq!(desk.get("lego-port/port5/status"), "raw");
+    assert_eq!(
+        desk.try_put("lego-port/port5/set_device", "lego-nxt-motor"),
+        Err(Errno::EOPNOTSUPP)
+    );
+    desk.put("lego-port/port7/mode", "tacho-motor");
+    assert_eq!(
+        desk.get("tacho-motor/motor4/address"),
+        "ev3-ports:outD",
+        "with nothing plugged in"
+    );
+    desk.put("lego-port/port7/set_device", "lego-ev3-m-motor");
+    assert_eq!(
+        desk.get("tacho-motor/motor5/driver_name"),
+        "lego-ev3-m-motor"
+    );
+    desk.put("lego-port/port7/set_device", "rocket");
+    assert_eq!(
+        desk.try_get("tacho-motor/motor6/state"),
+        Err(Errno::ENOENT),
+        "no driver, no motor"
+    );
+    desk.put("lego-port/port3/mode", "other-uart");
+    assert_eq!(desk.try_get("lego-sensor/sensor3/mode"), Err(Errno::ENOENT));
+    desk.put("lego-port/port3/mode", "auto");
+    assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "lego-ev3-gyro");
+    let blocks = desk.try_put("lego-port/port2/mode", "nxt-i2c").unwrap();
+    assert_eq!(blocks.as_secs(), 1);
+}
+
+#[test]
+fn an_nxt_motor_is_taken_for_a_large_one() {
+    let mut desk = instant();
+    desk.0.plug(Port::OutD, "lego-nxt-motor").unwrap();
+    assert_eq!(
+        desk.get("tacho-motor/motor3/driver_name"),
+        "lego-ev3-l-motor"
+    );
+}
