@@ -43,8 +43,9 @@ pub struct Device {
     constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
-    /// Held while a sensor is put into a mode and read in it.
-    in_use: Mutex<()>,
+    /// Held while a sensor is put into a mode and read in it. When its values
+    /// will have settled in that mode; zero once they have.
+    in_use: Mutex<Duration>,
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -59,8 +60,8 @@ impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
-        let (address, driver) = identity(&**tree, &path)?;
-        let presence = open(&**tree, &path.join("address"), Access::Read)?;
+        let (presence, address) = address_of(&**tree, &path)?;
+        let driver = read_file(&**tree, &path.join("driver_name"))?;
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
@@ -127,6 +128,13 @@ impl Device {
         &self.entry
     }
 
+    /// Whether it is what an entry of its class directory stands for. A file
+    /// system may give a new directory the inode number of one that was
+    /// removed; the kernel's devices have each its own.
+    pub(crate) fn is_at(&self, entry: &Entry) -> bool {
+        self.entry == *entry && self.check_present().is_ok()
+    }
+
     /// When it was first seen, by the tree's clock.
     pub(crate) fn first_seen(&self) -> Duration {
         self.first_seen
@@ -161,7 +169,7 @@ impl Device {
     }
 
     /// The lock on the sensor's mode, if nobody holds it.
-    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, ()>> {
+    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, Duration>> {
         match self.in_use.try_lock() {
             Ok(guard) => Some(guard),
             Err(std::sync::TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
@@ -263,11 +271,20 @@ impl Device {
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where there is no address.
 pub fn identity(tree: &dyn Tree, path: &Path) -> Result<(String, String)> {
-    let address = read_file(tree, &path.join("address"))?;
-    if address.is_empty() {
-        return Err(malformed(&path.join("address"), b"", "an address"));
-    }
+    let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))
+}
+
+/// Reads the `address` of the device at a path; also the open file.
+fn address_of(tree: &dyn Tree, path: &Path) -> Result<(Box<dyn Node>, String)> {
+    let path = path.join("address");
+    let node = open(tree, &path, Access::Read)?;
+    let mut buffer = [0; SHORT];
+    let address = text_of(&path, read_node(&*node, &path, &mut buffer)?)?;
+    if address.is_empty() {
+        return Err(malformed(&path, b"", "an address"));
+    }
+    Ok((node, address))
 }
 
 /// Reads the text of any file, without keeping it open.
