@@ -250,12 +250,11 @@ eventually(Goal) :-
 %   run, go half-way, be at the end and rest.
 
 obey(Port) :-
-    eventually(get_attribute(Port, command, 'run-to-rel-pos')),
+    eventually(get_attribute(Port, command, 'run-to-abs-pos')),
     put_attribute(Port, state, running),
     get_number(Port, position, From),
-    get_number(Port, position_sp, Distance),
-    Half is From + Distance // 2,
-    End is From + Distance,
+    get_number(Port, position_sp, End),
+    Half is (From + End) // 2,
     sleep(0.02),
     put_attribute(Port, position, Half),
     sleep(0.02),

@@ -11,7 +11,7 @@ use crate::value::Value;
 use crate::{motor, sensor};
 
 /// Attributes that hold an integer and nothing else.
-const INTEGERS: [&str; 20] = [
+const INTEGERS: [&str; 21] = [
     "count_per_m",
     "count_per_rot",
     "decimals",
@@ -32,6 +32,7 @@ const INTEGERS: [&str; 20] = [
     "speed_pid/Ki",
     "speed_pid/Kp",
     "speed_sp",
+    "time_sp",
 ];
 
 /// Reads an attribute; `None` where the device is gone.
@@ -51,7 +52,7 @@ pub fn read(devices: &Devices, device: &Device, name: &str) -> Result<Option<Val
 
 fn value(device: &Device, name: &str) -> Result<Value> {
     device.check_present()?;
-    let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
+    let index = sensor::VALUES.iter().position(|value| *value == name);
     match (device.class(), index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
         _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),

@@ -46,6 +46,8 @@ pub struct Device {
     motion: Mutex<Option<Motion>>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
+    /// When its values will have settled in that mode; zero once they have.
+    settled_at: Mutex<Duration>,
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -60,8 +62,8 @@ impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
-        let (address, driver) = identity(&**tree, &path)?;
-        let presence = open(&**tree, &path.join("address"), Access::Read)?;
+        let (presence, address) = address_of(&**tree, &path)?;
+        let driver = read_file(&**tree, &path.join("driver_name"))?;
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
@@ -76,6 +78,7 @@ impl Device {
             constants: List::default(),
             motion: Mutex::default(),
             user: Mutex::default(),
+            settled_at: Mutex::default(),
         })
     }
 
@@ -126,6 +129,13 @@ impl Device {
 
     pub(crate) fn entry(&self) -> &Entry {
         &self.entry
+    }
+
+    /// Whether it is what an entry of its class directory stands for. A file
+    /// system may give a new directory the inode number of one that was
+    /// removed; the kernel's devices have each its own.
+    pub(crate) fn is_at(&self, entry: &Entry) -> bool {
+        self.entry == *entry && self.check_present().is_ok()
     }
 
     /// When it was first seen, by the tree's clock.
@@ -179,6 +189,11 @@ impl Device {
 
     fn user(&self) -> MutexGuard<'_, Option<ThreadId>> {
         self.user.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// When the sensor's values will have settled; zero once they have.
+    pub(crate) fn settled_at(&self) -> MutexGuard<'_, Duration> {
+        self.settled_at.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// An integer attribute.
@@ -289,11 +304,20 @@ impl Drop for Use<'_> {
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where there is no address.
 pub fn identity(tree: &dyn Tree, path: &Path) -> Result<(String, String)> {
-    let address = read_file(tree, &path.join("address"))?;
-    if address.is_empty() {
-        return Err(malformed(&path.join("address"), b"", "an address"));
-    }
+    let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))
+}
+
+/// Reads the `address` of the device at a path; also the open file.
+fn address_of(tree: &dyn Tree, path: &Path) -> Result<(Box<dyn Node>, String)> {
+    let path = path.join("address");
+    let node = open(tree, &path, Access::Read)?;
+    let mut buffer = [0; SHORT];
+    let address = text_of(&path, read_node(&*node, &path, &mut buffer)?)?;
+    if address.is_empty() {
+        return Err(malformed(&path, b"", "an address"));
+    }
+    Ok((node, address))
 }
 
 /// Reads the text of any file, without keeping it open.

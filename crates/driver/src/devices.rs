@@ -134,7 +134,7 @@ impl Devices {
     /// As [`all`](Self::all).
     pub fn has(&self, device: &Device) -> Result<bool> {
         let present = self.find(device.class(), device.port())?;
-        Ok(present.is_some_and(|present| present.entry() == device.entry()))
+        Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
     /// Does something with the device at a port; `None` where there is none.
@@ -224,13 +224,13 @@ impl Devices {
         };
         listing.made = Some(self.tree.now());
         let is_same = entries.len() == listing.devices.len()
-            && entries.iter().all(|entry| listing.devices.iter().any(|d| d.entry() == entry));
+            && entries.iter().all(|entry| listing.devices.iter().any(|d| d.is_at(entry)));
         if is_same {
             return Ok(());
         }
         let mut devices = Vec::with_capacity(entries.len());
         for entry in entries {
-            match listing.devices.iter().find(|device| *device.entry() == entry) {
+            match listing.devices.iter().find(|device| device.is_at(&entry)) {
                 Some(known) => devices.push(Arc::clone(known)),
                 None => match Device::detect(&self.tree, class, entry) {
                     Ok(device) => devices.push(Arc::new(device)),

@@ -10,8 +10,9 @@
 use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
-use crate::error::Result;
-use crate::wait::{Reason, wait_for};
+use crate::error::{Error, Result};
+use crate::wait::{Reason, TOLERANCE, has, wait_for};
+use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -83,7 +84,8 @@ impl Speed {
         let max = motor.constant("max_speed")?;
         let counts = match self {
             Self::Percent(percent) => {
-                let counts = (percent / 100.0 * max as f64).floor();
+                // Multiplied first: most percentages are no binary fractions.
+                let counts = (percent * max as f64 / 100.0).floor();
                 // Also false for NaN.
                 (counts.abs() <= max as f64).then_some(counts as i64)
             }
@@ -127,7 +129,22 @@ impl Default for MoveOptions {
 pub(crate) struct Motion {
     /// When, by the tree's clock.
     pub(crate) started: Duration,
+    /// Whether by `run-to-rel-pos`.
+    is_relative: bool,
     pub(crate) end: End,
+}
+
+impl Motion {
+    fn target(self) -> Option<i64> {
+        match self.end {
+            End::Position { target, .. } => Some(target),
+            End::Time(_) | End::Never => None,
+        }
+    }
+
+    fn relative_target(self) -> Option<i64> {
+        self.target().filter(|_| self.is_relative)
+    }
 }
 
 /// How a motion is meant to end.
@@ -158,7 +175,9 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
         }
         "run-to-rel-pos" => {
             let (from, distance) = (motor.number("position")?, motor.number("position_sp")?);
-            Some(End::Position { from, target: from.saturating_add(distance) })
+            // Since ev3dev-stretch, after another one: from where that was to end.
+            let base = motor.motion().and_then(Motion::relative_target).unwrap_or(from);
+            Some(End::Position { from, target: base.saturating_add(distance) })
         }
         _ => None,
     };
@@ -167,7 +186,8 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
 
 /// Writes a command, and remembers what it started: `None` if it stops.
 fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
-    let motion = end.map(|end| Motion { started: motor.tree().now(), end });
+    let is_relative = word == "run-to-rel-pos";
+    let motion = end.map(|end| Motion { started: motor.tree().now(), is_relative, end });
     if motion.is_some() {
         // Before the command: were we stopped in between, it would be one stop
         // too many rather than one too few.
@@ -178,23 +198,36 @@ fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
     Ok(())
 }
 
-/// Stops a motor.
+/// Stops a motor, in some way even if it does not have that action: the
+/// `BrickPi`'s motors cannot brake.
 ///
 /// # Errors
-/// The kernel's.
+/// The kernel's, as EINVAL for the action.
 pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
-    motor.write("stop_action", action.word())?;
-    start(motor, "stop", None)
+    let chosen = motor.write("stop_action", action.word());
+    let stopped = start(motor, "stop", None);
+    stopped.and(chosen)
 }
 
-/// Stops all of these motors, even where one of them fails.
+/// Stops a motor as [`stop`] does, and is content if it does not have that
+/// action but stops.
+fn stop_somehow(motor: &Device, action: StopAction) -> Result<()> {
+    let is_action_refused = |error: &Error| {
+        error.errno() == Some(Errno::INVAL)
+            && error.path().is_some_and(|path| path.ends_with("stop_action"))
+    };
+    stop(motor, action).or_else(|error| if is_action_refused(&error) { Ok(()) } else { Err(error) })
+}
+
+/// Stops all of these motors, even where one of them fails, or does not have
+/// that action.
 ///
 /// # Errors
 /// The first that occurred.
 pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     let mut result = Ok(());
     for motor in motors {
-        result = result.and(stop(motor, action));
+        result = result.and(stop_somehow(motor, action));
     }
     result
 }
@@ -208,7 +241,7 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
     let motors = devices.all(Class::TachoMotor)?;
     let mut result = Ok(());
     for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
-        let stopped = stop(motor, StopAction::Brake);
+        let stopped = stop_somehow(motor, StopAction::Brake);
         result = result.and(stopped.or_else(|e| if e.is_stale() { Ok(()) } else { Err(e) }));
     }
     result
@@ -242,11 +275,16 @@ fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
     let Some(speeds) = possible else {
         return Ok(false);
     };
+    run_at(&motors, speeds)?;
+    Ok(true)
+}
+
+/// Runs motors at speeds in counts per second until they are stopped.
+pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i64>) -> Result<()> {
     for (motor, speed) in motors.iter().zip(speeds) {
         motor.write_number("speed_sp", speed)?;
     }
-    start_all(&motors, |motor| start(motor, "run-forever", Some(End::Never)))?;
-    Ok(true)
+    start_all(motors, |motor| start(motor, "run-forever", Some(End::Never)))
 }
 
 /// Turns motors by angles, all at once. `None` if one is absent, or the move
@@ -301,31 +339,30 @@ fn start_moves(
         }
     }
     for (motor, plan) in motors.iter().zip(&plans) {
-        motor.write_number("position_sp", plan.distance)?;
+        motor.write_number("position_sp", plan.target)?;
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
-    let ramps = Ramps::set(&motors, options)?;
-    let mut ends = plans.iter().map(|plan| End::Position {
-        from: plan.from,
-        target: plan.from.saturating_add(plan.distance),
-    });
-    start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
-    ramps.restore()?;
+    let mut ramps = Ramps(Vec::new());
+    ramps.set(&motors, options)?;
+    let mut ends = plans.iter().map(|plan| End::Position { from: plan.from, target: plan.target });
+    start_all(&motors, |motor| start(motor, "run-to-abs-pos", ends.next()))?;
     Ok(Some(motors))
 }
 
 /// A move in the kernel's units.
 struct Plan {
     from: i64,
-    distance: i64,
+    target: i64,
     speed: i64,
 }
 
 /// Converts a move; `None` if it is impossible.
 ///
 /// The kernel ignores the sign of `speed_sp` in position moves, so that of the
-/// speed goes into the distance.
+/// speed goes into the distance. The distance goes into an absolute target:
+/// where a relative one counts from depends on the kernel's release and on what
+/// the motor was told before (`tacho_motor_class.c`).
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -341,36 +378,51 @@ fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
     if counts.abs() > f64::from(i32::MAX) || counts.is_nan() {
         return Ok(None);
     }
-    Ok(Some(Plan {
-        from: motor.number("position")?,
-        distance: counts as i64 * speed.signum(),
-        speed: speed.abs(),
-    }))
+    let from = base(motor)?;
+    let target = from.saturating_add(counts as i64 * speed.signum());
+    // The kernel counts in 32 bits.
+    Ok(i32::try_from(target).is_ok().then_some(Plan { from, target, speed: speed.abs() }))
 }
 
-/// Ramps of one move. The command copies them, so that what was set before can
-/// be put back as soon as the motors run.
-struct Ramps<'a>(Vec<(&'a Device, &'static str, i64)>);
+/// Where a move begins: where the motor is, or where it is held, so that many
+/// moves one after the other do not add up what each is off.
+fn base(motor: &Device) -> Result<i64> {
+    let position = motor.number("position")?;
+    let target = motor.motion().and_then(Motion::target);
+    let is_near = |target: &i64| target.abs_diff(position) <= TOLERANCE;
+    match target.filter(is_near) {
+        Some(target) if motor.with_word("state", |state| has(state, "holding"))? => Ok(target),
+        _ => Ok(position),
+    }
+}
 
-impl<'a> Ramps<'a> {
-    fn set(motors: &'a [Arc<Device>], options: &MoveOptions) -> Result<Self> {
+/// The ramps that the motors had before a move with its own. The command
+/// copies them, so that they are put back as soon as the motors run, or when
+/// they could not start.
+struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
+
+impl Ramps {
+    fn set(&mut self, motors: &[Arc<Device>], options: &MoveOptions) -> Result<()> {
         let given = [("ramp_up_sp", options.ramp_up_ms), ("ramp_down_sp", options.ramp_down_ms)];
-        let mut before = Vec::new();
         for motor in motors {
             for (attribute, milliseconds) in given {
                 if let Some(milliseconds) = milliseconds {
-                    before.push((&**motor, attribute, motor.number(attribute)?));
+                    self.0.push((Arc::clone(motor), attribute, motor.number(attribute)?));
                     motor.write_number(attribute, milliseconds)?;
                 }
             }
         }
-        Ok(Self(before))
+        Ok(())
     }
+}
 
-    fn restore(self) -> Result<()> {
-        self.0
-            .into_iter()
-            .try_for_each(|(motor, attribute, value)| motor.write_number(attribute, value))
+impl Drop for Ramps {
+    fn drop(&mut self) {
+        // The last first, as a motor may have been named twice. What cannot be
+        // put back belongs to a motor that was unplugged.
+        for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
+            let _ = motor.write_number(attribute, milliseconds);
+        }
     }
 }
 

@@ -31,7 +31,7 @@ const PERMISSIONS_WITHIN: Duration = Duration::from_secs(1);
 const RETRY_EVERY: Duration = Duration::from_millis(20);
 
 /// The files of the values; a sensor has at most eight.
-const VALUES: [&str; 8] =
+pub(crate) const VALUES: [&str; 8] =
     ["value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7"];
 
 /// Reads value `index` of a sensor in a mode, or in its present one, scaled by
@@ -65,16 +65,14 @@ pub fn read_all<const N: usize>(
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let guard = in_use(devices, sensor, interrupted)?;
+        let using = in_use(devices, sensor, interrupted)?;
         sensor.check_present()?;
-        if let Some(mode) = mode {
-            ensure_mode(devices, sensor, mode, interrupted)?;
-        }
+        ensure_settled(devices, sensor, mode, interrupted)?;
         let mut values = [const { Value::Integer(0) }; N];
         for (value, index) in values.iter_mut().zip(indices) {
             *value = read_value(sensor, mode, index)?;
         }
-        drop(guard);
+        drop(using);
         Ok(values)
     })
 }
@@ -91,8 +89,8 @@ pub fn set_mode(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let _guard = in_use(devices, sensor, interrupted)?;
-        ensure_mode(devices, sensor, mode, interrupted)
+        let _using = in_use(devices, sensor, interrupted)?;
+        ensure_settled(devices, sensor, Some(mode), interrupted)
     })
 }
 
@@ -108,8 +106,9 @@ pub fn restart(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
-        let _guard = in_use(devices, sensor, interrupted)?;
-        write_mode(devices, sensor, mode, interrupted)
+        let _using = in_use(devices, sensor, interrupted)?;
+        write_mode(sensor, mode)?;
+        settle(devices, sensor, interrupted).map(drop)
     })
 }
 
@@ -121,7 +120,9 @@ pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
     Ok(Value::scaled(raw, sensor.number("decimals")?))
 }
 
-fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
+/// Reads value `index` once, as it is now; the mode is that which the sensor is
+/// known to be in.
+pub(crate) fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
     let raw = raw_value(sensor, index)?;
     let decimals = match mode {
         Some(mode) => sensor.constant_in("decimals", mode)?,
@@ -137,7 +138,9 @@ fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value
 /// as ENXIO for a sensor that does not answer.
 pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     let no_value = |mode: String| Error::NoValue { port: sensor.port().to_owned(), mode, index };
-    let attribute = VALUES.get(index).ok_or_else(|| no_value(String::new()))?;
+    let Some(attribute) = VALUES.get(index) else {
+        return Err(no_value(sensor.text("mode")?));
+    };
     match sensor.number(attribute) {
         Err(error) if error.errno() == Some(Errno::NXIO) => {
             // No such value in this mode, or no contact with the sensor.
@@ -149,33 +152,49 @@ pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     }
 }
 
-fn ensure_mode(
+/// Puts a sensor into a mode, if one is given, and waits for its values.
+fn ensure_settled(
     devices: &Devices,
     sensor: &Device,
-    mode: &str,
+    mode: Option<&str>,
     interrupted: Interrupted,
 ) -> Result<()> {
-    // Twice: a signal that was handled meanwhile may have read the sensor in
-    // another mode.
-    for _ in 0..2 {
-        if sensor.with_word("mode", |present| present == mode)? {
-            break;
-        }
-        write_mode(devices, sensor, mode, interrupted)?;
+    ensure_mode(sensor, mode)?;
+    if settle(devices, sensor, interrupted)? {
+        // A signal that was handled meanwhile may have read it in another mode.
+        ensure_mode(sensor, mode)?;
+        settle(devices, sensor, interrupted)?;
     }
     Ok(())
 }
 
-fn write_mode(
-    devices: &Devices,
-    sensor: &Device,
-    mode: &str,
-    interrupted: Interrupted,
-) -> Result<()> {
+fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
+    match mode {
+        Some(mode) if !sensor.with_word("mode", |present| present == mode)? => {
+            write_mode(sensor, mode)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
     sensor.write("mode", mode)?;
     let is_infrared = sensor.driver() == "lego-ev3-ir";
     let settling = if is_infrared { SETTLING_INFRARED } else { SETTLING };
-    sleep(devices, settling, interrupted)
+    *sensor.settled_at() = sensor.tree().now().saturating_add(settling);
+    Ok(())
+}
+
+/// Waits until the values are those of the mode; `false` if they were. Who is
+/// interrupted meanwhile leaves the rest of it to the next.
+fn settle(devices: &Devices, sensor: &Device, interrupted: Interrupted) -> Result<bool> {
+    let settled_at = *sensor.settled_at();
+    if settled_at.is_zero() {
+        return Ok(false);
+    }
+    sleep(devices, settled_at.saturating_sub(devices.tree().now()), interrupted)?;
+    *sensor.settled_at() = Duration::ZERO;
+    Ok(true)
 }
 
 /// Waits for the sensor to be ours: another thread that wants it in another
@@ -213,14 +232,19 @@ fn patiently<T>(
         let patience = match error.errno() {
             Some(Errno::NODEV | Errno::NOENT) => match present(devices, sensor)? {
                 None => return Ok(None),
-                Some(other) if other.entry() != sensor.entry() => {
+                Some(other) if !Arc::ptr_eq(&other, sensor) => {
                     replaced = Some(other);
                     continue;
                 }
                 Some(_) if error.errno() == Some(Errno::NOENT) => return Err(error),
                 Some(_) => *first_try.get_or_insert(now) + RETRY_FOR,
             },
+            // It introduces itself anew.
             Some(Errno::NXIO | Errno::BUSY | Errno::TIMEDOUT) => {
+                *first_try.get_or_insert(now) + RETRY_FOR
+            }
+            // Then it has no mode, and knows none.
+            Some(Errno::INVAL) if sensor.with_word("mode", str::is_empty).unwrap_or(false) => {
                 *first_try.get_or_insert(now) + RETRY_FOR
             }
             Some(Errno::ACCESS) => sensor.first_seen() + PERMISSIONS_WITHIN,

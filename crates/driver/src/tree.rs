@@ -134,7 +134,8 @@ impl Tree for Files {
             // A named pipe in the place of an attribute must not block us.
             .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
             .open(path)?;
-        let is_plain = !is_generated(&file)?;
+        // Devices and pipes are no stores of bytes either.
+        let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
         Ok(Box::new(FileNode { file, is_plain }))
     }
 

@@ -9,7 +9,7 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::Devices;
 use crate::error::{Error, Result};
-use crate::motor::{Run, Speed, StopAction, find_all, run_forever, stop_all};
+use crate::motor::{Speed, StopAction, find_all, run_at, stop_all};
 use crate::sensor;
 use crate::value::Value;
 use crate::wait::sleep;
@@ -18,6 +18,9 @@ use std::time::Duration;
 
 /// How close to the angle a turn ends, in degrees: the gyro's resolution.
 pub const WITHIN: f64 = 1.0;
+
+/// The gyro's mode in which it tells its angle.
+const MODE: &str = "GYRO-ANG";
 
 /// Time between two looks at the gyro.
 const PERIOD: Duration = Duration::from_millis(10);
@@ -74,7 +77,8 @@ pub enum Ended {
 }
 
 /// Turns a robot on the spot. `None` if a motor or the gyro is absent, the
-/// speed is 0 or beyond the motors', or the angle beyond what the gyro counts.
+/// speed is 0 or beyond the motors', the angle beyond what the gyro counts, or
+/// the gearing no number.
 ///
 /// Its zero does not matter: the gyro is read at the start, and not reset.
 ///
@@ -87,6 +91,9 @@ pub fn by_gyro(
     turn: &Turn,
     interrupted: Interrupted,
 ) -> Result<Option<Ended>> {
+    if turn.degrees.is_nan() || turn.degrees.abs() > FARTHEST || !turn.gearing.is_finite() {
+        return Ok(None);
+    }
     let ports = [turn.left.as_str(), turn.right.as_str()];
     let Some(motors) = devices.afresh(|| find_all(devices, ports))? else {
         return Ok(None);
@@ -94,29 +101,31 @@ pub fn by_gyro(
     let Some(fastest) = fastest(&motors, turn.speed)? else {
         return Ok(None);
     };
-    if turn.degrees.is_nan() || turn.degrees.abs() > FARTHEST {
-        return Ok(None);
-    }
     let Some(start) = angle(devices, gyro, interrupted)? else {
         return Ok(None);
     };
-    let mut control = Control { devices, gyro, motors: &motors, turn, fastest, running: None };
+    let per_degree = counts_per_degree(&motors)? * turn.gearing;
+    let mut control =
+        Control { devices, gyro, motors: &motors, per_degree, fastest, running: None };
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
     let stopped = stop_all(&motors, StopAction::Brake);
-    let ended = ended?;
-    stopped?;
-    Ok(Some(ended))
+    let ended = ended.and_then(|ended| stopped.map(|()| ended));
+    ended.map(Some).map_err(|error| control.named(error))
 }
 
-/// The robot's angle in degrees; `None` where the gyro is gone.
+/// The robot's angle in degrees once the gyro can tell it; `None` where the
+/// gyro is gone.
 fn angle(devices: &Devices, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<Option<f64>> {
-    let angle = sensor::read(devices, gyro, Some("GYRO-ANG"), 0, interrupted)?;
-    Ok(angle.map(|angle| match angle {
+    Ok(sensor::read(devices, gyro, Some(MODE), 0, interrupted)?.as_ref().map(degrees))
+}
+
+fn degrees(angle: &Value) -> f64 {
+    match angle {
         #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
-        Value::Integer(degrees) => degrees as f64,
-        Value::Float(degrees) => degrees,
+        Value::Integer(degrees) => *degrees as f64,
+        Value::Float(degrees) => *degrees,
         Value::Text(_) => f64::NAN,
-    }))
+    }
 }
 
 /// The wheels' fastest speed in counts per second.
@@ -132,11 +141,19 @@ fn fastest(motors: &[Arc<Device>], speed: Speed) -> Result<Option<f64>> {
     Ok(slowest.is_finite().then_some(slowest))
 }
 
+/// The wheels' tacho counts for a degree. Both are of one type.
+#[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
+fn counts_per_degree(motors: &[Arc<Device>]) -> Result<f64> {
+    let counts = motors.first().map(|motor| motor.constant("count_per_rot")).transpose()?;
+    Ok(counts.map_or(1.0, |counts| counts as f64 / 360.0))
+}
+
 struct Control<'a> {
     devices: &'a Devices,
     gyro: &'a Arc<Device>,
     motors: &'a [Arc<Device>],
-    turn: &'a Turn,
+    /// Tacho counts of a wheel for a degree of the robot.
+    per_degree: f64,
     /// The fastest speed of a wheel, in counts per second.
     fastest: f64,
     /// What the left wheel was last told to do.
@@ -155,7 +172,7 @@ impl Control<'_> {
             }
             slowest_only = true;
         }
-        Ok(Ended::Missed(target - self.angle(interrupted)?))
+        Ok(Ended::Missed(target - self.angle()?))
     }
 
     /// Turns until the target is reached or passed, and brakes there.
@@ -166,7 +183,7 @@ impl Control<'_> {
         slowest_only: bool,
         interrupted: Interrupted,
     ) -> Result<Option<Ended>> {
-        let mut angle = self.angle(interrupted)?;
+        let mut angle = self.angle()?;
         let direction = (target - angle).signum();
         let whole = (target - start).signum();
         let mut moved = (angle, self.now());
@@ -174,8 +191,8 @@ impl Control<'_> {
             let rate =
                 if slowest_only { CRAWL } else { ((target - angle) * GAIN).abs().max(CRAWL) };
             self.run(rate * direction)?;
-            sleep(self.devices, PERIOD, interrupted)?;
-            angle = self.angle(interrupted)?;
+            self.pass(interrupted)?;
+            angle = self.angle()?;
             if (angle - moved.0).abs() >= WITHIN {
                 moved = (angle, self.now());
             }
@@ -192,51 +209,61 @@ impl Control<'_> {
 
     /// The angle once it no longer changes.
     fn settled(&self, interrupted: Interrupted) -> Result<f64> {
-        let mut angle = self.angle(interrupted)?;
+        let mut angle = self.angle()?;
         let (mut since, limit) = (self.now(), self.now() + STUCK_FOR);
         while self.now().saturating_sub(since) < STANDSTILL && self.now() < limit {
-            sleep(self.devices, PERIOD, interrupted)?;
-            let next = self.angle(interrupted)?;
+            self.pass(interrupted)?;
+            let next = self.angle()?;
             if (next - angle).abs() >= WITHIN {
                 (angle, since) = (next, self.now());
             }
         }
-        self.angle(interrupted)
+        self.angle()
     }
 
     /// Turns the robot at a rate in degrees per second, clockwise positive; 0
     /// brakes. Writes nothing where nothing changes.
     fn run(&mut self, rate: f64) -> Result<()> {
-        let counts = (rate * self.turn.gearing).clamp(-self.fastest, self.fastest).round();
+        let counts = (rate * self.per_degree).clamp(-self.fastest, self.fastest).round();
         #[expect(clippy::cast_possible_truncation, reason = "clamped to a motor's speed")]
         let counts = counts as i64;
         if self.running == Some(counts) {
             return Ok(());
         }
-        let speed = Speed::CountsPerSecond;
-        let wheels = [
-            Run { port: &self.turn.left, speed: speed(counts) },
-            Run { port: &self.turn.right, speed: speed(-counts) },
-        ];
-        let is_present = if counts == 0 {
+        if counts == 0 {
             stop_all(self.motors, StopAction::Brake)?;
-            true
         } else {
-            run_forever(self.devices, &wheels)?
-        };
+            run_at(self.motors, [counts, -counts])?;
+        }
         self.running = Some(counts);
-        // Their speeds are possible, so that it is a motor that is missing.
-        if is_present { Ok(()) } else { Err(self.missing()) }
+        Ok(())
     }
 
-    fn angle(&self, interrupted: Interrupted) -> Result<f64> {
-        let angle = angle(self.devices, self.gyro, interrupted)?;
-        angle.ok_or_else(|| self.gyro.gone())
+    /// Lets the robot turn on for a moment.
+    fn pass(&self, interrupted: Interrupted) -> Result<()> {
+        sleep(self.devices, PERIOD, interrupted)?;
+        for motor in self.motors {
+            if !self.devices.has(motor)? {
+                return Err(motor.gone());
+            }
+        }
+        Ok(())
     }
 
-    fn missing(&self) -> Error {
-        let is_missing = |motor: &&Arc<Device>| !self.devices.has(motor).unwrap_or(false);
-        self.motors.iter().find(is_missing).unwrap_or(self.gyro).gone()
+    /// The robot's angle. While it turns there is no time to wait for a gyro
+    /// that has lost contact, and after that its angle would be another.
+    fn angle(&self) -> Result<f64> {
+        sensor::read_value(self.gyro, Some(MODE), 0).map(|angle| degrees(&angle))
+    }
+
+    /// The error with the device that is gone, where one is.
+    fn named(&self, error: Error) -> Error {
+        let mut devices = self.motors.iter().chain([self.gyro]);
+        let path = error.path().filter(|_| error.is_stale());
+        match path.and_then(|path| devices.find(|device| path.starts_with(device.path()))) {
+            Some(gone) => gone.gone(),
+            None => error,
+        }
     }
 
     fn now(&self) -> Duration {

@@ -64,7 +64,11 @@ fn fraction(text: &str) -> Option<f64> {
     let (whole, part) = text.split_once('.')?;
     let whole = whole.strip_prefix(['-', '+']).unwrap_or(whole);
     let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    if are_digits(whole) && are_digits(part) { text.parse().ok() } else { None }
+    if !(are_digits(whole) && are_digits(part)) {
+        return None;
+    }
+    // Too many digits would make it infinite.
+    text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 /// The first line of what was read, without its newline.

@@ -11,6 +11,7 @@ use crate::devices::Devices;
 use crate::error::{Error, Result};
 use crate::motor::{End, Motion};
 use crate::tree::Node;
+use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -31,9 +32,12 @@ const STALLED_FOR: Duration = Duration::from_millis(100);
 /// never flags a stall.
 const STUCK_FOR: Duration = Duration::from_secs(2);
 
+/// How much too early a timed run may end: the kernel's timers count in these.
+const TICK: Duration = Duration::from_millis(10);
+
 /// How far from its target a motor may end a move, in tacho counts. The
 /// `BrickPi3` ends its moves within 10.
-const TOLERANCE: i64 = 10;
+pub(crate) const TOLERANCE: u64 = 10;
 
 /// Why a wait ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +98,11 @@ pub fn wait_for(
     match waited {
         Ok(true) => Ok(reason),
         Ok(false) => Ok(Reason::Timeout),
-        Err(error) if error.is_gone() => Ok(Reason::Unplugged),
+        Err(error) if error.is_gone() => {
+            // Whoever asks which motor it was need not wait for a new listing.
+            devices.forget_listings();
+            Ok(Reason::Unplugged)
+        }
         Err(error) => Err(error),
     }
 }
@@ -118,6 +126,7 @@ pub fn wait_for_flag(
         if !is_there && !watch.is_confirmed()? {
             return Ok(Some(SHORT_SLICE));
         }
+        watch.has_run |= is_there && flag == "running";
         // That nothing runs yet right after a command does not mean that
         // nothing runs any more.
         if is_there == present && (present || flag != "running" || watch.is_over(now)?) {
@@ -136,7 +145,7 @@ pub fn wait_for_flag(
 /// # Errors
 /// [`Error::Interrupted`].
 pub fn sleep(devices: &Devices, time: Duration, interrupted: Interrupted) -> Result<()> {
-    let end = devices.tree().now() + time;
+    let end = devices.tree().now().saturating_add(time);
     until(devices, &[], None, interrupted, |now| {
         let left = end.saturating_sub(now);
         Ok((!left.is_zero()).then_some(left))
@@ -191,8 +200,8 @@ fn until(
 /// One motor under observation.
 struct Watch<'a> {
     motor: &'a Device,
-    /// What the motor was told when the wait began. A stop by another thread
-    /// meanwhile does not change where it was to go.
+    /// What it was told to do when the wait began. If it is told something
+    /// else since, it does not get there.
     motion: Option<Motion>,
     has_run: bool,
     is_done: bool,
@@ -227,10 +236,12 @@ impl<'a> Watch<'a> {
     }
 
     fn look(&mut self, now: Duration) -> Result<Look> {
-        let (runs, stalled) = self
-            .motor
-            .with_word("state", |state| (has(state, "running"), has(state, "stalled")))?;
-        if runs {
+        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
+            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
+        })?;
+        // Controllers on I2C go on running while they hold. As theirs may be
+        // the state of the move before, what counts is whether it is there.
+        if runs && !(holds && self.is_at_end(now)?) {
             self.has_run = true;
             self.was_quiet = false;
             let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
@@ -250,7 +261,7 @@ impl<'a> Watch<'a> {
             return Ok(Look::Runs(self.slice(now)?));
         }
         self.is_done = true;
-        Ok(Look::Done(if self.is_at_end()? { Reason::Reached } else { Reason::Stopped }))
+        Ok(Look::Done(if self.is_at_end(now)? { Reason::Reached } else { Reason::Stopped }))
     }
 
     /// Whether a missing flag can be believed. A plain file is empty for a
@@ -264,34 +275,30 @@ impl<'a> Watch<'a> {
     fn is_over(&self, now: Duration) -> Result<bool> {
         let started = self.motion.map(|motion| motion.started);
         let is_late = started.is_none_or(|started| now.saturating_sub(started) >= GRACE);
-        Ok(is_late || self.has_run || self.target().is_some() && self.is_at_end()?)
+        Ok(is_late || self.has_run || self.is_at_end(now)?)
     }
 
-    /// Whether the motor is where its motion was to end: at the target, or
-    /// beyond it, as a motor that coasts.
-    fn is_at_end(&self) -> Result<bool> {
-        let end = self.motion.map(|motion| motion.end);
-        Ok(match end {
-            Some(End::Position { from, target }) => {
-                let direction = (target - from).signum();
-                let missing = (target - self.motor.number("position")?) * direction;
-                missing <= TOLERANCE
+    /// Whether the motor is where its motion was to end, or beyond that, as a
+    /// motor that coasts; or whether it has run for its time.
+    fn is_at_end(&self, now: Duration) -> Result<bool> {
+        let Some(motion) = self.motion else {
+            return Ok(true);
+        };
+        Ok(match motion.end {
+            End::Position { from, target } => {
+                let position = self.motor.number("position")?;
+                let is_beyond =
+                    if target >= from { position >= target } else { position <= target };
+                is_beyond || target.abs_diff(position) <= TOLERANCE
             }
-            Some(End::Never) => false,
-            Some(End::Time(_)) | None => true,
+            End::Time(time) => now.saturating_add(TICK) >= motion.started.saturating_add(time),
+            End::Never => false,
         })
-    }
-
-    fn target(&self) -> Option<i64> {
-        match self.motion.map(|motion| motion.end) {
-            Some(End::Position { target, .. }) => Some(target),
-            _ => None,
-        }
     }
 
     /// Whether the position has been the same for too long under way.
     fn is_stuck(&mut self, now: Duration) -> Result<bool> {
-        if self.target().is_none() {
+        if !matches!(self.motion, Some(Motion { end: End::Position { .. }, .. })) {
             return Ok(false);
         }
         let position = self.motor.number("position")?;
@@ -308,16 +315,20 @@ impl<'a> Watch<'a> {
 
     /// How long to sleep before the next look: until shortly before the end
     /// that can be predicted.
-    fn slice(&mut self, now: Duration) -> Result<Duration> {
+    fn slice(&self, now: Duration) -> Result<Duration> {
         let left = match self.motion.map(|motion| (motion.started, motion.end)) {
             Some((_, End::Position { target, .. })) => {
                 let position = self.motor.number("position")?;
-                let speed = self.motor.number("speed")?.unsigned_abs();
+                let speed = match self.motor.number("speed") {
+                    // Controllers on I2C do not tell it.
+                    Err(error) if error.errno() == Some(Errno::OPNOTSUPP) => 0,
+                    speed => speed?.unsigned_abs(),
+                };
                 let counts = target.abs_diff(position);
-                let milliseconds = (counts * 1000).checked_div(speed);
+                let milliseconds = counts.saturating_mul(1000).checked_div(speed);
                 milliseconds.map_or(SLICE, Duration::from_millis)
             }
-            Some((started, End::Time(time))) => (started + time).saturating_sub(now),
+            Some((started, End::Time(time))) => started.saturating_add(time).saturating_sub(now),
             Some((_, End::Never)) | None => SLICE,
         };
         Ok(left.clamp(SHORT_SLICE, SLICE))
@@ -325,6 +336,6 @@ impl<'a> Watch<'a> {
 }
 
 /// Whether a flag is among those of a state.
-fn has(state: &str, flag: &str) -> bool {
+pub(crate) fn has(state: &str, flag: &str) -> bool {
     state.split_ascii_whitespace().any(|word| word == flag)
 }
