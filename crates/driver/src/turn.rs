@@ -242,9 +242,9 @@ impl Control<'_> {
     /// Lets the robot turn on for a moment.
     fn pass(&self, interrupted: Interrupted) -> Result<()> {
         sleep(self.devices, PERIOD, interrupted)?;
-        for motor in self.motors {
-            if !self.devices.has(motor)? {
-                return Err(motor.gone());
+        for device in self.motors.iter().chain([self.gyro]) {
+            if !self.devices.has(device)? {
+                return Err(device.gone());
             }
         }
         Ok(())
