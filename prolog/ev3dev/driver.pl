@@ -38,7 +38,8 @@
             ev3_sysfs/1,                % ?Directory
             ev3_devices/0
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(error),
+              [ domain_error/2, existence_error/2, must_be/2 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library_file, [load_library/0]).
 
@@ -300,7 +301,10 @@ value(Port, Index, Value) :-
 
 value_attribute(Index, Attribute) :-
     must_be(nonneg, Index),
-    atom_concat(value, Index, Attribute).
+    (   Index < 8
+    ->  atom_concat(value, Index, Attribute)
+    ;   domain_error(sensor_value_index, Index)
+    ).
 
 %!  decimals(?Port, ?Decimals) is nondet.
 %
