@@ -199,11 +199,7 @@ fn settle(devices: &Devices, sensor: &Device, interrupted: Interrupted) -> Resul
 
 /// Waits for the sensor to be ours: another thread that wants it in another
 /// mode must not change it between our mode and our value.
-fn in_use<'a>(
-    devices: &Devices,
-    sensor: &'a Device,
-    interrupted: Interrupted,
-) -> Result<Use<'a>> {
+fn in_use<'a>(devices: &Devices, sensor: &'a Device, interrupted: Interrupted) -> Result<Use<'a>> {
     loop {
         match sensor.try_use() {
             Some(guard) => return Ok(guard),
