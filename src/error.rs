@@ -42,9 +42,31 @@ pub(crate) fn wrong_value<T, C: QueryableContextType>(
     domain: &str,
     term: &Term,
 ) -> PrologResult<T> {
+    wrong_because(call, domain, term, "")
+}
+
+/// Raises `domain_error(Domain, Term)`, with the reason as the message.
+pub(crate) fn wrong_because<T, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    term: &Term,
+    reason: &str,
+) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: domain_error(#atomable(domain), #term)}?;
-    throw(call, &formal, "")
+    throw(call, &formal, reason)
+}
+
+/// Raises `existence_error(Kind, Name)`, with the reason as the message.
+pub(crate) fn no_such<T, C: QueryableContextType>(
+    call: &Call<C>,
+    kind: &str,
+    name: &str,
+    reason: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: existence_error(#atomable(kind), #atomable(name))}?;
+    throw(call, &formal, reason)
 }
 
 /// Raises `error(Formal, context(Name/Arity, Message))`; an empty message

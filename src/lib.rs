@@ -13,6 +13,9 @@ mod error;
 mod motors;
 mod robot;
 mod sensors;
+mod sim;
+mod simulated;
+mod spec;
 mod state;
 mod words;
 
@@ -26,4 +29,5 @@ pub extern "C" fn install() {
     motors::register();
     sensors::register();
     robot::register();
+    sim::register();
 }

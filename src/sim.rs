@@ -1,0 +1,396 @@
+//! `prolog/ev3dev/sim.pl`: the simulator.
+use crate::call::{Call, unify_atom};
+use crate::error::{no_such, wrong_because, wrong_value};
+use crate::simulated::{Clock, SimulatedFiles, Simulation};
+use crate::spec::{self, Fact, add_to_robot, add_to_world, named};
+use crate::state::{use_default_files, use_tree};
+use ev3_sim::{Action, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_sim_check();
+    register_sim_start();
+    register_sim_stop();
+    register_sim_active();
+    register_sim_pose();
+    register_sim_place();
+    register_sim_add();
+    register_sim_remove();
+    register_sim_plug();
+    register_sim_unplug();
+    register_sim_jam();
+    register_sim_step();
+    register_sim_time();
+    register_sim_snapshot();
+    register_sim_restore();
+    register_sim_collisions();
+    register_sim_trace();
+    register_sim_svg();
+    register_sim_mount();
+    register_sim_unmount();
+}
+
+/// The simulation that runs, and where it is mounted.
+#[derive(Default)]
+struct Running {
+    simulation: Option<Arc<Simulation>>,
+    #[cfg(feature = "fuse")]
+    mount: Option<ev3_sim::Mount>,
+}
+
+static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
+
+/// A machine as it was.
+#[arc_blob("ev3_snapshot", defaults)]
+struct Snapshot {
+    machine: Mutex<Machine>,
+}
+
+predicates! {
+    /// sim_check_(+Fact)
+    #[module("ev3dev_sim")]
+    #[name("sim_check_")]
+    semidet fn sim_check(context, term) {
+        spec::fact(&Call::of(context, "sim_start", 2), term).map(drop)
+    }
+
+    /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise)
+    #[module("ev3dev_sim")]
+    #[name("sim_start_")]
+    semidet fn sim_start(context, world, robot, clock, seed, noise) {
+        let call = Call::of(context, "sim_start", 2);
+        let facts = |term: &Term<'a>| -> PrologResult<Vec<Fact>> {
+            call.list(term)?.iter().map(|term| spec::fact(&call, term)).collect()
+        };
+        let (world, robot) = (world_of(facts(world)?), robot_of(facts(robot)?, noise.get_ex()?));
+        let seed = u64::from_ne_bytes(call.integer(seed)?.to_ne_bytes());
+        let options = Options { seed, ..Options::default() };
+        let machine = possible(&call, Machine::new(&world, &robot, options))?;
+        start(&call, machine, clock_of(&call, clock)?)
+    }
+
+    /// sim_stop_
+    #[module("ev3dev_sim")]
+    #[name("sim_stop_")]
+    semidet fn sim_stop(context) {
+        let call = Call::of(context, "sim_stop", 0);
+        simulation()?;
+        *running() = None;
+        call.check(use_default_files())
+    }
+
+    /// sim_active_
+    #[module("ev3dev_sim")]
+    #[name("sim_active_")]
+    semidet fn sim_active(_context) {
+        simulation().map(drop)
+    }
+
+    /// sim_pose_(-X, -Y, -Heading)
+    #[module("ev3dev_sim")]
+    #[name("sim_pose_")]
+    semidet fn sim_pose(_context, x, y, heading) {
+        let pose = simulation()?.machine().pose();
+        x.unify(pose.x)?;
+        y.unify(pose.y)?;
+        heading.unify(pose.heading)
+    }
+
+    /// sim_place_(+X, +Y, +Heading)
+    #[module("ev3dev_sim")]
+    #[name("sim_place_")]
+    semidet fn sim_place(context, x, y, heading) {
+        let call = Call::of(context, "sim_place", 3);
+        let pose = spec::pose(&call, [x, y, heading])?;
+        let placed = simulation()?.machine().place(pose);
+        possible(&call, placed)
+    }
+
+    /// sim_add_(+Fact, -Id)
+    #[module("ev3dev_sim")]
+    #[name("sim_add_")]
+    semidet fn sim_add(context, term, id) {
+        let call = Call::of(context, "sim_add", 1);
+        let Fact::Item(item) = spec::fact(&call, term)? else {
+            return wrong_value(&call, "world_item", term);
+        };
+        let added = simulation()?.machine().add_item(item);
+        id.unify(i64::from(possible(&call, added)?.0))
+    }
+
+    /// sim_remove_(+Id)
+    #[module("ev3dev_sim")]
+    #[name("sim_remove_")]
+    semidet fn sim_remove(context, id) {
+        let id = Call::of(context, "sim_remove", 1).integer(id)?;
+        let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
+        into_prolog_result(simulation()?.machine().remove_item(ItemId(id)))
+    }
+
+    /// sim_plug_(+Port, +Type)
+    #[module("ev3dev_sim")]
+    #[name("sim_plug_")]
+    semidet fn sim_plug(context, port, kind) {
+        let call = Call::of(context, "sim_plug", 2);
+        let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
+        let plugged = simulation()?.machine().plug(port, &kind);
+        possible(&call, plugged)
+    }
+
+    /// sim_unplug_(+Port)
+    #[module("ev3dev_sim")]
+    #[name("sim_unplug_")]
+    semidet fn sim_unplug(context, port) {
+        let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
+        into_prolog_result(simulation()?.machine().unplug(port))
+    }
+
+    /// sim_jam_(+Port, +Bool)
+    #[module("ev3dev_sim")]
+    #[name("sim_jam_")]
+    semidet fn sim_jam(context, port, fast) {
+        let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
+        let fast = fast.get_ex()?;
+        simulation()?.machine().jam(port, fast);
+        Ok(())
+    }
+
+    /// sim_step_(+Seconds)
+    #[module("ev3dev_sim")]
+    #[name("sim_step_")]
+    semidet fn sim_step(context, seconds) {
+        let call = Call::of(context, "sim_step", 1);
+        match Duration::try_from_secs_f64(call.float(seconds)?) {
+            Ok(time) => simulation()?.step(time),
+            Err(_) => return wrong_value(&call, "seconds", seconds),
+        }
+        Ok(())
+    }
+
+    /// sim_time_(-Seconds)
+    #[module("ev3dev_sim")]
+    #[name("sim_time_")]
+    semidet fn sim_time(_context, seconds) {
+        seconds.unify(simulation()?.machine().now().as_secs_f64())
+    }
+
+    /// sim_snapshot_(-Snapshot)
+    #[module("ev3dev_sim")]
+    #[name("sim_snapshot_")]
+    semidet fn sim_snapshot(_context, snapshot) {
+        let machine = simulation()?.machine().clone();
+        snapshot.unify(Arc::new(Snapshot { machine: Mutex::new(machine) }))
+    }
+
+    /// sim_restore_(+Snapshot)
+    #[module("ev3dev_sim")]
+    #[name("sim_restore_")]
+    semidet fn sim_restore(_context, snapshot) {
+        let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
+        let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        *simulation()?.machine() = machine;
+        Ok(())
+    }
+
+    /// sim_collisions_(-Collisions): a list of collision(Time, X, Y, Heading).
+    #[module("ev3dev_sim")]
+    #[name("sim_collisions_")]
+    semidet fn sim_collisions(context, collisions) {
+        let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
+        let terms = seen.iter().map(|collision| {
+            let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
+            term! {context: collision(#at, #pose.x, #pose.y, #pose.heading)}
+        });
+        let terms = terms.collect::<PrologResult<Vec<_>>>()?;
+        collisions.unify(terms.as_slice())
+    }
+
+    /// sim_trace_(-Trace): a list of at(Time, Event).
+    #[module("ev3dev_sim")]
+    #[name("sim_trace_")]
+    semidet fn sim_trace(context, trace) {
+        let seen = simulation()?.machine().trace().clone();
+        let poses = seen.path().iter().map(|(at, pose)| {
+            let seconds = at.as_secs_f64();
+            let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
+            Ok((*at, entry?))
+        });
+        let events = seen.events().map(|event| {
+            let (seconds, path) = (event.at.as_secs_f64(), atomable(event.path.as_str()));
+            let text = atomable(event.text.as_str());
+            let entry = match event.action {
+                Action::Written => term! {context: at(#seconds, written(#path, #text))},
+                Action::Read => term! {context: at(#seconds, read(#path, #text))},
+            };
+            Ok((event.at, entry?))
+        });
+        let mut entries = poses.chain(events).collect::<PrologResult<Vec<_>>>()?;
+        entries.sort_by_key(|(at, _)| *at);
+        let entries: Vec<_> = entries.into_iter().map(|(_, entry)| entry).collect();
+        trace.unify(entries.as_slice())
+    }
+
+    /// sim_svg_(-Text)
+    #[module("ev3dev_sim")]
+    #[name("sim_svg_")]
+    semidet fn sim_svg(_context, text) {
+        let picture = simulation()?.machine().svg();
+        unify_atom(text, &picture)
+    }
+
+    /// sim_mount_(+Directory)
+    #[module("ev3dev_sim")]
+    #[name("sim_mount_")]
+    semidet fn sim_mount(context, directory) {
+        let call = Call::of(context, "sim_mount", 1);
+        let directory_text = call.text(directory)?;
+        mount(&call, &directory_text, directory)
+    }
+
+    /// sim_unmount_
+    #[module("ev3dev_sim")]
+    #[name("sim_unmount_")]
+    semidet fn sim_unmount(context) {
+        unmount(&Call::of(context, "sim_unmount", 0))
+    }
+}
+
+/// What runs, if something does.
+fn running() -> MutexGuard<'static, Option<Running>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The simulation that runs; a failure if there is none.
+fn simulation() -> PrologResult<Arc<Simulation>> {
+    let running = running();
+    let simulation = running.as_ref().and_then(|running| running.simulation.clone());
+    simulation.ok_or(PrologError::Failure)
+}
+
+/// Starts a simulation in the place of the one that runs.
+fn start<C: QueryableContextType>(
+    call: &Call<C>,
+    machine: Machine,
+    clock: Clock,
+) -> PrologResult<()> {
+    let simulation = match Simulation::new(machine, clock) {
+        Ok(simulation) => Arc::new(simulation),
+        Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
+    };
+    *running() = Some(Running { simulation: Some(Arc::clone(&simulation)), ..Running::default() });
+    call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
+}
+
+fn world_of(facts: Vec<Fact>) -> WorldSpec {
+    let mut world = WorldSpec::default();
+    for fact in facts {
+        add_to_world(&mut world, fact);
+    }
+    world
+}
+
+/// The robot of these facts; without any, the default one.
+fn robot_of(facts: Vec<Fact>, noise: bool) -> RobotSpec {
+    let mut robot = RobotSpec::default();
+    if !facts.is_empty() {
+        robot.motors.clear();
+        robot.sensors.clear();
+        for fact in facts {
+            add_to_robot(&mut robot, fact);
+        }
+    }
+    if noise { robot.with_typical_noise() } else { robot }
+}
+
+/// `realtime`, `scaled(Factor)` or `virtual`.
+fn clock_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Clock> {
+    let factor = match attempt_opt(call.context.compound_terms::<1>(term))? {
+        Some([factor]) => Some(call.float(&factor)?),
+        None => match &*call.text(term)? {
+            "realtime" => Some(1.0),
+            "virtual" => return Ok(Clock::Virtual),
+            _ => None,
+        },
+    };
+    match factor {
+        Some(factor) if factor > 0.0 && factor <= 1000.0 => Ok(Clock::Wall(factor)),
+        _ => wrong_value(call, "clock", term),
+    }
+}
+
+/// A port, in either spelling.
+fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
+    let text = call.text(term)?;
+    match ev3_driver::port::short(&text).parse() {
+        Ok(port) => Ok(port),
+        Err(_) => named(call, "port", term),
+    }
+}
+
+/// What the simulator answered; that it is impossible as an exception.
+fn possible<T, C: QueryableContextType>(
+    call: &Call<C>,
+    result: Result<T, SpecError>,
+) -> PrologResult<T> {
+    result.or_else(|error| {
+        let item = call.context.new_term_ref();
+        unify_atom(&item, &error.item)?;
+        wrong_because(call, "possible_geometry", &item, &error.reason)
+    })
+}
+
+#[cfg(feature = "fuse")]
+fn mount<C: QueryableContextType>(
+    call: &Call<C>,
+    directory: &str,
+    term: &Term,
+) -> PrologResult<()> {
+    use ev3_sim::{Mount, MountError};
+    use std::error::Error;
+    let shared = simulation()?.shared();
+    match Mount::new(shared, std::path::Path::new(directory)) {
+        Ok(mount) => {
+            if let Some(running) = running().as_mut() {
+                running.mount = Some(mount);
+            }
+            Ok(())
+        }
+        Err(error @ MountError::NoFuse) => no_such(call, "device", "/dev/fuse", &error.to_string()),
+        Err(error @ MountError::NoDirectory(_)) => {
+            no_such(call, "directory", directory, &error.to_string())
+        }
+        Err(error) => {
+            let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+            wrong_because(call, "mountable_directory", term, &format!("{error}{source}"))
+        }
+    }
+}
+
+#[cfg(feature = "fuse")]
+fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
+    let mount = running().as_mut().and_then(|running| running.mount.take());
+    match mount.ok_or(PrologError::Failure)?.unmount() {
+        Ok(()) => Ok(()),
+        Err(error) => no_such(call, "mount", "mount", &error.to_string()),
+    }
+}
+
+#[cfg(not(feature = "fuse"))]
+fn mount<C: QueryableContextType>(
+    call: &Call<C>,
+    _directory: &str,
+    _term: &Term,
+) -> PrologResult<()> {
+    no_such(call, "feature", "fuse", "this library was built without FUSE")
+}
+
+#[cfg(not(feature = "fuse"))]
+fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<()> {
+    Err(PrologError::Failure)
+}

@@ -1,0 +1,297 @@
+//! The simulated brick as a [`Tree`]: the driver works on it as on files.
+//!
+//! This is also where simulated time passes. With a *wall clock* a thread steps
+//! the machine every 2 ms, by as much as has passed times a factor. With the
+//! *virtual clock* time stands still while the program thinks. It passes when
+//! the program waits (then it jumps to the end of the wait) and, a little, with
+//! each access to a file, so that a program that polls a sensor in a loop gets
+//! somewhere, too.
+use ev3_driver::error::Access;
+use ev3_driver::tree::{Entry, Files, Node, Tree};
+use ev3_sim::{Errno, Machine, NodeId, Shared};
+use std::collections::HashMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{JoinHandle, ThreadId};
+use std::time::{Duration, Instant};
+
+/// Where programs see the tree.
+const ROOT: &str = "/sys/class";
+
+/// What a read takes on the virtual clock: as on a brick, by a quick program.
+const READ_TAKES: Duration = Duration::from_micros(500);
+
+/// What a write takes on the virtual clock.
+const WRITE_TAKES: Duration = Duration::from_micros(100);
+
+/// How often the wall clock steps the machine.
+const STEP: Duration = Duration::from_millis(2);
+
+/// How long, by the wall, a wait returns at the latest, so that signals are
+/// handled.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// How long after its last access, by the wall, a thread still counts as busy:
+/// the virtual clock waits for it.
+const BUSY_FOR: Duration = Duration::from_millis(1);
+
+/// How simulated time relates to the wall clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Clock {
+    /// So many simulated seconds a second.
+    Wall(f64),
+    /// Only when the program waits.
+    Virtual,
+}
+
+/// A running simulation.
+pub(crate) struct Simulation {
+    shared: Arc<Shared>,
+    clock: Clock,
+    threads: Mutex<Threads>,
+    stepper: Option<Stepper>,
+}
+
+/// The threads of the program, for the virtual clock.
+#[derive(Default)]
+struct Threads {
+    /// When each last accessed a file, by the wall.
+    accesses: HashMap<ThreadId, Instant>,
+    /// Until when each that waits does.
+    waits: HashMap<ThreadId, Duration>,
+}
+
+impl Simulation {
+    /// Starts the clock of a machine.
+    pub(crate) fn new(machine: Machine, clock: Clock) -> io::Result<Self> {
+        let shared = Arc::new(Shared::new(machine));
+        let stepper = match clock {
+            Clock::Wall(factor) => Some(Stepper::start(Arc::clone(&shared), factor)?),
+            Clock::Virtual => None,
+        };
+        Ok(Self { shared, clock, threads: Mutex::default(), stepper })
+    }
+
+    /// The machine behind its lock, as a mount needs it.
+    #[cfg(feature = "fuse")]
+    pub(crate) fn shared(&self) -> Arc<Shared> {
+        Arc::clone(&self.shared)
+    }
+
+    /// The machine, for as long as the guard lives.
+    pub(crate) fn machine(&self) -> MutexGuard<'_, Machine> {
+        self.shared.lock()
+    }
+
+    /// Lets time pass, whatever the clock.
+    pub(crate) fn step(&self, time: Duration) {
+        self.shared.step(time);
+    }
+
+    /// An access to a file by this thread, which takes its time.
+    fn access<T>(&self, takes: Duration, act: impl FnOnce(&mut Machine) -> T) -> T {
+        let mut machine = self.shared.lock();
+        if self.clock == Clock::Virtual {
+            machine.step(takes);
+            self.threads().accesses.insert(std::thread::current().id(), Instant::now());
+        }
+        act(&mut machine)
+    }
+
+    fn pause(&self, time: Duration) {
+        match self.clock {
+            Clock::Wall(_) => self.pause_by_wall(time),
+            Clock::Virtual => self.pause_virtually(time),
+        }
+    }
+
+    fn pause_by_wall(&self, time: Duration) {
+        let machine = self.shared.lock();
+        let until = machine.now().saturating_add(time);
+        let latest = Instant::now() + SLICE;
+        let mut machine = machine;
+        while machine.now() < until {
+            let left = latest.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return;
+            }
+            machine = self.shared.wait(machine, left);
+        }
+    }
+
+    /// Jumps to the end of the wait, unless another thread has something to do
+    /// before.
+    fn pause_virtually(&self, time: Duration) {
+        let me = std::thread::current().id();
+        let mut machine = self.shared.lock();
+        let until = machine.now().saturating_add(time);
+        self.threads().waits.insert(me, until);
+        while machine.now() < until {
+            if self.is_next(me, until) {
+                let left = until.saturating_sub(machine.now());
+                machine.step(left);
+                self.shared.wake();
+            } else {
+                machine = self.shared.wait(machine, BUSY_FOR);
+            }
+        }
+        let mut threads = self.threads();
+        threads.waits.remove(&me);
+        threads.accesses.insert(me, Instant::now());
+    }
+
+    /// Whether no other thread is busy, or waits for an earlier time.
+    fn is_next(&self, me: ThreadId, until: Duration) -> bool {
+        let mut threads = self.threads();
+        let Threads { accesses, waits } = &mut *threads;
+        accesses.retain(|_, last| last.elapsed() < BUSY_FOR);
+        let is_busy = accesses.keys().any(|other| *other != me && !waits.contains_key(other));
+        !is_busy && waits.values().all(|other| *other >= until)
+    }
+
+    fn threads(&self) -> MutexGuard<'_, Threads> {
+        self.threads.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Steps a machine by the wall clock.
+struct Stepper {
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Stepper {
+    fn start(shared: Arc<Shared>, factor: f64) -> io::Result<Self> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let is_over = Arc::clone(&stop);
+        let thread = std::thread::Builder::new().name("ev3-sim".to_owned()).spawn(move || {
+            let mut last = Instant::now();
+            while !is_over.load(Ordering::Relaxed) {
+                std::thread::sleep(STEP);
+                let now = Instant::now();
+                shared.step((now - last).mul_f64(factor));
+                last = now;
+            }
+        })?;
+        Ok(Self { stop, thread: Some(thread) })
+    }
+}
+
+impl Drop for Stepper {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            // It ends within a step; that it panicked is not news to this one.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Simulation {
+    fn drop(&mut self) {
+        drop(self.stepper.take());
+    }
+}
+
+/// The files of a simulation.
+pub(crate) struct SimulatedFiles {
+    simulation: Arc<Simulation>,
+    root: PathBuf,
+    /// Files that are not ev3dev's.
+    others: Files,
+}
+
+impl SimulatedFiles {
+    pub(crate) fn new(simulation: Arc<Simulation>) -> Self {
+        Self { simulation, root: ROOT.into(), others: Files::new("/") }
+    }
+
+    /// The path below the root, if it is there.
+    fn below<'a>(&self, path: &'a Path) -> Option<&'a str> {
+        path.strip_prefix(&self.root).ok()?.to_str()
+    }
+
+    fn list_below(&self, path: &str) -> io::Result<Vec<Entry>> {
+        let machine = self.simulation.machine();
+        let directory = machine.resolve(path).map_err(error)?;
+        let entries = machine.read_dir(directory).map_err(error)?;
+        let entry = |entry: ev3_sim::Entry| Entry { name: entry.name, inode: entry.node.0 };
+        Ok(entries.into_iter().map(entry).collect())
+    }
+}
+
+impl Tree for SimulatedFiles {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
+        self.list_below(self.below(directory).ok_or(io::ErrorKind::NotFound)?)
+    }
+
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+        let Some(below) = self.below(path) else {
+            return self.others.open(path, access);
+        };
+        let wanted = match access {
+            Access::Read => ev3_sim::Access::ReadOnly,
+            Access::Write => ev3_sim::Access::WriteOnly,
+        };
+        let node = self.simulation.machine().open(below, wanted).map_err(error)?;
+        Ok(Box::new(SimulatedFile { simulation: Arc::clone(&self.simulation), node }))
+    }
+
+    fn matching(&self, pattern: &str) -> ev3_driver::Result<Vec<PathBuf>> {
+        let matcher = glob::Pattern::new(pattern.trim_end_matches('/'))
+            .map_err(|source| ev3_driver::Error::Pattern { pattern: pattern.to_owned(), source })?;
+        let mut paths = Vec::new();
+        for class in self.list_below("").unwrap_or_default() {
+            for device in self.list_below(&class.name).unwrap_or_default() {
+                paths.push(self.root.join(&class.name).join(device.name));
+            }
+        }
+        paths.retain(|path| matcher.matches_path(path));
+        paths.sort();
+        Ok(paths)
+    }
+
+    fn now(&self) -> Duration {
+        self.simulation.machine().now()
+    }
+
+    fn pause(&self, _nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+        self.simulation.pause(timeout);
+        Ok(())
+    }
+}
+
+/// An open file of a simulation.
+struct SimulatedFile {
+    simulation: Arc<Simulation>,
+    node: NodeId,
+}
+
+impl Node for SimulatedFile {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        let text = self.simulation.access(READ_TAKES, |machine| machine.read(self.node));
+        let text = text.map_err(error)?;
+        let length = text.len().min(buffer.len());
+        buffer[..length].copy_from_slice(&text[..length]);
+        Ok(length)
+    }
+
+    fn write(&self, text: &[u8]) -> io::Result<()> {
+        let written = self.simulation.access(WRITE_TAKES, |machine| machine.write(self.node, text));
+        let blocks = written.map_err(error)?.blocks;
+        if !blocks.is_zero() {
+            self.simulation.pause(blocks);
+        }
+        Ok(())
+    }
+}
+
+fn error(errno: Errno) -> io::Error {
+    io::Error::from_raw_os_error(errno.0)
+}

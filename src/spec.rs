@@ -1,0 +1,255 @@
+//! From facts to worlds and robots: the vocabulary of their files.
+use crate::call::Call;
+use crate::error::wrong_because;
+use ev3_sim::{
+    Bounds, Colour, Hull, Item, MotorMount, Noise, Point, Port, Pose, RobotSpec, SensorMount,
+    SpecError, Wheel, WorldSpec,
+};
+use std::str::FromStr;
+use swipl::prelude::*;
+
+/// A fact of a world or robot file.
+pub(crate) enum Fact {
+    Bounds(Bounds),
+    Floor(Colour),
+    Ambient(f64),
+    Start(Pose),
+    Item(Item),
+    /// A whole world, drawn.
+    Map(WorldSpec),
+    Wheel(Side, Wheel),
+    Axle(f64),
+    Hull(Hull),
+    Mass(f64),
+    Motor(MotorMount),
+    Sensor(SensorMount),
+    Noise(Port, Noise),
+}
+
+/// Which wheel.
+#[derive(Clone, Copy)]
+pub(crate) enum Side {
+    Left,
+    Right,
+}
+
+/// Adds what a fact says to a world. A robot's facts say nothing of it.
+pub(crate) fn add_to_world(world: &mut WorldSpec, fact: Fact) {
+    match fact {
+        Fact::Bounds(bounds) => world.bounds = Some(bounds),
+        Fact::Floor(colour) => world.floor = colour,
+        Fact::Ambient(percent) => world.ambient = percent,
+        Fact::Start(pose) => world.start = pose,
+        Fact::Item(item) => world.items.push(item),
+        Fact::Map(drawn) => {
+            world.items.extend(drawn.items);
+            world.start = drawn.start;
+        }
+        _ => {}
+    }
+}
+
+/// Adds what a fact says to a robot.
+pub(crate) fn add_to_robot(robot: &mut RobotSpec, fact: Fact) {
+    match fact {
+        Fact::Wheel(Side::Left, wheel) => robot.left = wheel,
+        Fact::Wheel(Side::Right, wheel) => robot.right = wheel,
+        Fact::Axle(length) => robot.axle = length,
+        Fact::Hull(hull) => robot.hull = hull,
+        Fact::Mass(mass) => robot.mass = mass,
+        Fact::Motor(motor) => robot.motors.push(motor),
+        Fact::Sensor(sensor) => robot.sensors.push(sensor),
+        Fact::Noise(port, noise) => {
+            for motor in robot.motors.iter_mut().filter(|motor| motor.port == port) {
+                motor.noise = noise;
+            }
+            for sensor in robot.sensors.iter_mut().filter(|sensor| sensor.port == port) {
+                sensor.noise = noise;
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Reads a fact and checks what can be checked of it alone.
+pub(crate) fn fact<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Fact> {
+    let unknown = || wrong_because(call, "world_or_robot_fact", term, "");
+    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+        return unknown();
+    };
+    let arguments = call.context.compound_terms_vec(term)?;
+    let name = functor.name_string();
+    let Some(read) = read(call, &name, &arguments)? else {
+        return unknown();
+    };
+    let checked = match read {
+        Ok(Fact::Item(item)) => item.validate().map(|()| Fact::Item(item)),
+        read => read,
+    };
+    checked.or_else(|error| wrong_because(call, "possible_geometry", term, &error.reason))
+}
+
+/// The vocabulary. `None` for a fact that is not in it.
+fn read<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    name: &str,
+    arguments: &[Term<'a>],
+) -> PrologResult<Option<Result<Fact, SpecError>>> {
+    let number = |term: &Term| call.float(term);
+    let fact = match (name, arguments) {
+        ("bounds", [x1, y1, x2, y2]) => Fact::Bounds(Bounds {
+            low: [number(x1)?, number(y1)?],
+            high: [number(x2)?, number(y2)?],
+        }),
+        ("wall", [x1, y1, x2, y2]) => {
+            Fact::Item(Item::wall([number(x1)?, number(y1)?], [number(x2)?, number(y2)?]))
+        }
+        ("wall", [x1, y1, x2, y2, thickness]) => Fact::Item(Item::Wall {
+            from: [number(x1)?, number(y1)?],
+            to: [number(x2)?, number(y2)?],
+            thickness: number(thickness)?,
+        }),
+        ("box", [x, y, width, depth]) => Fact::Item(Item::Box {
+            pose: Pose::new(number(x)?, number(y)?, 0.0),
+            width: number(width)?,
+            depth: number(depth)?,
+        }),
+        ("box", [x, y, width, depth, heading]) => Fact::Item(Item::Box {
+            pose: Pose::new(number(x)?, number(y)?, number(heading)?),
+            width: number(width)?,
+            depth: number(depth)?,
+        }),
+        ("circle", [x, y, radius]) => {
+            Fact::Item(Item::Circle { centre: [number(x)?, number(y)?], radius: number(radius)? })
+        }
+        ("floor", [colour]) => Fact::Floor(named(call, "colour", colour)?),
+        ("patch", [colour, corners]) => Fact::Item(Item::Patch {
+            corners: points(call, corners)?,
+            colour: named(call, "colour", colour)?,
+        }),
+        ("line", [colour, width, along]) => Fact::Item(Item::Line {
+            points: points(call, along)?,
+            width: number(width)?,
+            colour: named(call, "colour", colour)?,
+        }),
+        ("lamp", [x, y, intensity]) => {
+            Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
+        }
+        ("ambient", [percent]) => Fact::Ambient(number(percent)?),
+        ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
+        ("map", [size, rows]) => {
+            let rows = call.list(rows)?;
+            let rows = rows.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
+            let drawn = WorldSpec::from_map(&rows.join("\n"), number(size)?);
+            return Ok(Some(drawn.map(Fact::Map)));
+        }
+        ("left_wheel", [port, diameter, options @ ..]) => {
+            Fact::Wheel(Side::Left, wheel(call, port, diameter, options)?)
+        }
+        ("right_wheel", [port, diameter, options @ ..]) => {
+            Fact::Wheel(Side::Right, wheel(call, port, diameter, options)?)
+        }
+        ("axle", [length]) => Fact::Axle(number(length)?),
+        ("hull", [hull]) => match self::hull(call, hull)? {
+            Some(hull) => Fact::Hull(hull),
+            None => return Ok(None),
+        },
+        ("mass", [mass]) => Fact::Mass(number(mass)?),
+        ("motor", [port, driver]) => Fact::Motor(MotorMount {
+            port: named(call, "port", port)?,
+            driver: call.text(driver)?.into(),
+            noise: Noise::NONE,
+        }),
+        ("sensor", [port, driver, x, y, heading]) => Fact::Sensor(SensorMount {
+            port: named(call, "port", port)?,
+            driver: call.text(driver)?.into(),
+            pose: pose(call, [x, y, heading])?,
+            noise: Noise::NONE,
+        }),
+        ("noise", [port, sigma, bias]) => Fact::Noise(
+            named(call, "port", port)?,
+            Noise { sigma: number(sigma)?, bias: number(bias)? },
+        ),
+        _ => return Ok(None),
+    };
+    Ok(Some(Ok(fact)))
+}
+
+/// A pose from three numbers: cm, cm, degrees.
+pub(crate) fn pose<C: QueryableContextType>(
+    call: &Call<C>,
+    [x, y, heading]: [&Term; 3],
+) -> PrologResult<Pose> {
+    Ok(Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
+}
+
+/// Something that has a name: a port, a colour.
+pub(crate) fn named<T: FromStr, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    term: &Term,
+) -> PrologResult<T> {
+    call.text(term)?.parse().or_else(|_| wrong_because(call, domain, term, ""))
+}
+
+/// A list of `[X, Y]`.
+fn points<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Vec<Point>> {
+    let point = |term: &Term<'a>| match &*call.list(term)? {
+        [x, y] => Ok([call.float(x)?, call.float(y)?]),
+        _ => wrong_because(call, "point", term, ""),
+    };
+    call.list(term)?.iter().map(point).collect()
+}
+
+/// A wheel: its port, its diameter in cm, and perhaps a list of `inverted(Bool)`
+/// and `slip(Share)`.
+fn wheel<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    port: &Term<'a>,
+    diameter: &Term<'a>,
+    options: &[Term<'a>],
+) -> PrologResult<Wheel> {
+    let mut wheel = Wheel {
+        port: named(call, "port", port)?,
+        diameter: call.float(diameter)?,
+        inverted: false,
+        slip: 0.0,
+    };
+    for options in options {
+        for option in call.list(options)? {
+            let [value] = call.arguments(&option)?;
+            match &*option.get::<Functor>()?.name_string() {
+                "inverted" => wheel.inverted = value.get_ex()?,
+                "slip" => wheel.slip = call.float(&value)?,
+                _ => return wrong_because(call, "wheel_option", &option, ""),
+            }
+        }
+    }
+    Ok(wheel)
+}
+
+/// `circle(Radius)` or `rectangle(Width, Length, Offset)`.
+fn hull<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Option<Hull>> {
+    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+        return Ok(None);
+    };
+    let arguments = call.context.compound_terms_vec(term)?;
+    Ok(match (&*functor.name_string(), &*arguments) {
+        ("circle", [radius]) => Some(Hull::Circle { radius: call.float(radius)? }),
+        ("rectangle", [width, length, offset]) => Some(Hull::Rectangle {
+            width: call.float(width)?,
+            length: call.float(length)?,
+            offset: call.float(offset)?,
+        }),
+        _ => None,
+    })
+}
