@@ -183,15 +183,21 @@ impl Devices {
     /// the pattern's matches. Directories that hold no device are passed over.
     ///
     /// # Errors
-    /// [`Error::Pattern`].
+    /// [`Error::Pattern`]; the kernel's, as EMFILE.
     pub fn detect(&self, pattern: &str) -> Result<Vec<Detected>> {
         let paths = self.tree.matching(pattern)?;
-        let detected = paths.into_iter().filter_map(|path| {
-            let (address, driver) = identity(&*self.tree, &path).ok()?;
-            let port = port::short(&address).to_owned();
-            Some(Detected { port, driver, path })
-        });
-        Ok(detected.collect())
+        let mut detected = Vec::new();
+        for path in paths {
+            match identity(&*self.tree, &path) {
+                Ok((address, driver)) => {
+                    let port = port::short(&address).to_owned();
+                    detected.push(Detected { port, driver, path });
+                }
+                Err(error) if is_exhaustion(&error) => return Err(error),
+                Err(_) => {}
+            }
+        }
+        Ok(detected)
     }
 
     fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {

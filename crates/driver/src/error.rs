@@ -61,7 +61,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A device was unplugged while it was in use.
-    #[error("the device was unplugged")]
+    #[error("the {class} at {port} was unplugged")]
     Gone {
         /// The kind of device.
         class: Class,

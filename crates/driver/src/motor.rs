@@ -209,18 +209,18 @@ pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     stopped.and(chosen)
 }
 
-/// Stops a motor as [`stop`] does, and is content if it does not have that
-/// action but stops.
+/// Stops a motor as [`stop`] does, and is content if it stops without having
+/// that action, or is gone.
 fn stop_somehow(motor: &Device, action: StopAction) -> Result<()> {
-    let is_action_refused = |error: &Error| {
-        error.errno() == Some(Errno::INVAL)
-            && error.path().is_some_and(|path| path.ends_with("stop_action"))
+    let is_at_rest = |error: &Error| {
+        let is_action = error.path().is_some_and(|path| path.ends_with("stop_action"));
+        is_action && error.errno() == Some(Errno::INVAL) || error.is_stale()
     };
-    stop(motor, action).or_else(|error| if is_action_refused(&error) { Ok(()) } else { Err(error) })
+    stop(motor, action).or_else(|error| if is_at_rest(&error) { Ok(()) } else { Err(error) })
 }
 
-/// Stops all of these motors, even where one of them fails, or does not have
-/// that action.
+/// Stops all of these motors, even where one of them fails. One that is gone
+/// has nothing to stop, and one that does not have that action just stops.
 ///
 /// # Errors
 /// The first that occurred.
@@ -241,8 +241,7 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
     let motors = devices.all(Class::TachoMotor)?;
     let mut result = Ok(());
     for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
-        let stopped = stop_somehow(motor, StopAction::Brake);
-        result = result.and(stopped.or_else(|e| if e.is_stale() { Ok(()) } else { Err(e) }));
+        result = result.and(stop_somehow(motor, StopAction::Brake));
     }
     result
 }

@@ -2,7 +2,7 @@
 use crate::files::PlainTree;
 use ev3_driver::device::{read_file, read_value, write_file};
 use ev3_driver::error::Access;
-use ev3_driver::{Class, Device, Devices, Errno, Error, Value, attributes};
+use ev3_driver::{Class, Device, Devices, Errno, Error, Files, Tree, Value, attributes};
 use std::error::Error as _;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -196,6 +196,16 @@ fn a_directory_or_a_pipe_in_the_place_of_an_attribute_is_an_error_and_does_not_b
     assert_eq!(motor.write("directory", "1").unwrap_err().errno(), Some(Errno::ISDIR));
     assert_eq!(motor.number("pipe").unwrap_err().errno(), Some(Errno::SPIPE));
     assert_eq!(motor.write("pipe", "1").unwrap_err().errno(), Some(Errno::SPIPE));
+}
+
+#[test]
+fn a_plain_file_announces_nothing() {
+    let (tree, _, _) = motor_with(&[("state", "running")]);
+    let files = Files::new(tree.root());
+    let state = files.open(&tree.root().join("tacho-motor/motor0/state"), Access::Read).unwrap();
+    let started = Instant::now();
+    files.pause(&[&*state], Duration::from_millis(5)).unwrap();
+    assert!(started.elapsed() >= Duration::from_millis(5));
 }
 
 #[test]

@@ -303,8 +303,10 @@ fn a_motor_that_vanishes_stops_the_others_and_is_named() {
         let moves = [turn("outB", 50.0, 9000.0), turn("outC", 50.0, 9000.0)];
         let options = MoveOptions::default();
         let error = run_to(&brick.devices(), &moves, &options, &mut brick.attentive()).unwrap_err();
+        let message = error.to_string();
         let Error::Gone { class: Class::TachoMotor, port } = error else { panic!("{error}") };
         assert_eq!(port, vanishing);
+        assert_eq!(message, format!("the motor at {vanishing} was unplugged"));
         assert!(brick.world().motor(other).is_braking());
     }
 }
@@ -410,6 +412,17 @@ fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
     let error = stop_all(&motors(&devices, &["outA", "outB", "outC"]), StopAction::Brake);
     assert_eq!(error.unwrap_err().errno(), Some(Errno::IO));
     assert!(!is_powered(&brick, "outA") && !is_powered(&brick, "outC"));
+}
+
+#[test]
+fn a_motor_that_is_gone_needs_no_stop() {
+    let brick = Brick::new(&["outA", "outB"]);
+    let devices = brick.devices();
+    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
+    let all = motors(&devices, &["outA", "outB"]);
+    brick.world().motor("outA").is_unplugged = true;
+    stop_all(&all, StopAction::Brake).unwrap();
+    assert!(brick.world().motor("outB").is_braking());
 }
 
 #[test]
