@@ -55,7 +55,7 @@ fn main() {
     let start = Instant::now();
     let mut turning = true;
     while machine.now() < simulated {
-        let near = number(&mut machine, &mut eyes) < 250;
+        let near = number(&mut machine, &mut eyes) < 500;
         number(&mut machine, &mut colour);
         number(&mut machine, &mut gyro);
         let mut text = [0; 64];
