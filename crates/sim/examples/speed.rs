@@ -1,12 +1,11 @@
 //! How many simulated seconds pass in a second of wall time, with a program that polls.
 //!
-//! `cargo run --release -p ev3-sim --example speed`
+//! `cargo run --release -p ev3-sim --example speed [-- SECONDS]`
 
 use std::time::{Duration, Instant};
 
 use ev3_sim::{Access, Descriptor, Machine, NodeId};
 
-const SIMULATED: Duration = Duration::from_secs(600);
 const POLL: Duration = Duration::from_millis(10);
 
 fn number(machine: &mut Machine, file: &mut Descriptor) -> i32 {
@@ -38,6 +37,8 @@ fn drive(
 }
 
 fn main() {
+    let seconds = std::env::args().nth(1).and_then(|text| text.parse().ok());
+    let simulated = Duration::from_secs(seconds.unwrap_or(600));
     let mut machine = Machine::default();
     let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
     let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
@@ -53,8 +54,8 @@ fn main() {
 
     let start = Instant::now();
     let mut turning = true;
-    while machine.now() < SIMULATED {
-        let near = number(&mut machine, &mut eyes) < 250;
+    while machine.now() < simulated {
+        let near = number(&mut machine, &mut eyes) < 500;
         number(&mut machine, &mut colour);
         number(&mut machine, &mut gyro);
         let mut text = [0; 64];
@@ -75,7 +76,7 @@ fn main() {
     let wall = start.elapsed().as_secs_f64();
     println!(
         "{:.0} simulated seconds per wall second; {} collisions; ends at {:?}",
-        SIMULATED.as_secs_f64() / wall,
+        simulated.as_secs_f64() / wall,
         machine.trace().collision_count(),
         machine.pose()
     );

@@ -25,6 +25,37 @@
 //! `pread` and `poll` do on an open file, and [`Written::blocks`] for calls that take their time.
 //! A [`Machine`] is a plain value: `clone` is a snapshot, assignment restores it.
 //!
+//! # Waiting
+//!
+//! Nothing here waits; an adapter with a clock does. In real time it steps by the wall time that
+//! has passed, before each access or from a thread ([`Shared::step`] wakes who waits). With a
+//! virtual clock, a program that waits for a file lets time jump:
+//!
+//! ```
+//! # use ev3_sim::{Access, Descriptor, Machine};
+//! # let mut machine = Machine::default();
+//! # machine.write_path("tacho-motor/motor1/time_sp", "700").unwrap();
+//! # machine.write_path("tacho-motor/motor1/command", "run-timed").unwrap();
+//! let mut state = Descriptor::open(&machine, "tacho-motor/motor1/state", Access::ReadOnly)?;
+//! let mut text = [0; 64];
+//! loop {
+//!     let length = state.pread(&mut machine, 0, &mut text)?;
+//!     if !text[..length].starts_with(b"running") {
+//!         break;
+//!     }
+//!     while !state.poll(&machine) {
+//!         machine.step(machine.next_event().saturating_sub(machine.now()));
+//!     }
+//! }
+//! assert_eq!(machine.now().as_millis(), 700);
+//! # Ok::<(), ev3_sim::Errno>(())
+//! ```
+//!
+//! A program that reads sensors in a loop and never waits would stop time; an adapter lets each
+//! access cost a little (a real brick needs about 40 µs for one).
+//!
+//! # Where to read on
+//!
 //! How the hardware behaves is told where it is modelled: motors in `motor`, sensors in
 //! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`.
 #![forbid(unsafe_code)]

@@ -148,18 +148,13 @@ impl Machine {
     /// no such sensor.
     pub fn lose_contact(&mut self, port: Port, time: Duration) -> bool {
         let serial = self.sockets[port as usize].device;
-        match serial.and_then(|serial| self.tree.hardware_mut(serial)) {
-            Some(Hardware::Sensor(sensor)) => {
-                sensor.lose_contact(
-                    time.as_micros()
-                        .div_ceil(TICK_US.into())
-                        .try_into()
-                        .unwrap_or(u64::MAX / 2),
-                );
-                true
-            }
-            _ => false,
-        }
+        let hardware = serial.and_then(|serial| self.tree.hardware_mut(serial));
+        let Some(Hardware::Sensor(sensor)) = hardware else {
+            return false;
+        };
+        let ticks = time.as_micros().div_ceil(TICK_US.into());
+        sensor.lose_contact(u64::try_from(ticks).unwrap_or(u64::MAX / 2));
+        true
     }
 
     /// Holds the shaft of a motor fast, or lets it go.

@@ -51,7 +51,10 @@ pub struct Event {
 pub struct Trace {
     path: Vec<(Duration, Pose)>,
     spacing: u64,
-    events: VecDeque<Event>,
+    /// Apart, so that a program that polls does not push its own commands out; with their order.
+    written: VecDeque<(u64, Event)>,
+    read: VecDeque<(u64, Event)>,
+    event_count: u64,
     collisions: VecDeque<Collision>,
     collision_count: u32,
 }
@@ -61,7 +64,9 @@ impl Trace {
         Trace {
             path: Vec::new(),
             spacing: FIRST_SPACING_TICKS,
-            events: VecDeque::new(),
+            written: VecDeque::new(),
+            read: VecDeque::new(),
+            event_count: 0,
             collisions: VecDeque::new(),
             collision_count: 0,
         }
@@ -73,9 +78,12 @@ impl Trace {
         &self.path
     }
 
-    /// The newest accesses to files, oldest first.
-    pub fn events(&self) -> impl Iterator<Item = &Event> {
-        self.events.iter()
+    /// The newest accesses to files, oldest first: 4096 writes and 4096 reads.
+    #[must_use]
+    pub fn events(&self) -> Vec<&Event> {
+        let mut events: Vec<_> = self.written.iter().chain(&self.read).collect();
+        events.sort_unstable_by_key(|(order, _)| *order);
+        events.into_iter().map(|(_, event)| event).collect()
     }
 
     /// The newest collisions, oldest first.
@@ -109,10 +117,15 @@ impl Trace {
     }
 
     pub(crate) fn event(&mut self, event: Event) {
-        if self.events.len() == EVENTS {
-            self.events.pop_front();
+        let ring = match event.action {
+            Action::Written => &mut self.written,
+            Action::Read => &mut self.read,
+        };
+        if ring.len() == EVENTS {
+            ring.pop_front();
         }
-        self.events.push_back(event);
+        ring.push_back((self.event_count, event));
+        self.event_count += 1;
     }
 
     pub(crate) fn collision(&mut self, collision: Collision) {

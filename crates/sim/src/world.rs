@@ -223,31 +223,28 @@ impl Default for WorldSpec {
 }
 
 impl WorldSpec {
-    /// A room of 200 by 150 cm with two boxes and a pillar; the robot starts in a free corner.
+    /// A room of 300 by 240 cm with two boxes and a pillar; the robot starts in a free corner.
     #[must_use]
     pub fn room() -> WorldSpec {
+        let boxed = |x, y, heading, width, depth| Item::Box {
+            pose: Pose::new(x, y, heading),
+            width,
+            depth,
+        };
         WorldSpec {
             items: vec![
-                Item::Box {
-                    pose: Pose::new(60.0, 105.0, 20.0),
-                    width: 30.0,
-                    depth: 20.0,
-                },
-                Item::Box {
-                    pose: Pose::new(145.0, 60.0, -15.0),
-                    width: 20.0,
-                    depth: 35.0,
-                },
+                boxed(70.0, 155.0, 20.0, 40.0, 30.0),
+                boxed(215.0, 80.0, -15.0, 30.0, 45.0),
                 Item::Circle {
-                    centre: [110.0, 115.0],
-                    radius: 7.0,
+                    centre: [190.0, 185.0],
+                    radius: 10.0,
                 },
             ],
             bounds: Some(Bounds {
                 low: [0.0, 0.0],
-                high: [200.0, 150.0],
+                high: [300.0, 240.0],
             }),
-            start: Pose::new(40.0, 40.0, 0.0),
+            start: Pose::new(60.0, 50.0, 0.0),
             ..WorldSpec::default()
         }
     }

@@ -38,7 +38,7 @@ pub enum MountError {
     #[error("{}: no such directory to mount on", .0.display())]
     NoDirectory(PathBuf),
     /// The kernel, or the helper `fusermount3`, refused.
-    #[error("{}: cannot mount here (without root this needs the program fusermount3)", .path.display())]
+    #[error("{}: cannot mount here; without root this needs fusermount3", .path.display())]
     Refused {
         /// Where.
         path: PathBuf,

@@ -2,8 +2,9 @@
 //!
 //! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
 //! arrive, everything shows the old one; for the settling time after that the numbers are still
-//! those that the new mode showed last, if it was ever read. An analog sensor has none of this. What a sensor sees is not decided
-//! here: [`crate::sense`] looks at the world and hands in [`Reading`]s.
+//! those that the new mode showed last, if it was ever read. An analog sensor has none of this.
+//! What a sensor sees is not decided here: [`crate::sense`] looks at the world and hands in a
+//! [`Reading`].
 
 mod attrs;
 mod kind;

@@ -1,6 +1,7 @@
 //! The simulator through its files, as a program sees it.
 
 mod attributes;
+mod avoid;
 mod braitenberg;
 mod dc_motors;
 mod desk;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use ev3_sim::{Machine, Options, Port, RobotSpec, WorldSpec};
+use ev3_sim::{Bounds, Hull, Item, Machine, Options, Port, Pose, RobotSpec, WorldSpec};
 use proptest::prelude::*;
 
 use crate::desk::{A, B, C, Desk};
@@ -151,6 +151,34 @@ proptest! {
                 for (port, old) in [Port::OutA, Port::OutB, Port::OutC].into_iter().zip(before.1) {
                     prop_assert!((desk.0.shaft_angle(port) - old).abs() < 4.0);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn no_hull_is_ever_inside_anything(
+        program in deeds(16),
+        boxes in prop::collection::vec((-60.0..60.0f64, -60.0..60.0f64, 0.0..180.0f64, 3.0..30.0f64), 1..6),
+        rectangle in any::<bool>(),
+    ) {
+        let items = boxes.into_iter().map(|(x, y, heading, size)| {
+            Item::Box { pose: Pose::new(x, y, heading), width: size, depth: size / 2.0 }
+        });
+        let rectangular = Hull::Rectangle { width: 13.0, length: 19.0, offset: 2.0 };
+        let hull = if rectangle { rectangular } else { Hull::Circle { radius: 8.0 } };
+        let robot = RobotSpec { hull, ..RobotSpec::default() };
+        let bounds = Some(Bounds { low: [-70.0, -70.0], high: [70.0, 70.0] });
+        let mut desk = Desk::with(&WorldSpec { bounds, ..WorldSpec::default() }, &robot);
+        for item in items {
+            // What would stand on the robot is left out.
+            let _ = desk.0.add_item(item);
+        }
+        for deed in &program {
+            act(&mut desk, deed);
+            for _ in 0..deed.wait_us / 10_000 {
+                desk.step(10);
+                let mut copy = desk.0.clone();
+                prop_assert!(copy.place(desk.0.pose()).is_ok(), "inside something: {:?}", desk.0.pose());
             }
         }
     }

@@ -104,7 +104,7 @@ fn collisions_and_events_are_recorded() {
     assert!(trace.collision_count() >= 1);
     let first = trace.collisions().next().unwrap();
     assert!(first.item == ItemId(1) && first.pose.y > 80.0, "{first:?}");
-    let events: Vec<_> = trace.events().collect();
+    let events = trace.events();
     assert_eq!(events[1].path, "tacho-motor/motor1/command");
     assert_eq!(
         (events[1].action, events[1].text.as_str()),
