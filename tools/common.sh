@@ -16,6 +16,14 @@ say() {
     echo "${0##*/}: $*" >&2
 }
 
+# have COMMAND...: are all of these there?
+have() {
+    local command
+    for command; do
+        command -v "$command" >/dev/null || return
+    done
+}
+
 # locked NAME: one run at a time, until this script ends.
 locked() {
     exec {lock_fd}>"$toolchain/$1.lock"

@@ -40,11 +40,11 @@ build() {
         clean_environment
         write_linker amd64
         write_linker "$name"
-        RUSTC=$toolchain/bin/rustc
-        RUSTFLAGS="$(rust_flags "$name")"
-        CARGO_TARGET_DIR=$root/target/cross
-        export RUSTC RUSTFLAGS CARGO_TARGET_DIR CARGO_INCREMENTAL=0
-        export SOURCE_DATE_EPOCH=0 LC_ALL=C TZ=UTC
+        export RUSTC=$toolchain/bin/rustc CARGO_TARGET_DIR=$root/target/cross
+        export CARGO_INCREMENTAL=0 SOURCE_DATE_EPOCH=0 LC_ALL=C TZ=UTC
+        "$toolchain/bin/cargo" fetch --quiet --locked --target "$triple"
+        CARGO_ENCODED_RUSTFLAGS=$(rust_flags)
+        export CARGO_ENCODED_RUSTFLAGS
         "$toolchain/bin/cargo" build --quiet --release --locked --package ev3dev \
             --target "$triple"
     )
@@ -73,11 +73,18 @@ write_linker() {
     export "CARGO_TARGET_${triple//-/_}_LINKER=$linker"
 }
 
-# No path of this machine in the file.
+# No path of this machine in the file, nor which registry it uses. Where two
+# prefixes match, the last one counts.
 rust_flags() {
-    echo "--remap-path-prefix=$root=/ev3dev" \
-        "--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=/cargo" \
-        "--remap-path-prefix=$toolchain=/toolchain"
+    local home=${CARGO_HOME:-$HOME/.cargo} crates flag flags
+    flags=("$root=/ev3dev" "$home=/cargo")
+    for crates in "$home"/registry/src/*/; do
+        flags+=("${crates%/}=/crates")
+    done
+    flags+=("$toolchain=/toolchain")
+    for flag in "${flags[@]}"; do
+        printf '%s\x1f' "--remap-path-prefix=$flag"
+    done | sed 's/\x1f$//'
 }
 
 main "$@"

@@ -33,6 +33,7 @@ debian_mirror() {
     # shellcheck disable=SC1091
     codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
     [[ $id == debian ]] || return 1
+    # shellcheck disable=SC2016
     apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' \
         'Identifier: Packages' 2>/dev/null |
         awk -v suite="$codename" '
@@ -45,7 +46,7 @@ debian_apt_new() {
     local dir=$1 suite=$2 native=$3
     shift 2
     local mirror keyring arch
-    command -v apt-get >/dev/null && command -v dpkg >/dev/null ||
+    have apt-get dpkg ||
         die "Debian's packages are needed but apt-get or dpkg is missing"
     mirror=$(debian_mirror) ||
         die "no Debian mirror known: set EV3DEV_DEBIAN_MIRROR"

@@ -44,7 +44,7 @@ main() {
 fetch_zig() {
     local dir=$toolchain/zig
     is_made "$dir" "$zig_version" && return
-    command -v python3 >/dev/null && python3 -m pip --version >/dev/null 2>&1 ||
+    python3 -m pip --version >/dev/null 2>&1 ||
         die "zig comes from the Python package ziglang, but python3 with pip is missing"
     say "fetching zig $zig_version"
     rm -rf "$dir"
@@ -57,7 +57,7 @@ fetch_zig() {
 
 # The targets of rustup, added to a toolchain of the pinned version.
 rust_of_rustup() {
-    command -v rustup >/dev/null || return 1
+    have rustup || return 1
     local name target=()
     for name in "${all_targets[@]}"; do
         target+=("$(triple_of "$name")")
