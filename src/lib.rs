@@ -1,1 +1,27 @@
-//! Foreign library of the pack `ev3dev`.
+//! Foreign library of the pack `ev3dev`: Prolog's view of [`ev3_driver`].
+//!
+//! One file for each Prolog module. Each predicate takes its arguments out of
+//! their terms, calls the driver once, and unifies what it answers. Where the
+//! driver answers "there is none", the predicate fails; an error becomes an
+//! ISO exception in [`error`], and nowhere else.
+//!
+//! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
+//! module, and names that in its errors.
+mod call;
+mod driver;
+mod error;
+mod motors;
+mod robot;
+mod sensors;
+mod state;
+
+/// Registers all predicates; SWI-Prolog calls it when it loads the library.
+// Safety: the name is SWI-Prolog's, and no other library is asked for it: it is
+// looked up in this one only.
+#[unsafe(no_mangle)]
+pub extern "C" fn install() {
+    driver::register();
+    motors::register();
+    sensors::register();
+    robot::register();
+}

@@ -91,11 +91,7 @@ unsafe fn unsigned_from_signed(t: term_t, c: *mut u64) -> c_int {
 unsafe fn record_again(r: record_t) -> record_t {
     unsafe {
         let t = PL_new_term_ref();
-        let copy = if PL_recorded(r, t) == 0 {
-            null_mut::<c_void>()
-        } else {
-            PL_record(t)
-        };
+        let copy = if PL_recorded(r, t) == 0 { null_mut::<c_void>() } else { PL_record(t) };
         PL_reset_term_refs(t);
         copy
     }

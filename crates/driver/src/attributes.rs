@@ -1,0 +1,73 @@
+//! Any attribute of any device, by its name.
+//!
+//! Most are read and written as they are. A few mean more: a motor's `command`
+//! starts something that must be stopped at the end, a sensor's `mode` is
+//! written only when it differs and then needs time to settle.
+use crate::Interrupted;
+use crate::devices::{Class, Devices};
+use crate::error::Result;
+use crate::value::Value;
+use crate::{motor, sensor};
+
+/// Attributes that hold an integer and nothing else.
+const INTEGERS: [&str; 20] = [
+    "count_per_m",
+    "count_per_rot",
+    "decimals",
+    "duty_cycle",
+    "duty_cycle_sp",
+    "full_travel_count",
+    "hold_pid/Kd",
+    "hold_pid/Ki",
+    "hold_pid/Kp",
+    "max_speed",
+    "num_values",
+    "position",
+    "position_sp",
+    "ramp_down_sp",
+    "ramp_up_sp",
+    "speed",
+    "speed_pid/Kd",
+    "speed_pid/Ki",
+    "speed_pid/Kp",
+    "speed_sp",
+];
+
+/// Reads an attribute; `None` where the device is absent.
+///
+/// # Errors
+/// The kernel's, as EACCES for an attribute that can only be written;
+/// [`Error::Malformed`](crate::Error::Malformed).
+pub fn read(devices: &Devices, class: Class, port: &str, name: &str) -> Result<Option<Value>> {
+    let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
+    devices.with(class, port, |device| match (class, index) {
+        (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
+        _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),
+        _ => device.text(name).map(|text| Value::parse(&text)),
+    })
+}
+
+/// Writes an attribute; `None` where the device is absent.
+///
+/// # Errors
+/// The kernel's, as EINVAL for a value that is not accepted, EACCES for an
+/// attribute that can only be read; [`Error::Interrupted`](crate::Error).
+pub fn write(
+    devices: &Devices,
+    class: Class,
+    port: &str,
+    name: &str,
+    text: &str,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    if (class, name) == (Class::Sensor, "mode") {
+        return match devices.find(class, port)? {
+            Some(sensor) => sensor::set_mode(devices, &sensor, text, interrupted),
+            None => Ok(None),
+        };
+    }
+    devices.with(class, port, |device| match (class, name) {
+        (Class::TachoMotor, "command") => motor::command(devices, device, text),
+        _ => device.write(name, text),
+    })
+}

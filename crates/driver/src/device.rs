@@ -1,0 +1,364 @@
+//! One device: its attributes as kept descriptors, and what is known of it.
+use crate::devices::{Class, Detected};
+use crate::error::{Access, Error, Result};
+use crate::motor::Motion;
+use crate::tree::{Entry, Node, Tree};
+use crate::value::{Value, first_line, integer};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
+use std::time::Duration;
+
+/// The kernel's limit on an attribute's text: a page.
+const PAGE: usize = 4096;
+
+/// Room for a number, a mode, or a motor's state.
+const SHORT: usize = 64;
+
+/// A motor or a sensor.
+pub struct Device {
+    class: Class,
+    port: Box<str>,
+    driver: Box<str>,
+    path: PathBuf,
+    entry: Entry,
+    first_seen: Duration,
+    tree: Arc<dyn Tree>,
+    attributes: RwLock<Vec<Arc<Attribute>>>,
+    /// Numbers that cannot change while the device is plugged in, by
+    /// attribute, and for some by sensor mode.
+    constants: RwLock<Vec<(&'static str, Box<str>, i64)>>,
+    /// What a motor was last told to do.
+    motion: Mutex<Option<Motion>>,
+    /// Held while a sensor is put into a mode and read in it.
+    in_use: Mutex<()>,
+}
+
+impl Device {
+    /// Reads who is at `directory/entry`.
+    pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
+        let path = tree.root().join(class.directory()).join(&entry.name);
+        let (address, driver) = identity(&**tree, &path)?;
+        Ok(Self {
+            class,
+            port: crate::port::short(&address).into(),
+            driver: driver.into(),
+            path,
+            entry,
+            first_seen: tree.now(),
+            tree: Arc::clone(tree),
+            attributes: RwLock::default(),
+            constants: RwLock::default(),
+            motion: Mutex::default(),
+            in_use: Mutex::default(),
+        })
+    }
+
+    /// The kind of device.
+    #[must_use]
+    pub fn class(&self) -> Class {
+        self.class
+    }
+
+    /// The port it is plugged into, by its short name: `outA`.
+    #[must_use]
+    pub fn port(&self) -> &str {
+        &self.port
+    }
+
+    /// Its type: `lego-ev3-l-motor`.
+    #[must_use]
+    pub fn driver(&self) -> &str {
+        &self.driver
+    }
+
+    /// Its directory.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The tree it is in, whose clock it lives by.
+    #[must_use]
+    pub fn tree(&self) -> &dyn Tree {
+        &*self.tree
+    }
+
+    /// What programs see of it.
+    #[must_use]
+    pub fn detected(&self) -> Detected {
+        Detected {
+            port: self.port().to_owned(),
+            driver: self.driver().to_owned(),
+            path: self.path.clone(),
+        }
+    }
+
+    /// The error that says that it was unplugged.
+    pub(crate) fn gone(&self) -> Error {
+        Error::Gone { class: self.class, port: self.port().to_owned() }
+    }
+
+    pub(crate) fn entry(&self) -> &Entry {
+        &self.entry
+    }
+
+    /// When it was first seen, by the tree's clock.
+    pub(crate) fn first_seen(&self) -> Duration {
+        self.first_seen
+    }
+
+    /// What the motor was last told to do.
+    pub(crate) fn motion(&self) -> MutexGuard<'_, Option<Motion>> {
+        self.motion.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The lock on the sensor's mode, if nobody holds it.
+    pub(crate) fn try_use(&self) -> Option<MutexGuard<'_, ()>> {
+        match self.in_use.try_lock() {
+            Ok(guard) => Some(guard),
+            Err(std::sync::TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(std::sync::TryLockError::WouldBlock) => None,
+        }
+    }
+
+    /// An integer attribute.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where the file holds none, else the kernel's.
+    pub fn number(&self, attribute: &str) -> Result<i64> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        integer(text).ok_or_else(|| attribute.malformed(text, "an integer"))
+    }
+
+    /// An integer that cannot change while the device is plugged in: read
+    /// once.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn constant(&self, attribute: &'static str) -> Result<i64> {
+        self.constant_in(attribute, "")
+    }
+
+    /// An integer that depends on nothing but the sensor's mode: read once for
+    /// each.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
+        let known = |constants: &[(&str, Box<str>, i64)]| {
+            let entry = constants.iter().find(|(a, m, _)| *a == attribute && **m == *mode);
+            entry.map(|(_, _, value)| *value)
+        };
+        let constants = self.constants.read().unwrap_or_else(PoisonError::into_inner);
+        if let Some(value) = known(&constants) {
+            return Ok(value);
+        }
+        drop(constants);
+        let value = self.number(attribute)?;
+        let mut constants = self.constants.write().unwrap_or_else(PoisonError::into_inner);
+        if known(&constants).is_none() {
+            constants.push((attribute, mode.into(), value));
+        }
+        Ok(value)
+    }
+
+    /// Calls `look` with the text of a short attribute, as `mode` or `state`.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
+    pub fn with_word<T>(&self, attribute: &str, look: impl FnOnce(&str) -> T) -> Result<T> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        let word = std::str::from_utf8(text).map_err(|_| attribute.malformed(text, "a word"))?;
+        Ok(look(word))
+    }
+
+    /// The text of an attribute.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where it is not UTF-8 or is longer than a page,
+    /// else the kernel's.
+    pub fn text(&self, attribute: &str) -> Result<String> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; PAGE + 1];
+        let bytes = attribute.read(self.tree(), &mut buffer)?;
+        text_of(&attribute.path, bytes)
+    }
+
+    /// Writes an attribute.
+    ///
+    /// # Errors
+    /// The kernel's, as EINVAL for a value that is not accepted.
+    pub fn write(&self, attribute: &str, text: &str) -> Result<()> {
+        self.attribute(attribute).write(self.tree(), text)
+    }
+
+    /// Writes an integer.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_number(&self, attribute: &str, number: i64) -> Result<()> {
+        self.write(attribute, itoa::Buffer::new().format(number))
+    }
+
+    /// The open attribute file, for a wait on its changes.
+    pub(crate) fn attribute(&self, name: &str) -> Arc<Attribute> {
+        let known = |attributes: &[Arc<Attribute>]| {
+            attributes.iter().find(|attribute| *attribute.name == *name).cloned()
+        };
+        let attributes = self.attributes.read().unwrap_or_else(PoisonError::into_inner);
+        if let Some(attribute) = known(&attributes) {
+            return attribute;
+        }
+        drop(attributes);
+        let mut attributes = self.attributes.write().unwrap_or_else(PoisonError::into_inner);
+        known(&attributes).unwrap_or_else(|| {
+            let attribute = Arc::new(Attribute::new(name, &self.path));
+            attributes.push(Arc::clone(&attribute));
+            attribute
+        })
+    }
+}
+
+/// Reads the `address` and `driver_name` of the device at a path.
+///
+/// # Errors
+/// The kernel's; [`Error::Malformed`] where there is no address.
+pub fn identity(tree: &dyn Tree, path: &Path) -> Result<(String, String)> {
+    let address = read_file(tree, &path.join("address"))?;
+    if address.is_empty() {
+        return Err(malformed(&path.join("address"), b"", "an address"));
+    }
+    Ok((address, read_file(tree, &path.join("driver_name"))?))
+}
+
+/// Reads the text of any file, without keeping it open.
+///
+/// # Errors
+/// As [`Device::text`].
+pub fn read_file(tree: &dyn Tree, path: &Path) -> Result<String> {
+    let node = open(tree, path, Access::Read)?;
+    let mut buffer = [0; PAGE + 1];
+    text_of(path, read_node(&*node, path, &mut buffer)?)
+}
+
+/// Writes any file, which must exist, without keeping it open.
+///
+/// # Errors
+/// As [`Device::write`].
+pub fn write_file(tree: &dyn Tree, path: &Path, text: &str) -> Result<()> {
+    let node = open(tree, path, Access::Write)?;
+    write_line(&*node, path, text)
+}
+
+/// The value in a file: a number if it is one.
+///
+/// # Errors
+/// As [`read_file`].
+pub fn read_value(tree: &dyn Tree, path: &Path) -> Result<Value> {
+    read_file(tree, path).map(|text| Value::parse(&text))
+}
+
+/// An attribute file, opened when first used.
+pub(crate) struct Attribute {
+    name: Box<str>,
+    path: PathBuf,
+    reader: OnceLock<Box<dyn Node>>,
+    writer: OnceLock<Box<dyn Node>>,
+    /// Keeps readers of a plain file from seeing half of a write.
+    whole: RwLock<()>,
+}
+
+impl Attribute {
+    fn new(name: &str, directory: &Path) -> Self {
+        Self {
+            name: name.into(),
+            path: directory.join(name),
+            reader: OnceLock::new(),
+            writer: OnceLock::new(),
+            whole: RwLock::default(),
+        }
+    }
+
+    /// The descriptor for reading, opened when first asked for.
+    pub(crate) fn reader(&self, tree: &dyn Tree) -> Result<&dyn Node> {
+        kept(&self.reader, tree, &self.path, Access::Read)
+    }
+
+    /// Reads the text, which must fit into the buffer with room to spare.
+    fn read<'a>(&self, tree: &dyn Tree, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+        let node = self.reader(tree)?;
+        let whole = node.is_plain().then(|| self.whole.read());
+        let bytes = read_node(node, &self.path, buffer)?;
+        drop(whole);
+        Ok(bytes)
+    }
+
+    fn write(&self, tree: &dyn Tree, text: &str) -> Result<()> {
+        let node = kept(&self.writer, tree, &self.path, Access::Write)?;
+        let _whole = node.is_plain().then(|| self.whole.write());
+        write_line(node, &self.path, text)
+    }
+
+    fn malformed(&self, bytes: &[u8], expected: &'static str) -> Error {
+        malformed(&self.path, bytes, expected)
+    }
+}
+
+/// Opens a file once, and only remembers success.
+fn kept<'a>(
+    cell: &'a OnceLock<Box<dyn Node>>,
+    tree: &dyn Tree,
+    path: &Path,
+    access: Access,
+) -> Result<&'a dyn Node> {
+    if let Some(node) = cell.get() {
+        return Ok(&**node);
+    }
+    let node = open(tree, path, access)?;
+    Ok(&**cell.get_or_init(|| node))
+}
+
+fn open(tree: &dyn Tree, path: &Path, access: Access) -> Result<Box<dyn Node>> {
+    tree.open(path, access).map_err(|source| Error::Open { path: path.to_owned(), access, source })
+}
+
+/// Writes a text and a newline in one go: one write is one call of the driver.
+fn write_line(node: &dyn Node, path: &Path, text: &str) -> Result<()> {
+    let mut line = [b'\n'; SHORT];
+    let written = match line.split_at_mut_checked(text.len()) {
+        Some((start, [_, ..])) => {
+            start.copy_from_slice(text.as_bytes());
+            node.write(line.get(..=text.len()).unwrap_or_default())
+        }
+        _ => node.write(format!("{text}\n").as_bytes()),
+    };
+    written.map_err(|source| Error::Write { path: path.to_owned(), text: text.to_owned(), source })
+}
+
+/// Reads all there is. More than fits cannot be an attribute's text: rather
+/// than cut it, say so.
+fn read_node<'a>(node: &dyn Node, path: &Path, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+    let length =
+        node.read(buffer).map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    match buffer.get(..length) {
+        Some(bytes) if length < buffer.len() => Ok(bytes),
+        _ => Err(malformed(path, buffer, "a text as short as belongs there")),
+    }
+}
+
+/// The text without the newline that ends it.
+fn text_of(path: &Path, bytes: &[u8]) -> Result<String> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.strip_suffix('\n').unwrap_or(text).to_owned()),
+        Err(_) => Err(malformed(path, bytes, "text")),
+    }
+}
+
+fn malformed(path: &Path, bytes: &[u8], expected: &'static str) -> Error {
+    let text = String::from_utf8_lossy(bytes.get(..SHORT).unwrap_or(bytes)).into_owned();
+    Error::Malformed { path: path.to_owned(), text, expected }
+}

@@ -1,0 +1,260 @@
+//! Which devices there are, by class and port.
+//!
+//! The kernel lists each class in a directory of its own, one entry a device,
+//! under numbers that follow the order of plugging in. Programs name ports. The
+//! listing is cached: it is made anew when it is older than [`LISTING_AGE`],
+//! when a port is asked for that it does not have, and when a device answers as
+//! an unplugged one does. Devices that are still there keep their descriptors.
+use crate::device::{Device, identity};
+use crate::error::{Access, Error, Result};
+use crate::port;
+use crate::tree::Tree;
+use rustix::io::Errno;
+use std::collections::{BTreeSet, HashMap};
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How long a listing of a class directory is believed.
+pub const LISTING_AGE: Duration = Duration::from_millis(100);
+
+/// The kinds of devices that are plugged into ports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Class {
+    /// Motors with a rotation sensor, all that LEGO makes for EV3 and NXT.
+    TachoMotor,
+    /// Sensors.
+    Sensor,
+    /// RC servos on a controller.
+    ServoMotor,
+    /// Motors without rotation sensor.
+    DcMotor,
+    /// The ports themselves.
+    Port,
+}
+
+impl Class {
+    /// All classes.
+    pub const ALL: [Self; 5] =
+        [Self::TachoMotor, Self::Sensor, Self::ServoMotor, Self::DcMotor, Self::Port];
+
+    /// The class's directory below the tree's root.
+    #[must_use]
+    pub fn directory(self) -> &'static str {
+        match self {
+            Self::TachoMotor => "tacho-motor",
+            Self::Sensor => "lego-sensor",
+            Self::ServoMotor => "servo-motor",
+            Self::DcMotor => "dc-motor",
+            Self::Port => "lego-port",
+        }
+    }
+}
+
+impl fmt::Display for Class {
+    /// The noun that error terms use.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TachoMotor | Self::ServoMotor | Self::DcMotor => "motor",
+            Self::Sensor => "sensor",
+            Self::Port => "port",
+        })
+    }
+}
+
+/// A device found by a pattern, not necessarily of a known class.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Detected {
+    /// Its port, by the short name.
+    pub port: String,
+    /// Its type.
+    pub driver: String,
+    /// Its directory.
+    pub path: PathBuf,
+}
+
+/// The devices in a tree.
+pub struct Devices {
+    tree: Arc<dyn Tree>,
+    listings: [Mutex<Listing>; Class::ALL.len()],
+    /// Ports of the motors that were started and not stopped since.
+    started: Mutex<BTreeSet<(Class, String)>>,
+}
+
+/// What a class directory held when it was last looked at.
+#[derive(Default)]
+struct Listing {
+    made: Option<Duration>,
+    /// In the order of ports.
+    devices: Arc<[Arc<Device>]>,
+    by_port: HashMap<String, Arc<Device>>,
+}
+
+impl Devices {
+    /// The devices in a tree. Nothing is read yet.
+    #[must_use]
+    pub fn new(tree: Arc<dyn Tree>) -> Self {
+        Self { tree, listings: Default::default(), started: Mutex::default() }
+    }
+
+    /// The tree they are in.
+    #[must_use]
+    pub fn tree(&self) -> &dyn Tree {
+        &*self.tree
+    }
+
+    /// All devices of a class, in the order of their ports.
+    ///
+    /// # Errors
+    /// The kernel's. A class that does not exist has no devices.
+    pub fn all(&self, class: Class) -> Result<Arc<[Arc<Device>]>> {
+        let mut listing = self.listing(class);
+        if !self.is_fresh(&listing) {
+            self.list(class, &mut listing)?;
+        }
+        Ok(Arc::clone(&listing.devices))
+    }
+
+    /// The device at a port, which may be spelled either way.
+    ///
+    /// # Errors
+    /// As [`all`](Self::all).
+    pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
+        let port = port::short(port);
+        let mut listing = self.listing(class);
+        let is_fresh = self.is_fresh(&listing);
+        if !is_fresh || !listing.by_port.contains_key(port) {
+            self.list(class, &mut listing)?;
+        }
+        Ok(listing.by_port.get(port).cloned())
+    }
+
+    /// Whether that very device is still plugged in.
+    ///
+    /// # Errors
+    /// As [`all`](Self::all).
+    pub fn has(&self, device: &Device) -> Result<bool> {
+        let present = self.find(device.class(), device.port())?;
+        Ok(present.is_some_and(|present| present.entry() == device.entry()))
+    }
+
+    /// Does something with the device at a port; `None` where there is none.
+    ///
+    /// # Errors
+    /// As `act`, or as [`all`](Self::all).
+    pub fn with<T>(
+        &self,
+        class: Class,
+        port: &str,
+        mut act: impl FnMut(&Arc<Device>) -> Result<T>,
+    ) -> Result<Option<T>> {
+        self.afresh(|| self.find(class, port)?.map(|device| act(&device)).transpose())
+    }
+
+    /// Does something again, with a new listing, if it met a device that
+    /// answers as an unplugged one does: plugged in again in the meantime, it
+    /// has another number.
+    ///
+    /// # Errors
+    /// As `act`.
+    pub(crate) fn afresh<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
+        match act() {
+            Err(error) if error.is_stale() => {
+                self.forget_listings();
+                act()
+            }
+            result => result,
+        }
+    }
+
+    /// Makes each class be listed anew when it is next asked for.
+    pub(crate) fn forget_listings(&self) {
+        for class in Class::ALL {
+            self.listing(class).made = None;
+        }
+    }
+
+    /// The devices whose directories match a shell pattern, in the order of
+    /// the pattern's matches. Directories that hold no device are passed over.
+    ///
+    /// # Errors
+    /// [`Error::Pattern`].
+    pub fn detect(&self, pattern: &str) -> Result<Vec<Detected>> {
+        let paths = self.tree.matching(pattern)?;
+        let detected = paths.into_iter().filter_map(|path| {
+            let (address, driver) = identity(&*self.tree, &path).ok()?;
+            let port = port::short(&address).to_owned();
+            Some(Detected { port, driver, path })
+        });
+        Ok(detected.collect())
+    }
+
+    /// The ports of the motors that were started and not stopped since.
+    pub(crate) fn started(&self) -> MutexGuard<'_, BTreeSet<(Class, String)>> {
+        self.started.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {
+        // Class::ALL is in the order of the enum.
+        let [tacho_motor, sensor, servo_motor, dc_motor, port] = &self.listings;
+        let listing = match class {
+            Class::TachoMotor => tacho_motor,
+            Class::Sensor => sensor,
+            Class::ServoMotor => servo_motor,
+            Class::DcMotor => dc_motor,
+            Class::Port => port,
+        };
+        listing.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn is_fresh(&self, listing: &Listing) -> bool {
+        let now = self.tree.now();
+        listing.made.is_some_and(|made| now.saturating_sub(made) < LISTING_AGE)
+    }
+
+    /// Lists the class directory, keeping the devices that are still there.
+    fn list(&self, class: Class, listing: &mut Listing) -> Result<()> {
+        let directory = self.tree.root().join(class.directory());
+        let entries = match self.tree.list(&directory) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
+            Err(source) => {
+                return Err(Error::Open { path: directory, access: Access::Read, source });
+            }
+        };
+        listing.made = Some(self.tree.now());
+        let is_same = entries.len() == listing.devices.len()
+            && entries.iter().all(|entry| listing.devices.iter().any(|d| d.entry() == entry));
+        if is_same {
+            return Ok(());
+        }
+        let mut devices = Vec::with_capacity(entries.len());
+        for entry in entries {
+            match listing.devices.iter().find(|device| *device.entry() == entry) {
+                Some(known) => devices.push(Arc::clone(known)),
+                None => match Device::detect(&self.tree, class, entry) {
+                    Ok(device) => devices.push(Arc::new(device)),
+                    Err(error) if is_exhaustion(&error) => return Err(error),
+                    // Gone again, or not a device: looked at anew next time.
+                    Err(_) => {}
+                },
+            }
+        }
+        let key = |device: &Device| (device.port().to_owned(), device.entry().name.clone());
+        devices.sort_by(|a, b| {
+            let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
+            port::order(&a_port, &b_port).then_with(|| port::order(&a_name, &b_name))
+        });
+        // Of two at one port, the one with the higher number came later.
+        let by_port = devices.iter().map(|device| (device.port().to_owned(), Arc::clone(device)));
+        listing.by_port = by_port.collect();
+        listing.devices = devices.into();
+        Ok(())
+    }
+}
+
+/// Whether it is we who lack something, and not the device.
+fn is_exhaustion(error: &Error) -> bool {
+    matches!(error.errno(), Some(Errno::MFILE | Errno::NFILE | Errno::NOMEM))
+}

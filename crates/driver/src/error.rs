@@ -1,0 +1,130 @@
+//! What can go wrong, with the file it went wrong at.
+use crate::devices::Class;
+use rustix::io::Errno;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Result of this crate's functions.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What was to be done with a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// Read it, or list it.
+    Read,
+    /// Write it.
+    Write,
+}
+
+/// An operation that could not be carried out.
+///
+/// That a device is not there is not an error but an answer (`None`).
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file could not be opened, or a directory not listed.
+    #[error("cannot open {}", .path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What it was to be opened for.
+        access: Access,
+        /// The kernel's answer.
+        source: io::Error,
+    },
+    /// A file could not be read.
+    #[error("cannot read {}", .path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The kernel's answer.
+        source: io::Error,
+    },
+    /// A file could not be written.
+    #[error("cannot write {text:?} to {}", .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What was written.
+        text: String,
+        /// The kernel's answer.
+        source: io::Error,
+    },
+    /// A file does not hold what belongs there.
+    #[error("{} holds {text:?}, which is not {expected}", .path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What it holds, shortened.
+        text: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A device was unplugged while it was in use.
+    #[error("the device was unplugged")]
+    Gone {
+        /// The kind of device.
+        class: Class,
+        /// Where it was.
+        port: String,
+    },
+    /// A sensor has no value of that number in its present mode.
+    #[error("the sensor at {port} has no value {index} in mode {mode}")]
+    NoValue {
+        /// Where the sensor is.
+        port: String,
+        /// Its present mode.
+        mode: String,
+        /// The value that was asked for.
+        index: usize,
+    },
+    /// A pattern that is none.
+    #[error("{pattern:?} is no file name pattern")]
+    Pattern {
+        /// The pattern.
+        pattern: String,
+        /// Why not.
+        source: glob::PatternError,
+    },
+    /// The caller abandoned a wait.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl Error {
+    /// The kernel's error number, if it was the kernel that refused.
+    #[must_use]
+    pub fn errno(&self) -> Option<Errno> {
+        match self {
+            Self::Open { source, .. } | Self::Read { source, .. } | Self::Write { source, .. } => {
+                Errno::from_io_error(source)
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether this is how an unplugged device answers: ENODEV on a kept
+    /// descriptor, ENOENT on a path that has vanished.
+    #[must_use]
+    pub fn is_stale(&self) -> bool {
+        matches!(self.errno(), Some(Errno::NODEV | Errno::NOENT))
+    }
+
+    /// Whether a device went away: it answers so, or was found to be missing.
+    #[must_use]
+    pub fn is_gone(&self) -> bool {
+        self.is_stale() || matches!(self, Self::Gone { .. })
+    }
+
+    /// The file it went wrong at.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Open { path, .. }
+            | Self::Read { path, .. }
+            | Self::Write { path, .. }
+            | Self::Malformed { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+}

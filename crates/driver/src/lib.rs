@@ -1,0 +1,47 @@
+//! Motors and sensors over an ev3dev file tree.
+//!
+//! ev3dev shows each device as a directory of small text files, its
+//! *attributes*: `/sys/class/tacho-motor/motor0/position` holds a motor's
+//! position, and writing `run-forever` to `command` beside it makes the motor
+//! turn. This crate finds devices by the port they are plugged into, keeps
+//! their attribute files open, and does on top of that what takes more than
+//! one read or write: run several motors at once, wait until they are done,
+//! read a sensor in a given mode, turn a robot by its gyro.
+//!
+//! From the bottom up:
+//!
+//! * [`tree`]: where the files are: the kernel's, any directory shaped like
+//!   it, or something that only behaves so. It also owns the clock.
+//! * [`device`]: one device, its kept descriptors and its constants.
+//! * [`devices`]: which devices there are, by class and port.
+//! * [`attributes`], [`motor`], [`wait`], [`sensor`], [`turn`]: what robots do.
+//!
+//! The facts about ev3dev's drivers in the comments were read out of the
+//! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
+//!
+//! Nothing here starts a thread, prints, or waits without asking its caller
+//! every few milliseconds whether to go on ([`Interrupted`]).
+#![forbid(unsafe_code)]
+
+pub mod attributes;
+pub mod device;
+pub mod devices;
+pub mod error;
+pub mod motor;
+pub mod port;
+pub mod sensor;
+pub mod tree;
+pub mod turn;
+pub mod value;
+pub mod wait;
+
+pub use device::Device;
+pub use devices::{Class, Devices};
+pub use error::{Error, Result};
+pub use rustix::io::Errno;
+pub use tree::{Files, Tree};
+pub use value::Value;
+
+/// Asked at least every 20 ms while something waits; `true` abandons the wait
+/// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
+pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;

@@ -1,0 +1,262 @@
+//! Sensors: a value in a mode.
+//!
+//! A sensor measures one thing at a time, named by its `mode`. Writing `mode`
+//! restarts the measurement, even where nothing changes (and resets a gyro's
+//! angle), so it is written only when it differs. After a real change the first
+//! values are still those of the old mode: they are waited out, once.
+use crate::Interrupted;
+use crate::device::Device;
+use crate::devices::{Class, Devices};
+use crate::error::{Error, Result};
+use crate::value::Value;
+use crate::wait::sleep;
+use rustix::io::Errno;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How long values are unsettled after a change of mode, by LEGO's firmware.
+const SETTLING: Duration = Duration::from_millis(10);
+
+/// The same for the infrared sensor.
+const SETTLING_INFRARED: Duration = Duration::from_millis(1100);
+
+/// How long a sensor may take to answer again after losing contact: it is
+/// noticed after 0.7 s and the sensor introduces itself anew in about 1 s.
+const RETRY_FOR: Duration = Duration::from_secs(2);
+
+/// How long udev may take to open a new device's files to us.
+const PERMISSIONS_WITHIN: Duration = Duration::from_secs(1);
+
+/// The pause between two tries.
+const RETRY_EVERY: Duration = Duration::from_millis(20);
+
+/// The files of the values; a sensor has at most eight.
+const VALUES: [&str; 8] =
+    ["value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7"];
+
+/// Reads value `index` of a sensor in a mode, or in its present one, scaled by
+/// the sensor's decimals. `None` where the sensor is gone.
+///
+/// # Errors
+/// [`Error::NoValue`] where the mode has no such value; the kernel's, as
+/// EINVAL for a mode the sensor does not have, and after two seconds of trying
+/// as ENXIO for a sensor that does not answer; [`Error::Interrupted`].
+pub fn read(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    mode: Option<&str>,
+    index: usize,
+    interrupted: Interrupted,
+) -> Result<Option<Value>> {
+    let [value] =
+        read_all(devices, sensor, mode, [index], interrupted)?.map_or([None], |all| all.map(Some));
+    Ok(value)
+}
+
+/// Reads several values of a sensor in a mode, as [`read`] does.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_all<const N: usize>(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    mode: Option<&str>,
+    indices: [usize; N],
+    interrupted: Interrupted,
+) -> Result<Option<[Value; N]>> {
+    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+        let guard = in_use(devices, sensor, interrupted)?;
+        if let Some(mode) = mode {
+            ensure_mode(devices, sensor, mode, interrupted)?;
+        }
+        let mut values = [const { Value::Integer(0) }; N];
+        for (value, index) in values.iter_mut().zip(indices) {
+            *value = read_value(sensor, mode, index)?;
+        }
+        drop(guard);
+        Ok(values)
+    })
+}
+
+/// Puts a sensor into a mode, if it is in another, and waits until its values
+/// are that mode's. `None` where the sensor is gone.
+///
+/// # Errors
+/// As [`read`].
+pub fn set_mode(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    mode: &str,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+        let _guard = in_use(devices, sensor, interrupted)?;
+        ensure_mode(devices, sensor, mode, interrupted)
+    })
+}
+
+/// Restarts a sensor in a mode, be it in that mode already or not. A gyro's
+/// angle is 0 afterwards. `None` where the sensor is gone.
+///
+/// # Errors
+/// As [`read`].
+pub fn restart(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    mode: &str,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+        let _guard = in_use(devices, sensor, interrupted)?;
+        write_mode(devices, sensor, mode, interrupted)
+    })
+}
+
+/// An integer of the sensor scaled as its values are in its present mode.
+///
+/// # Errors
+/// The kernel's.
+pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
+    Ok(Value::scaled(raw, sensor.number("decimals")?))
+}
+
+fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
+    let raw = raw_value(sensor, index)?;
+    let decimals = match mode {
+        Some(mode) => sensor.constant_in("decimals", mode)?,
+        None => sensor.number("decimals")?,
+    };
+    Ok(Value::scaled(raw, decimals))
+}
+
+/// Reads value `index` as the file has it.
+///
+/// # Errors
+/// [`Error::NoValue`] where the present mode has no such value; the kernel's,
+/// as ENXIO for a sensor that does not answer.
+pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
+    let no_value = |mode: String| Error::NoValue { port: sensor.port().to_owned(), mode, index };
+    let attribute = VALUES.get(index).ok_or_else(|| no_value(String::new()))?;
+    match sensor.number(attribute) {
+        Err(error) if error.errno() == Some(Errno::NXIO) => {
+            // No such value in this mode, or no contact with the sensor.
+            let count = sensor.number("num_values").unwrap_or_default();
+            let is_beyond = count > 0 && usize::try_from(count).is_ok_and(|count| index >= count);
+            Err(if is_beyond { no_value(sensor.text("mode")?) } else { error })
+        }
+        raw => raw,
+    }
+}
+
+fn ensure_mode(
+    devices: &Devices,
+    sensor: &Device,
+    mode: &str,
+    interrupted: Interrupted,
+) -> Result<()> {
+    if sensor.with_word("mode", |present| present == mode)? {
+        return Ok(());
+    }
+    write_mode(devices, sensor, mode, interrupted)
+}
+
+fn write_mode(
+    devices: &Devices,
+    sensor: &Device,
+    mode: &str,
+    interrupted: Interrupted,
+) -> Result<()> {
+    sensor.write("mode", mode)?;
+    let is_infrared = sensor.driver() == "lego-ev3-ir";
+    let settling = if is_infrared { SETTLING_INFRARED } else { SETTLING };
+    sleep(devices, settling, interrupted)
+}
+
+/// Waits for the sensor to be ours: another thread that wants it in another
+/// mode must not change it between our mode and our value.
+fn in_use<'a>(
+    devices: &Devices,
+    sensor: &'a Device,
+    interrupted: Interrupted,
+) -> Result<std::sync::MutexGuard<'a, ()>> {
+    loop {
+        match sensor.try_use() {
+            Some(guard) => return Ok(guard),
+            None => sleep(devices, Duration::from_millis(1), interrupted)?,
+        }
+    }
+}
+
+/// Does something with a sensor, again and again while the sensor is getting
+/// into contact, or udev has not yet opened its files to us.
+fn patiently<T>(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    interrupted: Interrupted,
+    mut act: impl FnMut(&Arc<Device>, Interrupted) -> Result<T>,
+) -> Result<Option<T>> {
+    let mut sensor = Arc::clone(sensor);
+    let mut first_try = None;
+    loop {
+        let error = match act(&sensor, interrupted) {
+            Ok(value) => return Ok(Some(value)),
+            Err(error) => error,
+        };
+        let now = devices.tree().now();
+        let patience = match error.errno() {
+            Some(Errno::NODEV | Errno::NOENT) if has_changed(devices, &mut sensor)? => continue,
+            Some(Errno::NODEV | Errno::NOENT) if !devices.has(&sensor)? => return Ok(None),
+            Some(Errno::NXIO | Errno::BUSY | Errno::NODEV | Errno::TIMEDOUT) => {
+                *first_try.get_or_insert(now) + RETRY_FOR
+            }
+            Some(Errno::ACCESS) => sensor.first_seen() + PERMISSIONS_WITHIN,
+            _ => return Err(error),
+        };
+        if now >= patience {
+            return Err(error);
+        }
+        sleep(devices, RETRY_EVERY, interrupted)?;
+    }
+}
+
+/// Whether the sensor was plugged in again since; then it is that one now.
+fn has_changed(devices: &Devices, sensor: &mut Arc<Device>) -> Result<bool> {
+    devices.forget_listings();
+    let present = devices.find(Class::Sensor, sensor.port())?;
+    let again = present
+        .filter(|other| other.entry() != sensor.entry() && other.driver() == sensor.driver());
+    let has_changed = again.is_some();
+    if let Some(again) = again {
+        *sensor = again;
+    }
+    Ok(has_changed)
+}
+
+/// The sensor at a port, if it is one of these types; of any type where none
+/// is named.
+///
+/// # Errors
+/// The kernel's.
+pub fn at(devices: &Devices, port: &str, types: &[String]) -> Result<Vec<Arc<Device>>> {
+    let sensor = devices.find(Class::Sensor, port)?;
+    let is_meant =
+        |sensor: &Arc<Device>| types.is_empty() || types.iter().any(|kind| kind == sensor.driver());
+    Ok(sensor.into_iter().filter(is_meant).collect())
+}
+
+/// All sensors of these types; where none is named, all that have the mode.
+///
+/// # Errors
+/// The kernel's.
+pub fn with_mode(devices: &Devices, types: &[String], mode: &str) -> Result<Vec<Arc<Device>>> {
+    let all = devices.all(Class::Sensor)?;
+    let is_meant = |sensor: &&Arc<Device>| {
+        if types.is_empty() {
+            // A sensor that cannot tell its modes has none.
+            sensor.text("modes").is_ok_and(|modes| modes.split(' ').any(|name| name == mode))
+        } else {
+            types.iter().any(|kind| kind == sensor.driver())
+        }
+    };
+    Ok(all.iter().filter(is_meant).cloned().collect())
+}

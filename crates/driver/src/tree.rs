@@ -1,0 +1,211 @@
+//! Where the attribute files are, and whose clock runs there.
+//!
+//! [`Files`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
+//! or any directory shaped like it. A simulator may stand in for it within
+//! the process by implementing [`Tree`] and [`Node`].
+use crate::error::{Access, Error, Result};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::OFlags;
+use rustix::io::Errno;
+use std::fs::{File, OpenOptions};
+use std::io;
+use std::os::fd::{AsFd, BorrowedFd};
+use std::os::unix::fs::{DirEntryExt, FileExt, MetadataExt, OpenOptionsExt};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// An entry of a class directory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The file name: `motor0`.
+    pub name: String,
+    /// The inode number. A device that is plugged in again has another one,
+    /// even where it has the same name.
+    pub inode: u64,
+}
+
+/// A tree of attribute files.
+pub trait Tree: Send + Sync {
+    /// The path under which programs see the tree: `/sys/class`.
+    fn root(&self) -> &Path;
+
+    /// The entries of a directory, in any order.
+    ///
+    /// # Errors
+    /// The kernel's, as ENOENT where there is no such directory.
+    fn list(&self, directory: &Path) -> io::Result<Vec<Entry>>;
+
+    /// Opens an attribute for one kind of access. Never blocks.
+    ///
+    /// # Errors
+    /// The kernel's, as EACCES where the attribute cannot be accessed so.
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>>;
+
+    /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted.
+    ///
+    /// # Errors
+    /// [`Error::Pattern`].
+    fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>>;
+
+    /// The time since some fixed moment.
+    fn now(&self) -> Duration;
+
+    /// Lets time pass: returns when one of `nodes` announces a change (as the
+    /// kernel does by POLLPRI), when a signal arrives, or after `timeout`.
+    /// May return early.
+    ///
+    /// # Errors
+    /// The kernel's, as ENOMEM.
+    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()>;
+}
+
+/// An open attribute file.
+pub trait Node: Send + Sync {
+    /// Reads the whole text, generated anew.
+    ///
+    /// # Errors
+    /// The driver's, as ENODEV once the device is unplugged.
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// Writes one value.
+    ///
+    /// # Errors
+    /// The driver's, as EINVAL for a value it does not accept.
+    fn write(&self, text: &[u8]) -> io::Result<()>;
+
+    /// What poll(2) can wait on.
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        None
+    }
+
+    /// Whether writes are seen piecemeal by readers, as in a plain file.
+    fn is_plain(&self) -> bool {
+        false
+    }
+}
+
+/// A tree of real files.
+#[derive(Debug)]
+pub struct Files {
+    root: PathBuf,
+    started: Instant,
+}
+
+impl Files {
+    /// The tree below `root`, which need not exist.
+    #[must_use]
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into(), started: Instant::now() }
+    }
+}
+
+impl Tree for Files {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
+        directory
+            .read_dir()?
+            .map(|entry| {
+                let entry = entry?;
+                Ok(Entry {
+                    name: entry.file_name().to_string_lossy().into_owned(),
+                    inode: entry.ino(),
+                })
+            })
+            .collect()
+    }
+
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+        let file = OpenOptions::new()
+            .read(access == Access::Read)
+            .write(access == Access::Write)
+            // A named pipe in the place of an attribute must not block us.
+            .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
+            .open(path)?;
+        let is_plain = !is_generated(&file)?;
+        Ok(Box::new(FileNode { file, is_plain }))
+    }
+
+    fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>> {
+        let paths = glob::glob(pattern)
+            .map_err(|source| Error::Pattern { pattern: pattern.to_owned(), source })?;
+        // Directories that cannot be listed hold no devices of ours.
+        Ok(paths.filter_map(std::result::Result::ok).collect())
+    }
+
+    fn now(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+        let mut descriptors: Vec<PollFd> = nodes
+            .iter()
+            .filter_map(|node| node.descriptor())
+            .map(|descriptor| PollFd::from_borrowed_fd(descriptor, PollFlags::PRI))
+            .collect();
+        let timeout = Timespec::try_from(timeout).map_err(io::Error::other)?;
+        match poll(&mut descriptors, Some(&timeout)) {
+            // A signal: the caller looks what it wants of us.
+            Ok(_) | Err(Errno::INTR) => Ok(()),
+            Err(errno) => Err(errno.into()),
+        }
+    }
+}
+
+/// Whether reads and writes of the file go to a driver, as on sysfs and FUSE,
+/// rather than to a store of bytes.
+fn is_generated(file: &File) -> io::Result<bool> {
+    // From linux/magic.h. Both fit the word's width and sign everywhere.
+    const SYSFS: u64 = 0x6265_6572;
+    const FUSE: u64 = 0x6573_5546;
+    let kind = rustix::fs::fstatfs(file)?.f_type;
+    Ok(u64::try_from(kind).is_ok_and(|kind| kind == SYSFS || kind == FUSE))
+}
+
+/// An attribute as an open file, read and written at offset 0.
+struct FileNode {
+    file: File,
+    is_plain: bool,
+}
+
+impl FileNode {
+    /// A kept descriptor of a deleted plain file goes on working. It must
+    /// answer as one of an unplugged device does.
+    fn check_present(&self) -> io::Result<()> {
+        if self.is_plain && self.file.metadata()?.nlink() == 0 {
+            return Err(Errno::NODEV.into());
+        }
+        Ok(())
+    }
+}
+
+impl Node for FileNode {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.check_present()?;
+        self.file.read_at(buffer, 0)
+    }
+
+    fn write(&self, text: &[u8]) -> io::Result<()> {
+        self.check_present()?;
+        let written = self.file.write_at(text, 0)?;
+        if written < text.len() {
+            return Err(io::ErrorKind::WriteZero.into());
+        }
+        if self.is_plain {
+            // Afterwards: a reader in between finds the new text on the first
+            // line, and never an empty file.
+            self.file.set_len(text.len() as u64)?;
+        }
+        Ok(())
+    }
+
+    fn descriptor(&self) -> Option<BorrowedFd<'_>> {
+        Some(self.file.as_fd())
+    }
+
+    fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+}

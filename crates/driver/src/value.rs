@@ -1,0 +1,122 @@
+//! From an attribute's text to a value.
+
+/// What an attribute file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A decimal integer of at most 64 bits.
+    Integer(i64),
+    /// A decimal fraction.
+    Float(f64),
+    /// Anything else.
+    Text(String),
+}
+
+impl Value {
+    /// A number if the text is one, else the text itself.
+    ///
+    /// ```
+    /// use ev3_driver::Value;
+    /// assert_eq!(Value::parse("-12"), Value::Integer(-12));
+    /// assert_eq!(Value::parse("7.5"), Value::Float(7.5));
+    /// assert_eq!(Value::parse("inf"), Value::Text("inf".to_owned()));
+    /// ```
+    #[must_use]
+    pub fn parse(text: &str) -> Self {
+        match integer(text.as_bytes()) {
+            Some(integer) => Self::Integer(integer),
+            None => fraction(text).map_or_else(|| Self::Text(text.to_owned()), Self::Float),
+        }
+    }
+
+    /// The integer `value` divided by 10^`decimals`: an integer where there
+    /// are no decimals, else a float.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "sensor values have 32 bits, decimals are few")]
+    pub fn scaled(value: i64, decimals: i64) -> Self {
+        match i32::try_from(decimals) {
+            Ok(0) | Err(_) => Self::Integer(value),
+            Ok(decimals) => Self::Float(value as f64 / 10f64.powi(decimals)),
+        }
+    }
+}
+
+/// A decimal integer with an optional sign, and nothing else. `None` where the
+/// text is none, or has more than 64 bits.
+#[must_use]
+pub fn integer(text: &[u8]) -> Option<i64> {
+    let (negative, digits) = match text {
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] | digits => (false, digits),
+    };
+    if digits.is_empty() {
+        return None;
+    }
+    let magnitude = digits.iter().try_fold(0i64, |sum, digit| {
+        let digit = digit.is_ascii_digit().then(|| i64::from(digit - b'0'))?;
+        // Collected below zero, where there is room for i64::MIN.
+        sum.checked_mul(10)?.checked_sub(digit)
+    })?;
+    if negative { Some(magnitude) } else { magnitude.checked_neg() }
+}
+
+/// A decimal fraction: digits around a point. Neither `inf` nor `1e5`.
+fn fraction(text: &str) -> Option<f64> {
+    let (whole, part) = text.split_once('.')?;
+    let whole = whole.strip_prefix(['-', '+']).unwrap_or(whole);
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if are_digits(whole) && are_digits(part) { text.parse().ok() } else { None }
+}
+
+/// The first line of what was read, without its newline.
+///
+/// The kernel ends each text with one newline. A plain file that held a longer
+/// text may show the rest of it on further lines for a moment.
+#[must_use]
+pub fn first_line(bytes: &[u8]) -> &[u8] {
+    bytes.split(|byte| *byte == b'\n').next().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integers_are_decimal_and_whole() {
+        for (text, expected) in [
+            ("0", Some(0)),
+            ("-7", Some(-7)),
+            ("+7", Some(7)),
+            ("9223372036854775807", Some(i64::MAX)),
+            ("-9223372036854775808", Some(i64::MIN)),
+            ("9223372036854775808", None),
+            ("", None),
+            ("-", None),
+            ("1 ", None),
+            ("0x10", None),
+            ("1.0", None),
+        ] {
+            assert_eq!(integer(text.as_bytes()), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn words_that_rust_takes_for_floats_stay_words() {
+        for text in ["nan", "inf", "-infinity", "1e5", ".", "e", "99999999999999999999"] {
+            assert_eq!(Value::parse(text), Value::Text(text.to_owned()));
+        }
+    }
+
+    #[test]
+    fn scaling_gives_floats_only_with_decimals() {
+        assert_eq!(Value::scaled(2550, 1), Value::Float(255.0));
+        assert_eq!(Value::scaled(123, 1), Value::Float(12.3));
+        assert_eq!(Value::scaled(-3, 0), Value::Integer(-3));
+    }
+
+    #[test]
+    fn only_the_first_line_counts() {
+        assert_eq!(first_line(b"stop\never\n"), b"stop");
+        assert_eq!(first_line(b"\n"), b"");
+        assert_eq!(first_line(b""), b"");
+    }
+}

@@ -1,0 +1,303 @@
+//! Waiting for motors.
+//!
+//! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
+//! a state that comes and goes between two announcements never. Other boards
+//! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
+//! but never for longer than [`SLICE`], then looks again; towards the end that
+//! position and speed predict it looks every [`SHORT_SLICE`].
+use crate::Interrupted;
+use crate::device::Device;
+use crate::devices::Devices;
+use crate::error::{Error, Result};
+use crate::motor::End;
+use crate::tree::Node;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The longest sleep between two looks.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// The sleep between two looks when the end is near.
+const SHORT_SLICE: Duration = Duration::from_millis(2);
+
+/// How long after a command `running` may still be missing: controllers on
+/// I2C and SPI report late.
+const GRACE: Duration = Duration::from_millis(100);
+
+/// How long `stalled` must last to be believed: some boards flag each start.
+const STALLED_FOR: Duration = Duration::from_millis(100);
+
+/// How long a position may stay the same under way to one where the board
+/// never flags a stall.
+const STUCK_FOR: Duration = Duration::from_secs(2);
+
+/// How far from its target a motor may end a move, in tacho counts. The
+/// `BrickPi3` ends its moves within 10.
+const TOLERANCE: i64 = 10;
+
+/// Why a wait ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// The motors are where they were to go, or have run as long as they were to.
+    Reached,
+    /// A motor is blocked.
+    Stalled,
+    /// The time is up.
+    Timeout,
+    /// A motor is no longer plugged in.
+    Unplugged,
+    /// A motor was stopped by somebody else before it got there.
+    Stopped,
+}
+
+impl Reason {
+    /// The word programs see.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::Stalled => "stalled",
+            Self::Timeout => "timeout",
+            Self::Unplugged => "unplugged",
+            Self::Stopped => "stopped",
+        }
+    }
+}
+
+/// Waits until none of the motors runs, or one of them is blocked or unplugged.
+///
+/// # Errors
+/// The kernel's; [`Error::Interrupted`].
+pub fn wait_for(
+    devices: &Devices,
+    motors: &[Arc<Device>],
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+) -> Result<Reason> {
+    let mut watches: Vec<Watch> = motors.iter().map(|motor| Watch::new(motor)).collect();
+    let mut reason = Reason::Reached;
+    let waited = until(devices, motors, timeout, interrupted, |now| {
+        let mut nearest = None;
+        for watch in watches.iter_mut().filter(|watch| !watch.is_done) {
+            match watch.look(now)? {
+                Look::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
+                Look::Blocked => {
+                    reason = Reason::Stalled;
+                    return Ok(None);
+                }
+                Look::Done(Reason::Reached) => {}
+                Look::Done(other) => reason = other,
+            }
+        }
+        Ok(nearest)
+    });
+    match waited {
+        Ok(true) => Ok(reason),
+        Ok(false) => Ok(Reason::Timeout),
+        Err(error) if error.is_gone() => Ok(Reason::Unplugged),
+        Err(error) => Err(error),
+    }
+}
+
+/// Waits until a flag is among the motor's states, or no longer.
+///
+/// # Errors
+/// [`Error::Gone`] when the motor is unplugged, the kernel's,
+/// [`Error::Interrupted`].
+pub fn wait_for_flag(
+    devices: &Devices,
+    motor: &Arc<Device>,
+    flag: &str,
+    present: bool,
+    interrupted: Interrupted,
+) -> Result<()> {
+    let mut watch = Watch::new(motor);
+    let motors = std::slice::from_ref(motor);
+    let waited = until(devices, motors, None, interrupted, |now| {
+        let is_there = motor.with_word("state", |state| has(state, flag))?;
+        // That nothing runs yet right after a command does not mean that
+        // nothing runs any more.
+        if is_there == present && (present || flag != "running" || watch.is_over(now)?) {
+            return Ok(None);
+        }
+        Ok(Some(watch.slice(now)?))
+    });
+    match waited {
+        Err(error) if error.is_gone() => Err(motor.gone()),
+        waited => waited.map(drop),
+    }
+}
+
+/// Sleeps, interruptibly.
+///
+/// # Errors
+/// [`Error::Interrupted`].
+pub fn sleep(devices: &Devices, time: Duration, interrupted: Interrupted) -> Result<()> {
+    let end = devices.tree().now() + time;
+    until(devices, &[], None, interrupted, |now| {
+        let left = end.saturating_sub(now);
+        Ok((!left.is_zero()).then_some(left))
+    })
+    .map(drop)
+}
+
+/// Calls `look` until it answers `None`. What else it answers is how long to
+/// sleep at most before it is called again. `false` when the time is up.
+fn until(
+    devices: &Devices,
+    motors: &[Arc<Device>],
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+    mut look: impl FnMut(Duration) -> Result<Option<Duration>>,
+) -> Result<bool> {
+    let tree = devices.tree();
+    let deadline = timeout.map(|timeout| tree.now().saturating_add(timeout));
+    let mut listen = true;
+    loop {
+        let now = tree.now();
+        let Some(slice) = look(now)? else {
+            return Ok(true);
+        };
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+        let left = deadline.map_or(SLICE, |deadline| deadline.saturating_sub(now));
+        if left.is_zero() {
+            return Ok(false);
+        }
+        let attributes: Vec<_> = motors.iter().map(|motor| motor.attribute("state")).collect();
+        let nodes: Vec<&dyn Node> = attributes
+            .iter()
+            .filter(|_| listen)
+            .filter_map(|attribute| attribute.reader(tree).ok())
+            .collect();
+        let slice = slice.min(left).min(SLICE);
+        // A wake-up that the tree cannot deliver shows at the next look.
+        let _ = tree.pause(&nodes, slice);
+        // Woken early, and perhaps for nothing: sleep through the next slice,
+        // so that a descriptor that is always ready does not make us spin.
+        listen = !listen || tree.now().saturating_sub(now) >= slice;
+        for motor in motors {
+            if !devices.has(motor)? {
+                return Err(motor.gone());
+            }
+        }
+    }
+}
+
+/// One motor under observation.
+struct Watch<'a> {
+    motor: &'a Device,
+    has_run: bool,
+    is_done: bool,
+    stalled_since: Option<Duration>,
+    /// A position, and since when it has been that.
+    stuck: Option<(i64, Duration)>,
+}
+
+/// What an observation showed.
+enum Look {
+    /// It runs; look again after this time.
+    Runs(Duration),
+    /// It runs, and does not move.
+    Blocked,
+    /// It does not run any more.
+    Done(Reason),
+}
+
+impl<'a> Watch<'a> {
+    fn new(motor: &'a Device) -> Self {
+        Self { motor, has_run: false, is_done: false, stalled_since: None, stuck: None }
+    }
+
+    fn look(&mut self, now: Duration) -> Result<Look> {
+        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
+            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
+        })?;
+        if runs {
+            self.has_run = true;
+            let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
+            self.stalled_since = since;
+            let lasts = since.is_some_and(|since| now.saturating_sub(since) >= STALLED_FOR);
+            if lasts || self.is_stuck(now)? {
+                return Ok(Look::Blocked);
+            }
+            return Ok(Look::Runs(self.slice(now)?));
+        }
+        if !holds && !self.is_over(now)? {
+            return Ok(Look::Runs(self.slice(now)?));
+        }
+        self.is_done = true;
+        let stopped_short = self.has_run && !self.is_at_end()?;
+        Ok(Look::Done(if stopped_short { Reason::Stopped } else { Reason::Reached }))
+    }
+
+    /// Whether a motor that does not run has run already, rather than not yet.
+    fn is_over(&self, now: Duration) -> Result<bool> {
+        let started = self.motor.motion().map(|motion| motion.started);
+        let is_late = started.is_none_or(|started| now.saturating_sub(started) >= GRACE);
+        Ok(is_late || self.has_run || self.target().is_some() && self.is_at_end()?)
+    }
+
+    /// Whether the motor is where its motion was to end: at the target, or
+    /// beyond it, as a motor that coasts.
+    fn is_at_end(&self) -> Result<bool> {
+        let end = self.motor.motion().map(|motion| motion.end);
+        Ok(match end {
+            Some(End::Position { from, target }) => {
+                let direction = (target - from).signum();
+                let missing = (target - self.motor.number("position")?) * direction;
+                missing <= TOLERANCE
+            }
+            Some(End::Never) => false,
+            Some(End::Time(_)) | None => true,
+        })
+    }
+
+    fn target(&self) -> Option<i64> {
+        match self.motor.motion().map(|motion| motion.end) {
+            Some(End::Position { target, .. }) => Some(target),
+            _ => None,
+        }
+    }
+
+    /// Whether the position has been the same for too long under way.
+    fn is_stuck(&mut self, now: Duration) -> Result<bool> {
+        if self.target().is_none() {
+            return Ok(false);
+        }
+        let position = self.motor.number("position")?;
+        match self.stuck {
+            Some((before, since)) if before == position => {
+                Ok(now.saturating_sub(since) >= STUCK_FOR)
+            }
+            _ => {
+                self.stuck = Some((position, now));
+                Ok(false)
+            }
+        }
+    }
+
+    /// How long to sleep before the next look: until shortly before the end
+    /// that can be predicted.
+    fn slice(&mut self, now: Duration) -> Result<Duration> {
+        let motion = *self.motor.motion();
+        let left = match motion.map(|motion| (motion.started, motion.end)) {
+            Some((_, End::Position { target, .. })) => {
+                let position = self.motor.number("position")?;
+                let speed = self.motor.number("speed")?.unsigned_abs();
+                let counts = target.abs_diff(position);
+                let milliseconds = (counts * 1000).checked_div(speed);
+                milliseconds.map_or(SLICE, Duration::from_millis)
+            }
+            Some((started, End::Time(time))) => (started + time).saturating_sub(now),
+            Some((_, End::Never)) | None => SLICE,
+        };
+        Ok(left.clamp(SHORT_SLICE, SLICE))
+    }
+}
+
+/// Whether a flag is among those of a state.
+fn has(state: &str, flag: &str) -> bool {
+    state.split_ascii_whitespace().any(|word| word == flag)
+}

@@ -1,0 +1,30 @@
+:- module(ev3dev, []).
+
+/** <module> LEGO EV3 robots from Prolog
+
+The one module a program loads. It offers all predicates of
+
+  - library(ev3dev/robot): a robot with two wheels that goes and turns
+  - library(ev3dev/motors) and library(ev3dev/sensors): single motors and
+    sensors
+  - library(ev3dev/driver): devices and the files that ev3dev shows of them
+
+Names and argument order are those of the paper "ev3dev-prolog - Prolog API
+for LEGO EV3" (Schwarz, Wenzel 2019).
+
+```
+?- set_robot(5.6, 10.6, outB, outC).
+?- go_cm(30, 100), turn(20, 90).
+?- us_dist_cm(_, Distance).
+```
+
+Three rules hold everywhere. A port is an atom, `outB` or
+`'ev3-ports:outB'`. What is asked of a device that is not there fails, and so
+does a move that is impossible; `debug(ev3dev)` tells why. What is no sensible
+argument throws.
+*/
+
+:- reexport(ev3dev/driver).
+:- reexport(ev3dev/motors).
+:- reexport(ev3dev/sensors).
+:- reexport(ev3dev/robot).

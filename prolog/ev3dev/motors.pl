@@ -1,0 +1,292 @@
+:- module(ev3dev_motors,
+          [ motor_run/2,                % +Port, +Speed
+            motor_run/3,                % +Port, +Speed, +Angle
+            motor_run/4,                % +Port, +Speed, +Angle, +Options
+            motors_run/1,               % +Runs
+            motors_turn/2,              % +Moves, +Options
+            motor_start/1,              % +Port
+            motor_stop/1,               % +Port
+            motor_stop/2,               % +Port, +StopAction
+            stop_all_motors/0,
+            motor_reset/1,              % +Port
+            run_forever/2,              % +Port, +CountsPerSecond
+            speed_adjust/3,             % +Percent, ?Port, -CountsPerSecond
+            motor_wait_while/2,         % +Port, +Flag
+            motor_wait_until/2,         % +Port, +Flag
+            motor_wait/3                % +Ports, +Options, -Reason
+          ]).
+:- use_module(library(debug), [debug/3, debugging/1]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(driver,
+              [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
+
+:- create_prolog_flag(ev3dev_stop_at_halt, true, [keep(true), type(boolean)]).
+
+/** <module> Motors
+
+Speeds are in percent of the motor's highest speed, angles in degrees of its
+shaft, both any arithmetic expression. Where there is an angle, its sign and
+that of the speed together make the direction.
+
+Every motor that the program has started is stopped when Prolog halts, unless
+the flag `ev3dev_stop_at_halt` is `false`.
+
+All predicates fail if there is no motor at a port, and if a move is
+impossible: a speed beyond 100 percent, or a speed of 0 for a move by an angle.
+Nothing moves then. `debug(ev3dev)` tells why.
+*/
+
+%!  motor_run(+Port, +Speed) is semidet.
+%
+%   Run a motor at Speed percent until it is stopped. Does not wait.
+%
+%   @error type_error(evaluable, Speed)
+
+motor_run(Port, Speed) :-
+    Percent is Speed,
+    motors_run([run(Port, Percent)]).
+
+%!  motors_run(+Runs) is semidet.
+%
+%   Run several motors, each `run(Port, Percent)`, until they are stopped. They
+%   start at the same moment, or not at all. Does not wait.
+
+motors_run(Runs) :-
+    motor_run_(Runs),
+    !.
+motors_run(Runs) :-
+    why_not(Runs).
+
+%!  motor_run(+Port, +Speed, +Angle) is semidet.
+%!  motor_run(+Port, +Speed, +Angle, +Options) is semidet.
+%
+%   Turn a motor by Angle degrees at Speed percent, and wait until it is there.
+%   A motor that does not get there, because it is blocked or somebody else
+%   stops it, is stopped and makes the call fail. Options:
+%
+%     - stop_action(+Action)
+%       What the motor does at the end: `hold` its position (default), `brake`
+%       or `coast`; with these two it overshoots.
+%     - wait(+Boolean)
+%       If `false`, return as soon as it runs. See motor_wait/3.
+%     - timeout(+Seconds)
+%       Stop the motor and fail if it takes longer.
+%     - ramp_up(+Milliseconds)
+%     - ramp_down(+Milliseconds)
+%       Speed up and slow down evenly; the time is that between rest and the
+%       highest speed, from 0 to 60000. For this move only.
+%
+%   A call that is left by an exception, as that of call_with_time_limit/2 or
+%   Ctrl-C, stops the motor first.
+%
+%   @error existence_error(motor, Port) if the motor is unplugged under way
+%   @error domain_error(stop_action, Action)
+%   @error domain_error(ramp_up_sp, Milliseconds)
+
+motor_run(Port, Speed, Angle) :-
+    motor_run(Port, Speed, Angle, []).
+
+motor_run(Port, Speed, Angle, Options) :-
+    Percent is Speed,
+    Degrees is Angle,
+    motors_turn([move(Port, Percent, Degrees)], Options).
+
+%!  motors_turn(+Moves, +Options) is semidet.
+%
+%   Turn several motors, each `move(Port, Percent, Degrees)`, and wait until all
+%   are there. They start at the same moment, or not at all. Options, failure
+%   and errors are those of motor_run/4.
+
+motors_turn(Moves, Options) :-
+    turn_options(Options, Native),
+    (   motor_turn_(Moves, Native, Reason)
+    ->  turn_ended(Reason, Moves)
+    ;   why_not(Moves)
+    ).
+
+turn_options(Options, options(Action, RampUp, RampDown, Wait, Timeout)) :-
+    must_be(list, Options),
+    option(stop_action(Action), Options, hold),
+    option(ramp_up(RampUp), Options, default),
+    option(ramp_down(RampDown), Options, default),
+    option(wait(Wait), Options, true),
+    option(timeout(Timeout), Options, infinite),
+    must_be(boolean, Wait),
+    must_be_timeout(Timeout),
+    must_be_ramp(ramp_up_sp, RampUp),
+    must_be_ramp(ramp_down_sp, RampDown).
+
+must_be_ramp(_, default) :-
+    !.
+must_be_ramp(Attribute, Milliseconds) :-
+    must_be(integer, Milliseconds),
+    (   between(0, 60000, Milliseconds)
+    ->  true
+    ;   domain_error(Attribute, Milliseconds)
+    ).
+
+must_be_timeout(infinite) :-
+    !.
+must_be_timeout(Seconds) :-
+    must_be(number, Seconds),
+    (   Seconds >= 0
+    ->  true
+    ;   domain_error(timeout, Seconds)
+    ).
+
+turn_ended(reached, _) :-
+    !.
+turn_ended(stalled, Moves) :-
+    !,
+    findall(Port, ( member(Move, Moves), arg(1, Move, Port) ), Ports),
+    print_message(warning, ev3dev(stalled(Ports))),
+    fail.
+turn_ended(Reason, Moves) :-
+    debug(ev3dev, "~p ended early: ~w", [Moves, Reason]),
+    fail.
+
+%!  why_not(+Runs) is failure.
+%
+%   Tell why motors could not be started, if that is being debugged.
+
+why_not(Runs) :-
+    debugging(ev3dev),
+    member(Run, Runs),
+    arg(1, Run, Port),
+    arg(2, Run, Percent),
+    (   \+ tacho_motor(Port)
+    ->  debug(ev3dev, "there is no motor at ~w", [Port])
+    ;   max_speed(Port, Max),
+        debug(ev3dev, "~w cannot run at ~w % of its ~w counts/s as ~p asks",
+              [Port, Percent, Max, Run])
+    ),
+    fail.
+
+%!  motor_start(+Port) is semidet.
+%
+%   Run a motor at the speed that was written to speed_sp/2 until it is
+%   stopped. Does not wait.
+
+motor_start(Port) :-
+    command(Port, 'run-forever').
+
+%!  motor_stop(+Port) is semidet.
+%!  motor_stop(+Port, +StopAction) is semidet.
+%
+%   Stop a motor: let it `coast`, `brake` it (default), or `hold` its
+%   position. Does not wait until it stands.
+%
+%   @error domain_error(stop_action, StopAction)
+
+motor_stop(Port) :-
+    motor_stop_(Port, brake).
+
+motor_stop(Port, StopAction) :-
+    motor_stop_(Port, StopAction).
+
+%!  stop_all_motors is det.
+%
+%   Stop every motor that is connected, whoever started it, with `brake`.
+
+%!  motor_reset(+Port) is semidet.
+%
+%   Stop a motor and put all it was told back to what it is after plugging in:
+%   position 0, speed 0, no ramps, normal polarity.
+
+%!  run_forever(+Port, +CountsPerSecond) is semidet.
+%
+%   Run a motor at a speed in tacho counts a second until it is stopped. Does
+%   not wait.
+
+run_forever(Port, Speed) :-
+    CountsPerSecond is round(Speed),
+    (   run_forever_(Port, CountsPerSecond)
+    ->  true
+    ;   debug(ev3dev, "~w cannot run at ~w counts/s", [Port, CountsPerSecond]),
+        fail
+    ).
+
+%!  speed_adjust(+Percent, ?Port, -CountsPerSecond) is nondet.
+%
+%   True if Percent of the highest speed of the motor at Port is that many
+%   tacho counts a second, rounded down.
+
+speed_adjust(Percent, Port, CountsPerSecond) :-
+    max_speed(Port, MaxSpeed),
+    CountsPerSecond is floor(Percent / 100.0 * MaxSpeed).
+
+%!  motor_wait_while(+Port, +Flag) is semidet.
+%!  motor_wait_until(+Port, +Flag) is semidet.
+%
+%   Wait while, or until, Flag is among the motor's states: `running`,
+%   `ramping`, `holding`, `overloaded` or `stalled`. Uses no processor time
+%   worth mentioning. Signals are handled within 20 ms.
+%
+%   @error existence_error(motor, Port) if the motor is unplugged meanwhile
+%   @error domain_error(motor_state, Flag)
+
+motor_wait_while(Port, Flag) :-
+    must_be_flag(Flag),
+    motor_wait_flag_(Port, Flag, false).
+
+motor_wait_until(Port, Flag) :-
+    must_be_flag(Flag),
+    motor_wait_flag_(Port, Flag, true).
+
+must_be_flag(Flag) :-
+    must_be(atom, Flag),
+    (   flag(Flag)
+    ->  true
+    ;   domain_error(motor_state, Flag)
+    ).
+
+flag(running).
+flag(ramping).
+flag(holding).
+flag(overloaded).
+flag(stalled).
+
+%!  motor_wait(+Ports, +Options, -Reason) is semidet.
+%
+%   Wait until a motor, or each of a list of motors, no longer runs. Stops
+%   nothing. Reason tells why the wait ended:
+%
+%     - reached
+%       The motors are where they were to go.
+%     - stalled
+%       A motor is blocked; it is still pushing.
+%     - timeout
+%       The time is up.
+%     - unplugged
+%       A motor is no longer connected.
+%     - stopped
+%       A motor was stopped before it got there.
+%
+%   Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most. Default is to wait for ever.
+
+motor_wait(Ports, Options, Reason) :-
+    must_be(list, Options),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    (   is_list(Ports)
+    ->  motor_wait_(Ports, Timeout, Reason)
+    ;   motor_wait_([Ports], Timeout, Reason)
+    ).
+
+:- at_halt(stop_at_halt).
+
+stop_at_halt :-
+    (   current_prolog_flag(ev3dev_stop_at_halt, true)
+    ->  stop_started_
+    ;   true
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(stalled(Ports))) -->
+    { atomic_list_concat(Ports, ', ', Text) },
+    [ 'Motor blocked, stopped: ~w'-[Text] ].

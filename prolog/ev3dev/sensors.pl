@@ -1,0 +1,216 @@
+:- module(ev3dev_sensors,
+          [ light_sensor/1,             % ?Port
+            ultrasonic_sensor/1,        % ?Port
+            gyro_sensor/1,              % ?Port
+            touch_sensor/1,             % ?Port
+            infrared_sensor/1,          % ?Port
+            col_ambient/2,              % ?Port, -Percent
+            col_reflect/2,              % ?Port, -Percent
+            col_color/2,                % ?Port, -Color
+            col_rgb_raw/2,              % ?Port, -RGB
+            col_rgb_raw/4,              % ?Port, -Red, -Green, -Blue
+            us_dist_cm/2,               % ?Port, -Centimetres
+            us_dist_inches/2,           % ?Port, -Inches
+            us_listen/2,                % ?Port, -Heard
+            gyro_ang/2,                 % ?Port, -Degrees
+            gyro_rate/2,                % ?Port, -DegreesPerSecond
+            gyro_reset/1,               % +Port
+            touch/2,                    % ?Port, -Pressed
+            ir_prox/2,                  % ?Port, -Percent
+            sensor_reading/3,           % +Reading, ?Port, -Value
+            sensor_value/4,             % ?Port, +Mode, +Index, -Value
+            adjust_val/3                % +Port, +Raw, -Value
+          ]).
+:- use_module(driver, [lego_sensor/2]).
+
+/** <module> Sensors
+
+Each reading of a sensor, `us_dist_cm` for one, is a mode that the sensor is
+put into and a value that it shows then. Values are scaled: integers where the
+sensor has no decimals, else floats.
+
+All predicates here fail if there is no such sensor. An unbound port is the
+first port that has one; on backtracking, the next:
+
+```
+?- us_dist_cm(Port, Distance).
+Port = in1,
+Distance = 84.3.
+```
+
+A sensor is put into another mode only if it is not in it already, because that
+takes time: 10 ms, with the infrared sensor 1.1 s. A sensor that has lost
+contact is given 2 s to come back before existence_error(sensor, Port) is
+thrown.
+
+## Adding a sensor {#adding-a-sensor}
+
+The readings are a table of facts. A program adds one with a fact of its own:
+
+```
+:- multifile ev3dev_sensors:reading/4.
+
+ev3dev_sensors:reading(temperature, ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
+
+?- sensor_reading(temperature, in2, Celsius).
+```
+*/
+
+:- multifile reading/4.
+
+%!  reading(?Reading, ?Types, ?Mode, ?Index) is nondet.
+%
+%   True if sensors of these Types show Reading in Mode as value number Index.
+
+reading(col_ambient,    ['lego-ev3-color'], 'COL-AMBIENT', 0).
+reading(col_reflect,    ['lego-ev3-color'], 'COL-REFLECT', 0).
+reading(col_color,      ['lego-ev3-color'], 'COL-COLOR',   0).
+reading(us_dist_cm,     ['lego-ev3-us'],    'US-DIST-CM',  0).
+reading(us_dist_inches, ['lego-ev3-us'],    'US-DIST-IN',  0).
+reading(us_listen,      ['lego-ev3-us'],    'US-LISTEN',   0).
+reading(gyro_ang,       ['lego-ev3-gyro'],  'GYRO-ANG',    0).
+reading(gyro_rate,      ['lego-ev3-gyro'],  'GYRO-RATE',   0).
+reading(touch,          ['lego-ev3-touch'], 'TOUCH',       0).
+reading(ir_prox,        ['lego-ev3-ir'],    'IR-PROX',     0).
+
+%!  sensor_reading(+Reading, ?Port, -Value) is nondet.
+%
+%   True if the sensor at Port shows Value for a Reading of the table. Fails if
+%   the table has no such reading.
+
+sensor_reading(Reading, Port, Value) :-
+    reading(Reading, Types, Mode, Index),
+    sensor_value_(Port, Types, Mode, Index, Value).
+
+%!  light_sensor(?Port) is nondet.
+%!  ultrasonic_sensor(?Port) is nondet.
+%!  gyro_sensor(?Port) is nondet.
+%!  touch_sensor(?Port) is nondet.
+%!  infrared_sensor(?Port) is nondet.
+%
+%   True if a sensor of that kind is plugged into Port.
+
+light_sensor(Port) :-
+    lego_sensor(Port, 'lego-ev3-color').
+
+ultrasonic_sensor(Port) :-
+    lego_sensor(Port, 'lego-ev3-us').
+
+gyro_sensor(Port) :-
+    lego_sensor(Port, 'lego-ev3-gyro').
+
+touch_sensor(Port) :-
+    lego_sensor(Port, 'lego-ev3-touch').
+
+infrared_sensor(Port) :-
+    lego_sensor(Port, 'lego-ev3-ir').
+
+%!  col_ambient(?Port, -Percent) is nondet.
+%!  col_reflect(?Port, -Percent) is nondet.
+%
+%   True if the colour sensor sees that much light, from 0 to 100: that around
+%   it, or that of its own red light reflected.
+
+col_ambient(Port, Percent) :-
+    sensor_reading(col_ambient, Port, Percent).
+
+col_reflect(Port, Percent) :-
+    sensor_reading(col_reflect, Port, Percent).
+
+%!  col_color(?Port, -Color) is nondet.
+%
+%   True if the colour sensor sees Color: 0 none, 1 black, 2 blue, 3 green,
+%   4 yellow, 5 red, 6 white, 7 brown.
+
+col_color(Port, Color) :-
+    sensor_reading(col_color, Port, Color).
+
+%!  col_rgb_raw(?Port, -RGB) is nondet.
+%!  col_rgb_raw(?Port, -Red, -Green, -Blue) is nondet.
+%
+%   True if the colour sensor sees that much red, green and blue, each from 0
+%   to 1023 and not calibrated. RGB is the term `rgb(Red, Green, Blue)`.
+
+col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
+    col_rgb_raw(Port, Red, Green, Blue).
+
+col_rgb_raw(Port, Red, Green, Blue) :-
+    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', rgb(Red, Green, Blue)).
+
+%!  us_dist_cm(?Port, -Centimetres) is nondet.
+%!  us_dist_inches(?Port, -Inches) is nondet.
+%
+%   True if the ultrasonic sensor sees something at that distance. 255 cm, or
+%   100.3 inches, is also what it says when it sees nothing.
+
+us_dist_cm(Port, Centimetres) :-
+    sensor_reading(us_dist_cm, Port, Centimetres).
+
+us_dist_inches(Port, Inches) :-
+    sensor_reading(us_dist_inches, Port, Inches).
+
+%!  us_listen(?Port, -Heard) is nondet.
+%
+%   True if Heard is 1 when the ultrasonic sensor hears another one, else 0.
+
+us_listen(Port, Heard) :-
+    sensor_reading(us_listen, Port, Heard).
+
+%!  gyro_ang(?Port, -Degrees) is nondet.
+%
+%   True if the gyro has turned by that angle since it was last reset,
+%   clockwise positive.
+
+gyro_ang(Port, Degrees) :-
+    sensor_reading(gyro_ang, Port, Degrees).
+
+%!  gyro_rate(?Port, -DegreesPerSecond) is nondet.
+%
+%   True if the gyro turns at that rate, up to 440, clockwise positive. Puts
+%   it into another mode, so that the angle starts from 0 again.
+
+gyro_rate(Port, DegreesPerSecond) :-
+    sensor_reading(gyro_rate, Port, DegreesPerSecond).
+
+%!  gyro_reset(+Port) is semidet.
+%
+%   Make the gyro's present angle 0. Takes 10 ms.
+
+gyro_reset(Port) :-
+    sensor_restart_(Port, ['lego-ev3-gyro'], 'GYRO-ANG').
+
+%!  touch(?Port, -Pressed) is nondet.
+%
+%   True if Pressed is 1 while the touch sensor is pressed, else 0.
+
+touch(Port, Pressed) :-
+    sensor_reading(touch, Port, Pressed).
+
+%!  ir_prox(?Port, -Percent) is nondet.
+%
+%   True if the infrared sensor sees something at that proximity: 0 is near,
+%   100 some 70 cm or more.
+
+ir_prox(Port, Percent) :-
+    sensor_reading(ir_prox, Port, Percent).
+
+%!  sensor_value(?Port, +Mode, +Index, -Value) is nondet.
+%
+%   True if value number Index, from 0 to 7, of the sensor at Port is Value in
+%   Mode, for any sensor and mode there is. An unbound Port is each that has a
+%   sensor with this mode.
+%
+%   @error domain_error(mode, Mode) if the sensor at Port has no such mode
+%   @error domain_error(sensor_value_index, Index) if that mode has no such
+%          value
+
+sensor_value(Port, Mode, Index, Value) :-
+    sensor_value_(Port, [], Mode, Index, Value).
+
+%!  adjust_val(+Port, +Raw, -Value) is semidet.
+%
+%   True if the integer Raw, read by value/3, means Value in the sensor's
+%   present mode: scaled by its decimals.
+
+adjust_val(Port, Raw, Value) :-
+    sensor_scale_(Port, Raw, Value).

@@ -1,0 +1,147 @@
+//! One call of a native predicate: its arguments, its answers.
+use crate::error::raise;
+use ev3_driver::Value;
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// The call under way of a public predicate, by its name and arity.
+pub(crate) struct Call<'a, C: QueryableContextType> {
+    pub(crate) context: &'a Context<'a, C>,
+    pub(crate) name: &'static str,
+    pub(crate) arity: u64,
+}
+
+impl<'a, C: QueryableContextType> Call<'a, C> {
+    pub(crate) fn of(context: &'a Context<'a, C>, name: &'static str, arity: u64) -> Self {
+        Self { context, name, arity }
+    }
+
+    /// The text of an atom or a string.
+    pub(crate) fn text(&self, term: &Term) -> PrologResult<String> {
+        let atom = term.get_atom_name(|name| name.map(str::to_owned))?;
+        let text = match atom {
+            None => term.get_str(|text| text.map(str::to_owned))?,
+            atom => atom,
+        };
+        text.map_or_else(|| self.wrong_type("atom", term), Ok)
+    }
+
+    /// The text of an atom or a string, or `None` for a variable.
+    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<String>> {
+        if term.is_var() { Ok(None) } else { self.text(term).map(Some) }
+    }
+
+    /// The text of an atom, a string or a number, as it is written to a file.
+    pub(crate) fn value(&self, term: &Term) -> PrologResult<String> {
+        if let Some(integer) = attempt_opt(self.integer_of(term))? {
+            return Ok(integer.to_string());
+        }
+        if term.term_type() == TermType::Float {
+            return Ok(term.get::<f64>()?.to_string());
+        }
+        self.text(term)
+    }
+
+    /// A number, integer or float.
+    pub(crate) fn float(&self, term: &Term) -> PrologResult<f64> {
+        match attempt_opt(term.get::<f64>())? {
+            Some(float) => Ok(float),
+            None => self.wrong_type("number", term),
+        }
+    }
+
+    /// An integer of at most 64 bits.
+    pub(crate) fn integer(&self, term: &Term) -> PrologResult<i64> {
+        match attempt_opt(self.integer_of(term))? {
+            Some(integer) => Ok(integer),
+            None => self.wrong_type("integer", term),
+        }
+    }
+
+    /// A time in seconds, or `None` for one without end: an atom, or more than
+    /// can be counted.
+    pub(crate) fn seconds(&self, term: &Term) -> PrologResult<Option<Duration>> {
+        if term.is_atom() {
+            return Ok(None);
+        }
+        Ok(Duration::try_from_secs_f64(self.float(term)?).ok())
+    }
+
+    /// The elements of a list.
+    pub(crate) fn list(&self, term: &Term<'a>) -> PrologResult<Vec<Term<'a>>> {
+        match term.term_type() {
+            TermType::Nil | TermType::ListPair => Ok(self.context.term_list_vec(term)),
+            _ => self.wrong_type("list", term),
+        }
+    }
+
+    /// The arguments of a compound term.
+    pub(crate) fn arguments<const N: usize>(&self, term: &Term) -> PrologResult<[Term<'a>; N]> {
+        match attempt_opt(self.context.compound_terms(term))? {
+            Some(arguments) => Ok(arguments),
+            None => self.wrong_type("compound", term),
+        }
+    }
+
+    /// What the driver answered; its error as an exception.
+    pub(crate) fn check<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
+        result.or_else(|error| raise(self, &error))
+    }
+
+    /// What the driver found; a failure if it found nothing.
+    pub(crate) fn found<T>(&self, result: ev3_driver::Result<Option<T>>) -> PrologResult<T> {
+        self.check(result)?.ok_or(PrologError::Failure)
+    }
+
+    /// Handles signals; `true` if that raised an exception.
+    pub(crate) fn interrupted(&self) -> impl FnMut() -> bool + use<'a, C> {
+        let context = self.context;
+        move || context.handle_signals().is_err()
+    }
+
+    /// The next solution: reads the items one after the other until `unify`
+    /// succeeds with what was read. `true` if there may be more.
+    pub(crate) fn next<T, V>(
+        &self,
+        items: &mut std::vec::IntoIter<T>,
+        read: impl Fn(&T) -> PrologResult<V>,
+        unify: impl Fn(&T, &V) -> PrologResult<()>,
+    ) -> PrologResult<bool> {
+        while let Some(item) = items.next() {
+            let Some(value) = attempt_opt(read(&item))? else {
+                continue;
+            };
+            let frame = self.context.open_frame();
+            if attempt(unify(&item, &value))? {
+                frame.close();
+                return Ok(items.len() > 0);
+            }
+            frame.discard();
+        }
+        Err(PrologError::Failure)
+    }
+
+    fn wrong_type<T>(&self, expected: &str, term: &Term) -> PrologResult<T> {
+        crate::error::wrong_type(self, expected, term)
+    }
+
+    /// An integer, not a float that is whole.
+    #[expect(clippy::unused_self, reason = "reads as one of its kind")]
+    fn integer_of(&self, term: &Term) -> PrologResult<i64> {
+        if term.is_integer() { term.get() } else { Err(PrologError::Failure) }
+    }
+}
+
+/// Unifies with a number or an atom.
+pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
+    match value {
+        Value::Integer(integer) => term.unify(*integer),
+        Value::Float(float) => term.unify(*float),
+        Value::Text(text) => unify_atom(term, text),
+    }
+}
+
+/// Unifies with an atom.
+pub(crate) fn unify_atom(term: &Term, text: &str) -> PrologResult<()> {
+    term.unify(atomable(text))
+}

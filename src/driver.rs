@@ -1,0 +1,189 @@
+//! `prolog/ev3dev/driver.pl`: devices, their attributes, files.
+use crate::call::{Call, unify_atom, unify_value};
+use crate::error::wrong_value;
+use crate::state::{devices, use_files};
+use ev3_driver::device::{read_value, write_file};
+use ev3_driver::devices::Detected;
+use ev3_driver::{Class, attributes};
+use std::path::Path;
+use std::vec::IntoIter;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_subsystem_detect();
+    register_file_read();
+    register_file_write();
+    register_device();
+    register_attribute();
+    register_attribute_write();
+    register_sysfs();
+    register_sysfs_use();
+}
+
+predicates! {
+    /// subsystem_detect(?Port, ?Type, ?Path, +Pattern)
+    #[module("ev3dev_driver")]
+    nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
+        setup => {
+            let call = Call::of(context, "subsystem_detect", 4);
+            let pattern = call.text(pattern)?;
+            let bound = Bound::of(&call, port, kind, path)?;
+            let mut detected = call.check(devices().detect(&pattern))?;
+            detected.retain(|device| bound.admits(device));
+            Ok(Some(detected.into_iter()))
+        },
+        call(detected) => {
+            Call::of(context, "subsystem_detect", 4)
+                .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
+        }
+    }
+
+    /// device_(+Class, ?Port, ?Type, ?Path): `device_` for `tacho_motor/3` and its like.
+    #[module("ev3dev_driver")]
+    #[name("device_")]
+    nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
+        setup => {
+            let call = Call::of(context, "device", 4);
+            let class = class_of(&call, class)?;
+            let bound = Bound::of(&call, port, kind, path)?;
+            let mut detected = call.check(listed(class, bound.port.as_deref()))?;
+            detected.retain(|device| bound.admits(device));
+            Ok(Some(detected.into_iter()))
+        },
+        call(detected) => {
+            Call::of(context, "device", 4)
+                .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
+        }
+    }
+
+    /// attribute_(+Class, ?Port, +Attribute, ?Value)
+    #[module("ev3dev_driver")]
+    #[name("attribute_")]
+    nondet fn attribute<IntoIter<Detected>>(context, class, port, attribute, value) {
+        setup => {
+            let call = Call::of(context, "attribute", 4);
+            let class = class_of(&call, class)?;
+            call.text(attribute)?;
+            let port = call.text_if_bound(port)?;
+            let detected = call.check(listed(class, port.as_deref()))?;
+            Ok(Some(detected.into_iter()))
+        },
+        call(detected) => {
+            let call = Call::of(context, "attribute", 4);
+            let (class, name) = (class_of(&call, class)?, call.text(attribute)?);
+            let read = |device: &Detected| {
+                call.found(attributes::read(&devices(), class, &device.port, &name))
+            };
+            call.next(detected, read, |device, read| {
+                unify_value(value, read)?;
+                unify_port(port, &device.port)
+            })
+        }
+    }
+
+    /// attribute_write_(+Class, +Port, +Attribute, +Value)
+    #[module("ev3dev_driver")]
+    #[name("attribute_write_")]
+    semidet fn attribute_write(context, class, port, attribute, value) {
+        let call = Call::of(context, "attribute", 4);
+        let (class, port) = (class_of(&call, class)?, call.text(port)?);
+        let (name, text) = (call.text(attribute)?, call.value(value)?);
+        let interrupted = &mut call.interrupted();
+        call.found(attributes::write(&devices(), class, &port, &name, &text, interrupted))
+    }
+
+    /// file_read(+File, -Value)
+    #[module("ev3dev_driver")]
+    semidet fn file_read(context, file, value) {
+        let call = Call::of(context, "file_read", 2);
+        let path = call.text(file)?;
+        let read = call.check(read_value(devices().tree(), Path::new(&path)))?;
+        unify_value(value, &read)
+    }
+
+    /// file_write(+File, +Value)
+    #[module("ev3dev_driver")]
+    semidet fn file_write(context, file, value) {
+        let call = Call::of(context, "file_write", 2);
+        let (path, text) = (call.text(file)?, call.value(value)?);
+        call.check(write_file(devices().tree(), Path::new(&path), &text))
+    }
+
+    /// sysfs_(-Root)
+    #[module("ev3dev_driver")]
+    #[name("sysfs_")]
+    semidet fn sysfs(_context, root) {
+        unify_atom(root, &devices().tree().root().to_string_lossy())
+    }
+
+    /// sysfs_use_(+Root): a directory that exists.
+    #[module("ev3dev_driver")]
+    #[name("sysfs_use_")]
+    semidet fn sysfs_use(context, root) {
+        let call = Call::of(context, "ev3_sysfs", 1);
+        let root = call.text(root)?;
+        call.check(use_files(root))
+    }
+}
+
+/// What a call knows of the device it asks for.
+struct Bound {
+    port: Option<String>,
+    kind: Option<String>,
+    path: Option<String>,
+}
+
+impl Bound {
+    fn of<C: QueryableContextType>(
+        call: &Call<C>,
+        port: &Term,
+        kind: &Term,
+        path: &Term,
+    ) -> PrologResult<Self> {
+        Ok(Self {
+            port: call.text_if_bound(port)?,
+            kind: call.text_if_bound(kind)?,
+            path: call.text_if_bound(path)?,
+        })
+    }
+
+    fn admits(&self, device: &Detected) -> bool {
+        let admits =
+            |bound: &Option<String>, text: &str| bound.as_deref().is_none_or(|b| b == text);
+        let port = self.port.as_deref().map(ev3_driver::port::short);
+        port.is_none_or(|port| port == device.port)
+            && admits(&self.kind, &device.driver)
+            && admits(&self.path, &device.path.to_string_lossy())
+    }
+}
+
+/// The devices of a class: all, or the one at a port.
+fn listed(class: Class, port: Option<&str>) -> ev3_driver::Result<Vec<Detected>> {
+    let devices = devices();
+    Ok(match port {
+        Some(port) => devices.find(class, port)?.iter().map(|device| device.detected()).collect(),
+        None => devices.all(class)?.iter().map(|device| device.detected()).collect(),
+    })
+}
+
+fn unify_device(device: &Detected, port: &Term, kind: &Term, path: &Term) -> PrologResult<()> {
+    unify_port(port, &device.port)?;
+    if kind.is_var() {
+        unify_atom(kind, &device.driver)?;
+    }
+    if path.is_var() { unify_atom(path, &device.path.to_string_lossy()) } else { Ok(()) }
+}
+
+/// A bound port is the one that was asked for, in whichever spelling.
+pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
+    if term.is_var() { unify_atom(term, port) } else { Ok(()) }
+}
+
+fn class_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Class> {
+    let name = call.text(term)?;
+    match Class::ALL.into_iter().find(|class| class.directory() == name) {
+        Some(class) => Ok(class),
+        None => wrong_value(call, "device_class", term),
+    }
+}

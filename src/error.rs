@@ -1,0 +1,158 @@
+//! From the driver's errors to ISO error terms.
+//!
+//! The formal term says what is wrong in terms of the program, its context
+//! which predicate was called, the file, and the kernel's own words.
+use crate::call::{Call, unify_atom};
+use crate::state::devices;
+use ev3_driver::error::{Access, Error};
+use ev3_driver::{Class, Errno, Value};
+use std::error::Error as _;
+use std::path::Path;
+use swipl::prelude::*;
+
+/// Raises a driver's error.
+pub(crate) fn raise<T, C: QueryableContextType>(call: &Call<C>, error: &Error) -> PrologResult<T> {
+    if matches!(error, Error::Interrupted) {
+        // Whoever interrupted has raised an exception already.
+        return Err(PrologError::Exception);
+    }
+    let context = call.context;
+    let formal = formal(context, error)?;
+    throw(call, &formal, &message(error))
+}
+
+/// Raises `instantiation_error` for a variable, else `type_error`.
+pub(crate) fn wrong_type<T, C: QueryableContextType>(
+    call: &Call<C>,
+    expected: &str,
+    term: &Term,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = if term.is_var() {
+        term! {context: instantiation_error}?
+    } else {
+        term! {context: type_error(#atomable(expected), #term)}?
+    };
+    throw(call, &formal, "")
+}
+
+/// Raises `domain_error(Domain, Term)`.
+pub(crate) fn wrong_value<T, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    term: &Term,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: domain_error(#atomable(domain), #term)}?;
+    throw(call, &formal, "")
+}
+
+/// Raises `error(Formal, context(Name/Arity, Message))`; an empty message
+/// stays unbound.
+fn throw<T, C: QueryableContextType>(
+    call: &Call<C>,
+    formal: &Term,
+    message: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let indicator = context.new_term_ref();
+    indicator.unify(Functor::new("/", 2))?;
+    indicator.unify_arg(1, atomable(call.name))?;
+    indicator.unify_arg(2, call.arity)?;
+    let text = context.new_term_ref();
+    if !message.is_empty() {
+        unify_atom(&text, message)?;
+    }
+    let error = term! {context: error(#formal, context(#&indicator, #&text))}?;
+    context.raise_exception(&error)
+}
+
+/// The formal term of a driver's error.
+fn formal<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    error: &Error,
+) -> PrologResult<Term<'a>> {
+    let attribute = error.path().map(file_name).unwrap_or_default();
+    let path = error.path().map(Path::to_string_lossy).unwrap_or_default();
+    let (attribute, path) = (atomable(&*attribute), atomable(&*path));
+    let access = match error {
+        Error::Write { .. } | Error::Open { access: Access::Write, .. } => "write",
+        _ => "read",
+    };
+    match error {
+        Error::Gone { class, port } => {
+            let (class, port) = (atomable(class.to_string()), atomable(port.as_str()));
+            term! {context: existence_error(#class, #port)}
+        }
+        Error::Malformed { .. } => term! {context: syntax_error(attribute)},
+        Error::NoValue { index, .. } => {
+            term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
+        }
+        Error::Pattern { pattern, .. } => {
+            term! {context: domain_error(file_name_pattern, #atomable(pattern.as_str()))}
+        }
+        Error::Write { text, .. } if matches!(error.errno(), Some(Errno::INVAL | Errno::RANGE)) => {
+            let value = context.new_term_ref();
+            crate::call::unify_value(&value, &Value::parse(text))?;
+            term! {context: domain_error(#attribute, #&value)}
+        }
+        error => match error.errno() {
+            Some(Errno::NOENT) => term! {context: existence_error(file, #path)},
+            Some(Errno::ACCESS | Errno::PERM | Errno::ROFS) => {
+                term! {context: permission_error(#atomable(access), attribute, #path)}
+            }
+            Some(Errno::BUSY) => {
+                term! {context: permission_error(#atomable(access), busy_attribute, #path)}
+            }
+            Some(Errno::NODEV | Errno::NXIO) => {
+                let device = error.path().map(device_of).unwrap_or_default();
+                let (class, port) = (atomable(device.0), atomable(device.1));
+                term! {context: existence_error(#class, #port)}
+            }
+            Some(Errno::MFILE | Errno::NFILE) => term! {context: resource_error(max_files)},
+            Some(Errno::NOMEM) => term! {context: resource_error(no_memory)},
+            _ => term! {context: system_error(#atomable(message(error)))},
+        },
+    }
+}
+
+/// What went wrong where, the kernel's words, and for a device that is gone
+/// what is connected.
+fn message(error: &Error) -> String {
+    let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+    let connected = if error.is_gone() { connected() } else { String::new() };
+    format!("{error}{source}{connected}")
+}
+
+/// The motors and sensors that are plugged in.
+fn connected() -> String {
+    let devices = devices();
+    let all = [Class::TachoMotor, Class::Sensor].map(|class| devices.all(class));
+    let names: Vec<String> = all
+        .iter()
+        .flatten()
+        .flat_map(|devices| devices.iter())
+        .map(|device| format!("{} ({})", device.port(), device.driver()))
+        .collect();
+    if names.is_empty() {
+        "; nothing is connected".to_owned()
+    } else {
+        format!("; connected: {}", names.join(", "))
+    }
+}
+
+/// The class and port of the device that an attribute file belongs to, or the
+/// file itself where that is unknown.
+fn device_of(path: &Path) -> (String, String) {
+    let devices = devices();
+    let owner = Class::ALL.into_iter().find_map(|class| {
+        let listed = devices.all(class).ok()?;
+        let device = listed.iter().find(|device| path.starts_with(device.path()))?;
+        Some((class.to_string(), device.port().to_owned()))
+    });
+    owner.unwrap_or_else(|| ("file".to_owned(), path.to_string_lossy().into_owned()))
+}
+
+fn file_name(path: &Path) -> std::borrow::Cow<'_, str> {
+    path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default()
+}

@@ -1,0 +1,145 @@
+//! `prolog/ev3dev/motors.pl`: motors.
+use crate::call::{Call, unify_atom};
+use crate::error::wrong_value;
+use crate::state::devices;
+use ev3_driver::Class;
+use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction};
+use ev3_driver::wait;
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_motor_run();
+    register_run_forever();
+    register_motor_turn();
+    register_motor_stop();
+    register_stop_all_motors();
+    register_stop_started();
+    register_motor_reset();
+    register_motor_wait();
+    register_motor_wait_flag();
+}
+
+predicates! {
+    /// motor_run_(+Runs): a list of run(Port, Percent), started together.
+    #[module("ev3dev_motors")]
+    #[name("motor_run_")]
+    semidet fn motor_run(context, runs) {
+        let call = Call::of(context, "motor_run", 2);
+        let run = |run: &Term<'a>| -> PrologResult<Run> {
+            let [port, percent] = call.arguments(run)?;
+            Ok(Run { port: call.text(&port)?, speed: Speed::Percent(call.float(&percent)?) })
+        };
+        let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<Run>>>()?;
+        into_prolog_result(call.check(motor::run_forever(&devices(), &runs))?)
+    }
+
+    /// run_forever(+Port, +CountsPerSecond)
+    #[module("ev3dev_motors")]
+    #[name("run_forever_")]
+    semidet fn run_forever(context, port, speed) {
+        let call = Call::of(context, "run_forever", 2);
+        let speed = Speed::CountsPerSecond(call.integer(speed)?);
+        let run = Run { port: call.text(port)?, speed };
+        into_prolog_result(call.check(motor::run_forever(&devices(), &[run]))?)
+    }
+
+    /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
+    /// move(Port, Percent, Degrees), options is
+    /// options(StopAction, RampUp, RampDown, Wait, Timeout).
+    #[module("ev3dev_motors")]
+    #[name("motor_turn_")]
+    semidet fn motor_turn(context, moves, options, reason) {
+        let call = Call::of(context, "motor_run", 4);
+        let turn = |turn: &Term<'a>| -> PrologResult<Move> {
+            let [port, percent, degrees] = call.arguments(turn)?;
+            let speed = Speed::Percent(call.float(&percent)?);
+            Ok(Move { port: call.text(&port)?, speed, degrees: call.float(&degrees)? })
+        };
+        let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<Move>>>()?;
+        let options = move_options(&call, options)?;
+        let ended = motor::run_to(&devices(), &moves, &options, &mut call.interrupted());
+        unify_atom(reason, call.found(ended)?.word())
+    }
+
+    /// motor_stop_(+Port, +StopAction)
+    #[module("ev3dev_motors")]
+    #[name("motor_stop_")]
+    semidet fn motor_stop(context, port, action) {
+        let call = Call::of(context, "motor_stop", 2);
+        let (port, action, devices) = (call.text(port)?, stop_action(&call, action)?, devices());
+        call.found(devices.with(Class::TachoMotor, &port, |m| motor::stop(&devices, m, action)))
+    }
+
+    /// stop_all_motors
+    #[module("ev3dev_motors")]
+    semidet fn stop_all_motors(context) {
+        let (call, devices) = (Call::of(context, "stop_all_motors", 0), devices());
+        let motors = call.check(devices.all(Class::TachoMotor))?;
+        call.check(motor::stop_all(&devices, &motors, StopAction::Brake))
+    }
+
+    /// stop_started_: stops what the program started.
+    #[module("ev3dev_motors")]
+    #[name("stop_started_")]
+    semidet fn stop_started(context) {
+        Call::of(context, "halt", 0).check(motor::stop_started(&devices()))
+    }
+
+    /// motor_reset(+Port)
+    #[module("ev3dev_motors")]
+    semidet fn motor_reset(context, port) {
+        let (call, devices) = (Call::of(context, "motor_reset", 1), devices());
+        let port = call.text(port)?;
+        call.found(devices.with(Class::TachoMotor, &port, |m| motor::reset(&devices, m)))
+    }
+
+    /// motor_wait_(+Ports, +Timeout, -Reason)
+    #[module("ev3dev_motors")]
+    #[name("motor_wait_")]
+    semidet fn motor_wait(context, ports, timeout, reason) {
+        let (call, devices) = (Call::of(context, "motor_wait", 3), devices());
+        let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
+        let timeout = call.seconds(timeout)?;
+        let motors = call.found(motor::find_all(&devices, ports.iter().map(String::as_str)))?;
+        let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
+        unify_atom(reason, call.check(ended)?.word())
+    }
+
+    /// motor_wait_flag_(+Port, +Flag, +Present)
+    #[module("ev3dev_motors")]
+    #[name("motor_wait_flag_")]
+    semidet fn motor_wait_flag(context, port, flag, present) {
+        let (call, devices) = (Call::of(context, "motor_wait_while", 2), devices());
+        let (port, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
+        let motor = call.found(devices.find(Class::TachoMotor, &port))?;
+        let interrupted = &mut call.interrupted();
+        call.check(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+    }
+}
+
+fn move_options<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &Term<'a>,
+) -> PrologResult<MoveOptions> {
+    let [action, ramp_up, ramp_down, wait, timeout] = call.arguments(options)?;
+    let ramp =
+        |ramp: &Term| if ramp.is_integer() { call.integer(ramp).map(Some) } else { Ok(None) };
+    Ok(MoveOptions {
+        stop_action: stop_action(call, &action)?,
+        ramp_up_ms: ramp(&ramp_up)?,
+        ramp_down_ms: ramp(&ramp_down)?,
+        wait: wait.get_ex()?,
+        timeout: call.seconds(&timeout)?.filter(|timeout| *timeout < Duration::MAX),
+    })
+}
+
+fn stop_action<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<StopAction> {
+    let word = call.text(term)?;
+    let actions = [StopAction::Coast, StopAction::Brake, StopAction::Hold];
+    match actions.into_iter().find(|action| action.word() == word) {
+        Some(action) => Ok(action),
+        None => wrong_value(call, "stop_action", term),
+    }
+}

@@ -1,0 +1,41 @@
+//! `prolog/ev3dev/robot.pl`: what takes more than motors.
+use crate::call::{Call, unify_atom};
+use crate::state::devices;
+use ev3_driver::Class;
+use ev3_driver::motor::Speed;
+use ev3_driver::turn::{self, Ended, Turn};
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_turn_by_gyro();
+}
+
+predicates! {
+    /// turn_by_gyro_(+Gyro, +wheels(Left, Right, Gearing), +Percent, +Degrees, -Ended)
+    #[module("ev3dev_robot")]
+    #[name("turn_by_gyro_")]
+    semidet fn turn_by_gyro(context, gyro, wheels, percent, degrees, ended) {
+        let (call, devices) = (Call::of(context, "turn", 2), devices());
+        let [left, right, gearing] = call.arguments(wheels)?;
+        let turn = Turn {
+            left: call.text(&left)?,
+            right: call.text(&right)?,
+            speed: Speed::Percent(call.float(percent)?),
+            degrees: call.float(degrees)?,
+            gearing: call.float(&gearing)?,
+        };
+        let gyro = call.found(devices.find(Class::Sensor, &call.text(gyro)?))?;
+        let turned = turn::by_gyro(&devices, &gyro, &turn, &mut call.interrupted());
+        unify_atom(ended, word(call.found(turned)?))
+    }
+}
+
+fn word(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Reached => "reached",
+        Ended::Stalled => "stalled",
+        Ended::Astray => "astray",
+        Ended::Missed(_) => "missed",
+    }
+}

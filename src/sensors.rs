@@ -1,0 +1,120 @@
+//! `prolog/ev3dev/sensors.pl`: sensors.
+use crate::call::{Call, unify_value};
+use crate::driver::unify_port;
+use crate::error::wrong_value;
+use crate::state::devices;
+use ev3_driver::{Class, Device, sensor};
+use std::sync::Arc;
+use std::vec::IntoIter;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_sensor_value();
+    register_sensor_values();
+    register_sensor_restart();
+    register_sensor_scale();
+}
+
+predicates! {
+    /// sensor_value_(?Port, +Types, +Mode, +Index, -Value)
+    #[module("ev3dev_sensors")]
+    #[name("sensor_value_")]
+    nondet fn sensor_value<IntoIter<Arc<Device>>>(context, port, types, mode, index, value) {
+        setup => {
+            let call = Call::of(context, "sensor_value", 4);
+            index_of(&call, index)?;
+            let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
+            Ok(Some(sensors(&call, port, &types, &mode)?.into_iter()))
+        },
+        call(sensors) => {
+            let call = Call::of(context, "sensor_value", 4);
+            let (mode, index) = (call.text(mode)?, index_of(&call, index)?);
+            let read = |device: &Arc<Device>| {
+                let interrupted = &mut call.interrupted();
+                call.found(sensor::read(&devices(), device, Some(&mode), index, interrupted))
+            };
+            call.next(sensors, read, |device, read| {
+                unify_value(value, read)?;
+                unify_port(port, device.port())
+            })
+        }
+    }
+
+    /// sensor_values_(?Port, +Types, +Mode, ?Values): values is a compound of
+    /// three, values 0 to 2.
+    #[module("ev3dev_sensors")]
+    #[name("sensor_values_")]
+    nondet fn sensor_values<IntoIter<Arc<Device>>>(context, port, types, mode, values) {
+        setup => {
+            let call = Call::of(context, "sensor_value", 4);
+            let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
+            Ok(Some(sensors(&call, port, &types, &mode)?.into_iter()))
+        },
+        call(sensors) => {
+            let call = Call::of(context, "sensor_value", 4);
+            let (mode, values) = (call.text(mode)?, call.arguments::<3>(values)?);
+            let read = |device: &Arc<Device>| {
+                let (mode, interrupted) = (Some(&*mode), &mut call.interrupted());
+                call.found(sensor::read_all(&devices(), device, mode, [0, 1, 2], interrupted))
+            };
+            call.next(sensors, read, |device, read| {
+                values.iter().zip(read).try_for_each(|(term, read)| unify_value(term, read))?;
+                unify_port(port, device.port())
+            })
+        }
+    }
+
+    /// sensor_restart_(+Port, +Types, +Mode)
+    #[module("ev3dev_sensors")]
+    #[name("sensor_restart_")]
+    semidet fn sensor_restart(context, port, types, mode) {
+        let call = Call::of(context, "gyro_reset", 1);
+        let (port, types, mode) = (call.text(port)?, types_of(&call, types)?, call.text(mode)?);
+        let device = call.found(devices().find(Class::Sensor, &port))?;
+        into_prolog_result(types.iter().any(|kind| kind == device.driver()))?;
+        let interrupted = &mut call.interrupted();
+        call.found(sensor::restart(&devices(), &device, &mode, interrupted))
+    }
+
+    /// sensor_scale_(+Port, +Raw, -Value)
+    #[module("ev3dev_sensors")]
+    #[name("sensor_scale_")]
+    semidet fn sensor_scale(context, port, raw, value) {
+        let call = Call::of(context, "adjust_val", 3);
+        let (port, raw) = (call.text(port)?, call.integer(raw)?);
+        let scaled = devices().with(Class::Sensor, &port, |device| sensor::scale(device, raw));
+        unify_value(value, &call.found(scaled)?)
+    }
+}
+
+/// The sensors asked for: at a port, or all; of certain types, or, where none
+/// are named, all that have the mode.
+fn sensors<C: QueryableContextType>(
+    call: &Call<C>,
+    port: &Term,
+    types: &[String],
+    mode: &str,
+) -> PrologResult<Vec<Arc<Device>>> {
+    let found = match call.text_if_bound(port)? {
+        Some(port) => sensor::at(&devices(), &port, types),
+        None => sensor::with_mode(&devices(), types, mode),
+    };
+    call.check(found)
+}
+
+/// A list of types; the empty list admits all.
+fn types_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    types: &Term<'a>,
+) -> PrologResult<Vec<String>> {
+    call.list(types)?.iter().map(|kind| call.text(kind)).collect()
+}
+
+/// The number of a value: sensors have `value0` to `value7`.
+fn index_of<C: QueryableContextType>(call: &Call<C>, index: &Term) -> PrologResult<usize> {
+    match usize::try_from(call.integer(index)?) {
+        Ok(number) if number < 8 => Ok(number),
+        _ => wrong_value(call, "sensor_value_index", index),
+    }
+}

@@ -1,0 +1,206 @@
+:- module(tree,
+          [ with_tree/1,                % :Goal
+            with_tree/2,                % +Devices, :Goal
+            plug/2,                     % +Port, +Type
+            unplug/1,                   % +Port
+            attribute_path/3,           % +Port, +Attribute, -Path
+            put_attribute/3,            % +Port, +Attribute, +Text
+            get_attribute/3,            % +Port, +Attribute, -Text
+            written/2,                  % +Port, -Attributes
+            later/2                     % +Seconds, :Goal
+          ]).
+:- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(ev3dev)).
+:- use_module(library(filesex)).
+:- use_module(library(readutil)).
+
+/** <module> Plain directory trees shaped like ev3dev's
+
+A tree holds files as the kernel shows them after plugging in, and stores what
+is written. Nothing in it moves; later/2 makes a thread play the kernel's part.
+*/
+
+:- meta_predicate
+    with_tree(0),
+    with_tree(+, 0),
+    later(+, 0).
+
+:- dynamic
+    root/1,                             % Directory
+    plugged/2,                          % Port, Directory
+    numbered/2.                         % Class, Number of the next device
+
+%!  with_tree(:Goal)
+%!  with_tree(+Devices, :Goal)
+%
+%   Call Goal once with a fresh tree as the tree in use. Devices is a list of
+%   Port-Type, by default the paper's robot with all its sensors.
+
+with_tree(Goal) :-
+    with_tree([ in1-'lego-ev3-us',
+                in2-'lego-ev3-color',
+                in3-'lego-ev3-color',
+                in4-'lego-ev3-gyro',
+                outA-'lego-ev3-m-motor',
+                outB-'lego-ev3-l-motor',
+                outC-'lego-ev3-l-motor',
+                outD-'lego-ev3-l-motor'
+              ], Goal).
+
+with_tree(Devices, Goal) :-
+    setup_call_cleanup(
+        make_tree(Devices),
+        once(Goal),
+        drop_tree).
+
+make_tree(Devices) :-
+    tmp_file(ev3dev, Root),
+    make_directory(Root),
+    assertz(root(Root)),
+    forall(member(Port-Type, Devices), plug(Port, Type)),
+    ev3_sysfs(Root).
+
+drop_tree :-
+    retract(root(Root)),
+    retractall(plugged(_, _)),
+    retractall(numbered(_, _)),
+    delete_directory_and_contents(Root).
+
+%!  plug(+Port, +Type)
+%
+%   Plug a device in: a new directory with the next number of its class.
+
+plug(Port, Type) :-
+    class(Type, Class, Prefix),
+    root(Root),
+    next_number(Class, Number),
+    format(atom(Directory), "~w/~w/~w~w", [Root, Class, Prefix, Number]),
+    make_directory_path(Directory),
+    format(atom(Address), "ev3-ports:~w", [Port]),
+    forall(attribute(Class, Type, Attribute, Text),
+           write_text(Directory, Attribute, Text)),
+    write_text(Directory, driver_name, Type),
+    % Last: until it has an address it is no device.
+    write_text(Directory, address, Address),
+    assertz(plugged(Port, Directory)).
+
+next_number(Class, Number) :-
+    (   retract(numbered(Class, Number))
+    ->  true
+    ;   Number = 0
+    ),
+    Next is Number + 1,
+    assertz(numbered(Class, Next)).
+
+%!  unplug(+Port)
+%
+%   Pull the wire: the directory vanishes.
+
+unplug(Port) :-
+    retract(plugged(Port, Directory)),
+    delete_directory_and_contents(Directory).
+
+attribute_path(Port, Attribute, Path) :-
+    plugged(Port, Directory),
+    atomic_list_concat([Directory, Attribute], /, Path).
+
+put_attribute(Port, Attribute, Text) :-
+    plugged(Port, Directory),
+    write_text(Directory, Attribute, Text).
+
+%!  get_attribute(+Port, +Attribute, -Text)
+%
+%   Text is an atom, without the newline that ends it.
+
+get_attribute(Port, Attribute, Text) :-
+    attribute_path(Port, Attribute, Path),
+    read_file_to_string(Path, String0, []),
+    (   string_concat(String, "\n", String0)
+    ->  atom_string(Text, String)
+    ;   atom_string(Text, String0)
+    ).
+
+%!  written(+Port, -Attributes)
+%
+%   Attributes of a device that differ from what they are after plugging in,
+%   as a list of Attribute=Text.
+
+written(Port, Attributes) :-
+    get_attribute(Port, driver_name, Type),
+    class(Type, Class, _),
+    findall(Attribute=Text,
+            ( attribute(Class, Type, Attribute, Text0),
+              get_attribute(Port, Attribute, Text),
+              \+ format(atom(Text), "~w", [Text0])
+            ),
+            Attributes).
+
+write_text(Directory, Attribute, Text) :-
+    atomic_list_concat([Directory, Attribute], /, Path),
+    setup_call_cleanup(
+        open(Path, write, Stream),
+        format(Stream, "~w~n", [Text]),
+        close(Stream)).
+
+%!  later(+Seconds, :Goal)
+%
+%   Call Goal in another thread after some time.
+
+later(Seconds, Goal) :-
+    thread_create(( sleep(Seconds), Goal ), _, [detached(true)]).
+
+                /*******************************
+                *           DEVICES            *
+                *******************************/
+
+class(Type, 'tacho-motor', motor) :-
+    motor(Type, _).
+class(Type, 'lego-sensor', sensor) :-
+    sensor(Type, _, _, _).
+
+motor('lego-ev3-l-motor', 1050).
+motor('lego-ev3-m-motor', 1560).
+motor('lego-nxt-motor',   1020).
+
+sensor('lego-ev3-color', 'COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL', 0, 42).
+sensor('lego-ev3-us',    'US-DIST-CM US-DIST-IN US-LISTEN US-SI-CM US-SI-IN',         1, 843).
+sensor('lego-ev3-gyro',  'GYRO-ANG GYRO-RATE GYRO-FAS GYRO-G&A GYRO-CAL',             0, 0).
+sensor('lego-ev3-touch', 'TOUCH',                                                     0, 0).
+sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',        0, 35).
+sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                                     1, 215).
+
+attribute('tacho-motor', Type, max_speed, Speed) :-
+    motor(Type, Speed).
+attribute('tacho-motor', _, Attribute, Text) :-
+    motor_attribute_text(Attribute, Text).
+attribute('lego-sensor', Type, Attribute, Text) :-
+    sensor(Type, Modes, Decimals, Value),
+    sensor_attribute_text(Attribute, Modes, Decimals, Value, Text).
+
+motor_attribute_text(command, '').
+motor_attribute_text(commands,
+    'run-forever run-to-abs-pos run-to-rel-pos run-timed run-direct stop reset').
+motor_attribute_text(count_per_rot, 360).
+motor_attribute_text(duty_cycle, 0).
+motor_attribute_text(duty_cycle_sp, 0).
+motor_attribute_text(polarity, normal).
+motor_attribute_text(position, 0).
+motor_attribute_text(position_sp, 0).
+motor_attribute_text(ramp_down_sp, 0).
+motor_attribute_text(ramp_up_sp, 0).
+motor_attribute_text(speed, 0).
+motor_attribute_text(speed_sp, 0).
+motor_attribute_text(state, '').
+motor_attribute_text(stop_action, coast).
+motor_attribute_text(stop_actions, 'coast brake hold').
+motor_attribute_text(time_sp, 0).
+
+sensor_attribute_text(commands, _, _, _, '').
+sensor_attribute_text(decimals, _, Decimals, _, Decimals).
+sensor_attribute_text(mode, Modes, _, _, Mode) :-
+    atomic_list_concat([Mode|_], ' ', Modes).
+sensor_attribute_text(modes, Modes, _, _, Modes).
+sensor_attribute_text(num_values, _, _, _, 1).
+sensor_attribute_text(value0, _, _, Value, Value).
+sensor_attribute_text(value1, _, _, _, 0).
+sensor_attribute_text(value2, _, _, _, 0).
