@@ -65,8 +65,9 @@ clean_environment() {
 
 # cargo takes a linker without arguments.
 write_linker() {
-    local linker=$toolchain/bin/$1-cc triple
+    local linker=$root/target/cross/$1-cc triple
     triple=$(triple_of "$1")
+    mkdir -p "${linker%/*}"
     printf '#!/bin/sh\nexec "%s/tools/zig-cc" %s "$@"\n' "$root" "$1" >"$linker"
     chmod +x "$linker"
     triple=${triple^^}
