@@ -7,8 +7,13 @@
 #
 # Usage: tools/dist.sh [TARGET...]     default: all that tools/cross.sh builds
 #
-# There is no Makefile in it, so nothing is built on installation. The same
-# commit gives the same bytes.
+# There is no Makefile in it, so nothing is built on installation. The foreign
+# libraries are native/<target>/ev3dev.so; prolog/ev3dev/library_file.pl picks
+# one. They are not below lib: where there is a folder lib but none in it that is
+# named by the Prolog flag `arch`, SWI-Prolog up to 9.0 does not use the pack at
+# all, and the flags of all builds there are cannot be known.
+#
+# The same commit gives the same bytes.
 #
 # Environment: as for tools/cross.sh; SOURCE_DATE_EPOCH, the time of all files
 # (default: that of the last commit).
@@ -32,23 +37,13 @@ main() {
     copy_contents "$stage/ev3dev"
     for name; do
         install -D -m 644 "$root/target/dist/$name/ev3dev.so" \
-            "$stage/ev3dev/lib/$(folder_of "$name")/ev3dev.so"
+            "$stage/ev3dev/native/$name/ev3dev.so"
     done
 
     archive=$root/dist/ev3dev-$(version).tgz
     pack "$stage" "$archive"
     (cd "$root/dist" && sha256sum "${archive##*/}" >"${archive##*/}.sha256")
     echo "${archive#"$root"/}: $(stat -c %s "$archive") bytes"
-}
-
-# The folder is the Prolog flag `arch` where that is unambiguous. On ARM with
-# 32 bit it is not; prolog/ev3dev/library_file.pl looks into the files.
-folder_of() {
-    case $1 in
-    amd64) echo x86_64-linux ;;
-    arm64) echo aarch64-linux ;;
-    *) echo "$1" ;;
-    esac
 }
 
 copy_contents() {

@@ -11,7 +11,10 @@
 # A bare processor stands for its 9.0.4: `tools/emulate.sh armel swipl` is as
 # near to a brick as a PC gets.
 #
-# Environment: those of tools/debian.sh; EV3DEV_TOOLCHAIN (see toolchain.sh).
+# It sees neither the packs nor the settings of this machine. Environment:
+#   EMULATED_HOME   its home (default: .toolchain/swipl/<name>/home)
+#   EMULATED_PATH   its PATH (default: ours)
+# and those of tools/debian.sh; EV3DEV_TOOLCHAIN (see toolchain.sh).
 
 set -euo pipefail
 # shellcheck source=tools/common.sh
@@ -47,7 +50,7 @@ main() {
     ) || die "no such SWI-Prolog: $name (without arguments I list them)"
     shift
 
-    local dir=$toolchain/swipl/$name key="$suite $arch"
+    local dir=$toolchain/swipl/$name key="$suite $arch 1"
     is_made "$dir" "$key" || (fetch "$dir" "$suite" "$arch" "$triplet" "$key")
     if [[ $# -eq 0 ]]; then
         echo "$dir"
@@ -72,8 +75,12 @@ fetch() {
     [[ -e $dir/lib ]] || ln -s usr/lib "$dir/lib"
     [[ $arch == amd64 ]] || fetch_qemu
     # What Debian does when it installs the package.
-    (run "$dir" "$arch" "$triplet" swipl -q \
-        -g "make_library_index(swi(library))" -t halt </dev/null) ||
+    (
+        unset EMULATED_HOME EMULATED_PATH
+        run "$dir" "$arch" "$triplet" swipl -q \
+            -g "make_library_index(swi(library))" -t halt </dev/null
+    ) || true
+    [[ -e $dir/usr/lib/swi-prolog/library/INDEX.pl ]] ||
         die "SWI-Prolog of Debian $suite for $arch does not start"
     made "$dir" "$key"
 }
@@ -95,23 +102,29 @@ fetch_qemu() {
 # Replaces this process. The libraries are named by their folders: qemu's -L
 # reaches the loader, but not what that looks for by statx(2).
 run() {
-    local dir=$1 arch=$2 triplet=$3 program=$4 libraries
+    local dir=$1 arch=$2 triplet=$3 program=$4 home=${EMULATED_HOME:-$1/home}
+    local loader=$dir/lib/$triplet/ld-linux-x86-64.so.2 with
+    local libraries=$dir/usr/lib/$triplet:$dir/lib/$triplet:$dir/usr/lib
     shift 4
     [[ $program == /* ]] || program=$dir/usr/bin/$program
-    libraries=$dir/usr/lib/$triplet:$dir/lib/$triplet:$dir/usr/lib
-    export SWI_HOME_DIR=$dir/usr/lib/swi-prolog
-    PATH=$PATH:$toolchain/qemu/usr/bin
     case $arch in
-    amd64) exec "$dir/lib/$triplet/ld-linux-x86-64.so.2" \
-        --library-path "$libraries" "$program" "$@" ;;
+    amd64) with=("$loader" --library-path "$libraries") ;;
     # the EV3's processor
-    armel) set -- qemu-arm-static -cpu arm926 "$program" "$@" ;;
-    armhf) set -- qemu-arm-static "$program" "$@" ;;
-    arm64) set -- qemu-aarch64-static "$program" "$@" ;;
+    armel) with=("$(qemu arm)" -cpu arm926) ;;
+    armhf) with=("$(qemu arm)") ;;
+    arm64) with=("$(qemu aarch64)") ;;
     esac
-    local qemu=$1
-    shift
-    exec "$qemu" -L "$dir" -E LD_LIBRARY_PATH="$libraries" "$@"
+    [[ $arch == amd64 ]] || with+=(-L "$dir" -E LD_LIBRARY_PATH="$libraries")
+
+    mkdir -p "$home"
+    unset XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME
+    export HOME=$home XDG_DATA_DIRS=$home/data XDG_CONFIG_DIRS=$home/config
+    export SWI_HOME_DIR=$dir/usr/lib/swi-prolog PATH=${EMULATED_PATH:-$PATH}
+    exec "${with[@]}" "$program" "$@"
+}
+
+qemu() {
+    command -v "qemu-$1-static" || echo "$toolchain/qemu/usr/bin/qemu-$1-static"
 }
 
 main "$@"

@@ -1,72 +1,84 @@
 :- module(ev3dev_library_file,
-          [ library_file/1              % -File
+          [ load_library/0,
+            library_file/1              % -File
           ]).
+:- use_module(library(shlib), [load_foreign_library/1]).
 :- use_module(library(lists), [member/2, nth0/3]).
 
-/** <module> Which of the shipped foreign libraries is for this machine
+/** <module> Which of the pack's foreign libraries is for this machine
 
-A binary pack holds an `ev3dev.so` for each kind of machine, in folders below
-`lib`. The Prolog flag `arch` names such a folder but need not tell the kinds
-apart: of Debian's SWI-Prologs that answer `armv7l-linux`, one is for the EV3
-(`armel`: floats are passed in integer registers) and another for the
-Raspberry Pi (`armhf`: in those of a floating point unit). The ELF headers
-do: that of the running program is compared with that of each library.
-
-Use:
-
-    :- library_file(File), use_foreign_library(File).
+`make` puts the library where SWI-Prolog wants it, `lib/<arch>/ev3dev.so`. A
+binary pack has one for each kind of machine below `native`. It cannot go by
+the Prolog flag `arch`: of Debian's SWI-Prologs that answer `armv7l-linux`,
+one is for the EV3 (`armel`: floats are passed in integer registers) and
+another for the Raspberry Pi (`armhf`: in those of a floating point unit); and
+before version 8, Debian's answered `armel` and `armhf`. The ELF headers tell:
+that of the running program is compared with that of each library.
 */
+
+%!  load_library is det.
+%
+%   Load the pack's foreign library for this machine into the calling module.
+%
+%   @error existence_error(foreign_library, ev3dev) as library_file/1
+
+:- module_transparent load_library/0.
+
+load_library :-
+    context_module(Module),
+    ev3dev_library_file:library_file(File),
+    load_foreign_library(Module:File).
 
 %!  library_file(-File) is det.
 %
-%   File is the pack's foreign library for this machine: that of the folder
-%   `lib/<arch>` if it suits the running program, else the first below `lib`
-%   that does. Where the program cannot be looked at (no `/proc`), the folder
-%   alone decides.
+%   File is the pack's foreign library for this machine: the built one,
+%   `lib/<arch>/ev3dev.so`, if it suits the running program, else the first
+%   below `native` that does. Where the program cannot be looked at (no
+%   `/proc`), only the built one counts.
 %
 %   @error existence_error(foreign_library, ev3dev) if there is none. The
 %   message tells what was looked for, and which files are there.
 
 library_file(File) :-
-    lib_folder(Lib),
-    (   suitable_file(Lib, File0)
+    pack_folder(Pack),
+    (   suitable_file(Pack, File0)
     ->  File = File0
-    ;   no_suitable_file(Lib)
+    ;   no_suitable_file(Pack)
     ).
 
-lib_folder(Lib) :-
+pack_folder(Pack) :-
     module_property(ev3dev_library_file, file(File)),
     file_directory_name(File, Folder),
     file_directory_name(Folder, Prolog),
-    file_directory_name(Prolog, Pack),
-    atom_concat(Pack, '/lib', Lib).
+    file_directory_name(Prolog, Pack).
 
-suitable_file(Lib, File) :-
+suitable_file(Pack, File) :-
     program_kind(Kind),
     !,
-    shipped_file(Lib, File),
+    (   built_file(Pack, File)
+    ;   shipped_file(Pack, File)
+    ),
     file_kind(File, Kind),
     !.
-suitable_file(Lib, File) :-
+suitable_file(Pack, File) :-
+    built_file(Pack, File).
+
+built_file(Pack, File) :-
     current_prolog_flag(arch, Arch),
-    folder_file(Lib, Arch, File).
+    atomic_list_concat([Pack, '/lib/', Arch], Folder),
+    folder_file(Folder, File).
 
-%   The libraries below Lib, that of the flag's folder first.
+shipped_file(Pack, File) :-
+    atom_concat(Pack, '/native', Native),
+    exists_directory(Native),
+    directory_files(Native, Names),
+    member(Name, Names),
+    atomic_list_concat([Native, /, Name], Folder),
+    folder_file(Folder, File).
 
-shipped_file(Lib, File) :-
-    current_prolog_flag(arch, Arch),
-    (   Folder = Arch
-    ;   exists_directory(Lib),
-        directory_files(Lib, Folders),
-        msort(Folders, Sorted),
-        member(Folder, Sorted),
-        Folder \== Arch
-    ),
-    folder_file(Lib, Folder, File).
-
-folder_file(Lib, Folder, File) :-
+folder_file(Folder, File) :-
     current_prolog_flag(shared_object_extension, Extension),
-    atomic_list_concat([Lib, /, Folder, '/ev3dev.', Extension], File),
+    atomic_list_concat([Folder, '/ev3dev.', Extension], File),
     exists_file(File).
 
 %!  file_kind(+File, -Kind) is semidet.
@@ -113,20 +125,22 @@ low_bytes(1, Offset, Offset, High) :-
 low_bytes(2, Offset, Low, Offset) :-
     Low is Offset+1.
 
-no_suitable_file(Lib) :-
+no_suitable_file(Pack) :-
     current_prolog_flag(arch, Arch),
     (   program_kind(Kind)
     ->  kind_text(Kind, Text)
-    ;   Text = 'unknown'
+    ;   Text = 'of unknown kind'
     ),
-    findall(File, shipped_file(Lib, File), Files),
+    findall(File,
+            ( built_file(Pack, File) ; shipped_file(Pack, File) ),
+            Files),
     (   Files == []
-    ->  Found = 'none: run "make", or install the binary pack'
+    ->  Found = 'none: run "make" there, or install the binary pack'
     ;   atomic_list_concat(Files, ', ', Found)
     ),
     format(atom(Message),
-           'no ev3dev library for this machine (~w, ~w); there is ~w',
-           [Arch, Text, Found]),
+           '~w has no library for this machine (~w, ~w); there is ~w',
+           [Pack, Arch, Text, Found]),
     throw(error(existence_error(foreign_library, ev3dev),
                 context(ev3dev_library_file:library_file/1, Message))).
 
