@@ -77,10 +77,10 @@ needs a bound one.
 %   ?- subsystem_detect(Port, Type, Path, '/sys/class/tacho-motor/motor*').
 %   ```
 %
-%   Pattern may hold `*`, `?`, `[abc]` and `**`. Below `/sys/class` it looks in
-%   the tree in use, see ev3_sysfs/1. Each match is looked at anew: for
-%   motors and sensors, tacho_motor/3 and lego_sensor/3 are much faster.
-%   Directories that hold no device are passed over.
+%   Pattern may hold `*`, `?`, `[abc]` and `**`. What is below `/sys/class`
+%   is looked for in the tree in use, see ev3_sysfs/1. Each match is looked
+%   at anew: for motors and sensors, tacho_motor/3 and lego_sensor/3 are much
+%   faster. Directories that hold no device are passed over.
 %
 %   @error instantiation_error if Pattern is unbound
 %   @error domain_error(file_name_pattern, Pattern)

@@ -33,8 +33,8 @@ Every motor that the program has started is stopped when Prolog halts, unless
 the flag `ev3dev_stop_at_halt` is `false`.
 
 All predicates fail if there is no motor at a port, and if a move is
-impossible: a speed beyond 100 percent, or a speed of 0 for a move by an angle.
-Nothing moves then. `debug(ev3dev)` tells why.
+impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
+angle. Nothing moves then. `debug(ev3dev)` tells why.
 */
 
 %!  motor_run(+Port, +Speed) is semidet.
@@ -49,8 +49,8 @@ motor_run(Port, Speed) :-
 
 %!  motors_run(+Runs) is semidet.
 %
-%   Run several motors, each `run(Port, Percent)`, until they are stopped. They
-%   start at the same moment, or not at all. Does not wait.
+%   Run several motors, each `run(Port, Percent)`, until they are stopped.
+%   They start at the same moment, or not at all. Does not wait.
 
 motors_run(Runs) :-
     motor_run_(Runs),
@@ -61,9 +61,9 @@ motors_run(Runs) :-
 %!  motor_run(+Port, +Speed, +Angle) is semidet.
 %!  motor_run(+Port, +Speed, +Angle, +Options) is semidet.
 %
-%   Turn a motor by Angle degrees at Speed percent, and wait until it is there.
-%   A motor that does not get there, because it is blocked or somebody else
-%   stops it, is stopped and makes the call fail. Options:
+%   Turn a motor by Angle degrees at Speed percent, and wait until it is
+%   there. A motor that does not get there, because it is blocked or somebody
+%   else stops it, is stopped and makes the call fail. Options:
 %
 %     - stop_action(+Action)
 %       What the motor does at the end: `hold` its position (default), `brake`
@@ -94,9 +94,9 @@ motor_run(Port, Speed, Angle, Options) :-
 
 %!  motors_turn(+Moves, +Options) is semidet.
 %
-%   Turn several motors, each `move(Port, Percent, Degrees)`, and wait until all
-%   are there. They start at the same moment, or not at all. Options, failure
-%   and errors are those of motor_run/4.
+%   Turn several motors, each `move(Port, Percent, Degrees)`, and wait until
+%   all are there. They start at the same moment, or not at all. Options,
+%   failure and errors are those of motor_run/4.
 
 motors_turn(Moves, Options) :-
     turn_options(Options, Native),
@@ -203,7 +203,8 @@ run_forever(Port, Speed) :-
     CountsPerSecond is round(Speed),
     (   run_forever_(Port, CountsPerSecond)
     ->  true
-    ;   debug(ev3dev, "~w cannot run at ~w counts/s", [Port, CountsPerSecond]),
+    ;   debug(ev3dev, "~w cannot run at ~w counts/s",
+              [Port, CountsPerSecond]),
         fail
     ).
 

@@ -1,12 +1,12 @@
 :- module(ev3dev_robot,
-          [ set_robot/4,                % +WheelDiameter, +AxleLength, +Left, +Right
-            robot/4,                    % ?WheelDiameter, ?AxleLength, ?Left, ?Right
+          [ set_robot/4,        % +WheelDiameter, +AxleLength, +Left, +Right
+            robot/4,            % ?WheelDiameter, ?AxleLength, ?Left, ?Right
             stop/0,
-            go/1,                       % +Speed
-            go/2,                       % +Speed, +Angle
-            go_cm/2,                    % +Speed, +Distance
-            turn/1,                     % +Speed
-            turn/2                      % +Speed, +Angle
+            go/1,               % +Speed
+            go/2,               % +Speed, +Angle
+            go_cm/2,            % +Speed, +Distance
+            turn/1,             % +Speed
+            turn/2              % +Speed, +Angle
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
@@ -141,7 +141,8 @@ turn(Speed, Angle) :-
     (   gyro_sensor(Gyro)
     ->  Gearing is AxleLength / float(WheelDiameter),
         Signed is Degrees * sign(Percent),
-        turn_by_gyro_(Gyro, wheels(Left, Right, Gearing), Percent, Signed, Ended),
+        Wheels = wheels(Left, Right, Gearing),
+        turn_by_gyro_(Gyro, Wheels, Percent, Signed, Ended),
         turn_ended(Ended, Degrees)
     ;   WheelAngle is round(AxleLength / WheelDiameter * Degrees),
         Opposite is -WheelAngle,

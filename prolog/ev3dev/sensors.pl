@@ -38,8 +38,8 @@ Port = in1,
 Distance = 84.3.
 ```
 
-A sensor is put into another mode only if it is not in it already, because that
-takes time: 10 ms, with the infrared sensor 1.1 s. A sensor that has lost
+A sensor is put into another mode only if it is not in it already, because
+that takes time: 10 ms, with the infrared sensor 1.1 s. A sensor that has lost
 contact is given 2 s to come back before existence_error(sensor, Port) is
 thrown.
 
@@ -75,8 +75,8 @@ reading(ir_prox,        ['lego-ev3-ir'],    'IR-PROX',     0).
 
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
-%   True if the sensor at Port shows Value for a Reading of the table. Fails if
-%   the table has no such reading.
+%   True if the sensor at Port shows Value for a Reading of the table. Fails
+%   if the table has no such reading.
 
 sensor_reading(Reading, Port, Value) :-
     reading(Reading, Types, Mode, Index),
@@ -135,7 +135,8 @@ col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
     col_rgb_raw(Port, Red, Green, Blue).
 
 col_rgb_raw(Port, Red, Green, Blue) :-
-    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', rgb(Red, Green, Blue)).
+    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW',
+                   rgb(Red, Green, Blue)).
 
 %!  us_dist_cm(?Port, -Centimetres) is nondet.
 %!  us_dist_inches(?Port, -Inches) is nondet.

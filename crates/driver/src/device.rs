@@ -14,6 +14,9 @@ const PAGE: usize = 4096;
 /// Room for a number, a mode, or a motor's state.
 const SHORT: usize = 64;
 
+/// How long another program may take from emptying a plain file to writing it.
+const WRITTEN_WITHIN_MS: u32 = 20;
+
 /// A motor or a sensor.
 pub struct Device {
     class: Class,
@@ -128,7 +131,10 @@ impl Device {
     pub fn number(&self, attribute: &str) -> Result<i64> {
         let attribute = self.attribute(attribute);
         let mut buffer = [0; SHORT];
-        let text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        let mut text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        if text.is_empty() && attribute.is_plain(self.tree())? {
+            text = first_line(attribute.read_written(self.tree(), &mut buffer)?);
+        }
         integer(text).ok_or_else(|| attribute.malformed(text, "an integer"))
     }
 
@@ -295,6 +301,24 @@ impl Attribute {
         let bytes = read_node(node, &self.path, buffer)?;
         drop(whole);
         Ok(bytes)
+    }
+
+    /// Whether the file only stores what is written to it.
+    pub(crate) fn is_plain(&self, tree: &dyn Tree) -> Result<bool> {
+        Ok(self.reader(tree)?.is_plain())
+    }
+
+    /// Reads a plain file that is found empty: another program may be about
+    /// to write it, which empties it first.
+    fn read_written<'a>(&self, tree: &dyn Tree, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+        for _ in 0..WRITTEN_WITHIN_MS {
+            // Whether or not it slept, the next read tells.
+            let _ = tree.pause(&[], Duration::from_millis(1));
+            if !self.read(tree, &mut *buffer)?.is_empty() {
+                break;
+            }
+        }
+        self.read(tree, buffer)
     }
 
     fn write(&self, tree: &dyn Tree, text: &str) -> Result<()> {

@@ -115,6 +115,9 @@ pub fn wait_for_flag(
     let motors = std::slice::from_ref(motor);
     let waited = until(devices, motors, None, interrupted, |now| {
         let is_there = motor.with_word("state", |state| has(state, flag))?;
+        if !is_there && !watch.is_confirmed()? {
+            return Ok(Some(SHORT_SLICE));
+        }
         // That nothing runs yet right after a command does not mean that
         // nothing runs any more.
         if is_there == present && (present || flag != "running" || watch.is_over(now)?) {
@@ -190,6 +193,8 @@ struct Watch<'a> {
     motor: &'a Device,
     has_run: bool,
     is_done: bool,
+    /// Whether the last look found nothing running.
+    was_quiet: bool,
     stalled_since: Option<Duration>,
     /// A position, and since when it has been that.
     stuck: Option<(i64, Duration)>,
@@ -207,15 +212,23 @@ enum Look {
 
 impl<'a> Watch<'a> {
     fn new(motor: &'a Device) -> Self {
-        Self { motor, has_run: false, is_done: false, stalled_since: None, stuck: None }
+        Self {
+            motor,
+            has_run: false,
+            is_done: false,
+            was_quiet: false,
+            stalled_since: None,
+            stuck: None,
+        }
     }
 
     fn look(&mut self, now: Duration) -> Result<Look> {
-        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
-            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
-        })?;
+        let (runs, stalled) = self
+            .motor
+            .with_word("state", |state| (has(state, "running"), has(state, "stalled")))?;
         if runs {
             self.has_run = true;
+            self.was_quiet = false;
             let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
             self.stalled_since = since;
             let lasts = since.is_some_and(|since| now.saturating_sub(since) >= STALLED_FOR);
@@ -224,12 +237,24 @@ impl<'a> Watch<'a> {
             }
             return Ok(Look::Runs(self.slice(now)?));
         }
-        if !holds && !self.is_over(now)? {
+        if !self.is_confirmed()? {
+            return Ok(Look::Runs(SHORT_SLICE));
+        }
+        // Not even `holding` is believed at once: it may be that of the move
+        // before.
+        if !self.is_over(now)? {
             return Ok(Look::Runs(self.slice(now)?));
         }
         self.is_done = true;
         let stopped_short = self.has_run && !self.is_at_end()?;
         Ok(Look::Done(if stopped_short { Reason::Stopped } else { Reason::Reached }))
+    }
+
+    /// Whether a missing flag can be believed. A plain file is empty for a
+    /// moment while another program writes it: that takes a second look.
+    fn is_confirmed(&mut self) -> Result<bool> {
+        let was_quiet = std::mem::replace(&mut self.was_quiet, true);
+        Ok(was_quiet || !self.motor.attribute("state").is_plain(self.motor.tree())?)
     }
 
     /// Whether a motor that does not run has run already, rather than not yet.

@@ -1,0 +1,82 @@
+% Checks over the pack's Prolog files; run by `make lint`.
+
+:- use_module(tree).
+:- use_module(library(ev3dev)).
+:- use_module(library(check)).
+:- use_module(library(prolog_xref)).
+:- use_module(library(pldoc)).
+:- use_module(library(pldoc/doc_process)).
+:- doc_collect(true).
+
+:- dynamic complaint/0.
+
+main :-
+    load_again,
+    check,
+    forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
+    forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
+    (   complaint
+    ->  halt(1)
+    ;   halt(0)
+    ).
+
+% Documentation is kept only of what is loaded after doc_collect/1.
+load_again :-
+    forall(library_module(Module),
+           ( module_property(Module, file(File)),
+             load_files(File, [if(true)])
+           )).
+
+complain(What) :-
+    assertz(complaint),
+    print_message(error, format("~p", [What])).
+
+% Warnings of check/0 count, too.
+user:message_hook(_, Kind, _) :-
+    memberchk(Kind, [warning, error]),
+    assertz(complaint),
+    fail.
+
+library_module(Module) :-
+    current_module(Module),
+    sub_atom(Module, 0, _, _, ev3dev),
+    module_property(Module, file(_)).
+
+%!  undocumented(-Module, -PI) is nondet.
+%
+%   An export without a PlDoc comment in the module that defines it.
+
+undocumented(Module, Name/Arity) :-
+    library_module(Module),
+    module_property(Module, exports(Exports)),
+    member(Name/Arity, Exports),
+    functor(Head, Name, Arity),
+    \+ predicate_property(Module:Head, imported_from(_)),
+    \+ doc_comment(Module:Name/Arity, _, _, _).
+
+source(File) :-
+    member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
+                     'examples/*.pl']),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+bad_line(File, Number, Why) :-
+    setup_call_cleanup(
+        open(File, read, Stream),
+        ( repeat,
+          read_line_to_string(Stream, Line),
+          line_count(Stream, Number),
+          (   Line == end_of_file
+          ->  !, fail
+          ;   bad(Line, Why)
+          )
+        ),
+        close(Stream)).
+
+bad(Line, tab) :-
+    sub_string(Line, _, _, _, "\t").
+bad(Line, trailing_space) :-
+    sub_string(Line, _, 1, 0, " ").
+bad(Line, too_long) :-
+    string_length(Line, Length),
+    Length > 78.
