@@ -51,6 +51,7 @@ main() {
     shift
 
     local dir=$toolchain/swipl/$name key="$suite $arch 1"
+    [[ $arch == amd64 ]] || (fetch_qemu)
     is_made "$dir" "$key" || (fetch "$dir" "$suite" "$arch" "$triplet" "$key")
     if [[ $# -eq 0 ]]; then
         echo "$dir"
@@ -73,7 +74,6 @@ fetch() {
     debian_forget "$apt"
     # since trixie /lib is /usr/lib
     [[ -e $dir/lib ]] || ln -s usr/lib "$dir/lib"
-    [[ $arch == amd64 ]] || fetch_qemu
     # What Debian does when it installs the package.
     (
         unset EMULATED_HOME EMULATED_PATH
@@ -89,7 +89,8 @@ fetch() {
 fetch_qemu() {
     local dir=$toolchain/qemu apt=$toolchain/apt-qemu
     ! have qemu-arm-static qemu-aarch64-static || return 0
-    is_made "$dir" 1 && return
+    ! is_made "$dir" 1 || return 0
+    locked emulate
     say "fetching qemu"
     rm -rf "$dir" "$apt"
     debian_apt_new "$apt" bookworm amd64
@@ -99,28 +100,26 @@ fetch_qemu() {
     made "$dir" 1
 }
 
-# Replaces this process. The libraries are named by their folders: qemu's -L
-# reaches the loader, but not what that looks for by statx(2).
+# Replaces this process. The program's own loader gets the folders to look in;
+# qemu's -L would show some system calls the unpacked root and others ours.
 run() {
     local dir=$1 arch=$2 triplet=$3 program=$4 home=${EMULATED_HOME:-$1/home}
-    local loader=$dir/lib/$triplet/ld-linux-x86-64.so.2 with
     local libraries=$dir/usr/lib/$triplet:$dir/lib/$triplet:$dir/usr/lib
+    local loader=("$dir/lib/$triplet"/ld-linux*.so.*) emulator=()
     shift 4
     [[ $program == /* ]] || program=$dir/usr/bin/$program
     case $arch in
-    amd64) with=("$loader" --library-path "$libraries") ;;
     # the EV3's processor
-    armel) with=("$(qemu arm)" -cpu arm926) ;;
-    armhf) with=("$(qemu arm)") ;;
-    arm64) with=("$(qemu aarch64)") ;;
+    armel) emulator=("$(qemu arm)" -cpu arm926) ;;
+    armhf) emulator=("$(qemu arm)") ;;
+    arm64) emulator=("$(qemu aarch64)") ;;
     esac
-    [[ $arch == amd64 ]] || with+=(-L "$dir" -E LD_LIBRARY_PATH="$libraries")
 
     mkdir -p "$home"
     unset XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME
     export HOME=$home XDG_DATA_DIRS=$home/data XDG_CONFIG_DIRS=$home/config
     export SWI_HOME_DIR=$dir/usr/lib/swi-prolog PATH=${EMULATED_PATH:-$PATH}
-    exec "${with[@]}" "$program" "$@"
+    exec "${emulator[@]}" "${loader[0]}" --library-path "$libraries" "$program" "$@"
 }
 
 qemu() {
