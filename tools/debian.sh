@@ -81,7 +81,8 @@ debian_apt_new() {
     echo "deb [signed-by=$keyring] $mirror $suite main" >"$dir/sources.list"
 
     if [[ ! -e $dir/updated ]]; then
-        debian_apt "$dir" apt-get update -q >"$dir/update.log" 2>&1 ||
+        debian_apt "$dir" apt-get update -q -o APT::Update::Error-Mode=any \
+            >"$dir/update.log" 2>&1 ||
             die "the mirror does not serve Debian $suite for $* (see $dir/update.log)"
         touch "$dir/updated"
     fi

@@ -97,6 +97,7 @@ fetch_qemu() {
     debian_download "$apt" qemu-user-static
     debian_unpack "$apt" "$dir"
     debian_forget "$apt"
+    find "$dir" -type f ! -name qemu-arm-static ! -name qemu-aarch64-static -delete
     made "$dir" 1
 }
 
