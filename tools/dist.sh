@@ -5,7 +5,7 @@
 #
 #   dist/ev3dev-<version>.tgz          and .tgz.sha256 beside it
 #
-# Usage: tools/dist.sh [TARGET...]     default: all that tools/cross.sh builds
+# Usage: tools/dist.sh
 #
 # There is no Makefile in it, so nothing is built on installation. The foreign
 # libraries are native/<target>/ev3dev.so; prolog/ev3dev/library_file.pl picks
@@ -28,14 +28,13 @@ contents=(pack.pl README.md LICENSE CHANGELOG.md prolog examples)
 
 main() {
     local name archive stage=$root/target/dist/stage
-    [[ $# -gt 0 ]] || set -- "${all_targets[@]}"
-    "$root/tools/cross.sh" "$@"
+    "$root/tools/cross.sh" "${all_targets[@]}"
     locked dist
 
     rm -rf "$stage"
     mkdir -p "$stage/ev3dev" "$root/dist"
     copy_contents "$stage/ev3dev"
-    for name; do
+    for name in "${all_targets[@]}"; do
         install -D -m 644 "$root/target/dist/$name/ev3dev.so" \
             "$stage/ev3dev/native/$name/ev3dev.so"
     done
@@ -74,4 +73,4 @@ pack() {
     mv "$archive.new" "$archive"
 }
 
-main "$@"
+main

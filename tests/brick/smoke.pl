@@ -1,5 +1,6 @@
-/*  The least that must work in every SWI-Prolog, without plunit or any package:
-    every export can be called, and a motor and a sensor do what they should.
+/*  The least that must work in every SWI-Prolog, without plunit or any
+    package: every export can be called, and a motor and a sensor do what they
+    should.
 
         swipl -g main -t 'halt(1)' tests/brick/smoke.pl
 
@@ -102,7 +103,9 @@ tree(Root) :-
 
 motor(address, 'ev3-ports:outA').
 motor(driver_name, 'lego-ev3-l-motor').
-motor(commands, 'run-forever run-to-abs-pos run-to-rel-pos run-timed run-direct stop reset').
+motor(commands, Text) :-
+    atomic_list_concat(['run-forever', 'run-to-abs-pos', 'run-to-rel-pos',
+                        'run-timed', 'run-direct', stop, reset], ' ', Text).
 motor(command, '').
 motor(count_per_rot, 360).
 motor(max_speed, 1050).
