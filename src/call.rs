@@ -1,8 +1,13 @@
 //! One call of a native predicate: its arguments, its answers.
 use crate::error::raise;
+use crate::words::atom_text;
 use ev3_driver::Value;
+use std::borrow::Cow;
 use std::time::Duration;
 use swipl::prelude::*;
+
+/// The text of an atom or a string.
+pub(crate) type Text = Cow<'static, str>;
 
 /// The call under way of a public predicate, by its name and arity.
 pub(crate) struct Call<'a, C: QueryableContextType> {
@@ -17,27 +22,26 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The text of an atom or a string.
-    pub(crate) fn text(&self, term: &Term) -> PrologResult<String> {
-        let atom = term.get_atom_name(|name| name.map(str::to_owned))?;
-        let text = match atom {
-            None => term.get_str(|text| text.map(str::to_owned))?,
+    pub(crate) fn text(&self, term: &Term) -> PrologResult<Text> {
+        let text = match atom_text(term)? {
+            None => term.get_str(|text| text.map(|text| Text::Owned(text.to_owned())))?,
             atom => atom,
         };
         text.map_or_else(|| self.wrong_type("atom", term), Ok)
     }
 
     /// The text of an atom or a string, or `None` for a variable.
-    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<String>> {
+    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<Text>> {
         if term.is_var() { Ok(None) } else { self.text(term).map(Some) }
     }
 
     /// The text of an atom, a string or a number, as it is written to a file.
-    pub(crate) fn value(&self, term: &Term) -> PrologResult<String> {
+    pub(crate) fn value(&self, term: &Term) -> PrologResult<Text> {
         if let Some(integer) = attempt_opt(self.integer_of(term))? {
-            return Ok(integer.to_string());
+            return Ok(Text::Owned(integer.to_string()));
         }
         if term.term_type() == TermType::Float {
-            return Ok(term.get::<f64>()?.to_string());
+            return Ok(Text::Owned(term.get::<f64>()?.to_string()));
         }
         self.text(term)
     }
@@ -111,10 +115,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             let Some(value) = attempt_opt(read(&item))? else {
                 continue;
             };
+            if items.len() == 0 {
+                return unify(&item, &value).map(|()| false);
+            }
             let frame = self.context.open_frame();
             if attempt(unify(&item, &value))? {
                 frame.close();
-                return Ok(items.len() > 0);
+                return Ok(true);
             }
             frame.discard();
         }

@@ -1,11 +1,12 @@
 //! `prolog/ev3dev/driver.pl`: devices, their attributes, files.
-use crate::call::{Call, unify_atom, unify_value};
+use crate::call::{Call, Text, unify_atom, unify_value};
 use crate::error::wrong_value;
 use crate::state::{devices, use_files};
 use ev3_driver::device::{read_value, write_file};
 use ev3_driver::devices::Detected;
-use ev3_driver::{Class, attributes};
+use ev3_driver::{Class, Device, Devices, attributes};
 use std::path::Path;
+use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
@@ -47,7 +48,8 @@ predicates! {
             let call = Call::of(context, "device", 4);
             let class = class_of(&call, class)?;
             let bound = Bound::of(&call, port, kind, path)?;
-            let mut detected = call.check(listed(class, bound.port.as_deref()))?;
+            let devices = call.check(listed(&devices(), class, bound.port.as_deref()))?;
+            let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
         },
@@ -60,24 +62,21 @@ predicates! {
     /// attribute_(+Class, ?Port, +Attribute, ?Value)
     #[module("ev3dev_driver")]
     #[name("attribute_")]
-    nondet fn attribute<IntoIter<Detected>>(context, class, port, attribute, value) {
+    nondet fn attribute<AttributeReads>(context, class, port, attribute, value) {
         setup => {
             let call = Call::of(context, "attribute", 4);
-            let class = class_of(&call, class)?;
-            call.text(attribute)?;
-            let port = call.text_if_bound(port)?;
-            let detected = call.check(listed(class, port.as_deref()))?;
-            Ok(Some(detected.into_iter()))
-        },
-        call(detected) => {
-            let call = Call::of(context, "attribute", 4);
             let (class, name) = (class_of(&call, class)?, call.text(attribute)?);
-            let read = |device: &Detected| {
-                call.found(attributes::read(&devices(), class, &device.port, &name))
-            };
-            call.next(detected, read, |device, read| {
+            let (port, devices) = (call.text_if_bound(port)?, devices());
+            let found = call.check(listed(&devices, class, port.as_deref()))?.into_iter();
+            Ok(Some(AttributeReads { devices, found, name }))
+        },
+        call(reads) => {
+            let call = Call::of(context, "attribute", 4);
+            let AttributeReads { devices, found, name } = reads;
+            let read = |device: &Arc<Device>| call.found(attributes::read(devices, device, name));
+            call.next(found, read, |device, read| {
                 unify_value(value, read)?;
-                unify_port(port, &device.port)
+                unify_port(port, device.port())
             })
         }
     }
@@ -98,7 +97,7 @@ predicates! {
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
-        let read = call.check(read_value(devices().tree(), Path::new(&path)))?;
+        let read = call.check(read_value(devices().tree(), Path::new(&*path)))?;
         unify_value(value, &read)
     }
 
@@ -107,7 +106,7 @@ predicates! {
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
-        call.check(write_file(devices().tree(), Path::new(&path), &text))
+        call.check(write_file(devices().tree(), Path::new(&*path), &text))
     }
 
     /// sysfs_(-Root)
@@ -123,15 +122,15 @@ predicates! {
     semidet fn sysfs_use(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);
         let root = call.text(root)?;
-        call.check(use_files(root))
+        call.check(use_files(&*root))
     }
 }
 
 /// What a call knows of the device it asks for.
 struct Bound {
-    port: Option<String>,
-    kind: Option<String>,
-    path: Option<String>,
+    port: Option<Text>,
+    kind: Option<Text>,
+    path: Option<Text>,
 }
 
 impl Bound {
@@ -149,8 +148,7 @@ impl Bound {
     }
 
     fn admits(&self, device: &Detected) -> bool {
-        let admits =
-            |bound: &Option<String>, text: &str| bound.as_deref().is_none_or(|b| b == text);
+        let admits = |bound: &Option<Text>, text: &str| bound.as_deref().is_none_or(|b| b == text);
         let port = self.port.as_deref().map(ev3_driver::port::short);
         port.is_none_or(|port| port == device.port)
             && admits(&self.kind, &device.driver)
@@ -158,12 +156,22 @@ impl Bound {
     }
 }
 
+/// Devices whose attribute is still to be read.
+struct AttributeReads {
+    devices: Arc<Devices>,
+    found: IntoIter<Arc<Device>>,
+    name: Text,
+}
+
 /// The devices of a class: all, or the one at a port.
-fn listed(class: Class, port: Option<&str>) -> ev3_driver::Result<Vec<Detected>> {
-    let devices = devices();
+fn listed(
+    devices: &Devices,
+    class: Class,
+    port: Option<&str>,
+) -> ev3_driver::Result<Vec<Arc<Device>>> {
     Ok(match port {
-        Some(port) => devices.find(class, port)?.iter().map(|device| device.detected()).collect(),
-        None => devices.all(class)?.iter().map(|device| device.detected()).collect(),
+        Some(port) => devices.find(class, port)?.into_iter().collect(),
+        None => devices.all(class)?.to_vec(),
     })
 }
 

@@ -93,7 +93,7 @@ fn formal<'a, C: QueryableContextType>(
         }
         Error::Write { text, .. } if matches!(error.errno(), Some(Errno::INVAL | Errno::RANGE)) => {
             let value = context.new_term_ref();
-            crate::call::unify_value(&value, &Value::parse(text))?;
+            crate::call::unify_value(&value, &Value::parse(text.clone()))?;
             term! {context: domain_error(#attribute, #&value)}
         }
         error => match error.errno() {

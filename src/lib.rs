@@ -14,12 +14,14 @@ mod motors;
 mod robot;
 mod sensors;
 mod state;
+mod words;
 
 /// Registers all predicates; SWI-Prolog calls it when it loads the library.
 // Safety: the name is SWI-Prolog's, and no other library is asked for it: it is
 // looked up in this one only.
 #[unsafe(no_mangle)]
 pub extern "C" fn install() {
+    words::register();
     driver::register();
     motors::register();
     sensors::register();

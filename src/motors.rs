@@ -12,6 +12,7 @@ use swipl::prelude::*;
 pub(crate) fn register() {
     register_motor_run();
     register_run_forever();
+    register_motors_run();
     register_motor_turn();
     register_motor_stop();
     register_stop_all_motors();
@@ -22,27 +23,39 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// motor_run_(+Runs): a list of run(Port, Percent), started together.
+    /// motor_run_(+Port, +Percent)
     #[module("ev3dev_motors")]
     #[name("motor_run_")]
-    semidet fn motor_run(context, runs) {
+    semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
-        let run = |run: &Term<'a>| -> PrologResult<Run> {
-            let [port, percent] = call.arguments(run)?;
-            Ok(Run { port: call.text(&port)?, speed: Speed::Percent(call.float(&percent)?) })
-        };
-        let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<Run>>>()?;
-        into_prolog_result(call.check(motor::run_forever(&devices(), &runs))?)
+        let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
+        let run = Run { port: &port, speed };
+        into_prolog_result(call.check(motor::run_forever(&devices(), &[run]))?)
     }
 
-    /// run_forever(+Port, +CountsPerSecond)
+    /// run_forever_(+Port, +CountsPerSecond)
     #[module("ev3dev_motors")]
     #[name("run_forever_")]
     semidet fn run_forever(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
-        let speed = Speed::CountsPerSecond(call.integer(speed)?);
-        let run = Run { port: call.text(port)?, speed };
+        let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
+        let run = Run { port: &port, speed };
         into_prolog_result(call.check(motor::run_forever(&devices(), &[run]))?)
+    }
+
+    /// motors_run_(+Runs): a list of run(Port, Percent), started together.
+    #[module("ev3dev_motors")]
+    #[name("motors_run_")]
+    semidet fn motors_run(context, runs) {
+        let call = Call::of(context, "motors_run", 1);
+        let run = |run: &Term<'a>| -> PrologResult<_> {
+            let [port, percent] = call.arguments(run)?;
+            Ok((call.text(&port)?, Speed::Percent(call.float(&percent)?)))
+        };
+        let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
+        let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
+        let runs = runs.collect::<Vec<_>>();
+        into_prolog_result(call.check(motor::run_forever(&devices(), &runs))?)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
@@ -52,13 +65,16 @@ predicates! {
     #[name("motor_turn_")]
     semidet fn motor_turn(context, moves, options, reason) {
         let call = Call::of(context, "motor_run", 4);
-        let turn = |turn: &Term<'a>| -> PrologResult<Move> {
+        let turn = |turn: &Term<'a>| -> PrologResult<_> {
             let [port, percent, degrees] = call.arguments(turn)?;
             let speed = Speed::Percent(call.float(&percent)?);
-            Ok(Move { port: call.text(&port)?, speed, degrees: call.float(&degrees)? })
+            Ok((call.text(&port)?, speed, call.float(&degrees)?))
         };
-        let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<Move>>>()?;
-        let options = move_options(&call, options)?;
+        let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
+        let moves = moves
+            .iter()
+            .map(|(port, speed, degrees)| Move { port, speed: *speed, degrees: *degrees });
+        let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let ended = motor::run_to(&devices(), &moves, &options, &mut call.interrupted());
         unify_atom(reason, call.found(ended)?.word())
     }
@@ -69,7 +85,7 @@ predicates! {
     semidet fn motor_stop(context, port, action) {
         let call = Call::of(context, "motor_stop", 2);
         let (port, action, devices) = (call.text(port)?, stop_action(&call, action)?, devices());
-        call.found(devices.with(Class::TachoMotor, &port, |m| motor::stop(&devices, m, action)))
+        call.found(devices.with(Class::TachoMotor, &port, |m| motor::stop(m, action)))
     }
 
     /// stop_all_motors
@@ -77,7 +93,7 @@ predicates! {
     semidet fn stop_all_motors(context) {
         let (call, devices) = (Call::of(context, "stop_all_motors", 0), devices());
         let motors = call.check(devices.all(Class::TachoMotor))?;
-        call.check(motor::stop_all(&devices, &motors, StopAction::Brake))
+        call.check(motor::stop_all(&motors, StopAction::Brake))
     }
 
     /// stop_started_: stops what the program started.
@@ -92,7 +108,7 @@ predicates! {
     semidet fn motor_reset(context, port) {
         let (call, devices) = (Call::of(context, "motor_reset", 1), devices());
         let port = call.text(port)?;
-        call.found(devices.with(Class::TachoMotor, &port, |m| motor::reset(&devices, m)))
+        call.found(devices.with(Class::TachoMotor, &port, |m| motor::reset(m)))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -102,7 +118,7 @@ predicates! {
         let (call, devices) = (Call::of(context, "motor_wait", 3), devices());
         let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
         let timeout = call.seconds(timeout)?;
-        let motors = call.found(motor::find_all(&devices, ports.iter().map(String::as_str)))?;
+        let motors = call.found(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
         let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
         unify_atom(reason, call.check(ended)?.word())
     }

@@ -19,8 +19,8 @@ predicates! {
         let (call, devices) = (Call::of(context, "turn", 2), devices());
         let [left, right, gearing] = call.arguments(wheels)?;
         let turn = Turn {
-            left: call.text(&left)?,
-            right: call.text(&right)?,
+            left: call.text(&left)?.into(),
+            right: call.text(&right)?.into(),
             speed: Speed::Percent(call.float(percent)?),
             degrees: call.float(degrees)?,
             gearing: call.float(&gearing)?,

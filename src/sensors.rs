@@ -1,9 +1,9 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
-use crate::call::{Call, unify_value};
+use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
 use crate::error::wrong_value;
 use crate::state::devices;
-use ev3_driver::{Class, Device, sensor};
+use ev3_driver::{Class, Device, Devices, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -20,19 +20,21 @@ predicates! {
     /// sensor_value_(?Port, +Types, +Mode, +Index, -Value)
     #[module("ev3dev_sensors")]
     #[name("sensor_value_")]
-    nondet fn sensor_value<IntoIter<Arc<Device>>>(context, port, types, mode, index, value) {
+    nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
-            index_of(&call, index)?;
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
-            Ok(Some(sensors(&call, port, &types, &mode)?.into_iter()))
+            let index = index_of(&call, index)?;
+            let devices = devices();
+            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
+            Ok(Some(Readings { devices, sensors, mode, index }))
         },
-        call(sensors) => {
+        call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
-            let (mode, index) = (call.text(mode)?, index_of(&call, index)?);
+            let Readings { devices, sensors, mode, index } = readings;
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                call.found(sensor::read(&devices(), device, Some(&mode), index, interrupted))
+                call.found(sensor::read(devices, device, Some(mode), *index, interrupted))
             };
             call.next(sensors, read, |device, read| {
                 unify_value(value, read)?;
@@ -45,20 +47,23 @@ predicates! {
     /// three, values 0 to 2.
     #[module("ev3dev_sensors")]
     #[name("sensor_values_")]
-    nondet fn sensor_values<IntoIter<Arc<Device>>>(context, port, types, mode, values) {
+    nondet fn sensor_values<Readings>(context, port, types, mode, values) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
-            Ok(Some(sensors(&call, port, &types, &mode)?.into_iter()))
+            let devices = devices();
+            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
+            Ok(Some(Readings { devices, sensors, mode, index: 0 }))
         },
-        call(sensors) => {
+        call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
-            let (mode, values) = (call.text(mode)?, call.arguments::<3>(values)?);
+            let (values, mode) = (call.arguments::<3>(values)?, Some(&*readings.mode));
+            let devices = &readings.devices;
             let read = |device: &Arc<Device>| {
-                let (mode, interrupted) = (Some(&*mode), &mut call.interrupted());
-                call.found(sensor::read_all(&devices(), device, mode, [0, 1, 2], interrupted))
+                let interrupted = &mut call.interrupted();
+                call.found(sensor::read_all(devices, device, mode, [0, 1, 2], interrupted))
             };
-            call.next(sensors, read, |device, read| {
+            call.next(&mut readings.sensors, read, |device, read| {
                 values.iter().zip(read).try_for_each(|(term, read)| unify_value(term, read))?;
                 unify_port(port, device.port())
             })
@@ -88,17 +93,26 @@ predicates! {
     }
 }
 
+/// Sensors that are still to be read.
+struct Readings {
+    devices: Arc<Devices>,
+    sensors: IntoIter<Arc<Device>>,
+    mode: Text,
+    index: usize,
+}
+
 /// The sensors asked for: at a port, or all; of certain types, or, where none
 /// are named, all that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
+    devices: &Devices,
     port: &Term,
-    types: &[String],
+    types: &[Text],
     mode: &str,
 ) -> PrologResult<Vec<Arc<Device>>> {
     let found = match call.text_if_bound(port)? {
-        Some(port) => sensor::at(&devices(), &port, types),
-        None => sensor::with_mode(&devices(), types, mode),
+        Some(port) => sensor::at(devices, &port, types),
+        None => sensor::with_mode(devices, types, mode),
     };
     call.check(found)
 }
@@ -107,7 +121,7 @@ fn sensors<C: QueryableContextType>(
 fn types_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     types: &Term<'a>,
-) -> PrologResult<Vec<String>> {
+) -> PrologResult<Vec<Text>> {
     call.list(types)?.iter().map(|kind| call.text(kind)).collect()
 }
 

@@ -45,7 +45,10 @@ angle. Nothing moves then. `debug(ev3dev)` tells why.
 
 motor_run(Port, Speed) :-
     Percent is Speed,
-    motors_run([run(Port, Percent)]).
+    (   motor_run_(Port, Percent)
+    ->  true
+    ;   why_not([run(Port, Percent)])
+    ).
 
 %!  motors_run(+Runs) is semidet.
 %
@@ -53,10 +56,10 @@ motor_run(Port, Speed) :-
 %   They start at the same moment, or not at all. Does not wait.
 
 motors_run(Runs) :-
-    motor_run_(Runs),
-    !.
-motors_run(Runs) :-
-    why_not(Runs).
+    (   motors_run_(Runs)
+    ->  true
+    ;   why_not(Runs)
+    ).
 
 %!  motor_run(+Port, +Speed, +Angle) is semidet.
 %!  motor_run(+Port, +Speed, +Angle, +Options) is semidet.

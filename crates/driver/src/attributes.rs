@@ -4,6 +4,7 @@
 //! starts something that must be stopped at the end, a sensor's `mode` is
 //! written only when it differs and then needs time to settle.
 use crate::Interrupted;
+use crate::device::Device;
 use crate::devices::{Class, Devices};
 use crate::error::Result;
 use crate::value::Value;
@@ -33,18 +34,29 @@ const INTEGERS: [&str; 20] = [
     "speed_sp",
 ];
 
-/// Reads an attribute; `None` where the device is absent.
+/// Reads an attribute; `None` where the device is gone.
 ///
 /// # Errors
 /// The kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
-pub fn read(devices: &Devices, class: Class, port: &str, name: &str) -> Result<Option<Value>> {
+pub fn read(devices: &Devices, device: &Device, name: &str) -> Result<Option<Value>> {
+    match value(device, name) {
+        Err(error) if error.is_stale() => {
+            devices.forget_listings();
+            devices.with(device.class(), device.port(), |device| value(device, name))
+        }
+        result => result.map(Some),
+    }
+}
+
+fn value(device: &Device, name: &str) -> Result<Value> {
+    device.check_present()?;
     let index = name.strip_prefix("value").and_then(|index| index.parse().ok());
-    devices.with(class, port, |device| match (class, index) {
+    match (device.class(), index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
         _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),
-        _ => device.text(name).map(|text| Value::parse(&text)),
-    })
+        _ => device.text(name).map(Value::parse),
+    }
 }
 
 /// Writes an attribute; `None` where the device is absent.
@@ -67,7 +79,7 @@ pub fn write(
         };
     }
     devices.with(class, port, |device| match (class, name) {
-        (Class::TachoMotor, "command") => motor::command(devices, device, text),
+        (Class::TachoMotor, "command") => motor::command(device, text),
         _ => device.write(name, text),
     })
 }

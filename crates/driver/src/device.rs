@@ -1,10 +1,12 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
 use crate::devices::{Class, Detected};
 use crate::error::{Access, Error, Result};
+use crate::list::List;
 use crate::motor::Motion;
 use crate::tree::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
 use std::time::Duration;
 
@@ -13,6 +15,13 @@ const PAGE: usize = 4096;
 
 /// Room for a number, a mode, or a motor's state.
 const SHORT: usize = 64;
+
+/// How long a device in a plain tree is believed to be there, in microseconds:
+/// less than it takes to delete one.
+const PRESENT_FOR_US: u32 = 100;
+
+/// Room for most attributes.
+const LINE: usize = 256;
 
 /// How long another program may take from emptying a plain file to writing it.
 const WRITTEN_WITHIN_MS: u32 = 20;
@@ -24,16 +33,26 @@ pub struct Device {
     driver: Box<str>,
     path: PathBuf,
     entry: Entry,
+    /// Its address, which tells whether it is still there.
+    presence: Box<dyn Node>,
+    /// When it was last found to be there, in microseconds, wrapping around.
+    present_at_us: AtomicU32,
     first_seen: Duration,
     tree: Arc<dyn Tree>,
-    attributes: RwLock<Vec<Arc<Attribute>>>,
-    /// Numbers that cannot change while the device is plugged in, by
-    /// attribute, and for some by sensor mode.
-    constants: RwLock<Vec<(&'static str, Box<str>, i64)>>,
+    attributes: List<Attribute>,
+    constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
     /// Held while a sensor is put into a mode and read in it.
     in_use: Mutex<()>,
+}
+
+/// A number that cannot change while the device is plugged in.
+struct Constant {
+    attribute: &'static str,
+    /// The sensor's mode that it belongs to; empty if to any.
+    mode: Box<str>,
+    value: i64,
 }
 
 impl Device {
@@ -41,16 +60,19 @@ impl Device {
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
         let (address, driver) = identity(&**tree, &path)?;
+        let presence = open(&**tree, &path.join("address"), Access::Read)?;
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
             driver: driver.into(),
             path,
             entry,
+            presence,
+            present_at_us: AtomicU32::default(),
             first_seen: tree.now(),
             tree: Arc::clone(tree),
-            attributes: RwLock::default(),
-            constants: RwLock::default(),
+            attributes: List::default(),
+            constants: List::default(),
             motion: Mutex::default(),
             in_use: Mutex::default(),
         })
@@ -110,6 +132,29 @@ impl Device {
         self.first_seen
     }
 
+    /// Fails as a read of an unplugged device does, where the reads themselves
+    /// do not notice (see [`Node::check_present`]). What was found is believed
+    /// for [`PRESENT_FOR_US`].
+    ///
+    /// # Errors
+    /// ENODEV.
+    pub fn check_present(&self) -> Result<()> {
+        if !self.presence.is_plain() {
+            return Ok(());
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "only differences count")]
+        let now = self.tree.now().as_micros() as u32;
+        let checked = self.present_at_us.load(Ordering::Relaxed);
+        if now.wrapping_sub(checked) < PRESENT_FOR_US {
+            return Ok(());
+        }
+        self.presence
+            .check_present()
+            .map_err(|source| Error::Read { path: self.path.join("address"), source })?;
+        self.present_at_us.store(now, Ordering::Relaxed);
+        Ok(())
+    }
+
     /// What the motor was last told to do.
     pub(crate) fn motion(&self) -> MutexGuard<'_, Option<Motion>> {
         self.motion.lock().unwrap_or_else(PoisonError::into_inner)
@@ -153,21 +198,14 @@ impl Device {
     /// # Errors
     /// As [`number`](Self::number).
     pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
-        let known = |constants: &[(&str, Box<str>, i64)]| {
-            let entry = constants.iter().find(|(a, m, _)| *a == attribute && **m == *mode);
-            entry.map(|(_, _, value)| *value)
-        };
-        let constants = self.constants.read().unwrap_or_else(PoisonError::into_inner);
-        if let Some(value) = known(&constants) {
-            return Ok(value);
+        let is_it =
+            |constant: &Constant| constant.attribute == attribute && *constant.mode == *mode;
+        if let Some(constant) = self.constants.find(is_it) {
+            return Ok(constant.value);
         }
-        drop(constants);
         let value = self.number(attribute)?;
-        let mut constants = self.constants.write().unwrap_or_else(PoisonError::into_inner);
-        if known(&constants).is_none() {
-            constants.push((attribute, mode.into(), value));
-        }
-        Ok(value)
+        let make = || Constant { attribute, mode: mode.into(), value };
+        Ok(self.constants.find_or_push(is_it, make).value)
     }
 
     /// Calls `look` with the text of a short attribute, as `mode` or `state`.
@@ -189,9 +227,12 @@ impl Device {
     /// else the kernel's.
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
-        let mut buffer = [0; PAGE + 1];
-        let bytes = attribute.read(self.tree(), &mut buffer)?;
-        text_of(&attribute.path, bytes)
+        let mut line = [0; LINE];
+        if let Ok(bytes) = attribute.read(self.tree(), &mut line) {
+            return text_of(&attribute.path, bytes);
+        }
+        let mut page = [0; PAGE + 1];
+        text_of(&attribute.path, attribute.read(self.tree(), &mut page)?)
     }
 
     /// Writes an attribute.
@@ -210,22 +251,10 @@ impl Device {
         self.write(attribute, itoa::Buffer::new().format(number))
     }
 
-    /// The open attribute file, for a wait on its changes.
-    pub(crate) fn attribute(&self, name: &str) -> Arc<Attribute> {
-        let known = |attributes: &[Arc<Attribute>]| {
-            attributes.iter().find(|attribute| *attribute.name == *name).cloned()
-        };
-        let attributes = self.attributes.read().unwrap_or_else(PoisonError::into_inner);
-        if let Some(attribute) = known(&attributes) {
-            return attribute;
-        }
-        drop(attributes);
-        let mut attributes = self.attributes.write().unwrap_or_else(PoisonError::into_inner);
-        known(&attributes).unwrap_or_else(|| {
-            let attribute = Arc::new(Attribute::new(name, &self.path));
-            attributes.push(Arc::clone(&attribute));
-            attribute
-        })
+    /// The attribute of that name, whether or not there is such a file.
+    pub(crate) fn attribute(&self, name: &str) -> &Attribute {
+        let is_it = |attribute: &Attribute| *attribute.name == *name;
+        self.attributes.find_or_push(is_it, || Attribute::new(name, &self.path))
     }
 }
 
@@ -265,7 +294,7 @@ pub fn write_file(tree: &dyn Tree, path: &Path, text: &str) -> Result<()> {
 /// # Errors
 /// As [`read_file`].
 pub fn read_value(tree: &dyn Tree, path: &Path) -> Result<Value> {
-    read_file(tree, path).map(|text| Value::parse(&text))
+    read_file(tree, path).map(Value::parse)
 }
 
 /// An attribute file, opened when first used.

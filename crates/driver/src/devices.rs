@@ -10,7 +10,7 @@ use crate::error::{Access, Error, Result};
 use crate::port;
 use crate::tree::Tree;
 use rustix::io::Errno;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -78,8 +78,6 @@ pub struct Detected {
 pub struct Devices {
     tree: Arc<dyn Tree>,
     listings: [Mutex<Listing>; Class::ALL.len()],
-    /// Ports of the motors that were started and not stopped since.
-    started: Mutex<BTreeSet<(Class, String)>>,
 }
 
 /// What a class directory held when it was last looked at.
@@ -95,7 +93,7 @@ impl Devices {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Tree>) -> Self {
-        Self { tree, listings: Default::default(), started: Mutex::default() }
+        Self { tree, listings: Default::default() }
     }
 
     /// The tree they are in.
@@ -149,7 +147,13 @@ impl Devices {
         port: &str,
         mut act: impl FnMut(&Arc<Device>) -> Result<T>,
     ) -> Result<Option<T>> {
-        self.afresh(|| self.find(class, port)?.map(|device| act(&device)).transpose())
+        self.afresh(|| match self.find(class, port)? {
+            Some(device) => {
+                device.check_present()?;
+                act(&device).map(Some)
+            }
+            None => Ok(None),
+        })
     }
 
     /// Does something again, with a new listing, if it met a device that
@@ -188,11 +192,6 @@ impl Devices {
             Some(Detected { port, driver, path })
         });
         Ok(detected.collect())
-    }
-
-    /// The ports of the motors that were started and not stopped since.
-    pub(crate) fn started(&self) -> MutexGuard<'_, BTreeSet<(Class, String)>> {
-        self.started.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {

@@ -27,6 +27,7 @@ pub mod attributes;
 pub mod device;
 pub mod devices;
 pub mod error;
+mod list;
 pub mod motor;
 pub mod port;
 pub mod sensor;

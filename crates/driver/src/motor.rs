@@ -41,18 +41,18 @@ impl StopAction {
 
 /// A motor and the speed at which to run.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct Run<'a> {
     /// The motor's port.
-    pub port: String,
+    pub port: &'a str,
     /// The speed; its sign is the direction.
     pub speed: Speed,
 }
 
 /// A motor, and how far to turn it.
 #[derive(Clone, Debug)]
-pub struct Move {
+pub struct Move<'a> {
     /// The motor's port.
-    pub port: String,
+    pub port: &'a str,
     /// The speed; with the sign of `degrees` it makes the direction.
     pub speed: Speed,
     /// The angle in degrees of the output shaft.
@@ -145,7 +145,7 @@ pub(crate) enum End {
 ///
 /// # Errors
 /// The kernel's, as EINVAL for a command the motor does not have.
-pub fn command(devices: &Devices, motor: &Device, word: &str) -> Result<()> {
+pub fn command(motor: &Device, word: &str) -> Result<()> {
     let end = match word {
         "run-forever" | "run-direct" => Some(End::Never),
         "run-timed" => {
@@ -162,23 +162,19 @@ pub fn command(devices: &Devices, motor: &Device, word: &str) -> Result<()> {
         }
         _ => None,
     };
-    start(devices, motor, word, end)
+    start(motor, word, end)
 }
 
 /// Writes a command, and remembers what it started: `None` if it stops.
-fn start(devices: &Devices, motor: &Device, word: &str, end: Option<End>) -> Result<()> {
-    let started = motor.tree().now();
-    let id = (motor.class(), motor.port().to_owned());
-    if end.is_some() {
-        // Before the command: were we killed in between, it would be one
-        // stop too many rather than one too few.
-        devices.started().insert(id);
-        motor.write("command", word)?;
-    } else {
-        motor.write("command", word)?;
-        devices.started().remove(&id);
+fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
+    let motion = end.map(|end| Motion { started: motor.tree().now(), end });
+    if motion.is_some() {
+        // Before the command: were we stopped in between, it would be one stop
+        // too many rather than one too few.
+        *motor.motion() = motion;
     }
-    *motor.motion() = end.map(|end| Motion { started, end });
+    motor.write("command", word)?;
+    *motor.motion() = motion;
     Ok(())
 }
 
@@ -186,36 +182,35 @@ fn start(devices: &Devices, motor: &Device, word: &str, end: Option<End>) -> Res
 ///
 /// # Errors
 /// The kernel's.
-pub fn stop(devices: &Devices, motor: &Device, action: StopAction) -> Result<()> {
+pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     motor.write("stop_action", action.word())?;
-    start(devices, motor, "stop", None)
+    start(motor, "stop", None)
 }
 
 /// Stops all of these motors, even where one of them fails.
 ///
 /// # Errors
 /// The first that occurred.
-pub fn stop_all(devices: &Devices, motors: &[Arc<Device>], action: StopAction) -> Result<()> {
+pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     let mut result = Ok(());
     for motor in motors {
-        result = result.and(stop(devices, motor, action));
+        result = result.and(stop(motor, action));
     }
     result
 }
 
-/// Stops every motor that was started and not stopped since. Motors that are
-/// gone have nothing to stop.
+/// Stops every motor that was started and not stopped since. One that is gone
+/// has nothing to stop.
 ///
 /// # Errors
 /// The first that occurred.
 pub fn stop_started(devices: &Devices) -> Result<()> {
-    let started = devices.started().clone();
+    let motors = devices.all(Class::TachoMotor)?;
     let mut result = Ok(());
-    for (class, port) in started {
-        let stopped = devices.with(class, &port, |motor| stop(devices, motor, StopAction::Brake));
-        result = result.and(stopped.map(drop));
+    for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
+        let stopped = stop(motor, StopAction::Brake);
+        result = result.and(stopped.or_else(|e| if e.is_stale() { Ok(()) } else { Err(e) }));
     }
-    devices.started().clear();
     result
 }
 
@@ -224,8 +219,8 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn reset(devices: &Devices, motor: &Device) -> Result<()> {
-    start(devices, motor, "reset", None)
+pub fn reset(motor: &Device) -> Result<()> {
+    start(motor, "reset", None)
 }
 
 /// Runs motors until they are stopped. `false` if one is absent or cannot run
@@ -238,20 +233,19 @@ pub fn run_forever(devices: &Devices, runs: &[Run]) -> Result<bool> {
 }
 
 fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
-    let Some(motors) = find_all(devices, runs.iter().map(|run| run.port.as_str()))? else {
+    let Some(motors) = find_all(devices, runs.iter().map(|run| run.port))? else {
         return Ok(false);
     };
-    let mut speeds = Vec::with_capacity(runs.len());
-    for (motor, run) in motors.iter().zip(runs) {
-        match run.speed.in_counts(motor)? {
-            Some(speed) => speeds.push(speed),
-            None => return Ok(false),
-        }
-    }
+    let speed = |(motor, run): (&Arc<Device>, &Run)| run.speed.in_counts(motor);
+    // All of them, before anything is written.
+    let possible = motors.iter().zip(runs).map(speed).collect::<Result<Option<Vec<i64>>>>()?;
+    let Some(speeds) = possible else {
+        return Ok(false);
+    };
     for (motor, speed) in motors.iter().zip(speeds) {
         motor.write_number("speed_sp", speed)?;
     }
-    start_all(devices, &motors, |motor| start(devices, motor, "run-forever", Some(End::Never)))?;
+    start_all(&motors, |motor| start(motor, "run-forever", Some(End::Never)))?;
     Ok(true)
 }
 
@@ -282,7 +276,7 @@ pub fn run_to(
     if !matches!(result, Ok(Reason::Reached)) {
         // Whatever ended it: nothing may go on turning. That a motor cannot be
         // stopped, because it is gone, is no news to who gets this result.
-        let _ = stop_all(devices, &motors, StopAction::Brake);
+        let _ = stop_all(&motors, StopAction::Brake);
     }
     match (result?, motors.iter().find(|motor| !devices.has(motor).unwrap_or(false))) {
         (Reason::Unplugged, Some(gone)) => Err(gone.gone()),
@@ -296,7 +290,7 @@ fn start_moves(
     moves: &[Move],
     options: &MoveOptions,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    let Some(motors) = find_all(devices, moves.iter().map(|one| one.port.as_str()))? else {
+    let Some(motors) = find_all(devices, moves.iter().map(|one| one.port))? else {
         return Ok(None);
     };
     let mut plans = Vec::with_capacity(moves.len());
@@ -316,7 +310,7 @@ fn start_moves(
         from: plan.from,
         target: plan.from.saturating_add(plan.distance),
     });
-    start_all(devices, &motors, |motor| start(devices, motor, "run-to-rel-pos", ends.next()))?;
+    start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
     ramps.restore()?;
     Ok(Some(motors))
 }
@@ -381,14 +375,10 @@ impl<'a> Ramps<'a> {
 }
 
 /// Starts all motors, or none: if one fails, those that run are stopped.
-fn start_all(
-    devices: &Devices,
-    motors: &[Arc<Device>],
-    mut start: impl FnMut(&Device) -> Result<()>,
-) -> Result<()> {
+fn start_all(motors: &[Arc<Device>], mut start: impl FnMut(&Device) -> Result<()>) -> Result<()> {
     motors.iter().try_for_each(|motor| {
         start(motor).map_err(|error| {
-            let _ = stop_all(devices, motors, StopAction::Brake);
+            let _ = stop_all(motors, StopAction::Brake);
             if error.is_gone() { motor.gone() } else { error }
         })
     })
@@ -397,10 +387,14 @@ fn start_all(
 /// The tacho motors at these ports, or `None` if one is absent.
 ///
 /// # Errors
-/// The kernel's.
+/// The kernel's, as ENODEV for one that was just unplugged.
 pub fn find_all<'a>(
     devices: &Devices,
     ports: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    ports.into_iter().map(|port| devices.find(Class::TachoMotor, port)).collect()
+    let find = |port| match devices.find(Class::TachoMotor, port)? {
+        Some(motor) => motor.check_present().map(|()| Some(motor)),
+        None => Ok(None),
+    };
+    ports.into_iter().map(find).collect()
 }

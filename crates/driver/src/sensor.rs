@@ -66,6 +66,7 @@ pub fn read_all<const N: usize>(
 ) -> Result<Option<[Value; N]>> {
     patiently(devices, sensor, interrupted, |sensor, interrupted| {
         let guard = in_use(devices, sensor, interrupted)?;
+        sensor.check_present()?;
         if let Some(mode) = mode {
             ensure_mode(devices, sensor, mode, interrupted)?;
         }
@@ -195,18 +196,26 @@ fn patiently<T>(
     interrupted: Interrupted,
     mut act: impl FnMut(&Arc<Device>, Interrupted) -> Result<T>,
 ) -> Result<Option<T>> {
-    let mut sensor = Arc::clone(sensor);
+    let mut replaced = None;
     let mut first_try = None;
     loop {
-        let error = match act(&sensor, interrupted) {
+        let sensor = replaced.as_ref().unwrap_or(sensor);
+        let error = match act(sensor, interrupted) {
             Ok(value) => return Ok(Some(value)),
             Err(error) => error,
         };
         let now = devices.tree().now();
         let patience = match error.errno() {
-            Some(Errno::NODEV | Errno::NOENT) if has_changed(devices, &mut sensor)? => continue,
-            Some(Errno::NODEV | Errno::NOENT) if !devices.has(&sensor)? => return Ok(None),
-            Some(Errno::NXIO | Errno::BUSY | Errno::NODEV | Errno::TIMEDOUT) => {
+            Some(Errno::NODEV | Errno::NOENT) => match present(devices, sensor)? {
+                None => return Ok(None),
+                Some(other) if other.entry() != sensor.entry() => {
+                    replaced = Some(other);
+                    continue;
+                }
+                Some(_) if error.errno() == Some(Errno::NOENT) => return Err(error),
+                Some(_) => *first_try.get_or_insert(now) + RETRY_FOR,
+            },
+            Some(Errno::NXIO | Errno::BUSY | Errno::TIMEDOUT) => {
                 *first_try.get_or_insert(now) + RETRY_FOR
             }
             Some(Errno::ACCESS) => sensor.first_seen() + PERMISSIONS_WITHIN,
@@ -219,17 +228,11 @@ fn patiently<T>(
     }
 }
 
-/// Whether the sensor was plugged in again since; then it is that one now.
-fn has_changed(devices: &Devices, sensor: &mut Arc<Device>) -> Result<bool> {
+/// The sensor of that type that is at the port now.
+fn present(devices: &Devices, sensor: &Device) -> Result<Option<Arc<Device>>> {
     devices.forget_listings();
     let present = devices.find(Class::Sensor, sensor.port())?;
-    let again = present
-        .filter(|other| other.entry() != sensor.entry() && other.driver() == sensor.driver());
-    let has_changed = again.is_some();
-    if let Some(again) = again {
-        *sensor = again;
-    }
-    Ok(has_changed)
+    Ok(present.filter(|present| present.driver() == sensor.driver()))
 }
 
 /// The sensor at a port, if it is one of these types; of any type where none
@@ -237,10 +240,11 @@ fn has_changed(devices: &Devices, sensor: &mut Arc<Device>) -> Result<bool> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn at(devices: &Devices, port: &str, types: &[String]) -> Result<Vec<Arc<Device>>> {
+pub fn at(devices: &Devices, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
     let sensor = devices.find(Class::Sensor, port)?;
-    let is_meant =
-        |sensor: &Arc<Device>| types.is_empty() || types.iter().any(|kind| kind == sensor.driver());
+    let is_meant = |sensor: &Arc<Device>| {
+        types.is_empty() || types.iter().any(|kind| kind.as_ref() == sensor.driver())
+    };
     Ok(sensor.into_iter().filter(is_meant).collect())
 }
 
@@ -248,14 +252,18 @@ pub fn at(devices: &Devices, port: &str, types: &[String]) -> Result<Vec<Arc<Dev
 ///
 /// # Errors
 /// The kernel's.
-pub fn with_mode(devices: &Devices, types: &[String], mode: &str) -> Result<Vec<Arc<Device>>> {
+pub fn with_mode(
+    devices: &Devices,
+    types: &[impl AsRef<str>],
+    mode: &str,
+) -> Result<Vec<Arc<Device>>> {
     let all = devices.all(Class::Sensor)?;
     let is_meant = |sensor: &&Arc<Device>| {
         if types.is_empty() {
             // A sensor that cannot tell its modes has none.
             sensor.text("modes").is_ok_and(|modes| modes.split(' ').any(|name| name == mode))
         } else {
-            types.iter().any(|kind| kind == sensor.driver())
+            types.iter().any(|kind| kind.as_ref() == sensor.driver())
         }
     };
     Ok(all.iter().filter(is_meant).cloned().collect())

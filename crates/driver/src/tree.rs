@@ -8,9 +8,9 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
 use rustix::io::Errno;
 use std::fs::{File, OpenOptions};
-use std::io;
+use std::io::{self, Seek, SeekFrom};
 use std::os::fd::{AsFd, BorrowedFd};
-use std::os::unix::fs::{DirEntryExt, FileExt, MetadataExt, OpenOptionsExt};
+use std::os::unix::fs::{DirEntryExt, FileExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -81,6 +81,15 @@ pub trait Node: Send + Sync {
     /// Whether writes are seen piecemeal by readers, as in a plain file.
     fn is_plain(&self) -> bool {
         false
+    }
+
+    /// ENODEV if the file was deleted under a descriptor that goes on working
+    /// all the same, as that of a plain file does.
+    ///
+    /// # Errors
+    /// ENODEV.
+    fn check_present(&self) -> io::Result<()> {
+        Ok(())
     }
 }
 
@@ -170,30 +179,20 @@ struct FileNode {
     is_plain: bool,
 }
 
-impl FileNode {
-    /// A kept descriptor of a deleted plain file goes on working. It must
-    /// answer as one of an unplugged device does.
-    fn check_present(&self) -> io::Result<()> {
-        if self.is_plain && self.file.metadata()?.nlink() == 0 {
-            return Err(Errno::NODEV.into());
-        }
-        Ok(())
-    }
-}
-
 impl Node for FileNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.check_present()?;
         self.file.read_at(buffer, 0)
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
-        self.check_present()?;
+        // By seeking: a stat before each write makes the write twice as dear,
+        // as file systems then give it a time-stamp of its own.
+        let length = if self.is_plain { (&self.file).seek(SeekFrom::End(0))? } else { 0 };
         let written = self.file.write_at(text, 0)?;
         if written < text.len() {
             return Err(io::ErrorKind::WriteZero.into());
         }
-        if self.is_plain {
+        if length > text.len() as u64 {
             // Afterwards: a reader in between finds the new text on the first
             // line, and never an empty file.
             self.file.set_len(text.len() as u64)?;
@@ -207,5 +206,12 @@ impl Node for FileNode {
 
     fn is_plain(&self) -> bool {
         self.is_plain
+    }
+
+    fn check_present(&self) -> io::Result<()> {
+        if self.is_plain && rustix::fs::fstat(&self.file)?.st_nlink == 0 {
+            return Err(Errno::NODEV.into());
+        }
+        Ok(())
     }
 }

@@ -96,7 +96,7 @@ pub fn by_gyro(
     };
     let mut control = Control { devices, gyro, motors: &motors, turn, fastest, running: None };
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
-    let stopped = stop_all(devices, &motors, StopAction::Brake);
+    let stopped = stop_all(&motors, StopAction::Brake);
     let ended = ended?;
     stopped?;
     Ok(Some(ended))
@@ -207,13 +207,13 @@ impl Control<'_> {
         if self.running == Some(counts) {
             return Ok(());
         }
-        let wheel = |port: &str, counts| Run {
-            port: port.to_owned(),
-            speed: Speed::CountsPerSecond(counts),
-        };
-        let wheels = [wheel(&self.turn.left, counts), wheel(&self.turn.right, -counts)];
+        let speed = Speed::CountsPerSecond;
+        let wheels = [
+            Run { port: &self.turn.left, speed: speed(counts) },
+            Run { port: &self.turn.right, speed: speed(-counts) },
+        ];
         let is_present = if counts == 0 {
-            stop_all(self.devices, self.motors, StopAction::Brake)?;
+            stop_all(self.motors, StopAction::Brake)?;
             true
         } else {
             run_forever(self.devices, &wheels)?

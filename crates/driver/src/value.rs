@@ -16,15 +16,15 @@ impl Value {
     ///
     /// ```
     /// use ev3_driver::Value;
-    /// assert_eq!(Value::parse("-12"), Value::Integer(-12));
-    /// assert_eq!(Value::parse("7.5"), Value::Float(7.5));
-    /// assert_eq!(Value::parse("inf"), Value::Text("inf".to_owned()));
+    /// assert_eq!(Value::parse("-12".to_owned()), Value::Integer(-12));
+    /// assert_eq!(Value::parse("7.5".to_owned()), Value::Float(7.5));
+    /// assert_eq!(Value::parse("inf".to_owned()), Value::Text("inf".to_owned()));
     /// ```
     #[must_use]
-    pub fn parse(text: &str) -> Self {
+    pub fn parse(text: String) -> Self {
         match integer(text.as_bytes()) {
             Some(integer) => Self::Integer(integer),
-            None => fraction(text).map_or_else(|| Self::Text(text.to_owned()), Self::Float),
+            None => fraction(&text).map_or(Self::Text(text), Self::Float),
         }
     }
 
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn words_that_rust_takes_for_floats_stay_words() {
         for text in ["nan", "inf", "-infinity", "1e5", ".", "e", "99999999999999999999"] {
-            assert_eq!(Value::parse(text), Value::Text(text.to_owned()));
+            assert_eq!(Value::parse(text.to_owned()), Value::Text(text.to_owned()));
         }
     }
 

@@ -8,6 +8,7 @@ use crate::types::{
     pl_function_t, predicate_t, qid_t, record_t, term_t,
 };
 use std::ffi::{c_char, c_int, c_uchar, c_void};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Declares functions whose result is a truth value: `int` in old headers,
 /// `bool` in new ones. A `bool` leaves all but the low byte of the result
@@ -43,7 +44,6 @@ truth! {
     PL_initialise(argc: c_int, argv: *mut *mut c_char);
     PL_is_atom(t: term_t);
     PL_is_blob(t: term_t, kind: *mut *mut PL_blob_t);
-    PL_is_initialised(argc: *mut c_int, argv: *mut *mut *mut c_char);
     PL_is_integer(t: term_t);
     PL_is_string(t: term_t);
     PL_is_variable(t: term_t);
@@ -74,6 +74,22 @@ truth! {
     PL_unify_list(l: term_t, h: term_t, t: term_t);
     PL_unify_nil(l: term_t);
     PL_unify_string_nchars(t: term_t, len: usize, chars: *const c_char);
+}
+
+/// Whether there is a running Prolog to talk to. `swipl` asks before it touches
+/// anything, several times a call; in a library that Prolog has loaded, once
+/// yes is always yes.
+pub unsafe fn PL_is_initialised(count: *mut c_int, args: *mut *mut *mut c_char) -> c_int {
+    static IS_INITIALISED: AtomicBool = AtomicBool::new(false);
+    unsafe extern "C" {
+        fn PL_is_initialised(argc: *mut c_int, argv: *mut *mut *mut c_char) -> u8;
+    }
+    if count.is_null() && args.is_null() && IS_INITIALISED.load(Ordering::Relaxed) {
+        return 1;
+    }
+    let answer = unsafe { PL_is_initialised(count, args) };
+    IS_INITIALISED.store(answer != 0, Ordering::Relaxed);
+    c_int::from(answer)
 }
 
 unsafe extern "C" {

@@ -1,0 +1,246 @@
+//! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
+//! each with the seconds one call took.
+use ev3_driver::error::Access;
+use ev3_driver::motor::{Run, Speed, run_forever};
+use ev3_driver::tree::{Entry, Files, Node, Tree};
+use ev3_driver::{Devices, Error};
+use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
+use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
+use std::fs::File;
+use std::io::{self, BufRead, Write};
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+type Case = Box<dyn FnMut()>;
+
+fn main() {
+    let root = PathBuf::from(std::env::var_os("EV3DEV_SYSFS").expect("EV3DEV_SYSFS is set"));
+    for line in io::stdin().lock().lines() {
+        let line = line.expect("a line");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [implementation, case, count] = words[..] else { continue };
+        let count: u32 = count.parse().expect("a count");
+        let seconds = match case {
+            "gap" => gap(&root, count),
+            _ => per_call(prepare(implementation, case, &root), count),
+        };
+        println!("{seconds:e}");
+        io::stdout().flush().expect("a reader");
+    }
+}
+
+fn per_call(mut case: Case, count: u32) -> f64 {
+    case();
+    let start = Instant::now();
+    for _ in 0..count {
+        case();
+    }
+    start.elapsed().as_secs_f64() / f64::from(count)
+}
+
+fn prepare(implementation: &str, case: &str, root: &Path) -> Case {
+    match implementation {
+        "floor" => floor(case, root),
+        "rust" => others(case),
+        _ => panic!("no implementation {implementation}"),
+    }
+}
+
+/// The bare system calls on kept descriptors: nothing is checked, looked up or
+/// parsed.
+fn floor(case: &str, root: &Path) -> Case {
+    let open = |path: &str| File::options().read(true).write(true).open(root.join(path));
+    let open = move |path: &str| open(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let read = |file: &File| {
+        let mut buffer = [0; 64];
+        let length = file.read_at(&mut buffer, 0).expect("a read");
+        std::hint::black_box(&buffer[..length]);
+    };
+    let reads = |paths: &[&str]| -> Case {
+        let files: Vec<File> = paths.iter().map(|path| open(path)).collect();
+        Box::new(move || files.iter().for_each(read))
+    };
+    let write = |file: &File, text: &[u8]| {
+        file.write_at(text, 0).expect("a write");
+    };
+    match case {
+        "us_dist_cm" => reads(&["lego-sensor/sensor0/mode", "lego-sensor/sensor0/value0"]),
+        "col_ambient" => reads(&["lego-sensor/sensor1/mode", "lego-sensor/sensor1/value0"]),
+        "gyro_ang" => reads(&["lego-sensor/sensor3/mode", "lego-sensor/sensor3/value0"]),
+        "position" => reads(&["tacho-motor/motor1/position"]),
+        "state" => reads(&["tacho-motor/motor1/state"]),
+        "motor_run" => {
+            let speed = open("tacho-motor/motor3/speed_sp");
+            let command = open("tacho-motor/motor3/command");
+            Box::new(move || {
+                write(&speed, b"525\n");
+                write(&command, b"run-forever\n");
+            })
+        }
+        "vehicle2" => {
+            let side = |sensor: &str, motor: &str| {
+                let file = |name: &str| open(name);
+                [
+                    file(&format!("lego-sensor/{sensor}/mode")),
+                    file(&format!("lego-sensor/{sensor}/value0")),
+                    file(&format!("tacho-motor/{motor}/speed_sp")),
+                    file(&format!("tacho-motor/{motor}/command")),
+                ]
+            };
+            let sides = [side("sensor1", "motor1"), side("sensor2", "motor2")];
+            Box::new(move || {
+                for [mode, value, speed, command] in &sides {
+                    read(mode);
+                    read(value);
+                    write(speed, b"441\n");
+                    write(command, b"run-forever\n");
+                }
+            })
+        }
+        _ => panic!("no case {case}"),
+    }
+}
+
+/// Puts a sensor into a mode if it is in another: what the pack does, too.
+fn ensure(sensor: &impl Sensor, mode: &str) {
+    if sensor.get_mode().expect("a mode") != mode {
+        sensor.set_mode(mode).expect("a mode of its own");
+    }
+}
+
+/// The same by ev3dev-lang-rust. Devices are found once.
+fn others(case: &str) -> Case {
+    let motor = |port| LargeMotor::get(port).expect("a motor");
+    match case {
+        "us_dist_cm" => {
+            let sensor = UltrasonicSensor::get(SensorPort::In1).expect("a sensor");
+            Box::new(move || {
+                ensure(&sensor, UltrasonicSensor::MODE_US_DIST_CM);
+                std::hint::black_box(sensor.get_distance_centimeters().expect("a distance"));
+            })
+        }
+        "col_ambient" => {
+            let sensor = ColorSensor::get(SensorPort::In2).expect("a sensor");
+            Box::new(move || {
+                ensure(&sensor, ColorSensor::MODE_COL_AMBIENT);
+                std::hint::black_box(sensor.get_value0().expect("a value"));
+            })
+        }
+        "gyro_ang" => {
+            let sensor = GyroSensor::get(SensorPort::In4).expect("a sensor");
+            Box::new(move || {
+                ensure(&sensor, GyroSensor::MODE_GYRO_ANG);
+                std::hint::black_box(sensor.get_value0().expect("a value"));
+            })
+        }
+        "position" => {
+            let motor = motor(MotorPort::OutB);
+            Box::new(move || {
+                std::hint::black_box(motor.get_position().expect("a position"));
+            })
+        }
+        "state" => {
+            let motor = motor(MotorPort::OutB);
+            Box::new(move || drop(motor.get_state().expect("a state")))
+        }
+        "motor_run" => {
+            let motor = motor(MotorPort::OutD);
+            Box::new(move || {
+                motor.set_speed_sp(525).expect("a speed");
+                motor.run_forever().expect("a command");
+            })
+        }
+        "vehicle2" => {
+            let eyes = [SensorPort::In2, SensorPort::In3]
+                .map(|port| ColorSensor::get(port).expect("a sensor"));
+            let wheels = [MotorPort::OutB, MotorPort::OutC].map(motor);
+            Box::new(move || {
+                for (eye, wheel) in eyes.iter().zip(&wheels) {
+                    ensure(eye, ColorSensor::MODE_COL_AMBIENT);
+                    let light = eye.get_value0().expect("a value");
+                    wheel.set_speed_sp(light * 1050 / 100).expect("a speed");
+                    wheel.run_forever().expect("a command");
+                }
+            })
+        }
+        "enumerate" => Box::new(move || {
+            std::hint::black_box(TachoMotor::list().expect("motors"));
+        }),
+        _ => panic!("no case {case}"),
+    }
+}
+
+/// Seconds between the two `command` writes of a start of two wheels: the
+/// median of `count` starts.
+fn gap(root: &Path, count: u32) -> f64 {
+    let commands = Arc::new(Mutex::new(Vec::new()));
+    let tree = Stamping { files: Files::new(root), commands: Arc::clone(&commands) };
+    let devices = Devices::new(Arc::new(tree));
+    let runs = [("outB", 20.0), ("outC", 20.0)]
+        .map(|(port, percent)| Run { port, speed: Speed::Percent(percent) });
+    let mut gaps: Vec<f64> = (0..=count)
+        .map(|_| {
+            commands.lock().expect("one thread").clear();
+            assert!(run_forever(&devices, &runs).expect("two motors"));
+            let stamps = commands.lock().expect("one thread");
+            stamps[1].duration_since(stamps[0]).as_secs_f64()
+        })
+        .skip(1)
+        .collect();
+    gaps.sort_by(f64::total_cmp);
+    gaps[gaps.len() / 2]
+}
+
+/// Files that note when a command is about to be written.
+struct Stamping {
+    files: Files,
+    commands: Arc<Mutex<Vec<Instant>>>,
+}
+
+impl Tree for Stamping {
+    fn root(&self) -> &Path {
+        self.files.root()
+    }
+
+    fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
+        self.files.list(directory)
+    }
+
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+        let node = self.files.open(path, access)?;
+        if !path.ends_with("command") {
+            return Ok(node);
+        }
+        Ok(Box::new(StampingNode { node, commands: Arc::clone(&self.commands) }))
+    }
+
+    fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>, Error> {
+        self.files.matching(pattern)
+    }
+
+    fn now(&self) -> Duration {
+        self.files.now()
+    }
+
+    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+        self.files.pause(nodes, timeout)
+    }
+}
+
+struct StampingNode {
+    node: Box<dyn Node>,
+    commands: Arc<Mutex<Vec<Instant>>>,
+}
+
+impl Node for StampingNode {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.node.read(buffer)
+    }
+
+    fn write(&self, text: &[u8]) -> io::Result<()> {
+        self.commands.lock().expect("one thread").push(Instant::now());
+        self.node.write(text)
+    }
+}
