@@ -1,0 +1,156 @@
+/*  The least that must work in every SWI-Prolog, without plunit or any
+    package: every export can be called, and a motor and a sensor do what they
+    should.
+
+        swipl -g main -t 'halt(1)' tests/brick/smoke.pl
+
+    EV3DEV_PACK names the pack's folder; else it is the installed one.
+*/
+
+:- (   getenv('EV3DEV_PACK', Pack)
+   ->  atom_concat(Pack, '/prolog', Folder),
+       asserta(user:file_search_path(library, Folder))
+   ;   true
+   ).
+:- use_module(library(ev3dev)).
+
+main :-
+    tree(Root),
+    ev3_sysfs(Root),
+    check_devices(Root),
+    findall(Module:Name/Arity, export(Module, Name, Arity), Exports),
+    sort(Exports, Sorted),
+    findall(Problem,
+            ( member(Export, Sorted), problem(Export, Problem) ),
+            Problems),
+    length(Sorted, Count),
+    current_prolog_flag(version, Version),
+    current_prolog_flag(arch, Arch),
+    library_used(File),
+    format('~w on ~w: ~d exports, ~w~n', [Version, Arch, Count, File]),
+    forall(member(Problem, Problems), format('    ~q~n', [Problem])),
+    (   Problems == [],
+        Count > 50
+    ->  halt(0)
+    ;   halt(1)
+    ).
+
+%   What a program sees and does with one motor and one sensor.
+
+check_devices(Root) :-
+    must(findall(Motor, tacho_motor(Motor), [outA])),
+    must(findall(Sensor-Type, lego_sensor(Sensor, Type),
+                 [in1-'lego-ev3-touch'])),
+    must(max_speed(outA, 1050)),
+    must(touch(in1, 1)),
+    must(motor_run(outA, 50)),
+    must(holds(Root, 'tacho-motor/motor0/speed_sp', '525')),
+    must(holds(Root, 'tacho-motor/motor0/command', 'run-forever')),
+    must(motor_stop(outA)),
+    must(holds(Root, 'tacho-motor/motor0/command', stop)),
+    must(\+ tacho_motor(outB)),
+    must(catch(motor_run(_, 50), error(instantiation_error, _), true)).
+
+must(Goal) :-
+    (   catch(Goal, E, true)
+    ->  (   var(E)
+        ->  true
+        ;   throw(unexpected(Goal, E))
+        )
+    ;   throw(failed(Goal))
+    ).
+
+export(Module, Name, Arity) :-
+    predicate_property(ev3dev:Head, imported_from(Module)),
+    atom_concat(ev3dev_, _, Module),
+    module_property(Module, exports(Exports)),
+    functor(Head, Name, Arity),
+    member(Name/Arity, Exports).
+
+%   Called with variables, a predicate may succeed, fail, or refuse them; it
+%   may not be missing, nor fall over.
+
+problem(Module:Name/Arity, Name/Arity-E) :-
+    functor(Head, Name, Arity),
+    catch(( once(Module:Head) -> true ; true ), E, true),
+    nonvar(E),
+    \+ refusal(E).
+
+refusal(error(instantiation_error, _)).
+refusal(error(type_error(_, _), _)).
+refusal(error(domain_error(_, _), _)).
+refusal(error(existence_error(Kind, _), _)) :-
+    Kind \== procedure.
+
+library_used(File) :-
+    (   current_predicate(ev3dev_library_file:library_file/1)
+    ->  ev3dev_library_file:library_file(File)
+    ;   File = '-'
+    ).
+
+%   A tree like the kernel's.
+
+tree(Root) :-
+    tmp_file(ev3dev, Root),
+    atom_concat(Root, '/tacho-motor', Motors),
+    atom_concat(Root, '/lego-sensor', Sensors),
+    atom_concat(Motors, '/motor0', Motor),
+    atom_concat(Sensors, '/sensor0', Sensor),
+    forall(member(Dir, [Root, Motors, Sensors, Motor, Sensor]),
+           make_directory(Dir)),
+    forall(motor(Name, Text), write_file(Motor, Name, Text)),
+    forall(sensor(Name, Text), write_file(Sensor, Name, Text)).
+
+motor(address, 'ev3-ports:outA').
+motor(driver_name, 'lego-ev3-l-motor').
+motor(commands, Text) :-
+    atomic_list_concat(['run-forever', 'run-to-abs-pos', 'run-to-rel-pos',
+                        'run-timed', 'run-direct', stop, reset], ' ', Text).
+motor(command, '').
+motor(count_per_rot, 360).
+motor(max_speed, 1050).
+motor(polarity, normal).
+motor(position, 0).
+motor(position_sp, 0).
+motor(speed, 0).
+motor(speed_sp, 0).
+motor(state, '').
+motor(stop_action, coast).
+motor(stop_actions, 'coast brake hold').
+motor(duty_cycle, 0).
+motor(duty_cycle_sp, 0).
+motor(ramp_up_sp, 0).
+motor(ramp_down_sp, 0).
+motor(time_sp, 0).
+
+sensor(address, 'ev3-ports:in1').
+sensor(driver_name, 'lego-ev3-touch').
+sensor(mode, 'TOUCH').
+sensor(modes, 'TOUCH').
+sensor(num_values, 1).
+sensor(decimals, 0).
+sensor(units, '').
+sensor(value0, 1).
+
+write_file(Dir, Name, Text) :-
+    atomic_list_concat([Dir, /, Name], File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, '~w~n', [Text]),
+        close(Out)).
+
+holds(Root, Name, Expected) :-
+    atomic_list_concat([Root, /, Name], File),
+    setup_call_cleanup(
+        open(File, read, In),
+        line(In, Chars),
+        close(In)),
+    atom_chars(Expected, Chars).
+
+line(In, Chars) :-
+    get_char(In, Char),
+    (   memberchk(Char, [end_of_file, '\n'])
+    ->  Chars = []
+    ;   Chars = [Char|Chars1],
+        line(In, Chars1)
+    ).

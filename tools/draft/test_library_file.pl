@@ -1,0 +1,132 @@
+:- module(test_library_file, []).
+:- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(ev3dev/library_file)).
+:- use_module(library(filesex)).
+:- use_module(library(plunit)).
+
+/** <module> Tests: the library that suits, among some that do not
+
+The packs here hold nothing but ELF headers.
+*/
+
+:- begin_tests(library_file).
+
+test(finds_a_library_that_the_program_can_load) :-
+    library_file(File),
+    exists_file(File).
+test(takes_what_make_built, Found == built) :-
+    own_kind(Own),
+    choice([built-Own, amd64-Own], Found).
+test(passes_over_a_folder_of_the_right_name_and_the_wrong_kind,
+     Found == brick) :-
+    own_kind(Own),
+    other_kind(Own, Other),
+    choice([built-Other, aaa-Other, brick-Own], Found).
+test(tells_armel_from_armhf) :-
+    pack([armel-elf(1,1,40,soft), armhf-elf(1,1,40,hard)], Pack),
+    forall(member(Name-Float, [armel-soft, armhf-hard]),
+           ( native_file(Pack, Name, File),
+             ev3dev_library_file:file_kind(File, elf(1,1,40,Float))
+           )).
+test(reads_headers_of_either_byte_order) :-
+    pack([big-elf(2,2,22,soft)], Pack),
+    native_file(Pack, big, File),
+    ev3dev_library_file:file_kind(File, elf(2,2,22,soft)).
+test(takes_no_text_for_a_library, Found == none) :-
+    pack([], Pack),
+    native_file(Pack, text, File),
+    put_file(File, [0'h, 0'i]),
+    found(Pack, Found).
+test(throws_if_none_suits,
+     error(existence_error(foreign_library, ev3dev))) :-
+    own_kind(Own),
+    other_kind(Own, Other),
+    pack([other-Other], Pack),
+    ev3dev_library_file:no_suitable_file(Pack).
+test(names_what_there_is_if_none_suits) :-
+    own_kind(Own),
+    other_kind(Own, Other),
+    pack([other-Other], Pack),
+    native_file(Pack, other, File),
+    catch(ev3dev_library_file:no_suitable_file(Pack),
+          error(_, context(_, Message)), true),
+    sub_atom(Message, _, _, _, File),
+    !.
+
+:- end_tests(library_file).
+
+own_kind(Kind) :-
+    ev3dev_library_file:program_kind(Kind),
+    !.
+
+other_kind(elf(Class, Order, _, _), elf(Class, Order, 8, soft)).
+
+choice(Files, Found) :-
+    pack(Files, Pack),
+    found(Pack, Found).
+
+found(Pack, Found) :-
+    (   ev3dev_library_file:suitable_file(Pack, File)
+    ->  file_directory_name(File, Folder),
+        file_directory_name(Folder, Parent),
+        (   file_base_name(Parent, lib)
+        ->  Found = built
+        ;   file_base_name(Folder, Found)
+        )
+    ;   Found = none
+    ).
+
+%   A pack of these files: `built` is that below lib, others are below native.
+
+pack(Files, Pack) :-
+    tmp_file(pack, Pack),
+    forall(member(Name-Kind, Files),
+           ( library_of(Pack, Name, File),
+             header(Kind, Bytes),
+             put_file(File, Bytes)
+           )).
+
+library_of(Pack, built, File) :-
+    !,
+    current_prolog_flag(arch, Arch),
+    file_of([Pack, lib, Arch], File).
+library_of(Pack, Name, File) :-
+    native_file(Pack, Name, File).
+
+native_file(Pack, Name, File) :-
+    file_of([Pack, native, Name], File).
+
+file_of(Parts, File) :-
+    current_prolog_flag(shared_object_extension, Extension),
+    atomic_list_concat(Parts, /, Folder),
+    atomic_list_concat([Folder, '/ev3dev.', Extension], File).
+
+put_file(File, Bytes) :-
+    file_directory_name(File, Folder),
+    make_directory_path(Folder),
+    setup_call_cleanup(
+        open(File, write, Out, [type(binary)]),
+        forall(member(Byte, Bytes), put_byte(Out, Byte)),
+        close(Out)).
+
+header(elf(Class, Order, Machine, Float), Bytes) :-
+    (   Float == hard
+    ->  Flags = 4
+    ;   Flags = 2
+    ),
+    half(Order, Machine, M),
+    half(Order, Flags<<8, F),
+    zeros(12, Z12),
+    zeros(16, Z16),
+    zeros(14, Z14),
+    append([[0x7f,0x45,0x4c,0x46,Class,Order], Z12, M, Z16, F, Z14], Bytes).
+
+half(1, Value, [Low,High]) :-
+    Low is Value /\ 0xff,
+    High is (Value>>8) /\ 0xff.
+half(2, Value, [High,Low]) :-
+    half(1, Value, [Low,High]).
+
+zeros(N, Zeros) :-
+    length(Zeros, N),
+    maplist(=(0), Zeros).

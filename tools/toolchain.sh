@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+#
+# Fetches what the cross build needs into .toolchain/: a Rust compiler with the
+# standard library of every target, and zig as the linker that brings the C
+# library of every target, as old as the bricks' one.
+#
+# Usage: tools/toolchain.sh
+#
+# May be run again at any time: what is complete is left alone. Afterwards
+# .toolchain/bin holds `cargo` and `rustc`, and .toolchain/zig zig itself.
+#
+# Environment:
+#   EV3DEV_RUST      where Rust comes from
+#                      rustup  rustup's toolchain and targets
+#                      debian  Debian's packages, unpacked; no root needed
+#                      auto    rustup if it is there and can fetch, else debian
+#                              (the default)
+#   EV3DEV_TOOLCHAIN where to put all this (default .toolchain)
+# and those of tools/debian.sh. pip's own settings hold for zig.
+
+set -euo pipefail
+# shellcheck source=tools/common.sh
+source "$(dirname "$0")/common.sh"
+# shellcheck source=tools/debian.sh
+source "$(dirname "$0")/debian.sh"
+# shellcheck source=tools/targets.sh
+source "$(dirname "$0")/targets.sh"
+
+rust_version=1.85.1
+debian_suite=trixie
+zig_version=0.15.2
+
+main() {
+    locked toolchain
+    fetch_zig
+    case ${EV3DEV_RUST:-auto} in
+    rustup) rust_of_rustup || die "rustup cannot fetch Rust $rust_version (see $toolchain/rustup.log)" ;;
+    debian) rust_of_debian ;;
+    auto) is_made "$toolchain/rust" "$(debian_key)" || rust_of_rustup || rust_of_debian ;;
+    *) die "EV3DEV_RUST is none of rustup, debian, auto: $EV3DEV_RUST" ;;
+    esac
+}
+
+fetch_zig() {
+    local dir=$toolchain/zig
+    is_made "$dir" "$zig_version" && return
+    python3 -m pip --version >/dev/null 2>&1 ||
+        die "zig comes from the Python package ziglang, but python3 with pip is missing"
+    say "fetching zig $zig_version"
+    rm -rf "$dir"
+    python3 -m pip install -q --no-deps --only-binary :all: --require-hashes \
+        --no-cache-dir --no-compile --target "$dir" \
+        -r "$root/tools/zig-requirements.txt" 2>"$toolchain/pip.log" ||
+        die "pip cannot fetch ziglang $zig_version (see $toolchain/pip.log)"
+    made "$dir" "$zig_version"
+}
+
+# The targets of rustup, added to a toolchain of the pinned version.
+rust_of_rustup() {
+    have rustup || return 1
+    local name target=()
+    for name in "${all_targets[@]}"; do
+        target+=("$(triple_of "$name")")
+    done
+    rustup toolchain install "$rust_version" --profile minimal --no-self-update \
+        --target "$(IFS=,; echo "${target[*]}")" >"$toolchain/rustup.log" 2>&1 ||
+        return 1
+    write_wrapper cargo "exec rustup run $rust_version cargo \"\$@\""
+    write_wrapper rustc "exec rustup run $rust_version rustc \"\$@\""
+}
+
+debian_key() {
+    echo "debian $debian_suite $rust_version ${all_targets[*]}"
+}
+
+# Debian's compiler and standard libraries. The compiler may need a newer C
+# library than this machine has, so it is started through its own loader.
+rust_of_debian() {
+    local dir=$toolchain/rust apt=$toolchain/apt name foreign=()
+    is_made "$dir" "$(debian_key)" && return
+    [[ $(uname -sm) == "Linux x86_64" ]] ||
+        die "the Debian toolchain runs on x86_64 Linux only; use rustup elsewhere"
+    say "fetching Rust $rust_version of Debian $debian_suite"
+    for name in "${all_targets[@]}"; do
+        [[ $name == amd64 ]] || foreign+=("$name")
+    done
+
+    rm -rf "$dir" "$apt"
+    debian_apt_new "$apt" "$debian_suite" amd64 "${foreign[@]}"
+    # zig does the linking
+    debian_pretend "$apt" amd64 gcc binutils libc-dev
+    debian_closure "$apt" "rustc=$rust_version*" "cargo=$rust_version*"
+    debian_download "$apt" "${foreign[@]/#/libstd-rust-dev:}"
+    debian_unpack "$apt" "$dir"
+    debian_forget "$apt"
+
+    local run
+    # shellcheck disable=SC2016
+    run='rust=$(dirname "$0")/../rust/usr
+exec "$rust/lib64/ld-linux-x86-64.so.2" \
+    --library-path "$rust/lib/x86_64-linux-gnu" "$rust/bin/'
+    write_wrapper cargo "${run}cargo\" \"\$@\""
+    write_wrapper rustc "${run}rustc\" --sysroot \"\$rust\" \"\$@\""
+    made "$dir" "$(debian_key)"
+}
+
+write_wrapper() {
+    mkdir -p "$toolchain/bin"
+    printf '#!/bin/sh\n%s\n' "$2" >"$toolchain/bin/$1"
+    chmod +x "$toolchain/bin/$1"
+}
+
+main

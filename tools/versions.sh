@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+#
+# Tries the binary pack in other SWI-Prologs: installs it with pack_install
+# where there is nothing to build with, calls every predicate once, and runs the
+# plunit suite over plain directory trees.
+#
+# Usage: tools/versions.sh [NAME...]        as in tools/emulate.sh, or 7.2.3;
+#                                           default: all of the PC's processor
+#
+# Environment: ARCHIVE  the pack to try (default: the newest in dist/)
+#              SWIPL_723  the swipl of a built 7.2.3, for want of packages
+#              SUITE    the test files (default: tests/test_*.pl)
+
+set -euo pipefail
+# shellcheck source=tools/common.sh
+source "$(dirname "$0")/common.sh"
+
+pc=(8.2.4 9.0.4 9.2.9)
+passed=0 failed=0
+
+main() {
+    local name
+    archive=${ARCHIVE:-$(find "$root/dist" -name 'ev3dev-*.tgz' -printf '%T@ %p\n' |
+        sort -n | tail -n 1 | cut -d ' ' -f 2-)}
+    [[ -r $archive ]] || die "no binary pack in dist: run tools/dist.sh"
+    if [[ $# -eq 0 ]]; then
+        set -- "${pc[@]}"
+        [[ -z ${SWIPL_723:-} ]] || set -- 7.2.3 "$@"
+    fi
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    unset EV3DEV_SYSFS RUST_BACKTRACE
+    for name; do
+        try "$name"
+    done
+    echo "$passed passed, $failed failed"
+    [[ $failed == 0 ]]
+}
+
+try() {
+    local name=$1 home=$work/$1 tree=$work/$1/tree file
+    mkdir -p "$home" "$tree"
+    tar -xzf "$archive" -C "$tree"
+    cp -R "$root/tests" "$tree/ev3dev/"
+    [[ $name == 7.2.3 ]] || "$root/tools/emulate.sh" "$name" >/dev/null
+
+    if [[ $name == 7.2.3 ]]; then
+        # It may have been built without the packages that pack_install needs.
+        step "$name: every predicate" \
+            env EV3DEV_PACK="$tree/ev3dev" "$SWIPL_723" -q -g main -t 'halt(1)' \
+            "$root/tests/brick/smoke.pl"
+        return
+    fi
+    cp "$archive" "$home/"
+    step "$name: pack_install" nothing_to_build_with \
+        -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
+    step "$name: every predicate" nothing_to_build_with \
+        -g main -t 'halt(1)' "$root/tests/brick/smoke.pl"
+    cd "$tree/ev3dev"
+    for file in ${SUITE:-tests/test_*.pl}; do
+        step "$name: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
+    done
+    cd "$root"
+}
+
+run_swipl() {
+    EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
+}
+
+nothing_to_build_with() {
+    EMULATED_PATH=/nonexistent run_swipl "$@"
+}
+
+# step TEXT COMMAND...: silent but for its last line, unless it goes wrong
+step() {
+    local text=$1 log=$work/log
+    shift
+    if "$@" </dev/null >"$log" 2>&1 && ! grep -qE '^(Warning|ERROR)' "$log"; then
+        passed=$((passed + 1))
+        echo "ok      $text"
+    else
+        failed=$((failed + 1))
+        echo "FAILED  $text"
+        sed 's/^/        /' "$log"
+    fi
+}
+
+main "$@"
