@@ -20,10 +20,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let shared = Arc::new(Shared::new(Machine::default()));
     let mount = Mount::new(Arc::clone(&shared), &directory)?;
     let mut command = Command::new(program);
-    let mut child = command
-        .args(arguments)
-        .env("EV3DEV_SYSFS", &directory)
-        .spawn()?;
+    let mut child = command.args(arguments).env("EV3DEV_SYSFS", &directory).spawn()?;
     let start = Instant::now();
     let status = loop {
         if let Some(status) = child.try_wait()? {
@@ -35,14 +32,6 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     };
     mount.unmount()?;
     let machine = shared.lock();
-    println!(
-        "{:?}, {} collisions",
-        machine.pose(),
-        machine.trace().collision_count()
-    );
-    Ok(if status.success() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    })
+    println!("{:?}, {} collisions", machine.pose(), machine.trace().collision_count());
+    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

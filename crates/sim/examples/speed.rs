@@ -10,9 +10,7 @@ const POLL: Duration = Duration::from_millis(10);
 
 fn number(machine: &mut Machine, file: &mut Descriptor) -> i32 {
     let mut buffer = [0; 32];
-    let length = file
-        .pread(machine, 0, &mut buffer)
-        .expect("the device stays plugged in");
+    let length = file.pread(machine, 0, &mut buffer).expect("the device stays plugged in");
     let text = std::str::from_utf8(&buffer[..length]).unwrap_or("0");
     text.trim().parse().unwrap_or(0)
 }
@@ -25,14 +23,10 @@ fn drive(
     right: &str,
 ) {
     for (node, speed) in speeds.into_iter().zip([left, right]) {
-        machine
-            .write(node, speed.as_bytes())
-            .expect("a legal speed");
+        machine.write(node, speed.as_bytes()).expect("a legal speed");
     }
     for node in commands {
-        machine
-            .write(node, b"run-forever")
-            .expect("a legal command");
+        machine.write(node, b"run-forever").expect("a legal command");
     }
 }
 
@@ -59,16 +53,10 @@ fn main() {
         number(&mut machine, &mut colour);
         number(&mut machine, &mut gyro);
         let mut text = [0; 64];
-        state
-            .pread(&mut machine, 0, &mut text)
-            .expect("the motor stays plugged in");
+        state.pread(&mut machine, 0, &mut text).expect("the motor stays plugged in");
         if near != turning {
             turning = near;
-            let (left, right) = if near {
-                ("200", "-200")
-            } else {
-                ("500", "500")
-            };
+            let (left, right) = if near { ("200", "-200") } else { ("500", "500") };
             drive(&mut machine, commands, speeds, left, right);
         }
         machine.step(POLL);

@@ -75,15 +75,7 @@ impl<D> Attr<D> {
     }
 
     const fn new(name: &'static str, access: Access, read: Reader<D>, write: Writer<D>) -> Self {
-        Attr {
-            name,
-            access,
-            size: 4096,
-            read,
-            write,
-            exists: |_| true,
-            measured: false,
-        }
+        Attr { name, access, size: 4096, read, write, exists: |_| true, measured: false }
     }
 
     /// What `stat` says of the size; 4096 is for texts.
@@ -165,15 +157,11 @@ pub(crate) fn text(value: impl Display) -> Result<Vec<u8>, Errno> {
 /// What a device's `uevent` says: the only way to find driver and address without opening two
 /// files. Writing an action word makes udev look again; here it has nobody to wake.
 pub(crate) fn uevent(driver: &str, address: &str) -> Result<Vec<u8>, Errno> {
-    text(format_args!(
-        "LEGO_DRIVER_NAME={driver}\nLEGO_ADDRESS={address}"
-    ))
+    text(format_args!("LEGO_DRIVER_NAME={driver}\nLEGO_ADDRESS={address}"))
 }
 
 /// The action words of `uevent`.
 pub(crate) fn write_uevent(bytes: &[u8]) -> Result<Effect, Errno> {
-    let actions = [
-        "add", "remove", "change", "move", "online", "offline", "bind", "unbind",
-    ];
+    let actions = ["add", "remove", "change", "move", "online", "offline", "bind", "unbind"];
     crate::text::word(bytes, actions.into_iter()).map(|_| Effect::Done)
 }

@@ -11,15 +11,8 @@ pub(crate) const LEDS: [(&str, u32); 4] = [
     ("led1:green:brick-status", 255),
     ("led1:red:brick-status", 0),
 ];
-const TRIGGERS: [&str; 7] = [
-    "none",
-    "mmc0",
-    "timer",
-    "heartbeat",
-    "default-on",
-    "transient",
-    "rfkill0",
-];
+const TRIGGERS: [&str; 7] =
+    ["none", "mmc0", "timer", "heartbeat", "default-on", "transient", "rfkill0"];
 const NONE: usize = 0;
 const TIMER: usize = 2;
 const DEFAULT_ON: usize = 4;
@@ -53,10 +46,7 @@ impl Led {
 
     /// A light on an output port in the mode `led`.
     pub(crate) fn on_port(address: &str) -> Self {
-        Led {
-            full: FULL_ON_PORT,
-            ..Led::new(&format!("{address}::brick-status"), 0)
-        }
+        Led { full: FULL_ON_PORT, ..Led::new(&format!("{address}::brick-status"), 0) }
     }
 
     fn set_brightness(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
@@ -80,11 +70,7 @@ impl Led {
 
     fn triggers(&self) -> String {
         let shown = TRIGGERS.iter().enumerate().map(|(index, name)| {
-            if index == self.trigger {
-                format!("[{name}]")
-            } else {
-                (*name).to_owned()
-            }
+            if index == self.trigger { format!("[{name}]") } else { (*name).to_owned() }
         });
         shown.collect::<Vec<_>>().join(" ")
     }
@@ -136,10 +122,7 @@ impl Battery {
     pub(crate) const NAME: &'static str = "lego-ev3-battery";
 
     pub(crate) fn new() -> Self {
-        let mut battery = Battery {
-            volts: 0.0,
-            amperes: 0.0,
-        };
+        let mut battery = Battery { volts: 0.0, amperes: 0.0 };
         battery.load(0.0);
         battery
     }

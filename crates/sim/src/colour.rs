@@ -45,9 +45,7 @@ impl Colour {
             let part = |a: u8, b: u8| (i32::from(a) - i32::from(b)).pow(2);
             part(self.red, other.red) + part(self.green, other.green) + part(self.blue, other.blue)
         };
-        let nearest = (1..)
-            .zip(PALETTE)
-            .min_by_key(|(_, (_, colour))| away(*colour));
+        let nearest = (1..).zip(PALETTE).min_by_key(|(_, (_, colour))| away(*colour));
         nearest.map_or(0, |(code, _)| code)
     }
 }
@@ -66,13 +64,9 @@ impl FromStr for Colour {
             return Ok(*colour);
         }
         let unknown = || UnknownColour(text.to_owned());
-        let hex = text
-            .strip_prefix('#')
-            .filter(|hex| hex.len() == 6)
-            .ok_or_else(unknown)?;
-        let [_, red, green, blue] = u32::from_str_radix(hex, 16)
-            .map_err(|_| unknown())?
-            .to_be_bytes();
+        let hex = text.strip_prefix('#').filter(|hex| hex.len() == 6).ok_or_else(unknown)?;
+        let [_, red, green, blue] =
+            u32::from_str_radix(hex, 16).map_err(|_| unknown())?.to_be_bytes();
         Ok(Colour { red, green, blue })
     }
 }
@@ -96,10 +90,6 @@ mod tests {
             assert_eq!(colour.code(), code, "{name}");
         }
         assert!("mauve".parse::<Colour>().is_err());
-        assert_eq!(
-            Colour::rgb(128, 128, 128).code(),
-            7,
-            "grey looks brown to it"
-        );
+        assert_eq!(Colour::rgb(128, 128, 128).code(), 7, "grey looks brown to it");
     }
 }

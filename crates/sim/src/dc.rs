@@ -88,11 +88,7 @@ impl DcMotor {
             self.timer = Some(self.now + ticks_from_ms(self.active.time_ms));
         }
         self.stopping = command == STOP;
-        self.aim(if self.stopping {
-            0
-        } else {
-            self.active.signed_duty()
-        });
+        self.aim(if self.stopping { 0 } else { self.active.signed_duty() });
     }
 
     fn aim(&mut self, target: i32) {
@@ -105,11 +101,7 @@ impl DcMotor {
     /// One step of the ramp. Rising, in the signed duty, follows the ramp up, falling the other.
     fn step(&mut self) {
         let rising = self.target > self.duty;
-        let full_ms = if rising {
-            self.active.ramp_up_ms
-        } else {
-            self.active.ramp_down_ms
-        };
+        let full_ms = if rising { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
         let most = 100 * STEP_MS.unsigned_abs() / full_ms.max(1);
         let way = (self.target - self.duty).unsigned_abs();
         let arrived = full_ms == 0 || way <= most;
@@ -124,11 +116,7 @@ impl DcMotor {
         self.bridge = Bridge::Driven(self.duty);
         self.next_step = Some(self.now + ticks_from_ms(STEP_MS));
         if arrived && self.stopping {
-            self.bridge = if self.active.brake {
-                Bridge::Short
-            } else {
-                Bridge::Float
-            };
+            self.bridge = if self.active.brake { Bridge::Short } else { Bridge::Float };
             self.next_step = None;
         } else if scheduled && unchanged {
             self.next_step = None;
@@ -154,22 +142,13 @@ impl DcMotor {
     fn state(&self) -> String {
         let running = matches!(self.bridge, Bridge::Driven(_)).then_some("running");
         let ramping = self.next_step.is_some().then_some("ramping");
-        running
-            .into_iter()
-            .chain(ramping)
-            .collect::<Vec<_>>()
-            .join(" ")
+        running.into_iter().chain(ramping).collect::<Vec<_>>().join(" ")
     }
 }
 
 fn ramp(bytes: &[u8]) -> Result<u32, Errno> {
-    lenient_unsigned(bytes).and_then(|ms| {
-        if ms <= LONGEST_RAMP_MS {
-            Ok(ms)
-        } else {
-            Err(Errno::EINVAL)
-        }
-    })
+    lenient_unsigned(bytes)
+        .and_then(|ms| if ms <= LONGEST_RAMP_MS { Ok(ms) } else { Err(Errno::EINVAL) })
 }
 
 impl Table for DcMotor {
@@ -233,10 +212,6 @@ impl Table for DcMotor {
                 Ok(Effect::Done)
             },
         ),
-        Attr::rw(
-            "uevent",
-            |m| uevent(DRIVER, m.port.address()),
-            |_, bytes| write_uevent(bytes),
-        ),
+        Attr::rw("uevent", |m| uevent(DRIVER, m.port.address()), |_, bytes| write_uevent(bytes)),
     ];
 }

@@ -26,11 +26,7 @@ impl Descriptor {
     /// Wraps a node that was opened already.
     #[must_use]
     pub const fn new(node: NodeId) -> Descriptor {
-        Descriptor {
-            node,
-            text: Vec::new(),
-            seen: None,
-        }
+        Descriptor { node, text: Vec::new(), seen: None }
     }
 
     /// The node behind it.

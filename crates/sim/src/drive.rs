@@ -190,20 +190,10 @@ impl Body {
     fn limits(&self, loads: &[Load; 2]) -> Vec<Limit> {
         let shaft = |index: usize| {
             let load = &loads[index];
-            let most = if load.jammed {
-                f64::INFINITY
-            } else {
-                load.friction * TICK_SECONDS
-            };
+            let most = if load.jammed { f64::INFINITY } else { load.friction * TICK_SECONDS };
             let mut gain = [0.0; 2];
             gain[index] = 1.0;
-            Limit {
-                gain,
-                target: 0.0,
-                low: -most,
-                high: most,
-                impulse: 0.0,
-            }
+            Limit { gain, target: 0.0, low: -most, high: most, impulse: 0.0 }
         };
         let (sin, cos) = sin_cos(self.pose.heading);
         let contact = |contact: &Contact| {
@@ -226,11 +216,7 @@ impl Body {
 
     /// A collision is counted when an obstacle begins to push back.
     fn report(&mut self, limits: &[Limit], hit: &mut impl FnMut(ItemId)) {
-        let near = |id: ItemId| {
-            self.contacts
-                .iter()
-                .any(|c| c.id == id && c.gap < CONTACT_OVER)
-        };
+        let near = |id: ItemId| self.contacts.iter().any(|c| c.id == id && c.gap < CONTACT_OVER);
         let mut touching = std::mem::take(&mut self.touching);
         touching.retain(|id| near(*id));
         for (limit, contact) in limits.iter().zip(&self.contacts) {
@@ -256,11 +242,7 @@ impl Body {
             y: self.pose.y + cos * ahead * TICK_SECONDS,
             heading: self.pose.heading + turned,
         };
-        let nearest = self
-            .contacts
-            .iter()
-            .map(|c| c.gap)
-            .fold(f64::INFINITY, f64::min);
+        let nearest = self.contacts.iter().map(|c| c.gap).fold(f64::INFINITY, f64::min);
         if nearest < 2.0 * SKIN {
             let free = scene.contacts(robot.hull, &next.frame(), MARGIN, &mut self.contacts);
             if free < nearest && free < SKIN / 2.0 {

@@ -99,20 +99,13 @@ impl Machine {
     /// # Errors
     /// ENODEV if its device is gone; EACCES if it cannot be written; what the driver answers.
     pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
-        let mut written = Written {
-            length: bytes.len(),
-            blocks: Duration::ZERO,
-        };
+        let mut written = Written { length: bytes.len(), blocks: Duration::ZERO };
         if bytes.is_empty() {
             return Ok(written);
         }
         let effect = self.tree.write(node, bytes)?;
         self.record(Action::Written, node, bytes);
-        let port = self
-            .sockets
-            .iter()
-            .find(|s| s.lego_port == Tree::owner(node))
-            .map(|s| s.port);
+        let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
         match (effect, port) {
             (Effect::Blocks(time), _) => written.blocks = time,
             (Effect::PortMode(mode), Some(port)) => written.blocks = self.port_mode(port, mode),
@@ -140,8 +133,7 @@ impl Machine {
     /// As [`Machine::open`] and [`Machine::read`].
     pub fn read_path(&mut self, path: &str) -> Result<String, Errno> {
         let node = self.open(path, Access::ReadOnly)?;
-        self.read(node)
-            .map(|text| String::from_utf8_lossy(&text).into_owned())
+        self.read(node).map(|text| String::from_utf8_lossy(&text).into_owned())
     }
 
     /// Opens, writes and closes: for tests and small tools.
@@ -158,12 +150,7 @@ impl Machine {
             return;
         };
         let text = String::from_utf8_lossy(bytes.strip_suffix(b"\n").unwrap_or(bytes)).into_owned();
-        self.trace.event(Event {
-            at: self.now,
-            action,
-            path,
-            text,
-        });
+        self.trace.event(Event { at: self.now, action, path, text });
     }
 
     // ---- sensors --------------------------------------------------------------------------
@@ -198,8 +185,6 @@ impl Machine {
 
     pub(crate) fn mount(&self, port: Port) -> (Pose, Noise) {
         let mount = self.robot.sensors.iter().find(|mount| mount.port == port);
-        mount.map_or((SPARE_MOUNT, Noise::NONE), |mount| {
-            (mount.pose, mount.noise)
-        })
+        mount.map_or((SPARE_MOUNT, Noise::NONE), |mount| (mount.pose, mount.noise))
     }
 }

@@ -41,11 +41,7 @@ impl Pose {
     #[must_use]
     pub fn compose(&self, inner: &Pose) -> Pose {
         let point = outside(&self.frame(), inner.point());
-        Pose {
-            x: point.x,
-            y: point.y,
-            heading: self.heading + inner.heading,
-        }
+        Pose { x: point.x, y: point.y, heading: self.heading + inner.heading }
     }
 
     pub(crate) fn point(&self) -> Vec2 {
@@ -55,10 +51,7 @@ impl Pose {
 
 /// A frame at a point, turned counter-clockwise by the angle with this cosine and sine.
 pub(crate) fn frame(at: Vec2, cos: f64, sin: f64) -> Frame {
-    Frame::from_parts(
-        Translation::from(at),
-        Rotation::from_cos_sin_unchecked(cos, sin),
-    )
+    Frame::from_parts(Translation::from(at), Rotation::from_cos_sin_unchecked(cos, sin))
 }
 
 /// A point of a frame, in the world.
@@ -90,15 +83,9 @@ mod tests {
     fn heading_is_clockwise_from_up() {
         let robot = Pose::new(10.0, 20.0, 90.0);
         let nose = robot.compose(&Pose::new(0.0, 5.0, 0.0));
-        assert!(
-            (nose.x - 15.0).abs() < 1e-9 && (nose.y - 20.0).abs() < 1e-9,
-            "{nose:?}"
-        );
+        assert!((nose.x - 15.0).abs() < 1e-9 && (nose.y - 20.0).abs() < 1e-9, "{nose:?}");
         let right = robot.compose(&Pose::new(5.0, 0.0, 45.0));
-        assert!(
-            (right.x - 10.0).abs() < 1e-9 && (right.y - 15.0).abs() < 1e-9,
-            "{right:?}"
-        );
+        assert!((right.x - 10.0).abs() < 1e-9 && (right.y - 15.0).abs() < 1e-9, "{right:?}");
         assert!((right.heading - 135.0).abs() < 1e-9);
     }
 }

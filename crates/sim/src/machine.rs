@@ -30,10 +30,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options {
-            seed: 1,
-            instant: false,
-        }
+        Options { seed: 1, instant: false }
     }
 }
 
@@ -69,12 +66,8 @@ impl Default for Machine {
     /// # Panics
     /// Never: the shipped world and robot are valid.
     fn default() -> Self {
-        Machine::new(
-            &WorldSpec::room(),
-            &RobotSpec::default(),
-            Options::default(),
-        )
-        .expect("the shipped world and robot are valid")
+        Machine::new(&WorldSpec::room(), &RobotSpec::default(), Options::default())
+            .expect("the shipped world and robot are valid")
     }
 }
 
@@ -166,10 +159,7 @@ impl Machine {
         let items = self.scene.items();
         let item = items.iter().find(|(other, _)| *other == id);
         let name = item.map_or_else(|| "bounds".to_owned(), |(_, item)| format!("{item:?}"));
-        Err(SpecError::new(
-            format!("robot at {}, {}", pose.x, pose.y),
-            format!("is inside {name}"),
-        ))
+        Err(SpecError::new(format!("robot at {}, {}", pose.x, pose.y), format!("is inside {name}")))
     }
 
     /// Everything in the world, with the numbers under which it can be removed.
@@ -212,10 +202,6 @@ impl Machine {
     }
 
     pub(crate) fn hit(&mut self, item: ItemId) {
-        self.trace.collision(Collision {
-            at: self.now,
-            item,
-            pose: self.body.pose,
-        });
+        self.trace.collision(Collision { at: self.now, item, pose: self.body.pose });
     }
 }

@@ -34,11 +34,8 @@ impl WorldSpec {
         if !(cell.is_finite() && cell > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
         }
-        let rows: Vec<Vec<char>> = map
-            .trim_matches('\n')
-            .lines()
-            .map(|line| line.trim_end().chars().collect())
-            .collect();
+        let rows: Vec<Vec<char>> =
+            map.trim_matches('\n').lines().map(|line| line.trim_end().chars().collect()).collect();
         let mut world = WorldSpec::default();
         let mut started = false;
         let height = rows.len();
@@ -48,14 +45,8 @@ impl WorldSpec {
                 let centre = corner(column, height - 1 - row, 0.5, cell);
                 match *character {
                     '#' | '.' | ' ' => {}
-                    'O' => world.items.push(Item::Circle {
-                        centre,
-                        radius: cell * 0.4,
-                    }),
-                    'L' => world.items.push(Item::Lamp {
-                        at: centre,
-                        intensity: LAMP_INTENSITY,
-                    }),
+                    'O' => world.items.push(Item::Circle { centre, radius: cell * 0.4 }),
+                    'L' => world.items.push(Item::Lamp { at: centre, intensity: LAMP_INTENSITY }),
                     other => {
                         if let Some(heading) = start_heading(other) {
                             if std::mem::replace(&mut started, true) {
@@ -97,10 +88,7 @@ fn floor_colour(character: char) -> Option<Colour> {
 /// A point of a cell, `share` of the way from its lower left to its upper right corner.
 #[expect(clippy::cast_precision_loss, reason = "rows and columns of a drawing")]
 fn corner(column: usize, row_from_below: usize, share: f64, cell: f64) -> Point {
-    [
-        (column as f64 + share) * cell,
-        (row_from_below as f64 + share) * cell,
-    ]
+    [(column as f64 + share) * cell, (row_from_below as f64 + share) * cell]
 }
 
 /// Joins wall cells to rectangles: first as wide, then as high as they go.
@@ -149,41 +137,20 @@ mod tests {
     #[test]
     fn walls_are_joined_and_the_start_is_found() {
         let world = WorldSpec::from_map("#####\n#.>.#\n#.L.#\n#####\n", 20.0).unwrap();
-        let boxes = world
-            .items
-            .iter()
-            .filter(|item| item.kind() == "box")
-            .count();
+        let boxes = world.items.iter().filter(|item| item.kind() == "box").count();
         assert_eq!(boxes, 4);
         assert_eq!(world.start, Pose::new(50.0, 50.0, 90.0));
-        assert!(world.items.contains(&Item::Lamp {
-            at: [50.0, 30.0],
-            intensity: LAMP_INTENSITY
-        }));
-        let left = Item::Box {
-            pose: Pose::new(10.0, 40.0, 0.0),
-            width: 20.0,
-            depth: 40.0,
-        };
-        let top = Item::Box {
-            pose: Pose::new(50.0, 70.0, 0.0),
-            width: 100.0,
-            depth: 20.0,
-        };
+        assert!(world.items.contains(&Item::Lamp { at: [50.0, 30.0], intensity: LAMP_INTENSITY }));
+        let left = Item::Box { pose: Pose::new(10.0, 40.0, 0.0), width: 20.0, depth: 40.0 };
+        let top = Item::Box { pose: Pose::new(50.0, 70.0, 0.0), width: 100.0, depth: 20.0 };
         assert!(world.items.contains(&top), "{:?}", world.items);
-        assert!(
-            !world.items.contains(&left),
-            "the left column goes down to the floor"
-        );
+        assert!(!world.items.contains(&left), "the left column goes down to the floor");
     }
 
     #[test]
     fn errors_name_row_and_column() {
         let error = WorldSpec::from_map("###\n#X#", 20.0).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "map row 2 column 2: has an unknown character: 'X'"
-        );
+        assert_eq!(error.to_string(), "map row 2 column 2: has an unknown character: 'X'");
         assert!(WorldSpec::from_map("SS", 20.0).is_err());
         assert!(WorldSpec::from_map("S", 0.0).is_err());
     }

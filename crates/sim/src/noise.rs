@@ -19,10 +19,7 @@ pub struct Noise {
 
 impl Noise {
     /// No errors at all.
-    pub const NONE: Noise = Noise {
-        sigma: 0.0,
-        bias: 0.0,
-    };
+    pub const NONE: Noise = Noise { sigma: 0.0, bias: 0.0 };
 
     /// What a device of this driver might plausibly show.
     #[must_use]

@@ -44,11 +44,7 @@ impl Obstacle {
     /// The solid form of an item, if it has one.
     pub(crate) fn new(id: ItemId, item: &Item) -> Option<Obstacle> {
         match *item {
-            Item::Wall {
-                from: [x1, y1],
-                to: [x2, y2],
-                thickness,
-            } => {
+            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
                 let way = Vec2::new(x2 - x1, y2 - y1);
                 let long = length(way);
                 let middle = Vec2::new(f64::midpoint(x1, x2), f64::midpoint(y1, y2));
@@ -58,10 +54,7 @@ impl Obstacle {
             Item::Box { pose, width, depth } => {
                 Some(Obstacle::cuboid(id, pose.frame(), width / 2.0, depth / 2.0))
             }
-            Item::Circle {
-                centre: [x, y],
-                radius,
-            } => Some(Obstacle {
+            Item::Circle { centre: [x, y], radius } => Some(Obstacle {
                 id,
                 solid: Solid::Ball(Ball::new(radius)),
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
@@ -73,20 +66,12 @@ impl Obstacle {
 
     fn cuboid(id: ItemId, frame: Frame, half_x: f64, half_y: f64) -> Obstacle {
         let half = Vec2::new(half_x, half_y);
-        Obstacle {
-            id,
-            solid: Solid::Box(Cuboid::new(half)),
-            frame,
-            reach: length(half),
-        }
+        Obstacle { id, solid: Solid::Box(Cuboid::new(half)), frame, reach: length(half) }
     }
 
     /// The four walls around the bounds: left, right, below, above.
     pub(crate) fn around(id: ItemId, bounds: Bounds) -> [Obstacle; 4] {
-        let Bounds {
-            low: [left, low],
-            high: [right, high],
-        } = bounds;
+        let Bounds { low: [left, low], high: [right, high] } = bounds;
         let half = BOUND_THICKNESS / 2.0;
         let (x, y) = (f64::midpoint(left, right), f64::midpoint(low, high));
         let (half_x, half_y) = ((right - left) / 2.0, (high - low) / 2.0);
@@ -163,11 +148,7 @@ impl Obstacle {
                 let distance = length(offset).max(1e-9);
                 let normal = offset / distance;
                 let radius = hull.reach();
-                found(
-                    distance - radius - ball.radius,
-                    normal,
-                    middle - normal * radius,
-                );
+                found(distance - radius - ball.radius, normal, middle - normal * radius);
             }
             (Some((outline, place)), Solid::Ball(ball)) => {
                 let (distance, normal) = away_from(&outline, &place, centre);
@@ -189,12 +170,7 @@ impl Obstacle {
 
 /// A rectangular hull and the frame of its centre.
 fn hull_box(hull: Hull, frame: &Frame) -> Option<(Cuboid, Frame)> {
-    let Hull::Rectangle {
-        width,
-        length,
-        offset,
-    } = hull
-    else {
+    let Hull::Rectangle { width, length, offset } = hull else {
         return None;
     };
     let centre = outside(frame, Vec2::new(0.0, offset));
@@ -217,10 +193,6 @@ fn away_from(cuboid: &Cuboid, frame: &Frame, point: Vec2) -> (f64, Vec2) {
         let outwards = point - frame.translation.vector;
         return (0.0, outwards / length(outwards).max(1e-9));
     }
-    let signed = if projection.is_inside {
-        -distance
-    } else {
-        distance
-    };
+    let signed = if projection.is_inside { -distance } else { distance };
     (signed, offset / signed)
 }

@@ -26,10 +26,7 @@ impl Machine {
     /// If no such thing fits the port.
     pub fn plug(&mut self, port: Port, driver: &str) -> Result<(), SpecError> {
         let plug = Plug::named(driver, port).ok_or_else(|| {
-            SpecError::new(
-                format!("{driver} on {port}"),
-                "is nothing that fits this port",
-            )
+            SpecError::new(format!("{driver} on {port}"), "is nothing that fits this port")
         })?;
         if let Plug::Motor(kind) = plug {
             self.shafts[port.slot()].kind = kind;
@@ -111,11 +108,7 @@ impl Machine {
             (_, plug) => plug.map(|plug| self.driver(port, plug, at_boot)),
         };
         let instant = self.options.instant;
-        let closed = if at_boot || instant {
-            0
-        } else {
-            self.tick + ticks_from_ms(UDEV_MS)
-        };
+        let closed = if at_boot || instant { 0 } else { self.tick + ticks_from_ms(UDEV_MS) };
         let has_tacho = matches!(plug, Some(Plug::Motor(_))) || mode == "tacho-motor";
         let has_nxt_analog = mode == "nxt-analog"
             || matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == "nxt-analog");
@@ -136,9 +129,7 @@ impl Machine {
             }
             Plug::Sensor(kind) => {
                 let instant = self.options.instant;
-                Hardware::Sensor(Box::new(Sensor::new(
-                    kind, port, self.tick, instant, at_boot,
-                )))
+                Hardware::Sensor(Box::new(Sensor::new(kind, port, self.tick, instant, at_boot)))
             }
         }
     }

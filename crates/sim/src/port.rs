@@ -93,9 +93,7 @@ impl FromStr for Port {
 
     /// Takes both `outA` and `ev3-ports:outA`.
     fn from_str(text: &str) -> Result<Port, UnknownPort> {
-        let found = Port::ALL
-            .into_iter()
-            .find(|p| p.name() == text || p.address() == text);
+        let found = Port::ALL.into_iter().find(|p| p.name() == text || p.address() == text);
         found.ok_or_else(|| UnknownPort(text.to_owned()))
     }
 }
@@ -129,26 +127,12 @@ pub(crate) struct LegoPort {
 
 impl LegoPort {
     pub(crate) fn new(port: Port) -> Self {
-        let detected = if port.is_output() {
-            "no-motor"
-        } else {
-            "no-sensor"
-        };
-        LegoPort {
-            port,
-            mode: 0,
-            detected,
-            has_tacho: false,
-            has_nxt_analog: false,
-        }
+        let detected = if port.is_output() { "no-motor" } else { "no-sensor" };
+        LegoPort { port, mode: 0, detected, has_tacho: false, has_nxt_analog: false }
     }
 
     fn modes(&self) -> &'static [&'static str] {
-        if self.port.is_output() {
-            &OUT_MODES
-        } else {
-            &IN_MODES
-        }
+        if self.port.is_output() { &OUT_MODES } else { &IN_MODES }
     }
 
     pub(crate) fn mode_name(&self) -> &'static str {
@@ -156,11 +140,7 @@ impl LegoPort {
     }
 
     fn driver_name(&self) -> &'static str {
-        if self.port.is_output() {
-            "ev3-output-port"
-        } else {
-            "ev3-input-port"
-        }
+        if self.port.is_output() { "ev3-output-port" } else { "ev3-input-port" }
     }
 
     /// Outputs show what the mode makes of the port; inputs what was detected, even in forced
@@ -186,11 +166,7 @@ impl Table for LegoPort {
         ),
         Attr::ro("modes", |p| text(p.modes().join(" "))),
         Attr::wo("set_device", |p, bytes| {
-            let allowed = if p.port.is_output() {
-                p.has_tacho
-            } else {
-                p.has_nxt_analog
-            };
+            let allowed = if p.port.is_output() { p.has_tacho } else { p.has_nxt_analog };
             if !allowed {
                 return Err(Errno::EOPNOTSUPP);
             }

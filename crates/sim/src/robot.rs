@@ -70,11 +70,9 @@ impl Hull {
     pub(crate) fn reach(&self) -> f64 {
         match *self {
             Hull::Circle { radius } => radius,
-            Hull::Rectangle {
-                width,
-                length,
-                offset,
-            } => libm::hypot(width / 2.0, length / 2.0 + offset.abs()),
+            Hull::Rectangle { width, length, offset } => {
+                libm::hypot(width / 2.0, length / 2.0 + offset.abs())
+            }
         }
     }
 }
@@ -102,17 +100,9 @@ impl Default for RobotSpec {
     /// The paper's vehicle: 5.6 cm wheels 10.6 cm apart on outB (left) and outC (right), a medium
     /// motor on outA, ultrasonic ahead on in1, colour right on in2 and left on in3, gyro on in4.
     fn default() -> Self {
-        let wheel = |port| Wheel {
-            port,
-            diameter: 5.6,
-            inverted: false,
-            slip: 0.0,
-        };
-        let motor = |port, driver: &str| MotorMount {
-            port,
-            driver: driver.to_owned(),
-            noise: Noise::NONE,
-        };
+        let wheel = |port| Wheel { port, diameter: 5.6, inverted: false, slip: 0.0 };
+        let motor =
+            |port, driver: &str| MotorMount { port, driver: driver.to_owned(), noise: Noise::NONE };
         let sensor = |port, driver: &str, x, y, heading| SensorMount {
             port,
             driver: driver.to_owned(),
@@ -181,17 +171,9 @@ impl RobotSpec {
     /// # Errors
     /// Names the first offending part.
     pub fn validate(&self) -> Result<(), SpecError> {
-        let numbers = [
-            self.left.diameter,
-            self.right.diameter,
-            self.axle,
-            self.mass,
-        ];
+        let numbers = [self.left.diameter, self.right.diameter, self.axle, self.mass];
         if !numbers.iter().all(|n| n.is_finite() && *n > 0.0) {
-            return Err(SpecError::new(
-                "robot",
-                "needs wheels, axle and mass above 0",
-            ));
+            return Err(SpecError::new("robot", "needs wheels, axle and mass above 0"));
         }
         for (name, wheel) in [("left wheel", self.left), ("right wheel", self.right)] {
             if !(0.0..1.0).contains(&wheel.slip) {
@@ -216,10 +198,7 @@ impl RobotSpec {
             }
             used.push(*port);
         }
-        for SensorMount {
-            port, driver, pose, ..
-        } in &self.sensors
-        {
+        for SensorMount { port, driver, pose, .. } in &self.sensors {
             let item = || format!("sensor {driver} on {port}");
             if SensorKind::named(driver).is_none() {
                 return Err(SpecError::new(item(), "is of no known type"));

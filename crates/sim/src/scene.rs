@@ -95,10 +95,7 @@ impl Scene {
     /// The lamps: where they hang and how bright they are.
     pub(crate) fn lamps(&self) -> impl Iterator<Item = (Vec2, f64)> {
         self.items.iter().filter_map(|(_, item)| match item {
-            Item::Lamp {
-                at: [x, y],
-                intensity,
-            } => Some((Vec2::new(*x, *y), *intensity)),
+            Item::Lamp { at: [x, y], intensity } => Some((Vec2::new(*x, *y), *intensity)),
             _ => None,
         })
     }
@@ -110,11 +107,7 @@ impl Scene {
                 let corners: Vec<_> = corners.iter().copied().map(Point::from).collect();
                 point_in_poly2d(&Point::from(point), &corners).then_some(*colour)
             }
-            Item::Line {
-                points,
-                width,
-                colour,
-            } => {
+            Item::Line { points, width, colour } => {
                 let near = |pair: &[[f64; 2]]| {
                     let part = Segment::new(Point::from(pair[0]), Point::from(pair[1]));
                     part.distance_to_local_point(&Point::from(point), true) <= width / 2.0
@@ -147,12 +140,7 @@ impl Scene {
             obstacle.touch_points(hull, frame, |gap, normal, point| {
                 free = free.min(gap);
                 if gap < margin {
-                    contacts.push(Contact {
-                        id: obstacle.id,
-                        gap,
-                        normal,
-                        point,
-                    });
+                    contacts.push(Contact { id: obstacle.id, gap, normal, point });
                 }
             });
         }
@@ -162,16 +150,12 @@ impl Scene {
     /// True if a hull in this place overlaps an obstacle, and which one.
     pub(crate) fn overlap(&self, hull: Hull, pose: &Pose) -> Option<ItemId> {
         let mut obstacles = self.obstacles.iter();
-        obstacles
-            .find(|obstacle| obstacle.overlaps(hull, pose))
-            .map(|obstacle| obstacle.id)
+        obstacles.find(|obstacle| obstacle.overlaps(hull, pose)).map(|obstacle| obstacle.id)
     }
 
     /// True if an obstacle is within `distance` of a straight bumper.
     pub(crate) fn near_bumper(&self, from: Vec2, to: Vec2, distance: f64) -> bool {
-        self.obstacles
-            .iter()
-            .any(|obstacle| obstacle.near_line(from, to, distance))
+        self.obstacles.iter().any(|obstacle| obstacle.near_line(from, to, distance))
     }
 }
 
@@ -184,29 +168,16 @@ mod tests {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
         let up = Vec2::new(0.0, 1.0);
         assert_eq!(scene.cast(Vec2::zeros(), up, 255.0), None);
-        let wall = scene
-            .add(Item::wall([-50.0, 100.0], [50.0, 100.0]))
-            .unwrap();
+        let wall = scene.add(Item::wall([-50.0, 100.0], [50.0, 100.0])).unwrap();
         let near = |expected: f64, scene: &Scene| {
             let distance = scene.cast(Vec2::zeros(), up, 255.0).unwrap();
             assert!((distance - expected).abs() < 1e-9, "{distance}");
         };
         near(99.5, &scene);
-        scene
-            .add(Item::Circle {
-                centre: [0.0, 80.0],
-                radius: 5.0,
-            })
-            .unwrap();
+        scene.add(Item::Circle { centre: [0.0, 80.0], radius: 5.0 }).unwrap();
         near(75.0, &scene);
         let pose = Pose::new(0.0, 50.0, 45.0);
-        let diamond = scene
-            .add(Item::Box {
-                pose,
-                width: 10.0,
-                depth: 10.0,
-            })
-            .unwrap();
+        let diamond = scene.add(Item::Box { pose, width: 10.0, depth: 10.0 }).unwrap();
         near(50.0 - 50.0_f64.sqrt(), &scene);
         assert!(!scene.clear_between(Vec2::zeros(), Vec2::new(0.0, 60.0)));
         assert!(scene.remove(diamond) && scene.remove(wall) && !scene.remove(wall));
@@ -217,17 +188,9 @@ mod tests {
     fn floors_cover_each_other_in_order() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
         let red = "red".parse().unwrap();
-        scene
-            .add(Item::rectangle([0.0, 0.0], [10.0, 10.0], red))
-            .unwrap();
+        scene.add(Item::rectangle([0.0, 0.0], [10.0, 10.0], red)).unwrap();
         let points = vec![[0.0, 5.0], [20.0, 5.0], [20.0, 20.0]];
-        scene
-            .add(Item::Line {
-                points,
-                width: 2.0,
-                colour: Colour::BLACK,
-            })
-            .unwrap();
+        scene.add(Item::Line { points, width: 2.0, colour: Colour::BLACK }).unwrap();
         let at = |x, y| scene.colour_at(Vec2::new(x, y));
         assert_eq!(at(-1.0, 1.0), Colour::WHITE);
         assert_eq!(at(5.0, 8.0), red);
@@ -238,21 +201,9 @@ mod tests {
     #[test]
     fn impossible_items_are_named() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
-        let error = scene
-            .add(Item::Circle {
-                centre: [0.0, 0.0],
-                radius: -1.0,
-            })
-            .unwrap_err();
+        let error = scene.add(Item::Circle { centre: [0.0, 0.0], radius: -1.0 }).unwrap_err();
         assert!(error.to_string().starts_with("circle"), "{error}");
         assert!(scene.add(Item::wall([1.0, 1.0], [1.0, 1.0])).is_err());
-        assert!(
-            scene
-                .add(Item::Lamp {
-                    at: [f64::NAN, 0.0],
-                    intensity: 1.0
-                })
-                .is_err()
-        );
+        assert!(scene.add(Item::Lamp { at: [f64::NAN, 0.0], intensity: 1.0 }).is_err());
     }
 }

@@ -90,9 +90,7 @@ impl View<'_> {
         let ring = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
         let diagonal = [(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
         for (x, y) in ring.into_iter().chain(diagonal) {
-            let colour = self
-                .scene
-                .colour_at(self.pose.point() + Vec2::new(x, y) * SPOT);
+            let colour = self.scene.colour_at(self.pose.point() + Vec2::new(x, y) * SPOT);
             sum[0] += f64::from(colour.red);
             sum[1] += f64::from(colour.green);
             sum[2] += f64::from(colour.blue);
@@ -111,9 +109,8 @@ impl View<'_> {
             clippy::cast_sign_loss,
             reason = "clamped to a byte"
         )]
-        let [red, green, blue] = self
-            .spot()
-            .map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
+        let [red, green, blue] =
+            self.spot().map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
         crate::colour::Colour { red, green, blue }.code()
     }
 
@@ -127,11 +124,7 @@ impl View<'_> {
         for (lamp, intensity) in self.scene.lamps() {
             let way = lamp - here;
             let distance = length(way);
-            let facing = if distance < 1e-9 {
-                1.0
-            } else {
-                way.dot(&ahead) / distance
-            };
+            let facing = if distance < 1e-9 { 1.0 } else { way.dot(&ahead) / distance };
             if facing > 0.0 && self.scene.clear_between(here, lamp) {
                 let square = distance * distance + LAMP_HEIGHT * LAMP_HEIGHT;
                 light += intensity * facing * full / square;
@@ -183,15 +176,11 @@ impl View<'_> {
 
     fn pressed(&self) -> bool {
         let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
-        self.scene
-            .near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
+        self.scene.near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "saturates; sensors' numbers are small"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "saturates; sensors' numbers are small")]
 fn whole(value: f64) -> i32 {
     libm::round(value) as i32
 }

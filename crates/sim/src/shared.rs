@@ -17,10 +17,7 @@ impl Shared {
     /// Takes a machine in.
     #[must_use]
     pub fn new(machine: Machine) -> Shared {
-        Shared {
-            machine: Mutex::new(machine),
-            changed: Condvar::new(),
-        }
+        Shared { machine: Mutex::new(machine), changed: Condvar::new() }
     }
 
     /// The machine, for as long as the guard lives. A thread that panicked with the lock in its

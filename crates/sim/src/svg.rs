@@ -24,11 +24,7 @@ impl Frame {
 
     fn include_item(&mut self, item: &Item) {
         match item {
-            Item::Wall {
-                from,
-                to,
-                thickness,
-            } => {
+            Item::Wall { from, to, thickness } => {
                 self.include(*from, *thickness);
                 self.include(*to, *thickness);
             }
@@ -36,10 +32,7 @@ impl Frame {
                 self.include([pose.x, pose.y], libm::hypot(*width, *depth) / 2.0);
             }
             Item::Circle { centre, radius } => self.include(*centre, *radius),
-            Item::Patch {
-                corners: points, ..
-            }
-            | Item::Line { points, .. } => {
+            Item::Patch { corners: points, .. } | Item::Line { points, .. } => {
                 for point in points {
                     self.include(*point, 1.0);
                 }
@@ -50,10 +43,7 @@ impl Frame {
 }
 
 fn list(points: impl Iterator<Item = Point>) -> String {
-    points
-        .map(|[x, y]| format!("{x:.2},{y:.2}"))
-        .collect::<Vec<_>>()
-        .join(" ")
+    points.map(|[x, y]| format!("{x:.2},{y:.2}")).collect::<Vec<_>>().join(" ")
 }
 
 impl Machine {
@@ -61,19 +51,10 @@ impl Machine {
     #[must_use]
     pub fn svg(&self) -> String {
         let pose = self.pose();
-        let mut frame = Frame {
-            low: [pose.x, pose.y],
-            high: [pose.x, pose.y],
-        };
+        let mut frame = Frame { low: [pose.x, pose.y], high: [pose.x, pose.y] };
         frame.include([pose.x, pose.y], self.robot.hull.reach());
-        self.trace
-            .path()
-            .iter()
-            .for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
-        self.scene
-            .items()
-            .iter()
-            .for_each(|(_, item)| frame.include_item(item));
+        self.trace.path().iter().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
+        self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
         if let Some(bounds) = self.scene.bounds {
             frame.include(bounds.low, 0.0);
             frame.include(bounds.high, 0.0);
@@ -93,13 +74,8 @@ impl Machine {
         for (id, item) in self.scene.items() {
             draw_item(&mut svg, id.0, item);
         }
-        let path = list(
-            self.trace
-                .path()
-                .iter()
-                .map(|(_, p)| [p.x, p.y])
-                .chain([[pose.x, pose.y]]),
-        );
+        let path =
+            list(self.trace.path().iter().map(|(_, p)| [p.x, p.y]).chain([[pose.x, pose.y]]));
         line(
             &mut svg,
             format_args!(
@@ -154,11 +130,7 @@ fn line(svg: &mut String, arguments: std::fmt::Arguments<'_>) {
 
 fn draw_item(svg: &mut String, id: u32, item: &Item) {
     match item {
-        Item::Wall {
-            from,
-            to,
-            thickness,
-        } => line(
+        Item::Wall { from, to, thickness } => line(
             svg,
             format_args!(
                 "<line id=\"item{id}\" x1=\"{:.2}\" y1=\"{:.2}\" x2=\"{:.2}\" y2=\"{:.2}\" \
@@ -179,10 +151,7 @@ fn draw_item(svg: &mut String, id: u32, item: &Item) {
                 -pose.heading
             ),
         ),
-        Item::Circle {
-            centre: [x, y],
-            radius,
-        } => line(
+        Item::Circle { centre: [x, y], radius } => line(
             svg,
             format_args!(
                 "<circle id=\"item{id}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"#987\"/>"
@@ -195,11 +164,7 @@ fn draw_item(svg: &mut String, id: u32, item: &Item) {
                 list(corners.iter().copied())
             ),
         ),
-        Item::Line {
-            points,
-            width,
-            colour,
-        } => line(
+        Item::Line { points, width, colour } => line(
             svg,
             format_args!(
                 "<polyline id=\"item{id}\" points=\"{}\" fill=\"none\" stroke=\"{colour}\" \
@@ -231,11 +196,7 @@ fn draw_robot(svg: &mut String, pose: Pose, hull: Hull) {
             line(svg, format_args!("<circle r=\"{radius:.2}\" {style}/>"));
             radius
         }
-        Hull::Rectangle {
-            width,
-            length,
-            offset,
-        } => {
+        Hull::Rectangle { width, length, offset } => {
             line(
                 svg,
                 format_args!(

@@ -33,28 +33,17 @@ pub(crate) fn strict_int(bytes: &[u8]) -> Result<i32, Errno> {
 /// Parser A with limits: outside them is EINVAL.
 pub(crate) fn strict_int_in(bytes: &[u8], low: i32, high: i32) -> Result<i32, Errno> {
     let value = strict_int(bytes)?;
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(Errno::EINVAL)
-    }
+    if (low..=high).contains(&value) { Ok(value) } else { Err(Errno::EINVAL) }
 }
 
 /// Parser C: white space, digits, then any junk. No minus sign.
 pub(crate) fn lenient_unsigned(bytes: &[u8]) -> Result<u32, Errno> {
-    let start = bytes
-        .iter()
-        .position(|b| !b.is_ascii_whitespace())
-        .ok_or(Errno::EINVAL)?;
+    let start = bytes.iter().position(|b| !b.is_ascii_whitespace()).ok_or(Errno::EINVAL)?;
     let digits = bytes[start..].iter().take_while(|b| b.is_ascii_digit());
     let mut value = None;
     for digit in digits {
         let so_far = value.unwrap_or(0u32);
-        value = Some(
-            so_far
-                .saturating_mul(10)
-                .saturating_add(u32::from(digit - b'0')),
-        );
+        value = Some(so_far.saturating_mul(10).saturating_add(u32::from(digit - b'0')));
     }
     value.ok_or(Errno::EINVAL)
 }
@@ -65,9 +54,7 @@ pub(crate) fn word<'a>(
     mut words: impl Iterator<Item = &'a str>,
 ) -> Result<usize, Errno> {
     let text = line(bytes);
-    words
-        .position(|word| word.as_bytes() == text)
-        .ok_or(Errno::EINVAL)
+    words.position(|word| word.as_bytes() == text).ok_or(Errno::EINVAL)
 }
 
 #[cfg(test)]

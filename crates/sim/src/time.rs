@@ -64,10 +64,7 @@ impl Machine {
         self.turn_shafts(start_us);
         self.run_drivers();
         for port in Port::ALL {
-            if self.sockets[port as usize]
-                .due
-                .is_some_and(|due| due <= self.tick)
-            {
+            if self.sockets[port as usize].due.is_some_and(|due| due <= self.tick) {
                 self.detect(port);
             }
         }
@@ -81,9 +78,7 @@ impl Machine {
     }
 
     fn bridge(&self, port: Port) -> Bridge {
-        let device = self.sockets[port as usize]
-            .device
-            .filter(|_| self.wired(port));
+        let device = self.sockets[port as usize].device.filter(|_| self.wired(port));
         match device.and_then(|serial| self.tree.hardware(serial)) {
             Some(Hardware::Tacho(motor)) => motor.bridge(),
             Some(Hardware::DcMotor(motor)) => motor.bridge(),
@@ -118,12 +113,8 @@ impl Machine {
 
     fn turn_shafts(&mut self, start_us: u64) {
         let at_rest = self.shafts.iter().all(|shaft| shaft.omega == 0.0);
-        let undriven = |port| {
-            matches!(
-                self.bridge(port),
-                Bridge::Float | Bridge::Short | Bridge::Driven(0)
-            )
-        };
+        let undriven =
+            |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
         if at_rest && OUTPUTS.into_iter().all(undriven) {
             self.set_current(0.0);
             self.body.turn_rate = 0.0;
@@ -153,8 +144,7 @@ impl Machine {
         let mut hits = Vec::new();
         let wheel_loads = [loads[left], loads[right]];
         let hit = |item| hits.push(item);
-        self.body
-            .advance(&mut omega, &wheel_loads, &self.robot, &self.scene, hit);
+        self.body.advance(&mut omega, &wheel_loads, &self.robot, &self.scene, hit);
         self.shafts[left].omega = omega[0];
         self.shafts[right].omega = omega[1];
         for item in hits {
@@ -221,11 +211,7 @@ impl Machine {
     /// How far a motor's shaft has turned since boot, in degrees, whoever counts.
     #[must_use]
     pub fn shaft_angle(&self, port: Port) -> f64 {
-        if port.is_output() {
-            self.shafts[port.slot()].angle
-        } else {
-            0.0
-        }
+        if port.is_output() { self.shafts[port.slot()].angle } else { 0.0 }
     }
 
     /// Energy of motion of robot and motors, in joules.

@@ -173,11 +173,7 @@ pub(crate) struct Tree {
 
 impl Tree {
     pub(crate) fn new() -> Tree {
-        Tree {
-            devices: Vec::new(),
-            next_serial: FIRST_SERIAL,
-            numbers: [0; CLASSES.len()],
-        }
+        Tree { devices: Vec::new(), next_serial: FIRST_SERIAL, numbers: [0; CLASSES.len()] }
     }
 
     // ---- devices --------------------------------------------------------------------------
@@ -194,13 +190,7 @@ impl Tree {
         *number += 1;
         let serial = self.next_serial;
         self.next_serial += 1;
-        self.devices.push(Device {
-            serial,
-            name,
-            class,
-            closed_until,
-            hardware,
-        });
+        self.devices.push(Device { serial, name, class, closed_until, hardware });
         serial
     }
 
@@ -209,18 +199,12 @@ impl Tree {
     }
 
     fn device(&self, serial: u64) -> Option<&Device> {
-        let index = self
-            .devices
-            .binary_search_by_key(&serial, |device| device.serial)
-            .ok()?;
+        let index = self.devices.binary_search_by_key(&serial, |device| device.serial).ok()?;
         self.devices.get(index)
     }
 
     fn device_mut(&mut self, serial: u64) -> Option<&mut Device> {
-        let index = self
-            .devices
-            .binary_search_by_key(&serial, |device| device.serial)
-            .ok()?;
+        let index = self.devices.binary_search_by_key(&serial, |device| device.serial).ok()?;
         self.devices.get_mut(index)
     }
 
@@ -277,19 +261,13 @@ impl Tree {
 
     /// The node at a path below the root.
     pub(crate) fn resolve(&self, path: &str) -> Result<NodeId, Errno> {
-        let mut parts = path
-            .split('/')
-            .filter(|part| !part.is_empty() && *part != ".");
+        let mut parts = path.split('/').filter(|part| !part.is_empty() && *part != ".");
         parts.try_fold(NodeId::ROOT, |node, part| self.lookup(node, part))
     }
 
     pub(crate) fn list(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
         let entries = self.entries(directory)?;
-        let own = |(name, node, kind): (&str, _, _)| Entry {
-            name: name.to_owned(),
-            node,
-            kind,
-        };
+        let own = |(name, node, kind): (&str, _, _)| Entry { name: name.to_owned(), node, kind };
         Ok(entries.into_iter().map(own).collect())
     }
 
@@ -298,11 +276,7 @@ impl Tree {
             Place::Root => (0..)
                 .zip(CLASSES)
                 .map(|(index, (_, name, ..))| {
-                    (
-                        name,
-                        NodeId(NodeId::ROOT.0 + 1 + index),
-                        FileKind::Directory,
-                    )
+                    (name, NodeId(NodeId::ROOT.0 + 1 + index), FileKind::Directory)
                 })
                 .collect(),
             Place::Class(class) => self
@@ -325,12 +299,7 @@ impl Tree {
 
     pub(crate) fn stat(&self, node: NodeId, now: u64) -> Result<Stat, Errno> {
         let Place::Attribute(device, row) = self.place(node)? else {
-            return Ok(Stat {
-                node,
-                kind: FileKind::Directory,
-                mode: 0o755,
-                size: 0,
-            });
+            return Ok(Stat { node, kind: FileKind::Directory, mode: 0o755, size: 0 });
         };
         let files = device.hardware.files();
         let open = device.open_to_group(now);
@@ -341,12 +310,7 @@ impl Tree {
             (Access::WriteOnly, true) => 0o220,
             (Access::WriteOnly, false) => 0o200,
         };
-        Ok(Stat {
-            node,
-            kind: FileKind::File,
-            mode,
-            size: files.size(row),
-        })
+        Ok(Stat { node, kind: FileKind::File, mode, size: files.size(row) })
     }
 
     /// What `open(2)` checks.
@@ -354,16 +318,11 @@ impl Tree {
         let (device, row) = self.attribute(node)?;
         let allowed = device.hardware.files().access(row).allows(access);
         let early = access.writes() && now < device.closed_until;
-        if allowed && !early {
-            Ok(())
-        } else {
-            Err(Errno::EACCES)
-        }
+        if allowed && !early { Ok(()) } else { Err(Errno::EACCES) }
     }
 
     pub(crate) fn measured(&self, node: NodeId) -> bool {
-        self.attribute(node)
-            .is_ok_and(|(device, row)| device.hardware.files().measured(row))
+        self.attribute(node).is_ok_and(|(device, row)| device.hardware.files().measured(row))
     }
 
     pub(crate) fn read(&self, node: NodeId) -> Result<Vec<u8>, Errno> {
@@ -375,10 +334,7 @@ impl Tree {
         let (device, row) = self.attribute(node)?;
         let serial = device.serial;
         let device = self.device_mut(serial).ok_or(Errno::ENODEV)?;
-        device
-            .hardware
-            .files_mut()
-            .write(row, &bytes[..bytes.len().min(PAGE)])
+        device.hardware.files_mut().write(row, &bytes[..bytes.len().min(PAGE)])
     }
 
     pub(crate) fn events(&self, node: NodeId) -> Result<u32, Errno> {

@@ -65,20 +65,13 @@ impl Item {
     /// A wall of the usual thickness, 1 cm.
     #[must_use]
     pub const fn wall(from: Point, to: Point) -> Item {
-        Item::Wall {
-            from,
-            to,
-            thickness: 1.0,
-        }
+        Item::Wall { from, to, thickness: 1.0 }
     }
 
     /// A coloured rectangle on the floor from one corner to the opposite one.
     #[must_use]
     pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, colour: Colour) -> Item {
-        Item::Patch {
-            corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]],
-            colour,
-        }
+        Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], colour }
     }
 
     /// The word for it in error messages.
@@ -100,24 +93,14 @@ impl Item {
     /// Names the item and what is impossible about it.
     pub fn validate(&self) -> Result<(), SpecError> {
         let fault = match self {
-            Item::Wall {
-                from,
-                to,
-                thickness,
-            } => first_fault([
+            Item::Wall { from, to, thickness } => first_fault([
                 (finite(&[*from, *to]), NOT_FINITE),
-                (
-                    positive(libm::hypot(to[0] - from[0], to[1] - from[1])),
-                    "has no length",
-                ),
+                (positive(libm::hypot(to[0] - from[0], to[1] - from[1])), "has no length"),
                 (positive(*thickness), "needs a thickness above 0"),
             ]),
             Item::Box { pose, width, depth } => first_fault([
                 (pose.is_finite(), NOT_FINITE),
-                (
-                    positive(*width) && positive(*depth),
-                    "needs a width and a depth above 0",
-                ),
+                (positive(*width) && positive(*depth), "needs a width and a depth above 0"),
             ]),
             Item::Circle { centre, radius } => first_fault([
                 (finite(&[*centre]), NOT_FINITE),
@@ -129,17 +112,11 @@ impl Item {
             ]),
             Item::Line { points, width, .. } => first_fault([
                 (finite(points), NOT_FINITE),
-                (
-                    positive(*width) && points.len() >= 2,
-                    "needs two points and a width above 0",
-                ),
+                (positive(*width) && points.len() >= 2, "needs two points and a width above 0"),
             ]),
             Item::Lamp { at, intensity } => first_fault([
                 (finite(&[*at]), NOT_FINITE),
-                (
-                    intensity.is_finite() && *intensity >= 0.0,
-                    "needs an intensity of 0 or more",
-                ),
+                (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
             ]),
         };
         match fault {
@@ -152,10 +129,7 @@ impl Item {
 const NOT_FINITE: &str = "has a number that is not finite";
 
 fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'static str> {
-    checks
-        .into_iter()
-        .find(|(fine, _)| !fine)
-        .map(|(_, reason)| reason)
+    checks.into_iter().find(|(fine, _)| !fine).map(|(_, reason)| reason)
 }
 
 fn finite(points: &[Point]) -> bool {
@@ -178,10 +152,7 @@ pub struct SpecError {
 
 impl SpecError {
     pub(crate) fn new(item: impl Into<String>, reason: impl Into<String>) -> Self {
-        SpecError {
-            item: item.into(),
-            reason: reason.into(),
-        }
+        SpecError { item: item.into(), reason: reason.into() }
     }
 }
 
@@ -235,15 +206,9 @@ impl WorldSpec {
             items: vec![
                 boxed(70.0, 155.0, 20.0, 40.0, 30.0),
                 boxed(215.0, 80.0, -15.0, 30.0, 45.0),
-                Item::Circle {
-                    centre: [190.0, 185.0],
-                    radius: 10.0,
-                },
+                Item::Circle { centre: [190.0, 185.0], radius: 10.0 },
             ],
-            bounds: Some(Bounds {
-                low: [0.0, 0.0],
-                high: [300.0, 240.0],
-            }),
+            bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
             start: Pose::new(60.0, 50.0, 0.0),
             ..WorldSpec::default()
         }

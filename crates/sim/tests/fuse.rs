@@ -30,11 +30,8 @@ impl Bench {
     fn new(name: &str) -> Option<Bench> {
         let root = std::env::temp_dir().join(format!("ev3-sim-{}-{name}", std::process::id()));
         fs::create_dir_all(&root).unwrap();
-        let machine = Machine::new(
-            &WorldSpec::default(),
-            &RobotSpec::default(),
-            ev3_sim::Options::default(),
-        );
+        let machine =
+            Machine::new(&WorldSpec::default(), &RobotSpec::default(), ev3_sim::Options::default());
         let shared = Arc::new(Shared::new(machine.unwrap()));
         let mount = match Mount::new(Arc::clone(&shared), &root) {
             Ok(mount) => mount,
@@ -55,13 +52,7 @@ impl Bench {
                 }
             }
         });
-        Some(Bench {
-            mount: Some(mount),
-            shared,
-            stop,
-            clock: Some(clock),
-            root,
-        })
+        Some(Bench { mount: Some(mount), shared, stop, clock: Some(clock), root })
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -90,10 +81,7 @@ impl Drop for Bench {
 }
 
 fn errno<T>(result: io::Result<T>) -> Option<Errno> {
-    result
-        .err()
-        .and_then(|error| error.raw_os_error())
-        .map(Errno)
+    result.err().and_then(|error| error.raw_os_error()).map(Errno)
 }
 
 /// Waits for POLLPRI or POLLERR.
@@ -115,34 +103,18 @@ fn programs_of_the_shell_work() {
         return;
     };
     let shell = |line: &str| {
-        let output = Command::new("sh")
-            .arg("-c")
-            .arg(line)
-            .current_dir(&bench.root)
-            .output();
+        let output = Command::new("sh").arg("-c").arg(line).current_dir(&bench.root).output();
         let output = output.unwrap();
-        (
-            output.status.success(),
-            String::from_utf8_lossy(&output.stdout).into_owned(),
-        )
+        (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
     };
-    assert_eq!(
-        shell("ls tacho-motor"),
-        (true, "motor0\nmotor1\nmotor2\n".to_owned())
-    );
+    assert_eq!(shell("ls tacho-motor"), (true, "motor0\nmotor1\nmotor2\n".to_owned()));
     let text = (true, "lego-ev3-l-motor\n".to_owned());
     assert_eq!(shell("cat tacho-motor/motor1/driver_name"), text);
     assert!(shell("echo 300 > tacho-motor/motor1/speed_sp").0);
     assert!(shell("echo run-forever >> tacho-motor/motor1/command").0);
-    assert_eq!(
-        shell("cat tacho-motor/motor1/state"),
-        (true, "running\n".to_owned())
-    );
+    assert_eq!(shell("cat tacho-motor/motor1/state"), (true, "running\n".to_owned()));
     assert!(!shell("echo 5000 > tacho-motor/motor1/speed_sp").0);
-    assert_eq!(
-        shell("cat tacho-motor/motor1/speed_sp"),
-        (true, "300\n".to_owned())
-    );
+    assert_eq!(shell("cat tacho-motor/motor1/speed_sp"), (true, "300\n".to_owned()));
     assert_eq!(shell("stat -c %a tacho-motor/motor1/command").1, "220\n");
     assert!(shell("find . -name Kp | wc -l").1.trim() == "6");
 }
@@ -153,44 +125,18 @@ fn errors_are_the_kernels() {
         return;
     };
     let motor = |name: &str| format!("tacho-motor/motor1/{name}");
-    assert_eq!(
-        errno(bench.put(&motor("speed_sp"), "1051")),
-        Some(Errno::EINVAL)
-    );
-    assert_eq!(
-        errno(bench.put(&motor("speed_sp"), "99999999999")),
-        Some(Errno::ERANGE)
-    );
-    assert_eq!(
-        errno(bench.put(&motor("state"), "running")),
-        Some(Errno::EACCES)
-    );
+    assert_eq!(errno(bench.put(&motor("speed_sp"), "1051")), Some(Errno::EINVAL));
+    assert_eq!(errno(bench.put(&motor("speed_sp"), "99999999999")), Some(Errno::ERANGE));
+    assert_eq!(errno(bench.put(&motor("state"), "running")), Some(Errno::EACCES));
     assert_eq!(errno(bench.get(&motor("command"))), Some(Errno::EACCES));
     assert_eq!(errno(bench.get(&motor("colour"))), Some(Errno::ENOENT));
-    assert_eq!(
-        errno(bench.get("lego-sensor/sensor0/value1")),
-        Some(Errno::ENXIO)
-    );
-    assert_eq!(
-        errno(bench.get("lego-sensor/sensor0/poll_ms")),
-        Some(Errno::EOPNOTSUPP)
-    );
-    assert_eq!(
-        errno(fs::remove_file(bench.path(&motor("state")))),
-        Some(Errno::EPERM)
-    );
-    assert_eq!(
-        errno(bench.put(&motor("colour"), "red")),
-        Some(Errno::EACCES)
-    );
-    assert_eq!(
-        fs::metadata(bench.path(&motor("state"))).unwrap().mode() & 0o777,
-        0o444
-    );
-    let truncated = OpenOptions::new()
-        .write(true)
-        .truncate(true)
-        .open(bench.path(&motor("position")));
+    assert_eq!(errno(bench.get("lego-sensor/sensor0/value1")), Some(Errno::ENXIO));
+    assert_eq!(errno(bench.get("lego-sensor/sensor0/poll_ms")), Some(Errno::EOPNOTSUPP));
+    assert_eq!(errno(fs::remove_file(bench.path(&motor("state")))), Some(Errno::EPERM));
+    assert_eq!(errno(bench.put(&motor("colour"), "red")), Some(Errno::EACCES));
+    assert_eq!(fs::metadata(bench.path(&motor("state"))).unwrap().mode() & 0o777, 0o444);
+    let truncated =
+        OpenOptions::new().write(true).truncate(true).open(bench.path(&motor("position")));
     truncated.unwrap().write_all(b"7\n").unwrap();
     assert_eq!(bench.get(&motor("position")).unwrap(), "7\n");
 }
@@ -201,20 +147,12 @@ fn poll_wakes_when_a_move_is_over() {
         return;
     };
     let state = File::open(bench.path("tacho-motor/motor1/state")).unwrap();
-    assert!(
-        wait(&state, Duration::ZERO).contains(PollFlags::PRI | PollFlags::ERR),
-        "never read"
-    );
+    assert!(wait(&state, Duration::ZERO).contains(PollFlags::PRI | PollFlags::ERR), "never read");
     assert_eq!(read_again(&state).unwrap(), "\n");
-    assert!(
-        wait(&state, Duration::from_millis(120)).is_empty(),
-        "nothing happens"
-    );
+    assert!(wait(&state, Duration::from_millis(120)).is_empty(), "nothing happens");
     bench.put("tacho-motor/motor1/speed_sp", "400").unwrap();
     bench.put("tacho-motor/motor1/time_sp", "400").unwrap();
-    bench
-        .put("tacho-motor/motor1/command", "run-timed")
-        .unwrap();
+    bench.put("tacho-motor/motor1/command", "run-timed").unwrap();
     let start = Instant::now();
     let mut wakes = 0;
     while read_again(&state).unwrap().contains("running") {
@@ -222,10 +160,7 @@ fn poll_wakes_when_a_move_is_over() {
         wakes += 1;
     }
     let took = start.elapsed();
-    assert!(
-        took > Duration::from_millis(380) && took < Duration::from_millis(900),
-        "{took:?}"
-    );
+    assert!(took > Duration::from_millis(380) && took < Duration::from_millis(900), "{took:?}");
     assert!(wakes <= 4, "woken {wakes} times");
 }
 
@@ -240,10 +175,7 @@ fn an_unplugged_device_says_so_on_old_descriptors() {
     bench.shared.lock().unplug(Port::OutB);
     assert!(wait(&state, Duration::from_secs(2)).contains(PollFlags::PRI | PollFlags::ERR));
     assert_eq!(errno(read_again(&state)), Some(Errno::ENODEV));
-    assert_eq!(
-        errno(bench.get("tacho-motor/motor1/state")),
-        Some(Errno::ENOENT)
-    );
+    assert_eq!(errno(bench.get("tacho-motor/motor1/state")), Some(Errno::ENOENT));
 }
 
 #[test]
@@ -252,10 +184,7 @@ fn a_mode_write_blocks_for_its_time() {
         return;
     };
     bench.put("lego-sensor/sensor1/mode", "COL-COLOR").unwrap();
-    assert_eq!(
-        bench.get("lego-sensor/sensor1/mode").unwrap(),
-        "COL-COLOR\n"
-    );
+    assert_eq!(bench.get("lego-sensor/sensor1/mode").unwrap(), "COL-COLOR\n");
     std::thread::sleep(Duration::from_millis(30));
     assert_eq!(bench.get("lego-sensor/sensor1/value0").unwrap(), "6\n");
 }

@@ -53,11 +53,7 @@ fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
         crtime: UNIX_EPOCH,
         kind: file_type(stat.kind),
         perm: stat.mode,
-        nlink: if stat.kind == FileKind::Directory {
-            2
-        } else {
-            1
-        },
+        nlink: if stat.kind == FileKind::Directory { 2 } else { 1 },
         uid: request.uid(),
         gid: request.gid(),
         rdev: 0,
@@ -69,16 +65,11 @@ fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
 impl Files {
     fn stat(&self, node: NodeId, request: &Request) -> Result<FileAttr, Errno> {
         let machine = self.shared.lock();
-        machine
-            .stat(node)
-            .map(|stat| attributes(stat, &machine, request))
+        machine.stat(node).map(|stat| attributes(stat, &machine, request))
     }
 
     fn find(&self, parent: NodeId, name: &OsStr, request: &Request) -> Result<FileAttr, Errno> {
-        let node = self
-            .shared
-            .lock()
-            .lookup(parent, name.to_str().ok_or(Errno::ENOENT)?)?;
+        let node = self.shared.lock().lookup(parent, name.to_str().ok_or(Errno::ENOENT)?)?;
         self.stat(node, request)
     }
 

@@ -70,15 +70,9 @@ impl Mount {
         if !path.is_dir() {
             return Err(MountError::NoDirectory(path.to_owned()));
         }
-        let refused = |source| MountError::Refused {
-            path: path.to_owned(),
-            source,
-        };
+        let refused = |source| MountError::Refused { path: path.to_owned(), source };
         let open = Arc::new(Mutex::new(Open::default()));
-        let files = Files {
-            shared: Arc::clone(&shared),
-            open: Arc::clone(&open),
-        };
+        let files = Files { shared: Arc::clone(&shared), open: Arc::clone(&open) };
         let mut config = Config::default();
         config.mount_options = vec![
             MountOption::FSName("ev3-sim".to_owned()),
@@ -89,21 +83,13 @@ impl Mount {
         let session = Session::new(files, path, &config).map_err(refused)?;
         let session = session.spawn().map_err(refused)?;
         let stop = Arc::new(AtomicBool::new(false));
-        let watcher = std::thread::Builder::new()
-            .name("ev3-sim-fuse".to_owned())
-            .spawn({
-                let (shared, stop) = (Arc::clone(&shared), Arc::clone(&stop));
-                let notifier = session.notifier();
-                move || watch(&shared, &open, &notifier, &stop)
-            });
+        let watcher = std::thread::Builder::new().name("ev3-sim-fuse".to_owned()).spawn({
+            let (shared, stop) = (Arc::clone(&shared), Arc::clone(&stop));
+            let notifier = session.notifier();
+            move || watch(&shared, &open, &notifier, &stop)
+        });
         let watcher = Some(watcher.map_err(refused)?);
-        Ok(Mount {
-            session: Some(session),
-            watcher,
-            shared,
-            stop,
-            path: path.to_owned(),
-        })
+        Ok(Mount { session: Some(session), watcher, shared, stop, path: path.to_owned() })
     }
 
     /// Where it is mounted.
@@ -127,9 +113,7 @@ impl Mount {
             // It only panics if the machine did; unmounting matters more.
             let _ = watcher.join();
         }
-        self.session
-            .take()
-            .map_or(Ok(()), BackgroundSession::umount_and_join)
+        self.session.take().map_or(Ok(()), BackgroundSession::umount_and_join)
     }
 }
 
@@ -158,14 +142,9 @@ impl Open {
     fn take_due(&mut self, machine: &Machine) -> (Vec<PollHandle>, Vec<BlockedWrite>) {
         let ready = |handle: &u64| self.files.get(handle).is_none_or(|file| file.poll(machine));
         let woken: Vec<u64> = self.polls.keys().copied().filter(ready).collect();
-        let polls = woken
-            .iter()
-            .filter_map(|handle| self.polls.remove(handle))
-            .collect();
+        let polls = woken.iter().filter_map(|handle| self.polls.remove(handle)).collect();
         let writes = std::mem::take(&mut self.writes);
-        let (due, waiting) = writes
-            .into_iter()
-            .partition(|(until, ..)| *until <= machine.now());
+        let (due, waiting) = writes.into_iter().partition(|(until, ..)| *until <= machine.now());
         self.writes = waiting;
         (polls, due)
     }

@@ -11,20 +11,12 @@ const LONGEST_RAMP_MS: i32 = 60_000;
 impl Tacho {
     /// Physical numbers to the numbers in the files, and back.
     fn sign(&self, value: i32) -> i32 {
-        if self.inversed {
-            value.wrapping_neg()
-        } else {
-            value
-        }
+        if self.inversed { value.wrapping_neg() } else { value }
     }
 }
 
 fn joined<T>(words: &[(&str, T)]) -> String {
-    words
-        .iter()
-        .map(|(word, _)| *word)
-        .collect::<Vec<_>>()
-        .join(" ")
+    words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(" ")
 }
 
 fn chosen<T: Copy>(bytes: &[u8], words: &[(&str, T)]) -> Result<T, Errno> {
@@ -134,9 +126,7 @@ impl Table for Tacho {
         Attr::rw(
             "stop_action",
             |m| {
-                let index = StopAction::WORDS
-                    .iter()
-                    .position(|(_, a)| *a == m.set.stop_action);
+                let index = StopAction::WORDS.iter().position(|(_, a)| *a == m.set.stop_action);
                 text(StopAction::WORDS[index.unwrap_or(0)].0)
             },
             |m, b| store!(m.set.stop_action = chosen(b, &StopAction::WORDS)?),

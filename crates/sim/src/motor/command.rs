@@ -39,10 +39,7 @@ impl Tacho {
     fn run_to(&mut self, target: i32) {
         let upwards = target >= self.position();
         let speed = self.active.speed.abs();
-        let goal = Goal {
-            at: target,
-            upwards,
-        };
+        let goal = Goal { at: target, upwards };
         self.begin(if upwards { speed } else { -speed }, Some(goal), false);
     }
 

@@ -23,10 +23,7 @@ struct Stamp {
 
 /// The number of edges below an angle in degrees: two for each. A motor starts in the middle
 /// between two of them.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a shaft does not turn 10^15 times"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "a shaft does not turn 10^15 times")]
 fn edge(angle: f64) -> i64 {
     libm::floor(angle * 2.0 + 0.5) as i64
 }
@@ -43,12 +40,7 @@ pub(crate) struct Encoder {
 impl Encoder {
     pub(crate) fn new() -> Self {
         let stamps = Box::new([Stamp::default(); RING]);
-        Encoder {
-            edges: 0,
-            stamps,
-            written: 1,
-            speed: 0,
-        }
+        Encoder { edges: 0, stamps, written: 1, speed: 0 }
     }
 
     /// Counts since boot, truncated towards zero as the driver's integer division does.
@@ -78,11 +70,7 @@ impl Encoder {
     fn stamp_edges(&mut self, from: f64, to: f64, crossed: i64, start_us: u64) {
         let upwards = crossed > 0;
         for nth in 0..crossed.abs() {
-            let line = if upwards {
-                edge(from) + 1 + nth
-            } else {
-                edge(from) - nth
-            };
+            let line = if upwards { edge(from) + 1 + nth } else { edge(from) - nth };
             self.edges = self.edges.wrapping_add(if upwards { 1 } else { -1 });
             #[expect(
                 clippy::cast_possible_truncation,
@@ -99,10 +87,7 @@ impl Encoder {
     }
 
     fn push(&mut self, at_us: u64) {
-        self.stamps[self.written % RING] = Stamp {
-            edges: self.edges,
-            at_us,
-        };
+        self.stamps[self.written % RING] = Stamp { edges: self.edges, at_us };
         self.written += 1;
     }
 
@@ -149,18 +134,10 @@ mod tests {
         let mut encoder = Encoder::new();
         run(&mut encoder, 0..500, 0.0, 1.0);
         assert_eq!(encoder.count(), 500);
-        assert!(
-            (499..=501).contains(&encoder.speed()),
-            "{}",
-            encoder.speed()
-        );
+        assert!((499..=501).contains(&encoder.speed()), "{}", encoder.speed());
         run(&mut encoder, 500..1000, 500.0, -2.0);
         assert_eq!(encoder.count(), -500);
-        assert!(
-            (-1001..=-999).contains(&encoder.speed()),
-            "{}",
-            encoder.speed()
-        );
+        assert!((-1001..=-999).contains(&encoder.speed()), "{}", encoder.speed());
     }
 
     #[test]
@@ -168,17 +145,9 @@ mod tests {
         let mut encoder = Encoder::new();
         let end = run(&mut encoder, 0..500, 0.0, 1.0);
         run(&mut encoder, 500..523, end, 0.0);
-        assert!(
-            encoder.speed() > 490,
-            "frozen for 50 ms: {}",
-            encoder.speed()
-        );
+        assert!(encoder.speed() > 490, "frozen for 50 ms: {}", encoder.speed());
         run(&mut encoder, 523..530, end, 0.0);
-        assert!(
-            (1..100).contains(&encoder.speed()),
-            "falling: {}",
-            encoder.speed()
-        );
+        assert!((1..100).contains(&encoder.speed()), "falling: {}", encoder.speed());
         run(&mut encoder, 530..590, end, 0.0);
         assert!(encoder.speed() > 0, "still not zero at 180 ms");
         run(&mut encoder, 590..605, end, 0.0);

@@ -62,9 +62,7 @@ impl MotorKind {
     /// The motor with this driver name.
     #[must_use]
     pub fn named(driver_name: &str) -> Option<&'static MotorKind> {
-        MOTOR_KINDS
-            .iter()
-            .find(|kind| kind.driver_name == driver_name)
+        MOTOR_KINDS.iter().find(|kind| kind.driver_name == driver_name)
     }
 
     /// Back-EMF and copper losses together: how much torque a rad/s costs, in N m s.

@@ -57,11 +57,8 @@ pub(crate) enum StopAction {
 }
 
 impl StopAction {
-    pub(crate) const WORDS: [(&'static str, StopAction); 3] = [
-        ("coast", StopAction::Coast),
-        ("brake", StopAction::Brake),
-        ("hold", StopAction::Hold),
-    ];
+    pub(crate) const WORDS: [(&'static str, StopAction); 3] =
+        [("coast", StopAction::Coast), ("brake", StopAction::Brake), ("hold", StopAction::Hold)];
 }
 
 /// What a program sets before it writes a command.
@@ -101,19 +98,11 @@ struct Goal {
 
 impl Goal {
     fn reached(self, position: i32) -> bool {
-        if self.upwards {
-            position >= self.at
-        } else {
-            position <= self.at
-        }
+        if self.upwards { position >= self.at } else { position <= self.at }
     }
 
     fn passed_by(self, end: i64) -> bool {
-        if self.upwards {
-            end > i64::from(self.at)
-        } else {
-            end < i64::from(self.at)
-        }
+        if self.upwards { end > i64::from(self.at) } else { end < i64::from(self.at) }
     }
 }
 
@@ -132,10 +121,7 @@ enum Drive {
 
 /// A motor as the driver sees it.
 #[derive(Clone, Debug)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a flag of its own in the kernel, too"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own in the kernel, too")]
 pub(crate) struct Tacho {
     pub(crate) kind: &'static MotorKind,
     port: Port,
@@ -225,11 +211,7 @@ impl Tacho {
     /// The tick of the next timer or ramp step.
     pub(crate) fn next_timer(&self) -> Option<u64> {
         let ramp = self.ramp.as_ref().map(|ramp| ramp.due);
-        self.timer
-            .into_iter()
-            .chain(ramp)
-            .min()
-            .map(|due| due.next_multiple_of(JIFFY_TICKS))
+        self.timer.into_iter().chain(ramp).min().map(|due| due.next_multiple_of(JIFFY_TICKS))
     }
 
     /// The flags of `state`, in their order, as bits.
@@ -252,10 +234,7 @@ impl Tacho {
     pub(crate) fn state(&self) -> String {
         let words = ["running", "ramping", "holding", "overloaded", "stalled"];
         let flags = self.flags();
-        let set = words
-            .iter()
-            .enumerate()
-            .filter(|(bit, _)| flags & (1 << bit) != 0);
+        let set = words.iter().enumerate().filter(|(bit, _)| flags & (1 << bit) != 0);
         set.map(|(_, word)| *word).collect::<Vec<_>>().join(" ")
     }
 }

@@ -20,13 +20,7 @@ pub(crate) struct Output {
 
 impl Pid {
     pub(crate) const fn new(kp: i32, ki: i32, kd: i32) -> Self {
-        Pid {
-            kp,
-            ki,
-            kd,
-            integral: 0,
-            previous: 0,
-        }
+        Pid { kp, ki, kd, integral: 0, previous: 0 }
     }
 
     /// Forgets the past.
@@ -51,10 +45,7 @@ impl Pid {
         if overloaded {
             self.integral = self.integral.wrapping_sub(error);
         }
-        Output {
-            duty: duty.clamp(-100, 100),
-            overloaded,
-        }
+        Output { duty: duty.clamp(-100, 100), overloaded }
     }
 }
 

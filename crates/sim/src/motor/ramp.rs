@@ -26,11 +26,7 @@ impl Tacho {
     /// Starts to ramp. Where there is nothing to ramp, a stop is carried out at once and any
     /// other command has no effect at all: the kernel does just that.
     pub(super) fn start_ramp(&mut self, end: i32, goal: Option<Goal>, then_stop: bool) {
-        let from = if self.ramping {
-            self.ramp_value
-        } else {
-            self.speed
-        };
+        let from = if self.ramping { self.ramp_value } else { self.speed };
         if from == end {
             if then_stop {
                 self.ramping = false;
@@ -60,11 +56,7 @@ impl Tacho {
 
     fn leg_duration_ms(&self, from: i32, to: i32) -> i64 {
         let up = to.unsigned_abs() > from.unsigned_abs();
-        let full = if up {
-            self.active.ramp_up_ms
-        } else {
-            self.active.ramp_down_ms
-        };
+        let full = if up { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
         let difference = (i64::from(to) - i64::from(from)).abs();
         i64::from(full) * difference / i64::from(self.kind.max_speed)
     }

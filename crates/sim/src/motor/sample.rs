@@ -11,11 +11,7 @@ impl Tacho {
         self.count = count;
         self.speed = speed;
         let still = self.running() && speed == 0;
-        self.zero_speed_ticks = if still {
-            self.zero_speed_ticks.saturating_add(1)
-        } else {
-            0
-        };
+        self.zero_speed_ticks = if still { self.zero_speed_ticks.saturating_add(1) } else { 0 };
         self.regulate_sample();
         self.approach_goal();
         if now % JIFFY_TICKS == 0 {

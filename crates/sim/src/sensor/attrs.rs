@@ -14,9 +14,7 @@ macro_rules! value {
 impl Table for Sensor {
     const ATTRS: &'static [Attr<Sensor>] = &[
         Attr::ro("address", |s| text(s.port.address())),
-        Attr::ro("bin_data", |s: &Sensor| Ok(s.bin_data()))
-            .size(32)
-            .measured(),
+        Attr::ro("bin_data", |s: &Sensor| Ok(s.bin_data())).size(32).measured(),
         Attr::ro("bin_data_format", |s| text(s.mode().format.name())),
         // No sensor of the EV3 sets has commands; then the list is a lone newline.
         Attr::wo("command", |_, _| Err(Errno::EINVAL)),
@@ -27,30 +25,12 @@ impl Table for Sensor {
         Attr::ro("fw_version", |_| text("")),
         Attr::rw(
             "mode",
-            |s| {
-                text(if s.out_of_contact() {
-                    ""
-                } else {
-                    s.mode().name
-                })
-            },
+            |s| text(if s.out_of_contact() { "" } else { s.mode().name }),
             |s, bytes| s.select(word(bytes, s.kind.modes())?),
         ),
-        Attr::ro("modes", |s| {
-            text(s.kind.modes().collect::<Vec<_>>().join(" "))
-        }),
-        Attr::ro("num_values", |s| {
-            text(if s.out_of_contact() {
-                0
-            } else {
-                s.mode().values
-            })
-        }),
-        Attr::rw(
-            "poll_ms",
-            |_| Err(Errno::EOPNOTSUPP),
-            |_, _| Err(Errno::EOPNOTSUPP),
-        ),
+        Attr::ro("modes", |s| text(s.kind.modes().collect::<Vec<_>>().join(" "))),
+        Attr::ro("num_values", |s| text(if s.out_of_contact() { 0 } else { s.mode().values })),
+        Attr::rw("poll_ms", |_| Err(Errno::EOPNOTSUPP), |_, _| Err(Errno::EOPNOTSUPP)),
         Attr::ro("text_value", |_| Err(Errno::EOPNOTSUPP)),
         Attr::rw(
             "uevent",

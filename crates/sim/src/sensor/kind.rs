@@ -92,15 +92,7 @@ impl Mode {
         format: Format,
         sense: Sense,
     ) -> Self {
-        Mode {
-            name,
-            values,
-            decimals,
-            units,
-            format,
-            sense,
-            mute: false,
-        }
+        Mode { name, values, decimals, units, format, sense, mute: false }
     }
 
     const fn mute(mut self) -> Self {
@@ -124,14 +116,7 @@ pub struct SensorKind {
 
 const fn distance(name: &'static str, inches: bool, single: bool) -> Mode {
     let units = if inches { "in" } else { "cm" };
-    Mode::new(
-        name,
-        1,
-        1,
-        units,
-        Format::S16,
-        Sense::Distance { inches, single },
-    )
+    Mode::new(name, 1, 1, units, Format::S16, Sense::Distance { inches, single })
 }
 
 /// Every sensor type that a simulated port can have.
@@ -217,9 +202,7 @@ impl SensorKind {
     /// The sensor with this driver name.
     #[must_use]
     pub fn named(driver_name: &str) -> Option<&'static SensorKind> {
-        SENSOR_KINDS
-            .iter()
-            .find(|kind| kind.driver_name == driver_name)
+        SENSOR_KINDS.iter().find(|kind| kind.driver_name == driver_name)
     }
 
     /// The names of its modes, the default first.

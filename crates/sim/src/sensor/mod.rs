@@ -71,11 +71,7 @@ impl Sensor {
         at_boot: bool,
     ) -> Self {
         let warm = instant || at_boot || kind.link == Link::Analog;
-        let first_data_at = if warm {
-            now
-        } else {
-            now + ticks_from_ms(FIRST_DATA_MS)
-        };
+        let first_data_at = if warm { now } else { now + ticks_from_ms(FIRST_DATA_MS) };
         Sensor {
             kind,
             port,
@@ -136,15 +132,8 @@ impl Sensor {
 
     /// The next tick at which something happens by itself.
     pub(crate) fn next_event(&self) -> Option<u64> {
-        let due = [
-            self.pending.map(|(_, due)| due),
-            Some(self.settled_at),
-            Some(self.lost_until),
-        ];
-        due.into_iter()
-            .flatten()
-            .filter(|tick| *tick > self.now)
-            .min()
+        let due = [self.pending.map(|(_, due)| due), Some(self.settled_at), Some(self.lost_until)];
+        due.into_iter().flatten().filter(|tick| *tick > self.now).min()
     }
 
     // ---- time -----------------------------------------------------------------------------
@@ -254,13 +243,8 @@ impl Sensor {
         if self.pending.is_some() || self.now < self.first_data_at {
             return Err(Errno::EBUSY);
         }
-        if matches!(
-            self.kind.modes[mode].sense,
-            Sense::Distance { single: true, .. }
-        ) {
-            let ready = self
-                .last_single_shot
-                .map(|at| at + ticks_from_ms(SINGLE_SHOT_MS));
+        if matches!(self.kind.modes[mode].sense, Sense::Distance { single: true, .. }) {
+            let ready = self.last_single_shot.map(|at| at + ticks_from_ms(SINGLE_SHOT_MS));
             if !self.instant && ready.is_some_and(|ready| self.now < ready) {
                 self.locked = true;
                 return Err(Errno::ETIMEDOUT);
@@ -272,9 +256,7 @@ impl Sensor {
             return Ok(Effect::Done);
         }
         self.pending = Some((mode, self.now + ticks_from_ms(MODE_LATENCY_MS)));
-        Ok(Effect::Blocks(Duration::from_millis(
-            MODE_LATENCY_MS.unsigned_abs().into(),
-        )))
+        Ok(Effect::Blocks(Duration::from_millis(MODE_LATENCY_MS.unsigned_abs().into())))
     }
 
     /// A message to the sensor itself. The one that does something: 0x11 zeroes the gyro's angle.

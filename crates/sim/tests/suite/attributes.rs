@@ -39,11 +39,7 @@ const TACHO: &[Row] = &[
     ("stop_action", 0o664, Ok("coast")),
     ("stop_actions", 0o444, Ok("coast brake hold")),
     ("time_sp", 0o664, Ok("0")),
-    (
-        "uevent",
-        0o664,
-        Ok("LEGO_DRIVER_NAME=lego-ev3-l-motor\nLEGO_ADDRESS=ev3-ports:outB"),
-    ),
+    ("uevent", 0o664, Ok("LEGO_DRIVER_NAME=lego-ev3-l-motor\nLEGO_ADDRESS=ev3-ports:outB")),
 ];
 
 const COLOUR: &[Row] = &[
@@ -56,19 +52,11 @@ const COLOUR: &[Row] = &[
     ("driver_name", 0o444, Ok("lego-ev3-color")),
     ("fw_version", 0o444, Ok("")),
     ("mode", 0o664, Ok("COL-REFLECT")),
-    (
-        "modes",
-        0o444,
-        Ok("COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL"),
-    ),
+    ("modes", 0o444, Ok("COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL")),
     ("num_values", 0o444, Ok("1")),
     ("poll_ms", 0o664, Err(Errno::EOPNOTSUPP)),
     ("text_value", 0o444, Err(Errno::EOPNOTSUPP)),
-    (
-        "uevent",
-        0o664,
-        Ok("LEGO_DRIVER_NAME=lego-ev3-color\nLEGO_ADDRESS=ev3-ports:in2"),
-    ),
+    ("uevent", 0o664, Ok("LEGO_DRIVER_NAME=lego-ev3-color\nLEGO_ADDRESS=ev3-ports:in2")),
     ("units", 0o444, Ok("pct")),
     ("value0", 0o444, Ok("92")),
     ("value1", 0o444, Err(Errno::ENXIO)),
@@ -100,11 +88,7 @@ const IN_PORT: &[Row] = &[
 const LED: &[Row] = &[
     ("brightness", 0o664, Ok("255")),
     ("max_brightness", 0o444, Ok("255")),
-    (
-        "trigger",
-        0o664,
-        Ok("[none] mmc0 timer heartbeat default-on transient rfkill0"),
-    ),
+    ("trigger", 0o664, Ok("[none] mmc0 timer heartbeat default-on transient rfkill0")),
 ];
 
 const BATTERY: &[Row] = &[
@@ -131,10 +115,7 @@ fn modes_and_texts_after_boot() {
     for (directory, rows) in classes {
         for (name, mode, text) in *rows {
             let path = format!("{directory}/{name}");
-            let node = desk
-                .0
-                .resolve(&path)
-                .unwrap_or_else(|error| panic!("{path}: {error:?}"));
+            let node = desk.0.resolve(&path).unwrap_or_else(|error| panic!("{path}: {error:?}"));
             let stat = desk.0.stat(node).unwrap();
             assert_eq!(stat.mode, *mode, "{path}: {:o}", stat.mode);
             assert_eq!(stat.kind, FileKind::File);
@@ -164,11 +145,7 @@ fn attributes(desk: &Desk, directory: &str) -> Vec<String> {
     for entry in desk.0.read_dir(node).unwrap() {
         if entry.kind == FileKind::Directory {
             let inner = desk.0.read_dir(entry.node).unwrap();
-            names.extend(
-                inner
-                    .iter()
-                    .map(|file| format!("{}/{}", entry.name, file.name)),
-            );
+            names.extend(inner.iter().map(|file| format!("{}/{}", entry.name, file.name)));
         } else {
             names.push(entry.name);
         }
@@ -223,19 +200,11 @@ fn writes_that_are_refused_change_nothing() {
         ("lego-sensor/sensor1/poll_ms", "100", Errno::EOPNOTSUPP),
         ("lego-sensor/sensor1/value0", "1", Errno::EACCES),
         ("lego-port/port5/mode", "ev3-uart", einval),
-        (
-            "lego-port/port0/set_device",
-            "lego-ev3-us",
-            Errno::EOPNOTSUPP,
-        ),
+        ("lego-port/port0/set_device", "lego-ev3-us", Errno::EOPNOTSUPP),
         ("leds/led0:red:brick-status/brightness", "-1", einval),
         ("leds/led0:red:brick-status/brightness", "red", einval),
         ("leds/led0:red:brick-status/trigger", "disco", einval),
-        (
-            "power_supply/lego-ev3-battery/voltage_now",
-            "9000000",
-            Errno::EACCES,
-        ),
+        ("power_supply/lego-ev3-battery/voltage_now", "9000000", Errno::EACCES),
     ];
     for (path, text, errno) in others {
         assert_eq!(desk.try_put(path, text), Err(errno), "{path} <- {text}");
@@ -265,11 +234,7 @@ fn writes_that_are_taken_read_back() {
     desk.put(&format!("{B}command"), "reset");
     for (name, _, text) in TACHO {
         if *name != "command" {
-            assert_eq!(
-                desk.get(&format!("{B}{name}")),
-                text.unwrap(),
-                "{name} after reset"
-            );
+            assert_eq!(desk.get(&format!("{B}{name}")), text.unwrap(), "{name} after reset");
         }
     }
 }
@@ -279,12 +244,7 @@ fn the_tree_answers_as_a_file_system() {
     let desk = Desk::new();
     let names = |path: &str| {
         let node = desk.0.resolve(path).unwrap();
-        desk.0
-            .read_dir(node)
-            .unwrap()
-            .into_iter()
-            .map(|entry| entry.name)
-            .collect::<Vec<_>>()
+        desk.0.read_dir(node).unwrap().into_iter().map(|entry| entry.name).collect::<Vec<_>>()
     };
     assert_eq!(
         names("/"),
@@ -303,28 +263,12 @@ fn the_tree_answers_as_a_file_system() {
     assert_eq!(names("lego-port").len(), 8);
     assert_eq!(names("dc-motor"), [""; 0]);
     let open = |path: &str, access| desk.0.open(path, access).unwrap_err();
-    assert_eq!(
-        open("tacho-motor/motor9/state", Access::ReadOnly),
-        Errno::ENOENT
-    );
-    assert_eq!(
-        open("tacho-motor/motor0/state/x", Access::ReadOnly),
-        Errno::ENOTDIR
-    );
+    assert_eq!(open("tacho-motor/motor9/state", Access::ReadOnly), Errno::ENOENT);
+    assert_eq!(open("tacho-motor/motor0/state/x", Access::ReadOnly), Errno::ENOTDIR);
     assert_eq!(open("tacho-motor/motor0", Access::ReadOnly), Errno::EISDIR);
-    assert_eq!(
-        open("tacho-motor/motor0/state", Access::ReadWrite),
-        Errno::EACCES
-    );
-    assert_eq!(
-        open("tacho-motor/motor0/command", Access::ReadOnly),
-        Errno::EACCES
-    );
-    assert!(
-        desk.0
-            .open("tacho-motor/motor0/speed_sp", Access::ReadWrite)
-            .is_ok()
-    );
+    assert_eq!(open("tacho-motor/motor0/state", Access::ReadWrite), Errno::EACCES);
+    assert_eq!(open("tacho-motor/motor0/command", Access::ReadOnly), Errno::EACCES);
+    assert!(desk.0.open("tacho-motor/motor0/speed_sp", Access::ReadWrite).is_ok());
     assert_eq!(desk.0.stat(NodeId::ROOT).unwrap().kind, FileKind::Directory);
     let size = |path: &str| desk.0.stat(desk.0.resolve(path).unwrap()).unwrap().size;
     assert_eq!(size("lego-sensor/sensor0/bin_data"), 32);

@@ -21,11 +21,7 @@ fn two_minutes_without_a_collision() {
             turns += 1;
             // 90 degrees of the robot are this many counts of a wheel.
             for (motor, counts) in [(B, 170), (C, -170)] {
-                desk.run(
-                    motor,
-                    &[("speed_sp", 210), ("position_sp", counts)],
-                    "run-to-rel-pos",
-                );
+                desk.run(motor, &[("speed_sp", 210), ("position_sp", counts)], "run-to-rel-pos");
             }
             desk.until(B, "holding", 5000);
             desk.until(C, "holding", 5000);

@@ -10,14 +10,8 @@ const LAMP: [f64; 2] = [100.0, 120.0];
 /// Answers how near the robot came to the lamp, and how far it was at the end.
 fn vehicle_2(robot: &RobotSpec, start: Pose) -> (f64, f64) {
     let world = WorldSpec {
-        items: vec![Item::Lamp {
-            at: LAMP,
-            intensity: 25.0,
-        }],
-        bounds: Some(Bounds {
-            low: [0.0, 0.0],
-            high: [200.0, 200.0],
-        }),
+        items: vec![Item::Lamp { at: LAMP, intensity: 25.0 }],
+        bounds: Some(Bounds { low: [0.0, 0.0], high: [200.0, 200.0] }),
         ambient: 5.0,
         start,
         ..WorldSpec::default()

@@ -38,11 +38,7 @@ fn files_after_the_mode_was_written() {
     for (name, text) in texts {
         assert_eq!(desk.get(&file(name)), text, "{name}");
     }
-    assert_eq!(
-        desk.try_get(&file("stop_action")),
-        Err(Errno::EACCES),
-        "write-only"
-    );
+    assert_eq!(desk.try_get(&file("stop_action")), Err(Errno::EACCES), "write-only");
     assert_eq!(desk.get("lego-port/port4/status"), "dc-motor");
     let refused = [
         ("command", "reset", Errno::EINVAL),
@@ -54,18 +50,10 @@ fn files_after_the_mode_was_written() {
         ("ramp_up_sp", "-1", Errno::EINVAL),
     ];
     for (name, text, errno) in refused {
-        assert_eq!(
-            desk.try_put(&file(name), text),
-            Err(errno),
-            "{name} <- {text}"
-        );
+        assert_eq!(desk.try_put(&file(name), text), Err(errno), "{name} <- {text}");
     }
     desk.put(&file("ramp_up_sp"), " 12 ms");
-    assert_eq!(
-        desk.get(&file("ramp_up_sp")),
-        "12",
-        "junk behind the digits is taken"
-    );
+    assert_eq!(desk.get(&file("ramp_up_sp")), "12", "junk behind the digits is taken");
 }
 
 #[test]
@@ -77,22 +65,14 @@ fn ramping_shows_for_100_ms_and_makes_others_wait() {
     assert_eq!(desk.get(&file("state")), "running ramping");
     assert_eq!(desk.number(&file("duty_cycle")), 60);
     desk.put(&file("command"), "stop");
-    assert_eq!(
-        desk.get(&file("state")),
-        "running ramping",
-        "the stop waits for the step"
-    );
+    assert_eq!(desk.get(&file("state")), "running ramping", "the stop waits for the step");
     desk.step(110);
     assert_eq!(desk.get(&file("state")), "");
     desk.put(&file("command"), "run-forever");
     desk.step(110);
     assert_eq!(desk.get(&file("state")), "running");
     desk.put(&file("command"), "stop");
-    assert_eq!(
-        desk.get(&file("state")),
-        "",
-        "at once when no step is scheduled"
-    );
+    assert_eq!(desk.get(&file("state")), "", "at once when no step is scheduled");
 }
 
 #[test]
@@ -122,10 +102,7 @@ fn ramps_follow_the_signed_duty() {
     desk.put(&file("duty_cycle_sp"), 0);
     desk.step(110);
     assert_eq!(desk.number(&file("duty_cycle")), 0, "up has no ramp");
-    assert!(
-        desk.get(&file("state")).starts_with("running"),
-        "also with duty 0"
-    );
+    assert!(desk.get(&file("state")).starts_with("running"), "also with duty 0");
 }
 
 #[test]

@@ -27,17 +27,14 @@ impl Desk {
     }
 
     pub(crate) fn get(&mut self, path: &str) -> String {
-        let text = self
-            .try_get(path)
-            .unwrap_or_else(|error| panic!("read {path}: {error:?}"));
+        let text = self.try_get(path).unwrap_or_else(|error| panic!("read {path}: {error:?}"));
         assert!(text.ends_with('\n'), "{path} ends in a newline: {text:?}");
         text.trim_end_matches('\n').to_owned()
     }
 
     pub(crate) fn number(&mut self, path: &str) -> i32 {
         let text = self.get(path);
-        text.parse()
-            .unwrap_or_else(|_| panic!("{path}: {text:?} is no number"))
+        text.parse().unwrap_or_else(|_| panic!("{path}: {text:?} is no number"))
     }
 
     pub(crate) fn try_put(&mut self, path: &str, text: &str) -> Result<Duration, Errno> {
@@ -86,11 +83,7 @@ impl Desk {
         let start = self.0.now();
         while self.state(motor) != state {
             let passed = self.ms_since(start);
-            assert!(
-                passed < within_ms,
-                "{:?} after {passed} ms, not {state:?}",
-                self.state(motor)
-            );
+            assert!(passed < within_ms, "{:?} after {passed} ms, not {state:?}", self.state(motor));
             self.step(2);
         }
         self.ms_since(start)

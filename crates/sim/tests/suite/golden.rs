@@ -16,30 +16,17 @@ fn digest(bytes: &[u8]) -> u64 {
 /// Drives about the noisy room for a minute, turning away from what is near.
 fn run() -> Vec<u8> {
     let robot = RobotSpec::default().with_typical_noise();
-    let options = Options {
-        seed: 42,
-        instant: false,
-    };
+    let options = Options { seed: 42, instant: false };
     let mut desk = Desk(Machine::new(&WorldSpec::room(), &robot, options).unwrap());
     let mut bytes = String::new();
     for step in 0..1200 {
         let distance = desk.number("lego-sensor/sensor0/value0");
-        let (left, right) = if distance < 300 {
-            (200, -150)
-        } else {
-            (420, 400)
-        };
+        let (left, right) = if distance < 300 { (200, -150) } else { (420, 400) };
         desk.run(B, &[("speed_sp", left)], "run-forever");
         desk.run(C, &[("speed_sp", right)], "run-forever");
         desk.step(50);
         if step % 10 == 0 {
-            for class in [
-                "tacho-motor",
-                "lego-sensor",
-                "lego-port",
-                "leds",
-                "power_supply",
-            ] {
+            for class in ["tacho-motor", "lego-sensor", "lego-port", "leds", "power_supply"] {
                 let class = desk.0.resolve(class).unwrap();
                 for device in desk.0.read_dir(class).unwrap() {
                     for file in desk.0.read_dir(device.node).unwrap() {

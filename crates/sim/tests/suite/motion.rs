@@ -32,10 +32,7 @@ fn assert_near(pose: Pose, expected: Pose, cm: f64, degrees: f64) {
     let off = (pose.x - expected.x).hypot(pose.y - expected.y);
     assert!(off <= cm, "{pose:?} is {off:.2} cm off {expected:?}");
     let turned = (pose.heading - expected.heading).abs();
-    assert!(
-        turned <= degrees,
-        "{pose:?} is {turned:.2} degrees off {expected:?}"
-    );
+    assert!(turned <= degrees, "{pose:?} is {turned:.2} degrees off {expected:?}");
 }
 
 #[test]
@@ -54,16 +51,9 @@ fn a_square_returns_to_its_start() {
         move_both(&mut desk, 400, 40.0 * PER_CM, 40.0 * PER_CM);
         move_both(&mut desk, 200, turn(90.0), -turn(90.0));
         let heading = f64::from(side) * 90.0;
-        assert!(
-            (desk.0.pose().heading - heading).abs() < 1.0,
-            "{:?}",
-            desk.0.pose()
-        );
+        assert!((desk.0.pose().heading - heading).abs() < 1.0, "{:?}", desk.0.pose());
         let gyro = desk.number("lego-sensor/sensor3/value0");
-        assert!(
-            (f64::from(gyro) - heading).abs() < 1.5,
-            "gyro {gyro} at {heading}"
-        );
+        assert!((f64::from(gyro) - heading).abs() < 1.5, "gyro {gyro} at {heading}");
     }
     assert_near(desk.0.pose(), Pose::new(0.0, 0.0, 360.0), 1.0, 1.5);
 }
@@ -78,26 +68,15 @@ fn mounting_and_wheels_make_a_difference() {
     let mut robot = RobotSpec::default();
     robot.left.inverted = true;
     robot.right.inverted = true;
-    assert_near(
-        forward(&robot),
-        Pose::new(0.0, -720.0 / PER_CM, 0.0),
-        0.3,
-        0.1,
-    );
+    assert_near(forward(&robot), Pose::new(0.0, -720.0 / PER_CM, 0.0), 0.3, 0.1);
     let mut robot = RobotSpec::default();
     std::mem::swap(&mut robot.left.port, &mut robot.right.port);
     robot.left.diameter = 5.5;
     let pose = forward(&robot);
-    assert!(
-        pose.heading < -3.0 && pose.x < -0.5,
-        "pulls to the smaller, left wheel: {pose:?}"
-    );
+    assert!(pose.heading < -3.0 && pose.x < -0.5, "pulls to the smaller, left wheel: {pose:?}");
     let mut robot = RobotSpec::default();
     robot.right.slip = 0.05;
-    assert!(
-        forward(&robot).heading > 5.0,
-        "pulls to the slipping, right wheel"
-    );
+    assert!(forward(&robot).heading > 5.0, "pulls to the slipping, right wheel");
 }
 
 fn corridor(hull: Hull) -> Desk {
@@ -105,25 +84,14 @@ fn corridor(hull: Hull) -> Desk {
         items: vec![Item::wall([-100.0, 60.0], [100.0, 60.0])],
         ..WorldSpec::default()
     };
-    Desk::with(
-        &world,
-        &RobotSpec {
-            hull,
-            ..RobotSpec::default()
-        },
-    )
+    Desk::with(&world, &RobotSpec { hull, ..RobotSpec::default() })
 }
 
 #[test]
 fn a_wall_stops_the_wheels_and_stalls_the_motors() {
-    for hull in [
-        Hull::Circle { radius: 8.0 },
-        Hull::Rectangle {
-            width: 14.0,
-            length: 16.0,
-            offset: 0.0,
-        },
-    ] {
+    for hull in
+        [Hull::Circle { radius: 8.0 }, Hull::Rectangle { width: 14.0, length: 16.0, offset: 0.0 }]
+    {
         let mut desk = corridor(hull);
         for motor in [B, C] {
             desk.run(motor, &[("speed_sp", 500)], "run-forever");
@@ -132,27 +100,16 @@ fn a_wall_stops_the_wheels_and_stalls_the_motors() {
         // The wall is 1 cm thick, the hull reaches 8 cm ahead.
         assert_near(desk.0.pose(), Pose::new(0.0, 51.5, 0.0), 0.1, 0.5);
         for motor in [B, C] {
-            assert!(
-                desk.state(motor).ends_with("stalled"),
-                "{}",
-                desk.state(motor)
-            );
+            assert!(desk.state(motor).ends_with("stalled"), "{}", desk.state(motor));
             let counts = f64::from(desk.position(motor));
-            assert!(
-                (counts / PER_CM - 51.5).abs() < 0.5,
-                "wheels do not spin: {counts}"
-            );
+            assert!((counts / PER_CM - 51.5).abs() < 0.5, "wheels do not spin: {counts}");
         }
         assert_eq!(desk.0.trace().collision_count(), 1);
         for motor in [B, C] {
             desk.run(motor, &[("speed_sp", -300)], "run-forever");
         }
         desk.step(2000);
-        assert!(
-            desk.0.pose().y < 30.0,
-            "drives away again: {:?}",
-            desk.0.pose()
-        );
+        assert!(desk.0.pose().y < 30.0, "drives away again: {:?}", desk.0.pose());
     }
 }
 
@@ -161,11 +118,7 @@ fn an_oblique_wall_is_never_passed() {
     for heading in [-75.0, -60.0, -30.0, -10.0, 10.0, 30.0, 60.0, 75.0] {
         for hull in [
             Hull::Circle { radius: 8.0 },
-            Hull::Rectangle {
-                width: 12.0,
-                length: 20.0,
-                offset: 3.0,
-            },
+            Hull::Rectangle { width: 12.0, length: 20.0, offset: 3.0 },
         ] {
             let mut desk = corridor(hull);
             desk.0.place(Pose::new(0.0, 20.0, heading)).unwrap();
@@ -181,10 +134,7 @@ fn an_oblique_wall_is_never_passed() {
                     "{hull:?} from {heading}: in the wall {pose:?}"
                 );
                 if pose.x.abs() < 80.0 {
-                    assert!(
-                        pose.y < 52.0,
-                        "{hull:?} from {heading}: behind the wall {pose:?}"
-                    );
+                    assert!(pose.y < 52.0, "{hull:?} from {heading}: behind the wall {pose:?}");
                 }
                 for motor in [B, C] {
                     desk.run(motor, &[], "run-forever");
@@ -215,10 +165,7 @@ fn a_free_wheel_and_a_jammed_one() {
 fn the_battery_sags_under_load() {
     let mut desk = Desk::with(
         &WorldSpec {
-            bounds: Some(Bounds {
-                low: [-20.0, -20.0],
-                high: [20.0, 20.0],
-            }),
+            bounds: Some(Bounds { low: [-20.0, -20.0], high: [20.0, 20.0] }),
             ..WorldSpec::default()
         },
         &RobotSpec::default(),

@@ -7,18 +7,8 @@ use crate::desk::{A, B, C, Desk};
 #[test]
 fn running_shows_at_the_very_next_read() {
     let mut desk = Desk::new();
-    for command in [
-        "run-forever",
-        "run-direct",
-        "run-timed",
-        "run-to-abs-pos",
-        "run-to-rel-pos",
-    ] {
-        desk.run(
-            B,
-            &[("speed_sp", 300), ("position_sp", 5000), ("time_sp", 500)],
-            command,
-        );
+    for command in ["run-forever", "run-direct", "run-timed", "run-to-abs-pos", "run-to-rel-pos"] {
+        desk.run(B, &[("speed_sp", 300), ("position_sp", 5000), ("time_sp", 500)], command);
         assert_eq!(desk.state(B), "running", "{command}");
         desk.step(20);
         desk.run(B, &[], "stop");
@@ -145,40 +135,20 @@ fn timed_runs_end_on_the_10_ms_grid_with_their_stop_action() {
 fn absolute_moves_ignore_the_sign_of_the_speed() {
     let mut desk = Desk::new();
     desk.put(&format!("{A}stop_action"), "hold");
-    desk.run(
-        A,
-        &[("speed_sp", -300), ("position_sp", 200)],
-        "run-to-abs-pos",
-    );
+    desk.run(A, &[("speed_sp", -300), ("position_sp", 200)], "run-to-abs-pos");
     desk.until(A, "holding", 2000);
     desk.step(1000);
-    assert!(
-        (198..=202).contains(&desk.position(A)),
-        "{}",
-        desk.position(A)
-    );
-    desk.run(
-        A,
-        &[("speed_sp", 300), ("position_sp", -100)],
-        "run-to-abs-pos",
-    );
+    assert!((198..=202).contains(&desk.position(A)), "{}", desk.position(A));
+    desk.run(A, &[("speed_sp", 300), ("position_sp", -100)], "run-to-abs-pos");
     desk.until(A, "holding", 2000);
     desk.step(1000);
-    assert!(
-        (-102..=-98).contains(&desk.position(A)),
-        "{}",
-        desk.position(A)
-    );
+    assert!((-102..=-98).contains(&desk.position(A)), "{}", desk.position(A));
 }
 
 #[test]
 fn a_move_to_where_it_is_already_ends_within_2_ms() {
     let mut desk = Desk::new();
-    desk.run(
-        B,
-        &[("speed_sp", 300), ("position_sp", 0)],
-        "run-to-abs-pos",
-    );
+    desk.run(B, &[("speed_sp", 300), ("position_sp", 0)], "run-to-abs-pos");
     assert_eq!(desk.state(B), "running");
     desk.step(2);
     assert_eq!(desk.state(B), "");
@@ -199,17 +169,10 @@ fn a_chain_of_relative_moves_counts_from_target_to_target() {
     let mut desk = Desk::new();
     desk.put(&format!("{A}stop_action"), "coast");
     for turn in 1..=3 {
-        desk.run(
-            A,
-            &[("speed_sp", 400), ("position_sp", 360)],
-            "run-to-rel-pos",
-        );
+        desk.run(A, &[("speed_sp", 400), ("position_sp", 360)], "run-to-rel-pos");
         desk.until(A, "", 3000);
         let position = desk.position(A);
-        assert!(
-            (turn * 360..turn * 360 + 60).contains(&position),
-            "turn {turn}: {position}"
-        );
+        assert!((turn * 360..turn * 360 + 60).contains(&position), "turn {turn}: {position}");
         desk.step(1000);
     }
     let coasted = desk.position(A);
@@ -217,10 +180,7 @@ fn a_chain_of_relative_moves_counts_from_target_to_target() {
     desk.run(A, &[], "run-to-rel-pos");
     desk.until(A, "", 3000);
     let position = desk.position(A);
-    assert!(
-        (coasted + 360..coasted + 420).contains(&position),
-        "from the present position"
-    );
+    assert!((coasted + 360..coasted + 420).contains(&position), "from the present position");
 }
 
 #[test]
@@ -253,11 +213,7 @@ fn a_relative_move_by_nothing_is_a_stop() {
 fn writing_the_position_ends_a_move_and_drives_a_held_motor_through_the_difference() {
     let mut desk = Desk::new();
     desk.put(&format!("{A}stop_action"), "hold");
-    desk.run(
-        A,
-        &[("speed_sp", 300), ("position_sp", 5000)],
-        "run-to-abs-pos",
-    );
+    desk.run(A, &[("speed_sp", 300), ("position_sp", 5000)], "run-to-abs-pos");
     desk.step(500);
     desk.put(&format!("{A}position"), 0);
     assert_eq!(desk.state(A), "running");
@@ -267,21 +223,13 @@ fn writing_the_position_ends_a_move_and_drives_a_held_motor_through_the_differen
     assert!(desk.position(A).abs() <= 2);
     desk.put(&format!("{A}position"), -90);
     desk.step(1000);
-    assert!(
-        desk.position(A).abs() <= 2,
-        "turned back to 0: {}",
-        desk.position(A)
-    );
+    assert!(desk.position(A).abs() <= 2, "turned back to 0: {}", desk.position(A));
     let turned = desk.0.shaft_angle(Port::OutA);
     desk.run(A, &[("speed_sp", 300)], "run-forever");
     desk.step(100);
     desk.put(&format!("{A}position"), 0);
     desk.step(100);
-    assert_eq!(
-        desk.state(A),
-        "running",
-        "elsewhere only the numbers change"
-    );
+    assert_eq!(desk.state(A), "running", "elsewhere only the numbers change");
     assert!(desk.0.shaft_angle(Port::OutA) > turned + 20.0);
 }
 
@@ -295,10 +243,7 @@ fn polarity_flips_numbers_and_not_what_is_stored() {
     desk.step(500);
     assert!(desk.speed(A) < -250 && desk.position(A) < -50);
     assert!(desk.number(&format!("{A}duty_cycle")) < 0);
-    assert!(
-        desk.0.shaft_angle(Port::OutA) > 50.0,
-        "the same physical way"
-    );
+    assert!(desk.0.shaft_angle(Port::OutA) > 50.0, "the same physical way");
     desk.run(A, &[("speed_sp", 300)], "run-forever");
     desk.step(500);
     assert!(desk.speed(A) > 250 && desk.0.shaft_angle(Port::OutA) < 100.0);
@@ -351,15 +296,7 @@ fn with_ramps_a_run_at_speed_0_from_rest_does_nothing_at_all() {
 #[test]
 fn a_ramp_that_is_cut_short_leaves_its_flag() {
     let mut desk = Desk::new();
-    desk.run(
-        A,
-        &[
-            ("ramp_up_sp", 5000),
-            ("speed_sp", 1000),
-            ("position_sp", 20),
-        ],
-        "run-to-abs-pos",
-    );
+    desk.run(A, &[("ramp_up_sp", 5000), ("speed_sp", 1000), ("position_sp", 20)], "run-to-abs-pos");
     assert_eq!(desk.state(A), "running ramping");
     desk.until(A, "ramping", 3000);
     desk.step(1000);
@@ -371,21 +308,13 @@ fn a_ramp_that_is_cut_short_leaves_its_flag() {
 #[test]
 fn a_short_timed_run_with_a_long_ramp_up_restarts_and_then_stops() {
     let mut desk = Desk::new();
-    desk.run(
-        A,
-        &[("ramp_up_sp", 1000), ("speed_sp", 1500), ("time_sp", 300)],
-        "run-timed",
-    );
+    desk.run(A, &[("ramp_up_sp", 1000), ("speed_sp", 1500), ("time_sp", 300)], "run-timed");
     desk.step(298);
     assert!(desk.state(A).starts_with("running ramping"));
     desk.step(4);
     assert!(!desk.state(A).contains("running"), "{}", desk.state(A));
     desk.step(100);
-    assert!(
-        desk.state(A).starts_with("running ramping"),
-        "restarted: {}",
-        desk.state(A)
-    );
+    assert!(desk.state(A).starts_with("running ramping"), "restarted: {}", desk.state(A));
     desk.until(A, "", 2000);
 }
 
@@ -395,11 +324,7 @@ fn a_position_move_with_a_ramp_down_brakes_before_its_target() {
     desk.put(&format!("{A}stop_action"), "coast");
     desk.run(
         A,
-        &[
-            ("ramp_down_sp", 800),
-            ("speed_sp", 800),
-            ("position_sp", 1000),
-        ],
+        &[("ramp_down_sp", 800), ("speed_sp", 800), ("position_sp", 1000)],
         "run-to-abs-pos",
     );
     desk.step(700);
@@ -409,10 +334,7 @@ fn a_position_move_with_a_ramp_down_brakes_before_its_target() {
     desk.until(A, "", 3000);
     desk.step(1000);
     let position = desk.position(A);
-    assert!(
-        (1000..1030).contains(&position),
-        "hardly overshoots: {position}"
-    );
+    assert!((1000..1030).contains(&position), "hardly overshoots: {position}");
 }
 
 #[test]
@@ -451,10 +373,7 @@ fn the_medium_and_the_nxt_motor_have_their_own_figures() {
     let mut desk = Desk::new();
     assert_eq!(desk.number(&format!("{A}max_speed")), 1560);
     assert_eq!(desk.number(&format!("{A}hold_pid/Kp")), 160_000);
-    assert_eq!(
-        desk.try_put(&format!("{A}speed_sp"), "1561"),
-        Err(Errno::EINVAL)
-    );
+    assert_eq!(desk.try_put(&format!("{A}speed_sp"), "1561"), Err(Errno::EINVAL));
     desk.put("lego-port/port5/set_device", "lego-nxt-motor");
     assert_eq!(desk.get("tacho-motor/motor3/driver_name"), "lego-nxt-motor");
     assert_eq!(desk.number("tacho-motor/motor3/max_speed"), 1020);

@@ -5,10 +5,7 @@ use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, RobotSpec, Worl
 use crate::desk::{B, C, Desk};
 
 fn instant() -> Desk {
-    let options = Options {
-        instant: true,
-        ..Options::default()
-    };
+    let options = Options { instant: true, ..Options::default() };
     Desk(Machine::new(&WorldSpec::default(), &RobotSpec::default(), options).unwrap())
 }
 
@@ -53,10 +50,7 @@ fn a_pulled_wire_lets_the_motor_coast_and_a_new_one_knows_nothing() {
     assert_eq!(desk.number(&format!("{motor}speed_sp")), 0);
     assert_eq!(desk.state(motor), "");
     let position = desk.position(motor);
-    assert!(
-        (counted - 1..counted + 5).contains(&position),
-        "what had accumulated: {position}"
-    );
+    assert!((counted - 1..counted + 5).contains(&position), "what had accumulated: {position}");
 }
 
 #[test]
@@ -64,10 +58,7 @@ fn plugging_takes_the_time_it_takes() {
     let mut desk = Desk::new();
     desk.0.unplug(Port::OutB);
     desk.step(100);
-    assert!(
-        desk.try_get(&format!("{B}state")).is_ok(),
-        "not noticed yet"
-    );
+    assert!(desk.try_get(&format!("{B}state")).is_ok(), "not noticed yet");
     desk.step(30);
     assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
     desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
@@ -91,11 +82,7 @@ fn plugging_takes_the_time_it_takes() {
     assert!(desk.try_get("lego-sensor/sensor4/mode").is_err());
     desk.step(72);
     assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "lego-ev3-us");
-    assert_eq!(
-        desk.try_get("lego-sensor/sensor4/value0"),
-        Err(Errno::ENXIO),
-        "no data yet"
-    );
+    assert_eq!(desk.try_get("lego-sensor/sensor4/value0"), Err(Errno::ENXIO), "no data yet");
     desk.step(600);
     assert_eq!(desk.number("lego-sensor/sensor4/value0"), 2550);
 }
@@ -122,22 +109,11 @@ fn a_written_port_mode_makes_the_device_anew() {
         Err(Errno::EOPNOTSUPP)
     );
     desk.put("lego-port/port7/mode", "tacho-motor");
-    assert_eq!(
-        desk.get("tacho-motor/motor4/address"),
-        "ev3-ports:outD",
-        "with nothing plugged in"
-    );
+    assert_eq!(desk.get("tacho-motor/motor4/address"), "ev3-ports:outD", "with nothing plugged in");
     desk.put("lego-port/port7/set_device", "lego-ev3-m-motor");
-    assert_eq!(
-        desk.get("tacho-motor/motor5/driver_name"),
-        "lego-ev3-m-motor"
-    );
+    assert_eq!(desk.get("tacho-motor/motor5/driver_name"), "lego-ev3-m-motor");
     desk.put("lego-port/port7/set_device", "rocket");
-    assert_eq!(
-        desk.try_get("tacho-motor/motor6/state"),
-        Err(Errno::ENOENT),
-        "no driver, no motor"
-    );
+    assert_eq!(desk.try_get("tacho-motor/motor6/state"), Err(Errno::ENOENT), "no driver, no motor");
     desk.put("lego-port/port3/mode", "other-uart");
     assert_eq!(desk.try_get("lego-sensor/sensor3/mode"), Err(Errno::ENOENT));
     desk.put("lego-port/port3/mode", "auto");
@@ -150,8 +126,5 @@ fn a_written_port_mode_makes_the_device_anew() {
 fn an_nxt_motor_is_taken_for_a_large_one() {
     let mut desk = instant();
     desk.0.plug(Port::OutD, "lego-nxt-motor").unwrap();
-    assert_eq!(
-        desk.get("tacho-motor/motor3/driver_name"),
-        "lego-ev3-l-motor"
-    );
+    assert_eq!(desk.get("tacho-motor/motor3/driver_name"), "lego-ev3-l-motor");
 }

@@ -14,10 +14,7 @@ const LEFT: &str = "lego-sensor/sensor2/";
 const GYRO: &str = "lego-sensor/sensor3/";
 
 fn world(items: Vec<Item>) -> WorldSpec {
-    WorldSpec {
-        items,
-        ..WorldSpec::default()
-    }
+    WorldSpec { items, ..WorldSpec::default() }
 }
 
 /// A desk with one sensor of a kind on in4.
@@ -95,34 +92,20 @@ fn every_mode_says_what_the_sheet_says() {
         let mut desk = with_in4(driver, vec![]);
         let names: Vec<&str> = modes.iter().map(|mode| mode.0).collect();
         assert_eq!(desk.get(&format!("{GYRO}modes")), names.join(" "));
-        assert_eq!(
-            desk.get(&format!("{GYRO}mode")),
-            names[0],
-            "the first is the default"
-        );
+        assert_eq!(desk.get(&format!("{GYRO}mode")), names[0], "the first is the default");
         for (name, values, decimals, units, format) in *modes {
             desk.put(&format!("{GYRO}mode"), name);
             desk.step(300);
-            assert_eq!(
-                desk.number(&format!("{GYRO}num_values")),
-                i32::try_from(*values).unwrap()
-            );
+            assert_eq!(desk.number(&format!("{GYRO}num_values")), i32::try_from(*values).unwrap());
             assert_eq!(desk.number(&format!("{GYRO}decimals")), *decimals);
             assert_eq!(desk.get(&format!("{GYRO}units")), *units);
             assert_eq!(desk.get(&format!("{GYRO}bin_data_format")), *format);
             for index in 0..8 {
                 let read = desk.try_get(&format!("{GYRO}value{index}"));
-                assert_eq!(
-                    read.is_ok(),
-                    index < *values,
-                    "{driver} {name} value{index}"
-                );
+                assert_eq!(read.is_ok(), index < *values, "{driver} {name} value{index}");
                 assert!(read.is_ok() || read == Err(Errno::ENXIO));
             }
-            let node = desk
-                .0
-                .open(&format!("{GYRO}bin_data"), Access::ReadOnly)
-                .unwrap();
+            let node = desk.0.open(&format!("{GYRO}bin_data"), Access::ReadOnly).unwrap();
             assert_eq!(desk.0.read(node).unwrap().len(), 32);
         }
     }
@@ -136,13 +119,7 @@ fn the_sonar_measures_the_nearest_thing_in_its_cone() {
     );
     // The sensor sits 7 cm ahead of the axle; the wall's near face is at 99.5 cm.
     assert_eq!(value(&mut desk, SONAR, 0), 925);
-    let pillar = desk
-        .0
-        .add_item(Item::Circle {
-            centre: [5.0, 60.0],
-            radius: 3.0,
-        })
-        .unwrap();
+    let pillar = desk.0.add_item(Item::Circle { centre: [5.0, 60.0], radius: 3.0 }).unwrap();
     desk.step(2);
     let pillar_at = value(&mut desk, SONAR, 0);
     assert!((498..=506).contains(&pillar_at), "{pillar_at}");
@@ -175,10 +152,7 @@ fn single_shots_are_taken_once_and_not_too_often() {
     assert_eq!(value(&mut desk, SONAR, 0), 725);
     desk.put(&format!("{SONAR}mode"), "US-SI-CM");
     desk.step(100);
-    assert_eq!(
-        desk.try_put(&format!("{SONAR}mode"), "US-SI-CM"),
-        Err(Errno::ETIMEDOUT)
-    );
+    assert_eq!(desk.try_put(&format!("{SONAR}mode"), "US-SI-CM"), Err(Errno::ETIMEDOUT));
     desk.step(1000);
     assert_eq!(
         desk.try_put(&format!("{SONAR}mode"), "US-DIST-CM"),
@@ -191,19 +165,13 @@ fn single_shots_are_taken_once_and_not_too_often() {
 fn the_floor_has_colours() {
     let colour = |name: &str| name.parse().unwrap();
     for (code, name) in (1..).zip(["black", "blue", "green", "yellow", "red", "white", "brown"]) {
-        let floor = WorldSpec {
-            floor: colour(name),
-            ..WorldSpec::default()
-        };
+        let floor = WorldSpec { floor: colour(name), ..WorldSpec::default() };
         let mut desk = Desk::with(&floor, &RobotSpec::default());
         mode(&mut desk, RIGHT, "COL-COLOR");
         assert_eq!(value(&mut desk, RIGHT, 0), code, "{name}");
     }
-    let line = Item::Line {
-        points: vec![[3.0, -50.0], [3.0, 50.0]],
-        width: 2.0,
-        colour: colour("black"),
-    };
+    let line =
+        Item::Line { points: vec![[3.0, -50.0], [3.0, 50.0]], width: 2.0, colour: colour("black") };
     let mut desk = Desk::with(&world(vec![line]), &RobotSpec::default());
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
     assert_eq!(value(&mut desk, LEFT, 0), 92);
@@ -215,36 +183,18 @@ fn the_floor_has_colours() {
     let white: Vec<i32> = (0..3).map(|index| value(&mut desk, LEFT, index)).collect();
     assert_eq!(white, [420, 420, 420]);
     mode(&mut desk, LEFT, "REF-RAW");
-    assert!(
-        value(&mut desk, LEFT, 0) < value(&mut desk, LEFT, 1),
-        "more light is lower"
-    );
+    assert!(value(&mut desk, LEFT, 0) < value(&mut desk, LEFT, 1), "more light is lower");
 }
 
 #[test]
 fn lamps_fall_off_with_the_square_and_throw_shadows() {
     let mut robot = RobotSpec::default();
     robot.sensors[1].pose = Pose::new(0.0, 0.0, 0.0);
-    let dark = WorldSpec {
-        ambient: 0.0,
-        ..WorldSpec::default()
-    };
+    let dark = WorldSpec { ambient: 0.0, ..WorldSpec::default() };
     let read = |distance: f64, heading: f64, box_at: Option<f64>| {
-        let mut items = vec![Item::Lamp {
-            at: [0.0, distance],
-            intensity: 12.0,
-        }];
-        items.extend(box_at.map(|y| Item::Circle {
-            centre: [0.0, y],
-            radius: 3.0,
-        }));
-        let mut desk = Desk::with(
-            &WorldSpec {
-                items,
-                ..dark.clone()
-            },
-            &robot,
-        );
+        let mut items = vec![Item::Lamp { at: [0.0, distance], intensity: 12.0 }];
+        items.extend(box_at.map(|y| Item::Circle { centre: [0.0, y], radius: 3.0 }));
+        let mut desk = Desk::with(&WorldSpec { items, ..dark.clone() }, &robot);
         desk.0.place(Pose::new(0.0, 0.0, heading)).unwrap();
         mode(&mut desk, RIGHT, "COL-AMBIENT");
         value(&mut desk, RIGHT, 0)
@@ -268,19 +218,13 @@ fn the_gyro_turns_with_the_robot_and_restarts_with_its_mode() {
     desk.step(2000);
     let heading = desk.0.pose().heading;
     let angle = f64::from(value(&mut desk, GYRO, 0));
-    assert!(
-        heading > 100.0 && (angle - heading).abs() < 1.0,
-        "{angle} {heading}"
-    );
+    assert!(heading > 100.0 && (angle - heading).abs() < 1.0, "{angle} {heading}");
     mode(&mut desk, GYRO, "GYRO-G&A");
     // 200 counts/s on 5.6 cm wheels, 10.6 cm apart.
     let rate = value(&mut desk, GYRO, 1);
     assert!((102..=109).contains(&rate), "{rate}");
     let angle = value(&mut desk, GYRO, 0);
-    assert!(
-        (120..=130).contains(&angle),
-        "since the mode came up, 1.2 s ago: {angle}"
-    );
+    assert!((120..=130).contains(&angle), "since the mode came up, 1.2 s ago: {angle}");
     mode(&mut desk, GYRO, "GYRO-FAS");
     let fine = value(&mut desk, GYRO, 0);
     assert!((345..=360).contains(&fine), "{fine}");
@@ -293,27 +237,11 @@ fn the_gyro_turns_with_the_robot_and_restarts_with_its_mode() {
 #[test]
 fn gyro_drift_and_noise_are_off_until_asked_for() {
     let mut robot = RobotSpec::default();
-    robot.sensors[3].noise = Noise {
-        sigma: 0.0,
-        bias: 0.5,
-    };
-    robot.sensors[0].noise = Noise {
-        sigma: 1.0,
-        bias: 0.0,
-    };
+    robot.sensors[3].noise = Noise { sigma: 0.0, bias: 0.5 };
+    robot.sensors[0].noise = Noise { sigma: 1.0, bias: 0.0 };
     let wall = world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]);
     let readings = |seed| {
-        let mut desk = Desk(
-            Machine::new(
-                &wall,
-                &robot,
-                Options {
-                    seed,
-                    instant: false,
-                },
-            )
-            .unwrap(),
-        );
+        let mut desk = Desk(Machine::new(&wall, &robot, Options { seed, instant: false }).unwrap());
         let mut sonar = Vec::new();
         for _ in 0..1000 {
             desk.step(10);
@@ -326,23 +254,13 @@ fn gyro_drift_and_noise_are_off_until_asked_for() {
     assert_eq!(first, readings(7), "same seed, same numbers");
     assert_ne!(first, readings(8));
     let mean = f64::from(first.iter().sum::<i32>()) / 1000.0;
-    let spread = first
-        .iter()
-        .map(|v| (f64::from(*v) - mean).powi(2))
-        .sum::<f64>()
-        / 1000.0;
-    assert!(
-        (mean - 925.0).abs() < 1.5 && (spread.sqrt() - 10.0).abs() < 1.0,
-        "{mean} {spread}"
-    );
+    let spread = first.iter().map(|v| (f64::from(*v) - mean).powi(2)).sum::<f64>() / 1000.0;
+    assert!((mean - 925.0).abs() < 1.5 && (spread.sqrt() - 10.0).abs() < 1.0, "{mean} {spread}");
 }
 
 #[test]
 fn infrared_says_per_cent_of_70_cm() {
-    let mut desk = with_in4(
-        "lego-ev3-ir",
-        vec![Item::wall([-100.0, 43.5], [100.0, 43.5])],
-    );
+    let mut desk = with_in4("lego-ev3-ir", vec![Item::wall([-100.0, 43.5], [100.0, 43.5])]);
     assert_eq!(value(&mut desk, GYRO, 0), 50);
     desk.0.place(Pose::new(0.0, 0.0, 90.0)).unwrap();
     desk.step(2);
@@ -353,10 +271,7 @@ fn infrared_says_per_cent_of_70_cm() {
 
 #[test]
 fn a_bumper_is_pressed_by_a_wall_and_wakes_who_waits() {
-    let mut desk = with_in4(
-        "lego-ev3-touch",
-        vec![Item::wall([-100.0, 30.0], [100.0, 30.0])],
-    );
+    let mut desk = with_in4("lego-ev3-touch", vec![Item::wall([-100.0, 30.0], [100.0, 30.0])]);
     let mut file = Descriptor::open(&desk.0, &format!("{GYRO}value0"), Access::ReadOnly).unwrap();
     let mut buffer = [0; 8];
     file.pread(&mut desk.0, 0, &mut buffer).unwrap();
@@ -385,30 +300,15 @@ fn a_mode_change_takes_a_moment_and_leaves_stale_values() {
     assert_eq!(value(&mut desk, RIGHT, 0), 92);
     let blocks = desk.try_put(&format!("{RIGHT}mode"), "COL-COLOR").unwrap();
     assert!(blocks > Duration::ZERO && blocks < Duration::from_millis(20));
-    assert_eq!(
-        desk.get(&format!("{RIGHT}mode")),
-        "COL-REFLECT",
-        "until data come"
-    );
-    assert_eq!(
-        desk.try_put(&format!("{RIGHT}mode"), "REF-RAW"),
-        Err(Errno::EBUSY)
-    );
+    assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-REFLECT", "until data come");
+    assert_eq!(desk.try_put(&format!("{RIGHT}mode"), "REF-RAW"), Err(Errno::EBUSY));
     desk.0.step(blocks);
     assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR");
-    assert_eq!(
-        value(&mut desk, RIGHT, 0),
-        6,
-        "nothing that could be left over"
-    );
+    assert_eq!(value(&mut desk, RIGHT, 0), 6, "nothing that could be left over");
     let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Colour::BLACK);
     desk.0.add_item(black).unwrap();
     desk.put(&format!("{RIGHT}mode"), "COL-REFLECT");
-    assert_eq!(
-        value(&mut desk, RIGHT, 0),
-        92,
-        "left over from the last time"
-    );
+    assert_eq!(value(&mut desk, RIGHT, 0), 92, "left over from the last time");
     desk.step(10);
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
 }
@@ -421,16 +321,9 @@ fn a_lost_contact_comes_back() {
     assert_eq!(desk.try_get(&format!("{RIGHT}value0")), Err(Errno::ENXIO));
     assert_eq!(desk.number(&format!("{RIGHT}num_values")), 0);
     assert_eq!(desk.get(&format!("{RIGHT}mode")), "");
-    assert_eq!(
-        desk.try_put(&format!("{RIGHT}mode"), "COL-COLOR"),
-        Err(Errno::ENODEV)
-    );
+    assert_eq!(desk.try_put(&format!("{RIGHT}mode"), "COL-COLOR"), Err(Errno::ENODEV));
     desk.step(600);
-    assert_eq!(
-        desk.get(&format!("{RIGHT}mode")),
-        "COL-COLOR",
-        "the last mode is restored"
-    );
+    assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR", "the last mode is restored");
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
     assert!(!desk.0.lose_contact(Port::OutB, Duration::from_millis(500)));
 }
