@@ -218,7 +218,7 @@ predicates! {
             let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
             Ok((*at, entry?))
         });
-        let events = seen.events().map(|event| {
+        let events = seen.events().into_iter().map(|event| {
             let (seconds, path) = (event.at.as_secs_f64(), atomable(event.path.as_str()));
             let text = atomable(event.text.as_str());
             let entry = match event.action {
