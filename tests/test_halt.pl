@@ -61,7 +61,7 @@ test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
                            thread_create(motor_run(outB, 20, 3600), _),
                            wait, halt.
                    wait :- repeat, command_file(outB, F),
-                           file_read(F, 'run-to-abs-pos'), !.",
+                           file_read(F, 'run-to-rel-pos'), !.",
                   [goal(main)], _, C).
 
 :- end_tests(halt).

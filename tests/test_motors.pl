@@ -167,7 +167,7 @@ test(reset_throws_for_an_unbound_port, error(instantiation_error, _)) :-
 :- begin_tests(motor_run_3).
 
 test(writes_what_the_command_depends_on,
-     true(W == [ command='run-to-abs-pos', position='360', position_sp='360',
+     true(W == [ command='run-to-rel-pos', position='360', position_sp='360',
                  speed_sp='525', stop_action=hold ])) :-
     with_tree(meanwhile(obey(outB),
                         ( motor_run(outB, 50, 360),
@@ -210,11 +210,20 @@ test(what_is_no_number_throws,
        true(W == []) ]) :-
     with_tree(( catch(motor_run(outB, Speed, Angle), error(Error, _), true),
                 written(W) )).
-test(a_motor_that_rests_short_of_its_end_fails, [fail]) :-
-    with_tree(motor_run(outB, 50, 360)).
+test(a_motor_that_stops_short_of_its_end_fails, [fail]) :-
+    with_tree(( put_attribute(outB, state, running),
+                later(0.05, put_attribute(outB, state, '')),
+                motor_run(outB, 50, 360) )).
+test(where_nothing_ever_moves_a_move_is_done, true(P == '360')) :-
+    with_tree(( motor_run(outB, 50, 360),
+                get_attribute(outB, position_sp, P) )).
+test(moves_count_from_where_the_motor_is, true(P == '90')) :-
+    with_tree(( put_attribute(outB, position, 1000),
+                motor_run(outB, 50, 90),
+                get_attribute(outB, position_sp, P) )).
 test(a_stop_from_another_thread_ends_the_move_and_fails, [fail]) :-
     with_tree(( put_attribute(outB, state, running),
-                meanwhile(( eventually(get_attribute(outB, command, 'run-to-abs-pos')),
+                meanwhile(( eventually(get_attribute(outB, command, 'run-to-rel-pos')),
                             motor_stop(outB),
                             put_attribute(outB, state, '') ),
                           motor_run(outB, 50, 360)) )).
@@ -232,7 +241,7 @@ test(the_stop_action_is_written_before,
      [ forall(member(Action, [coast, brake, hold])), true(A == Action) ]) :-
     with_tree(( motor_run(outB, 50, 90, [stop_action(Action), wait(false)]),
                 get_attribute(outB, stop_action, A) )).
-test(without_waiting_it_runs_on, true(C == 'run-to-abs-pos')) :-
+test(without_waiting_it_runs_on, true(C == 'run-to-rel-pos')) :-
     with_tree(( put_attribute(outB, state, running),
                 motor_run(outB, 50, 90, [wait(false)]),
                 get_attribute(outB, command, C) )).
@@ -305,7 +314,7 @@ test(reached) :-
                         ( motor_run(outB, 50, 90, [wait(false)]),
                           motor_wait(outB, [], R),
                           assertion(R == reached) ))).
-test(stalled, true(R-C == stalled-'run-to-abs-pos')) :-
+test(stalled, true(R-C == stalled-'run-to-rel-pos')) :-
     with_tree(( put_attribute(outB, state, 'running stalled'),
                 motor_run(outB, 50, 90, [wait(false)]),
                 motor_wait(outB, [], R),
@@ -323,9 +332,6 @@ test(stopped, true(R == stopped)) :-
     with_tree(( put_attribute(outB, state, running),
                 motor_run(outB, 50, 90, [wait(false)]),
                 later(0.05, put_attribute(outB, state, '')),
-                motor_wait(outB, [], R) )).
-test(stopped_before_the_wait, true(R == stopped)) :-
-    with_tree(( motor_run(outB, 50, 90, [wait(false)]),
                 motor_wait(outB, [], R) )).
 test(a_motor_that_runs_for_ever_can_only_be_stopped, true(R == stopped)) :-
     with_tree(( put_attribute(outB, state, running),

@@ -162,7 +162,7 @@ test(stops_the_other_wheel_when_one_is_missing,
                  get_attribute(Other, command, C) )).
 test(from_another_thread_ends_a_move_which_fails, [fail]) :-
     with_robot(( running,
-                 meanwhile(( eventually(wheels(command, 'run-to-abs-pos'-'run-to-abs-pos')),
+                 meanwhile(( eventually(wheels(command, 'run-to-rel-pos'-'run-to-rel-pos')),
                              stop,
                              put_attribute(outB, state, ''),
                              put_attribute(outC, state, '') ),

@@ -250,7 +250,7 @@ eventually(Goal) :-
 %   run, go half-way, be at the end and rest.
 
 obey(Port) :-
-    eventually(get_attribute(Port, command, 'run-to-abs-pos')),
+    eventually(get_attribute(Port, command, 'run-to-rel-pos')),
     put_attribute(Port, state, running),
     get_number(Port, position, From),
     get_number(Port, position_sp, End),

@@ -338,14 +338,15 @@ fn start_moves(
         }
     }
     for (motor, plan) in motors.iter().zip(&plans) {
-        motor.write_number("position_sp", plan.target)?;
+        count_from_here(motor)?;
+        motor.write_number("position_sp", plan.distance)?;
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
     let mut ramps = Ramps(Vec::new());
     ramps.set(&motors, options)?;
     let mut ends = plans.iter().map(|plan| End::Position { from: plan.from, target: plan.target });
-    start_all(&motors, |motor| start(motor, "run-to-abs-pos", ends.next()))?;
+    start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
     Ok(Some(motors))
 }
 
@@ -353,15 +354,15 @@ fn start_moves(
 struct Plan {
     from: i64,
     target: i64,
+    /// From where the motor is to the target.
+    distance: i64,
     speed: i64,
 }
 
 /// Converts a move; `None` if it is impossible.
 ///
 /// The kernel ignores the sign of `speed_sp` in position moves, so that of the
-/// speed goes into the distance. The distance goes into an absolute target:
-/// where a relative one counts from depends on the kernel's release and on what
-/// the motor was told before (`tacho_motor_class.c`).
+/// speed goes into the distance.
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -377,22 +378,36 @@ fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
     if counts.abs() > f64::from(i32::MAX) || counts.is_nan() {
         return Ok(None);
     }
-    let from = base(motor)?;
+    let position = motor.number("position")?;
+    let from = base(motor, position)?;
     let target = from.saturating_add(counts as i64 * speed.signum());
+    let distance = target.saturating_sub(position);
     // The kernel counts in 32 bits.
-    Ok(i32::try_from(target).is_ok().then_some(Plan { from, target, speed: speed.abs() }))
+    let is_possible = i32::try_from(target).is_ok() && i32::try_from(distance).is_ok();
+    Ok(is_possible.then_some(Plan { from, target, distance, speed: speed.abs() }))
 }
 
 /// Where a move begins: where the motor is, or where it is held, so that many
 /// moves one after the other do not add up what each is off.
-fn base(motor: &Device) -> Result<i64> {
-    let position = motor.number("position")?;
+fn base(motor: &Device, position: i64) -> Result<i64> {
     let target = motor.motion().and_then(Motion::target);
     let is_near = |target: &i64| target.abs_diff(position) <= TOLERANCE;
     match target.filter(is_near) {
         Some(target) if motor.with_word("state", |state| has(state, "holding"))? => Ok(target),
         _ => Ok(position),
     }
+}
+
+/// Makes the next relative move count from where the motor is.
+///
+/// Since ev3dev-stretch one that comes right after another counts from where
+/// that was to end, even if the position was written meanwhile or the motor
+/// turned by hand (`tacho_motor_class.c`); on jessie it does not. Any other
+/// command in between makes them agree. What an earlier program told the motor
+/// is not known, so that it may need one, too.
+fn count_from_here(motor: &Device) -> Result<()> {
+    let may_follow_relative = motor.motion().is_none_or(|motion| motion.is_relative);
+    if may_follow_relative { motor.write("command", "stop") } else { Ok(()) }
 }
 
 /// The ramps that the motors had before a move with its own. The command

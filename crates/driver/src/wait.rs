@@ -261,14 +261,21 @@ impl<'a> Watch<'a> {
             return Ok(Look::Runs(self.slice(now)?));
         }
         self.is_done = true;
-        Ok(Look::Done(if self.is_at_end(now)? { Reason::Reached } else { Reason::Stopped }))
+        let is_there = self.is_at_end(now)? || !self.has_run && self.is_plain()?;
+        Ok(Look::Done(if is_there { Reason::Reached } else { Reason::Stopped }))
     }
 
     /// Whether a missing flag can be believed. A plain file is empty for a
     /// moment while another program writes it: that takes a second look.
     fn is_confirmed(&mut self) -> Result<bool> {
         let was_quiet = std::mem::replace(&mut self.was_quiet, true);
-        Ok(was_quiet || !self.motor.attribute("state").is_plain(self.motor.tree())?)
+        Ok(was_quiet || !self.is_plain()?)
+    }
+
+    /// Whether the motor is nothing but plain files. Where nothing ever moves,
+    /// a motor that does not run is taken to be there, as in the paper.
+    fn is_plain(&self) -> Result<bool> {
+        self.motor.attribute("state").is_plain(self.motor.tree())
     }
 
     /// Whether a motor that does not run has run already, rather than not yet.

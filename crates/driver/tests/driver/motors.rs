@@ -126,9 +126,9 @@ fn a_move_writes_all_set_points_then_the_commands() {
     assert_eq!(reason, Some(Reason::Reached));
     let written = brick.take_written();
     let (set_points, commands) = written.split_at(written.len() - 2);
-    assert!(!set_points.iter().any(|line| line.contains(" command ")), "{written:?}");
+    assert!(!set_points.iter().any(|line| line.contains(" command run")), "{written:?}");
     for (line, port) in commands.iter().zip(["outB", "outC"]) {
-        assert!(line.starts_with(&format!("{port} command run-to-")), "{written:?}");
+        assert!(line.starts_with(&format!("{port} command run-to-rel-pos")), "{written:?}");
     }
     for line in ["outB speed_sp 525", "outC speed_sp 210", "outB stop_action hold"] {
         assert!(set_points.iter().any(|written| written == line), "{line} in {written:?}");
