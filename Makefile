@@ -9,7 +9,8 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog lint bench demo doc install clean distclean
+.PHONY: all setup build check check-rust check-prolog check-old check-brick check-versions \
+        lint bench dist demo install clean distclean realclean
 
 all: build
 
@@ -43,9 +44,27 @@ lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	$(SWIPL) -g main -t 'halt(1)' tests/lint.pl
+	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
+	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh
 
 bench: build
 	@benches/run.py
+
+# Nothing is called that SWI-Prolog 7.2.3, the brick's, does not have
+check-old: build
+	@$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
+
+# The binary pack, for machines that cannot build: dist/ev3dev-<version>.tgz
+dist:
+	@tools/dist.sh
+
+# On an emulated EV3: installs the binary pack, then the suite
+check-brick: dist
+	@tools/versions.sh armel
+
+# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3
+check-versions: dist
+	@tools/versions.sh
 
 demo: build
 	@tools/demo.sh $(EXAMPLE)
@@ -56,4 +75,8 @@ clean:
 	$(CARGO) clean
 
 distclean: clean
-	rm -rf lib dist .toolchain
+	rm -rf lib dist
+
+# The toolchain for other machines, too: 1.3 GB to fetch again
+realclean: distclean
+	rm -rf .toolchain

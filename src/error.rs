@@ -58,6 +58,7 @@ pub(crate) fn wrong_because<T, C: QueryableContextType>(
 }
 
 /// Raises `existence_error(Kind, Name)`, with the reason as the message.
+#[cfg(feature = "sim")]
 pub(crate) fn no_such<T, C: QueryableContextType>(
     call: &Call<C>,
     kind: &str,

@@ -13,8 +13,11 @@ mod error;
 mod motors;
 mod robot;
 mod sensors;
+#[cfg(feature = "sim")]
 mod sim;
+#[cfg(feature = "sim")]
 mod simulated;
+#[cfg(feature = "sim")]
 mod spec;
 mod state;
 mod words;
@@ -29,5 +32,6 @@ pub extern "C" fn install() {
     motors::register();
     sensors::register();
     robot::register();
+    #[cfg(feature = "sim")]
     sim::register();
 }

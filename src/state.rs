@@ -25,6 +25,7 @@ pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
 }
 
 /// Uses the kernel's own tree from now on.
+#[cfg(feature = "sim")]
 pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
     use_files(KERNEL)
 }

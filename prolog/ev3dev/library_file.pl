@@ -1,12 +1,160 @@
-:- module(ev3dev_library_file, [load_library/0]).
+:- module(ev3dev_library_file,
+          [ load_library/0,
+            library_file/1              % -File
+          ]).
+:- use_module(library(shlib), [load_foreign_library/1]).
+:- use_module(library(lists), [member/2, nth0/3]).
+
+/** <module> Which of the pack's foreign libraries is for this machine
+
+`make` puts the library where SWI-Prolog wants it, `lib/<arch>/ev3dev.so`. A
+binary pack has one for each kind of machine below `native`. It cannot go by
+the Prolog flag `arch`: of Debian's SWI-Prologs that answer `armv7l-linux`,
+one is for the EV3 (`armel`: floats are passed in integer registers) and
+another for the Raspberry Pi (`armhf`: in those of a floating point unit); and
+before version 8, Debian's answered `armel` and `armhf`. The ELF headers tell:
+that of the running program is compared with that of each library.
+*/
 
 %!  load_library is det.
 %
-%   Load the foreign library into the calling module.
+%   Load the pack's foreign library for this machine into the calling module.
+%
+%   @error existence_error(foreign_library, ev3dev) as library_file/1
+
+:- module_transparent load_library/0.
 
 load_library :-
+    context_module(Module),
+    ev3dev_library_file:library_file(File),
+    load_foreign_library(Module:File).
+
+%!  library_file(-File) is det.
+%
+%   File is the pack's foreign library for this machine: the built one,
+%   `lib/<arch>/ev3dev.so`, if it suits the running program, else the first
+%   below `native` that does. Where the program cannot be looked at (no
+%   `/proc`), only the built one counts.
+%
+%   @error existence_error(foreign_library, ev3dev) if there is none. The
+%   message tells what was looked for, and which files are there.
+
+library_file(File) :-
+    pack_folder(Pack),
+    (   suitable_file(Pack, File0)
+    ->  File = File0
+    ;   no_suitable_file(Pack)
+    ).
+
+pack_folder(Pack) :-
     module_property(ev3dev_library_file, file(File)),
-    file_directory_name(File, Here),
+    file_directory_name(File, Folder),
+    file_directory_name(Folder, Prolog),
+    file_directory_name(Prolog, Pack).
+
+suitable_file(Pack, File) :-
+    program_kind(Kind),
+    !,
+    (   built_file(Pack, File)
+    ;   shipped_file(Pack, File)
+    ),
+    file_kind(File, Kind),
+    !.
+suitable_file(Pack, File) :-
+    built_file(Pack, File).
+
+built_file(Pack, File) :-
     current_prolog_flag(arch, Arch),
-    atomic_list_concat([Here, '/../../lib/', Arch, '/ev3dev.so'], Library),
-    load_foreign_library(Library).
+    atomic_list_concat([Pack, '/lib/', Arch], Folder),
+    folder_file(Folder, File).
+
+shipped_file(Pack, File) :-
+    atom_concat(Pack, '/native', Native),
+    exists_directory(Native),
+    directory_files(Native, Names),
+    member(Name, Names),
+    atomic_list_concat([Native, /, Name], Folder),
+    folder_file(Folder, File).
+
+folder_file(Folder, File) :-
+    current_prolog_flag(shared_object_extension, Extension),
+    atomic_list_concat([Folder, '/ev3dev.', Extension], File),
+    exists_file(File).
+
+%!  file_kind(+File, -Kind) is semidet.
+%
+%   True if File is an ELF file for machines of this Kind, a term
+%   elf(Class, Order, Machine, Float): 1 or 2 for 32 or 64 bit, 1 or 2 for
+%   the little or big end first, the machine's number, and for ARM `hard` if
+%   floats are passed in floating point registers; else `soft`.
+
+file_kind(File, elf(Class, Order, Machine, Float)) :-
+    setup_call_cleanup(
+        open(File, read, In, [type(binary)]),
+        first_bytes(52, In, Bytes),
+        close(In)),
+    Bytes = [0x7f,0x45,0x4c,0x46,Class,Order|_],
+    half_word(Order, 18, Bytes, Machine),
+    (   Machine =:= 40,
+        half_word(Order, 36, Bytes, Flags),
+        Flags /\ 0x400 =\= 0
+    ->  Float = hard
+    ;   Float = soft
+    ).
+
+program_kind(Kind) :-
+    catch(file_kind('/proc/self/exe', Kind), error(_, _), fail).
+
+first_bytes(0, _, []) :-
+    !.
+first_bytes(N, In, [Byte|Bytes]) :-
+    get_byte(In, Byte),
+    N1 is N-1,
+    first_bytes(N1, In, Bytes).
+
+%   The low half of the word at Offset of a 32 bit header, or a half word.
+
+half_word(Order, Offset, Bytes, Value) :-
+    low_bytes(Order, Offset, Low, High),
+    nth0(Low, Bytes, L),
+    nth0(High, Bytes, H),
+    Value is H<<8 \/ L.
+
+low_bytes(1, Offset, Offset, High) :-
+    High is Offset+1.
+low_bytes(2, Offset, Low, Offset) :-
+    Low is Offset+1.
+
+no_suitable_file(Pack) :-
+    current_prolog_flag(arch, Arch),
+    (   program_kind(Kind)
+    ->  kind_text(Kind, Text)
+    ;   Text = 'of unknown kind'
+    ),
+    findall(File,
+            ( built_file(Pack, File) ; shipped_file(Pack, File) ),
+            Files),
+    (   Files == []
+    ->  Found = 'none: run "make" there, or install the binary pack'
+    ;   atomic_list_concat(Files, ', ', Found)
+    ),
+    format(atom(Message),
+           '~w has no library for this machine (~w, ~w); there is ~w',
+           [Pack, Arch, Text, Found]),
+    throw(error(existence_error(foreign_library, ev3dev),
+                context(ev3dev_library_file:library_file/1, Message))).
+
+kind_text(elf(Class, _, Machine, Float), Text) :-
+    Bits is 32*Class,
+    (   machine_text(Machine, Float, Name)
+    ->  true
+    ;   Name = machine(Machine)
+    ),
+    format(atom(Text), '~w, ~d bit', [Name, Bits]).
+
+machine_text(3, _, 'x86').
+machine_text(40, soft, 'ARM with soft floats').
+machine_text(40, hard, 'ARM with hard floats').
+machine_text(62, _, 'x86-64').
+machine_text(183, _, 'AArch64').
+machine_text(243, _, 'RISC-V').
