@@ -116,12 +116,15 @@ class Worker:
             cwd=TOP)
 
     def ask(self, implementation, job, count):
+        return self.ask_all(implementation, job, count)[0]
+
+    def ask_all(self, implementation, job, count):
         self.process.stdin.write(self.line.format(implementation, job, count))
         self.process.stdin.flush()
         answer = self.process.stdout.readline()
         if not answer:
             sys.exit(f"{implementation} gave no answer for {job}")
-        return float(answer)
+        return [float(word) for word in answer.split()]
 
     def close(self):
         self.process.stdin.close()
@@ -180,6 +183,17 @@ def measure(root, rounds):
     for worker in {id(w): w for w in workers.values() if w}.values():
         worker.close()
     return {"seconds": result, "gap_seconds": gaps, "wait_cpu_share": waits}
+
+
+def latency(root):
+    """Median and worst seconds from a motor's stop to the end of the wait for
+    it, in the simulator, through FUSE, with the real clock."""
+    worker = rust_worker(root)
+    if not worker or not Path("/dev/fuse").exists():
+        return None
+    median, worst = worker.ask_all("pack", "latency", 100)
+    worker.close()
+    return {"median": median, "worst": worst}
 
 
 def growth(rounds):
@@ -272,6 +286,10 @@ def table(results):
           f"{more['kilobytes']:.0f} kB over bare swipl")
     print("position/2 with more motors: " + ", ".join(
         f"{n}: {s * 1e6:.2f} us" for n, s in results["growth_seconds"].items()))
+    if results["latency_seconds"]:
+        print("from a motor's stop to the end of the wait, through FUSE: "
+              + ", ".join(f"{name} {s * 1e3:.1f} ms" for name, s
+                          in results["latency_seconds"].items()))
     if "instructions" in results:
         print("instructions a call: " + ", ".join(
             f"{job} {n:.0f}" for job, n in results["instructions"].items()))
@@ -294,6 +312,7 @@ def main():
         root.unlink(missing_ok=True)
         root.symlink_to(tree)
         results["trees"][name] = measure(root, options.rounds)
+    results["latency_seconds"] = latency(root)
     results["growth_seconds"] = growth(options.rounds)
     results["loading"] = loading(options.rounds)
     if not options.no_callgrind and shutil.which("valgrind"):

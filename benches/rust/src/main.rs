@@ -1,15 +1,18 @@
 //! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
 //! each with the seconds one call took.
 use ev3_driver::error::Access;
-use ev3_driver::motor::{Run, Speed, run_forever};
+use ev3_driver::motor::{Move, MoveOptions, Run, Speed, run_forever, run_to};
 use ev3_driver::tree::{Entry, Files, Node, Tree};
+use ev3_driver::wait::Reason;
 use ev3_driver::{Devices, Error};
+use ev3_sim::{Machine, Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
 use std::fs::File;
 use std::io::{self, BufRead, Write};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -23,10 +26,11 @@ fn main() {
         let [implementation, case, count] = words[..] else { continue };
         let count: u32 = count.parse().expect("a count");
         let seconds = match case {
-            "gap" => gap(&root, count),
-            _ => per_call(prepare(implementation, case, &root), count),
+            "gap" => vec![gap(&root, count)],
+            "latency" => latency(count).to_vec(),
+            _ => vec![per_call(prepare(implementation, case, &root), count)],
         };
-        println!("{seconds:e}");
+        println!("{}", seconds.iter().map(|s| format!("{s:e} ")).collect::<String>());
         io::stdout().flush().expect("a reader");
     }
 }
@@ -191,6 +195,56 @@ fn gap(root: &Path, count: u32) -> f64 {
         .collect();
     gaps.sort_by(f64::total_cmp);
     gaps[gaps.len() / 2]
+}
+
+/// Seconds from the moment a simulated motor stops to the return of the wait
+/// for it, through FUSE and with the real clock: median and worst of `count`.
+fn latency(count: u32) -> [f64; 2] {
+    let directory = tempfile::tempdir().expect("a directory");
+    let shared = Arc::new(Shared::new(Machine::default()));
+    let mount = Mount::new(Arc::clone(&shared), directory.path()).expect("FUSE");
+    let stopped = Arc::new(Mutex::new(Instant::now()));
+    let is_over = Arc::new(AtomicBool::new(false));
+    let stepper = std::thread::spawn({
+        let (shared, stopped, is_over) = (shared, Arc::clone(&stopped), Arc::clone(&is_over));
+        move || step(&shared, &stopped, &is_over)
+    });
+    let devices = Devices::new(Arc::new(Files::new(directory.path())));
+    let mut seconds: Vec<f64> = (0..count)
+        .map(|number| {
+            let degrees = 60.0 + f64::from(number % 10) * 10.0;
+            let turn = Move { port: "outA", speed: Speed::Percent(40.0), degrees };
+            let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut || false);
+            assert_eq!(ended.expect("a motor"), Some(Reason::Reached));
+            stopped.lock().expect("no panic").elapsed().as_secs_f64()
+        })
+        .collect();
+    is_over.store(true, Ordering::Relaxed);
+    stepper.join().expect("no panic");
+    // Its descriptors would keep the mount busy.
+    drop(devices);
+    mount.unmount().expect("a mount");
+    seconds.sort_by(f64::total_cmp);
+    [seconds[seconds.len() / 2], seconds[seconds.len() - 1]]
+}
+
+/// Steps a machine by the wall clock, and notes when its motor stops.
+fn step(shared: &Shared, stopped: &Mutex<Instant>, is_over: &AtomicBool) {
+    let (mut last, mut was_running) = (Instant::now(), false);
+    while !is_over.load(Ordering::Relaxed) {
+        std::thread::sleep(Duration::from_millis(1));
+        let mut machine = shared.lock();
+        machine.step(last.elapsed());
+        last = Instant::now();
+        let state = machine.read_path("tacho-motor/motor0/state").expect("a motor");
+        let is_running = state.contains("running");
+        if was_running && !is_running {
+            *stopped.lock().expect("no panic") = last;
+        }
+        was_running = is_running;
+        drop(machine);
+        shared.wake();
+    }
 }
 
 /// Files that note when a command is about to be written.
