@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-old check-brick check-versions \
+.PHONY: all setup build check check-rust check-prolog check-clients check-old check-brick check-versions \
         lint bench dist demo install clean distclean realclean
 
 all: build
@@ -32,13 +32,17 @@ place:
 	@cp -f "$${CARGO_TARGET_DIR:-target}/release/libev3dev.so" "$(LIBRARY).new"
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
-check: build check-rust check-prolog
+check: build check-rust check-prolog check-clients
 
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
 
 check-prolog:
 	@tests/run.sh $(TESTS)
+
+# Programs in other languages on the simulator's mount
+check-clients: build
+	@tests/clients/run.sh
 
 lint: build
 	$(CARGO) fmt --all --check

@@ -11,6 +11,11 @@ mod call;
 mod driver;
 mod error;
 mod motors;
+#[cfg(all(feature = "sim", feature = "fuse"))]
+mod mount;
+#[cfg(all(feature = "sim", not(feature = "fuse")))]
+#[path = "no_mount.rs"]
+mod mount;
 mod robot;
 mod sensors;
 #[cfg(feature = "sim")]

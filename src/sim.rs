@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/sim.pl`: the simulator.
 use crate::call::{Call, unify_atom};
 use crate::error::{no_such, wrong_because, wrong_value};
+use crate::mount;
 use crate::simulated::{Clock, SimulatedFiles, Simulation};
 use crate::spec::{self, Fact, add_to_robot, add_to_world, named};
 use crate::state::{use_default_files, use_tree};
@@ -33,15 +34,8 @@ pub(crate) fn register() {
     register_sim_unmount();
 }
 
-/// The simulation that runs, and where it is mounted.
-#[derive(Default)]
-struct Running {
-    simulation: Option<Arc<Simulation>>,
-    #[cfg(feature = "fuse")]
-    mount: Option<ev3_sim::Mount>,
-}
-
-static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
+/// The simulation that runs.
+static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 
 /// A machine as it was.
 #[arc_blob("ev3_snapshot", defaults)]
@@ -78,6 +72,7 @@ predicates! {
     semidet fn sim_stop(context) {
         let call = Call::of(context, "sim_stop", 0);
         simulation()?;
+        mount::end();
         *running() = None;
         call.check(use_default_files())
     }
@@ -247,27 +242,25 @@ predicates! {
     semidet fn sim_mount(context, directory) {
         let call = Call::of(context, "sim_mount", 1);
         let directory_text = call.text(directory)?;
-        mount(&call, &directory_text, directory)
+        mount::mount(&call, simulation()?.shared(), &directory_text, directory)
     }
 
     /// sim_unmount_
     #[module("ev3dev_sim")]
     #[name("sim_unmount_")]
     semidet fn sim_unmount(context) {
-        unmount(&Call::of(context, "sim_unmount", 0))
+        mount::unmount(&Call::of(context, "sim_unmount", 0))
     }
 }
 
 /// What runs, if something does.
-fn running() -> MutexGuard<'static, Option<Running>> {
+fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The simulation that runs; a failure if there is none.
 fn simulation() -> PrologResult<Arc<Simulation>> {
-    let running = running();
-    let simulation = running.as_ref().and_then(|running| running.simulation.clone());
-    simulation.ok_or(PrologError::Failure)
+    running().clone().ok_or(PrologError::Failure)
 }
 
 /// Starts a simulation in the place of the one that runs.
@@ -280,7 +273,8 @@ fn start<C: QueryableContextType>(
         Ok(simulation) => Arc::new(simulation),
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
-    *running() = Some(Running { simulation: Some(Arc::clone(&simulation)), ..Running::default() });
+    mount::end();
+    *running() = Some(Arc::clone(&simulation));
     call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
@@ -343,54 +337,4 @@ fn possible<T, C: QueryableContextType>(
         unify_atom(&item, &error.item)?;
         wrong_because(call, "possible_geometry", &item, &error.reason)
     })
-}
-
-#[cfg(feature = "fuse")]
-fn mount<C: QueryableContextType>(
-    call: &Call<C>,
-    directory: &str,
-    term: &Term,
-) -> PrologResult<()> {
-    use ev3_sim::{Mount, MountError};
-    use std::error::Error;
-    let shared = simulation()?.shared();
-    match Mount::new(shared, std::path::Path::new(directory)) {
-        Ok(mount) => {
-            if let Some(running) = running().as_mut() {
-                running.mount = Some(mount);
-            }
-            Ok(())
-        }
-        Err(error @ MountError::NoFuse) => no_such(call, "device", "/dev/fuse", &error.to_string()),
-        Err(error @ MountError::NoDirectory(_)) => {
-            no_such(call, "directory", directory, &error.to_string())
-        }
-        Err(error) => {
-            let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
-            wrong_because(call, "mountable_directory", term, &format!("{error}{source}"))
-        }
-    }
-}
-
-#[cfg(feature = "fuse")]
-fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
-    let mount = running().as_mut().and_then(|running| running.mount.take());
-    match mount.ok_or(PrologError::Failure)?.unmount() {
-        Ok(()) => Ok(()),
-        Err(error) => no_such(call, "mount", "mount", &error.to_string()),
-    }
-}
-
-#[cfg(not(feature = "fuse"))]
-fn mount<C: QueryableContextType>(
-    call: &Call<C>,
-    _directory: &str,
-    _term: &Term,
-) -> PrologResult<()> {
-    no_such(call, "feature", "fuse", "this library was built without FUSE")
-}
-
-#[cfg(not(feature = "fuse"))]
-fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<()> {
-    Err(PrologError::Failure)
 }

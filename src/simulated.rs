@@ -75,7 +75,6 @@ impl Simulation {
     }
 
     /// The machine behind its lock, as a mount needs it.
-    #[cfg(feature = "fuse")]
     pub(crate) fn shared(&self) -> Arc<Shared> {
         Arc::clone(&self.shared)
     }

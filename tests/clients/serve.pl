@@ -1,0 +1,12 @@
+% Mounts the simulated brick until the standard input ends.
+
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+
+serve(Directory) :-
+    sim_start(room, [clock(realtime)]),
+    sim_mount(Directory),
+    read_term(_, []),
+    sim_unmount,
+    sim_stop,
+    halt(0).
