@@ -316,6 +316,13 @@ status(term, 143).
 
 :- halt_on(term), halt_on(int).
 
+% The thread that collects garbage takes such a signal now and then, and then
+% nothing comes of it. A brick has one core, and no use for that thread.
+:- (   current_prolog_flag(gc_thread, true)
+   ->  set_prolog_flag(gc_thread, false)
+   ;   true
+   ).
+
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(stalled(Ports))) -->
