@@ -1,6 +1,6 @@
 % A robot that finds its way over a grid of cells it does not know.
 %
-%   ?- start.
+%   ?- start([3, 3]).
 %
 % It plans a way to its goal, takes it, and looks before each move. Where its
 % ultrasonic sensor sees something in the next cell it notes an obstacle and
@@ -16,10 +16,21 @@
     obstructed/1.                       % Cell
 
 start :-
+    start([3, 3]).
+
+%!  start(+Goal) is semidet.
+%
+%   Go to a cell. Fails if there is no way.
+
+start(Goal) :-
     set_robot(5.6, 10.6, outB, outC),
     retractall(obstructed(_)),
     set_state([0, 0], [0, 1]),
-    plan_and_go_to([3, 3], [0, 1]).
+    (   plan_and_go_to(Goal, [0, 1])
+    ->  format("arrived at ~w~n", [Goal])
+    ;   format("there is no way to ~w~n", [Goal]),
+        fail
+    ).
 
 %!  plan_and_go_to(+Cell, +Direction) is semidet.
 %

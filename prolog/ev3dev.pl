@@ -9,6 +9,10 @@ The one module a program loads. It offers all predicates of
     sensors
   - library(ev3dev/driver): devices and the files that ev3dev shows of them
 
+A machine that is no EV3 gets a simulated one at the first use of a device,
+unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.
+Its predicates are in library(ev3dev/sim), which is loaded apart.
+
 Names and argument order are those of the paper "ev3dev-prolog - Prolog API
 for LEGO EV3" (Schwarz, Wenzel 2019).
 

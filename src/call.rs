@@ -1,8 +1,10 @@
 //! One call of a native predicate: its arguments, its answers.
 use crate::error::raise;
+use crate::state;
 use crate::words::atom_text;
-use ev3_driver::Value;
+use ev3_driver::{Devices, Value};
 use std::borrow::Cow;
+use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -19,6 +21,15 @@ pub(crate) struct Call<'a, C: QueryableContextType> {
 impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn of(context: &'a Context<'a, C>, name: &'static str, arity: u64) -> Self {
         Self { context, name, arity }
+    }
+
+    /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
+    pub(crate) fn devices(&self) -> PrologResult<Arc<Devices>> {
+        if !state::is_chosen() {
+            self.context.call_once(pred!("ev3dev_driver:choose_tree/0"), [])?;
+            state::chosen();
+        }
+        Ok(state::devices())
     }
 
     /// The text of an atom or a string.

@@ -30,7 +30,7 @@ predicates! {
             let call = Call::of(context, "subsystem_detect", 4);
             let pattern = call.text(pattern)?;
             let bound = Bound::of(&call, port, kind, path)?;
-            let mut detected = call.check(devices().detect(&pattern))?;
+            let mut detected = call.check(call.devices()?.detect(&pattern))?;
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
         },
@@ -48,7 +48,8 @@ predicates! {
             let call = Call::of(context, "device", 4);
             let class = class_of(&call, class)?;
             let bound = Bound::of(&call, port, kind, path)?;
-            let devices = call.check(listed(&devices(), class, bound.port.as_deref()))?;
+            let tree = call.devices()?;
+            let devices = call.check(listed(&tree, class, bound.port.as_deref()))?;
             let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
@@ -66,7 +67,7 @@ predicates! {
         setup => {
             let call = Call::of(context, "attribute", 4);
             let (class, name) = (class_of(&call, class)?, call.text(attribute)?);
-            let (port, devices) = (call.text_if_bound(port)?, devices());
+            let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
             let found = call.check(listed(&devices, class, port.as_deref()))?.into_iter();
             Ok(Some(AttributeReads { devices, found, name }))
         },
@@ -88,8 +89,8 @@ predicates! {
         let call = Call::of(context, "attribute", 4);
         let (class, port) = (class_of(&call, class)?, call.text(port)?);
         let (name, text) = (call.text(attribute)?, call.value(value)?);
-        let interrupted = &mut call.interrupted();
-        call.found(attributes::write(&devices(), class, &port, &name, &text, interrupted))
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        call.found(attributes::write(&devices, class, &port, &name, &text, interrupted))
     }
 
     /// file_read(+File, -Value)
@@ -97,7 +98,7 @@ predicates! {
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
-        let read = call.check(read_value(devices().tree(), Path::new(&*path)))?;
+        let read = call.check(read_value(call.devices()?.tree(), Path::new(&*path)))?;
         unify_value(value, &read)
     }
 
@@ -106,7 +107,7 @@ predicates! {
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
-        call.check(write_file(devices().tree(), Path::new(&*path), &text))
+        call.check(write_file(call.devices()?.tree(), Path::new(&*path), &text))
     }
 
     /// sysfs_(-Root)

@@ -29,8 +29,8 @@ predicates! {
     semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
         let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
-        let run = Run { port: &port, speed };
-        into_prolog_result(call.check(motor::run_forever(&devices(), &[run]))?)
+        let (run, devices) = (Run { port: &port, speed }, call.devices()?);
+        into_prolog_result(call.check(motor::run_forever(&devices, &[run]))?)
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
@@ -39,8 +39,8 @@ predicates! {
     semidet fn run_forever(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
-        let run = Run { port: &port, speed };
-        into_prolog_result(call.check(motor::run_forever(&devices(), &[run]))?)
+        let (run, devices) = (Run { port: &port, speed }, call.devices()?);
+        into_prolog_result(call.check(motor::run_forever(&devices, &[run]))?)
     }
 
     /// motors_run_(+Runs): a list of run(Port, Percent), started together.
@@ -54,8 +54,8 @@ predicates! {
         };
         let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
-        let runs = runs.collect::<Vec<_>>();
-        into_prolog_result(call.check(motor::run_forever(&devices(), &runs))?)
+        let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices()?);
+        into_prolog_result(call.check(motor::run_forever(&devices, &runs))?)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
@@ -75,7 +75,8 @@ predicates! {
             .iter()
             .map(|(port, speed, degrees)| Move { port, speed: *speed, degrees: *degrees });
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
-        let ended = motor::run_to(&devices(), &moves, &options, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let ended = motor::run_to(&devices, &moves, &options, interrupted);
         unify_atom(reason, call.found(ended)?.word())
     }
 
@@ -84,14 +85,16 @@ predicates! {
     #[name("motor_stop_")]
     semidet fn motor_stop(context, port, action) {
         let call = Call::of(context, "motor_stop", 2);
-        let (port, action, devices) = (call.text(port)?, stop_action(&call, action)?, devices());
+        let (port, action) = (call.text(port)?, stop_action(&call, action)?);
+        let devices = call.devices()?;
         call.found(devices.with(Class::TachoMotor, &port, |m| motor::stop(m, action)))
     }
 
     /// stop_all_motors
     #[module("ev3dev_motors")]
     semidet fn stop_all_motors(context) {
-        let (call, devices) = (Call::of(context, "stop_all_motors", 0), devices());
+        let call = Call::of(context, "stop_all_motors", 0);
+        let devices = call.devices()?;
         let motors = call.check(devices.all(Class::TachoMotor))?;
         call.check(motor::stop_all(&motors, StopAction::Brake))
     }
@@ -106,7 +109,8 @@ predicates! {
     /// motor_reset(+Port)
     #[module("ev3dev_motors")]
     semidet fn motor_reset(context, port) {
-        let (call, devices) = (Call::of(context, "motor_reset", 1), devices());
+        let call = Call::of(context, "motor_reset", 1);
+        let devices = call.devices()?;
         let port = call.text(port)?;
         call.found(devices.with(Class::TachoMotor, &port, |m| motor::reset(m)))
     }
@@ -115,7 +119,8 @@ predicates! {
     #[module("ev3dev_motors")]
     #[name("motor_wait_")]
     semidet fn motor_wait(context, ports, timeout, reason) {
-        let (call, devices) = (Call::of(context, "motor_wait", 3), devices());
+        let call = Call::of(context, "motor_wait", 3);
+        let devices = call.devices()?;
         let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
         let timeout = call.seconds(timeout)?;
         let motors = call.found(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
@@ -127,7 +132,8 @@ predicates! {
     #[module("ev3dev_motors")]
     #[name("motor_wait_flag_")]
     semidet fn motor_wait_flag(context, port, flag, present) {
-        let (call, devices) = (Call::of(context, "motor_wait_while", 2), devices());
+        let call = Call::of(context, "motor_wait_while", 2);
+        let devices = call.devices()?;
         let (port, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
         let motor = call.found(devices.find(Class::TachoMotor, &port))?;
         let interrupted = &mut call.interrupted();

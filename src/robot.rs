@@ -1,6 +1,5 @@
 //! `prolog/ev3dev/robot.pl`: what takes more than motors.
 use crate::call::{Call, unify_atom};
-use crate::state::devices;
 use ev3_driver::Class;
 use ev3_driver::motor::Speed;
 use ev3_driver::turn::{self, Ended, Turn};
@@ -16,7 +15,8 @@ predicates! {
     #[module("ev3dev_robot")]
     #[name("turn_by_gyro_")]
     semidet fn turn_by_gyro(context, gyro, wheels, percent, degrees, ended) {
-        let (call, devices) = (Call::of(context, "turn", 2), devices());
+        let call = Call::of(context, "turn", 2);
+        let devices = call.devices()?;
         let [left, right, gearing] = call.arguments(wheels)?;
         let turn = Turn {
             left: call.text(&left)?.into(),

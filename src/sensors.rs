@@ -2,7 +2,6 @@
 use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
 use crate::error::wrong_value;
-use crate::state::devices;
 use ev3_driver::{Class, Device, Devices, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
@@ -25,7 +24,7 @@ predicates! {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
             let index = index_of(&call, index)?;
-            let devices = devices();
+            let devices = call.devices()?;
             let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
             Ok(Some(Readings { devices, sensors, mode, index }))
         },
@@ -51,7 +50,7 @@ predicates! {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
-            let devices = devices();
+            let devices = call.devices()?;
             let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
             Ok(Some(Readings { devices, sensors, mode, index: 0 }))
         },
@@ -76,10 +75,11 @@ predicates! {
     semidet fn sensor_restart(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
         let (port, types, mode) = (call.text(port)?, types_of(&call, types)?, call.text(mode)?);
-        let device = call.found(devices().find(Class::Sensor, &port))?;
+        let devices = call.devices()?;
+        let device = call.found(devices.find(Class::Sensor, &port))?;
         into_prolog_result(types.iter().any(|kind| kind == device.driver()))?;
         let interrupted = &mut call.interrupted();
-        call.found(sensor::restart(&devices(), &device, &mode, interrupted))
+        call.found(sensor::restart(&devices, &device, &mode, interrupted))
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
@@ -88,7 +88,8 @@ predicates! {
     semidet fn sensor_scale(context, port, raw, value) {
         let call = Call::of(context, "adjust_val", 3);
         let (port, raw) = (call.text(port)?, call.integer(raw)?);
-        let scaled = devices().with(Class::Sensor, &port, |device| sensor::scale(device, raw));
+        let devices = call.devices()?;
+        let scaled = devices.with(Class::Sensor, &port, |device| sensor::scale(device, raw));
         unify_value(value, &call.found(scaled)?)
     }
 }

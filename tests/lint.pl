@@ -2,6 +2,7 @@
 
 :- use_module(tree).
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(pldoc)).
@@ -56,7 +57,7 @@ undocumented(Module, Name/Arity) :-
 
 source(File) :-
     member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
-                     'examples/*.pl']),
+                     'prolog/*/*/*.pl', 'examples/*.pl']),
     expand_file_name(Pattern, Files),
     member(File, Files).
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs an example where there is no robot: on a plain directory tree whose
-# files a helper animates.
+# Runs an example in the simulator, tells where the robot is going, and leaves a
+# picture of its way: demo.svg.
 #
 #   tools/demo.sh [EXAMPLE] [SECONDS]
 set -euo pipefail

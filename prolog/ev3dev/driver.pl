@@ -367,6 +367,9 @@ decimals_file(Port, File) :-
 %   is the value of the environment variable EV3DEV_SYSFS, else `/sys/class`.
 %   Setting it stops the motors that the program has started so far.
 %
+%   On a machine that has no such devices, and where no directory was set, the
+%   first use of a device starts the simulator, sim_start/1, with `room`.
+%
 %   @error existence_error(directory, Directory)
 
 ev3_sysfs(Directory) :-
@@ -387,6 +390,47 @@ use_environment :-
     ).
 
 :- use_environment.
+
+%!  choose_tree is det.
+%
+%   Called by the foreign library at the first use of a device, if no tree was
+%   set: the kernel's if it has devices, else a simulated one, if the library
+%   has the simulator in it.
+
+:- public choose_tree/0.
+
+choose_tree :-
+    with_mutex(ev3dev_tree,
+               (   simulator_needless
+               ->  true
+               ;   simulate
+               )).
+
+simulator_needless :-
+    member(Class, ['tacho-motor', 'lego-sensor']),
+    atom_concat('/sys/class/', Class, Directory),
+    exists_directory(Directory),
+    !.
+simulator_needless :-
+    \+ predicate_property(ev3dev_sim:sim_active_, foreign),
+    !.
+simulator_needless :-
+    ev3dev_sim:sim_active_.
+
+simulate :-
+    module_property(ev3dev_driver, file(Here)),
+    file_directory_name(Here, Directory),
+    atom_concat(Directory, '/sim', Simulator),
+    load_files(ev3dev_driver:Simulator, [if(not_loaded), imports([])]),
+    ev3dev_sim:sim_start(room),
+    print_message(informational, ev3dev(simulated(room))).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(simulated(World))) -->
+    [ 'This machine is no EV3: simulating one in the world `~w`. '-[World],
+      'See library(ev3dev/sim).'-[]
+    ].
 
 %!  ev3_devices is det.
 %

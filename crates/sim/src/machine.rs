@@ -5,6 +5,7 @@
 
 use std::time::Duration;
 
+use crate::TICK_US;
 use crate::brick::{Battery, Board, LEDS, Led};
 use crate::drive::Body;
 use crate::geometry::Pose;
@@ -202,6 +203,10 @@ impl Machine {
     }
 
     pub(crate) fn hit(&mut self, item: ItemId) {
-        self.trace.collision(Collision { at: self.now, item, pose: self.body.pose });
+        self.trace.collision(Collision {
+            at: Duration::from_micros(self.tick * TICK_US),
+            item,
+            pose: self.body.pose,
+        });
     }
 }

@@ -171,9 +171,16 @@ impl RobotSpec {
     /// # Errors
     /// Names the first offending part.
     pub fn validate(&self) -> Result<(), SpecError> {
-        let numbers = [self.left.diameter, self.right.diameter, self.axle, self.mass];
-        if !numbers.iter().all(|n| n.is_finite() && *n > 0.0) {
-            return Err(SpecError::new("robot", "needs wheels, axle and mass above 0"));
+        let lengths = [
+            ("left wheel", self.left.diameter, "needs a diameter above 0"),
+            ("right wheel", self.right.diameter, "needs a diameter above 0"),
+            ("axle", self.axle, "needs a length above 0"),
+            ("mass", self.mass, "must be above 0"),
+        ];
+        for (name, number, reason) in lengths {
+            if !(number.is_finite() && number > 0.0) {
+                return Err(SpecError::new(name, reason));
+            }
         }
         for (name, wheel) in [("left wheel", self.left), ("right wheel", self.right)] {
             if !(0.0..1.0).contains(&wheel.slip) {

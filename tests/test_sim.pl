@@ -1,0 +1,504 @@
+:- use_module(simulation).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(filesex)).
+:- use_module(library(readutil)).
+:- use_module(library(sgml)).
+
+stopped(Goal) :-
+    ignore(sim_stop),
+    call(Goal).
+
+empty([start(0, 0, 0)]).
+
+:- begin_tests(sim_start).
+
+test(starts_each_shipped_world,
+     [forall(member(World, [room, lights, line, grid, maze]))]) :-
+    with_sim(World, sim_collisions([])).
+test(shows_the_robot_of_the_paper) :-
+    with_sim(room, findall(P-T, ( tacho_motor(P, T) ; lego_sensor(P, T) ), Devices)),
+    Devices == [ outA-'lego-ev3-m-motor',
+                 outB-'lego-ev3-l-motor',
+                 outC-'lego-ev3-l-motor',
+                 in1-'lego-ev3-us',
+                 in2-'lego-ev3-color',
+                 in3-'lego-ev3-color',
+                 in4-'lego-ev3-gyro'
+               ].
+test(takes_another_robot) :-
+    with_sim(room, [robot(touch)],
+             ( touch_sensor(in4), touch(in4, 0), \+ gyro_sensor(_) )).
+test(is_at_sys_class) :-
+    with_sim(room, ev3_sysfs('/sys/class')).
+test(replaces_the_one_that_runs) :-
+    empty(World),
+    with_sim(room, ( sim_start(World, [clock(virtual)]), sim_pose(X, Y, _) )),
+    X =:= 0,
+    Y =:= 0.
+test(takes_a_file) :-
+    with_file("start(3, 4, 90).\n", File,
+              with_sim(File, sim_pose(X, Y, H))),
+    X =:= 3,
+    Y =:= 4,
+    H =:= 90.
+test(needs_no_suffix) :-
+    with_file("start(3, 4, 90).\n", File,
+              ( atom_concat(File, '.pl', Long),
+                setup_call_cleanup(
+                    copy_file(File, Long),
+                    with_sim(File, sim_pose(_, _, _)),
+                    delete_file(Long)) )).
+test(takes_a_list_of_facts) :-
+    with_sim([start(3, 4, 90)], sim_pose(3.0, 4.0, 90.0)).
+test(takes_a_drawn_world) :-
+    with_sim([map(20, ["#####", "#.>.#", "#####"])],
+             sim_pose(50.0, 30.0, 90.0)).
+test(takes_all_facts) :-
+    with_sim([ bounds(-100, -100, 100, 100),
+               wall(50, -50, 50, 50),
+               wall(-50, -50, -50, 50, 2),
+               box(0, 60, 20, 10),
+               box(0, -60, 20, 10, 45),
+               circle(70, 70, 5),
+               floor(yellow),
+               patch(blue, [[-9, -9], [9, -9], [9, 9], [-9, 9]]),
+               line('#102030', 2, [[20, 20], [30, 30]]),
+               lamp(10, 10, 12),
+               ambient(3),
+               start(0, 0, 0)
+             ],
+             [robot([ left_wheel(outB, 5.6, [inverted(false), slip(0.01)]),
+                      right_wheel(outC, 5.6),
+                      axle(10.6),
+                      hull(rectangle(12, 18, 2)),
+                      mass(0.75),
+                      motor(outB, 'lego-ev3-l-motor'),
+                      motor(outC, 'lego-ev3-l-motor'),
+                      sensor(in1, 'lego-ev3-ir', 0, 7, 0),
+                      sensor(in2, 'lego-ev3-color', 0, 6, 0),
+                      noise(in1, 1, 0)
+                    ])],
+             col_color(in2, 2)).
+test(fails_for_no_goal_without_a_simulation,
+     [ forall(member(Goal, [ sim_stop, sim_pose(_, _, _), sim_place(0, 0, 0),
+                             sim_add(circle(0, 0, 1)), sim_remove(1),
+                             sim_plug(in1, 'lego-ev3-us'), sim_unplug(in1),
+                             sim_jam(outA, true), sim_step(1), sim_time(_),
+                             sim_snapshot(_), sim_collisions(_), sim_trace(_),
+                             sim_svg('/dev/null'), sim_unmount
+                           ])),
+       fail
+     ]) :-
+    stopped(Goal).
+
+test(no_such_world, error(existence_error(world, rome), _)) :-
+    sim_start(rome).
+test(no_such_robot, error(existence_error(robot, marvin), _)) :-
+    sim_start(room, [robot(marvin)]).
+test(unbound_world, error(instantiation_error, _)) :-
+    sim_start(_).
+test(no_such_clock, error(domain_error(clock, sand), _)) :-
+    sim_start(room, [clock(sand)]).
+test(clock_that_stands, error(domain_error(clock, scaled(0)), _)) :-
+    sim_start(room, [clock(scaled(0))]).
+test(seed_that_is_no_number, error(type_error(integer, corn), _)) :-
+    sim_start(room, [seed(corn)]).
+test(noise_that_is_no_boolean, error(type_error(_, loud), _)) :-
+    sim_start(room, [noise(loud)]).
+test(options_that_are_no_list, error(type_error(list, _), _)) :-
+    sim_start(room, virtual).
+test(a_refused_world_leaves_the_old_one) :-
+    with_sim([start(3, 4, 0)],
+             ( catch(sim_start([wal(0, 0, 1, 1)]), error(_, _), true),
+               sim_pose(3.0, 4.0, _) )).
+
+:- end_tests(sim_start).
+
+:- begin_tests(sim_files).
+
+%   The message that is printed for what is wrong in a file.
+complaint(Text, Options, Formal, Message) :-
+    with_file(Text, File,
+              ( catch(sim_start(File, Options), error(Formal, Context), true),
+                message_to_codes(error(Formal, Context), File, Message) )).
+
+message_to_codes(Term, File, Message) :-
+    message_to_lines(Term, Lines),
+    with_output_to(string(Message0),
+                   print_message_lines(current_output, '', Lines)),
+    atomic_list_concat(Parts, File, Message0),
+    atomic_list_concat(Parts, 'FILE', Message).
+
+message_to_lines(Term, Lines) :-
+    phrase('$messages':translate_message(Term), Lines).
+
+says(Message, Part) :-
+    (   sub_atom(Message, _, _, _, Part)
+    ->  true
+    ;   format(user_error, "~w~n", [Message]),
+        fail
+    ).
+
+test(unknown_fact_with_file_and_line) :-
+    complaint("start(1, 1, 0).\n\n  wal(0, 0, 1, 1).\n", [],
+              Formal, Message),
+    Formal == domain_error(world_fact, wal(0, 0, 1, 1)),
+    says(Message, 'FILE:3:2: '),
+    says(Message, 'a world has: bounds, wall, ').
+test(fact_with_too_many_arguments) :-
+    complaint("circle(0, 0, 1, 2).\n", [], Formal, Message),
+    Formal == domain_error(world_fact, circle(0, 0, 1, 2)),
+    says(Message, 'FILE:1:0: ').
+test(robot_fact_in_a_world) :-
+    complaint("start(1, 1, 0).\naxle(10).\n", [], Formal, Message),
+    Formal == domain_error(world_fact, axle(10)),
+    says(Message, 'FILE:2:0: ').
+test(impossible_geometry) :-
+    complaint("\nbox(30, 30, 0, 5).\n", [], Formal, Message),
+    Formal == domain_error(possible_geometry, box(30, 30, 0, 5)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'needs a width and a depth above 0').
+test(start_inside_something) :-
+    complaint("box(30, 30, 10, 10).\nstart(30, 30, 0).\n", [],
+              Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'is inside ').
+test(wrong_type) :-
+    complaint("wall(0, 0, ten, 1).\n", [], Formal, Message),
+    Formal == type_error(number, ten),
+    says(Message, 'FILE:1:0: ').
+test(no_such_colour) :-
+    complaint("floor(mauve).\n", [], Formal, Message),
+    Formal = domain_error(_, mauve),
+    says(Message, 'FILE:1:0: ').
+test(unknown_character_in_a_map) :-
+    complaint("map(20, [\"##\", \"#X\"]).\n", [], Formal, Message),
+    Formal = domain_error(possible_geometry, map(_, _)),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'unknown character').
+test(variable) :-
+    complaint("wall(0, 0, X, 1).\n", [], Formal, Message),
+    nonvar(Formal),
+    says(Message, 'FILE:1:0: ').
+test(a_directive_is_not_run) :-
+    nb_setval(ran, no),
+    complaint(":- nb_setval(ran, yes).\n", [], Formal, _),
+    Formal = domain_error(world_fact, (:- _)),
+    nb_getval(ran, no).
+test(syntax_error) :-
+    complaint("start(1, 1, 0).\nwall(0, 0.\n", [], Formal, Message),
+    Formal = syntax_error(_),
+    says(Message, 'FILE:2:').
+test(a_world_must_be_text, error(domain_error(world_fact, 17), _)) :-
+    sim_start([17]).
+
+robot_complaint(Text, Formal, Message) :-
+    with_file(Text, File,
+              complaint("start(1, 1, 0).\n", [robot(File)], Formal, Message0, File)),
+    Message = Message0.
+
+complaint(World, Options, Formal, Message, File) :-
+    with_file(World, WorldFile,
+              ( catch(sim_start(WorldFile, Options), error(Formal, Context), true),
+                message_to_codes(error(Formal, Context), File, Message) )).
+
+test(unknown_robot_fact) :-
+    robot_complaint("axle(10).\nwings(2).\n", Formal, Message),
+    Formal == domain_error(robot_fact, wings(2)),
+    says(Message, 'FILE:2:0: ').
+test(axle_without_length) :-
+    robot_complaint("mass(1).\naxle(-1).\n", Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+test(unknown_motor) :-
+    robot_complaint("mass(1).\nmotor(outA, steam).\n", Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+test(two_sensors_at_a_port) :-
+    robot_complaint("sensor(in1, 'lego-ev3-us', 0, 7, 0).\nsensor(in1, 'lego-ev3-us', 0, 7, 90).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+
+:- end_tests(sim_files).
+
+:- begin_tests(sim_world).
+
+test(place_moves_the_robot) :-
+    with_sim([], ( sim_place(10*2, 5, 90), sim_pose(20.0, 5.0, 90.0) )).
+test(place_inside_something, error(domain_error(possible_geometry, _), _)) :-
+    with_sim([box(50, 50, 10, 10)], sim_place(50, 50, 0)).
+test(add_puts_something_in_the_way) :-
+    with_sim([],
+             ( us_dist_cm(in1, 255.0),
+               sim_add(wall(-50, 50, 50, 50)),
+               sim_step(0.2),
+               us_dist_cm(in1, Distance),
+               near(Distance, 42.5, 0.2) )).
+test(remove_by_id) :-
+    with_sim([],
+             ( sim_add(wall(-50, 50, 50, 50), Id),
+               sim_remove(Id),
+               \+ sim_remove(Id),
+               us_dist_cm(in1, 255.0) )).
+test(remove_by_fact) :-
+    with_sim([],
+             ( sim_add(wall(-50, 50, 50, 50)),
+               sim_remove(wall(-50, 50, 50, 50)),
+               \+ sim_remove(wall(-50, 50, 50, 50)),
+               us_dist_cm(in1, 255.0) )).
+test(remove_the_newest_of_a_kind) :-
+    with_sim([],
+             ( sim_add(circle(50, 0, 1), _),
+               sim_add(circle(0, 50, 1), _),
+               sim_remove(circle(_, _, _)),
+               us_dist_cm(in1, 255.0),
+               sim_remove(circle(X, _, _)),
+               X == 50 )).
+test(remove_after_a_new_start, [fail]) :-
+    with_sim([], ( sim_add(circle(50, 0, 1)),
+                   sim_start([], [clock(virtual)]),
+                   sim_remove(circle(_, _, _)) )).
+test(remove_what_was_never_there, [fail]) :-
+    with_sim([], sim_remove(4711)).
+test(remove_something_unbound, error(instantiation_error, _)) :-
+    with_sim([], sim_remove(_)).
+test(add_where_the_robot_stands,
+     error(domain_error(possible_geometry, _), _)) :-
+    with_sim([], sim_add(box(0, 0, 5, 5))).
+test(add_something_impossible,
+     error(domain_error(possible_geometry, circle(0, 50, -1)), _)) :-
+    with_sim([], sim_add(circle(0, 50, -1))).
+test(add_something_unheard_of, error(domain_error(_, unicorn(0, 50)), _)) :-
+    with_sim([], sim_add(unicorn(0, 50))).
+test(add_no_thing, error(domain_error(world_item, start(0, 0, 0)), _)) :-
+    with_sim([], sim_add(start(0, 0, 0))).
+test(svg_draws_it) :-
+    with_file("", File,
+              ( with_sim(room, sim_svg(File)),
+                load_structure(File, [element(svg, _, [_|_])],
+                               [dialect(xml), space(remove)]) )).
+test(svg_in_no_directory, error(existence_error(_, _), _)) :-
+    with_sim(room, sim_svg('/nowhere/demo.svg')).
+
+:- end_tests(sim_world).
+
+:- begin_tests(sim_wires).
+
+test(unplug_is_noticed) :-
+    with_sim([], ( sim_unplug(in4), sim_step(2), \+ gyro_sensor(_) )).
+test(unplug_takes_either_spelling) :-
+    with_sim([], ( sim_unplug('ev3-ports:in4'), sim_step(2), \+ gyro_sensor(_) )).
+test(unplug_nothing, [fail]) :-
+    with_sim([], sim_unplug(outD)).
+test(plug_is_noticed) :-
+    with_sim([],
+             ( sim_plug(outD, 'lego-ev3-l-motor'), sim_step(3),
+               ev3_large_motor(outD),
+               motor_run(outD, 50, 90) )).
+test(plug_a_sensor_elsewhere) :-
+    with_sim([], ( sim_unplug(in4), sim_step(2),
+                   sim_plug(in4, 'lego-ev3-touch'), sim_step(3),
+                   touch(in4, 0) )).
+test(plug_a_sensor_into_an_output,
+     error(domain_error(possible_geometry, _), _)) :-
+    with_sim([], sim_plug(outD, 'lego-ev3-us')).
+test(no_such_port, error(domain_error(port, outX), _)) :-
+    with_sim([], sim_unplug(outX)).
+test(unbound_port, error(instantiation_error, _)) :-
+    with_sim([], sim_plug(_, 'lego-ev3-us')).
+test(jam_holds_and_lets_go) :-
+    with_sim([],
+             ( sim_jam(outA, true),
+               motor_run(outA, 50),
+               sim_step(1),
+               position(outA, P0),
+               near(P0, 0, 5),
+               sim_jam(outA, false),
+               sim_step(1),
+               position(outA, P1),
+               P1 > 300 )).
+test(jam_needs_a_boolean, error(type_error(_, perhaps), _)) :-
+    with_sim([], sim_jam(outA, perhaps)).
+
+:- end_tests(sim_wires).
+
+:- begin_tests(sim_time).
+
+test(starts_at_0) :-
+    with_sim([], ( sim_time(T), near(T, 0, 0.001) )).
+test(step_passes) :-
+    with_sim([], ( sim_step(1+1), sim_time(T), near(T, 2, 0.001) )).
+test(step_back, error(domain_error(seconds, -1), _)) :-
+    with_sim([], sim_step(-1)).
+test(step_of_no_number, error(type_error(evaluable, _), _)) :-
+    with_sim([], sim_step(long)).
+test(virtual_time_stands_while_the_program_thinks) :-
+    with_sim([], ( sim_time(T0), sleep(0.05), sim_time(T), T =:= T0 )).
+test(virtual_time_passes_for_a_program_that_polls) :-
+    with_sim([], ( motor_run(outA, 50),
+                   polled_until(outA, 360),
+                   sim_time(T) )),
+    near(T, 1, 0.7).
+test(several_threads_wait_at_once) :-
+    with_sim([],
+             ( thread_create(motor_run(outA, 50, 360), Id),
+               motor_run(outB, 50, 360),
+               thread_join(Id, Status),
+               sim_time(T) )),
+    Status == true,
+    near(T, 1, 0.7).
+test(real_time_passes_by_itself) :-
+    with_sim([], [clock(realtime)],
+             ( sim_time(T0), sleep(0.1), sim_time(T) )),
+    near(T - T0, 0.1, 0.09).
+test(scaled_time_is_faster) :-
+    with_sim([], [clock(scaled(50))],
+             ( sim_time(T0), sleep(0.1), sim_time(T) )),
+    T - T0 > 1.
+
+polled_until(Port, Position) :-
+    position(Port, P),
+    (   P >= Position
+    ->  true
+    ;   polled_until(Port, Position)
+    ).
+
+:- end_tests(sim_time).
+
+:- begin_tests(sim_snapshot).
+
+test(restore_puts_everything_back) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               sim_snapshot(S),
+               sim_time(T0),
+               sim_pose(X0, Y0, H0),
+               go_cm(30, 20),
+               turn(20, 45),
+               sim_pose(X, Y, _),
+               X-Y \== X0-Y0,
+               sim_restore(S),
+               sim_pose(X0, Y0, H0),
+               sim_time(T0),
+               position(outB, 0) )).
+test(may_be_restored_again_and_again) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               sim_snapshot(S),
+               findall(Y, ( member(D, [10, 20, 30]),
+                            sim_restore(S),
+                            go_cm(30, D),
+                            sim_pose(_, Y, _)
+                          ),
+                       [Y1, Y2, Y3]) )),
+    near(Y1, 10, 0.5),
+    near(Y2, 20, 0.5),
+    near(Y3, 30, 0.5).
+test(what_was_added_can_be_removed_after_a_restore) :-
+    with_sim([],
+             ( sim_snapshot(Empty),
+               sim_add(circle(0, 50, 1)),
+               sim_snapshot(A),
+               sim_restore(Empty),
+               sim_add(circle(50, 0, 1)),
+               \+ sim_remove(circle(0, 50, 1)),
+               sim_restore(A),
+               \+ sim_remove(circle(50, 0, 1)),
+               sim_remove(circle(0, 50, 1)) )).
+test(restores_no_other_things, error(domain_error(simulator_snapshot, 1), _)) :-
+    with_sim([], sim_restore(1)).
+test(restores_nothing_unbound, error(instantiation_error, _)) :-
+    with_sim([], sim_restore(_)).
+
+:- end_tests(sim_snapshot).
+
+:- begin_tests(sim_trace).
+
+test(collisions_tell_when_and_where) :-
+    with_sim([wall(-50, 30, 50, 30)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               go(30),
+               sim_step(3),
+               sim_collisions([collision(Time, X, Y, Heading)|_]) )),
+    near(Time, 1.5, 1),
+    near(X, 0, 1),
+    near(Y, 21.5, 0.5),
+    near(Heading, 0, 2).
+test(trace_is_in_the_order_of_time) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               go_cm(30, 20),
+               us_dist_cm(in1, _),
+               sim_trace(Trace) )),
+    findall(T, member(T-_, Trace), Times),
+    length(Trace, Length),
+    length(Times, Length),
+    msort(Times, Times),
+    once(( member(_-written(Command, _), Trace),
+           sub_atom(Command, _, _, 0, '/command') )),
+    memberchk(_-read(Value, '2550'), Trace),
+    sub_atom(Value, _, _, 0, '/value0'),
+    memberchk(_-pose(_, _, _), Trace).
+
+:- end_tests(sim_trace).
+
+:- begin_tests(sim_chance).
+
+readings(Seed, Noise, Readings) :-
+    with_sim(room, [seed(Seed), noise(Noise)],
+             findall(D, ( between(1, 20, _), sim_step(0.1), us_dist_cm(in1, D) ),
+                     Readings)).
+
+test(no_noise_by_default) :-
+    readings(1, false, Readings),
+    sort(Readings, [_]).
+test(noise_differs_from_reading_to_reading) :-
+    readings(1, true, Readings),
+    sort(Readings, [_, _|_]).
+test(the_same_seed_makes_the_same_noise) :-
+    readings(7, true, Readings),
+    readings(7, true, Readings).
+test(another_seed_makes_other_noise) :-
+    readings(7, true, Readings7),
+    readings(8, true, Readings8),
+    Readings7 \== Readings8.
+
+:- end_tests(sim_chance).
+
+:- begin_tests(sim_mount).
+
+fuse :-
+    exists_file('/dev/fuse'),
+    (   exists_file('/usr/bin/fusermount3')
+    ->  true
+    ;   exists_file('/bin/fusermount3')
+    ).
+
+test(mount_shows_the_files, [condition(fuse)]) :-
+    with_sim([],
+             setup_call_cleanup(
+                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+                 ( sim_mount(Directory),
+                   atom_concat(Directory, '/tacho-motor/motor0/address', File),
+                   exists_file(File),
+                   sim_unmount,
+                   \+ exists_file(File),
+                   \+ sim_unmount ),
+                 delete_directory(Directory))).
+test(no_such_directory, error(existence_error(_, _), _)) :-
+    with_sim([], sim_mount('/no/such/directory')).
+
+:- end_tests(sim_mount).
+
+:- begin_tests(sim_stop).
+
+test(stop_is_the_end) :-
+    sim_start(room, [clock(virtual)]),
+    sim_stop,
+    \+ sim_pose(_, _, _),
+    \+ sim_stop.
+
+:- end_tests(sim_stop).
