@@ -45,8 +45,8 @@ predicates! {
     #[name("device_")]
     nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
         setup => {
-            let call = Call::of(context, "device", 4);
-            let class = class_of(&call, class)?;
+            let class = class_of(context, class)?;
+            let call = Call::of(context, detector(class), 3);
             let bound = Bound::of(&call, port, kind, path)?;
             let tree = call.devices()?;
             let devices = call.check(listed(&tree, class, bound.port.as_deref()))?;
@@ -55,7 +55,7 @@ predicates! {
             Ok(Some(detected.into_iter()))
         },
         call(detected) => {
-            Call::of(context, "device", 4)
+            Call::of(context, "tacho_motor", 3)
                 .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
         }
     }
@@ -65,14 +65,15 @@ predicates! {
     #[name("attribute_")]
     nondet fn attribute<AttributeReads>(context, class, port, attribute, value) {
         setup => {
-            let call = Call::of(context, "attribute", 4);
-            let (class, name) = (class_of(&call, class)?, call.text(attribute)?);
+            let class = class_of(context, class)?;
+            let call = Call::of(context, accessor(class), 3);
+            let name = call.text(attribute)?;
             let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
             let found = call.check(listed(&devices, class, port.as_deref()))?.into_iter();
             Ok(Some(AttributeReads { devices, found, name }))
         },
         call(reads) => {
-            let call = Call::of(context, "attribute", 4);
+            let call = Call::of(context, accessor(class_of(context, class)?), 3);
             let AttributeReads { devices, found, name } = reads;
             let read = |device: &Arc<Device>| call.found(attributes::read(devices, device, name));
             call.next(found, read, |device, read| {
@@ -86,8 +87,9 @@ predicates! {
     #[module("ev3dev_driver")]
     #[name("attribute_write_")]
     semidet fn attribute_write(context, class, port, attribute, value) {
-        let call = Call::of(context, "attribute", 4);
-        let (class, port) = (class_of(&call, class)?, call.text(port)?);
+        let class = class_of(context, class)?;
+        let call = Call::of(context, accessor(class), 3);
+        let port = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         call.found(attributes::write(&devices, class, &port, &name, &text, interrupted))
@@ -189,10 +191,31 @@ pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
     if term.is_var() { unify_atom(term, port) } else { Ok(()) }
 }
 
-fn class_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Class> {
+/// The public predicate that finds devices of a class.
+fn detector(class: Class) -> &'static str {
+    match class {
+        Class::Sensor => "lego_sensor",
+        _ => "tacho_motor",
+    }
+}
+
+/// The public predicate that reads and writes attributes of a class.
+fn accessor(class: Class) -> &'static str {
+    match class {
+        Class::Sensor => "sensor_attribute",
+        _ => "motor_attribute",
+    }
+}
+
+/// The class that our own Prolog files name.
+fn class_of<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    term: &Term,
+) -> PrologResult<Class> {
+    let call = Call::of(context, "subsystem_detect", 4);
     let name = call.text(term)?;
     match Class::ALL.into_iter().find(|class| class.directory() == name) {
         Some(class) => Ok(class),
-        None => wrong_value(call, "device_class", term),
+        None => wrong_value(&call, "device_class", term),
     }
 }

@@ -29,7 +29,8 @@ and that of a distance or angle together make the direction; clockwise is
 positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
-move is impossible: a speed of 0, or beyond 100 percent. Nothing moves then.
+move is impossible: a speed beyond 100 percent, or going with a speed or an
+angle of 0. Nothing moves then.
 Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 */
 
