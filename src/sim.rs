@@ -4,8 +4,9 @@ use crate::error::{no_such, wrong_because, wrong_value};
 use crate::mount;
 use crate::simulated::{Clock, SimulatedFiles, Simulation};
 use crate::spec::{self, Fact, add_to_robot, add_to_world, named};
-use crate::state::{use_default_files, use_tree};
+use crate::state::{devices, use_files, use_tree};
 use ev3_sim::{Action, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
@@ -36,6 +37,9 @@ pub(crate) fn register() {
 
 /// The simulation that runs.
 static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
+
+/// Where the files are that were in use before.
+static BEFORE: Mutex<Option<PathBuf>> = Mutex::new(None);
 
 /// A machine as it was.
 #[arc_blob("ev3_snapshot", defaults)]
@@ -74,7 +78,8 @@ predicates! {
         simulation()?;
         mount::end();
         *running() = None;
-        call.check(use_default_files())
+        let before = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take();
+        call.check(before.map_or(Ok(()), use_files))
     }
 
     /// sim_active_
@@ -274,7 +279,10 @@ fn start<C: QueryableContextType>(
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
     mount::end();
-    *running() = Some(Arc::clone(&simulation));
+    if running().replace(Arc::clone(&simulation)).is_none() {
+        let root = devices().tree().root().to_owned();
+        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(root);
+    }
     call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 

@@ -22,12 +22,12 @@ pub(crate) fn chosen() {
 /// Uses another tree from now on. Motors that were started in the tree in use
 /// so far are stopped: nobody would find them there any more.
 pub(crate) fn use_tree(tree: Arc<dyn Tree>) -> ev3_driver::Result<()> {
-    chosen();
     let devices = Arc::new(Devices::new(tree));
     let before = {
         let mut current = DEVICES.write().unwrap_or_else(PoisonError::into_inner);
         std::mem::replace(&mut *current, devices)
     };
+    chosen();
     motor::stop_started(&before)
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
 }
 
 /// Uses the kernel's own tree from now on.
-#[cfg(feature = "sim")]
+#[cfg(feature = "fuse")]
 pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
     use_files(KERNEL)
 }

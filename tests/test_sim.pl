@@ -1,4 +1,5 @@
 :- use_module(simulation).
+:- use_module(tree, [with_tree/2]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(filesex)).
@@ -500,5 +501,11 @@ test(stop_is_the_end) :-
     sim_stop,
     \+ sim_pose(_, _, _),
     \+ sim_stop.
+
+test(stop_goes_back_to_the_directory_in_use_before) :-
+    with_tree([],
+              ( ev3_sysfs(Directory),
+                with_sim(room, ev3_sysfs('/sys/class')),
+                ev3_sysfs(Directory) )).
 
 :- end_tests(sim_stop).

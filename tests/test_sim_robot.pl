@@ -156,6 +156,37 @@ follow :-
 
 :- end_tests(line).
 
+:- begin_tests(maze).
+
+test(the_right_hand_on_the_wall_finds_the_exit) :-
+    with_sim(maze, ( robot, to_exit(100), sim_pose(X, Y, _),
+                     sim_collisions([]) )),
+    near(X, 45, 15),
+    near(Y, 285, 15).
+
+%   Cell by cell: to the right where that is free, else as little left of it
+%   as possible. The exit is red.
+to_exit(Cells) :-
+    Cells > 0,
+    (   col_color(in2, 5)
+    ->  true
+    ;   turn(20, 90),
+        to_free,
+        go_cm(30, 30),
+        Left is Cells - 1,
+        to_exit(Left)
+    ).
+
+to_free :-
+    us_dist_cm(in1, Distance),
+    (   Distance > 25
+    ->  true
+    ;   turn(20, -90),
+        to_free
+    ).
+
+:- end_tests(maze).
+
 :- begin_tests(grid_navigation).
 
 %   A random world of 8 by 8 cells, 15 % of them obstacles.
