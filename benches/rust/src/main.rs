@@ -55,15 +55,17 @@ fn prepare(implementation: &str, case: &str, root: &Path) -> Case {
 /// The bare system calls on kept descriptors: nothing is checked, looked up or
 /// parsed.
 fn floor(case: &str, root: &Path) -> Case {
-    let open = |path: &str| File::options().read(true).write(true).open(root.join(path));
-    let open = move |path: &str| open(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let opened =
+        |path: &str, file: io::Result<File>| file.unwrap_or_else(|error| panic!("{path}: {error}"));
+    let readable = |path: &str| opened(path, File::open(root.join(path)));
+    let writable = |path: &str| opened(path, File::options().write(true).open(root.join(path)));
     let read = |file: &File| {
         let mut buffer = [0; 64];
         let length = file.read_at(&mut buffer, 0).expect("a read");
         std::hint::black_box(&buffer[..length]);
     };
     let reads = |paths: &[&str]| -> Case {
-        let files: Vec<File> = paths.iter().map(|path| open(path)).collect();
+        let files: Vec<File> = paths.iter().map(|path| readable(path)).collect();
         Box::new(move || files.iter().for_each(read))
     };
     let write = |file: &File, text: &[u8]| {
@@ -76,8 +78,8 @@ fn floor(case: &str, root: &Path) -> Case {
         "position" => reads(&["tacho-motor/motor1/position"]),
         "state" => reads(&["tacho-motor/motor1/state"]),
         "motor_run" => {
-            let speed = open("tacho-motor/motor3/speed_sp");
-            let command = open("tacho-motor/motor3/command");
+            let speed = writable("tacho-motor/motor3/speed_sp");
+            let command = writable("tacho-motor/motor3/command");
             Box::new(move || {
                 write(&speed, b"525\n");
                 write(&command, b"run-forever\n");
@@ -85,12 +87,11 @@ fn floor(case: &str, root: &Path) -> Case {
         }
         "vehicle2" => {
             let side = |sensor: &str, motor: &str| {
-                let file = |name: &str| open(name);
                 [
-                    file(&format!("lego-sensor/{sensor}/mode")),
-                    file(&format!("lego-sensor/{sensor}/value0")),
-                    file(&format!("tacho-motor/{motor}/speed_sp")),
-                    file(&format!("tacho-motor/{motor}/command")),
+                    readable(&format!("lego-sensor/{sensor}/mode")),
+                    readable(&format!("lego-sensor/{sensor}/value0")),
+                    writable(&format!("tacho-motor/{motor}/speed_sp")),
+                    writable(&format!("tacho-motor/{motor}/command")),
                 ]
             };
             let sides = [side("sensor1", "motor1"), side("sensor2", "motor2")];
