@@ -1,3 +1,4 @@
+:- use_module(child).
 :- use_module(simulation).
 :- use_module(tree, [with_tree/2]).
 :- use_module(library(ev3dev)).
@@ -472,11 +473,7 @@ test(another_seed_makes_other_noise) :-
 :- begin_tests(sim_mount).
 
 fuse :-
-    exists_file('/dev/fuse'),
-    (   exists_file('/usr/bin/fusermount3')
-    ->  true
-    ;   exists_file('/bin/fusermount3')
-    ).
+    access_file('/dev/fuse', exist).
 
 test(mount_shows_the_files, [condition(fuse)]) :-
     with_sim([],
@@ -489,6 +486,16 @@ test(mount_shows_the_files, [condition(fuse)]) :-
                    \+ exists_file(File),
                    \+ sim_unmount ),
                  delete_directory(Directory))).
+test(a_program_that_ends_unmounts, [condition(fuse)]) :-
+    setup_call_cleanup(
+        ( tmp_file(mount, Directory), make_directory(Directory) ),
+        ( format(atom(Goal), "sim_start(room), sim_mount(~q)", [Directory]),
+          run_program(":- use_module(library(ev3dev/sim)).\n", [goal(Goal)],
+                      Status, Output),
+          Status-Output == exit(0)-"",
+          directory_files(Directory, Files),
+          msort(Files, ['.', '..']) ),
+        delete_directory(Directory)).
 test(no_such_directory, error(existence_error(_, _), _)) :-
     with_sim([], sim_mount('/no/such/directory')).
 

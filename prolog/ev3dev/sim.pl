@@ -400,3 +400,11 @@ sim_mount(Directory) :-
 
 sim_unmount :-
     sim_unmount_.
+
+:- at_halt(unmount_at_halt).
+
+unmount_at_halt :-
+    (   predicate_property(ev3dev_sim:sim_unmount_, foreign)
+    ->  ignore(sim_unmount_)
+    ;   true
+    ).
