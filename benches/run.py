@@ -225,6 +225,17 @@ def latency(root):
     return {"median": median, "worst": worst}
 
 
+def simulator():
+    """Simulated seconds a second of a program that polls, and resident
+    kilobytes early and late in a simulated hour."""
+    said = subprocess.run(
+        [*SWIPL_PACK, "benches/simulator.pl"], check=True, cwd=TOP,
+        capture_output=True, text=True).stdout
+    speed, early, late = map(int, said.split())
+    return {"seconds_per_second": speed, "kilobytes_early": early,
+            "kilobytes_late": late}
+
+
 def growth(rounds):
     """Median seconds of position/2 with ever more motors."""
     times = {}
@@ -318,6 +329,9 @@ def table(results):
           f"{more['kilobytes']:.0f} kB over bare swipl")
     print("position/2 with more motors: " + ", ".join(
         f"{n}: {s * 1e6:.2f} us" for n, s in results["growth_seconds"].items()))
+    print("simulator: {seconds_per_second} simulated seconds a second; "
+          "{kilobytes_early} kB after 6 min, {kilobytes_late} kB after an hour"
+          .format(**results["simulator"]))
     if results["latency_seconds"]:
         print("from a motor's stop to the end of the wait, through FUSE: "
               + ", ".join(f"{name} {s * 1e3:.1f} ms" for name, s
@@ -350,6 +364,7 @@ def main():
             root.symlink_to(tree)
             results["trees"]["FUSE"] = measure(root, options.rounds, False)
     results["latency_seconds"] = latency(root)
+    results["simulator"] = simulator()
     results["growth_seconds"] = growth(options.rounds)
     results["loading"] = loading(options.rounds)
     if not options.no_callgrind and shutil.which("valgrind"):

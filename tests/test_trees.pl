@@ -124,6 +124,10 @@ test(a_table_of_all, [forall(tree(Tree))]) :-
     forall(member(Port, ["in1", "in4", "outA", "outC"]),
            sub_string(Table, _, _, _, Port)).
 
+test(a_tree_that_is_switched_is_seen, true(A-B == 1050-[])) :-
+    on(simulator, ( max_speed(outB, A),
+                    with_tree([], findall(P, tacho_motor(P), B)) )).
+
 :- end_tests(devices).
 
 :- begin_tests(attributes).
@@ -174,6 +178,13 @@ test(modes_follow_what_is_asked,
      [forall(tree(Tree)), true(Mode == 'COL-AMBIENT')]) :-
     on(Tree, ( col_reflect(in2, _), col_ambient(in2, Light),
                between(0, 100, Light), mode(in2, Mode) )).
+test(a_mode_that_another_program_changed_is_seen,
+     [forall(tree(Tree)), true(Mode == 'COL-AMBIENT')]) :-
+    on(Tree, ( col_ambient(in2, _),
+               mode_file(in2, File),
+               file_write(File, 'COL-COLOR'),
+               col_ambient(in2, _),
+               file_read(File, Mode) )).
 test(any_value_of_any_mode, [forall(tree(Tree))]) :-
     on(Tree, ( sensor_value(in3, 'RGB-RAW', 0, Red), integer(Red),
                col_rgb_raw(in3, rgb(_, _, Blue)), integer(Blue) )).
