@@ -180,7 +180,7 @@ impl Devices {
     }
 
     /// The devices whose directories match a shell pattern, in the order of
-    /// the pattern's matches. Directories that hold no device are passed over.
+    /// their ports. Directories that hold no device are passed over.
     ///
     /// # Errors
     /// [`Error::Pattern`]; the kernel's, as EMFILE.
@@ -197,6 +197,7 @@ impl Devices {
                 Err(_) => {}
             }
         }
+        detected.sort_by(|a, b| port::order(&a.port, &b.port));
         Ok(detected)
     }
 

@@ -14,8 +14,9 @@
 //!   lack are looked up when first used ([`late`]).
 //! * **32 bit.** [`qid_t`] is wide enough for `swipl`, which turns a
 //!   `u64` into one, and is narrowed where it is passed on.
-//! * Arities and counts are passed as `usize`: a callee that takes an `int`
-//!   reads the low half of the register, or, on 32 bit, the same word.
+//! * **Counts.** Where headers say `int` in old versions and `size_t` in new
+//!   ones, a `usize` is passed: a callee that takes an `int` reads the low half
+//!   of the register, or, on 32 bit, the same word.
 //!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
