@@ -363,6 +363,8 @@ def main():
             root.unlink()
             root.symlink_to(tree)
             results["trees"]["FUSE"] = measure(root, options.rounds, False)
+    root.unlink()
+    root.symlink_to(trees["disk"])
     results["latency_seconds"] = latency(root)
     results["simulator"] = simulator()
     results["growth_seconds"] = growth(options.rounds)
