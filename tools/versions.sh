@@ -52,6 +52,10 @@ try() {
         return
     fi
     cp "$archive" "$home/"
+    # For tests that start programs
+    printf '#!/bin/sh\nexec "%s/tools/emulate.sh" "%s" swipl "$@"\n' \
+        "$root" "$name" >"$home/swipl"
+    chmod +x "$home/swipl"
     step "$name: pack_install" nothing_to_build_with \
         -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
     step "$name: every predicate" nothing_to_build_with \
@@ -64,7 +68,7 @@ try() {
 }
 
 run_swipl() {
-    EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
+    SWIPL=$home/swipl EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
 }
 
 nothing_to_build_with() {
