@@ -60,6 +60,8 @@ try() {
         -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
     step "$name: every predicate" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/smoke.pl"
+    step "$name: an example" nothing_to_build_with \
+        -g main -t 'halt(1)' "$root/tests/brick/example.pl"
     cd "$tree/ev3dev"
     for file in ${SUITE:-tests/test_*.pl}; do
         step "$name: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
