@@ -52,13 +52,29 @@ start_program(Text, Options, child(Pid, Out, File)) :-
     ->  format(atom(Assignment), "~w=~w", [Variable, Value])
     ;   Assignment = 'EV3DEV_TEST=1'
     ),
-    current_prolog_flag(executable, Swipl),
+    swipl(Swipl),
+    status_options(StatusOptions),
     process_create(path(env),
                    [ Assignment, Swipl, '-q', '-f', none, '-l', file(File),
-                     '-g', Goal, '-t', halt, '--on-error=status',
-                     '--on-warning=status' ],
+                     '-g', Goal, '-t', halt | StatusOptions ],
                    [ process(Pid), cwd(Directory), stdin(null),
                      stdout(pipe(Out)), stderr(pipe(Out)) ]).
+
+%   SWIPL in the environment counts, as this one may not start by itself: an
+%   emulated one does not.
+
+swipl(Swipl) :-
+    getenv('SWIPL', Swipl),
+    !.
+swipl(Swipl) :-
+    current_prolog_flag(executable, Swipl).
+
+status_options(Options) :-
+    current_prolog_flag(version, Version),
+    (   Version >= 90000
+    ->  Options = ['--on-error=status', '--on-warning=status']
+    ;   Options = []
+    ).
 
 %!  end_program(+Child, -Status, -Output)
 

@@ -7,7 +7,8 @@
 # Usage: tools/cross.sh [TARGET...]        default: all of them
 #
 # TARGET is armel (EV3), armhf or arm64 (Raspberry Pi) or amd64 (PC). The files
-# need a C library of 2.24 or later and nothing of SWI-Prolog at link time; the
+# hold the simulator, but not its mount as real files: that is for programs in
+# other languages on a PC, where one can build. They need a C library of 2.24 or later and nothing of SWI-Prolog at link time; the
 # same sources give the same bytes. tools/check-elf.sh holds them to that.
 #
 # Environment: as for tools/toolchain.sh; CARGO_HOME.
@@ -33,8 +34,10 @@ main() {
 }
 
 build() {
-    local name=$1 triple
+    local name=$1 triple profile=release
     triple=$(triple_of "$name")
+    # What keeps the simulator below the brick's limit
+    [[ $name != armel ]] || profile=brick
     (
         cd "$root"
         clean_environment
@@ -45,10 +48,11 @@ build() {
         "$toolchain/bin/cargo" fetch --quiet --locked --target "$triple"
         CARGO_ENCODED_RUSTFLAGS=$(rust_flags)
         export CARGO_ENCODED_RUSTFLAGS
-        "$toolchain/bin/cargo" build --quiet --release --locked --package ev3dev \
-            --target "$triple"
+        "$toolchain/bin/cargo" build --quiet --profile "$profile" --locked \
+            --package ev3dev --target "$triple" \
+            --no-default-features --features sim
     )
-    install -D -m 644 "$root/target/cross/$triple/release/libev3dev.so" \
+    install -D -m 644 "$root/target/cross/$triple/$profile/libev3dev.so" \
         "$root/target/dist/$name/ev3dev.so"
 }
 

@@ -52,10 +52,16 @@ try() {
         return
     fi
     cp "$archive" "$home/"
+    # For tests that start programs
+    printf '#!/bin/sh\nexec "%s/tools/emulate.sh" "%s" swipl "$@"\n' \
+        "$root" "$name" >"$home/swipl"
+    chmod +x "$home/swipl"
     step "$name: pack_install" nothing_to_build_with \
         -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
     step "$name: every predicate" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/smoke.pl"
+    step "$name: an example" nothing_to_build_with \
+        -g main -t 'halt(1)' "$root/tests/brick/example.pl"
     cd "$tree/ev3dev"
     for file in ${SUITE:-tests/test_*.pl}; do
         step "$name: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
@@ -64,7 +70,7 @@ try() {
 }
 
 run_swipl() {
-    EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
+    SWIPL=$home/swipl EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
 }
 
 nothing_to_build_with() {

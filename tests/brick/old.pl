@@ -26,7 +26,7 @@ main :-
     read_list('tests/brick/swipl-7.2.3.txt'),
     expand_file_name('prolog/*.pl', Files0),
     expand_file_name('prolog/*/*.pl', Files1),
-    append(Files0, Files1, Files),
+    append([Files0, Files1, ['examples/brick_check.pl']], Files),
     findall(File-Problem,
             ( member(File, Files), problem(File, Problem) ),
             Problems0),
@@ -81,6 +81,11 @@ library_file_used(Source, library(Library)) :-
     prolog_xref:uses_file(library(Library), Source, _).
 
 old_file(library(Library)) :-
+    (   Library == ev3dev
+    ;   Library = ev3dev/_
+    ),
+    !.
+old_file(library(Library)) :-
     (   old(library(Library), _)
     ->  true
     ;   old_package(Library)
@@ -93,6 +98,10 @@ fine(_, Module:Goal) :-
     ;   functor(Goal, Name, Arity),
         old(_, Name/Arity)
     ).
+fine(_, Goal) :-
+    predicate_property(ev3dev:Goal, imported_from(Module)),
+    atom_concat(ev3dev_, _, Module),
+    !.
 fine(Source, Goal) :-
     xref_defined(Source, Goal, How),
     !,
