@@ -408,9 +408,12 @@ test(a_wrong_argument_throws,
                        motor_wait_until(7, running)-type_error(_, 7) ])),
        error(Error, _) ]) :-
     with_tree(Goal).
-test(a_time_limit_gets_through, throws(time_limit_exceeded)) :-
+% plunit of 9.2.9 takes a time limit that gets out for its own.
+test(a_time_limit_gets_through, true(Ball == time_limit_exceeded)) :-
     with_tree(( put_attribute(outB, state, running),
-                call_with_time_limit(0.05, motor_wait_while(outB, running)) )).
+                catch(call_with_time_limit(0.05,
+                                           motor_wait_while(outB, running)),
+                      Ball, true) )).
 test(a_signal_that_does_not_throw_goes_on_waiting) :-
     with_tree(( put_attribute(outB, state, running),
                 thread_self(Me),
