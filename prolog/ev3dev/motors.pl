@@ -304,7 +304,11 @@ halt_on(Signal) :-
     ;   true
     ).
 
+% Before version 9 SIGINT is for the debugger even where nobody is there to
+% answer it.
 ends_at_once(default).
+ends_at_once(debug) :-
+    \+ stream_property(user_input, tty(true)).
 ends_at_once('$foreign_function'(_)).
 
 halt_by(Signal) :-
