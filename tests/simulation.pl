@@ -3,6 +3,7 @@
             with_sim/3,                 % +World, +Options, :Goal
             for_seconds/2,              % +Seconds, :Goal
             with_file/3,                % +Text, -File, :Goal
+            can_mount/0,
             near/3                      % +Value, +Expected, +Tolerance
           ]).
 :- asserta(user:file_search_path(library, prolog)).
@@ -82,6 +83,22 @@ write_file(Text, File) :-
         open(File, write, Stream),
         write(Stream, Text),
         close(Stream)).
+
+%!  can_mount
+%
+%   True if this machine has FUSE, and the library was built with it.
+
+can_mount :-
+    access_file('/dev/fuse', exist),
+    tmp_file(mount, Directory),
+    setup_call_cleanup(
+        make_directory(Directory),
+        with_sim(room, mounts(Directory)),
+        delete_directory(Directory)).
+
+mounts(Directory) :-
+    catch(sim_mount(Directory), error(existence_error(feature, _), _), fail),
+    sim_unmount.
 
 %!  near(+Value, +Expected, +Tolerance)
 

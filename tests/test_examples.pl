@@ -7,10 +7,12 @@
 :- begin_tests(examples).
 
 test(loads_without_a_word, [forall(example(File)), true(Said-End == ""-exit(0))]) :-
-    current_prolog_flag(executable, Swipl),
-    process_create(Swipl,
-                   [ '-q', '--on-warning=status', '--on-error=status',
-                     '-p', 'library=prolog', '-l', file(File),
+    (   getenv('SWIPL', Swipl)
+    ->  true
+    ;   current_prolog_flag(executable, Swipl)
+    ),
+    process_create(path(env),
+                   [ Swipl, '-q', '-p', 'library=prolog', '-l', file(File),
                      '-g', true, '-t', halt ],
                    [stdin(null), stderr(pipe(Out)), process(Id)]),
     read_string(Out, _, Said),

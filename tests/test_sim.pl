@@ -472,10 +472,7 @@ test(another_seed_makes_other_noise) :-
 
 :- begin_tests(sim_mount).
 
-fuse :-
-    access_file('/dev/fuse', exist).
-
-test(mount_shows_the_files, [condition(fuse)]) :-
+test(mount_shows_the_files, [condition(can_mount)]) :-
     with_sim([],
              setup_call_cleanup(
                  ( tmp_file(mount, Directory), make_directory(Directory) ),
@@ -486,7 +483,7 @@ test(mount_shows_the_files, [condition(fuse)]) :-
                    \+ exists_file(File),
                    \+ sim_unmount ),
                  delete_directory(Directory))).
-test(a_program_that_ends_unmounts, [condition(fuse)]) :-
+test(a_program_that_ends_unmounts, [condition(can_mount)]) :-
     setup_call_cleanup(
         ( tmp_file(mount, Directory), make_directory(Directory) ),
         ( format(atom(Goal), "sim_start(room), sim_mount(~q)", [Directory]),
