@@ -255,8 +255,10 @@ impl Device {
     pub fn text(&self, attribute: &str) -> Result<String> {
         let attribute = self.attribute(attribute);
         let mut line = [0; LINE];
-        if let Ok(bytes) = attribute.read(self.tree(), &mut line) {
-            return text_of(&attribute.path, bytes);
+        match attribute.read(self.tree(), &mut line) {
+            // More than fits: once more, with all the room there may be.
+            Err(Error::Malformed { .. }) => {}
+            read => return text_of(&attribute.path, read?),
         }
         let mut page = [0; PAGE + 1];
         text_of(&attribute.path, attribute.read(self.tree(), &mut page)?)
