@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-old check-brick check-versions \
+.PHONY: all setup build check check-rust check-prolog check-clients check-old check-dist check-brick check-versions \
         lint bench dist demo install clean distclean realclean
 
 all: build
@@ -61,6 +61,10 @@ check-old: build
 # The binary pack, for machines that cannot build: dist/ev3dev-<version>.tgz
 dist:
 	@tools/dist.sh
+
+# A second one made elsewhere has the same bytes
+check-dist:
+	@tools/check-dist.sh
 
 # On an emulated EV3: installs the binary pack, then the suite
 check-brick: dist

@@ -88,13 +88,14 @@ test(takes_the_tree_from_the_environment, true(Status-Output == exit(0)-"[outA,o
                              main :- findall(P, tacho_motor(P), Ps), print(Ps).",
                             [goal(main), env('EV3DEV_SYSFS'=Root)],
                             Status, Output) )).
-% Before version 9, an error while loading leaves the status alone.
-test(an_environment_that_names_no_directory_is_an_error,
-     [ condition(( current_prolog_flag(version, V), V >= 90000 )),
-       true(Named == true) ]) :-
+test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
     run_program(":- use_module(library(ev3dev)).",
                 [env('EV3DEV_SYSFS'='/nowhere/at/all')], Status, Output),
-    assertion(Status \== exit(0)),
+    % Before version 9, an error while loading leaves the status alone.
+    (   current_prolog_flag(version, Version), Version < 90000
+    ->  true
+    ;   assertion(Status \== exit(0))
+    ),
     ( sub_string(Output, _, _, _, "/nowhere/at/all") -> Named = true ; Named = Output ).
 
 :- end_tests(loading).
