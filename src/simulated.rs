@@ -35,7 +35,7 @@ const SLICE: Duration = Duration::from_millis(20);
 
 /// How long after its last access, by the wall, a thread still counts as busy:
 /// the virtual clock waits for it.
-const BUSY_FOR: Duration = Duration::from_millis(1);
+const BUSY_FOR: Duration = Duration::from_millis(5);
 
 /// How simulated time relates to the wall clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
