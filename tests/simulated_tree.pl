@@ -28,7 +28,10 @@ within the process on the virtual clock (Kind is `simulator`), or as files
 through FUSE in real time (`mount`).
 */
 
+:- dynamic told/1.                      % Goal: what the simulator was told
+
 simulated_start(Kind, Devices, Root) :-
+    retractall(told(_)),
     robot(Devices, Robot),
     clock(Kind, Clock),
     sim_start([start(0, 0, 0)], [clock(Clock), robot(Robot)]),
@@ -110,10 +113,14 @@ simulated_write(mount, File, Text) :-
         close(Stream)).
 
 simulated_show(Port, Attribute, Text) :-
-    sim_show(Port, Attribute, Text).
+    tell(sim_show(Port, Attribute, Text)).
 
 simulated_jam(Port) :-
-    sim_jam(Port, true).
+    tell(sim_jam(Port, true)).
+
+tell(Goal) :-
+    call(Goal),
+    assertz(told(Goal)).
 
 %!  simulated_pause(+Seconds)
 %
@@ -162,21 +169,23 @@ all_written(Directory, Attributes) :-
 %!  simulating_program(+Devices, +Text, -Program)
 %
 %   A program that starts the same simulation for itself, as it cannot get at
-%   this one, and tells at its end which command each motor had last. It is
-%   told twice, as it is not said in which order the library's own hook comes:
-%   what counts is the later.
+%   this one, and tells at its end what was written. It does so twice, as it is
+%   not said in which order the library's own hook comes: what counts is the
+%   later.
 
 simulating_program(Devices, Text, Program) :-
     robot(Devices, Robot),
+    findall(Goal, told(Goal), Told),
     format(string(Program),
            ":- use_module(library(lists)).
-            :- at_halt(tell_commands).
+            :- at_halt(tell_written).
             :- use_module(library(ev3dev/sim)).
             :- use_module(library(ev3dev)).
-            :- at_halt(tell_commands).
+            :- at_halt(tell_written).
             :- sim_start([start(0, 0, 0)], [clock(virtual), robot(~q)]).
-            tell_commands :-
+            :- forall(member(Goal, ~q), call(Goal)).
+            tell_written :-
                 sim_trace(Trace),
                 forall(member(_-written(File, Text), Trace),
                        format(\"written ~~w ~~w~~n\", [File, Text])).
-            ~s", [Robot, Text]).
+            ~s", [Robot, Told, Text]).

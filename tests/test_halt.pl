@@ -14,8 +14,8 @@ after_program(Text, Options, Status, B-C) :-
               ( program_in_tree(Text, Program, TreeOptions),
                 append(TreeOptions, Options, AllOptions),
                 run_program(Program, AllOptions, Status, Output),
-                left(outB, Output, B),
-                left(outC, Output, C) )).
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
 
 :- begin_tests(halt).
 
@@ -43,7 +43,7 @@ test(the_flag_may_be_set_before_loading, true(C == 'run-forever')) :-
                 string_concat(":- create_prolog_flag(ev3dev_stop_at_halt, false, []).\n",
                               Program, Before),
                 run_program(Before, [goal(main)|Options], _, Output),
-                left(outB, Output, C) )).
+                left(outB, command, Output, C) )).
 test(an_uncaught_error_stops_them, true(Failed-C == failed-(stop-''))) :-
     after_program("main :- motor_run(outB, 20), atom_length(_, _).",
                   [goal(main)], Status, C),
@@ -91,12 +91,14 @@ test(a_program_that_is_told_to_end_stops_its_motors,
                 Line == "started",
                 !,
                 % Prolog's thread for atoms may swallow one: it asks again.
-                eventually(( catch(process_kill(Pid, Signal), _, true),
-                             sleep(0.2),
-                             is_over(Pid) )),
+                call_cleanup(
+                    eventually(( catch(process_kill(Pid, Signal), _, true),
+                                 sleep(0.2),
+                                 is_over(Pid) )),
+                    catch(process_kill(Pid, kill), _, true)),
                 end_output(Child, Output),
-                left(outB, Output, B),
-                left(outC, Output, C) )).
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
 
 is_over(Pid) :-
     process_wait(Pid, Status, [timeout(0)]),

@@ -14,7 +14,7 @@
             tree_root/1,                % -Directory
             use_tree_again/0,
             program_in_tree/3,          % +Text, -Program, -Options
-            left/3,                     % +Port, +Output, -Command
+            left/4,                     % +Port, +Attribute, +Output, -Text
             later/2,                    % +Seconds, :Goal
             meanwhile/2,                % :Other, :Goal
             eventually/1,               % :Goal
@@ -315,24 +315,25 @@ program_in_tree(Text, Program, Options) :-
         Options = [env('EV3DEV_SYSFS'=Root)]
     ).
 
-%!  left(+Port, +Output, -Command)
+%!  left(+Port, +Attribute, +Output, -Text)
 %
-%   The command that a motor had last when a program with that Output was over.
+%   What was written to an attribute last when a program with that Output was
+%   over.
 
-left(Port, Output, Command) :-
+left(Port, Attribute, Output, Text) :-
     tree_kind(simulator),
     !,
-    attribute_path(Port, command, Path),
+    attribute_path(Port, Attribute, Path),
     relative(Path, File),
     format(string(Start), "written ~w ", [File]),
     split_string(Output, "\n", "", Lines),
-    findall(Text, ( member(Line, Lines), string_concat(Start, Text, Line) ), Texts),
+    findall(Last, ( member(Line, Lines), string_concat(Start, Last, Line) ), Texts),
     (   last(Texts, Last)
-    ->  atom_string(Command, Last)
-    ;   Command = ''
+    ->  atom_string(Text, Last)
+    ;   Text = ''
     ).
-left(Port, _, Command) :-
-    get_attribute(Port, command, Command).
+left(Port, Attribute, _, Text) :-
+    get_attribute(Port, Attribute, Text).
 
                 /*******************************
                 *           THREADS            *
