@@ -4,9 +4,9 @@
 %   ./brick_check.pl | tee report.txt
 %
 % Lift the robot off the ground: each motor turns by a quarter and back. Each
-% sensor is read in each of its modes, except those that calibrate it or measure
-% only once, and put back into its own. What does not work is reported, and the rest goes on.
-% Send the report with what you tell of a bug.
+% sensor is read in each of its modes, except those that calibrate it or
+% measure only once, and put back into its own. What does not work is
+% reported, and the rest goes on. Send the report with what you tell of a bug.
 
 :- module(brick_check, [main/0]).
 :- use_module(library(ev3dev)).

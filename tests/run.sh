@@ -12,8 +12,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+# shellcheck source=tests/about_devices.sh
+source tests/about_devices.sh
+
 swipl=${SWIPL:-swipl}
-about_devices='driver motors sensors robot bad_input threads halt library brick_check'
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 failed_files=0
@@ -42,12 +44,6 @@ main() {
     fi
     printf '%s\n' "${lines[@]}"
     [ "$failed_files" = 0 ]
-}
-
-is_about_devices() {
-    local name
-    name=$(basename "$1" .pl)
-    [[ " $about_devices " == *" ${name#test_} "* ]]
 }
 
 can_mount() {

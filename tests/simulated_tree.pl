@@ -113,12 +113,12 @@ simulated_write(mount, File, Text) :-
         close(Stream)).
 
 simulated_show(Port, Attribute, Text) :-
-    tell(sim_show(Port, Attribute, Text)).
+    note(sim_show(Port, Attribute, Text)).
 
 simulated_jam(Port) :-
-    tell(sim_jam(Port, true)).
+    note(sim_jam(Port, true)).
 
-tell(Goal) :-
+note(Goal) :-
     call(Goal),
     assertz(told(Goal)).
 
