@@ -28,6 +28,8 @@ pub(crate) fn register() {
     register_sim_show();
     register_sim_unshow();
     register_sim_wait();
+    register_sim_hold();
+    register_sim_release();
     register_sim_step();
     register_sim_time();
     register_sim_snapshot();
@@ -199,6 +201,22 @@ predicates! {
         };
         let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
         call.check(ev3_driver::wait::sleep(&files, time, &mut call.interrupted()))
+    }
+
+    /// sim_hold_
+    #[module("ev3dev_sim")]
+    #[name("sim_hold_")]
+    semidet fn sim_hold(_context) {
+        simulation()?.hold();
+        Ok(())
+    }
+
+    /// sim_release_
+    #[module("ev3dev_sim")]
+    #[name("sim_release_")]
+    semidet fn sim_release(_context) {
+        simulation()?.release();
+        Ok(())
     }
 
     /// sim_step_(+Seconds)

@@ -9,7 +9,8 @@
             simulated_show/3,           % +Port, +Attribute, +Text
             simulated_jam/1,            % +Port
             simulated_pause/1,          % +Seconds
-            simulated_access/0,
+            hold_clock/0,
+            release_clock/0,
             last_written/2,             % +RelativeFile, -Text
             all_written/2,              % +RelativeDirectory, -Attributes
             simulating_program/3        % +Devices, +Text, -Program
@@ -130,12 +131,16 @@ note(Goal) :-
 simulated_pause(Seconds) :-
     ignore(sim_wait(Seconds)).
 
-%!  simulated_access
+%!  hold_clock
+%!  release_clock
 %
-%   Use a device, as the virtual clock sees it.
+%   In between, no time passes on the virtual clock unless this thread waits.
 
-simulated_access :-
-    file_read('/sys/class/lego-port/port0/mode', _).
+hold_clock :-
+    ev3dev_sim:sim_hold_.
+
+release_clock :-
+    ignore(ev3dev_sim:sim_release_).
 
 %!  last_written(+RelativeFile, -Text)
 %

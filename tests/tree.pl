@@ -346,21 +346,18 @@ left(Port, Attribute, _, Text) :-
 later(Seconds, Goal) :-
     (   tree_kind(simulator)
     ->  thread_self(Me),
-        thread_create(later_by_clock(Me, Seconds, Goal), Thread, [detached(true)]),
-        thread_get_message(is_up),
-        simulated_access,
-        thread_send_message(Thread, go)
+        hold_clock,
+        thread_create(later_by_clock(Me, Seconds, Goal), _, [detached(true)]),
+        thread_get_message(is_up)
     ;   thread_create(( sleep(Seconds), Goal ), _, [detached(true)])
     ).
 
-% The virtual clock waits for a thread that uses devices, for a moment: so the
-% one that called later/2 gets on with what it is about before time passes.
+% From here on time passes only while both threads wait, so that Goal comes
+% when it should however busy this machine is.
 later_by_clock(Main, Seconds, Goal) :-
-    simulated_access,
+    hold_clock,
     thread_send_message(Main, is_up),
-    thread_get_message(go),
-    simulated_pause(Seconds),
-    call(Goal).
+    call_cleanup(( simulated_pause(Seconds), Goal ), release_clock).
 
 %!  meanwhile(:Other, :Goal)
 %

@@ -349,6 +349,11 @@ sim_wait(Seconds0) :-
     Seconds is Seconds0,
     sim_wait_(Seconds).
 
+%   sim_hold_ and sim_release_ are for tests of several threads: in between,
+%   no time passes on the virtual clock unless this thread waits.
+
+:- public sim_hold_/0, sim_release_/0.
+
 %!  sim_step(+Seconds) is semidet.
 %
 %   Let so much simulated time pass at once, whatever the clock. Seconds may
