@@ -125,7 +125,10 @@ predicates! {
     semidet fn sysfs_use(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);
         let root = call.text(root)?;
-        call.check(use_files(&*root))
+        let used = use_files(&*root);
+        #[cfg(feature = "sim")]
+        crate::sim::end_unless_mounted();
+        call.check(used)
     }
 }
 

@@ -45,6 +45,11 @@ pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<(
     mount.unmount().or_else(|error| no_such(call, "mount", "mount", &error.to_string()))
 }
 
+/// Whether something is mounted.
+pub(crate) fn is_mounted() -> bool {
+    MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+}
+
 /// Unmounts whatever is mounted.
 pub(crate) fn end() {
     drop(take());

@@ -22,3 +22,8 @@ pub(crate) fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<
 
 /// Nothing is mounted.
 pub(crate) fn end() {}
+
+/// Nothing is.
+pub(crate) fn is_mounted() -> bool {
+    false
+}

@@ -5,7 +5,8 @@ use crate::mount;
 use crate::simulated::{Clock, SimulatedFiles, Simulation};
 use crate::spec::{self, Fact, add_to_robot, add_to_world, named};
 use crate::state::{devices, use_files, use_tree};
-use ev3_sim::{Action, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
+use ev3_driver::Devices;
+use ev3_sim::{Action, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -24,6 +25,11 @@ pub(crate) fn register() {
     register_sim_plug();
     register_sim_unplug();
     register_sim_jam();
+    register_sim_show();
+    register_sim_unshow();
+    register_sim_wait();
+    register_sim_hold();
+    register_sim_release();
     register_sim_step();
     register_sim_time();
     register_sim_snapshot();
@@ -158,6 +164,61 @@ predicates! {
         Ok(())
     }
 
+    /// sim_show_(+Port, +Attribute, +Text)
+    #[module("ev3dev_sim")]
+    #[name("sim_show_")]
+    semidet fn sim_show(context, port, attribute, text) {
+        let call = Call::of(context, "sim_show", 3);
+        let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
+        let simulation = simulation()?;
+        let shown = simulation.machine().show(port, &name, &line);
+        simulation.shared().wake();
+        shown.or_else(|errno| cannot_show(&call, errno, attribute, text))
+    }
+
+    /// sim_unshow_(+Port, +Attribute)
+    #[module("ev3dev_sim")]
+    #[name("sim_unshow_")]
+    semidet fn sim_unshow(context, port, attribute) {
+        let call = Call::of(context, "sim_unshow", 2);
+        let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
+        let simulation = simulation()?;
+        let was_shown = simulation.machine().unshow(port, &name);
+        simulation.shared().wake();
+        match was_shown {
+            Ok(was_shown) => into_prolog_result(was_shown),
+            Err(errno) => cannot_show(&call, errno, attribute, attribute),
+        }
+    }
+
+    /// sim_wait_(+Seconds)
+    #[module("ev3dev_sim")]
+    #[name("sim_wait_")]
+    semidet fn sim_wait(context, seconds) {
+        let call = Call::of(context, "sim_wait", 1);
+        let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
+            return wrong_value(&call, "seconds", seconds);
+        };
+        let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        call.check(ev3_driver::wait::sleep(&files, time, &mut call.interrupted()))
+    }
+
+    /// sim_hold_
+    #[module("ev3dev_sim")]
+    #[name("sim_hold_")]
+    semidet fn sim_hold(_context) {
+        simulation()?.hold();
+        Ok(())
+    }
+
+    /// sim_release_
+    #[module("ev3dev_sim")]
+    #[name("sim_release_")]
+    semidet fn sim_release(_context) {
+        simulation()?.release();
+        Ok(())
+    }
+
     /// sim_step_(+Seconds)
     #[module("ev3dev_sim")]
     #[name("sim_step_")]
@@ -258,6 +319,15 @@ predicates! {
     }
 }
 
+/// Ends the simulation after the program has turned to other files, unless
+/// other programs may use it through a mount.
+pub(crate) fn end_unless_mounted() {
+    if !mount::is_mounted() {
+        *running() = None;
+        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
 /// What runs, if something does.
 fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
@@ -332,6 +402,21 @@ fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult
     match ev3_driver::port::short(&text).parse() {
         Ok(port) => Ok(port),
         Err(_) => named(call, "port", term),
+    }
+}
+
+/// Why an attribute cannot be made to show a text.
+fn cannot_show<T, C: QueryableContextType>(
+    call: &Call<C>,
+    errno: Errno,
+    attribute: &Term,
+    text: &Term,
+) -> PrologResult<T> {
+    match errno {
+        Errno::ENODEV => Err(PrologError::Failure),
+        Errno::ENOENT => no_such(call, "attribute", &call.text(attribute)?, "not of that device"),
+        Errno::EACCES => wrong_because(call, "readable_attribute", attribute, "is only written"),
+        _ => wrong_because(call, "attribute_text", text, "is longer than a page"),
     }
 }
 

@@ -9,7 +9,7 @@
 use ev3_driver::error::Access;
 use ev3_driver::tree::{Entry, Files, Node, Tree};
 use ev3_sim::{Errno, Machine, NodeId, Shared};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,6 +61,8 @@ struct Threads {
     accesses: HashMap<ThreadId, Instant>,
     /// Until when each that waits does.
     waits: HashMap<ThreadId, Duration>,
+    /// Those without which time stands still unless they wait.
+    holders: HashSet<ThreadId>,
 }
 
 impl Simulation {
@@ -87,6 +89,18 @@ impl Simulation {
     /// Lets time pass, whatever the clock.
     pub(crate) fn step(&self, time: Duration) {
         self.shared.step(time);
+    }
+
+    /// Lets no time pass on the virtual clock from now on unless this thread
+    /// waits, however long it computes.
+    pub(crate) fn hold(&self) {
+        self.threads().holders.insert(std::thread::current().id());
+    }
+
+    /// Ends what [`hold`](Self::hold) began.
+    pub(crate) fn release(&self) {
+        self.threads().holders.remove(&std::thread::current().id());
+        self.shared.wake();
     }
 
     /// An access to a file by this thread, which takes its time.
@@ -144,9 +158,10 @@ impl Simulation {
     /// Whether no other thread is busy, or waits for an earlier time.
     fn is_next(&self, me: ThreadId, until: Duration) -> bool {
         let mut threads = self.threads();
-        let Threads { accesses, waits } = &mut *threads;
+        let Threads { accesses, waits, holders } = &mut *threads;
         accesses.retain(|_, last| last.elapsed() < BUSY_FOR);
-        let is_busy = accesses.keys().any(|other| *other != me && !waits.contains_key(other));
+        let mut busy = accesses.keys().chain(holders.iter());
+        let is_busy = busy.any(|other| *other != me && !waits.contains_key(other));
         !is_busy && waits.values().all(|other| *other >= until)
     }
 

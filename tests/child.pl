@@ -1,7 +1,8 @@
 :- module(child,
           [ run_program/4,              % +Text, +Options, -Status, -Output
             start_program/3,            % +Text, +Options, -Child
-            end_program/3               % +Child, -Status, -Output
+            end_program/3,              % +Child, -Status, -Output
+            end_output/2                % +Child, -Output
           ]).
 :- use_module(library(filesex)).
 :- use_module(library(option)).
@@ -79,8 +80,15 @@ status_options(Options) :-
 %!  end_program(+Child, -Status, -Output)
 
 end_program(child(Pid, Out, File), Status, Output) :-
+    end_output(child(Pid, Out, File), Output),
+    process_wait(Pid, Status).
+
+%!  end_output(+Child, -Output)
+%
+%   The rest of what a program printed that is known to be over.
+
+end_output(child(_, Out, File), Output) :-
     read_stream_to_codes(Out, Codes),
     close(Out),
     string_codes(Output, Codes),
-    process_wait(Pid, Status),
     delete_file(File).

@@ -3,6 +3,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(lists)).
 :- use_module(library(process)).
+:- use_module(library(readutil)).
 
 % What the motors were told last, once a program is over.
 
@@ -10,14 +11,11 @@
 % the command B and outC the command C.
 after_program(Text, Options, Status, B-C) :-
     with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
-              ( tree_root(Root),
-                program(Text, Program),
-                run_program(Program, [env('EV3DEV_SYSFS'=Root)|Options], Status, _),
-                get_attribute(outB, command, B),
-                get_attribute(outC, command, C) )).
-
-program(Text, Program) :-
-    string_concat(":- use_module(library(ev3dev)).\n", Text, Program).
+              ( program_in_tree(Text, Program, TreeOptions),
+                append(TreeOptions, Options, AllOptions),
+                run_program(Program, AllOptions, Status, Output),
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
 
 :- begin_tests(halt).
 
@@ -41,12 +39,11 @@ test(the_flag_leaves_them_running, true(C == 'run-forever'-'')) :-
                   [goal(main)], exit(0), C).
 test(the_flag_may_be_set_before_loading, true(C == 'run-forever')) :-
     with_tree([outB-'lego-ev3-l-motor'],
-              ( tree_root(Root),
-                run_program(":- create_prolog_flag(ev3dev_stop_at_halt, false, []).
-                             :- use_module(library(ev3dev)).
-                             main :- motor_run(outB, 20).",
-                            [env('EV3DEV_SYSFS'=Root), goal(main)], _, _),
-                get_attribute(outB, command, C) )).
+              ( program_in_tree("main :- motor_run(outB, 20).", Program, Options),
+                string_concat(":- create_prolog_flag(ev3dev_stop_at_halt, false, []).\n",
+                              Program, Before),
+                run_program(Before, [goal(main)|Options], _, Output),
+                left(outB, command, Output, C) )).
 test(an_uncaught_error_stops_them, true(Failed-C == failed-(stop-''))) :-
     after_program("main :- motor_run(outB, 20), atom_length(_, _).",
                   [goal(main)], Status, C),
@@ -56,12 +53,18 @@ test(a_failed_goal_stops_them, true(C == stop-'')) :-
 test(halt_within_the_program_stops_them, true(Status-C == exit(3)-(stop-''))) :-
     after_program("main :- motor_run(outB, 20), halt(3).", [goal(main)], Status, C).
 test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
-    after_program("main :- command_file(outB, _), state_file(outB, F),
-                           file_write(F, running),
-                           thread_create(motor_run(outB, 20, 3600), _),
+    after_program("main :- shows_running,
+                           thread_create(motor_run(outB, 20, 360000), _),
                            wait, halt.
-                   wait :- repeat, command_file(outB, F),
-                           file_read(F, 'run-to-rel-pos'), !.",
+                   % A plain file has to be told.
+                   shows_running :- state_file(outB, F),
+                           catch(file_write(F, running),
+                                 error(permission_error(_, _, _), _), true).
+                   wait :- repeat, is_told, !.
+                   is_told :- command_file(outB, F),
+                           catch(file_read(F, 'run-to-rel-pos'),
+                                 error(permission_error(_, _, _), _),
+                                 motor_states(outB, [running|_])).",
                   [goal(main)], _, C).
 
 :- end_tests(halt).
@@ -72,27 +75,33 @@ test(a_program_that_is_told_to_end_stops_its_motors,
      [ forall(( member(Signal, [term, int, hup]),
                 member(Wait, [ "repeat, sleep(0.01), fail",
                                "motor_wait([outB, outC], [], _)" ]) )),
-       true(C == stop-stop) ]) :-
+       true(B-C == stop-stop) ]) :-
     with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
-              ( tree_root(Root),
-                put_attribute(outB, state, running),
-                put_attribute(outC, state, running),
+              ( runs(outB),
+                runs(outC),
                 format(string(Text),
-                       "main :- motors_run([run(outB, 20), run(outC, 20)]), ~s.",
+                       "main :- motors_run([run(outB, 20), run(outC, 20)]),
+                                format(\"started~~n\"), flush_output, ~s.",
                        [Wait]),
-                program(Text, Program),
-                start_program(Program, [env('EV3DEV_SYSFS'=Root), goal(main)], Child),
-                Child = child(Pid, _, _),
-                eventually(get_attribute(outC, command, 'run-forever')),
+                program_in_tree(Text, Program, Options),
+                start_program(Program, [goal(main)|Options], Child),
+                Child = child(Pid, Out, _),
+                repeat,
+                read_line_to_string(Out, Line),
+                Line == "started",
+                !,
                 % Prolog's thread for atoms may swallow one: it asks again.
-                catch(eventually(( catch(process_kill(Pid, Signal), _, true),
-                                   sleep(0.2),
-                                   get_attribute(outC, command, stop) )),
-                      _, true),
-                get_attribute(outB, command, B1),
-                get_attribute(outC, command, C1),
-                C = B1-C1,
-                catch(process_kill(Pid, kill), _, true),
-                end_program(Child, _, _) )).
+                call_cleanup(
+                    eventually(( catch(process_kill(Pid, Signal), _, true),
+                                 sleep(0.2),
+                                 is_over(Pid) )),
+                    catch(process_kill(Pid, kill), _, true)),
+                end_output(Child, Output),
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
+
+is_over(Pid) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    Status \== timeout.
 
 :- end_tests(signals).

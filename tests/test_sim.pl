@@ -6,6 +6,7 @@
 :- use_module(library(filesex)).
 :- use_module(library(readutil)).
 :- use_module(library(sgml)).
+:- use_module(library(time)).
 
 stopped(Goal) :-
     ignore(sim_stop),
@@ -86,7 +87,9 @@ test(fails_for_no_goal_without_a_simulation,
      [ forall(member(Goal, [ sim_stop, sim_pose(_, _, _), sim_place(0, 0, 0),
                              sim_add(circle(0, 0, 1)), sim_remove(1),
                              sim_plug(in1, 'lego-ev3-us'), sim_unplug(in1),
-                             sim_jam(outA, true), sim_step(1), sim_time(_),
+                             sim_jam(outA, true), sim_show(outA, state, x),
+                             sim_unshow(outA, state), sim_wait(1),
+                             sim_step(1), sim_time(_),
                              sim_snapshot(_), sim_collisions(_), sim_trace(_),
                              sim_svg('/dev/null'), sim_unmount
                            ])),
@@ -327,6 +330,112 @@ test(jam_needs_a_boolean, error(type_error(_, perhaps), _)) :-
 
 :- end_tests(sim_wires).
 
+:- begin_tests(sim_show).
+
+test(a_value_is_what_it_is_told_to_be) :-
+    with_sim([], ( us_dist_cm(in1, Own),
+                   sim_show(in1, value0, 123), us_dist_cm(in1, 12.3),
+                   sim_show('ev3-ports:in1', "value0", '456'), us_dist_cm(in1, 45.6),
+                   sim_unshow(in1, value0), us_dist_cm(in1, Own) )).
+test(text_is_an_atom_or_a_string_or_a_number,
+     [ forall(member(Shown-Seen, [hold-hold, "hold"-hold, -3-(-3), 1.5-1.5])),
+       true(Read == Seen) ]) :-
+    with_sim([], ( sim_show(outB, stop_action, Shown),
+                   motor_attribute(outB, stop_action, Read) )).
+test(a_motor_goes_on_behind_what_it_shows) :-
+    with_sim([], ( sim_show(outA, position, 7),
+                   motor_run(outA, 50), sim_wait(1), motor_stop(outA),
+                   position(outA, Shown), Shown =:= 7,
+                   sim_unshow(outA, position),
+                   position(outA, There), There > 100 )).
+test(a_motor_may_seem_to_be_blocked) :-
+    with_sim([], ( sim_show(outA, state, 'running stalled'),
+                   motor_run(outA, 5, 3600, [wait(false)]),
+                   motor_wait(outA, [], stalled) )).
+test(a_wait_sees_what_another_thread_shows) :-
+    with_sim([], ( motor_run(outA, 20),
+                   thread_create(( sim_wait(0.5), sim_show(outA, state, holding) ), Id),
+                   motor_wait_until(outA, holding),
+                   thread_join(Id, true) )).
+test(unplugging_ends_it) :-
+    with_sim([], ( sim_show(in1, value0, 123),
+                   sim_unplug(in1), sim_step(1),
+                   sim_plug(in1, 'lego-ev3-us'), sim_step(2),
+                   us_dist_cm(in1, D), D =\= 12.3 )).
+test(a_snapshot_has_it) :-
+    with_sim([], ( sim_show(in1, value0, 123), sim_snapshot(S),
+                   sim_unshow(in1, value0), sim_restore(S),
+                   us_dist_cm(in1, 12.3) )).
+test(the_trace_has_what_was_shown) :-
+    with_sim([], ( sim_show(in1, value0, 123), us_dist_cm(in1, _), sim_trace(Trace) )),
+    once(member(_-read('lego-sensor/sensor0/value0', '123'), Trace)).
+test(the_mount_shows_it, [condition(can_mount)]) :-
+    with_sim([],
+             setup_call_cleanup(
+                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+                 ( sim_mount(Directory),
+                   sim_show(in1, value0, 123),
+                   atom_concat(Directory, '/lego-sensor/sensor0/value0', File),
+                   read_file_to_string(File, "123\n", []),
+                   sim_unmount ),
+                 delete_directory(Directory))).
+test(where_nothing_is_it_fails,
+     [forall(member(Goal, [ sim_show(outD, state, running), sim_unshow(outD, state),
+                            sim_unshow(in1, value0) ])), fail]) :-
+    with_sim([], Goal).
+test(a_wrong_argument_throws,
+     [ forall(member(Goal-Error,
+                     [ sim_show(outB, colour, red)-existence_error(attribute, colour),
+                       sim_unshow(outB, colour)-existence_error(attribute, colour),
+                       sim_show(outB, command, stop)-
+                           domain_error(readable_attribute, command),
+                       sim_show(nowhere, state, '')-domain_error(port, nowhere),
+                       sim_show(_, state, '')-instantiation_error,
+                       sim_show(outB, _, '')-instantiation_error,
+                       sim_show(outB, state, _)-instantiation_error,
+                       sim_show(outB, state, f(x))-type_error(_, f(x)),
+                       sim_unshow(outB, 7)-type_error(_, 7) ])),
+       error(Error, _) ]) :-
+    with_sim([], Goal).
+test(a_text_longer_than_a_page_throws, error(domain_error(attribute_text, _), _)) :-
+    length(Codes, 4096),
+    maplist(=(0'x), Codes),
+    atom_codes(Text, Codes),
+    with_sim([], sim_show(outB, state, Text)).
+
+:- end_tests(sim_show).
+
+:- begin_tests(sim_wait).
+
+test(lets_time_pass_on_the_virtual_clock) :-
+    with_sim([], ( sim_time(T0), sim_wait(60 * 60), sim_time(T) )),
+    T - T0 >= 3600,
+    T - T0 < 3601.
+test(takes_its_time_on_another,
+     [forall(member(Clock, [realtime, scaled(4)]))]) :-
+    with_sim([], [clock(Clock)], ( sim_time(T0), sim_wait(0.2), sim_time(T) )),
+    T - T0 >= 0.2.
+test(several_threads_wait_at_once) :-
+    with_sim([], ( findall(Id, ( member(S, [0.3, 0.1, 0.2]),
+                                 thread_self(Me),
+                                 thread_create(( sim_wait(S),
+                                                 thread_send_message(Me, after(S)) ),
+                                               Id) ), Ids),
+                   findall(S, ( member(_, Ids), thread_get_message(after(S)) ), Ss),
+                   forall(member(Id, Ids), thread_join(Id, true)) )),
+    msort(Ss, [0.1, 0.2, 0.3]).
+test(a_time_limit_gets_through, true(Ball == time_limit_exceeded)) :-
+    with_sim([], [clock(realtime)],
+             catch(call_with_time_limit(0.05, sim_wait(3600)), Ball, true)).
+test(a_time_that_is_none_throws,
+     [ forall(member(Goal-Error, [ sim_wait(-1)-domain_error(seconds, -1),
+                                   sim_wait(_)-instantiation_error,
+                                   sim_wait(soon)-type_error(evaluable, _) ])),
+       error(Error, _) ]) :-
+    with_sim([], Goal).
+
+:- end_tests(sim_wait).
+
 :- begin_tests(sim_time).
 
 test(starts_at_0) :-
@@ -506,6 +615,28 @@ test(stop_is_the_end) :-
     \+ sim_pose(_, _, _),
     \+ sim_stop.
 
+test(another_directory_is_the_end) :-
+    with_sim([], ( motor_run(outA, 20),
+                   with_tree([outA-'lego-ev3-l-motor'],
+                             ( \+ sim_pose(_, _, _),
+                               \+ sim_stop,
+                               tacho_motor(outA, 'lego-ev3-l-motor') )) )).
+test(a_refused_directory_is_not) :-
+    with_sim([], ( catch(ev3_sysfs('/nowhere'), error(existence_error(_, _), _), true),
+                   sim_pose(_, _, _),
+                   tacho_motor(outA) )).
+test(a_mounted_one_goes_on_in_another_directory, [condition(can_mount)]) :-
+    with_sim([],
+             setup_call_cleanup(
+                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+                 ( sim_mount(Directory),
+                   ev3_sysfs(Directory),
+                   max_speed(outA, 1560),
+                   with_tree([], ( \+ tacho_motor(_), sim_pose(_, _, _) )),
+                   ev3_sysfs(Directory),
+                   max_speed(outA, 1560),
+                   sim_unmount ),
+                 delete_directory(Directory))).
 test(stop_goes_back_to_the_directory_in_use_before) :-
     with_tree([],
               ( ev3_sysfs(Directory),

@@ -1,30 +1,54 @@
 :- module(tree,
-          [ with_tree/1,                % :Goal
+          [ tree_kind/1,                % -Kind
+            only/2,                     % +Trees, +Why
+            with_tree/1,                % :Goal
             with_tree/2,                % +Devices, :Goal
             plug/2,                     % +Port, +Type
             unplug/1,                   % +Port
             attribute_path/3,           % +Port, +Attribute, -Path
             put_attribute/3,            % +Port, +Attribute, +Text
+            show_attribute/3,           % +Port, +Attribute, +Text
             get_attribute/3,            % +Port, +Attribute, -Text
             written/2,                  % +Port, -Attributes
             written/1,                  % -Attributes
             tree_root/1,                % -Directory
+            use_tree_again/0,
+            program_in_tree/3,          % +Text, -Program, -Options
+            left/4,                     % +Port, +Attribute, +Output, -Text
             later/2,                    % +Seconds, :Goal
             meanwhile/2,                % :Other, :Goal
             eventually/1,               % :Goal
             obey/1,                     % +Port
+            runs/1,                     % +Port
+            stops/1,                    % +Port
+            block/1,                    % +Port
             warnings/2                  % :Goal, -Warnings
           ]).
 :- asserta(user:file_search_path(library, prolog)).
+:- use_module(plain_tree).
+:- use_module(simulated_tree).
+:- use_module(tally).
 :- use_module(library(ev3dev)).
-:- use_module(library(filesex)).
-:- use_module(library(readutil)).
+:- use_module(library(error)).
+:- use_module(library(lists)).
 
-/** <module> Plain directory trees shaped like ev3dev's
+/** <module> The tree of devices that a test is about
 
-A tree holds files as the kernel shows them after plugging in, and stores what
-is written. Nothing in it moves; later/2 and meanwhile/2 make a thread play the
-kernel's part.
+The same tests run over three kinds of trees. EV3DEV_TEST_TREE in the
+environment chooses the one of this run:
+
+  - plain (default)
+    A directory of files as the kernel shows them after plugging in. They store
+    what is written, and nothing moves: later/2, meanwhile/2 and obey/1 make a
+    thread play the kernel's part.
+  - simulator
+    The simulator within the process, on its virtual clock.
+  - mount
+    The simulator's files through FUSE, in real time.
+
+In the last two the motors move by themselves, and what is written is refused
+where the kernel refuses it. What can be seen in some trees only says so by
+only/2 as its condition; how many tests that leaves out is told at the end.
 */
 
 :- meta_predicate
@@ -36,19 +60,35 @@ kernel's part.
     warnings(0, -).
 
 :- dynamic
+    tree_kind/1,                        % Kind
     root/1,                             % Directory
+    devices/1,                          % Devices
     plugged/2,                          % Port, Directory
     numbered/2,                         % Class, Number of the next device
     warned/1.                           % Term of a message
 
-% In memory where one can, as it is a hundred files for each test.
-:- initialization(
-       (   getenv('TMPDIR', _)
-       ->  true
-       ;   catch(access_file('/dev/shm', write), _, fail)
-       ->  set_prolog_flag(tmp_dir, '/dev/shm')
-       ;   true
-       )).
+:- (   getenv('EV3DEV_TEST_TREE', Kind)
+   ->  must_be(oneof([plain, simulator, mount]), Kind)
+   ;   Kind = plain
+   ),
+   assertz(tree_kind(Kind)).
+
+%!  only(+Trees, +Why)
+%
+%   True if this run is about one of these Trees. Why is told where it is not.
+
+only(Trees, _Why) :-
+    tree_kind(Kind),
+    is_among(Trees, Kind),
+    !.
+
+is_among(Kind, Kind).
+is_among(files, plain).
+is_among(files, mount).
+is_among(behaving, simulator).
+is_among(behaving, mount).
+
+:- tally(only).
 
 %!  with_tree(:Goal)
 %!  with_tree(+Devices, :Goal)
@@ -75,17 +115,34 @@ with_tree(Devices, Goal) :-
         drop_tree).
 
 make_tree(Devices) :-
-    tmp_file(ev3dev, Root),
-    make_directory_path(Root),
+    tree_kind(Kind),
+    assertz(devices(Devices)),
+    make_tree(Kind, Devices).
+
+make_tree(plain, Devices) :-
+    !,
+    plain_start(Root),
     assertz(root(Root)),
     forall(member(Port-Type, Devices), plug(Port, Type)),
     ev3_sysfs(Root).
+make_tree(Kind, Devices) :-
+    simulated_start(Kind, Devices, Root),
+    assertz(root(Root)),
+    % A brick finds what is plugged in while it starts in the order of ports.
+    msort(Devices, Ordered),
+    forall(member(Port-Type, Ordered), is_plugged(Port, Type, _)),
+    forall(member(Port-Type, Ordered), is_known(Kind, Port, Type)).
 
 drop_tree :-
     retract(root(Root)),
+    retractall(devices(_)),
     retractall(plugged(_, _)),
     retractall(numbered(_, _)),
-    delete_directory_and_contents(Root).
+    tree_kind(Kind),
+    (   Kind == plain
+    ->  plain_stop(Root)
+    ;   simulated_stop(Kind, Root)
+    ).
 
 %!  tree_root(-Directory)
 %
@@ -94,22 +151,45 @@ drop_tree :-
 tree_root(Directory) :-
     root(Directory).
 
+%!  use_tree_again
+%
+%   Come back to the tree, whatever the program set since, with motors at rest.
+
+use_tree_again :-
+    tree_kind(simulator),
+    !,
+    (   sim_is_over
+    ->  devices(Devices),
+        simulated_start(simulator, Devices, _)
+    ;   stop_all_motors
+    ).
+use_tree_again :-
+    root(Root),
+    ev3_sysfs(Root).
+
+sim_is_over :-
+    \+ ev3dev_sim:sim_time(_).
+
 %!  plug(+Port, +Type)
 %
 %   Plug a device in: a new directory with the next number of its class.
 
 plug(Port, Type) :-
+    tree_kind(Kind),
+    (   Kind == plain
+    ->  is_plugged(Port, Type, Directory),
+        plain_plug(Port, Type, Directory)
+    ;   simulated_plug(Port, Type),
+        is_plugged(Port, Type, _),
+        is_known(Kind, Port, Type)
+    ).
+
+is_plugged(Port, Type, Directory) :-
     once(class(Type, Class, Prefix)),
     root(Root),
     next_number(Class, Number),
     format(atom(Directory), "~w/~w/~w~w", [Root, Class, Prefix, Number]),
-    make_directory_path(Directory),
-    format(atom(Address), "ev3-ports:~w", [Port]),
-    forall(attribute(Class, Type, Attribute, Text),
-           write_text(Directory, Attribute, Text)),
-    write_text(Directory, driver_name, Type),
-    % Last: until it has an address it is no device.
-    write_text(Directory, address, Address),
+    retractall(plugged(Port, _)),
     assertz(plugged(Port, Directory)).
 
 next_number(Class, Number) :-
@@ -120,13 +200,23 @@ next_number(Class, Number) :-
     Next is Number + 1,
     assertz(numbered(Class, Next)).
 
+% A brick takes the NXT's motors for large ones, until it is told.
+is_known(Kind, Port, 'lego-nxt-motor') :-
+    !,
+    told_type(Kind, Port, 'lego-nxt-motor'),
+    is_plugged(Port, 'lego-nxt-motor', _).
+is_known(_, _, _).
+
 %!  unplug(+Port)
 %
 %   Pull the wire: the directory vanishes.
 
 unplug(Port) :-
     retract(plugged(Port, Directory)),
-    delete_directory_and_contents(Directory).
+    (   tree_kind(plain)
+    ->  plain_unplug(Directory)
+    ;   simulated_unplug(Port)
+    ).
 
 attribute_path(Port, Attribute, Path) :-
     plugged(Port, Directory),
@@ -134,42 +224,68 @@ attribute_path(Port, Attribute, Path) :-
 
 %!  put_attribute(+Port, +Attribute, +Text)
 %
-%   What the kernel shows from now on.
+%   What an attribute holds from now on: another program writes it, or where
+%   none can, the kernel shows it.
 
 put_attribute(Port, Attribute, Text) :-
-    plugged(Port, Directory),
-    write_text(Directory, Attribute, Text).
+    attribute_path(Port, Attribute, Path),
+    tree_kind(Kind),
+    (   Kind == plain
+    ->  write_line_to(Path, Text)
+    ;   is_writable(Attribute)
+    ->  simulated_write(Kind, Path, Text)
+    ;   simulated_show(Port, Attribute, Text)
+    ).
+
+is_writable(Attribute) :-
+    memberchk(Attribute,
+              [ command, duty_cycle_sp, mode, polarity, position, position_sp,
+                ramp_down_sp, ramp_up_sp, speed_sp, stop_action, time_sp ]).
+
+%!  show_attribute(+Port, +Attribute, +Text)
+%
+%   What the kernel shows from now on, even if nobody could write it.
+
+show_attribute(Port, Attribute, Text) :-
+    (   tree_kind(plain)
+    ->  put_attribute(Port, Attribute, Text)
+    ;   simulated_show(Port, Attribute, Text)
+    ).
 
 %!  get_attribute(+Port, +Attribute, -Text)
 %
-%   Text is an atom: the first line, as a longer text may be cut only a moment
-%   after the new one was written.
+%   Text is an atom. What can only be written, as `command`, is what was
+%   written last.
 
 get_attribute(Port, Attribute, Text) :-
     attribute_path(Port, Attribute, Path),
-    setup_call_cleanup(
-        open(Path, read, Stream),
-        read_line_to_string(Stream, Line),
-        close(Stream)),
-    (   Line == end_of_file
-    ->  Text = ''
-    ;   atom_string(Text, Line)
+    tree_kind(Kind),
+    (   Kind == plain
+    ->  read_line_of(Path, Text)
+    ;   Attribute == command
+    ->  relative(Path, File),
+        last_written(File, Text)
+    ;   simulated_read(Kind, Path, Text)
     ).
+
+relative(Path, File) :-
+    root(Root),
+    atom_concat(Root, '/', Prefix),
+    atom_concat(Prefix, File, Path),
+    !.
 
 %!  written(+Port, -Attributes)
 %
-%   Attributes of a device that differ from what they are after plugging in,
-%   as a list of Attribute=Text.
+%   What was written to the attributes of a device, as a list of
+%   Attribute=Text in the order of names.
 
 written(Port, Attributes) :-
-    get_attribute(Port, driver_name, Type),
-    once(class(Type, Class, _)),
-    findall(Attribute=Text,
-            ( attribute(Class, Type, Attribute, Text0),
-              get_attribute(Port, Attribute, Text),
-              \+ format(atom(Text), "~w", [Text0])
-            ),
-            Attributes).
+    plugged(Port, Directory),
+    (   tree_kind(plain)
+    ->  plain_written(Directory, Attributes)
+    ;   relative(Directory, Relative),
+        all_written(Relative, Attributes)
+    ).
 
 %!  written(-Attributes)
 %
@@ -183,17 +299,41 @@ written(Attributes) :-
             ),
             Attributes).
 
-% A text that is there already is cut afterwards, so that nobody who reads in
-% between finds an empty file.
-write_text(Directory, Attribute, Text) :-
-    atomic_list_concat([Directory, Attribute], /, Path),
-    setup_call_cleanup(
-        open(Path, update, Stream),
-        ( format(Stream, "~w~n", [Text]),
-          flush_output(Stream),
-          set_end_of_stream(Stream)
-        ),
-        close(Stream)).
+%!  program_in_tree(+Text, -Program, -Options)
+%
+%   A program that uses library(ev3dev) on this tree, or on one like it, with
+%   options for run_program/4.
+
+program_in_tree(Text, Program, Options) :-
+    tree_kind(Kind),
+    (   Kind == simulator
+    ->  devices(Devices),
+        simulating_program(Devices, Text, Program),
+        Options = []
+    ;   string_concat(":- use_module(library(ev3dev)).\n", Text, Program),
+        root(Root),
+        Options = [env('EV3DEV_SYSFS'=Root)]
+    ).
+
+%!  left(+Port, +Attribute, +Output, -Text)
+%
+%   What was written to an attribute last when a program with that Output was
+%   over.
+
+left(Port, Attribute, Output, Text) :-
+    tree_kind(simulator),
+    !,
+    attribute_path(Port, Attribute, Path),
+    relative(Path, File),
+    format(string(Start), "written ~w ", [File]),
+    split_string(Output, "\n", "", Lines),
+    findall(Last, ( member(Line, Lines), string_concat(Start, Last, Line) ), Texts),
+    (   last(Texts, Last)
+    ->  atom_string(Text, Last)
+    ;   Text = ''
+    ).
+left(Port, Attribute, _, Text) :-
+    get_attribute(Port, Attribute, Text).
 
                 /*******************************
                 *           THREADS            *
@@ -201,10 +341,23 @@ write_text(Directory, Attribute, Text) :-
 
 %!  later(+Seconds, :Goal)
 %
-%   Call Goal in another thread after some time.
+%   Call Goal in another thread after some time by the tree's clock.
 
 later(Seconds, Goal) :-
-    thread_create(( sleep(Seconds), Goal ), _, [detached(true)]).
+    (   tree_kind(simulator)
+    ->  thread_self(Me),
+        hold_clock,
+        thread_create(later_by_clock(Me, Seconds, Goal), _, [detached(true)]),
+        thread_get_message(is_up)
+    ;   thread_create(( sleep(Seconds), Goal ), _, [detached(true)])
+    ).
+
+% From here on time passes only while both threads wait, so that Goal comes
+% when it should however busy this machine is.
+later_by_clock(Main, Seconds, Goal) :-
+    hold_clock,
+    thread_send_message(Main, is_up),
+    call_cleanup(( simulated_pause(Seconds), Goal ), release_clock).
 
 %!  meanwhile(:Other, :Goal)
 %
@@ -246,9 +399,12 @@ eventually(Goal) :-
 
 %!  obey(+Port)
 %
-%   Play the motor at Port through one position move: wait for its command,
-%   run, go half-way, be at the end and rest.
+%   Play the motor at Port through one position move, where it does not move by
+%   itself: wait for its command, run, go half-way, be at the end and rest.
 
+obey(_) :-
+    \+ tree_kind(plain),
+    !.
 obey(Port) :-
     eventually(get_attribute(Port, command, 'run-to-rel-pos')),
     put_attribute(Port, state, running),
@@ -265,6 +421,37 @@ get_number(Port, Attribute, Number) :-
     get_attribute(Port, Attribute, Text),
     atom_number(Text, Number).
 
+%!  runs(+Port)
+%
+%   Play a motor that runs as soon as it is told to, and does not get there.
+
+runs(Port) :-
+    (   tree_kind(plain)
+    ->  put_attribute(Port, state, running)
+    ;   true
+    ).
+
+%!  stops(+Port)
+%
+%   Another program stops the motor at Port.
+
+stops(Port) :-
+    put_attribute(Port, command, stop),
+    (   tree_kind(plain)
+    ->  put_attribute(Port, state, '')
+    ;   true
+    ).
+
+%!  block(+Port)
+%
+%   Hold the motor at Port fast.
+
+block(Port) :-
+    (   tree_kind(plain)
+    ->  put_attribute(Port, state, 'running stalled')
+    ;   simulated_jam(Port)
+    ).
+
 %!  warnings(:Goal, -Warnings)
 %
 %   Call Goal once, succeed whether it does or not, and instead of printing
@@ -279,59 +466,3 @@ warnings(Goal, Warnings) :-
         ignore(Goal),
         erase(Clause)),
     findall(Term, retract(warned(Term)), Warnings).
-
-                /*******************************
-                *           DEVICES            *
-                *******************************/
-
-class(Type, 'tacho-motor', motor) :-
-    motor(Type, _).
-class(Type, 'lego-sensor', sensor) :-
-    sensor(Type, _, _, _).
-
-motor('lego-ev3-l-motor', 1050).
-motor('lego-ev3-m-motor', 1560).
-motor('lego-nxt-motor',   1020).
-
-sensor('lego-ev3-color', 'COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL', 0, 42).
-sensor('lego-ev3-us',    'US-DIST-CM US-DIST-IN US-LISTEN US-SI-CM US-SI-IN',         1, 843).
-sensor('lego-ev3-gyro',  'GYRO-ANG GYRO-RATE GYRO-FAS GYRO-G&A GYRO-CAL',             0, 0).
-sensor('lego-ev3-touch', 'TOUCH',                                                     0, 0).
-sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',        0, 35).
-sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                                     1, 215).
-
-attribute('tacho-motor', Type, max_speed, Speed) :-
-    motor(Type, Speed).
-attribute('tacho-motor', _, Attribute, Text) :-
-    motor_attribute_text(Attribute, Text).
-attribute('lego-sensor', Type, Attribute, Text) :-
-    sensor(Type, Modes, Decimals, Value),
-    sensor_attribute_text(Attribute, Modes, Decimals, Value, Text).
-
-motor_attribute_text(command, '').
-motor_attribute_text(commands,
-    'run-forever run-to-abs-pos run-to-rel-pos run-timed run-direct stop reset').
-motor_attribute_text(count_per_rot, 360).
-motor_attribute_text(duty_cycle, 0).
-motor_attribute_text(duty_cycle_sp, 0).
-motor_attribute_text(polarity, normal).
-motor_attribute_text(position, 0).
-motor_attribute_text(position_sp, 0).
-motor_attribute_text(ramp_down_sp, 0).
-motor_attribute_text(ramp_up_sp, 0).
-motor_attribute_text(speed, 0).
-motor_attribute_text(speed_sp, 0).
-motor_attribute_text(state, '').
-motor_attribute_text(stop_action, coast).
-motor_attribute_text(stop_actions, 'coast brake hold').
-motor_attribute_text(time_sp, 0).
-
-sensor_attribute_text(commands, _, _, _, '').
-sensor_attribute_text(decimals, _, Decimals, _, Decimals).
-sensor_attribute_text(mode, Modes, _, _, Mode) :-
-    atomic_list_concat([Mode|_], ' ', Modes).
-sensor_attribute_text(modes, Modes, _, _, Modes).
-sensor_attribute_text(num_values, _, _, _, 1).
-sensor_attribute_text(value0, _, _, Value, Value).
-sensor_attribute_text(value1, _, _, _, 0).
-sensor_attribute_text(value2, _, _, _, 0).

@@ -2,7 +2,8 @@
 #
 # Tries the binary pack in other SWI-Prologs: installs it with pack_install
 # where there is nothing to build with, calls every predicate once, and runs the
-# plunit suite over plain directory trees.
+# plunit suite: what is about devices over plain directory trees, and over the
+# simulator within the process.
 #
 # Usage: tools/versions.sh [NAME...]        as in tools/emulate.sh, or 7.2.3;
 #                                           default: all of the PC's processor
@@ -14,6 +15,8 @@
 set -euo pipefail
 # shellcheck source=tools/common.sh
 source "$(dirname "$0")/common.sh"
+# shellcheck source=tests/about_devices.sh
+source "$root/tests/about_devices.sh"
 
 pc=(8.2.4 9.0.4 9.2.9)
 passed=0 failed=0
@@ -29,7 +32,7 @@ main() {
     fi
     work=$(mktemp -d)
     trap 'rm -rf "$work"' EXIT
-    unset EV3DEV_SYSFS RUST_BACKTRACE
+    unset EV3DEV_SYSFS EV3DEV_TEST_TREE RUST_BACKTRACE
     for name; do
         try "$name"
     done
@@ -65,6 +68,8 @@ try() {
     cd "$tree/ev3dev"
     for file in ${SUITE:-tests/test_*.pl}; do
         step "$name: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
+        ! is_about_devices "$file" || EV3DEV_TEST_TREE=simulator \
+            step "$name, simulator: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
     done
     cd "$root"
 }
@@ -83,7 +88,8 @@ step() {
     shift
     if "$@" </dev/null >"$log" 2>&1 && ! grep -qE '^(Warning|ERROR)' "$log"; then
         passed=$((passed + 1))
-        echo "ok      $text"
+        # How many tests, where it is a test file
+        echo "ok      $text$(sed -nE 's/^tally [a-z]+(: .*)$/\1/p' "$log")"
     else
         failed=$((failed + 1))
         echo "FAILED  $text"

@@ -365,7 +365,8 @@ decimals_file(Port, File) :-
 %
 %   Query or set the directory that holds the classes of devices. At first it
 %   is the value of the environment variable EV3DEV_SYSFS, else `/sys/class`.
-%   Setting it stops the motors that the program has started so far.
+%   Setting it stops the motors that the program has started so far, and ends
+%   a simulation, unless that is mounted by sim_mount/1.
 %
 %   On a machine that has no such devices, and where no directory was set, the
 %   first use of a device starts the simulator, sim_start/1, with `room`.

@@ -10,6 +10,9 @@
             sim_plug/2,                 % +Port, +Type
             sim_unplug/1,               % +Port
             sim_jam/2,                  % +Port, +Boolean
+            sim_show/3,                 % +Port, +Attribute, +Text
+            sim_unshow/2,               % +Port, +Attribute
+            sim_wait/1,                 % +Seconds
             sim_step/1,                 % +Seconds
             sim_time/1,                 % -Seconds
             sim_snapshot/1,             % -Snapshot
@@ -135,7 +138,7 @@ Time jumps when a predicate of library(ev3dev) waits, as go_cm/2 does, to the
 end of the wait; so a minute's drive takes milliseconds. Each read of a file
 takes 0.5 ms and each write 0.1 ms, so that time passes for a program, too,
 that only polls a sensor in a loop. sleep/1 does not count: to let time pass
-otherwise, use sim_step/1. Several threads may wait at once; time goes on when
+otherwise, use sim_wait/1. Several threads may wait at once; time goes on when
 each waits or does something else than to use devices. The same program with
 the same seed does the same each time.
 */
@@ -306,6 +309,50 @@ sim_unplug(Port) :-
 sim_jam(Port, Boolean) :-
     must_be(boolean, Boolean),
     sim_jam_(Port, Boolean).
+
+%!  sim_show(+Port, +Attribute, +Text) is semidet.
+%!  sim_unshow(+Port, +Attribute) is semidet.
+%
+%   Make an attribute of the motor or sensor at a port show a text, an atom,
+%   string or number, whatever happens in the world, to try a program with it;
+%   and show what is true again. The device itself does not change, and takes
+%   what is written to the attribute as ever. When it is unplugged, this ends.
+%
+%   ```
+%   ?- sim_show(in1, value0, 123), us_dist_cm(in1, Distance).
+%   Distance = 12.3.
+%   ```
+%
+%   Both fail if nothing is at that port, and sim_unshow/2 if the attribute
+%   shows its own text already.
+%
+%   @error existence_error(attribute, Attribute)
+%   @error domain_error(readable_attribute, Attribute) if it can only be
+%          written, as `command`
+%   @error domain_error(attribute_text, Text) if it is longer than a page
+
+sim_show(Port, Attribute, Text) :-
+    sim_show_(Port, Attribute, Text).
+
+sim_unshow(Port, Attribute) :-
+    sim_unshow_(Port, Attribute).
+
+%!  sim_wait(+Seconds) is semidet.
+%
+%   Wait until so much simulated time has passed, as a program does with
+%   sleep/1 on a brick. With the virtual clock this takes no longer than the
+%   program's other threads let it. Seconds may be an arithmetic expression.
+%
+%   @error domain_error(seconds, Seconds) if it is negative
+
+sim_wait(Seconds0) :-
+    Seconds is Seconds0,
+    sim_wait_(Seconds).
+
+%   sim_hold_ and sim_release_ are for tests of several threads: in between,
+%   no time passes on the virtual clock unless this thread waits.
+
+:- public sim_hold_/0, sim_release_/0.
 
 %!  sim_step(+Seconds) is semidet.
 %

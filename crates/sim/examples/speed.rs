@@ -4,7 +4,9 @@
 
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Access, Descriptor, Machine, NodeId};
+use ev3_sim::{
+    Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, RobotSpec, WorldSpec,
+};
 
 const POLL: Duration = Duration::from_millis(10);
 
@@ -33,7 +35,14 @@ fn drive(
 fn main() {
     let seconds = std::env::args().nth(1).and_then(|text| text.parse().ok());
     let simulated = Duration::from_secs(seconds.unwrap_or(600));
-    let mut machine = Machine::default();
+    let world = WorldSpec {
+        items: vec![Item::Box { pose: Pose::new(110.0, 110.0, 20.0), width: 40.0, depth: 30.0 }],
+        bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
+        start: Pose::new(60.0, 50.0, 0.0),
+        ..WorldSpec::default()
+    };
+    let mut machine =
+        Machine::new(&world, &RobotSpec::default(), Options::default()).expect("a possible world");
     let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
     let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
     let mut eyes = file(&machine, "lego-sensor/sensor0/value0");

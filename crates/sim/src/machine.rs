@@ -62,13 +62,13 @@ pub struct Machine {
 }
 
 impl Default for Machine {
-    /// The default robot in the room, without noise.
+    /// The default robot on an endless floor, without noise.
     ///
     /// # Panics
-    /// Never: the shipped world and robot are valid.
+    /// Never: the default world and robot are valid.
     fn default() -> Self {
-        Machine::new(&WorldSpec::room(), &RobotSpec::default(), Options::default())
-            .expect("the shipped world and robot are valid")
+        Machine::new(&WorldSpec::default(), &RobotSpec::default(), Options::default())
+            .expect("the default world and robot are valid")
     }
 }
 

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use crate::brick::Led;
 use crate::dc::DcMotor;
+use crate::errno::Errno;
 use crate::machine::Machine;
 use crate::motor::Tacho;
 use crate::port::Port;
@@ -146,6 +147,27 @@ impl Machine {
         let ticks = time.as_micros().div_ceil(TICK_US.into());
         sensor.lose_contact(u64::try_from(ticks).unwrap_or(u64::MAX / 2));
         true
+    }
+
+    /// Makes an attribute of the device at a port show a text, whatever the device is about, until
+    /// [`Machine::unshow`] or until it is unplugged. What is written to the attribute is taken as
+    /// ever. Only that file is changed: a sensor whose `value0` is shown has its own `bin_data`.
+    ///
+    /// # Errors
+    /// ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be read,
+    /// EINVAL for more text than fits a page.
+    pub fn show(&mut self, port: Port, attribute: &str, text: &str) -> Result<(), Errno> {
+        let serial = self.sockets[port as usize].device.ok_or(Errno::ENODEV)?;
+        self.tree.show(serial, attribute, Some(text)).map(drop)
+    }
+
+    /// Ends what [`Machine::show`] began; false if it did not.
+    ///
+    /// # Errors
+    /// ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be read.
+    pub fn unshow(&mut self, port: Port, attribute: &str) -> Result<bool, Errno> {
+        let serial = self.sockets[port as usize].device.ok_or(Errno::ENODEV)?;
+        self.tree.show(serial, attribute, None)
     }
 
     /// Holds the shaft of a motor fast, or lets it go.

@@ -136,6 +136,18 @@ impl Hardware {
             _ => 0,
         }
     }
+
+    /// An attribute shows another text: those that notify do.
+    fn changed(&mut self, attribute: &str) {
+        let events = match self {
+            Hardware::Tacho(motor) if attribute == "state" => &mut motor.events,
+            Hardware::Sensor(sensor) if attribute == "value0" && sensor.notifies() => {
+                &mut sensor.events
+            }
+            _ => return,
+        };
+        *events = events.wrapping_add(1);
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -145,6 +157,8 @@ pub(crate) struct Device {
     class: Class,
     /// Tick until which udev has not yet changed the modes of the files.
     closed_until: u64,
+    /// Texts that attributes show instead of their own, by row.
+    shown: Vec<(usize, Vec<u8>)>,
     pub(crate) hardware: Hardware,
 }
 
@@ -190,7 +204,8 @@ impl Tree {
         *number += 1;
         let serial = self.next_serial;
         self.next_serial += 1;
-        self.devices.push(Device { serial, name, class, closed_until, hardware });
+        let shown = Vec::new();
+        self.devices.push(Device { serial, name, class, closed_until, shown, hardware });
         serial
     }
 
@@ -327,7 +342,36 @@ impl Tree {
 
     pub(crate) fn read(&self, node: NodeId) -> Result<Vec<u8>, Errno> {
         let (device, row) = self.attribute(node)?;
-        device.hardware.files().read(row)
+        let shown = device.shown.iter().find(|(other, _)| *other == row);
+        shown.map_or_else(|| device.hardware.files().read(row), |(_, text)| Ok(text.clone()))
+    }
+
+    /// Makes an attribute show a text from now on, or its own one again; false if it does so
+    /// already.
+    pub(crate) fn show(
+        &mut self,
+        serial: u64,
+        attribute: &str,
+        text: Option<&str>,
+    ) -> Result<bool, Errno> {
+        let device = self.device_mut(serial).ok_or(Errno::ENODEV)?;
+        let row = device.rows().find(|(_, _, name)| *name == attribute);
+        let (row, ..) = row.ok_or(Errno::ENOENT)?;
+        if device.hardware.files().access(row) == Access::WriteOnly {
+            return Err(Errno::EACCES);
+        }
+        if text.is_some_and(|text| text.len() >= PAGE) {
+            return Err(Errno::EINVAL);
+        }
+        let before = device.shown.iter().position(|(other, _)| *other == row);
+        let before = before.map(|index| device.shown.swap_remove(index).1);
+        let line = text.map(|text| format!("{text}\n").into_bytes());
+        let is_new = before != line;
+        device.shown.extend(line.map(|line| (row, line)));
+        if is_new {
+            device.hardware.changed(attribute);
+        }
+        Ok(is_new)
     }
 
     pub(crate) fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Effect, Errno> {

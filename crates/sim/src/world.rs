@@ -194,26 +194,6 @@ impl Default for WorldSpec {
 }
 
 impl WorldSpec {
-    /// A room of 300 by 240 cm with two boxes and a pillar; the robot starts in a free corner.
-    #[must_use]
-    pub fn room() -> WorldSpec {
-        let boxed = |x, y, heading, width, depth| Item::Box {
-            pose: Pose::new(x, y, heading),
-            width,
-            depth,
-        };
-        WorldSpec {
-            items: vec![
-                boxed(70.0, 155.0, 20.0, 40.0, 30.0),
-                boxed(215.0, 80.0, -15.0, 30.0, 45.0),
-                Item::Circle { centre: [190.0, 185.0], radius: 10.0 },
-            ],
-            bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
-            start: Pose::new(60.0, 50.0, 0.0),
-            ..WorldSpec::default()
-        }
-    }
-
     /// Checks everything in it, and that the bounds have an inside with the start in it.
     ///
     /// # Errors

@@ -108,6 +108,11 @@ impl Sensor {
         self.kind.link == Link::Analog
     }
 
+    /// True if who polls `value0` is told of a change: a touch sensor's.
+    pub(crate) fn notifies(&self) -> bool {
+        self.mode().sense == Sense::Touch
+    }
+
     pub(crate) fn mode(&self) -> &'static Mode {
         &self.kind.modes[self.mode]
     }
@@ -196,7 +201,7 @@ impl Sensor {
         }
         self.read_at = Some(self.now);
         self.single_shot_wanted = false;
-        if mode.sense == Sense::Touch && old != self.reading[0] {
+        if self.notifies() && old != self.reading[0] {
             self.events = self.events.wrapping_add(1);
         }
     }

@@ -1,12 +1,12 @@
-//! The paper's obstacle avoidance in the default room.
+//! The paper's obstacle avoidance in a room with walls and boxes.
 
-use ev3_sim::{RobotSpec, WorldSpec};
+use ev3_sim::RobotSpec;
 
-use crate::desk::{B, C, Desk};
+use crate::desk::{B, C, Desk, furnished};
 
 #[test]
 fn two_minutes_without_a_collision() {
-    let mut desk = Desk::with(&WorldSpec::room(), &RobotSpec::default());
+    let mut desk = Desk::with(&furnished(), &RobotSpec::default());
     for motor in [B, C] {
         desk.put(&format!("{motor}stop_action"), "hold");
     }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use ev3_sim::{Machine, Options, RobotSpec, WorldSpec};
+use ev3_sim::{Machine, Options, RobotSpec};
 
-use crate::desk::{B, C, Desk};
+use crate::desk::{B, C, Desk, furnished};
 
 /// FNV-1a: small, and the same everywhere.
 fn digest(bytes: &[u8]) -> u64 {
@@ -17,7 +17,7 @@ fn digest(bytes: &[u8]) -> u64 {
 fn run() -> Vec<u8> {
     let robot = RobotSpec::default().with_typical_noise();
     let options = Options { seed: 42, instant: false };
-    let mut desk = Desk(Machine::new(&WorldSpec::room(), &robot, options).unwrap());
+    let mut desk = Desk(Machine::new(&furnished(), &robot, options).unwrap());
     let mut bytes = String::new();
     for step in 0..1200 {
         let distance = desk.number("lego-sensor/sensor0/value0");

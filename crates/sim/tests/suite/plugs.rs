@@ -54,6 +54,74 @@ fn a_pulled_wire_lets_the_motor_coast_and_a_new_one_knows_nothing() {
 }
 
 #[test]
+fn an_attribute_shows_what_it_is_told_to_and_the_device_goes_on() {
+    let mut desk = instant();
+    let value = "lego-sensor/sensor0/value0";
+    let own = desk.get(value);
+    desk.0.show(Port::In1, "value0", "123").unwrap();
+    desk.0.show(Port::In1, "value5", "not a number").unwrap();
+    desk.0.show(Port::OutB, "state", "running stalled").unwrap();
+    assert_eq!(desk.get(value), "123");
+    assert_eq!(desk.get("lego-sensor/sensor0/value5"), "not a number", "though it is ENXIO");
+    assert_eq!(desk.try_get("lego-sensor/sensor0/value1"), Err(Errno::ENXIO));
+    desk.run(B, &[("speed_sp", 500)], "run-forever");
+    desk.step(500);
+    assert_eq!(desk.get(&format!("{B}state")), "running stalled");
+    assert!(desk.position(B) > 100, "it turns all the same");
+    assert_eq!(desk.0.unshow(Port::In1, "value0"), Ok(true));
+    assert_eq!(desk.0.unshow(Port::In1, "value0"), Ok(false));
+    assert_eq!(desk.get(value), own);
+    assert_eq!(desk.0.unshow(Port::OutB, "state"), Ok(true));
+    assert_eq!(desk.get(&format!("{B}state")), "running");
+}
+
+#[test]
+fn what_is_shown_takes_writes_as_ever_and_ends_with_the_device() {
+    let mut desk = instant();
+    desk.0.show(Port::OutB, "speed_sp", "777").unwrap();
+    desk.put(&format!("{B}speed_sp"), 300);
+    assert_eq!(desk.get(&format!("{B}speed_sp")), "777");
+    assert_eq!(desk.try_put(&format!("{B}speed_sp"), "2000"), Err(Errno::EINVAL));
+    let snapshot = desk.0.clone();
+    desk.0.unshow(Port::OutB, "speed_sp").unwrap();
+    assert_eq!(desk.number(&format!("{B}speed_sp")), 300);
+    desk.0 = snapshot;
+    assert_eq!(desk.number(&format!("{B}speed_sp")), 777, "a snapshot has it");
+    desk.0.unplug(Port::OutB);
+    desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
+    assert_eq!(desk.number("tacho-motor/motor3/speed_sp"), 0);
+}
+
+#[test]
+fn a_shown_state_wakes_who_polls_once() {
+    let mut desk = instant();
+    let mut state = Descriptor::open(&desk.0, &format!("{B}state"), Access::ReadOnly).unwrap();
+    let mut buffer = [0; 16];
+    state.pread(&mut desk.0, 0, &mut buffer).unwrap();
+    assert!(!state.poll(&desk.0));
+    desk.0.show(Port::OutB, "state", "holding").unwrap();
+    assert!(state.poll(&desk.0));
+    let length = state.pread(&mut desk.0, 0, &mut buffer).unwrap();
+    assert_eq!(&buffer[..length], b"holding\n");
+    desk.0.show(Port::OutB, "state", "holding").unwrap();
+    assert!(!state.poll(&desk.0), "nothing new");
+    desk.0.show(Port::OutB, "speed", "5").unwrap();
+    assert!(!state.poll(&desk.0));
+}
+
+#[test]
+fn what_cannot_be_shown_is_refused() {
+    let mut desk = instant();
+    assert_eq!(desk.0.show(Port::OutD, "state", ""), Err(Errno::ENODEV));
+    assert_eq!(desk.0.show(Port::OutB, "colour", "red"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.show(Port::OutB, "command", "stop"), Err(Errno::EACCES));
+    assert_eq!(desk.0.show(Port::OutB, "state", &"x".repeat(4096)), Err(Errno::EINVAL));
+    desk.0.show(Port::OutB, "state", &"x".repeat(4095)).unwrap();
+    assert_eq!(desk.0.unshow(Port::OutB, "colour"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.unshow(Port::OutD, "state"), Err(Errno::ENODEV));
+}
+
+#[test]
 fn plugging_takes_the_time_it_takes() {
     let mut desk = Desk::new();
     desk.0.unplug(Port::OutB);

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ev3_sim::{Bounds, Hull, Item, Machine, Options, Port, Pose, RobotSpec, WorldSpec};
 use proptest::prelude::*;
 
-use crate::desk::{A, B, C, Desk};
+use crate::desk::{A, B, C, Desk, furnished};
 
 const FLAGS: [&str; 5] = ["running", "ramping", "holding", "overloaded", "stalled"];
 
@@ -60,7 +60,7 @@ fn deeds(most: usize) -> impl Strategy<Value = Vec<Deed>> {
 fn noisy_room(seed: u64) -> Desk {
     let robot = RobotSpec::default().with_typical_noise();
     let options = Options { seed, instant: false };
-    Desk(Machine::new(&WorldSpec::room(), &robot, options).unwrap())
+    Desk(Machine::new(&furnished(), &robot, options).unwrap())
 }
 
 fn act(desk: &mut Desk, deed: &Deed) {

@@ -2,7 +2,7 @@
 
 use ev3_sim::{Action, Bounds, Item, ItemId, Machine, Options, Pose, RobotSpec, WorldSpec};
 
-use crate::desk::{B, C, Desk};
+use crate::desk::{B, C, Desk, furnished};
 
 #[test]
 fn impossible_worlds_and_robots_are_named() {
@@ -10,7 +10,7 @@ fn impossible_worlds_and_robots_are_named() {
         Machine::new(world, robot, Options::default()).map(|_| ()).unwrap_err().to_string()
     };
     let robot = RobotSpec::default();
-    let mut world = WorldSpec::room();
+    let mut world = furnished();
     world.items.push(Item::Circle { centre: [0.0, 0.0], radius: 0.0 });
     assert!(build(&world, &robot).contains("needs a radius"), "{}", build(&world, &robot));
     let world = WorldSpec {
@@ -18,7 +18,7 @@ fn impossible_worlds_and_robots_are_named() {
         ..WorldSpec::default()
     };
     assert!(build(&world, &robot).starts_with("bounds"));
-    let mut world = WorldSpec::room();
+    let mut world = furnished();
     world.start = Pose::new(3.0, 3.0, 0.0);
     assert!(build(&world, &robot).contains("inside bounds"), "{}", build(&world, &robot));
 
@@ -53,7 +53,7 @@ fn items_come_and_go_but_not_onto_the_robot() {
 }
 
 fn drive_into_a_wall() -> Desk {
-    let mut desk = Desk::with(&WorldSpec::room(), &RobotSpec::default());
+    let mut desk = Desk::with(&furnished(), &RobotSpec::default());
     for motor in [B, C] {
         desk.run(motor, &[("speed_sp", 500)], "run-forever");
     }

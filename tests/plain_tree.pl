@@ -1,0 +1,158 @@
+:- module(plain_tree,
+          [ plain_start/1,              % -Root
+            plain_stop/1,               % +Root
+            plain_plug/3,               % +Port, +Type, +Directory
+            plain_unplug/1,             % +Directory
+            plain_written/2,            % +Directory, -Attributes
+            class/3,                    % +Type, -Class, -Prefix
+            read_line_of/2,             % +File, -Text
+            write_line_to/2             % +File, +Text
+          ]).
+:- use_module(library(filesex)).
+:- use_module(library(readutil)).
+
+/** <module> Plain directory trees shaped like ev3dev's
+
+A tree holds files as the kernel shows them after plugging in, and stores what
+is written. Nothing in it moves.
+*/
+
+% In memory where one can, as it is a hundred files for each test.
+:- initialization(
+       (   getenv('TMPDIR', _)
+       ->  true
+       ;   catch(access_file('/dev/shm', write), _, fail)
+       ->  set_prolog_flag(tmp_dir, '/dev/shm')
+       ;   true
+       )).
+
+plain_start(Root) :-
+    tmp_file(ev3dev, Root),
+    make_directory_path(Root).
+
+plain_stop(Root) :-
+    delete_directory_and_contents(Root).
+
+%!  plain_plug(+Port, +Type, +Directory)
+%
+%   Plug a device in: its directory appears.
+
+plain_plug(Port, Type, Directory) :-
+    once(class(Type, Class, _)),
+    make_directory_path(Directory),
+    format(atom(Address), "ev3-ports:~w", [Port]),
+    forall(attribute(Class, Type, Attribute, Text),
+           write_text(Directory, Attribute, Text)),
+    write_text(Directory, driver_name, Type),
+    % Last: until it has an address it is no device.
+    write_text(Directory, address, Address).
+
+plain_unplug(Directory) :-
+    delete_directory_and_contents(Directory).
+
+%!  plain_written(+Directory, -Attributes)
+%
+%   Attributes of a device that differ from what they are after plugging in.
+
+plain_written(Directory, Attributes) :-
+    read_text(Directory, driver_name, Type),
+    once(class(Type, Class, _)),
+    findall(Attribute=Text,
+            ( attribute(Class, Type, Attribute, Text0),
+              read_text(Directory, Attribute, Text),
+              \+ format(atom(Text), "~w", [Text0])
+            ),
+            Attributes).
+
+read_text(Directory, Attribute, Text) :-
+    atomic_list_concat([Directory, Attribute], /, Path),
+    read_line_of(Path, Text).
+
+write_text(Directory, Attribute, Text) :-
+    atomic_list_concat([Directory, Attribute], /, Path),
+    write_line_to(Path, Text).
+
+%!  read_line_of(+File, -Text)
+%
+%   Text is an atom: the first line, as a longer text may be cut only a moment
+%   after the new one was written.
+
+read_line_of(Path, Text) :-
+    setup_call_cleanup(
+        open(Path, read, Stream),
+        read_line_to_string(Stream, Line),
+        close(Stream)),
+    (   Line == end_of_file
+    ->  Text = ''
+    ;   atom_string(Text, Line)
+    ).
+
+%!  write_line_to(+File, +Text)
+%
+%   A text that is there already is cut afterwards, so that nobody who reads in
+%   between finds an empty file.
+
+write_line_to(Path, Text) :-
+    setup_call_cleanup(
+        open(Path, update, Stream),
+        ( format(Stream, "~w~n", [Text]),
+          flush_output(Stream),
+          set_end_of_stream(Stream)
+        ),
+        close(Stream)).
+
+                /*******************************
+                *           DEVICES            *
+                *******************************/
+
+class(Type, 'tacho-motor', motor) :-
+    motor(Type, _).
+class(Type, 'lego-sensor', sensor) :-
+    sensor(Type, _, _, _).
+
+motor('lego-ev3-l-motor', 1050).
+motor('lego-ev3-m-motor', 1560).
+motor('lego-nxt-motor',   1020).
+
+sensor('lego-ev3-color', 'COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL', 0, 42).
+sensor('lego-ev3-us',    'US-DIST-CM US-DIST-IN US-LISTEN US-SI-CM US-SI-IN',         1, 843).
+sensor('lego-ev3-gyro',  'GYRO-ANG GYRO-RATE GYRO-FAS GYRO-G&A GYRO-CAL',             0, 0).
+sensor('lego-ev3-touch', 'TOUCH',                                                     0, 0).
+sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',        0, 35).
+sensor('ev3-analog-01',  'ANALOG',                                                    3, 0).
+
+attribute('tacho-motor', Type, max_speed, Speed) :-
+    motor(Type, Speed).
+attribute('tacho-motor', _, Attribute, Text) :-
+    motor_attribute_text(Attribute, Text).
+attribute('lego-sensor', Type, Attribute, Text) :-
+    sensor(Type, Modes, Decimals, Value),
+    sensor_attribute_text(Attribute, Modes, Decimals, Value, Text).
+
+motor_attribute_text(command, '').
+motor_attribute_text(commands,
+    'run-forever run-to-abs-pos run-to-rel-pos run-timed run-direct stop reset').
+motor_attribute_text(count_per_rot, 360).
+motor_attribute_text(duty_cycle, 0).
+motor_attribute_text(duty_cycle_sp, 0).
+motor_attribute_text(polarity, normal).
+motor_attribute_text(position, 0).
+motor_attribute_text(position_sp, 0).
+motor_attribute_text(ramp_down_sp, 0).
+motor_attribute_text(ramp_up_sp, 0).
+motor_attribute_text(speed, 0).
+motor_attribute_text(speed_sp, 0).
+motor_attribute_text(state, '').
+motor_attribute_text(stop_action, coast).
+motor_attribute_text(stop_actions, 'coast brake hold').
+motor_attribute_text(time_sp, 0).
+
+sensor_attribute_text(commands, _, _, _, '').
+sensor_attribute_text(decimals, _, Decimals, _, Decimals).
+sensor_attribute_text(mode, Modes, _, _, Mode) :-
+    atomic_list_concat([Mode|_], ' ', Modes).
+sensor_attribute_text(modes, Modes, _, _, Modes).
+sensor_attribute_text(num_values, _, _, _, 1).
+sensor_attribute_text(value0, _, _, Value, Value).
+sensor_attribute_text(value1, _, _, _, 0).
+sensor_attribute_text(value2, _, _, _, 0).
