@@ -38,6 +38,7 @@ kernel's part.
 :- dynamic
     root/1,                             % Directory
     plugged/2,                          % Port, Directory
+    typed/2,                            % Port, Type
     numbered/2,                         % Class, Number of the next device
     warned/1.                           % Term of a message
 
@@ -84,6 +85,7 @@ make_tree(Devices) :-
 drop_tree :-
     retract(root(Root)),
     retractall(plugged(_, _)),
+    retractall(typed(_, _)),
     retractall(numbered(_, _)),
     delete_directory_and_contents(Root).
 
@@ -96,21 +98,34 @@ tree_root(Directory) :-
 
 %!  plug(+Port, +Type)
 %
-%   Plug a device in: a new directory with the next number of its class.
+%   Plug a device in: a new directory with the next number of its class. The
+%   Port of a port itself is port(Port). A `led` or a `battery` has no port, but
+%   a name.
 
 plug(Port, Type) :-
     once(class(Type, Class, Prefix)),
     root(Root),
-    next_number(Class, Number),
-    format(atom(Directory), "~w/~w/~w~w", [Root, Class, Prefix, Number]),
+    directory_name(Prefix, Class, Port, Name),
+    atomic_list_concat([Root, Class, Name], /, Directory),
     make_directory_path(Directory),
-    format(atom(Address), "ev3-ports:~w", [Port]),
     forall(attribute(Class, Type, Attribute, Text),
            write_text(Directory, Attribute, Text)),
-    write_text(Directory, driver_name, Type),
-    % Last: until it has an address it is no device.
-    write_text(Directory, address, Address),
-    assertz(plugged(Port, Directory)).
+    (   Prefix == named
+    ->  true
+    ;   write_text(Directory, driver_name, Type),
+        ( Port = port(Short) -> true ; Short = Port ),
+        format(atom(Address), "ev3-ports:~w", [Short]),
+        % Last: until it has an address it is no device.
+        write_text(Directory, address, Address)
+    ),
+    assertz(plugged(Port, Directory)),
+    assertz(typed(Port, Type)).
+
+directory_name(named, _, Name, Name) :-
+    !.
+directory_name(Prefix, Class, _, Name) :-
+    next_number(Class, Number),
+    atom_concat(Prefix, Number, Name).
 
 next_number(Class, Number) :-
     (   retract(numbered(Class, Number))
@@ -126,6 +141,7 @@ next_number(Class, Number) :-
 
 unplug(Port) :-
     retract(plugged(Port, Directory)),
+    retract(typed(Port, _)),
     delete_directory_and_contents(Directory).
 
 attribute_path(Port, Attribute, Path) :-
@@ -162,7 +178,7 @@ get_attribute(Port, Attribute, Text) :-
 %   as a list of Attribute=Text.
 
 written(Port, Attributes) :-
-    get_attribute(Port, driver_name, Type),
+    typed(Port, Type),
     once(class(Type, Class, _)),
     findall(Attribute=Text,
             ( attribute(Class, Type, Attribute, Text0),
@@ -187,6 +203,8 @@ written(Attributes) :-
 % between finds an empty file.
 write_text(Directory, Attribute, Text) :-
     atomic_list_concat([Directory, Attribute], /, Path),
+    file_directory_name(Path, Group),
+    make_directory_path(Group),
     setup_call_cleanup(
         open(Path, update, Stream),
         ( format(Stream, "~w~n", [Text]),
@@ -284,14 +302,27 @@ warnings(Goal, Warnings) :-
                 *           DEVICES            *
                 *******************************/
 
+class(Type, 'tacho-motor', linear) :-
+    linear(Type, _).
 class(Type, 'tacho-motor', motor) :-
     motor(Type, _).
+class('rcx-motor', 'dc-motor', motor).
+class('ms-8ch-servo', 'servo-motor', motor).
+class('ev3-input-port', 'lego-port', port).
+class('ev3-output-port', 'lego-port', port).
+class(led, leds, named).
+class(battery, power_supply, named).
 class(Type, 'lego-sensor', sensor) :-
     sensor(Type, _, _, _).
 
 motor('lego-ev3-l-motor', 1050).
 motor('lego-ev3-m-motor', 1560).
 motor('lego-nxt-motor',   1020).
+motor(Type,               24) :-
+    linear(Type, _).
+
+linear('act-l12-ev3-50',  100).
+linear('act-l12-ev3-100', 200).
 
 sensor('lego-ev3-color', 'COL-REFLECT COL-AMBIENT COL-COLOR REF-RAW RGB-RAW COL-CAL', 0, 42).
 sensor('lego-ev3-us',    'US-DIST-CM US-DIST-IN US-LISTEN US-SI-CM US-SI-IN',         1, 843).
@@ -302,8 +333,24 @@ sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                               
 
 attribute('tacho-motor', Type, max_speed, Speed) :-
     motor(Type, Speed).
+attribute('tacho-motor', Type, count_per_m, 2000) :-
+    linear(Type, _).
+attribute('tacho-motor', Type, full_travel_count, Count) :-
+    linear(Type, Count).
+attribute('tacho-motor', Type, count_per_rot, 360) :-
+    \+ linear(Type, _).
 attribute('tacho-motor', _, Attribute, Text) :-
     motor_attribute_text(Attribute, Text).
+attribute('dc-motor', _, Attribute, Text) :-
+    dc_motor_attribute_text(Attribute, Text).
+attribute('servo-motor', _, Attribute, Text) :-
+    servo_motor_attribute_text(Attribute, Text).
+attribute('lego-port', Type, Attribute, Text) :-
+    port_attribute_text(Attribute, Type, Text).
+attribute(leds, _, Attribute, Text) :-
+    led_attribute_text(Attribute, Text).
+attribute(power_supply, _, Attribute, Text) :-
+    battery_attribute_text(Attribute, Text).
 attribute('lego-sensor', Type, Attribute, Text) :-
     sensor(Type, Modes, Decimals, Value),
     sensor_attribute_text(Attribute, Modes, Decimals, Value, Text).
@@ -311,10 +358,15 @@ attribute('lego-sensor', Type, Attribute, Text) :-
 motor_attribute_text(command, '').
 motor_attribute_text(commands,
     'run-forever run-to-abs-pos run-to-rel-pos run-timed run-direct stop reset').
-motor_attribute_text(count_per_rot, 360).
 motor_attribute_text(duty_cycle, 0).
 motor_attribute_text(duty_cycle_sp, 0).
 motor_attribute_text(polarity, normal).
+motor_attribute_text('hold_pid/Kp', 80000).
+motor_attribute_text('hold_pid/Ki', 0).
+motor_attribute_text('hold_pid/Kd', 0).
+motor_attribute_text('speed_pid/Kp', 1000).
+motor_attribute_text('speed_pid/Ki', 60).
+motor_attribute_text('speed_pid/Kd', 0).
 motor_attribute_text(position, 0).
 motor_attribute_text(position_sp, 0).
 motor_attribute_text(ramp_down_sp, 0).
@@ -325,6 +377,47 @@ motor_attribute_text(state, '').
 motor_attribute_text(stop_action, coast).
 motor_attribute_text(stop_actions, 'coast brake hold').
 motor_attribute_text(time_sp, 0).
+
+dc_motor_attribute_text(command, '').
+dc_motor_attribute_text(commands, 'run-forever run-timed run-direct stop').
+dc_motor_attribute_text(duty_cycle, 0).
+dc_motor_attribute_text(duty_cycle_sp, 0).
+dc_motor_attribute_text(polarity, normal).
+dc_motor_attribute_text(ramp_down_sp, 0).
+dc_motor_attribute_text(ramp_up_sp, 0).
+dc_motor_attribute_text(state, '').
+dc_motor_attribute_text(stop_action, '').
+dc_motor_attribute_text(stop_actions, 'coast brake').
+dc_motor_attribute_text(time_sp, 0).
+
+servo_motor_attribute_text(command, '').
+servo_motor_attribute_text(max_pulse_sp, 2500).
+servo_motor_attribute_text(mid_pulse_sp, 1500).
+servo_motor_attribute_text(min_pulse_sp, 500).
+servo_motor_attribute_text(polarity, normal).
+servo_motor_attribute_text(position_sp, 0).
+servo_motor_attribute_text(rate_sp, 0).
+servo_motor_attribute_text(state, '').
+
+port_attribute_text(mode, _, auto).
+port_attribute_text(modes, 'ev3-input-port',
+    'auto nxt-analog nxt-color nxt-i2c other-i2c ev3-analog ev3-uart other-uart raw').
+port_attribute_text(modes, 'ev3-output-port', 'auto tacho-motor dc-motor led raw').
+port_attribute_text(set_device, _, '').
+port_attribute_text(status, 'ev3-input-port', 'no-sensor').
+port_attribute_text(status, 'ev3-output-port', 'no-motor').
+
+led_attribute_text(brightness, 0).
+led_attribute_text(max_brightness, 255).
+led_attribute_text(trigger, '[none] mmc0 timer heartbeat default-on transient rfkill0').
+
+battery_attribute_text(current_now, 180000).
+battery_attribute_text(scope, 'System').
+battery_attribute_text(technology, 'Li-ion').
+battery_attribute_text(type, 'Battery').
+battery_attribute_text(voltage_max_design, 84000000).
+battery_attribute_text(voltage_min_design, 60000000).
+battery_attribute_text(voltage_now, 7600000).
 
 sensor_attribute_text(commands, _, _, _, '').
 sensor_attribute_text(decimals, _, Decimals, _, Decimals).

@@ -8,6 +8,7 @@
             ev3_large_motor/1,          % ?Port
             ev3_medium_motor/1,         % ?Port
             nxt_motor/1,                % ?Port
+            dc_motor/1,                 % ?Port
             servo_motor/1,              % ?Port
             lego_sensor/1,              % ?Port
             lego_sensor/2,              % ?Port, ?Type
@@ -141,9 +142,18 @@ ev3_medium_motor(Port) :-
 nxt_motor(Port) :-
     tacho_motor(Port, 'lego-nxt-motor').
 
+%!  dc_motor(?Port) is nondet.
+%
+%   True if Port is one for a motor without rotation sensor, as
+%   port_mode(Port, 'dc-motor') makes it. See library(ev3dev/dc_motors).
+
+dc_motor(Port) :-
+    device_('dc-motor', Port, _, _).
+
 %!  servo_motor(?Port) is nondet.
 %
-%   True if an RC servo is connected to Port, through a servo controller.
+%   True if an RC servo is connected to Port, through a servo controller. See
+%   library(ev3dev/servo_motors).
 
 servo_motor(Port) :-
     device_('servo-motor', Port, _, _).

@@ -25,6 +25,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(driver, []).
+:- use_module(options, [must_be_options/3]).
 :- use_module(fact_file,
               [fact_location/3, located_facts/3, throw_located/3]).
 
@@ -169,6 +170,7 @@ the same seed does the same each time.
 %   @error domain_error(robot_fact, Fact) if a robot has no such facts
 %   @error domain_error(possible_geometry, Item)
 %   @error domain_error(clock, Clock)
+%   @error domain_error(sim_option, Option) for an option that is none
 %   @error existence_error(feature, sim) if the pack was built without
 
 sim_start(World) :-
@@ -176,7 +178,7 @@ sim_start(World) :-
 
 sim_start(World, Options) :-
     must_be_built,
-    must_be(list, Options),
+    must_be_options(sim_option, [clock, robot, noise, seed], Options),
     option(clock(Clock), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
