@@ -73,7 +73,9 @@ of
   - line(Colour, Width, Points)
     A line on the floor through at least two Points, each `[X, Y]`.
   - lamp(X, Y, Intensity)
-    A lamp, 30 cm above the floor. Intensity is the percentage that
+  - lamp(X, Y, Intensity, Port)
+    A lamp, 30 cm above the floor. One with a Port is lit by that output port
+    in the mode `dc-motor` or `led`, see port_mode/2. Intensity is the percentage that
     col_ambient/2 shows when the sensor looks at it from 100 cm. The light
     falls with the square of the distance; what stands between throws shadows.
   - ambient(Percent)
@@ -109,8 +111,9 @@ A robot is a file of facts, too:
     Offset ahead of it.
   - mass(Kilograms)
   - motor(Port, Type)
-    A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'` or
-    `'lego-nxt-motor'`. The wheels' have to be among them.
+    A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'`, `'lego-nxt-motor'`,
+    or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
+    The wheels' have to be among them.
   - sensor(Port, Type, X, Y, Heading)
     A sensor, X to the right and Y ahead of the middle of the axle:
     `'lego-ev3-us'`, `'lego-ev3-color'`, `'lego-ev3-gyro'`,
