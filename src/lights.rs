@@ -47,7 +47,7 @@ predicates! {
             let call = Call::of(context, "led", 2);
             let read = |light: &Light| call.check(light.colour());
             call.next(lights, read, |light, read| {
-                unify_colour(context, colour, read)?;
+                unify_colour(colour, read)?;
                 unify_port(name, light.name())
             })
         }
@@ -171,18 +171,13 @@ fn colour_of<'a, C: QueryableContextType>(
     colour.map_or_else(|| wrong_value(call, "led_colour", term), Ok)
 }
 
-fn unify_colour<C: QueryableContextType>(
-    context: &Context<C>,
-    term: &Term,
-    colour: &Colour,
-) -> PrologResult<()> {
-    match colour {
-        Colour::Named(name) => unify_atom(term, name),
-        Colour::Level(level) => term.unify(*level),
-        Colour::Levels(levels) => match &levels[..] {
-            [red, green] => term.unify(&term! {context: levels(#*red, #*green)}?),
-            [red, green, blue] => term.unify(&term! {context: levels(#*red, #*green, #*blue)}?),
-            _ => Err(PrologError::Failure),
-        },
-    }
+fn unify_colour(term: &Term, colour: &Colour) -> PrologResult<()> {
+    let levels = match colour {
+        Colour::Named(name) => return unify_atom(term, name),
+        Colour::Level(level) => return term.unify(*level),
+        Colour::Levels(levels) => levels,
+    };
+    let arity = if levels.len() == 2 { 2 } else { 3 };
+    term.unify(Functor::new("levels", arity))?;
+    levels.iter().zip(1..).try_for_each(|(level, nth)| term.unify_arg(nth, *level))
 }
