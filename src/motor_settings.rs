@@ -20,10 +20,11 @@ predicates! {
             let call = Call::of(context, "motor_position", 2);
             call.listed(Class::TachoMotor, port)
         },
-        call(devices) => {
+        call(motors) => {
             let call = Call::of(context, "motor_position", 2);
-            let read = |motor: &Arc<Device>| call.found(motor::position(motor).map(Some));
-            call.next(devices, read, |motor, read| {
+            let devices = &call.devices()?;
+            let read = |motor: &Arc<Device>| call.found(devices.read(motor, motor::position));
+            call.next(motors, read, |motor, read| {
                 unify_value(position, read)?;
                 unify_port(port, motor.port())
             })

@@ -23,10 +23,13 @@ predicates! {
             let call = Call::of(context, "servo_motor_position", 2);
             call.listed(Class::ServoMotor, port)
         },
-        call(devices) => {
+        call(servos) => {
             let call = Call::of(context, "servo_motor_position", 2);
-            let read = |servo: &Arc<Device>| call.found(servo::position(servo));
-            call.next(devices, read, |servo, read| {
+            let devices = &call.devices()?;
+            let read = |servo: &Arc<Device>| {
+                call.found(devices.read(servo, servo::position).map(Option::flatten))
+            };
+            call.next(servos, read, |servo, read| {
                 percent.unify(*read)?;
                 unify_port(port, servo.port())
             })
@@ -41,10 +44,13 @@ predicates! {
             let call = Call::of(context, "servo_motor_angle", 2);
             call.listed(Class::ServoMotor, port)
         },
-        call(devices) => {
+        call(servos) => {
             let call = Call::of(context, "servo_motor_angle", 2);
-            let read = |servo: &Arc<Device>| call.found(servo::position(servo));
-            call.next(devices, read, |servo, read| {
+            let devices = &call.devices()?;
+            let read = |servo: &Arc<Device>| {
+                call.found(devices.read(servo, servo::position).map(Option::flatten))
+            };
+            call.next(servos, read, |servo, read| {
                 degrees.unify(servo::degrees_of(*read))?;
                 unify_port(port, servo.port())
             })

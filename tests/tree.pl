@@ -329,6 +329,8 @@ sensor('lego-ev3-us',    'US-DIST-CM US-DIST-IN US-LISTEN US-SI-CM US-SI-IN',   
 sensor('lego-ev3-gyro',  'GYRO-ANG GYRO-RATE GYRO-FAS GYRO-G&A GYRO-CAL',             0, 0).
 sensor('lego-ev3-touch', 'TOUCH',                                                     0, 0).
 sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',        0, 35).
+sensor('ev3-analog-01',  'ANALOG',                                                    3, 0).
+sensor('nxt-analog',     'ANALOG-0 ANALOG-1',                                         3, 0).
 sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                                     1, 215).
 
 attribute('tacho-motor', Type, max_speed, Speed) :-

@@ -181,8 +181,8 @@ dc_motor_ramps(Port, Up, Down) :-
     var(Down),
     !,
     dc_motor(Port),
-    dc_motor_attribute(Port, ramp_up_sp, Up),
-    dc_motor_attribute(Port, ramp_down_sp, Down).
+    ev3dev_driver:attribute_('dc-motor', Port, ramp_up_sp, Up),
+    ev3dev_driver:attribute_('dc-motor', Port, ramp_down_sp, Down).
 dc_motor_ramps(Port, Up, Down) :-
     must_be_ramp(ramp_up_sp, Up),
     must_be_ramp(ramp_down_sp, Down),

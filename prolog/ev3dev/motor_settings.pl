@@ -55,7 +55,7 @@ motor_position(Port, Position0) :-
 %   to 100.
 
 motor_duty(Port, Percent) :-
-    motor_value(Port, duty_cycle, Percent).
+    ev3dev_driver:attribute_('tacho-motor', Port, duty_cycle, Percent).
 
 %!  motor_polarity(?Port, ?Polarity) is nondet.
 %
@@ -90,8 +90,8 @@ motor_ramps(Port, Up, Down) :-
     var(Down),
     !,
     tacho_motor(Port),
-    motor_value(Port, ramp_up_sp, Up),
-    motor_value(Port, ramp_down_sp, Down).
+    ev3dev_driver:attribute_('tacho-motor', Port, ramp_up_sp, Up),
+    ev3dev_driver:attribute_('tacho-motor', Port, ramp_down_sp, Down).
 motor_ramps(Port, Up, Down) :-
     must_be_within(60000, ramp_up_sp, Up),
     must_be_within(60000, ramp_down_sp, Down),
@@ -119,9 +119,9 @@ motor_pid(Port, Directory, PID) :-
     atom_concat(Directory, '/Kd', KD),
     (   var(PID)
     ->  tacho_motor(Port),
-        motor_value(Port, KP, P),
-        motor_value(Port, KI, I),
-        motor_value(Port, KD, D),
+        motor_attribute(Port, KP, P),
+        motor_attribute(Port, KI, I),
+        motor_attribute(Port, KD, D),
         PID = pid(P, I, D)
     ;   must_be_pid(PID),
         PID = pid(P, I, D),
@@ -143,7 +143,3 @@ must_be_within(Highest, Domain, Number) :-
     ->  true
     ;   domain_error(Domain, Number)
     ).
-
-motor_value(Port, Attribute, Value) :-
-    motor_attribute(Port, Attribute, Read),
-    Value = Read.

@@ -123,9 +123,9 @@ servo_motor_pulses(Port, Min, Mid, Max) :-
     var(Max),
     !,
     servo_motor(Port),
-    servo_motor_attribute(Port, min_pulse_sp, Min),
-    servo_motor_attribute(Port, mid_pulse_sp, Mid),
-    servo_motor_attribute(Port, max_pulse_sp, Max).
+    ev3dev_driver:attribute_('servo-motor', Port, min_pulse_sp, Min),
+    ev3dev_driver:attribute_('servo-motor', Port, mid_pulse_sp, Mid),
+    ev3dev_driver:attribute_('servo-motor', Port, max_pulse_sp, Max).
 servo_motor_pulses(Port, Min, Mid, Max) :-
     must_be_within(0, 1000, min_pulse_sp, Min),
     must_be_within(1000, 2000, mid_pulse_sp, Mid),

@@ -45,17 +45,10 @@ const INTEGERS: [&str; 25] = [
 /// The kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
 pub fn read(devices: &Devices, device: &Device, name: &str) -> Result<Option<Value>> {
-    match value(device, name) {
-        Err(error) if error.is_stale() => {
-            devices.forget_listings();
-            devices.with(device.class(), device.port(), |device| value(device, name))
-        }
-        result => result.map(Some),
-    }
+    devices.read(device, |device| value(device, name))
 }
 
 fn value(device: &Device, name: &str) -> Result<Value> {
-    device.check_present()?;
     let index = sensor::VALUES.iter().position(|value| *value == name);
     match (device.class(), index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),

@@ -201,6 +201,25 @@ impl Devices {
         })
     }
 
+    /// Reads something of a device, or of the one that has come in its place;
+    /// `None` where there is none any more.
+    ///
+    /// # Errors
+    /// As `read`, or as [`all`](Self::all).
+    pub fn read<T>(
+        &self,
+        device: &Device,
+        read: impl Fn(&Device) -> Result<T>,
+    ) -> Result<Option<T>> {
+        match device.check_present().and_then(|()| read(device)) {
+            Err(error) if error.is_stale() => {
+                self.forget_listings();
+                self.with(device.class(), device.port(), |device| read(device))
+            }
+            result => result.map(Some),
+        }
+    }
+
     /// Does something again, with a new listing, if it met a device that
     /// answers as an unplugged one does: plugged in again in the meantime, it
     /// has another number.

@@ -124,9 +124,14 @@ pub(crate) fn on_port(devices: &Devices, port: &str) -> Result<Option<Arc<Device
 /// # Errors
 /// The kernel's.
 pub fn lights(devices: &Devices) -> Result<Vec<Light>> {
+    devices.afresh(|| present_lights(devices))
+}
+
+fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
     let mut owners: Vec<(String, Light)> = Vec::new();
     for led in devices.all(Class::Led)?.iter() {
         let Some((owner, hue)) = parts(led.port()) else { continue };
+        led.check_present()?;
         let led = (hue, Arc::clone(led));
         match owners.iter_mut().find(|(known, _)| known == owner) {
             Some((_, light)) => light.leds.push(led),

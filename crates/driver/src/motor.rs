@@ -296,6 +296,7 @@ fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
     let Some(speeds) = possible else {
         return Ok(false);
     };
+    prepare(&motors)?;
     run_at(&motors, speeds)?;
     Ok(true)
 }
@@ -426,6 +427,7 @@ fn start_moves(
             None => return Ok(None),
         }
     }
+    prepare(&motors)?;
     for (motor, plan) in motors.iter().zip(&plans) {
         if plan.command == "run-to-rel-pos" {
             count_from_here(motor)?;
@@ -583,10 +585,14 @@ impl Drop for Ramps {
     }
 }
 
+/// Finds out, before anything is written to any of them, whether the motors'
+/// files are open to us.
+pub(crate) fn prepare(motors: &[Arc<Device>]) -> Result<()> {
+    motors.iter().try_for_each(|motor| motor.prepare("command"))
+}
+
 /// Starts all motors, or none: if one fails, those that run are stopped.
 fn start_all(motors: &[Arc<Device>], mut start: impl FnMut(&Device) -> Result<()>) -> Result<()> {
-    // A motor whose files are not open to us yet must not start the others.
-    motors.iter().try_for_each(|motor| motor.prepare("command"))?;
     motors.iter().try_for_each(|motor| {
         start(motor).map_err(|error| {
             let _ = stop_all(motors, StopAction::Brake);
