@@ -133,12 +133,11 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
         let Some((owner, hue)) = parts(led.port()) else { continue };
         led.check_present()?;
         let led = (hue, Arc::clone(led));
-        match owners.iter_mut().find(|(known, _)| known == owner) {
-            Some((_, light)) => light.leds.push(led),
-            None => {
-                let name = port::short(owner).to_owned();
-                owners.push((owner.to_owned(), Light { name, leds: vec![led] }));
-            }
+        if let Some((_, light)) = owners.iter_mut().find(|(known, _)| known == owner) {
+            light.leds.push(led);
+        } else {
+            let name = port::short(owner).to_owned();
+            owners.push((owner.to_owned(), Light { name, leds: vec![led] }));
         }
     }
     let (mut sides, mut lights): (Vec<_>, Vec<_>) =
