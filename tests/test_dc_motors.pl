@@ -19,6 +19,15 @@ plain(Goal) :-
 
 test(is_found, [forall(tree(Tree)), true(Ports == [outA])]) :-
     in_tree(Tree, ( findall(P, dc_motor(P), Ports), dc_motor('ev3-ports:outA') )).
+test(is_in_the_table_of_devices, [forall(tree(Tree))]) :-
+    in_tree(Tree, with_output_to(string(Table), ev3_devices)),
+    split_string(Table, "\n", "", Lines),
+    member(Line, Lines),
+    sub_string(Line, _, _, _, "outA"),
+    !,
+    sub_string(Line, _, _, _, "rcx-motor"),
+    sub_string(Line, _, _, _, "duty 0"),
+    !.
 test(is_no_other_motor, [forall(tree(Tree)), fail]) :-
     in_tree(Tree, ( tacho_motor(outA) ; dc_motor(outB) )).
 

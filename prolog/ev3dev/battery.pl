@@ -23,7 +23,7 @@
 %       middle of a discharge the voltage hardly changes: an estimate.
 %     - type
 %       `'Li-ion'`, LEGO's battery pack; `'NiMH'`, rechargeable AA cells; or
-%       `'Unknown'`, which are AA cells that percent/2 takes for alkaline ones.
+%       `'Unknown'`, other AA cells, which percent takes for alkaline ones.
 %
 %   An unbound Key enumerates. What a board does not measure fails: of those
 %   that are not LEGO's most only know the voltage. Fails if the board does

@@ -463,9 +463,11 @@ device_row(row(Port, Type, Reads)) :-
 device_row(row(Port, Type, Reads)) :-
     tacho_motor(Port, Type),
     reading(motor_reading(Port), Reads).
+device_row(row(Port, Type, Reads)) :-
+    device_('dc-motor', Port, Type, _),
+    reading(dc_motor_reading(Port), Reads).
 device_row(row(Port, Type, '')) :-
-    member(Class, ['dc-motor', 'servo-motor']),
-    device_(Class, Port, Type, _).
+    device_('servo-motor', Port, Type, _).
 
 % A device that cannot be read now is listed all the same, and says why.
 reading(Goal_1, Reads) :-
@@ -480,6 +482,11 @@ motor_reading(Port, Reads) :-
     position(Port, Position),
     state(Port, State),
     format(atom(Reads), "position ~w ~w", [Position, State]).
+
+dc_motor_reading(Port, Reads) :-
+    attribute_('dc-motor', Port, duty_cycle, Duty),
+    attribute_('dc-motor', Port, state, State),
+    format(atom(Reads), "duty ~w ~w", [Duty, State]).
 
 sensor_reading(Port, Reads) :-
     mode(Port, Mode),

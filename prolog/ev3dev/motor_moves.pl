@@ -41,10 +41,10 @@ motor_run_timed(Port, Speed, Seconds0, Options0) :-
 %!  motor_run_to(+Port, +Speed, +Angle) is semidet.
 %!  motor_run_to(+Port, +Speed, +Angle, +Options) is semidet.
 %
-%   Turn a motor to Angle degrees at Speed percent, and wait until it is there.
-%   Angle is that of motor_position/2: 0 is where the motor was when it was
-%   plugged in or reset, or where the program says. The sign of Speed does not
-%   matter. Options, failure and errors are those of motor_run/4.
+%   Turn a motor to Angle degrees at Speed percent, and wait until it is
+%   there. Angle is that of motor_position/2: 0 is where the motor was when it
+%   was plugged in or reset, or where the program says. The sign of Speed does
+%   not matter. Options, failure and errors are those of motor_run/4.
 
 motor_run_to(Port, Speed, Angle) :-
     motor_run_to(Port, Speed, Angle, []).

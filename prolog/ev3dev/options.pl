@@ -1,7 +1,7 @@
 :- module(ev3dev_options,
           [ must_be_options/3,          % +Domain, +Names, +Options
             must_be_timeout/1,          % +Seconds
-            motor_options/5             % +Options, +Stop, +Stops, +Ramp, -Native
+            motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
@@ -54,16 +54,17 @@ must_be_timeout(Seconds) :-
     ;   domain_error(timeout, Seconds)
     ).
 
-%!  motor_options(+Options, +Stop, +Stops, +Ramp, -Native) is det.
+%!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %
-%   Native is the term for the options of a move: motor_run/4 tells what they
-%   mean. Stop is the default stop action, Stops are all there are, Ramp is the
-%   longest ramp.
+%   Term is what native predicates take for the options of a move: motor_run/4
+%   tells what they mean. Stop is the default stop action, Stops are all there
+%   are, Ramp is the longest ramp.
 
 motor_options(Options, Stop, Stops, Ramp,
               options(Action, RampUp, RampDown, Wait, Timeout)) :-
     must_be_options(motor_option,
-                    [stop_action, ramp_up, ramp_down, wait, timeout], Options),
+                    [stop_action, ramp_up, ramp_down, wait, timeout],
+                    Options),
     option(stop_action(Action), Options, Stop),
     option(ramp_up(RampUp), Options, default),
     option(ramp_down(RampDown), Options, default),

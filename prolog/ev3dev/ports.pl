@@ -40,8 +40,8 @@ lego_port(Port) :-
 %   is gone, with all that it was set to, and where the Mode makes a device,
 %   waits until that is there and can be used. That is so for the modes
 %   `dc-motor`, `tacho-motor`, `led`, `nxt-analog` and `ev3-analog`; in others
-%   it depends on what is plugged in. Does nothing if the port is in that mode.
-%   Waits for 4 s at most, and fails then.
+%   it depends on what is plugged in. Does nothing if the port is in that
+%   mode. Waits for 4 s at most, and fails then.
 %
 %   @error domain_error(mode, Mode)
 

@@ -27,10 +27,10 @@ Every servo that the program has moved is let float at its end.
 
 %!  servo_motor_position(?Port, ?Percent) is nondet.
 %
-%   Send a servo to a position from -100 to 100 percent of its way, 0 being the
-%   middle, or read where it was sent. Percent may be an arithmetic expression
-%   and is rounded. Does not wait. Fails, and moves nothing, beyond 100
-%   percent; reading fails while the servo floats.
+%   Send a servo to a position from -100 to 100 percent of its way, 0 being
+%   the middle, or read where it was sent. Percent may be an arithmetic
+%   expression and is rounded. Does not wait. Fails, and moves nothing, beyond
+%   100 percent; reading fails while the servo floats.
 
 servo_motor_position(Port, Percent) :-
     var(Percent),

@@ -75,9 +75,10 @@ of
   - lamp(X, Y, Intensity)
   - lamp(X, Y, Intensity, Port)
     A lamp, 30 cm above the floor. One with a Port is lit by that output port
-    in the mode `dc-motor` or `led`, see port_mode/2. Intensity is the percentage that
-    col_ambient/2 shows when the sensor looks at it from 100 cm. The light
-    falls with the square of the distance; what stands between throws shadows.
+    in the mode `dc-motor` or `led`, see port_mode/2. Intensity is the
+    percentage that col_ambient/2 shows when the sensor looks at it from 100
+    cm. The light falls with the square of the distance; what stands between
+    throws shadows.
   - ambient(Percent)
     Light from everywhere, by default 2.
   - start(X, Y, Heading)
