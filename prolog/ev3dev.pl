@@ -7,6 +7,11 @@ The one module a program loads. It offers all predicates of
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/sensors): single motors and
     sensors
+  - library(ev3dev/motor_moves) and library(ev3dev/motor_settings): all else
+    that a motor can do
+  - library(ev3dev/dc_motors) and library(ev3dev/servo_motors): motors without
+    rotation sensor and RC servos
+  - library(ev3dev/lights), library(ev3dev/battery), library(ev3dev/ports)
   - library(ev3dev/driver): devices and the files that ev3dev shows of them
 
 A machine that is no EV3 gets a simulated one at the first use of a device,
@@ -30,5 +35,12 @@ argument throws.
 
 :- reexport(ev3dev/driver).
 :- reexport(ev3dev/motors).
+:- reexport(ev3dev/motor_moves).
+:- reexport(ev3dev/motor_settings).
+:- reexport(ev3dev/dc_motors).
+:- reexport(ev3dev/servo_motors).
 :- reexport(ev3dev/sensors).
+:- reexport(ev3dev/lights).
+:- reexport(ev3dev/battery).
+:- reexport(ev3dev/ports).
 :- reexport(ev3dev/robot).

@@ -2,7 +2,7 @@
 use crate::error::raise;
 use crate::state;
 use crate::words::atom_text;
-use ev3_driver::{Devices, Value};
+use ev3_driver::{Class, Device, Devices, Value};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,6 +10,9 @@ use swipl::prelude::*;
 
 /// The text of an atom or a string.
 pub(crate) type Text = Cow<'static, str>;
+
+/// Devices that are still to be answered.
+pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
 
 /// The call under way of a public predicate, by its name and arity.
 pub(crate) struct Call<'a, C: QueryableContextType> {
@@ -86,6 +89,25 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             return Ok(None);
         }
         Ok(Duration::try_from_secs_f64(self.float(term)?).ok())
+    }
+
+    /// A time in seconds, which has an end.
+    pub(crate) fn time(&self, term: &Term) -> PrologResult<Duration> {
+        match Duration::try_from_secs_f64(self.float(term)?) {
+            Ok(time) => Ok(time),
+            Err(_) => crate::error::wrong_value(self, "seconds", term),
+        }
+    }
+
+    /// The devices of a class, for a nondeterministic predicate's setup: all, or
+    /// the one at a port that is bound.
+    pub(crate) fn listed(&self, class: Class, port: &Term) -> PrologResult<Option<ListedDevices>> {
+        let (port, devices) = (self.text_if_bound(port)?, self.devices()?);
+        let found = self.check(match port {
+            Some(port) => devices.find(class, &port).map(|device| device.into_iter().collect()),
+            None => devices.all(class).map(|all| all.to_vec()),
+        })?;
+        Ok(Some(found.into_iter()))
     }
 
     /// The elements of a list.

@@ -46,7 +46,8 @@ predicates! {
     nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
         setup => {
             let class = class_of(context, class)?;
-            let call = Call::of(context, detector(class), 3);
+            let (name, arity) = detector(class);
+            let call = Call::of(context, name, arity);
             let bound = Bound::of(&call, port, kind, path)?;
             let tree = call.devices()?;
             let devices = call.check(listed(&tree, class, bound.port.as_deref()))?;
@@ -195,10 +196,13 @@ pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
 }
 
 /// The public predicate that finds devices of a class.
-fn detector(class: Class) -> &'static str {
+fn detector(class: Class) -> (&'static str, u64) {
     match class {
-        Class::Sensor => "lego_sensor",
-        _ => "tacho_motor",
+        Class::Sensor => ("lego_sensor", 3),
+        Class::DcMotor => ("dc_motor", 1),
+        Class::ServoMotor => ("servo_motor", 1),
+        Class::Port => ("lego_port", 1),
+        _ => ("tacho_motor", 3),
     }
 }
 
@@ -206,12 +210,15 @@ fn detector(class: Class) -> &'static str {
 fn accessor(class: Class) -> &'static str {
     match class {
         Class::Sensor => "sensor_attribute",
+        Class::DcMotor => "dc_motor_attribute",
+        Class::ServoMotor => "servo_motor_attribute",
+        Class::Port => "port_attribute",
         _ => "motor_attribute",
     }
 }
 
 /// The class that our own Prolog files name.
-fn class_of<'a, C: QueryableContextType>(
+pub(crate) fn class_of<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
     term: &Term,
 ) -> PrologResult<Class> {

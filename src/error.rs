@@ -118,6 +118,12 @@ fn formal<'a, C: QueryableContextType>(
         Error::NoValue { index, .. } => {
             term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
         }
+        Error::Twice { port } => {
+            term! {context: domain_error(distinct_ports, #atomable(port.as_str()))}
+        }
+        Error::NoSuchDevice { name } => {
+            term! {context: domain_error(motor_type, #atomable(name.as_str()))}
+        }
         Error::Pattern { pattern, .. } => {
             term! {context: domain_error(file_name_pattern, #atomable(pattern.as_str()))}
         }
@@ -133,6 +139,9 @@ fn formal<'a, C: QueryableContextType>(
             }
             Some(Errno::BUSY) => {
                 term! {context: permission_error(#atomable(access), busy_attribute, #path)}
+            }
+            Some(Errno::OPNOTSUPP) => {
+                term! {context: permission_error(#atomable(access), unsupported_attribute, #path)}
             }
             Some(Errno::NODEV | Errno::NXIO) => {
                 let device = error.path().map(device_of).unwrap_or_default();

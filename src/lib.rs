@@ -7,17 +7,25 @@
 //!
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
+mod battery;
 mod call;
+mod dc_motors;
 mod driver;
 mod error;
+mod halt;
+mod lights;
+mod motor_moves;
+mod motor_settings;
 mod motors;
 #[cfg(all(feature = "sim", feature = "fuse"))]
 mod mount;
 #[cfg(all(feature = "sim", not(feature = "fuse")))]
 #[path = "no_mount.rs"]
 mod mount;
+mod ports;
 mod robot;
 mod sensors;
+mod servo_motors;
 #[cfg(feature = "sim")]
 mod sim;
 #[cfg(feature = "sim")]
@@ -35,6 +43,14 @@ pub extern "C" fn install() {
     words::register();
     driver::register();
     motors::register();
+    motor_moves::register();
+    motor_settings::register();
+    dc_motors::register();
+    servo_motors::register();
+    halt::register();
+    lights::register();
+    battery::register();
+    ports::register();
     sensors::register();
     robot::register();
     #[cfg(feature = "sim")]

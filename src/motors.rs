@@ -1,10 +1,11 @@
 //! `prolog/ev3dev/motors.pl`: motors.
 use crate::call::{Call, unify_atom};
+use crate::driver::class_of;
 use crate::error::wrong_value;
-use crate::state::devices;
-use ev3_driver::Class;
-use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction};
+use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
 use ev3_driver::wait;
+use ev3_driver::{Class, Device};
+use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -16,7 +17,6 @@ pub(crate) fn register() {
     register_motor_turn();
     register_motor_stop();
     register_stop_all_motors();
-    register_stop_started();
     register_motor_reset();
     register_motor_wait();
     register_motor_wait_flag();
@@ -30,7 +30,8 @@ predicates! {
         let call = Call::of(context, "motor_run", 2);
         let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run]))?)
+        let interrupted = &mut call.interrupted();
+        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
@@ -40,7 +41,8 @@ predicates! {
         let call = Call::of(context, "run_forever", 2);
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run]))?)
+        let interrupted = &mut call.interrupted();
+        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// motors_run_(+Runs): a list of run(Port, Percent), started together.
@@ -55,39 +57,41 @@ predicates! {
         let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
         let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices()?);
-        into_prolog_result(call.check(motor::run_forever(&devices, &runs))?)
+        let interrupted = &mut call.interrupted();
+        into_prolog_result(call.check(motor::run_forever(&devices, &runs, interrupted))?)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
-    /// move(Port, Percent, Degrees), options is
+    /// move(Port, Percent, Degrees), to(Port, Percent, Degrees) and
+    /// for(Port, Percent, Seconds), options is
     /// options(StopAction, RampUp, RampDown, Wait, Timeout).
     #[module("ev3dev_motors")]
     #[name("motor_turn_")]
     semidet fn motor_turn(context, moves, options, reason) {
         let call = Call::of(context, "motor_run", 4);
         let turn = |turn: &Term<'a>| -> PrologResult<_> {
-            let [port, percent, degrees] = call.arguments(turn)?;
+            let [port, percent, way] = call.arguments(turn)?;
             let speed = Speed::Percent(call.float(&percent)?);
-            Ok((call.text(&port)?, speed, call.float(&degrees)?))
+            Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
         };
         let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves
-            .iter()
-            .map(|(port, speed, degrees)| Move { port, speed: *speed, degrees: *degrees });
+        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, way: *way });
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = motor::run_to(&devices, &moves, &options, interrupted);
         unify_atom(reason, call.found(ended)?.word())
     }
 
-    /// motor_stop_(+Port, +StopAction)
+    /// motor_stop_(+Class, +Port, +StopAction)
     #[module("ev3dev_motors")]
     #[name("motor_stop_")]
-    semidet fn motor_stop(context, port, action) {
+    semidet fn motor_stop(context, class, port, action) {
         let call = Call::of(context, "motor_stop", 2);
+        let class = class_of(context, class)?;
         let (port, action) = (call.text(port)?, stop_action(&call, action)?);
-        let devices = call.devices()?;
-        call.found(devices.with(Class::TachoMotor, &port, |m| motor::stop(m, action)))
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let stop = |motor: &Arc<Device>| motor::stop(motor, action);
+        call.found(devices.with_patience(class, &port, interrupted, stop))
     }
 
     /// stop_all_motors
@@ -95,24 +99,19 @@ predicates! {
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         let devices = call.devices()?;
-        let motors = call.check(devices.all(Class::TachoMotor))?;
+        let all = |class| call.check(devices.all(class));
+        let motors = [all(Class::TachoMotor)?, all(Class::DcMotor)?].concat();
         call.check(motor::stop_all(&motors, StopAction::Brake))
-    }
-
-    /// stop_started_: stops what the program started.
-    #[module("ev3dev_motors")]
-    #[name("stop_started_")]
-    semidet fn stop_started(context) {
-        Call::of(context, "halt", 0).check(motor::stop_started(&devices()))
     }
 
     /// motor_reset(+Port)
     #[module("ev3dev_motors")]
     semidet fn motor_reset(context, port) {
         let call = Call::of(context, "motor_reset", 1);
-        let devices = call.devices()?;
         let port = call.text(port)?;
-        call.found(devices.with(Class::TachoMotor, &port, |m| motor::reset(m)))
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let reset = |motor: &Arc<Device>| motor::reset(motor);
+        call.found(devices.with_patience(Class::TachoMotor, &port, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -141,7 +140,17 @@ predicates! {
     }
 }
 
-fn move_options<'a, C: QueryableContextType>(
+/// How far a move goes, by the name of its term.
+fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Way> {
+    match &*turn.get::<Functor>()?.name_string() {
+        "to" => Ok(Way::To(call.float(way)?)),
+        "for" => Ok(Way::For(call.time(way)?)),
+        "move" => Ok(Way::By(call.float(way)?)),
+        _ => wrong_value(call, "motor_move", turn),
+    }
+}
+
+pub(crate) fn move_options<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     options: &Term<'a>,
 ) -> PrologResult<MoveOptions> {
@@ -157,7 +166,10 @@ fn move_options<'a, C: QueryableContextType>(
     })
 }
 
-fn stop_action<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<StopAction> {
+pub(crate) fn stop_action<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<StopAction> {
     let word = call.text(term)?;
     let actions = [StopAction::Coast, StopAction::Brake, StopAction::Hold];
     match actions.into_iter().find(|action| action.word() == word) {

@@ -138,6 +138,11 @@ fn read<'a, C: QueryableContextType>(
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
         }
+        ("lamp", [x, y, intensity, port]) => Fact::Item(Item::Bulb {
+            at: [number(x)?, number(y)?],
+            intensity: number(intensity)?,
+            port: named(call, "port", port)?,
+        }),
         ("ambient", [percent]) => Fact::Ambient(number(percent)?),
         ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
         ("map", [size, rows]) => {

@@ -36,6 +36,16 @@ sensible(pattern, '/sys/class/*/*').
 sensible(runs, [run(outB, 20)]).
 sensible(moves, [move(outB, 20, 9)]).
 sensible(reading, touch).
+sensible(seconds, 1).
+sensible(polarity, inversed).
+sensible(pid, pid(1, 2, 3)).
+sensible(dc, outD).
+sensible(servo, 'in2:i2c88:sv1').
+sensible(light, left).
+sensible(colour, amber).
+sensible(trigger, heartbeat).
+sensible(key, voltage).
+sensible(lego_port, outA).
 
 % Calls that return at once on a tree where nothing moves.
 call_of(subsystem_detect(port, type, out, pattern)).
@@ -107,6 +117,48 @@ call_of(run_forever(port, number)).
 call_of(speed_adjust(number, port, out)).
 call_of(motor_wait_while(port, flag)).
 call_of(motor_wait(port, options, out)).
+call_of(motor_run_timed(port, number, seconds)).
+call_of(motor_run_timed(port, number, seconds, quick)).
+call_of(motor_run_to(port, number, number)).
+call_of(motor_run_to(port, number, number, quick)).
+call_of(motor_run_direct(port, number)).
+call_of(linear_actuator(port)).
+call_of(motor_position(port, number)).
+call_of(motor_duty(port, out)).
+call_of(motor_polarity(port, polarity)).
+call_of(motor_ramps(port, number, number)).
+call_of(motor_speed_pid(port, pid)).
+call_of(motor_hold_pid(port, pid)).
+call_of(dc_motor(dc)).
+call_of(dc_motor_run(dc, number)).
+call_of(dc_motor_run_timed(dc, number, seconds)).
+call_of(dc_motor_run_timed(dc, number, seconds, quick)).
+call_of(dc_motor_run_direct(dc, number)).
+call_of(dc_motor_stop(dc)).
+call_of(dc_motor_stop(dc, action)).
+call_of(dc_motor_duty(dc, out)).
+call_of(dc_motor_states(dc, out)).
+call_of(dc_motor_polarity(dc, polarity)).
+call_of(dc_motor_ramps(dc, number, number)).
+call_of(dc_motor_attribute(dc, attribute, number)).
+call_of(servo_motor_position(servo, number)).
+call_of(servo_motor_angle(servo, number)).
+call_of(servo_motor_float(servo)).
+call_of(servo_motor_polarity(servo, polarity)).
+call_of(servo_motor_rate(servo, number)).
+call_of(servo_motor_pulses(servo, number, number, number)).
+call_of(servo_motor_attribute(servo, attribute, number)).
+call_of(led(light)).
+call_of(led(light, colour)).
+call_of(led_trigger(light, trigger)).
+call_of(led_triggers(light, out)).
+call_of(led_blink(light, number, number)).
+call_of(battery(key, out)).
+call_of(lego_port(lego_port)).
+call_of(port_mode(lego_port, mode)).
+call_of(port_modes(lego_port, out)).
+call_of(port_status(lego_port, out)).
+call_of(port_device(lego_port, type)).
 call_of(set_robot(number, number, port, port)).
 call_of(go(number)).
 call_of(turn(number)).
@@ -171,7 +223,10 @@ odd_call(Goal) :-
 
 test(every_exported_predicate_is_called, true(Missing == [])) :-
     findall(Name/Arity,
-            ( member(Module, [ev3dev_driver, ev3dev_motors, ev3dev_sensors,
+            ( member(Module, [ev3dev_driver, ev3dev_motors, ev3dev_motor_moves,
+                              ev3dev_motor_settings, ev3dev_dc_motors,
+                              ev3dev_servo_motors, ev3dev_sensors,
+                              ev3dev_lights, ev3dev_battery, ev3dev_ports,
                               ev3dev_robot]),
               module_property(Module, exports(Exports)),
               member(Name/Arity, Exports),
@@ -180,7 +235,10 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
             Missing).
 test(whatever_is_thrown_is_an_iso_error, true(Bad == [])) :-
     with_tree([ in1-'lego-ev3-us', outA-'lego-ev3-m-motor',
-                outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor' ],
+                outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor',
+                outD-'rcx-motor', 'in2:i2c88:sv1'-'ms-8ch-servo',
+                'led0:red:brick-status'-led, 'led0:green:brick-status'-led,
+                'lego-ev3-battery'-battery ],
               ( set_robot(5.6, 10.6, outB, outC),
                 findall(Goal-How,
                         ( odd_call(Goal), ends_badly(Goal, How) ),

@@ -13,7 +13,8 @@
 exported(driver,
          [ subsystem_detect/4, file_read/2, file_write/2,
            tacho_motor/1, tacho_motor/2, tacho_motor/3,
-           ev3_large_motor/1, ev3_medium_motor/1, nxt_motor/1, servo_motor/1,
+           ev3_large_motor/1, ev3_medium_motor/1, nxt_motor/1,
+           dc_motor/1, servo_motor/1,
            lego_sensor/1, lego_sensor/2, lego_sensor/3,
            motor_attribute/3, sensor_attribute/3,
            command/2, command_file/2, speed/2, speed_file/2,
@@ -33,6 +34,28 @@ exported(motors,
            motors_turn/2, motor_start/1, motor_stop/1, motor_stop/2,
            stop_all_motors/0, motor_reset/1, run_forever/2, speed_adjust/3,
            motor_wait_while/2, motor_wait_until/2, motor_wait/3 ]).
+exported(motor_moves,
+         [ motor_run_timed/3, motor_run_timed/4, motor_run_to/3,
+           motor_run_to/4, motor_run_direct/2 ]).
+exported(motor_settings,
+         [ linear_actuator/1, motor_position/2, motor_duty/2,
+           motor_polarity/2, motor_ramps/3, motor_speed_pid/2,
+           motor_hold_pid/2 ]).
+exported(dc_motors,
+         [ dc_motor_run/2, dc_motor_run_timed/3, dc_motor_run_timed/4,
+           dc_motor_run_direct/2, dc_motor_stop/1, dc_motor_stop/2,
+           dc_motor_duty/2, dc_motor_states/2, dc_motor_polarity/2,
+           dc_motor_ramps/3, dc_motor_attribute/3 ]).
+exported(servo_motors,
+         [ servo_motor_position/2, servo_motor_angle/2, servo_motor_float/1,
+           servo_motor_polarity/2, servo_motor_rate/2, servo_motor_pulses/4,
+           servo_motor_attribute/3 ]).
+exported(lights,
+         [ led/1, led/2, led_trigger/2, led_triggers/2, led_blink/3 ]).
+exported(battery, [ battery/2 ]).
+exported(ports,
+         [ lego_port/1, port_mode/2, port_modes/2, port_status/2,
+           port_device/2 ]).
 exported(robot,
          [ set_robot/4, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
            turn/2 ]).

@@ -64,6 +64,7 @@ only/2 as its condition; how many tests that leaves out is told at the end.
     root/1,                             % Directory
     devices/1,                          % Devices
     plugged/2,                          % Port, Directory
+    typed/2,                            % Port, Type
     numbered/2,                         % Class, Number of the next device
     warned/1.                           % Term of a message
 
@@ -137,6 +138,7 @@ drop_tree :-
     retract(root(Root)),
     retractall(devices(_)),
     retractall(plugged(_, _)),
+    retractall(typed(_, _)),
     retractall(numbered(_, _)),
     tree_kind(Kind),
     (   Kind == plain
@@ -172,7 +174,9 @@ sim_is_over :-
 
 %!  plug(+Port, +Type)
 %
-%   Plug a device in: a new directory with the next number of its class.
+%   Plug a device in: a new directory with the next number of its class. The
+%   Port of a port itself is port(Port). A `led` or a `battery` has no port, but
+%   a name.
 
 plug(Port, Type) :-
     tree_kind(Kind),
@@ -187,10 +191,18 @@ plug(Port, Type) :-
 is_plugged(Port, Type, Directory) :-
     once(class(Type, Class, Prefix)),
     root(Root),
-    next_number(Class, Number),
-    format(atom(Directory), "~w/~w/~w~w", [Root, Class, Prefix, Number]),
+    directory_name(Prefix, Class, Port, Name),
+    atomic_list_concat([Root, Class, Name], /, Directory),
     retractall(plugged(Port, _)),
-    assertz(plugged(Port, Directory)).
+    retractall(typed(Port, _)),
+    assertz(plugged(Port, Directory)),
+    assertz(typed(Port, Type)).
+
+directory_name(named, _, Name, Name) :-
+    !.
+directory_name(Prefix, Class, _, Name) :-
+    next_number(Class, Number),
+    atom_concat(Prefix, Number, Name).
 
 next_number(Class, Number) :-
     (   retract(numbered(Class, Number))
@@ -213,6 +225,7 @@ is_known(_, _, _).
 
 unplug(Port) :-
     retract(plugged(Port, Directory)),
+    retract(typed(Port, _)),
     (   tree_kind(plain)
     ->  plain_unplug(Directory)
     ;   simulated_unplug(Port)
@@ -282,7 +295,8 @@ relative(Path, File) :-
 written(Port, Attributes) :-
     plugged(Port, Directory),
     (   tree_kind(plain)
-    ->  plain_written(Directory, Attributes)
+    ->  typed(Port, Type),
+        plain_written(Directory, Type, Attributes)
     ;   relative(Directory, Relative),
         all_written(Relative, Attributes)
     ).

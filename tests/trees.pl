@@ -2,6 +2,7 @@
           [ tree/1,                     % ?Tree
             behaving/1,                 % ?Tree
             on/2,                       % +Tree, :Goal
+            equip/2,                    % +Tree, +Devices
             moving/3,                   % +Tree, +Ports, :Goal
             settle/1                    % +Tree
           ]).
@@ -72,6 +73,35 @@ on_mount(Goal) :-
             ( sim_unmount,
               sim_stop )),
         delete_directory(Directory)).
+
+%!  equip(+Tree, +Devices)
+%
+%   Give the robot more, by a list of Port-Type. To be called first of all. In
+%   a plain tree the devices are just there, a port itself as port(Port); the
+%   brick's own lights, ports and battery are always there in the others.
+
+equip(plain, Devices) :-
+    forall(member(Port-Type, Devices), plug(Port, Type)).
+equip(simulator, Devices) :-
+    forall(member(Device, Devices), announce(Device)).
+equip(mount, Devices) :-
+    forall(member(Device, Devices), announce(Device)).
+
+announce(Port-'rcx-motor') :-
+    !,
+    port_mode(Port, 'dc-motor').
+announce(Servo-'ms-8ch-servo') :-
+    !,
+    sub_atom(Servo, 0, 3, _, Port),
+    sim_plug(Port, 'ms-8ch-servo'),
+    sim_step(3).
+announce(Port-Type) :-
+    sub_atom(Type, 0, _, _, 'act-'),
+    !,
+    sim_plug(Port, Type),
+    sim_step(1),
+    port_device(Port, Type).
+announce(_).
 
 %!  moving(+Tree, +Ports, :Goal)
 %

@@ -8,6 +8,7 @@
             ev3_large_motor/1,          % ?Port
             ev3_medium_motor/1,         % ?Port
             nxt_motor/1,                % ?Port
+            dc_motor/1,                 % ?Port
             servo_motor/1,              % ?Port
             lego_sensor/1,              % ?Port
             lego_sensor/2,              % ?Port, ?Type
@@ -141,9 +142,18 @@ ev3_medium_motor(Port) :-
 nxt_motor(Port) :-
     tacho_motor(Port, 'lego-nxt-motor').
 
+%!  dc_motor(?Port) is nondet.
+%
+%   True if Port is one for a motor without rotation sensor, as
+%   port_mode(Port, 'dc-motor') makes it. See library(ev3dev/dc_motors).
+
+dc_motor(Port) :-
+    device_('dc-motor', Port, _, _).
+
 %!  servo_motor(?Port) is nondet.
 %
-%   True if an RC servo is connected to Port, through a servo controller.
+%   True if an RC servo is connected to Port, through a servo controller. See
+%   library(ev3dev/servo_motors).
 
 servo_motor(Port) :-
     device_('servo-motor', Port, _, _).
@@ -454,9 +464,11 @@ device_row(row(Port, Type, Reads)) :-
 device_row(row(Port, Type, Reads)) :-
     tacho_motor(Port, Type),
     reading(motor_reading(Port), Reads).
+device_row(row(Port, Type, Reads)) :-
+    device_('dc-motor', Port, Type, _),
+    reading(dc_motor_reading(Port), Reads).
 device_row(row(Port, Type, '')) :-
-    member(Class, ['dc-motor', 'servo-motor']),
-    device_(Class, Port, Type, _).
+    device_('servo-motor', Port, Type, _).
 
 % A device that cannot be read now is listed all the same, and says why.
 reading(Goal_1, Reads) :-
@@ -471,6 +483,11 @@ motor_reading(Port, Reads) :-
     position(Port, Position),
     state(Port, State),
     format(atom(Reads), "position ~w ~w", [Position, State]).
+
+dc_motor_reading(Port, Reads) :-
+    attribute_('dc-motor', Port, duty_cycle, Duty),
+    attribute_('dc-motor', Port, state, State),
+    format(atom(Reads), "duty ~w ~w", [Duty, State]).
 
 sensor_reading(Port, Reads) :-
     mode(Port, Mode),

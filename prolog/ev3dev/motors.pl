@@ -20,14 +20,20 @@
 :- use_module(library(option), [option/3]).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
-
-:- create_prolog_flag(ev3dev_stop_at_halt, true, [keep(true), type(boolean)]).
+:- use_module(halt, []).
+:- use_module(options,
+              [ motor_options/5, must_be_options/3, must_be_timeout/1 ]).
 
 /** <module> Motors
 
 Speeds are in percent of the motor's highest speed, angles in degrees of its
 shaft, both any arithmetic expression. Where there is an angle, its sign and
-that of the speed together make the direction.
+that of the speed together make the direction. Of a linear actuator what is
+called an angle here is a length, in millimetres.
+
+More commands are in library(ev3dev/motor_moves), what can be set in
+library(ev3dev/motor_settings), motors without rotation sensor in
+library(ev3dev/dc_motors), and RC servos in library(ev3dev/servo_motors).
 
 Every motor that the program has started is stopped when Prolog halts, or is
 ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
@@ -55,6 +61,8 @@ motor_run(Port, Speed) :-
 %
 %   Run several motors, each `run(Port, Percent)`, until they are stopped.
 %   They start at the same moment, or not at all. Does not wait.
+%
+%   @error domain_error(distinct_ports, Port) if a port is named twice
 
 motors_run(Runs) :-
     must_be(list, Runs),
@@ -88,6 +96,7 @@ motors_run(Runs) :-
 %   @error existence_error(motor, Port) if the motor is unplugged under way
 %   @error domain_error(stop_action, Action)
 %   @error domain_error(ramp_up_sp, Milliseconds)
+%   @error domain_error(motor_option, Option) for an option that is none
 
 motor_run(Port, Speed, Angle) :-
     motor_run(Port, Speed, Angle, []).
@@ -99,48 +108,26 @@ motor_run(Port, Speed, Angle, Options) :-
 
 %!  motors_turn(+Moves, +Options) is semidet.
 %
-%   Turn several motors, each `move(Port, Percent, Degrees)`, and wait until
-%   all are there. They start at the same moment, or not at all. Options,
-%   failure and errors are those of motor_run/4.
+%   Turn several motors and wait until all are there. They start at the same
+%   moment, or not at all. Options, failure and errors are those of
+%   motor_run/4. Each of Moves is one of
+%
+%     - move(Port, Percent, Degrees)
+%       As motor_run/4.
+%     - to(Port, Percent, Degrees)
+%       As motor_run_to/4.
+%     - for(Port, Percent, Seconds)
+%       As motor_run_timed/4.
+%
+%   @error domain_error(distinct_ports, Port) if a port is named twice
+%   @error domain_error(motor_move, Move) if it is none of these
 
 motors_turn(Moves, Options) :-
     must_be(list, Moves),
-    turn_options(Options, Native),
+    motor_options(Options, hold, [coast, brake, hold], 60000, Native),
     (   motor_turn_(Moves, Native, Reason)
     ->  turn_ended(Reason, Moves)
     ;   why_not(Moves)
-    ).
-
-turn_options(Options, options(Action, RampUp, RampDown, Wait, Timeout)) :-
-    must_be(list, Options),
-    option(stop_action(Action), Options, hold),
-    option(ramp_up(RampUp), Options, default),
-    option(ramp_down(RampDown), Options, default),
-    option(wait(Wait), Options, true),
-    option(timeout(Timeout), Options, infinite),
-    must_be(boolean, Wait),
-    must_be_timeout(Timeout),
-    must_be_ramp(ramp_up_sp, RampUp),
-    must_be_ramp(ramp_down_sp, RampDown).
-
-must_be_ramp(_, Milliseconds) :-
-    Milliseconds == default,
-    !.
-must_be_ramp(Attribute, Milliseconds) :-
-    must_be(integer, Milliseconds),
-    (   between(0, 60000, Milliseconds)
-    ->  true
-    ;   domain_error(Attribute, Milliseconds)
-    ).
-
-must_be_timeout(Seconds) :-
-    Seconds == infinite,
-    !.
-must_be_timeout(Seconds) :-
-    must_be(number, Seconds),
-    (   Seconds >= 0
-    ->  true
-    ;   domain_error(timeout, Seconds)
     ).
 
 turn_ended(reached, _) :-
@@ -188,14 +175,15 @@ motor_start(Port) :-
 %   @error domain_error(stop_action, StopAction)
 
 motor_stop(Port) :-
-    motor_stop_(Port, brake).
+    motor_stop(Port, brake).
 
 motor_stop(Port, StopAction) :-
-    motor_stop_(Port, StopAction).
+    motor_stop_('tacho-motor', Port, StopAction).
 
 %!  stop_all_motors is det.
 %
-%   Stop every motor that is connected, whoever started it, with `brake`.
+%   Stop every motor that is connected, with or without rotation sensor,
+%   whoever started it, with `brake`. Servos keep their positions.
 
 %!  motor_reset(+Port) is semidet.
 %
@@ -279,53 +267,13 @@ flag(stalled).
 %       Wait for so long at most. Default is to wait for ever.
 
 motor_wait(Ports, Options, Reason) :-
-    must_be(list, Options),
+    must_be_options(motor_option, [timeout], Options),
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
     (   is_list(Ports)
     ->  motor_wait_(Ports, Timeout, Reason)
     ;   motor_wait_([Ports], Timeout, Reason)
     ).
-
-:- at_halt(stop_at_halt).
-
-stop_at_halt :-
-    (   current_prolog_flag(ev3dev_stop_at_halt, true)
-    ->  stop_started_
-    ;   true
-    ).
-
-% SIGTERM, and SIGINT where nobody debugs, end Prolog at once and without its
-% at_halt/1 goals. Handlers of the program's own are left alone.
-halt_on(Signal) :-
-    on_signal(Signal, Handler, Handler),
-    (   ends_at_once(Handler)
-    ->  on_signal(Signal, _, halt_by)
-    ;   true
-    ).
-
-% Before version 9 SIGINT is for the debugger even where nobody is there to
-% answer it.
-ends_at_once(default).
-ends_at_once(debug) :-
-    \+ stream_property(user_input, tty(true)).
-ends_at_once('$foreign_function'(_)).
-
-halt_by(Signal) :-
-    status(Signal, Status),
-    halt(Status).
-
-status(int, 130).
-status(term, 143).
-
-:- halt_on(term), halt_on(int).
-
-% The thread that collects garbage takes such a signal now and then, and then
-% nothing comes of it. A brick has one core, and no use for that thread.
-:- (   current_prolog_flag(gc_thread, true)
-   ->  set_prolog_flag(gc_thread, false)
-   ;   true
-   ).
 
 :- multifile prolog:message//1.
 

@@ -28,6 +28,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(driver, []).
+:- use_module(options, [must_be_options/3]).
 :- use_module(fact_file,
               [fact_location/3, located_facts/3, throw_located/3]).
 
@@ -75,9 +76,12 @@ of
   - line(Colour, Width, Points)
     A line on the floor through at least two Points, each `[X, Y]`.
   - lamp(X, Y, Intensity)
-    A lamp, 30 cm above the floor. Intensity is the percentage that
-    col_ambient/2 shows when the sensor looks at it from 100 cm. The light
-    falls with the square of the distance; what stands between throws shadows.
+  - lamp(X, Y, Intensity, Port)
+    A lamp, 30 cm above the floor. One with a Port is lit by that output port
+    in the mode `dc-motor` or `led`, see port_mode/2. Intensity is the
+    percentage that col_ambient/2 shows when the sensor looks at it from 100
+    cm. The light falls with the square of the distance; what stands between
+    throws shadows.
   - ambient(Percent)
     Light from everywhere, by default 2.
   - start(X, Y, Heading)
@@ -111,8 +115,9 @@ A robot is a file of facts, too:
     Offset ahead of it.
   - mass(Kilograms)
   - motor(Port, Type)
-    A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'` or
-    `'lego-nxt-motor'`. The wheels' have to be among them.
+    A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'`, `'lego-nxt-motor'`,
+    or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
+    The wheels' have to be among them.
   - sensor(Port, Type, X, Y, Heading)
     A sensor, X to the right and Y ahead of the middle of the axle:
     `'lego-ev3-us'`, `'lego-ev3-color'`, `'lego-ev3-gyro'`,
@@ -172,6 +177,7 @@ the same seed does the same each time.
 %   @error domain_error(robot_fact, Fact) if a robot has no such facts
 %   @error domain_error(possible_geometry, Item)
 %   @error domain_error(clock, Clock)
+%   @error domain_error(sim_option, Option) for an option that is none
 %   @error existence_error(feature, sim) if the pack was built without
 
 sim_start(World) :-
@@ -179,7 +185,7 @@ sim_start(World) :-
 
 sim_start(World, Options) :-
     must_be_built,
-    must_be(list, Options),
+    must_be_options(sim_option, [clock, robot, noise, seed], Options),
     option(clock(Clock), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),

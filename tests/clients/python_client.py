@@ -2,23 +2,47 @@
 
     python_client.py MOUNT
 
-The library is as it comes, but for the root of its tree.
+The library is as it comes, but for the root of its tree, and where it looks
+which board it runs on.
 """
+import os
 import sys
 import time
 import unittest
 
 import ev3dev2
 
-ev3dev2.Device.DEVICE_ROOT_PATH = sys.argv.pop(1)
+ROOT = sys.argv.pop(1)
+
+
+def board():
+    with open(ROOT + "/board-info/board0/uevent") as uevent:
+        model = dict(line.strip().split("=") for line in uevent)
+    return {"LEGO MINDSTORMS EV3": "ev3"}[model["BOARD_INFO_MODEL"]]
+
+
+ev3dev2.Device.DEVICE_ROOT_PATH = ROOT
+ev3dev2.get_current_platform = board
 
 from ev3dev2 import DeviceNotFound  # noqa: E402
+from ev3dev2.led import Led, Leds  # noqa: E402
 from ev3dev2.motor import (  # noqa: E402
-    LargeMotor, SpeedNativeUnits, SpeedPercent)
+    DcMotor, LargeMotor, MediumMotor, ServoMotor, SpeedNativeUnits,
+    SpeedPercent)
+from ev3dev2.port import LegoPort  # noqa: E402
+from ev3dev2.power import PowerSupply  # noqa: E402
 from ev3dev2.sensor.lego import (  # noqa: E402
     ColorSensor, GyroSensor, TouchSensor, UltrasonicSensor)
 
 LEFT, RIGHT = "ev3-ports:outB", "ev3-ports:outC"
+
+
+def until(holds, seconds=5):
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise AssertionError("it took too long")
+        time.sleep(0.01)
 
 
 class Client(unittest.TestCase):
@@ -35,7 +59,7 @@ class Client(unittest.TestCase):
         self.assertTrue(3 <= distance <= 255, distance)
         light = ColorSensor("ev3-ports:in2").ambient_light_intensity
         self.assertTrue(0 <= light <= 100, light)
-        color = ColorSensor("ev3-ports:in3").color
+        color = ColorSensor("ev3-ports:in2").color
         self.assertEqual(color, ColorSensor.COLOR_WHITE)
 
     def test_gyro_turns_with_the_robot(self):
@@ -54,6 +78,75 @@ class Client(unittest.TestCase):
             LargeMotor(LEFT).on(SpeedNativeUnits(5000))
         with self.assertRaisesRegex(ValueError, "Max speed: .*1050"):
             LargeMotor(LEFT).speed_sp = 5000
+
+    def test_leds_show_colours_and_blink(self):
+        leds = Leds()
+        leds.set_color("LEFT", "ORANGE")
+        red, green = (Led(name_pattern="led0:%s:*" % c)
+                      for c in ("red", "green"))
+        self.assertEqual((red.brightness, green.brightness), (255, 127))
+        leds.all_off()
+        self.assertEqual((red.brightness, green.brightness), (0, 0))
+        self.assertIn("heartbeat", red.triggers)
+        red.brightness = 255
+        red.trigger = "timer"
+        red.delay_on, red.delay_off = 200, 300
+        self.assertEqual((red.delay_on, red.delay_off), (200, 300))
+        red.trigger = "none"
+        self.assertEqual(red.brightness, 0)
+
+    def test_power_supply_reads(self):
+        battery = PowerSupply()
+        # More, and less, while motors still hold.
+        self.assertTrue(7 < battery.measured_volts < 8)
+        self.assertTrue(0.17 <= battery.measured_amps < 4)
+        self.assertEqual(battery.technology, "Li-ion")
+        self.assertEqual(battery.type, "Battery")
+
+    def test_lego_port_makes_a_dc_motor_appear(self):
+        port = LegoPort("ev3-ports:outA")
+        self.assertEqual((port.mode, port.status), ("auto", "tacho-motor"))
+        self.assertIn("dc-motor", port.modes)
+        with self.assertRaises(DeviceNotFound):
+            DcMotor()
+        port.mode = "dc-motor"
+        # As with the real one, the files are not yet open to others.
+        motor = DcMotor("ev3-ports:outA")
+        until(lambda: os.stat(motor._path + "/command").st_mode & 0o020)
+        motor.duty_cycle_sp = 40
+        motor.polarity = "inversed"
+        motor.time_sp = 300
+        motor.stop_action = "brake"
+        motor.run_timed()
+        self.assertIn("running", motor.state)
+        self.assertEqual(motor.duty_cycle, -40)
+        until(lambda: motor.state == [])
+        self.assertEqual(motor.duty_cycle, 0)
+        with self.assertRaises(DeviceNotFound):
+            MediumMotor("ev3-ports:outA")
+        port.mode = "auto"
+        MediumMotor("ev3-ports:outA")
+
+    def test_lego_port_is_told_of_another_motor(self):
+        port = LegoPort("ev3-ports:outA")
+        port.set_device = "lego-nxt-motor"
+        self.assertEqual(LargeMotor.SYSTEM_CLASS_NAME, "tacho-motor")
+        names = [open(entry.path + "/driver_name").read()
+                 for entry in os.scandir(ROOT + "/tacho-motor")]
+        self.assertIn("lego-nxt-motor\n", names)
+        port.mode = "auto"
+
+    def test_servo_motor_runs_and_floats(self):
+        servo = ServoMotor("ev3-ports:in3:i2c88:sv1")
+        self.assertEqual((servo.min_pulse_sp, servo.max_pulse_sp), (500, 2500))
+        servo.position_sp = 60
+        self.assertEqual(servo.state, [])
+        servo.run()
+        self.assertEqual((servo.state, servo.position_sp), (["running"], 60))
+        servo.rate_sp = 500
+        self.assertEqual(servo.rate_sp, 500)
+        servo.float()
+        self.assertEqual((servo.state, servo.position_sp), ([], -150))
 
     def test_missing_sensor_raises_device_not_found(self):
         with self.assertRaises(DeviceNotFound):

@@ -188,7 +188,7 @@ fn gap(root: &Path, count: u32) -> f64 {
     let mut gaps: Vec<f64> = (0..=count)
         .map(|_| {
             commands.lock().expect("one thread").clear();
-            assert!(run_forever(&devices, &runs).expect("two motors"));
+            assert!(run_forever(&devices, &runs, &mut || false).expect("two motors"));
             let stamps = commands.lock().expect("one thread");
             stamps[1].duration_since(stamps[0]).as_secs_f64()
         })

@@ -11,7 +11,7 @@ use crate::value::Value;
 use crate::{motor, sensor};
 
 /// Attributes that hold an integer and nothing else.
-const INTEGERS: [&str; 21] = [
+const INTEGERS: [&str; 25] = [
     "count_per_m",
     "count_per_rot",
     "decimals",
@@ -21,12 +21,16 @@ const INTEGERS: [&str; 21] = [
     "hold_pid/Kd",
     "hold_pid/Ki",
     "hold_pid/Kp",
+    "max_pulse_sp",
     "max_speed",
+    "mid_pulse_sp",
+    "min_pulse_sp",
     "num_values",
     "position",
     "position_sp",
     "ramp_down_sp",
     "ramp_up_sp",
+    "rate_sp",
     "speed",
     "speed_pid/Kd",
     "speed_pid/Ki",
@@ -41,17 +45,10 @@ const INTEGERS: [&str; 21] = [
 /// The kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
 pub fn read(devices: &Devices, device: &Device, name: &str) -> Result<Option<Value>> {
-    match value(device, name) {
-        Err(error) if error.is_stale() => {
-            devices.forget_listings();
-            devices.with(device.class(), device.port(), |device| value(device, name))
-        }
-        result => result.map(Some),
-    }
+    devices.read(device, |device| value(device, name))
 }
 
 fn value(device: &Device, name: &str) -> Result<Value> {
-    device.check_present()?;
     let index = sensor::VALUES.iter().position(|value| *value == name);
     match (device.class(), index) {
         (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
@@ -79,8 +76,8 @@ pub fn write(
             None => Ok(None),
         };
     }
-    devices.with(class, port, |device| match (class, name) {
-        (Class::TachoMotor, "command") => motor::command(device, text),
+    devices.with_patience(class, port, interrupted, |device| match name {
+        "command" if Class::MOTORS.contains(&class) => motor::command(device, text),
         _ => device.write(name, text),
     })
 }

@@ -5,6 +5,7 @@ use crate::list::List;
 use crate::motor::Motion;
 use crate::tree::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
+use rustix::io::Errno;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
@@ -27,14 +28,14 @@ const LINE: usize = 256;
 /// How long another program may take from emptying a plain file to writing it.
 const WRITTEN_WITHIN_MS: u32 = 20;
 
-/// A motor or a sensor.
+/// A motor, a sensor, a port, a light or the battery.
 pub struct Device {
     class: Class,
     port: Box<str>,
     driver: Box<str>,
     path: PathBuf,
     entry: Entry,
-    /// Its address, which tells whether it is still there.
+    /// A file that tells whether it is still there.
     presence: Box<dyn Node>,
     /// When it was last found to be there, in microseconds, wrapping around.
     present_at_us: AtomicU32,
@@ -62,8 +63,15 @@ impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
-        let (presence, address) = address_of(&**tree, &path)?;
-        let driver = read_file(&**tree, &path.join("driver_name"))?;
+        let (presence, address, driver) = match class {
+            // These have no address: their directories' names tell who they are.
+            Class::Led => named(&**tree, &path.join("brightness"), &entry.name)?,
+            Class::Battery => named(&**tree, &path.join("voltage_now"), &entry.name)?,
+            _ => {
+                let (presence, address) = address_of(&**tree, &path)?;
+                (presence, address, read_file(&**tree, &path.join("driver_name"))?)
+            }
+        };
         Ok(Self {
             class,
             port: crate::port::short(&address).into(),
@@ -88,7 +96,8 @@ impl Device {
         self.class
     }
 
-    /// The port it is plugged into, by its short name: `outA`.
+    /// The port it is plugged into, by its short name: `outA`. Of a light or a
+    /// battery, the name of its directory.
     #[must_use]
     pub fn port(&self) -> &str {
         &self.port
@@ -272,12 +281,37 @@ impl Device {
         self.attribute(attribute).write(self.tree(), text)
     }
 
+    /// Opens an attribute for writing, so that a later write cannot fail for
+    /// want of permission.
+    pub(crate) fn prepare(&self, attribute: &str) -> Result<()> {
+        self.attribute(attribute).writer(self.tree()).map(drop)
+    }
+
     /// Writes an integer.
     ///
     /// # Errors
     /// As [`write`](Self::write).
     pub fn write_number(&self, attribute: &str, number: i64) -> Result<()> {
         self.write(attribute, itoa::Buffer::new().format(number))
+    }
+
+    /// Whether it is a linear actuator: it counts in lengths, not in turns.
+    pub(crate) fn is_linear(&self) -> bool {
+        self.entry.name.starts_with("linear")
+    }
+
+    /// Whether udev has opened its files to us: it takes up to a second after
+    /// a device appears. The file that tells is one that any device of the
+    /// class lets be written.
+    pub(crate) fn is_open_to_us(&self) -> bool {
+        let file = match self.class {
+            Class::TachoMotor | Class::DcMotor | Class::ServoMotor => "command",
+            Class::Sensor | Class::Port => "mode",
+            Class::Led => "brightness",
+            Class::Battery => return true,
+        };
+        let opened = self.tree.open(&self.path.join(file), Access::Write);
+        opened.err().and_then(|error| Errno::from_io_error(&error)) != Some(Errno::ACCESS)
     }
 
     /// The attribute of that name, whether or not there is such a file.
@@ -299,6 +333,11 @@ impl Drop for Use<'_> {
             *self.device.user() = None;
         }
     }
+}
+
+/// A device that is known by its name, if it has a certain file.
+fn named(tree: &dyn Tree, path: &Path, name: &str) -> Result<(Box<dyn Node>, String, String)> {
+    Ok((open(tree, path, Access::Read)?, name.to_owned(), name.to_owned()))
 }
 
 /// Reads the `address` and `driver_name` of the device at a path.
@@ -402,8 +441,13 @@ impl Attribute {
         self.read(tree, buffer)
     }
 
+    /// The descriptor for writing, opened when first asked for.
+    fn writer(&self, tree: &dyn Tree) -> Result<&dyn Node> {
+        kept(&self.writer, tree, &self.path, Access::Write)
+    }
+
     fn write(&self, tree: &dyn Tree, text: &str) -> Result<()> {
-        let node = kept(&self.writer, tree, &self.path, Access::Write)?;
+        let node = self.writer(tree)?;
         let _whole = node.is_plain().then(|| self.whole.write());
         write_line(node, &self.path, text)
     }

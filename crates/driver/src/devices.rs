@@ -5,14 +5,16 @@
 //! listing is cached: it is made anew when it is older than [`LISTING_AGE`],
 //! when a port is asked for that it does not have, and when a device answers as
 //! an unplugged one does. Devices that are still there keep their descriptors.
+use crate::Interrupted;
 use crate::device::{Device, identity};
 use crate::error::{Access, Error, Result};
+use crate::patience::patiently;
 use crate::port;
 use crate::tree::Tree;
 use rustix::io::Errno;
 use std::collections::HashMap;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -32,12 +34,26 @@ pub enum Class {
     DcMotor,
     /// The ports themselves.
     Port,
+    /// Lights: those of the brick, and those on ports.
+    Led,
+    /// The battery.
+    Battery,
 }
 
 impl Class {
     /// All classes.
-    pub const ALL: [Self; 5] =
-        [Self::TachoMotor, Self::Sensor, Self::ServoMotor, Self::DcMotor, Self::Port];
+    pub const ALL: [Self; 7] = [
+        Self::TachoMotor,
+        Self::Sensor,
+        Self::ServoMotor,
+        Self::DcMotor,
+        Self::Port,
+        Self::Led,
+        Self::Battery,
+    ];
+
+    /// The classes of motors.
+    pub const MOTORS: [Self; 3] = [Self::TachoMotor, Self::DcMotor, Self::ServoMotor];
 
     /// The class's directory below the tree's root.
     #[must_use]
@@ -48,6 +64,18 @@ impl Class {
             Self::ServoMotor => "servo-motor",
             Self::DcMotor => "dc-motor",
             Self::Port => "lego-port",
+            Self::Led => "leds",
+            Self::Battery => "power_supply",
+        }
+    }
+
+    /// Whether an entry of the class's directory may be a device of ev3dev's:
+    /// any computer has lights and batteries of its own.
+    fn admits(self, name: &str) -> bool {
+        match self {
+            Self::Led => crate::light::is_light(name),
+            Self::Battery => crate::battery::is_battery(name),
+            _ => true,
         }
     }
 }
@@ -59,6 +87,8 @@ impl fmt::Display for Class {
             Self::TachoMotor | Self::ServoMotor | Self::DcMotor => "motor",
             Self::Sensor => "sensor",
             Self::Port => "port",
+            Self::Led => "led",
+            Self::Battery => "battery",
         })
     }
 }
@@ -137,6 +167,21 @@ impl Devices {
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
+    /// Does something with the device at a port, as [`with`](Self::with), and
+    /// has patience with a device whose files are not yet open to us.
+    ///
+    /// # Errors
+    /// As `act`, or as [`all`](Self::all); [`Error::Interrupted`].
+    pub fn with_patience<T>(
+        &self,
+        class: Class,
+        port: &str,
+        interrupted: Interrupted,
+        mut act: impl FnMut(&Arc<Device>) -> Result<T>,
+    ) -> Result<Option<T>> {
+        patiently(self, interrupted, || self.with(class, port, &mut act))
+    }
+
     /// Does something with the device at a port; `None` where there is none.
     ///
     /// # Errors
@@ -156,6 +201,25 @@ impl Devices {
         })
     }
 
+    /// Reads something of a device, or of the one that has come in its place;
+    /// `None` where there is none any more.
+    ///
+    /// # Errors
+    /// As `read`, or as [`all`](Self::all).
+    pub fn read<T>(
+        &self,
+        device: &Device,
+        read: impl Fn(&Device) -> Result<T>,
+    ) -> Result<Option<T>> {
+        match device.check_present().and_then(|()| read(device)) {
+            Err(error) if error.is_stale() => {
+                self.forget_listings();
+                self.with(device.class(), device.port(), |device| read(device))
+            }
+            result => result.map(Some),
+        }
+    }
+
     /// Does something again, with a new listing, if it met a device that
     /// answers as an unplugged one does: plugged in again in the meantime, it
     /// has another number.
@@ -170,6 +234,14 @@ impl Devices {
             }
             result => result,
         }
+    }
+
+    /// The device that a file belongs to, among those listed.
+    pub(crate) fn owner(&self, path: &Path) -> Option<Arc<Device>> {
+        Class::ALL.into_iter().find_map(|class| {
+            let listing = self.listing(class);
+            listing.devices.iter().find(|device| path.starts_with(device.path())).cloned()
+        })
     }
 
     /// Makes each class be listed anew when it is next asked for.
@@ -203,13 +275,15 @@ impl Devices {
 
     fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {
         // Class::ALL is in the order of the enum.
-        let [tacho_motor, sensor, servo_motor, dc_motor, port] = &self.listings;
+        let [tacho_motor, sensor, servo_motor, dc_motor, port, led, battery] = &self.listings;
         let listing = match class {
             Class::TachoMotor => tacho_motor,
             Class::Sensor => sensor,
             Class::ServoMotor => servo_motor,
             Class::DcMotor => dc_motor,
             Class::Port => port,
+            Class::Led => led,
+            Class::Battery => battery,
         };
         listing.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -222,7 +296,7 @@ impl Devices {
     /// Lists the class directory, keeping the devices that are still there.
     fn list(&self, class: Class, listing: &mut Listing) -> Result<()> {
         let directory = self.tree.root().join(class.directory());
-        let entries = match self.tree.list(&directory) {
+        let mut entries = match self.tree.list(&directory) {
             Ok(entries) => entries,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
             Err(source) => {
@@ -230,6 +304,7 @@ impl Devices {
             }
         };
         listing.made = Some(self.tree.now());
+        entries.retain(|entry| class.admits(&entry.name));
         let is_same = entries.len() == listing.devices.len()
             && entries.iter().all(|entry| listing.devices.iter().any(|d| d.is_at(entry)));
         if is_same {
@@ -252,7 +327,11 @@ impl Devices {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port::order(&a_port, &b_port).then_with(|| port::order(&a_name, &b_name))
         });
-        // Of two at one port, the one with the higher number came later.
+        // A port has one device of a class. Where two directories say they are
+        // at it, the one with the lower number is about to vanish.
+        devices.reverse();
+        devices.dedup_by(|earlier, later| earlier.port() == later.port());
+        devices.reverse();
         let by_port = devices.iter().map(|device| (device.port().to_owned(), Arc::clone(device)));
         listing.by_port = by_port.collect();
         listing.devices = devices.into();

@@ -78,6 +78,18 @@ pub enum Error {
         /// The value that was asked for.
         index: usize,
     },
+    /// Several things that are done at once are to be done by one device.
+    #[error("{port} is named twice")]
+    Twice {
+        /// The port that is named twice.
+        port: String,
+    },
+    /// A port is to be told that a device is plugged in which it cannot have.
+    #[error("no port for motors has a {name:?}")]
+    NoSuchDevice {
+        /// The name of the device.
+        name: String,
+    },
     /// A pattern that is none.
     #[error("{pattern:?} is no file name pattern")]
     Pattern {

@@ -1,4 +1,4 @@
-//! Motors and sensors over an ev3dev file tree.
+//! Motors, sensors, lights, ports and the battery over an ev3dev file tree.
 //!
 //! ev3dev shows each device as a directory of small text files, its
 //! *attributes*: `/sys/class/tacho-motor/motor0/position` holds a motor's
@@ -14,7 +14,8 @@
 //!   it, or something that only behaves so. It also owns the clock.
 //! * [`device`]: one device, its kept descriptors and its constants.
 //! * [`devices`]: which devices there are, by class and port.
-//! * [`attributes`], [`motor`], [`wait`], [`sensor`], [`turn`]: what robots do.
+//! * [`attributes`], [`motor`], [`dc`], [`servo`], [`wait`], [`sensor`],
+//!   [`turn`], [`light`], [`battery`], [`lego_port`]: what robots do.
 //!
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
@@ -24,13 +25,19 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
+pub mod battery;
+pub mod dc;
 pub mod device;
 pub mod devices;
 pub mod error;
+pub mod lego_port;
+pub mod light;
 mod list;
 pub mod motor;
+mod patience;
 pub mod port;
 pub mod sensor;
+pub mod servo;
 pub mod tree;
 pub mod turn;
 pub mod value;

@@ -11,6 +11,8 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
+use crate::patience::patiently;
+use crate::value::Value;
 use crate::wait::{Reason, TOLERANCE, has, wait_for};
 use rustix::io::Errno;
 use std::sync::Arc;
@@ -54,10 +56,23 @@ pub struct Run<'a> {
 pub struct Move<'a> {
     /// The motor's port.
     pub port: &'a str,
-    /// The speed; with the sign of `degrees` it makes the direction.
+    /// The speed; its sign is a direction.
     pub speed: Speed,
-    /// The angle in degrees of the output shaft.
-    pub degrees: f64,
+    /// Where the move ends.
+    pub way: Way,
+}
+
+/// How far a move goes. Angles are in degrees of the output shaft, or, of a
+/// linear actuator, in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// By an angle; its sign and that of the speed make the direction.
+    By(f64),
+    /// To an angle, counted from where the position is 0, whatever the sign of
+    /// the speed.
+    To(f64),
+    /// For a time.
+    For(Duration),
 }
 
 /// A motor's speed.
@@ -164,7 +179,8 @@ pub(crate) enum End {
 /// The kernel's, as EINVAL for a command the motor does not have.
 pub fn command(motor: &Device, word: &str) -> Result<()> {
     let end = match word {
-        "run-forever" | "run-direct" => Some(End::Never),
+        // The last one is a servo's.
+        "run-forever" | "run-direct" | "run" => Some(End::Never),
         "run-timed" => {
             let milliseconds = motor.number("time_sp")?;
             Some(End::Time(Duration::from_millis(milliseconds.unsigned_abs())))
@@ -185,7 +201,7 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
 }
 
 /// Writes a command, and remembers what it started: `None` if it stops.
-fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
+pub(crate) fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
     let is_relative = word == "run-to-rel-pos";
     let motion = end.map(|end| Motion { started: motor.tree().now(), is_relative, end });
     if motion.is_some() {
@@ -232,16 +248,21 @@ pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     result
 }
 
-/// Stops every motor that was started and not stopped since. One that is gone
-/// has nothing to stop.
+/// Stops every motor, of any class, that was started and not stopped since. One
+/// that is gone has nothing to stop.
 ///
 /// # Errors
 /// The first that occurred.
 pub fn stop_started(devices: &Devices) -> Result<()> {
-    let motors = devices.all(Class::TachoMotor)?;
     let mut result = Ok(());
-    for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
-        result = result.and(stop_somehow(motor, StopAction::Brake));
+    for class in Class::MOTORS {
+        let motors = devices.all(class)?;
+        for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
+            result = result.and(match class {
+                Class::ServoMotor => crate::servo::float_somehow(motor),
+                _ => stop_somehow(motor, StopAction::Brake),
+            });
+        }
     }
     result
 }
@@ -260,12 +281,13 @@ pub fn reset(motor: &Device) -> Result<()> {
 ///
 /// # Errors
 /// The kernel's. A motor that goes away while the others start stops them.
-pub fn run_forever(devices: &Devices, runs: &[Run]) -> Result<bool> {
-    devices.afresh(|| run_forever_once(devices, runs))
+/// [`Error::Twice`]; [`Interrupted`](Error::Interrupted).
+pub fn run_forever(devices: &Devices, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
+    patiently(devices, interrupted, || run_forever_once(devices, runs))
 }
 
 fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
-    let Some(motors) = find_all(devices, runs.iter().map(|run| run.port))? else {
+    let Some(motors) = find_each(devices, runs.iter().map(|run| run.port))? else {
         return Ok(false);
     };
     let speed = |(motor, run): (&Arc<Device>, &Run)| run.speed.in_counts(motor);
@@ -274,6 +296,7 @@ fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
     let Some(speeds) = possible else {
         return Ok(false);
     };
+    prepare(&motors)?;
     run_at(&motors, speeds)?;
     Ok(true)
 }
@@ -286,9 +309,64 @@ pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i6
     start_all(motors, |motor| start(motor, "run-forever", Some(End::Never)))
 }
 
-/// Turns motors by angles, all at once. `None` if one is absent, or the move
-/// is impossible: a speed of 0 or beyond the motor's, an angle beyond what the
-/// kernel counts; then nothing has moved.
+/// Gives a motor without regulation, of either class, a share of the voltage
+/// until it is stopped; when it runs so already, from now on. `false` if it is
+/// absent or the percentage beyond 100; then nothing has moved.
+///
+/// # Errors
+/// The kernel's, as EINVAL of a motor that cannot; [`Error::Interrupted`].
+pub fn run_direct(
+    devices: &Devices,
+    class: Class,
+    port: &str,
+    percent: f64,
+    interrupted: Interrupted,
+) -> Result<bool> {
+    let Some(duty) = duty(percent) else {
+        return Ok(false);
+    };
+    let run = |motor: &Arc<Device>| {
+        motor.write_number("duty_cycle_sp", duty)?;
+        start(motor, "run-direct", Some(End::Never))
+    };
+    Ok(devices.with_patience(class, port, interrupted, run)?.is_some())
+}
+
+/// A share of the voltage in whole percent, or `None` beyond 100.
+#[expect(clippy::cast_possible_truncation, reason = "checked to be a percentage")]
+pub(crate) fn duty(percent: f64) -> Option<i64> {
+    let whole = percent.round();
+    // Also false for NaN.
+    (whole.abs() <= 100.0).then_some(whole as i64)
+}
+
+/// Where a motor is, in degrees, or millimetres of a linear actuator: an
+/// integer where a tacho count is one, else a float.
+///
+/// # Errors
+/// The kernel's.
+#[expect(clippy::cast_precision_loss, reason = "positions have 32 bits")]
+pub fn position(motor: &Device) -> Result<Value> {
+    let (counts, per_unit) = (motor.number("position")?, counts_per_unit(motor)?);
+    let is_unit = (per_unit - 1.0).abs() < f64::EPSILON;
+    Ok(if is_unit { Value::Integer(counts) } else { Value::Float(counts as f64 / per_unit) })
+}
+
+/// Says what a motor's present position, in the units of [`position`], is
+/// called from now on. `false` if that is beyond what the kernel counts.
+///
+/// # Errors
+/// The kernel's.
+pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
+    match counts(motor, position)? {
+        Some(counts) => motor.write_number("position", counts).map(|()| true),
+        None => Ok(false),
+    }
+}
+
+/// Turns motors, all at once. `None` if one is absent, or the move
+/// is impossible: a speed of 0 or beyond the motor's, an angle or a time beyond
+/// what the kernel counts; then nothing has moved.
 ///
 /// Without [`MoveOptions::wait`] the answer is [`Reason::Reached`] once the
 /// motors are started. A move that does not reach its end is stopped.
@@ -296,28 +374,40 @@ pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i6
 /// # Errors
 /// The kernel's; [`Gone`](crate::Error::Gone) if one is unplugged under way;
 /// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait.
-/// The motors are stopped before.
+/// The motors are stopped before. [`Error::Twice`].
 pub fn run_to(
     devices: &Devices,
     moves: &[Move],
     options: &MoveOptions,
     interrupted: Interrupted,
 ) -> Result<Option<Reason>> {
-    let Some(motors) = devices.afresh(|| start_moves(devices, moves, options))? else {
-        return Ok(None);
-    };
-    if !options.wait {
-        return Ok(Some(Reason::Reached));
+    let start = || start_moves(devices, moves, options);
+    match patiently(devices, &mut *interrupted, start)? {
+        Some(motors) => finish(devices, &motors, options, interrupted).map(Some),
+        None => Ok(None),
     }
-    let result = wait_for(devices, &motors, options.timeout, interrupted);
+}
+
+/// Waits, if that is asked for, until motors that were started are done. Those
+/// that do not get there are stopped.
+pub(crate) fn finish(
+    devices: &Devices,
+    motors: &[Arc<Device>],
+    options: &MoveOptions,
+    interrupted: Interrupted,
+) -> Result<Reason> {
+    if !options.wait {
+        return Ok(Reason::Reached);
+    }
+    let result = wait_for(devices, motors, options.timeout, interrupted);
     if !matches!(result, Ok(Reason::Reached)) {
         // Whatever ended it: nothing may go on turning. That a motor cannot be
         // stopped, because it is gone, is no news to who gets this result.
-        let _ = stop_all(&motors, StopAction::Brake);
+        let _ = stop_all(motors, StopAction::Brake);
     }
     match (result?, motors.iter().find(|motor| !devices.has(motor).unwrap_or(false))) {
         (Reason::Unplugged, Some(gone)) => Err(gone.gone()),
-        (reason, _) => Ok(Some(reason)),
+        (reason, _) => Ok(reason),
     }
 }
 
@@ -327,7 +417,7 @@ fn start_moves(
     moves: &[Move],
     options: &MoveOptions,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    let Some(motors) = find_all(devices, moves.iter().map(|one| one.port))? else {
+    let Some(motors) = find_each(devices, moves.iter().map(|one| one.port))? else {
         return Ok(None);
     };
     let mut plans = Vec::with_capacity(moves.len());
@@ -337,54 +427,108 @@ fn start_moves(
             None => return Ok(None),
         }
     }
+    prepare(&motors)?;
     for (motor, plan) in motors.iter().zip(&plans) {
-        count_from_here(motor)?;
-        motor.write_number("position_sp", plan.distance)?;
+        if plan.command == "run-to-rel-pos" {
+            count_from_here(motor)?;
+        }
+        motor.write_number(plan.set_point, plan.value)?;
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
-    let mut ramps = Ramps(Vec::new());
-    ramps.set(&motors, options)?;
-    let mut ends = plans.iter().map(|plan| End::Position { from: plan.from, target: plan.target });
-    start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
+    let mut ramps = Ramps::none();
+    for motor in &motors {
+        ramps.set(motor, options)?;
+    }
+    let mut plans = plans.iter();
+    start_all(&motors, |motor| match plans.next() {
+        Some(plan) => start(motor, plan.command, Some(plan.end)),
+        None => Ok(()),
+    })?;
     Ok(Some(motors))
 }
 
 /// A move in the kernel's units.
 struct Plan {
-    from: i64,
-    target: i64,
-    /// From where the motor is to the target.
-    distance: i64,
+    command: &'static str,
+    end: End,
     speed: i64,
+    /// The set-point that says how far, and its value.
+    set_point: &'static str,
+    value: i64,
 }
 
 /// Converts a move; `None` if it is impossible.
-///
-/// The kernel ignores the sign of `speed_sp` in position moves, so that of the
-/// speed goes into the distance.
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    reason = "checked to fit 32 bits, as the kernel's positions do"
-)]
 fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
     let Some(speed) = one.speed.in_counts(motor)?.filter(|speed| *speed != 0) else {
         return Ok(None);
     };
-    let counts_per_rotation = motor.constant("count_per_rot")?;
-    let counts = (one.degrees * counts_per_rotation as f64 / 360.0).round();
-    // Also false for NaN.
-    if counts.abs() > f64::from(i32::MAX) || counts.is_nan() {
+    Ok(match one.way {
+        Way::By(angle) => plan_by(motor, speed, angle)?,
+        Way::To(angle) => {
+            let (from, target) = (motor.number("position")?, counts(motor, angle)?);
+            target.map(|target| Plan {
+                command: "run-to-abs-pos",
+                end: End::Position { from, target },
+                speed: speed.abs(),
+                set_point: "position_sp",
+                value: target,
+            })
+        }
+        Way::For(time) => milliseconds(time, i32::MAX).map(|value| Plan {
+            command: "run-timed",
+            end: End::Time(time),
+            speed,
+            set_point: "time_sp",
+            value,
+        }),
+    })
+}
+
+/// The kernel ignores the sign of `speed_sp` in position moves, so that of the
+/// speed goes into the distance.
+fn plan_by(motor: &Device, speed: i64, angle: f64) -> Result<Option<Plan>> {
+    let Some(counts) = counts(motor, angle)? else {
         return Ok(None);
-    }
+    };
     let position = motor.number("position")?;
     let from = base(motor, position)?;
-    let target = from.saturating_add(counts as i64 * speed.signum());
+    let target = from.saturating_add(counts * speed.signum());
+    // From where the motor is to the target.
     let distance = target.saturating_sub(position);
     // The kernel counts in 32 bits.
     let is_possible = i32::try_from(target).is_ok() && i32::try_from(distance).is_ok();
-    Ok(is_possible.then_some(Plan { from, target, distance, speed: speed.abs() }))
+    Ok(is_possible.then_some(Plan {
+        command: "run-to-rel-pos",
+        end: End::Position { from, target },
+        speed: speed.abs(),
+        set_point: "position_sp",
+        value: distance,
+    }))
+}
+
+/// An angle, or a length, in tacho counts; `None` beyond what the kernel counts.
+#[expect(clippy::cast_possible_truncation, reason = "checked to fit 32 bits")]
+fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
+    let counts = (angle * counts_per_unit(motor)?).round();
+    // Also false for NaN.
+    Ok((counts.abs() <= f64::from(i32::MAX)).then_some(counts as i64))
+}
+
+/// Tacho counts for a degree of the shaft, or a millimetre of a linear actuator.
+#[expect(clippy::cast_precision_loss, reason = "counts are few")]
+fn counts_per_unit(motor: &Device) -> Result<f64> {
+    Ok(if motor.is_linear() {
+        motor.constant("count_per_m")? as f64 / 1000.0
+    } else {
+        motor.constant("count_per_rot")? as f64 / 360.0
+    })
+}
+
+/// A time as the kernel takes it; `None` if it is longer than that.
+pub(crate) fn milliseconds(time: Duration, longest: i32) -> Option<i64> {
+    let milliseconds = i64::try_from((time + Duration::from_micros(500)).as_millis()).ok()?;
+    (milliseconds <= i64::from(longest)).then_some(milliseconds)
 }
 
 /// Where a move begins: where the motor is, or where it is held, so that many
@@ -413,17 +557,19 @@ fn count_from_here(motor: &Device) -> Result<()> {
 /// The ramps that the motors had before a move with its own. The command
 /// copies them, so that they are put back as soon as the motors run, or when
 /// they could not start.
-struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
+pub(crate) struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
 
 impl Ramps {
-    fn set(&mut self, motors: &[Arc<Device>], options: &MoveOptions) -> Result<()> {
+    pub(crate) fn none() -> Self {
+        Self(Vec::new())
+    }
+
+    pub(crate) fn set(&mut self, motor: &Arc<Device>, options: &MoveOptions) -> Result<()> {
         let given = [("ramp_up_sp", options.ramp_up_ms), ("ramp_down_sp", options.ramp_down_ms)];
-        for motor in motors {
-            for (attribute, milliseconds) in given {
-                if let Some(milliseconds) = milliseconds {
-                    self.0.push((Arc::clone(motor), attribute, motor.number(attribute)?));
-                    motor.write_number(attribute, milliseconds)?;
-                }
+        for (attribute, milliseconds) in given {
+            if let Some(milliseconds) = milliseconds {
+                self.0.push((Arc::clone(motor), attribute, motor.number(attribute)?));
+                motor.write_number(attribute, milliseconds)?;
             }
         }
         Ok(())
@@ -432,12 +578,17 @@ impl Ramps {
 
 impl Drop for Ramps {
     fn drop(&mut self) {
-        // The last first, as a motor may have been named twice. What cannot be
-        // put back belongs to a motor that was unplugged.
-        for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
+        // What cannot be put back belongs to a motor that was unplugged.
+        for (motor, attribute, milliseconds) in self.0.drain(..) {
             let _ = motor.write_number(attribute, milliseconds);
         }
     }
+}
+
+/// Finds out, before anything is written to any of them, whether the motors'
+/// files are open to us.
+pub(crate) fn prepare(motors: &[Arc<Device>]) -> Result<()> {
+    motors.iter().try_for_each(|motor| motor.prepare("command"))
 }
 
 /// Starts all motors, or none: if one fails, those that run are stopped.
@@ -448,6 +599,21 @@ fn start_all(motors: &[Arc<Device>], mut start: impl FnMut(&Device) -> Result<()
             if error.is_gone() { motor.gone() } else { error }
         })
     })
+}
+
+/// The tacho motors at these ports, each of them another, or `None` if one is
+/// absent.
+fn find_each<'a>(
+    devices: &Devices,
+    ports: impl IntoIterator<Item = &'a str>,
+) -> Result<Option<Vec<Arc<Device>>>> {
+    let found = find_all(devices, ports)?;
+    for (index, motor) in found.iter().flatten().enumerate() {
+        if found.iter().flatten().take(index).any(|other| Arc::ptr_eq(other, motor)) {
+            return Err(Error::Twice { port: motor.port().to_owned() });
+        }
+    }
+    Ok(found)
 }
 
 /// The tacho motors at these ports, or `None` if one is absent.

@@ -8,6 +8,7 @@ use crate::Interrupted;
 use crate::device::{Device, Use};
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
+use crate::patience::{Patience, RETRY_EVERY};
 use crate::value::Value;
 use crate::wait::sleep;
 use rustix::io::Errno;
@@ -23,12 +24,6 @@ const SETTLING_INFRARED: Duration = Duration::from_millis(1100);
 /// How long a sensor may take to answer again after losing contact: it is
 /// noticed after 0.7 s and the sensor introduces itself anew in about 1 s.
 const RETRY_FOR: Duration = Duration::from_secs(2);
-
-/// How long udev may take to open a new device's files to us.
-const PERMISSIONS_WITHIN: Duration = Duration::from_secs(1);
-
-/// The pause between two tries.
-const RETRY_EVERY: Duration = Duration::from_millis(20);
 
 /// The files of the values; a sensor has at most eight.
 pub(crate) const VALUES: [&str; 8] =
@@ -218,6 +213,7 @@ fn patiently<T>(
 ) -> Result<Option<T>> {
     let mut replaced = None;
     let mut first_try = None;
+    let mut new = Patience::default();
     loop {
         let sensor = replaced.as_ref().unwrap_or(sensor);
         let error = match act(sensor, interrupted) {
@@ -243,7 +239,7 @@ fn patiently<T>(
             Some(Errno::INVAL) if sensor.with_word("mode", str::is_empty).unwrap_or(false) => {
                 *first_try.get_or_insert(now) + RETRY_FOR
             }
-            Some(Errno::ACCESS) => sensor.first_seen() + PERMISSIONS_WITHIN,
+            _ if new.lasts(devices, &error) => Duration::MAX,
             _ => return Err(error),
         };
         if now >= patience {

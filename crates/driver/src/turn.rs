@@ -9,7 +9,8 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::Devices;
 use crate::error::{Error, Result};
-use crate::motor::{Speed, StopAction, find_all, run_at, stop_all};
+use crate::motor::{Speed, StopAction, find_all, prepare, run_at, stop_all};
+use crate::patience::patiently;
 use crate::sensor;
 use crate::value::Value;
 use crate::wait::sleep;
@@ -95,7 +96,11 @@ pub fn by_gyro(
         return Ok(None);
     }
     let ports = [turn.left.as_str(), turn.right.as_str()];
-    let Some(motors) = devices.afresh(|| find_all(devices, ports))? else {
+    let motors = patiently(devices, &mut *interrupted, || {
+        let motors = find_all(devices, ports)?;
+        motors.iter().try_for_each(|motors| prepare(motors)).map(|()| motors)
+    })?;
+    let Some(motors) = motors else {
         return Ok(None);
     };
     let Some(fastest) = fastest(&motors, turn.speed)? else {

@@ -32,6 +32,10 @@ const STALLED_FOR: Duration = Duration::from_millis(100);
 /// never flags a stall.
 const STUCK_FOR: Duration = Duration::from_secs(2);
 
+/// The same for a linear actuator, flagged or not: at 24 counts a second at most
+/// its regulation takes seconds to push it off.
+const SLOW_STUCK_FOR: Duration = Duration::from_secs(5);
+
 /// How much too early a timed run may end: the kernel's timers count in these.
 const TICK: Duration = Duration::from_millis(10);
 
@@ -246,7 +250,8 @@ impl<'a> Watch<'a> {
             self.was_quiet = false;
             let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
             self.stalled_since = since;
-            let lasts = since.is_some_and(|since| now.saturating_sub(since) >= STALLED_FOR);
+            let patience = if self.motor.is_linear() { SLOW_STUCK_FOR } else { STALLED_FOR };
+            let lasts = since.is_some_and(|since| now.saturating_sub(since) >= patience);
             if lasts || self.is_stuck(now)? {
                 return Ok(Look::Blocked);
             }
@@ -309,9 +314,10 @@ impl<'a> Watch<'a> {
             return Ok(false);
         }
         let position = self.motor.number("position")?;
+        let patience = if self.motor.is_linear() { SLOW_STUCK_FOR } else { STUCK_FOR };
         match self.stuck {
             Some((before, since)) if before == position => {
-                Ok(now.saturating_sub(since) >= STUCK_FOR)
+                Ok(now.saturating_sub(since) >= patience)
             }
             _ => {
                 self.stuck = Some((position, now));

@@ -45,6 +45,8 @@ pub(crate) enum Effect {
     PortMode(usize),
     /// A port was told which device is behind it.
     PortDevice(String),
+    /// Files appeared that udev has yet to open to the group.
+    Appeared,
 }
 
 pub(crate) type Reader<D> = fn(&D) -> Result<Vec<u8>, Errno>;
@@ -59,6 +61,7 @@ pub(crate) struct Attr<D> {
     write: Writer<D>,
     exists: fn(&D) -> bool,
     measured: bool,
+    late: bool,
 }
 
 impl<D> Attr<D> {
@@ -75,7 +78,16 @@ impl<D> Attr<D> {
     }
 
     const fn new(name: &'static str, access: Access, read: Reader<D>, write: Writer<D>) -> Self {
-        Attr { name, access, size: 4096, read, write, exists: |_| true, measured: false }
+        Attr {
+            name,
+            access,
+            size: 4096,
+            read,
+            write,
+            exists: |_| true,
+            measured: false,
+            late: false,
+        }
     }
 
     /// What `stat` says of the size; 4096 is for texts.
@@ -87,6 +99,12 @@ impl<D> Attr<D> {
     /// The file exists only while this holds.
     pub(crate) const fn only_while(mut self, exists: fn(&D) -> bool) -> Self {
         self.exists = exists;
+        self
+    }
+
+    /// It appears after the device, and udev opens it then.
+    pub(crate) const fn late(mut self) -> Self {
+        self.late = true;
         self
     }
 
@@ -110,6 +128,7 @@ pub(crate) trait Files {
     fn size(&self, index: usize) -> u32;
     fn exists(&self, index: usize) -> bool;
     fn measured(&self, index: usize) -> bool;
+    fn late(&self, index: usize) -> bool;
     fn read(&self, index: usize) -> Result<Vec<u8>, Errno>;
     fn write(&mut self, index: usize, bytes: &[u8]) -> Result<Effect, Errno>;
 }
@@ -137,6 +156,10 @@ impl<D: Table> Files for D {
 
     fn measured(&self, index: usize) -> bool {
         D::ATTRS[index].measured
+    }
+
+    fn late(&self, index: usize) -> bool {
+        D::ATTRS[index].late
     }
 
     fn read(&self, index: usize) -> Result<Vec<u8>, Errno> {

@@ -49,6 +49,11 @@ impl Led {
         Led { full: FULL_ON_PORT, ..Led::new(&format!("{address}::brick-status"), 0) }
     }
 
+    /// How bright it is, from 0 to 1.
+    pub(crate) fn level(&self) -> f64 {
+        f64::from(self.brightness) / f64::from(self.full)
+    }
+
     fn set_brightness(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
         self.brightness = lenient_unsigned(bytes)?.min(self.full);
         if self.brightness == 0 {
@@ -58,11 +63,18 @@ impl Led {
     }
 
     fn set_trigger(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
+        let before = self.trigger;
         self.trigger = word(bytes, TRIGGERS.into_iter())?;
         match self.trigger {
             NONE => self.brightness = 0,
             DEFAULT_ON => self.brightness = self.full,
-            TIMER => (self.delay_on, self.delay_off) = (500, 500),
+            TIMER if before != TIMER => {
+                (self.delay_on, self.delay_off) = (500, 500);
+                if self.brightness == 0 {
+                    self.brightness = self.full;
+                }
+                return Ok(Effect::Appeared);
+            }
             _ => {}
         }
         Ok(Effect::Done)
@@ -87,7 +99,8 @@ impl Table for Led {
                 Ok(Effect::Done)
             },
         )
-        .only_while(|l| l.trigger == TIMER),
+        .only_while(|l| l.trigger == TIMER)
+        .late(),
         Attr::rw(
             "delay_on",
             |l: &Led| text(l.delay_on),
@@ -96,7 +109,8 @@ impl Table for Led {
                 Ok(Effect::Done)
             },
         )
-        .only_while(|l| l.trigger == TIMER),
+        .only_while(|l| l.trigger == TIMER)
+        .late(),
         Attr::ro("max_brightness", |l| text(l.full)),
         Attr::rw("trigger", |l| text(l.triggers()), Led::set_trigger),
         Attr::rw("uevent", |_| Ok(Vec::new()), |_, bytes| write_uevent(bytes)),

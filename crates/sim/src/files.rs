@@ -108,6 +108,10 @@ impl Machine {
         let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
         match (effect, port) {
             (Effect::Blocks(time), _) => written.blocks = time,
+            (Effect::Appeared, _) => {
+                let open_at = self.tick + self.udev_ticks();
+                self.tree.appeared(Tree::owner(node), open_at);
+            }
             (Effect::PortMode(mode), Some(port)) => written.blocks = self.port_mode(port, mode),
             (Effect::PortDevice(name), Some(port)) => {
                 self.sockets[port as usize].forced = Some(name);
@@ -178,6 +182,7 @@ impl Machine {
             pose: self.body.pose.compose(&pose),
             angle: sensor.angle,
             rate: sensor.rate,
+            power: self.power(),
             noise: Source::new(noise, self.options.seed, port as usize, sample),
         };
         view.measure(sensor.mode().sense)

@@ -82,6 +82,7 @@ mod robot;
 mod scene;
 mod sense;
 mod sensor;
+mod servo;
 mod shaft;
 mod shared;
 mod socket;

@@ -96,6 +96,7 @@ impl Machine {
             plug: None,
             due: None,
             device: None,
+            servos: Vec::new(),
             lego_port,
             forced: None,
         };
@@ -121,7 +122,7 @@ impl Machine {
         }
         for port in Port::ALL {
             if let Some(Plug::Motor(kind)) = machine.sockets[port as usize].plug {
-                machine.shafts[port.slot()].kind = kind;
+                machine.shafts[port.slot()].connect(kind);
             }
             machine.register(port, true);
         }

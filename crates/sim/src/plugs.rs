@@ -9,6 +9,7 @@ use crate::machine::Machine;
 use crate::motor::Tacho;
 use crate::port::Port;
 use crate::sensor::Sensor;
+use crate::servo::{self, Servo};
 use crate::socket::Plug;
 use crate::tree::Hardware;
 use crate::world::SpecError;
@@ -30,7 +31,7 @@ impl Machine {
             SpecError::new(format!("{driver} on {port}"), "is nothing that fits this port")
         })?;
         if let Plug::Motor(kind) = plug {
-            self.shafts[port.slot()].kind = kind;
+            self.shafts[port.slot()].connect(kind);
         }
         self.change_plug(port, Some(plug));
         Ok(())
@@ -91,7 +92,7 @@ impl Machine {
     /// Takes the device of a port away and registers the one that belongs there.
     pub(crate) fn register(&mut self, port: Port, at_boot: bool) {
         let socket = &mut self.sockets[port as usize];
-        if let Some(serial) = socket.device.take() {
+        for serial in socket.device.take().into_iter().chain(socket.servos.drain(..)) {
             self.tree.remove(serial);
         }
         let lego_port = socket.lego_port;
@@ -108,17 +109,25 @@ impl Machine {
             ("led", _) => Some(Hardware::Led(Led::on_port(port.address()))),
             (_, plug) => plug.map(|plug| self.driver(port, plug, at_boot)),
         };
-        let instant = self.options.instant;
-        let closed = if at_boot || instant { 0 } else { self.tick + ticks_from_ms(UDEV_MS) };
+        let closed = if at_boot { 0 } else { self.tick + self.udev_ticks() };
         let has_tacho = matches!(plug, Some(Plug::Motor(_))) || mode == "tacho-motor";
         let has_nxt_analog = mode == "nxt-analog"
             || matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == "nxt-analog");
         self.sockets[port as usize].device =
             hardware.map(|hardware| self.tree.add(hardware, closed));
+        if matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == servo::DRIVER) {
+            let add = |servo| self.tree.add(Hardware::Servo(servo), closed);
+            self.sockets[port as usize].servos = Servo::all(port).map(add).collect();
+        }
         if let Some(Hardware::Port(device)) = self.tree.hardware_mut(lego_port) {
             device.has_tacho = has_tacho;
             device.has_nxt_analog = has_nxt_analog;
         }
+    }
+
+    /// How long udev takes to open new files to the group.
+    pub(crate) fn udev_ticks(&self) -> u64 {
+        if self.options.instant { 0 } else { ticks_from_ms(UDEV_MS) }
     }
 
     /// A fresh driver for a tacho motor or sensor.

@@ -92,10 +92,14 @@ impl Scene {
         far < 1e-9 || self.cast(from, way / far, far).is_none()
     }
 
-    /// The lamps: where they hang and how bright they are.
-    pub(crate) fn lamps(&self) -> impl Iterator<Item = (Vec2, f64)> {
-        self.items.iter().filter_map(|(_, item)| match item {
+    /// The lamps: where they hang and how bright they are, those on output ports by the share of
+    /// the voltage that each port gives.
+    pub(crate) fn lamps(&self, power: [f64; 4]) -> impl Iterator<Item = (Vec2, f64)> {
+        self.items.iter().filter_map(move |(_, item)| match item {
             Item::Lamp { at: [x, y], intensity } => Some((Vec2::new(*x, *y), *intensity)),
+            Item::Bulb { at: [x, y], intensity, port } => {
+                Some((Vec2::new(*x, *y), *intensity * power[port.slot()]))
+            }
             _ => None,
         })
     }

@@ -37,6 +37,8 @@ pub(crate) struct View<'a> {
     pub(crate) angle: f64,
     /// Degrees per second, for a gyro.
     pub(crate) rate: f64,
+    /// The share of the voltage that each output port gives a lamp.
+    pub(crate) power: [f64; 4],
     pub(crate) noise: Source,
 }
 
@@ -121,7 +123,7 @@ impl View<'_> {
         let ahead = direction(self.pose.heading);
         let full = LAMP_DISTANCE * LAMP_DISTANCE + LAMP_HEIGHT * LAMP_HEIGHT;
         let mut light = self.scene.ambient;
-        for (lamp, intensity) in self.scene.lamps() {
+        for (lamp, intensity) in self.scene.lamps(self.power) {
             let way = lamp - here;
             let distance = length(way);
             let facing = if distance < 1e-9 { 1.0 } else { way.dot(&ahead) / distance };

@@ -28,6 +28,15 @@ impl Shaft {
         }
     }
 
+    /// A motor is plugged in. One that turns goes on from where the shaft is; a linear actuator
+    /// comes drawn in.
+    pub(crate) fn connect(&mut self, kind: &'static MotorKind) {
+        self.kind = kind;
+        if kind.travel.is_some() {
+            (self.angle, self.omega) = (0.0, 0.0);
+        }
+    }
+
     /// What the bridge makes of the battery's voltage: torques on the shaft, and the current it
     /// draws. `strength` is the motor's own error, 1 for none; `jitter` is in % duty.
     pub(crate) fn load(
@@ -60,7 +69,11 @@ impl Shaft {
 
     /// Turns for one tick at its present speed. The counter follows while the wire is in.
     pub(crate) fn turn(&mut self, wired: bool, tick_start_us: u64) {
-        let next = self.angle + self.omega.to_degrees() * TICK_SECONDS;
+        let mut next = self.angle + self.omega.to_degrees() * TICK_SECONDS;
+        if let Some(travel) = self.kind.travel.filter(|t| !(0.0..=f64::from(*t)).contains(&next)) {
+            next = next.clamp(0.0, f64::from(travel));
+            self.omega = 0.0;
+        }
         if wired {
             self.encoder.turn(self.angle, next, tick_start_us);
         }

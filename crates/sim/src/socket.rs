@@ -62,6 +62,8 @@ pub(crate) struct Socket {
     pub(crate) due: Option<u64>,
     /// Serial number of the registered device.
     pub(crate) device: Option<u64>,
+    /// Serial numbers of the servos behind it.
+    pub(crate) servos: Vec<u64>,
     /// Serial number of the `lego-port` device.
     pub(crate) lego_port: u64,
     /// Name given through `set_device`.
@@ -87,8 +89,8 @@ impl Socket {
             return named(name);
         }
         match (mode, self.plug) {
-            // The brick cannot tell an NXT motor from a large one.
-            ("auto", Some(Plug::Motor(kind))) if kind.driver_name == "lego-nxt-motor" => {
+            // The brick tells medium motors from others only.
+            ("auto", Some(Plug::Motor(kind))) if kind.driver_name != "lego-ev3-m-motor" => {
                 named("lego-ev3-l-motor")
             }
             ("auto", plug) => plug,

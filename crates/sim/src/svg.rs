@@ -37,7 +37,7 @@ impl Frame {
                     self.include(*point, 1.0);
                 }
             }
-            Item::Lamp { at, .. } => self.include(*at, 4.0),
+            Item::Lamp { at, .. } | Item::Bulb { at, .. } => self.include(*at, 4.0),
         }
     }
 }
@@ -172,7 +172,7 @@ fn draw_item(svg: &mut String, id: u32, item: &Item) {
                 list(points.iter().copied())
             ),
         ),
-        Item::Lamp { at: [x, y], .. } => line(
+        Item::Lamp { at: [x, y], .. } | Item::Bulb { at: [x, y], .. } => line(
             svg,
             format_args!(
                 "<circle id=\"item{id}\" class=\"lamp\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" \

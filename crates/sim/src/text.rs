@@ -1,5 +1,6 @@
 //! The parsers that ev3dev's drivers put between a written text and a number. They differ: see
-//! section 0.3 of the reference sheet. Here are A (strict), C (unsigned, lenient) and W (words).
+//! section 0.3 of the reference sheet. Here are A (strict), B (lenient), C (the same
+//! without a sign) and W (words).
 
 use crate::errno::Errno;
 
@@ -33,6 +34,26 @@ pub(crate) fn strict_int(bytes: &[u8]) -> Result<i32, Errno> {
 /// Parser A with limits: outside them is EINVAL.
 pub(crate) fn strict_int_in(bytes: &[u8], low: i32, high: i32) -> Result<i32, Errno> {
     let value = strict_int(bytes)?;
+    if (low..=high).contains(&value) { Ok(value) } else { Err(Errno::EINVAL) }
+}
+
+/// Parser B: white space, an optional sign, digits, then any junk.
+pub(crate) fn lenient_int(bytes: &[u8]) -> Result<i32, Errno> {
+    let start = bytes.iter().position(|b| !b.is_ascii_whitespace()).ok_or(Errno::EINVAL)?;
+    let negative = bytes[start] == b'-';
+    let signed = negative || bytes[start] == b'+';
+    let digits = &bytes[start + usize::from(signed)..];
+    if !digits.first().is_some_and(u8::is_ascii_digit) {
+        return Err(Errno::EINVAL);
+    }
+    let value = lenient_unsigned(digits)?;
+    let value = i32::try_from(value).map_err(|_| Errno::EINVAL)?;
+    Ok(if negative { -value } else { value })
+}
+
+/// Parser B with limits: outside them is EINVAL.
+pub(crate) fn lenient_int_in(bytes: &[u8], low: i32, high: i32) -> Result<i32, Errno> {
+    let value = lenient_int(bytes)?;
     if (low..=high).contains(&value) { Ok(value) } else { Err(Errno::EINVAL) }
 }
 
@@ -92,6 +113,22 @@ mod tests {
         assert_eq!(lenient_unsigned(b"  12 apples"), Ok(12));
         assert_eq!(lenient_unsigned(b"-1"), Err(Errno::EINVAL));
         assert_eq!(lenient_unsigned(b""), Err(Errno::EINVAL));
+    }
+
+    #[test]
+    fn lenient_signed_numbers_take_a_sign_and_junk() {
+        for (text, expected) in [
+            ("  -12 apples", Ok(-12)),
+            ("+7", Ok(7)),
+            ("50\n", Ok(50)),
+            ("- 5", Err(Errno::EINVAL)),
+            ("x", Err(Errno::EINVAL)),
+            ("", Err(Errno::EINVAL)),
+            ("3000000000", Err(Errno::EINVAL)),
+        ] {
+            assert_eq!(lenient_int(text.as_bytes()), expected, "{text:?}");
+        }
+        assert_eq!(lenient_int_in(b"-101", -100, 100), Err(Errno::EINVAL));
     }
 
     #[test]

@@ -86,6 +86,22 @@ impl Machine {
         }
     }
 
+    /// The share of the battery's voltage that each output port gives what is plugged in: 0 where
+    /// the port has no driver that simply does so.
+    pub(crate) fn power(&self) -> [f64; 4] {
+        OUTPUTS.map(|port| {
+            let device = self.sockets[port as usize].device;
+            match device.and_then(|serial| self.tree.hardware(serial)) {
+                Some(Hardware::DcMotor(motor)) => match motor.bridge() {
+                    Bridge::Driven(duty) => f64::from(duty.abs()) / 100.0,
+                    Bridge::Float | Bridge::Short => 0.0,
+                },
+                Some(Hardware::Led(led)) => led.level(),
+                _ => 0.0,
+            }
+        })
+    }
+
     fn battery_volts(&self) -> f64 {
         match self.tree.hardware(self.battery) {
             Some(Hardware::Battery(battery)) => battery.volts,

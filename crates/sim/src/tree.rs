@@ -11,6 +11,7 @@ use crate::errno::Errno;
 use crate::motor::Tacho;
 use crate::port::LegoPort;
 use crate::sensor::Sensor;
+use crate::servo::Servo;
 
 /// A file or directory: its inode number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -86,6 +87,7 @@ pub(crate) enum Hardware {
     Tacho(Box<Tacho>),
     Sensor(Box<Sensor>),
     DcMotor(DcMotor),
+    Servo(Servo),
     Port(LegoPort),
     Led(Led),
     Battery(Battery),
@@ -98,6 +100,7 @@ impl Hardware {
             Hardware::Tacho(_) => Class::TachoMotor,
             Hardware::Sensor(_) => Class::LegoSensor,
             Hardware::DcMotor(_) => Class::DcMotor,
+            Hardware::Servo(_) => Class::ServoMotor,
             Hardware::Port(_) => Class::LegoPort,
             Hardware::Led(_) => Class::Leds,
             Hardware::Battery(_) => Class::PowerSupply,
@@ -110,6 +113,7 @@ impl Hardware {
             Hardware::Tacho(device) => device.as_ref(),
             Hardware::Sensor(device) => device.as_ref(),
             Hardware::DcMotor(device) => device,
+            Hardware::Servo(device) => device,
             Hardware::Port(device) => device,
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
@@ -122,6 +126,7 @@ impl Hardware {
             Hardware::Tacho(device) => device.as_mut(),
             Hardware::Sensor(device) => device.as_mut(),
             Hardware::DcMotor(device) => device,
+            Hardware::Servo(device) => device,
             Hardware::Port(device) => device,
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
@@ -157,6 +162,8 @@ pub(crate) struct Device {
     class: Class,
     /// Tick until which udev has not yet changed the modes of the files.
     closed_until: u64,
+    /// The same for files that appeared later.
+    late_until: u64,
     /// Texts that attributes show instead of their own, by row.
     shown: Vec<(usize, Vec<u8>)>,
     pub(crate) hardware: Hardware,
@@ -199,18 +206,34 @@ impl Tree {
         let name = match &hardware {
             Hardware::Led(led) => led.name.clone(),
             Hardware::Battery(_) => Battery::NAME.to_owned(),
+            Hardware::Tacho(motor) if motor.kind.travel.is_some() => format!("linear{number}"),
             _ => format!("{}{number}", CLASSES[class as usize].2),
         };
         *number += 1;
         let serial = self.next_serial;
         self.next_serial += 1;
-        let shown = Vec::new();
-        self.devices.push(Device { serial, name, class, closed_until, shown, hardware });
+        let (late_until, shown) = (0, Vec::new());
+        self.devices.push(Device {
+            serial,
+            name,
+            class,
+            closed_until,
+            late_until,
+            shown,
+            hardware,
+        });
         serial
     }
 
     pub(crate) fn remove(&mut self, serial: u64) {
         self.devices.retain(|device| device.serial != serial);
+    }
+
+    /// Files of a device appeared, which udev opens at that tick.
+    pub(crate) fn appeared(&mut self, serial: u64, open_at: u64) {
+        if let Some(device) = self.device_mut(serial) {
+            device.late_until = open_at;
+        }
     }
 
     fn device(&self, serial: u64) -> Option<&Device> {
@@ -317,7 +340,7 @@ impl Tree {
             return Ok(Stat { node, kind: FileKind::Directory, mode: 0o755, size: 0 });
         };
         let files = device.hardware.files();
-        let open = device.open_to_group(now);
+        let open = device.open_to_group(row, now);
         let mode = match (files.access(row), open) {
             (Access::ReadOnly, _) => 0o444,
             (Access::ReadWrite, true) => 0o664,
@@ -332,7 +355,7 @@ impl Tree {
     pub(crate) fn may_open(&self, node: NodeId, access: Access, now: u64) -> Result<(), Errno> {
         let (device, row) = self.attribute(node)?;
         let allowed = device.hardware.files().access(row).allows(access);
-        let early = access.writes() && now < device.closed_until;
+        let early = access.writes() && now < device.closed_until(row);
         if allowed && !early { Ok(()) } else { Err(Errno::EACCES) }
     }
 
@@ -407,8 +430,16 @@ impl Tree {
 }
 
 impl Device {
-    fn open_to_group(&self, now: u64) -> bool {
-        CLASSES[self.class as usize].3 && now >= self.closed_until
+    fn open_to_group(&self, row: usize, now: u64) -> bool {
+        CLASSES[self.class as usize].3 && now >= self.closed_until(row)
+    }
+
+    fn closed_until(&self, row: usize) -> u64 {
+        if self.hardware.files().late(row) {
+            self.closed_until.max(self.late_until)
+        } else {
+            self.closed_until
+        }
     }
 
     fn node(&self, below: u64) -> NodeId {

@@ -2,6 +2,7 @@
 
 use crate::colour::Colour;
 use crate::geometry::Pose;
+use crate::port::Port;
 
 /// A point in cm.
 pub type Point = [f64; 2];
@@ -59,6 +60,16 @@ pub enum Item {
         /// at 20 cm, 40 at 50 cm, 3 at 200 cm.
         intensity: f64,
     },
+    /// A lamp like the others, but lit by an output port in the mode `dc-motor` or `led`: as bright
+    /// as the duty or brightness there says.
+    Bulb {
+        /// Where it hangs.
+        at: Point,
+        /// As of a lamp, at 100 %.
+        intensity: f64,
+        /// The port it is plugged into.
+        port: Port,
+    },
 }
 
 impl Item {
@@ -83,7 +94,7 @@ impl Item {
             Item::Circle { .. } => "circle",
             Item::Patch { .. } => "patch",
             Item::Line { .. } => "line",
-            Item::Lamp { .. } => "lamp",
+            Item::Lamp { .. } | Item::Bulb { .. } => "lamp",
         }
     }
 
@@ -117,6 +128,11 @@ impl Item {
             Item::Lamp { at, intensity } => first_fault([
                 (finite(&[*at]), NOT_FINITE),
                 (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
+            ]),
+            Item::Bulb { at, intensity, port } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
+                (port.is_output(), "needs an output port"),
             ]),
         };
         match fault {

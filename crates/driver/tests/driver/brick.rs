@@ -85,6 +85,7 @@ pub(crate) struct Motor {
     pub(crate) time_sp: i64,
     pub(crate) ramp_up_sp: i64,
     pub(crate) ramp_down_sp: i64,
+    pub(crate) duty_cycle_sp: i64,
     pub(crate) stop_action: String,
     doing: Doing,
     /// What the last command was, if it was a relative move: where to.
@@ -117,6 +118,8 @@ pub(crate) struct Motor {
     pub(crate) is_jessie: bool,
     /// Attributes that refuse to be written.
     pub(crate) refuses: Vec<(&'static str, Errno)>,
+    /// Until when udev has not opened the files to us.
+    pub(crate) closed_until: Duration,
 }
 
 impl Motor {
@@ -133,6 +136,7 @@ impl Motor {
             time_sp: 0,
             ramp_up_sp: 0,
             ramp_down_sp: 0,
+            duty_cycle_sp: 0,
             stop_action: "coast".to_owned(),
             doing: Doing::Nothing { brakes: false },
             relative_target: None,
@@ -153,6 +157,7 @@ impl Motor {
             ends_short: 0,
             is_jessie: false,
             refuses: Vec::new(),
+            closed_until: Duration::ZERO,
         }
     }
 
@@ -205,6 +210,11 @@ impl Motor {
             _ => {}
         }
         self.tell(now);
+    }
+
+    /// Somebody else stops it.
+    pub(crate) fn be_stopped(&mut self) {
+        self.end(self.counts());
     }
 
     fn end(&mut self, at: i64) {
@@ -277,6 +287,7 @@ impl Motor {
             "position" => self.position = number()? as f64,
             "speed_sp" if number()?.abs() <= self.max_speed => self.speed_sp = number()?,
             "position_sp" => self.position_sp = number()?,
+            "duty_cycle_sp" if number()?.abs() <= 100 => self.duty_cycle_sp = number()?,
             "time_sp" if number()? >= 0 => self.time_sp = number()?,
             "ramp_up_sp" if (0..=60_000).contains(&number()?) => self.ramp_up_sp = number()?,
             "ramp_down_sp" if (0..=60_000).contains(&number()?) => self.ramp_down_sp = number()?,
@@ -294,6 +305,10 @@ impl Motor {
         };
         match word {
             "run-forever" => self.doing = Doing::Running { speed: self.speed_sp, until: None },
+            "run-direct" => {
+                let speed = self.duty_cycle_sp * self.max_speed / 100;
+                self.doing = Doing::Running { speed, until: None };
+            }
             "run-timed" => {
                 let until = now + Duration::from_millis(self.time_sp.unsigned_abs());
                 self.doing = Doing::Running { speed: self.speed_sp, until: Some(until) };
@@ -624,7 +639,7 @@ impl Tree for Brick {
         let now = world.now;
         let (inode, closed_until) = if is_motor {
             let is_it = |motor: &&Motor| motor.name.as_str() == name && !motor.is_unplugged;
-            world.motors.iter().find(is_it).map(|motor| (motor.inode, Duration::ZERO))
+            world.motors.iter().find(is_it).map(|motor| (motor.inode, motor.closed_until))
         } else {
             let is_it = |sensor: &&Sensor| sensor.name.as_str() == name && !sensor.is_unplugged;
             world.sensors.iter().find(is_it).map(|sensor| (sensor.inode, sensor.closed_until))

@@ -44,6 +44,16 @@ impl PlainTree {
         self.plug(Class::TachoMotor, name, address, &[])
     }
 
+    /// Makes a light or a battery, which have names.
+    pub(crate) fn named(&self, class: Class, name: &str, files: &[(&str, &str)]) -> PathBuf {
+        let path = self.root().join(class.directory()).join(name);
+        fs::create_dir_all(&path).unwrap();
+        for (file, text) in files {
+            fs::write(path.join(file), format!("{text}\n")).unwrap();
+        }
+        path
+    }
+
     pub(crate) fn unplug(&self, class: Class, name: &str) {
         fs::remove_dir_all(self.root().join(class.directory()).join(name)).unwrap();
     }

@@ -1,11 +1,13 @@
 //! The driver over real files in temporary directories, and over a small
 //! kernel with a clock of its own.
 mod attributes;
+mod boards;
 mod brick;
 mod devices;
 mod files;
 mod laws;
 mod motors;
+mod moves;
 mod sensors;
 mod turns;
 mod waits;

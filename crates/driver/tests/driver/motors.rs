@@ -2,8 +2,8 @@
 use crate::brick::{Brick, motors, ms};
 use ev3_driver::devices::Class;
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_to, stop, stop_all,
-    stop_started,
+    Move, MoveOptions, Run, Speed, StopAction, Way, command, reset, run_forever, run_to, stop,
+    stop_all, stop_started,
 };
 use ev3_driver::wait::{Reason, wait_for};
 use ev3_driver::{Errno, Error, attributes};
@@ -15,7 +15,7 @@ fn run(port: &str, percent: f64) -> Run<'_> {
 }
 
 fn turn(port: &str, percent: f64, degrees: f64) -> Move<'_> {
-    Move { port, speed: Speed::Percent(percent), degrees }
+    Move { port, speed: Speed::Percent(percent), way: Way::By(degrees) }
 }
 
 fn position(brick: &Brick, port: &str) -> i64 {
@@ -33,7 +33,10 @@ fn assert_near(position: i64, expected: i64) {
 #[test]
 fn all_motors_get_their_speeds_before_the_first_starts() {
     let brick = Brick::new(&["outB", "outC"]);
-    assert!(run_forever(&brick.devices(), &[run("outB", 50.0), run("outC", -50.0)]).unwrap());
+    assert!(
+        run_forever(&brick.devices(), &[run("outB", 50.0), run("outC", -50.0)], &mut || false)
+            .unwrap()
+    );
     let expected = [
         "outB speed_sp 525",
         "outC speed_sp -525",
@@ -48,11 +51,11 @@ fn motors_that_cannot_all_run_as_asked_are_left_alone() {
     let brick = Brick::new(&["outB", "outC"]);
     let devices = brick.devices();
     for impossible in [run("outA", 50.0), run("outC", 101.0), run("outC", f64::NAN)] {
-        assert!(!run_forever(&devices, &[run("outB", 50.0), impossible]).unwrap());
+        assert!(!run_forever(&devices, &[run("outB", 50.0), impossible], &mut || false).unwrap());
     }
     let too_fast = Run { port: "outC", speed: Speed::CountsPerSecond(-1051) };
-    assert!(!run_forever(&devices, &[run("outB", 50.0), too_fast]).unwrap());
-    assert!(run_forever(&devices, &[]).unwrap());
+    assert!(!run_forever(&devices, &[run("outB", 50.0), too_fast], &mut || false).unwrap());
+    assert!(run_forever(&devices, &[], &mut || false).unwrap());
     assert!(brick.take_written().is_empty());
 }
 
@@ -99,7 +102,8 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
     let brick = Brick::new(&["outB", "outC"]);
     brick.world().motor("outC").refuses.push(("command", Errno::IO));
     let devices = brick.devices();
-    let error = run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)]).unwrap_err();
+    let error =
+        run_forever(&devices, &[run("outB", 50.0), run("outC", 50.0)], &mut || false).unwrap_err();
     assert_eq!(error.errno(), Some(Errno::IO));
     assert!(brick.world().motor("outB").is_braking());
 }
@@ -108,10 +112,10 @@ fn a_motor_that_cannot_start_stops_those_that_did() {
 fn a_motor_replugged_since_the_last_look_is_found_under_its_new_number() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    assert!(run_forever(&devices, &[run("outA", 50.0)]).unwrap());
+    assert!(run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap());
     brick.world().motor("outA").is_unplugged = true;
     brick.world().plug_motor("outA");
-    assert!(run_forever(&devices, &[run("outA", 25.0)]).unwrap());
+    assert!(run_forever(&devices, &[run("outA", 25.0)], &mut || false).unwrap());
     assert_eq!(brick.world().motor("outA").speed_sp, 262);
     assert!(is_powered(&brick, "outA"));
 }
@@ -262,13 +266,17 @@ fn ramps_are_put_back_when_a_move_cannot_start() {
 }
 
 #[test]
-fn a_motor_named_twice_keeps_its_ramps() {
-    let brick = Brick::new(&["outA"]);
-    brick.world().motor("outA").ramp_up_sp = 300;
-    let options = MoveOptions { ramp_up_ms: Some(100), wait: false, ..MoveOptions::default() };
-    let moves = [turn("outA", 50.0, 90.0), turn("outA", 50.0, 90.0)];
-    run_to(&brick.devices(), &moves, &options, &mut brick.attentive()).unwrap().unwrap();
-    assert_eq!(brick.world().motor("outA").ramp_up_sp, 300);
+fn a_motor_named_twice_is_refused_and_nothing_is_written() {
+    let brick = Brick::new(&["outA", "outB"]);
+    let devices = brick.devices();
+    let asked = &mut brick.attentive();
+    let moves = [turn("outA", 50.0, 90.0), turn("outB", 5.0, 9.0), turn("outA", 50.0, 90.0)];
+    let error = run_to(&devices, &moves, &MoveOptions::default(), asked).unwrap_err();
+    assert_eq!(error.to_string(), "outA is named twice");
+    let runs = [run("outB", 50.0), run("ev3-ports:outB", 20.0)];
+    let error = run_forever(&devices, &runs, asked).unwrap_err();
+    assert!(matches!(error, Error::Twice { port } if port == "outB"));
+    assert!(brick.take_written().is_empty());
 }
 
 #[test]
@@ -389,15 +397,15 @@ fn a_motor_is_stopped_even_if_it_has_not_the_action_asked_for() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").stop_actions = &["coast", "hold"];
     let devices = brick.devices();
-    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap();
     let all = motors(&devices, &["outA"]);
     let stopped = stop(&all[0], StopAction::Brake);
     assert_eq!(stopped.unwrap_err().errno(), Some(Errno::INVAL));
     assert!(!is_powered(&brick, "outA"));
-    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap();
     stop_all(&all, StopAction::Brake).unwrap();
     assert!(!is_powered(&brick, "outA"));
-    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap();
     stop_started(&devices).unwrap();
     assert!(!is_powered(&brick, "outA"));
 }
@@ -407,7 +415,7 @@ fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
     let brick = Brick::new(&["outA", "outB", "outC"]);
     let devices = brick.devices();
     let runs = ["outA", "outB", "outC"].map(|port| run(port, 50.0));
-    run_forever(&devices, &runs).unwrap();
+    run_forever(&devices, &runs, &mut || false).unwrap();
     brick.world().motor("outB").refuses.push(("command", Errno::IO));
     let error = stop_all(&motors(&devices, &["outA", "outB", "outC"]), StopAction::Brake);
     assert_eq!(error.unwrap_err().errno(), Some(Errno::IO));
@@ -418,7 +426,7 @@ fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
 fn a_motor_that_is_gone_needs_no_stop() {
     let brick = Brick::new(&["outA", "outB"]);
     let devices = brick.devices();
-    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     let all = motors(&devices, &["outA", "outB"]);
     brick.world().motor("outA").is_unplugged = true;
     stop_all(&all, StopAction::Brake).unwrap();
@@ -430,7 +438,7 @@ fn what_was_started_and_only_that_is_stopped_at_the_end() {
     let brick = Brick::new(&["outA", "outB", "outC", "outD"]);
     let devices = brick.devices();
     let all = motors(&devices, &["outA", "outB", "outC", "outD"]);
-    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     stop(&all[1], StopAction::Coast).unwrap();
     let write = |name, text| {
         attributes::write(&devices, Class::TachoMotor, "outC", name, text, &mut || false)
@@ -450,7 +458,7 @@ fn what_was_started_and_only_that_is_stopped_at_the_end() {
 fn a_reset_motor_need_not_be_stopped_and_a_gone_one_cannot() {
     let brick = Brick::new(&["outA", "outB"]);
     let devices = brick.devices();
-    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0), run("outB", 50.0)], &mut || false).unwrap();
     reset(&motors(&devices, &["outA"])[0]).unwrap();
     brick.world().motor("outB").is_unplugged = true;
     brick.take_written();
@@ -462,7 +470,7 @@ fn a_reset_motor_need_not_be_stopped_and_a_gone_one_cannot() {
 fn a_motor_that_could_not_be_stopped_is_tried_again() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    run_forever(&devices, &[run("outA", 50.0)]).unwrap();
+    run_forever(&devices, &[run("outA", 50.0)], &mut || false).unwrap();
     brick.world().motor("outA").refuses.push(("command", Errno::IO));
     stop_started(&devices).unwrap_err();
     brick.world().motor("outA").refuses.clear();

@@ -249,7 +249,7 @@ fn a_robot_that_rolls_already_is_turned_and_stopped() {
     let devices = brick.devices();
     let runs =
         ["outB", "outC"].map(|port| ev3_driver::motor::Run { port, speed: Speed::Percent(30.0) });
-    run_forever(&devices, &runs).unwrap();
+    run_forever(&devices, &runs, &mut || false).unwrap();
     brick.pass(ms(500));
     assert_turned(&brick, &turn(40.0, 90.0, 2.2), ms(5000));
 }

@@ -1,7 +1,7 @@
 //! Waiting, and why a wait ends.
 use crate::brick::{Brick, motors, ms};
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
+    Move, MoveOptions, Run, Speed, StopAction, Way, command, run_forever, run_to, stop,
 };
 use ev3_driver::wait::{Reason, sleep, wait_for, wait_for_flag};
 use ev3_driver::{Devices, Error};
@@ -11,7 +11,8 @@ use std::time::Duration;
 /// Starts a move of some motors at half speed.
 fn start(devices: &Devices, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
-    let moves: Vec<_> = ports.iter().map(|port| Move { port, speed, degrees }).collect();
+    let moves: Vec<_> =
+        ports.iter().map(|port| Move { port, speed, way: Way::By(degrees) }).collect();
     let options = MoveOptions { wait: false, ..MoveOptions::default() };
     run_to(devices, &moves, &options, &mut || false).unwrap().unwrap();
 }
@@ -118,7 +119,7 @@ fn a_motor_that_runs_for_ever_is_waited_for_until_the_time_is_up() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
     let run = Run { port: "outA", speed: Speed::Percent(30.0) };
-    run_forever(&devices, &[run]).unwrap();
+    run_forever(&devices, &[run], &mut || false).unwrap();
     let all = motors(&devices, &["outA"]);
     let started = brick.now();
     let timeout = Some(ms(250));

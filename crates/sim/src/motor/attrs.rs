@@ -1,5 +1,6 @@
 //! The files of a tacho motor (section 2 of the reference sheet).
 
+use super::kind::COUNT_PER_M;
 use super::{Command, StopAction, Tacho};
 use crate::attr::{Attr, Effect, Table, text, uevent, write_uevent};
 use crate::errno::Errno;
@@ -39,7 +40,8 @@ impl Table for Tacho {
             Ok(Effect::Done)
         }),
         Attr::ro("commands", |_| text(joined(&Command::WORDS))),
-        Attr::ro("count_per_rot", |_| text(360)),
+        Attr::ro("count_per_m", |_| text(COUNT_PER_M)).only_while(|m| m.kind.travel.is_some()),
+        Attr::ro("count_per_rot", |_| text(360)).only_while(|m| m.kind.travel.is_none()),
         Attr::ro("driver_name", |m| text(m.kind.driver_name)),
         Attr::ro("duty_cycle", |m| text(m.sign(m.duty))),
         Attr::rw(
@@ -53,6 +55,8 @@ impl Table for Tacho {
                 Ok(Effect::Done)
             },
         ),
+        Attr::ro("full_travel_count", |m: &Tacho| text(m.kind.travel.unwrap_or(0)))
+            .only_while(|m| m.kind.travel.is_some()),
         Attr::rw(
             "hold_pid/Kd",
             |m| text(m.hold_pid.kd),

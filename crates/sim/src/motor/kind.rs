@@ -1,6 +1,7 @@
 //! The motors of the EV3 set and their figures.
 
-/// A type of tacho motor. Torques and speeds are at the output hub, behind the gears.
+/// A type of tacho motor. Torques and speeds are at the output hub, behind the gears. Of a linear
+/// actuator they are those of a hub that turns by a degree for each count.
 #[derive(Debug, PartialEq)]
 pub struct MotorKind {
     /// Name of the driver, as in `driver_name`.
@@ -22,13 +23,34 @@ pub struct MotorKind {
     /// Current at standstill and 9 V, in A. About 1.8 (large), 0.8 (medium), 2.0 (NXT), as
     /// measured and published by builders.
     pub stall_current: f64,
+    /// `full_travel_count` of a linear actuator: it moves between 0 and that. From the kernel's
+    /// motor table.
+    pub travel: Option<i32>,
+}
+
+/// `count_per_m` of the linear actuators.
+pub(crate) const COUNT_PER_M: i32 = 2000;
+
+/// An Actuonix L12 with a stroke of so many counts. Of its data sheet: its screw holds it when
+/// there is no voltage, it takes 0.46 A when it is blocked.
+const fn linear(driver_name: &'static str, travel: i32) -> MotorKind {
+    MotorKind {
+        driver_name,
+        max_speed: 24,
+        hold_kp: 40_000,
+        stall_torque: 0.5,
+        friction: 0.05,
+        inertia: 0.054,
+        stall_current: 0.46,
+        travel: Some(travel),
+    }
 }
 
 /// The voltage at which the motor figures hold.
 pub(crate) const RATED_VOLTS: f64 = 9.0;
 
 /// Every motor type that a simulated port can have.
-pub static MOTOR_KINDS: [MotorKind; 3] = [
+pub static MOTOR_KINDS: [MotorKind; 5] = [
     MotorKind {
         driver_name: "lego-ev3-l-motor",
         max_speed: 1050,
@@ -37,6 +59,7 @@ pub static MOTOR_KINDS: [MotorKind; 3] = [
         friction: 0.020,
         inertia: 0.0014,
         stall_current: 1.8,
+        travel: None,
     },
     MotorKind {
         driver_name: "lego-ev3-m-motor",
@@ -46,6 +69,7 @@ pub static MOTOR_KINDS: [MotorKind; 3] = [
         friction: 0.008,
         inertia: 0.000_18,
         stall_current: 0.8,
+        travel: None,
     },
     MotorKind {
         driver_name: "lego-nxt-motor",
@@ -55,7 +79,10 @@ pub static MOTOR_KINDS: [MotorKind; 3] = [
         friction: 0.022,
         inertia: 0.0016,
         stall_current: 2.0,
+        travel: None,
     },
+    linear("act-l12-ev3-50", 100),
+    linear("act-l12-ev3-100", 200),
 ];
 
 impl MotorKind {

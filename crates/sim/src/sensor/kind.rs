@@ -120,7 +120,7 @@ const fn distance(name: &'static str, inches: bool, single: bool) -> Mode {
 }
 
 /// Every sensor type that a simulated port can have.
-pub static SENSOR_KINDS: [SensorKind; 7] = [
+pub static SENSOR_KINDS: [SensorKind; 8] = [
     SensorKind {
         driver_name: "lego-ev3-color",
         link: Link::Uart,
@@ -186,6 +186,16 @@ pub static SENSOR_KINDS: [SensorKind; 7] = [
         link: Link::Analog,
         settling_ms: 0,
         modes: &[Mode::new("ANALOG", 1, 3, "V", Format::S32, Sense::Volts)],
+    },
+    // Servos are behind it: see `servo`.
+    SensorKind {
+        driver_name: "ms-8ch-servo",
+        link: Link::Analog,
+        settling_ms: 0,
+        modes: &[
+            Mode::new("V3", 1, 3, "V", Format::S16, Sense::Nothing),
+            Mode::new("OLD", 1, 3, "V", Format::S16, Sense::Nothing),
+        ],
     },
     SensorKind {
         driver_name: "nxt-analog",

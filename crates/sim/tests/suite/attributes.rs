@@ -300,10 +300,15 @@ fn lights_blink_and_shine() {
     assert_eq!(desk.try_get(&file("delay_on")), Err(Errno::ENOENT));
     desk.put(&file("trigger"), "timer\n");
     assert_eq!(desk.get(&file("delay_on")), "500");
+    assert_eq!(desk.try_put(&file("delay_off"), "100"), Err(Errno::EACCES), "udev comes later");
+    desk.put(&file("brightness"), "200");
+    desk.step(500);
     desk.put(&file("delay_off"), "100");
     assert_eq!(desk.get(&file("delay_off")), "100");
     assert!(desk.get(&file("trigger")).contains("[timer]"));
     desk.put(&file("brightness"), "0");
     assert!(desk.get(&file("trigger")).starts_with("[none]"));
     assert_eq!(desk.try_get(&file("delay_off")), Err(Errno::ENOENT));
+    desk.put(&file("trigger"), "timer");
+    assert_eq!(desk.get(&file("brightness")), "255", "a light that is off blinks at its brightest");
 }

@@ -1,6 +1,6 @@
 //! `dc-motor`: duty and nothing else (section 4.1 of the sheet).
 
-use ev3_sim::{Errno, Port};
+use ev3_sim::{Errno, Item, Port, Pose, RobotSpec, WorldSpec};
 
 use crate::desk::Desk;
 
@@ -103,6 +103,39 @@ fn ramps_follow_the_signed_duty() {
     desk.step(110);
     assert_eq!(desk.number(&file("duty_cycle")), 0, "up has no ramp");
     assert!(desk.get(&file("state")).starts_with("running"), "also with duty 0");
+}
+
+#[test]
+fn a_lamp_on_a_port_is_seen_as_bright_as_the_port_drives_it() {
+    let mut robot = RobotSpec::default();
+    robot.sensors[1].pose = Pose::new(0.0, 0.0, 0.0);
+    let bulb = Item::Bulb { at: [0.0, 50.0], intensity: 12.0, port: Port::OutD };
+    let world = WorldSpec { ambient: 0.0, items: vec![bulb], ..WorldSpec::default() };
+    let mut desk = Desk::with(&world, &robot);
+    desk.put("lego-sensor/sensor1/mode", "COL-AMBIENT");
+    desk.step(50);
+    let light = |desk: &mut Desk| {
+        desk.step(20);
+        desk.number("lego-sensor/sensor1/value0")
+    };
+    assert_eq!(light(&mut desk), 0, "nobody drives it");
+    desk.put("lego-port/port7/mode", "dc-motor");
+    desk.step(500);
+    desk.put("dc-motor/motor0/duty_cycle_sp", -50);
+    desk.put("dc-motor/motor0/command", "run-forever");
+    assert_eq!(light(&mut desk), 19, "a lamp has no direction");
+    desk.put("dc-motor/motor0/duty_cycle_sp", 100);
+    assert_eq!(light(&mut desk), 19, "not before the next command");
+    desk.step(100);
+    desk.put("dc-motor/motor0/command", "run-forever");
+    assert_eq!(light(&mut desk), 38);
+    desk.put("lego-port/port7/mode", "led");
+    assert_eq!(light(&mut desk), 0);
+    desk.step(500);
+    desk.put("leds/ev3-ports:outD::brick-status/brightness", 50);
+    assert_eq!(light(&mut desk), 19);
+    let impossible = Item::Bulb { at: [0.0, 0.0], intensity: 1.0, port: Port::In1 };
+    assert!(impossible.validate().is_err());
 }
 
 #[test]

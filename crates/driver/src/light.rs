@@ -1,0 +1,416 @@
+//! Lights: class `leds`.
+//!
+//! The brick has a light on its left and one on its right, each made of a red
+//! and a green LED, which the kernel shows as two devices. They are called
+//! `led0:red:brick-status` or, on jessie, `ev3:left:red:ev3dev`. Other boards have
+//! other LEDs, or none; and an output port in the mode `led` is one without a
+//! colour, `ev3-ports:outA::brick-status`.
+//!
+//! Who switches an LED is its *trigger*: nobody (`none`), a program that runs
+//! (`heartbeat`), or a timer, whose files `delay_on` and `delay_off` are there
+//! only as long as it is the trigger. A trigger must go before a brightness
+//! stays.
+use crate::Interrupted;
+use crate::device::{Device, read_file, write_file};
+use crate::devices::{Class, Devices};
+use crate::error::{Error, Result};
+use crate::patience::{RETRY_EVERY, patiently};
+use crate::port;
+use crate::value::integer;
+use crate::wait::sleep;
+use rustix::io::Errno;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What an LED's name ends with: since ev3dev-stretch, and on jessie.
+const SUFFIXES: [&str; 2] = [":brick-status", ":ev3dev"];
+
+/// How long the timer's files may take to be there and to be open to us.
+const DELAYS_WITHIN: Duration = Duration::from_secs(1);
+
+/// No trigger.
+const NONE: &str = "none";
+
+/// The trigger that blinks.
+const TIMER: &str = "timer";
+
+/// An LED's own colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Hue {
+    Red,
+    Green,
+    Blue,
+    Amber,
+    /// That of whatever is plugged into a port.
+    Any,
+}
+
+impl Hue {
+    const ALL: [(&'static str, Self); 5] = [
+        ("red", Self::Red),
+        ("green", Self::Green),
+        ("blue", Self::Blue),
+        ("amber", Self::Amber),
+        ("", Self::Any),
+    ];
+
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(word, _)| *word == name).map(|(_, hue)| hue)
+    }
+}
+
+/// The colour a light shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Colour {
+    /// `off`, `on`, `red`, `green`, `blue`, `amber`, `orange`, `yellow`.
+    Named(&'static str),
+    /// A light with one LED, in percent.
+    Level(i64),
+    /// The red, the green and perhaps the blue LED, each in percent.
+    Levels(Vec<i64>),
+}
+
+/// What to mix colours of, in percent. Of several ways to make one, a light uses
+/// the first that its LEDs allow.
+const COLOURS: [(&str, &[(Hue, i64)]); 9] = [
+    ("off", &[]),
+    ("red", &[(Hue::Red, 100)]),
+    ("green", &[(Hue::Green, 100)]),
+    ("blue", &[(Hue::Blue, 100)]),
+    ("amber", &[(Hue::Amber, 100)]),
+    ("amber", &[(Hue::Red, 100), (Hue::Green, 100)]),
+    ("orange", &[(Hue::Red, 100), (Hue::Green, 50)]),
+    ("yellow", &[(Hue::Red, 10), (Hue::Green, 100)]),
+    ("on", &[(Hue::Any, 100)]),
+];
+
+impl Colour {
+    /// The colour of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        COLOURS.iter().find(|(word, _)| *word == name).map(|(word, _)| Self::Named(word))
+    }
+}
+
+/// A light: the left or the right one of the brick, or one on a port.
+#[derive(Clone)]
+pub struct Light {
+    name: String,
+    leds: Vec<(Hue, Arc<Device>)>,
+}
+
+/// The parts of an LED's name: whose it is and its colour.
+fn parts(name: &str) -> Option<(&str, Hue)> {
+    let rest = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix))?;
+    let (owner, hue) = rest.rsplit_once(':')?;
+    (!owner.is_empty()).then_some((owner, Hue::named(hue)?))
+}
+
+pub(crate) fn is_light(name: &str) -> bool {
+    parts(name).is_some()
+}
+
+/// The LED on a port.
+pub(crate) fn on_port(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
+    let port = port::short(port);
+    let is_it = |led: &&Arc<Device>| {
+        parts(led.port()).is_some_and(|(owner, hue)| hue == Hue::Any && port::short(owner) == port)
+    };
+    Ok(devices.all(Class::Led)?.iter().find(is_it).cloned())
+}
+
+/// All lights: left, right, then those on ports in the order of ports.
+///
+/// # Errors
+/// The kernel's.
+pub fn lights(devices: &Devices) -> Result<Vec<Light>> {
+    devices.afresh(|| present_lights(devices))
+}
+
+fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
+    let mut owners: Vec<(String, Light)> = Vec::new();
+    for led in devices.all(Class::Led)?.iter() {
+        let Some((owner, hue)) = parts(led.port()) else { continue };
+        led.check_present()?;
+        let led = (hue, Arc::clone(led));
+        if let Some((_, light)) = owners.iter_mut().find(|(known, _)| known == owner) {
+            light.leds.push(led);
+        } else {
+            let name = port::short(owner).to_owned();
+            owners.push((owner.to_owned(), Light { name, leds: vec![led] }));
+        }
+    }
+    let (mut sides, mut lights): (Vec<_>, Vec<_>) =
+        owners.into_iter().partition(|(_, light)| light.leds.iter().any(|led| led.0 != Hue::Any));
+    // The PiStorms has its bank B on the left.
+    let is_b_first = |owner: &str| owner.ends_with(":BB");
+    sides.sort_by(|(a, _), (b, _)| {
+        is_b_first(b).cmp(&is_b_first(a)).then_with(|| port::order(a, b))
+    });
+    lights.sort_by(|(_, a), (_, b)| port::order(&a.name, &b.name));
+    let sides = sides.into_iter().zip(["left", "right"]);
+    let sides = sides.map(|((_, light), side)| Light { name: side.to_owned(), ..light });
+    Ok(sides.chain(lights.into_iter().map(|(_, light)| light)).collect())
+}
+
+/// The light of that name, `left`, `right` or a port; `None` where there is none.
+///
+/// # Errors
+/// The kernel's.
+pub fn find(devices: &Devices, name: &str) -> Result<Option<Light>> {
+    let name = port::short(name);
+    Ok(lights(devices)?.into_iter().find(|light| light.name == name))
+}
+
+impl Light {
+    /// `left`, `right`, or the port by its short name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The colour it shows now. Of one that blinks that may be any moment's.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn colour(&self) -> Result<Colour> {
+        let mut levels = Vec::new();
+        for (hue, led) in &self.leds {
+            levels.push((*hue, level(led)?));
+        }
+        levels.sort_unstable();
+        let shining: Vec<_> = levels.iter().copied().filter(|(_, level)| *level > 0).collect();
+        let named = COLOURS.iter().find(|(_, mix)| *mix == shining);
+        Ok(match (named, &*levels) {
+            (Some((name, _)), _) => Colour::Named(name),
+            (None, [(_, level)]) => Colour::Level(*level),
+            _ => Colour::Levels(levels.into_iter().map(|(_, level)| level).collect()),
+        })
+    }
+
+    /// What each LED has to show for a colour, or `None` where the light cannot
+    /// show it.
+    fn mix(&self, colour: &Colour) -> Option<Vec<(&Arc<Device>, i64)>> {
+        let hues = [Hue::Red, Hue::Green, Hue::Blue];
+        let with = |mix: &[(Hue, i64)]| {
+            let has = |hue| self.leds.iter().any(|led| led.0 == hue);
+            let is_possible = mix.iter().all(|(hue, level)| *level == 0 || has(*hue));
+            let level = |hue| mix.iter().find(|part| part.0 == hue).map_or(0, |part| part.1);
+            is_possible.then(|| self.leds.iter().map(|(hue, led)| (led, level(*hue))).collect())
+        };
+        match colour {
+            Colour::Named("on") => self.mix(&Colour::Level(100)),
+            Colour::Named(name) => {
+                COLOURS.iter().filter(|(word, _)| word == name).find_map(|(_, mix)| with(mix))
+            }
+            Colour::Level(level) => match &*self.leds {
+                [(hue, _)] => with(&[(*hue, *level)]),
+                _ => None,
+            },
+            Colour::Levels(levels) => {
+                let mix: Vec<_> = hues.into_iter().zip(levels.iter().copied()).collect();
+                with(&mix)
+            }
+        }
+    }
+
+    /// What switches it: its trigger, `none` if nothing does.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn trigger(&self) -> Result<String> {
+        for (_, led) in &self.leds {
+            let trigger = trigger(led)?;
+            if trigger != NONE {
+                return Ok(trigger);
+            }
+        }
+        Ok(NONE.to_owned())
+    }
+
+    /// The triggers it may have.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn triggers(&self) -> Result<Vec<String>> {
+        let Some((_, led)) = self.leds.first() else { return Ok(Vec::new()) };
+        let text = led.text("trigger")?;
+        Ok(text.split_ascii_whitespace().map(|word| bare(word).to_owned()).collect())
+    }
+
+    /// The LEDs that make its colour: those that shine or are switched; all of a
+    /// light that is off.
+    fn shining(&self) -> Result<Vec<Arc<Device>>> {
+        let mut shining = Vec::new();
+        for (_, led) in &self.leds {
+            if led.number("brightness")? > 0 || trigger(led)? != NONE {
+                shining.push(Arc::clone(led));
+            }
+        }
+        if shining.is_empty() {
+            shining.extend(self.leds.iter().map(|(_, led)| Arc::clone(led)));
+        }
+        Ok(shining)
+    }
+
+    /// How long it is on and off while it blinks, in milliseconds; `None` if it
+    /// does not.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn delays(&self) -> Result<Option<(i64, i64)>> {
+        for (_, led) in &self.leds {
+            if trigger(led)? == TIMER {
+                return Ok(Some((delay(led, "delay_on")?, delay(led, "delay_off")?)));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Makes a light show a colour. What switches it no longer does. `None` where
+/// there is no such light, `false` if it cannot show that.
+///
+/// # Errors
+/// The kernel's; [`Error::Interrupted`].
+pub fn set_colour(
+    devices: &Devices,
+    name: &str,
+    colour: &Colour,
+    interrupted: Interrupted,
+) -> Result<Option<bool>> {
+    patiently(devices, interrupted, || {
+        let Some(light) = find(devices, name)? else { return Ok(None) };
+        let Some(mix) = light.mix(colour) else { return Ok(Some(false)) };
+        for (led, _) in &mix {
+            if trigger(led)? != NONE {
+                led.write("trigger", NONE)?;
+            }
+        }
+        for (led, percent) in mix {
+            let full = led.constant("max_brightness")?;
+            led.write_number("brightness", (percent * full + 50) / 100)?;
+        }
+        Ok(Some(true))
+    })
+}
+
+/// Lets something else switch a light, in the colour it shows. `None` where
+/// there is no such light.
+///
+/// # Errors
+/// The kernel's, as EINVAL for a trigger it does not know; [`Error::Interrupted`].
+pub fn set_trigger(
+    devices: &Devices,
+    name: &str,
+    word: &str,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    patiently(devices, interrupted, || match find(devices, name)? {
+        Some(light) => {
+            light.shining()?.iter().try_for_each(|led| led.write("trigger", word)).map(Some)
+        }
+        None => Ok(None),
+    })
+}
+
+/// Makes a light blink, in the colour it shows, on and off for so many
+/// milliseconds. `None` where there is no such light.
+///
+/// # Errors
+/// As [`set_trigger`].
+pub fn blink(
+    devices: &Devices,
+    name: &str,
+    [on, off]: [i64; 2],
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    let blinking = patiently(devices, &mut *interrupted, || match find(devices, name)? {
+        Some(light) => {
+            let leds = light.shining()?;
+            leds.iter().try_for_each(|led| led.write("trigger", TIMER))?;
+            Ok(Some(leds))
+        }
+        None => Ok(None),
+    })?;
+    let Some(leds) = blinking else { return Ok(None) };
+    for (file, milliseconds) in [("delay_on", on), ("delay_off", off)] {
+        for led in &leds {
+            set_delay(devices, led, file, milliseconds, &mut *interrupted)?;
+        }
+    }
+    Ok(Some(()))
+}
+
+/// Writes a file of the timer's, which appears in its own time. It is another
+/// file each time that the timer becomes the trigger, so it is not kept open.
+fn set_delay(
+    devices: &Devices,
+    led: &Device,
+    file: &str,
+    milliseconds: i64,
+    interrupted: Interrupted,
+) -> Result<()> {
+    let latest = devices.tree().now().saturating_add(DELAYS_WITHIN);
+    let path = led.path().join(file);
+    loop {
+        let error = match write_file(devices.tree(), &path, &milliseconds.to_string()) {
+            Ok(()) => return Ok(()),
+            Err(error) => error,
+        };
+        let is_early = matches!(error.errno(), Some(Errno::NOENT | Errno::ACCESS));
+        if !is_early || devices.tree().now() >= latest {
+            return Err(error);
+        }
+        sleep(devices, RETRY_EVERY, &mut *interrupted)?;
+    }
+}
+
+fn delay(led: &Device, file: &'static str) -> Result<i64> {
+    let path = led.path().join(file);
+    let text = read_file(led.tree(), &path)?;
+    integer(text.as_bytes()).ok_or(Error::Malformed { path, text, expected: "an integer" })
+}
+
+/// How bright an LED is, in percent.
+fn level(led: &Device) -> Result<i64> {
+    let full = led.constant("max_brightness")?.max(1);
+    Ok((led.number("brightness")? * 100 + full / 2) / full)
+}
+
+/// An LED's trigger: that in brackets, of all there are.
+fn trigger(led: &Device) -> Result<String> {
+    let text = led.text("trigger")?;
+    let mut words = text.split_ascii_whitespace();
+    let chosen = words.clone().find(|word| bare(word).len() < word.len());
+    Ok(chosen.or_else(|| words.next()).map_or(NONE, bare).to_owned())
+}
+
+/// A word without brackets around it.
+fn bare(word: &str) -> &str {
+    word.strip_prefix('[').and_then(|word| word.strip_suffix(']')).unwrap_or(word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_all_boards_have_an_owner_and_a_colour() {
+        for (name, expected) in [
+            ("led0:red:brick-status", Some(("led0", Hue::Red))),
+            ("ev3:left:green:ev3dev", Some(("ev3:left", Hue::Green))),
+            ("brickpi:led1:blue:ev3dev", Some(("brickpi:led1", Hue::Blue))),
+            ("led1:amber:brick-status", Some(("led1", Hue::Amber))),
+            ("pistorms:BB:blue:brick-status", Some(("pistorms:BB", Hue::Blue))),
+            ("ev3-ports:outD::brick-status", Some(("ev3-ports:outD", Hue::Any))),
+            ("outD::ev3dev", Some(("outD", Hue::Any))),
+            ("input3::capslock", None),
+            ("led0:pink:brick-status", None),
+            (":red:brick-status", None),
+            ("brick-status", None),
+        ] {
+            assert_eq!(parts(name), expected, "{name}");
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! RC servos on a controller: class `servo-motor`.
+//!
+//! A servo turns its shaft to a position and keeps it there, until it is let
+//! float. Its positions go from -100 to 100 percent of its way, which is what it
+//! makes of the lengths of pulses that the controller sends it.
+use crate::device::Device;
+use crate::error::Result;
+use crate::motor::{End, start};
+use crate::wait::has;
+
+/// Degrees to one side for 100 percent of the way, of a servo that turns by 180
+/// degrees in all between the controller's shortest and longest pulse.
+const DEGREES: f64 = 90.0;
+
+/// Sends a servo to a position from -100 to 100 percent, where it stays. `false`
+/// if the position is beyond that; then nothing has moved.
+///
+/// # Errors
+/// The kernel's.
+pub fn set_position(servo: &Device, percent: f64) -> Result<bool> {
+    let Some(percent) = crate::motor::duty(percent) else {
+        return Ok(false);
+    };
+    servo.write_number("position_sp", percent)?;
+    start(servo, "run", Some(End::Never))?;
+    Ok(true)
+}
+
+/// The position a servo was sent to, in percent; `None` while it floats.
+///
+/// The kernel computes it from the pulse, and does not apply the polarity to it
+/// (`servo_motor_class.c`).
+///
+/// # Errors
+/// The kernel's.
+pub fn position(servo: &Device) -> Result<Option<i64>> {
+    if !servo.with_word("state", |state| has(state, "running"))? {
+        return Ok(None);
+    }
+    let percent = servo.number("position_sp")?;
+    let is_inversed = servo.with_word("polarity", |polarity| polarity == "inversed")?;
+    Ok(Some(if is_inversed { -percent } else { percent }))
+}
+
+/// Degrees from the middle as a percentage of the way, and back.
+#[must_use]
+pub fn percent_of(degrees: f64) -> f64 {
+    degrees / DEGREES * 100.0
+}
+
+/// The angle of a position, in degrees from the middle.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "a percentage")]
+pub fn degrees_of(percent: i64) -> f64 {
+    percent as f64 * DEGREES / 100.0
+}
+
+/// Lets a servo float: it no longer keeps its position.
+///
+/// # Errors
+/// The kernel's.
+pub fn float(servo: &Device) -> Result<()> {
+    start(servo, "float", None)
+}
+
+/// Lets a servo float, and is content if it is gone.
+pub(crate) fn float_somehow(servo: &Device) -> Result<()> {
+    float(servo).or_else(|error| if error.is_stale() { Ok(()) } else { Err(error) })
+}

@@ -1,0 +1,141 @@
+//! Moves for a time, to a position and without regulation; motors that are new.
+use crate::brick::{Brick, ms};
+use ev3_driver::motor::{
+    Move, MoveOptions, Run, Speed, Way, position, run_direct, run_forever, run_to, set_position,
+};
+use ev3_driver::wait::Reason;
+use ev3_driver::{Class, Errno, Error, Value};
+use std::time::Duration;
+
+fn go(port: &str, percent: f64, way: Way) -> Move<'_> {
+    Move { port, speed: Speed::Percent(percent), way }
+}
+
+#[test]
+fn a_timed_run_ends_with_its_time() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    let moves = [go("outA", -50.0, Way::For(ms(700)))];
+    let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
+    assert_eq!(ended.unwrap(), Some(Reason::Reached));
+    assert!(brick.now() >= ms(690) && brick.now() < ms(760), "{:?}", brick.now());
+    assert!(brick.world().motor("outA").counts() < -300);
+}
+
+#[test]
+fn a_timed_run_that_somebody_stops_is_stopped() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    brick.at(ms(300), |world| world.motor("outA").be_stopped());
+    let moves = [go("outA", 50.0, Way::For(ms(700)))];
+    let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
+    assert_eq!(ended.unwrap(), Some(Reason::Stopped));
+}
+
+#[test]
+fn an_absolute_move_goes_there_from_either_side() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    for (percent, angle) in [(50.0, 200.0), (50.0, -100.0), (-50.0, 30.0), (50.0, 30.0)] {
+        let moves = [go("outA", percent, Way::To(angle))];
+        let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
+        assert_eq!(ended.unwrap(), Some(Reason::Reached));
+        brick.pass(ms(300));
+        let there = brick.world().motor("outA").position;
+        assert!((there - angle).abs() <= 2.0, "at {there}, not {angle}");
+    }
+}
+
+#[test]
+fn an_impossible_move_writes_nothing() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    let day = Duration::from_secs(86_400);
+    for (percent, way) in [
+        (0.0, Way::For(ms(100))),
+        (101.0, Way::For(ms(100))),
+        (50.0, Way::For(30 * day)),
+        (50.0, Way::To(f64::NAN)),
+        (50.0, Way::To(3e9)),
+        (0.0, Way::To(90.0)),
+    ] {
+        let ended = run_to(
+            &devices,
+            &[go("outA", percent, way)],
+            &MoveOptions::default(),
+            &mut brick.attentive(),
+        );
+        assert_eq!(ended.unwrap(), None, "{percent} {way:?}");
+    }
+    for percent in [100.6, -101.0, f64::NAN, f64::INFINITY] {
+        let runs = run_direct(&devices, Class::TachoMotor, "outA", percent, &mut || false);
+        assert!(!runs.unwrap(), "{percent}");
+    }
+    assert!(brick.take_written().is_empty());
+}
+
+#[test]
+fn without_regulation_the_duty_comes_first() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    assert!(run_direct(&devices, Class::TachoMotor, "outA", 33.5, &mut || false).unwrap());
+    assert_eq!(brick.take_written(), ["outA duty_cycle_sp 34", "outA command run-direct"]);
+    assert!(!run_direct(&devices, Class::TachoMotor, "outB", 5.0, &mut || false).unwrap());
+}
+
+#[test]
+fn a_position_is_in_degrees_of_the_shaft() {
+    let brick = Brick::new(&["outA"]);
+    let devices = brick.devices();
+    let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
+    assert!(set_position(&motor, 90.4).unwrap());
+    assert_eq!(position(&motor).unwrap(), Value::Integer(90));
+    assert!(!set_position(&motor, 1e12).unwrap());
+    let brick = Brick::new(&["outA"]);
+    brick.world().motor("outA").count_per_rot = 180;
+    let devices = brick.devices();
+    let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
+    assert!(set_position(&motor, 90.0).unwrap());
+    assert_eq!(brick.world().motor("outA").counts(), 45);
+    assert_eq!(position(&motor).unwrap(), Value::Float(90.0));
+}
+
+fn run(port: &str) -> Run<'_> {
+    Run { port, speed: Speed::Percent(50.0) }
+}
+
+#[test]
+fn a_motor_whose_files_udev_has_not_opened_is_waited_for_and_the_others_with_it() {
+    for open_at in [ms(300), ms(900)] {
+        let brick = Brick::new(&["outA", "outB"]);
+        brick.world().motor("outB").closed_until = open_at;
+        let devices = brick.devices();
+        let runs = [run("outA"), run("outB")];
+        assert!(run_forever(&devices, &runs, &mut brick.attentive()).unwrap());
+        assert!(brick.now() >= open_at && brick.now() < open_at + ms(60), "{:?}", brick.now());
+        let commands = brick.take_written().into_iter().filter(|line| line.contains("command"));
+        assert_eq!(commands.count(), 2, "each is started once");
+    }
+}
+
+#[test]
+fn one_that_udev_never_opens_is_refused_after_a_second_and_nothing_moves() {
+    let brick = Brick::new(&["outA", "outB"]);
+    brick.world().motor("outB").closed_until = Duration::MAX;
+    let devices = brick.devices();
+    let moves = [go("outA", 50.0, Way::By(90.0)), go("outB", 50.0, Way::By(90.0))];
+    let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
+    assert_eq!(ended.unwrap_err().errno(), Some(Errno::ACCESS));
+    assert!(brick.now() >= ms(1000) && brick.now() < ms(1100), "{:?}", brick.now());
+    assert!(!brick.world().motor("outA").is_powered());
+}
+
+#[test]
+fn the_patience_can_be_interrupted() {
+    let brick = Brick::new(&["outA"]);
+    brick.world().motor("outA").closed_until = ms(800);
+    let devices = brick.devices();
+    let ended = run_forever(&devices, &[run("outA")], &mut brick.interrupting(ms(100)));
+    assert!(matches!(ended, Err(Error::Interrupted)));
+    assert!(brick.now() < ms(140), "{:?}", brick.now());
+}

@@ -1,0 +1,205 @@
+:- module(ev3dev_dc_motors,
+          [ dc_motor_run/2,             % +Port, +Percent
+            dc_motor_run_timed/3,       % +Port, +Percent, +Seconds
+            dc_motor_run_timed/4,       % +Port, +Percent, +Seconds, +Options
+            dc_motor_run_direct/2,      % +Port, +Percent
+            dc_motor_stop/1,            % +Port
+            dc_motor_stop/2,            % +Port, +StopAction
+            dc_motor_duty/2,            % ?Port, -Percent
+            dc_motor_states/2,          % ?Port, -States
+            dc_motor_polarity/2,        % ?Port, ?Polarity
+            dc_motor_ramps/3,           % ?Port, ?Up, ?Down
+            dc_motor_attribute/3        % ?Port, +Attribute, ?Value
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(driver, [dc_motor/1]).
+:- use_module(halt, []).
+:- use_module(motor_moves, []).
+:- use_module(motors, []).
+:- use_module(options, [motor_options/5]).
+
+/** <module> Motors without rotation sensor, and lamps
+
+Such a motor gets a share of the battery's voltage, in percent from -100 to
+100, and nobody knows how fast it turns then. The brick does not recognise
+one: say what is plugged in first, as by
+
+```
+?- port_mode(outA, 'dc-motor').
+?- dc_motor_run_timed(outA, 60, 2).
+```
+
+Percentages and seconds may be arithmetic expressions; percentages are
+rounded. All predicates fail if there is no such motor at a port, or a
+percentage is beyond 100; nothing moves then. A motor that was told something
+takes up to 0.1 s to do the next thing that it is told.
+
+Every motor that the program has started is stopped at its end.
+*/
+
+%!  dc_motor_run(+Port, +Percent) is semidet.
+%
+%   Run a motor until it is stopped. Does not wait.
+
+dc_motor_run(Port, Percent0) :-
+    Percent is Percent0,
+    (   dc_motor_run_(Port, Percent)
+    ->  true
+    ;   cannot(Port, Percent)
+    ).
+
+%!  dc_motor_run_timed(+Port, +Percent, +Seconds) is semidet.
+%!  dc_motor_run_timed(+Port, +Percent, +Seconds, +Options) is semidet.
+%
+%   Run a motor for at most 60 Seconds, and wait until they are over. A motor
+%   that somebody else stops before makes the call fail. Options:
+%
+%     - stop_action(+Action)
+%       What the motor does at the end: `brake` (default) or `coast`.
+%     - wait(+Boolean)
+%       If `false`, return as soon as it runs.
+%     - timeout(+Seconds)
+%       Stop the motor and fail if it takes longer.
+%     - ramp_up(+Milliseconds)
+%     - ramp_down(+Milliseconds)
+%       Speed up and slow down in steps; the time is that from 0 to 100
+%       percent, from 0 to 10000. Up is forwards, down is backwards.
+%
+%   A call that is left by an exception stops the motor first.
+%
+%   @error existence_error(motor, Port) if its port is put into another mode
+%          under way
+%   @error domain_error(seconds, Seconds) if they are negative
+%   @error domain_error(stop_action, Action)
+%   @error domain_error(ramp_up_sp, Milliseconds)
+%   @error domain_error(motor_option, Option) for an option that is none
+
+dc_motor_run_timed(Port, Percent, Seconds) :-
+    dc_motor_run_timed(Port, Percent, Seconds, []).
+
+dc_motor_run_timed(Port, Percent0, Seconds0, Options) :-
+    Percent is Percent0,
+    Seconds is Seconds0,
+    motor_options(Options, brake, [coast, brake], 10000, Native),
+    (   dc_motor_run_timed_(Port, Percent, Seconds, Native, Reason)
+    ->  run_ended(Reason, Port)
+    ;   cannot(Port, Percent)
+    ).
+
+run_ended(reached, _) :-
+    !.
+run_ended(Reason, Port) :-
+    debug(ev3dev, "the run of ~w ended early: ~w", [Port, Reason]),
+    fail.
+
+%!  dc_motor_run_direct(+Port, +Percent) is semidet.
+%
+%   As dc_motor_run/2; while the motor runs so, writing its `duty_cycle_sp`
+%   takes effect, too.
+
+dc_motor_run_direct(Port, Percent0) :-
+    Percent is Percent0,
+    (   ev3dev_motor_moves:motor_run_direct_('dc-motor', Port, Percent)
+    ->  true
+    ;   cannot(Port, Percent)
+    ).
+
+cannot(Port, Percent) :-
+    (   dc_motor(Port)
+    ->  debug(ev3dev, "~w cannot run so, at ~w %", [Port, Percent])
+    ;   debug(ev3dev, "~w is no port for a motor without sensor", [Port])
+    ),
+    fail.
+
+%!  dc_motor_stop(+Port) is semidet.
+%!  dc_motor_stop(+Port, +StopAction) is semidet.
+%
+%   Stop a motor: `brake` it (default) or let it `coast`.
+%
+%   @error domain_error(stop_action, StopAction)
+
+dc_motor_stop(Port) :-
+    dc_motor_stop(Port, brake).
+
+dc_motor_stop(Port, StopAction) :-
+    must_be(atom, StopAction),
+    (   memberchk(StopAction, [coast, brake])
+    ->  ev3dev_motors:motor_stop_('dc-motor', Port, StopAction)
+    ;   domain_error(stop_action, StopAction)
+    ).
+
+%!  dc_motor_duty(?Port, -Percent) is nondet.
+%
+%   True if the motor gets that much of the battery's voltage now.
+
+dc_motor_duty(Port, Percent) :-
+    ev3dev_driver:attribute_('dc-motor', Port, duty_cycle, Percent).
+
+%!  dc_motor_states(?Port, -States) is nondet.
+%
+%   True if States is the list of the motor's flags: `running`, and `ramping`
+%   while its next step is due.
+
+dc_motor_states(Port, States) :-
+    ev3dev_driver:attribute_('dc-motor', Port, state, State),
+    (   State == ''
+    ->  States = []
+    ;   atomic_list_concat(States0, ' ', State),
+        States = States0
+    ).
+
+%!  dc_motor_polarity(?Port, ?Polarity) is nondet.
+%
+%   Read or write a motor's polarity: `normal` or `inversed`. It takes effect
+%   at the next command.
+%
+%   @error domain_error(polarity, Polarity)
+
+dc_motor_polarity(Port, Polarity) :-
+    var(Polarity),
+    !,
+    dc_motor_attribute(Port, polarity, Polarity).
+dc_motor_polarity(Port, Polarity) :-
+    must_be(atom, Polarity),
+    (   memberchk(Polarity, [normal, inversed])
+    ->  dc_motor_attribute(Port, polarity, Polarity)
+    ;   domain_error(polarity, Polarity)
+    ).
+
+%!  dc_motor_ramps(?Port, ?Up, ?Down) is nondet.
+%
+%   Read or write the ramps from the next command on: the milliseconds from 0
+%   to 100 percent when the percentage rises (Up) or falls (Down), from 0 to
+%   10000.
+%
+%   @error domain_error(ramp_up_sp, Up)
+%   @error domain_error(ramp_down_sp, Down)
+
+dc_motor_ramps(Port, Up, Down) :-
+    var(Up),
+    var(Down),
+    !,
+    dc_motor(Port),
+    ev3dev_driver:attribute_('dc-motor', Port, ramp_up_sp, Up),
+    ev3dev_driver:attribute_('dc-motor', Port, ramp_down_sp, Down).
+dc_motor_ramps(Port, Up, Down) :-
+    must_be_ramp(ramp_up_sp, Up),
+    must_be_ramp(ramp_down_sp, Down),
+    dc_motor_attribute(Port, ramp_up_sp, Up),
+    dc_motor_attribute(Port, ramp_down_sp, Down).
+
+must_be_ramp(Attribute, Milliseconds) :-
+    must_be(integer, Milliseconds),
+    (   between(0, 10000, Milliseconds)
+    ->  true
+    ;   domain_error(Attribute, Milliseconds)
+    ).
+
+%!  dc_motor_attribute(?Port, +Attribute, ?Value) is nondet.
+%
+%   Read or write any attribute of such a motor, as motor_attribute/3 those
+%   of others.
+
+dc_motor_attribute(Port, Attribute, Value) :-
+    ev3dev_driver:attribute('dc-motor', Port, Attribute, Value).

@@ -1,0 +1,54 @@
+:- module(ev3dev_halt, []).
+:- use_module(library_file, [load_library/0]).
+
+:- load_library.
+
+:- create_prolog_flag(ev3dev_stop_at_halt, true, [keep(true), type(boolean)]).
+
+/** <module> Nothing moves when the program has ended
+
+The kernel goes on running a motor whose program is over. So every motor, of
+any class, that the program has started is stopped when Prolog halts, or is
+ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
+`false`. A servo floats then.
+*/
+
+:- at_halt(stop_at_halt).
+
+stop_at_halt :-
+    (   current_prolog_flag(ev3dev_stop_at_halt, true)
+    ->  stop_started_
+    ;   true
+    ).
+
+% SIGTERM, and SIGINT where nobody debugs, end Prolog at once and without its
+% at_halt/1 goals. Handlers of the program's own are left alone.
+halt_on(Signal) :-
+    on_signal(Signal, Handler, Handler),
+    (   ends_at_once(Handler)
+    ->  on_signal(Signal, _, halt_by)
+    ;   true
+    ).
+
+% Before version 9 SIGINT is for the debugger even where nobody is there to
+% answer it.
+ends_at_once(default).
+ends_at_once(debug) :-
+    \+ stream_property(user_input, tty(true)).
+ends_at_once('$foreign_function'(_)).
+
+halt_by(Signal) :-
+    status(Signal, Status),
+    halt(Status).
+
+status(int, 130).
+status(term, 143).
+
+:- halt_on(term), halt_on(int).
+
+% The thread that collects garbage takes such a signal now and then, and then
+% nothing comes of it. A brick has one core, and no use for that thread.
+:- (   current_prolog_flag(gc_thread, true)
+   ->  set_prolog_flag(gc_thread, false)
+   ;   true
+   ).

@@ -1,0 +1,145 @@
+:- module(ev3dev_motor_settings,
+          [ linear_actuator/1,          % ?Port
+            motor_position/2,           % ?Port, ?Position
+            motor_duty/2,               % ?Port, -Percent
+            motor_polarity/2,           % ?Port, ?Polarity
+            motor_ramps/3,              % ?Port, ?Up, ?Down
+            motor_speed_pid/2,          % ?Port, ?PID
+            motor_hold_pid/2            % ?Port, ?PID
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
+
+/** <module> What a motor is set to
+
+As with the attributes of library(ev3dev/driver), what is unbound is read and
+what is bound is written. An unbound port enumerates; writing needs a bound
+one. All predicates fail if there is no motor at a port. motor_reset/1 puts
+everything back to what it is after plugging in.
+*/
+
+%!  linear_actuator(?Port) is nondet.
+%
+%   True if a linear actuator, an L12 by Actuonix, is plugged into Port. It is
+%   a motor like others, but that its positions and ways are in millimetres.
+%   The brick does not recognise one: see port_device/2.
+
+linear_actuator(Port) :-
+    tacho_motor(Port, Type),
+    linear(Type).
+
+linear('act-l12-ev3-50').
+linear('act-l12-ev3-100').
+
+%!  motor_position(?Port, ?Position) is nondet.
+%
+%   Read a motor's position in degrees, or millimetres of a linear actuator,
+%   or say what its present position is called from now on. It is an integer
+%   where the motor counts in degrees, as LEGO's do, else a float. To be
+%   written, it may be an arithmetic expression. Fails if a Position is beyond
+%   what the motor can count.
+
+motor_position(Port, Position) :-
+    var(Position),
+    !,
+    motor_position_(Port, Position).
+motor_position(Port, Position0) :-
+    Position is Position0,
+    motor_set_position_(Port, Position).
+
+%!  motor_duty(?Port, -Percent) is nondet.
+%
+%   True if the motor gets that much of the battery's voltage now, from -100
+%   to 100.
+
+motor_duty(Port, Percent) :-
+    ev3dev_driver:attribute_('tacho-motor', Port, duty_cycle, Percent).
+
+%!  motor_polarity(?Port, ?Polarity) is nondet.
+%
+%   Read or write a motor's polarity: `normal`, or `inversed` for one that is
+%   mounted the other way round; its speeds and positions then have the other
+%   sign. To be set before anything else: it changes what was set before.
+%
+%   @error domain_error(polarity, Polarity)
+
+motor_polarity(Port, Polarity) :-
+    var(Polarity),
+    !,
+    motor_attribute(Port, polarity, Polarity).
+motor_polarity(Port, Polarity) :-
+    must_be(atom, Polarity),
+    (   memberchk(Polarity, [normal, inversed])
+    ->  motor_attribute(Port, polarity, Polarity)
+    ;   domain_error(polarity, Polarity)
+    ).
+
+%!  motor_ramps(?Port, ?Up, ?Down) is nondet.
+%
+%   Read or write how a motor speeds up and slows down from the next command
+%   on: evenly, in so many milliseconds between rest and its highest speed,
+%   from 0 to 60000.
+%
+%   @error domain_error(ramp_up_sp, Up)
+%   @error domain_error(ramp_down_sp, Down)
+
+motor_ramps(Port, Up, Down) :-
+    var(Up),
+    var(Down),
+    !,
+    tacho_motor(Port),
+    ev3dev_driver:attribute_('tacho-motor', Port, ramp_up_sp, Up),
+    ev3dev_driver:attribute_('tacho-motor', Port, ramp_down_sp, Down).
+motor_ramps(Port, Up, Down) :-
+    must_be_within(60000, ramp_up_sp, Up),
+    must_be_within(60000, ramp_down_sp, Down),
+    motor_attribute(Port, ramp_up_sp, Up),
+    motor_attribute(Port, ramp_down_sp, Down).
+
+%!  motor_speed_pid(?Port, ?PID) is nondet.
+%!  motor_hold_pid(?Port, ?PID) is nondet.
+%
+%   Read or write the constants of the regulation, by which a motor keeps its
+%   speed, or holds its position. PID is `pid(P, I, D)`, integers of 0 or
+%   more. They take effect at once.
+%
+%   @error domain_error(pid_constant, Constant) if one is negative
+
+motor_speed_pid(Port, PID) :-
+    motor_pid(Port, speed_pid, PID).
+
+motor_hold_pid(Port, PID) :-
+    motor_pid(Port, hold_pid, PID).
+
+motor_pid(Port, Directory, PID) :-
+    atom_concat(Directory, '/Kp', KP),
+    atom_concat(Directory, '/Ki', KI),
+    atom_concat(Directory, '/Kd', KD),
+    (   var(PID)
+    ->  tacho_motor(Port),
+        motor_attribute(Port, KP, P),
+        motor_attribute(Port, KI, I),
+        motor_attribute(Port, KD, D),
+        PID = pid(P, I, D)
+    ;   must_be_pid(PID),
+        PID = pid(P, I, D),
+        motor_attribute(Port, KP, P),
+        motor_attribute(Port, KI, I),
+        motor_attribute(Port, KD, D)
+    ).
+
+must_be_pid(PID) :-
+    (   PID = pid(P, I, D)
+    ->  forall(member(Constant, [P, I, D]),
+               must_be_within(2147483647, pid_constant, Constant))
+    ;   domain_error(pid, PID)
+    ).
+
+must_be_within(Highest, Domain, Number) :-
+    must_be(integer, Number),
+    (   between(0, Highest, Number)
+    ->  true
+    ;   domain_error(Domain, Number)
+    ).

@@ -1,0 +1,94 @@
+:- module(ev3dev_options,
+          [ must_be_options/3,          % +Domain, +Names, +Options
+            must_be_timeout/1,          % +Seconds
+            motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
+          ]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+
+/** <module> Options of the pack's predicates
+
+An option that a predicate does not have is an error: it is most likely one
+that is misspelt.
+*/
+
+%!  must_be_options(+Domain, +Names, +Options) is det.
+%
+%   True if Options is a list of Name(Value) or Name=Value with these Names.
+%
+%   @error domain_error(Domain, Option) for any other Option
+
+must_be_options(Domain, Names, Options) :-
+    must_be(list, Options),
+    forall(member(Option, Options), must_be_option(Domain, Names, Option)).
+
+must_be_option(Domain, Names, Option) :-
+    must_be(nonvar, Option),
+    (   option_name(Option, Name),
+        atom(Name),
+        memberchk(Name, Names)
+    ->  true
+    ;   domain_error(Domain, Option)
+    ).
+
+option_name(Name=_, Name) :-
+    !.
+option_name(Option, Name) :-
+    compound(Option),
+    compound_name_arity(Option, Name, 1).
+
+%!  must_be_timeout(+Seconds) is det.
+%
+%   True if Seconds is a time to wait, or `infinite`.
+%
+%   @error domain_error(timeout, Seconds) if it is negative
+
+must_be_timeout(Seconds) :-
+    Seconds == infinite,
+    !.
+must_be_timeout(Seconds) :-
+    must_be(number, Seconds),
+    (   Seconds >= 0
+    ->  true
+    ;   domain_error(timeout, Seconds)
+    ).
+
+%!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
+%
+%   Term is what native predicates take for the options of a move: motor_run/4
+%   tells what they mean. Stop is the default stop action, Stops are all there
+%   are, Ramp is the longest ramp.
+
+motor_options(Options, Stop, Stops, Ramp,
+              options(Action, RampUp, RampDown, Wait, Timeout)) :-
+    must_be_options(motor_option,
+                    [stop_action, ramp_up, ramp_down, wait, timeout],
+                    Options),
+    option(stop_action(Action), Options, Stop),
+    option(ramp_up(RampUp), Options, default),
+    option(ramp_down(RampDown), Options, default),
+    option(wait(Wait), Options, true),
+    option(timeout(Timeout), Options, infinite),
+    must_be_stop_action(Stops, Action),
+    must_be(boolean, Wait),
+    must_be_timeout(Timeout),
+    must_be_ramp(ramp_up_sp, Ramp, RampUp),
+    must_be_ramp(ramp_down_sp, Ramp, RampDown).
+
+must_be_stop_action(Stops, Action) :-
+    must_be(atom, Action),
+    (   memberchk(Action, Stops)
+    ->  true
+    ;   domain_error(stop_action, Action)
+    ).
+
+must_be_ramp(_, _, Milliseconds) :-
+    Milliseconds == default,
+    !.
+must_be_ramp(Attribute, Longest, Milliseconds) :-
+    must_be(integer, Milliseconds),
+    (   between(0, Longest, Milliseconds)
+    ->  true
+    ;   domain_error(Attribute, Milliseconds)
+    ).

@@ -1,0 +1,150 @@
+:- module(ev3dev_servo_motors,
+          [ servo_motor_position/2,     % ?Port, ?Percent
+            servo_motor_angle/2,        % ?Port, ?Degrees
+            servo_motor_float/1,        % +Port
+            servo_motor_polarity/2,     % ?Port, ?Polarity
+            servo_motor_rate/2,         % ?Port, ?Milliseconds
+            servo_motor_pulses/4,       % ?Port, ?Min, ?Mid, ?Max
+            servo_motor_attribute/3     % ?Port, +Attribute, ?Value
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(driver, [servo_motor/1]).
+:- use_module(halt, []).
+
+/** <module> RC servos
+
+Servos of model aircraft and the like, on a controller that is plugged into
+an input port, as the 8-channel one by mindsensors. Their ports are called
+after it: `'in1:i2c88:sv1'` to `sv8`.
+
+A servo that was sent somewhere stays there until it is let float. Nobody
+knows when it arrives. As with other attributes, what is unbound is read and
+what is bound is written. All predicates fail if there is no servo at a port.
+
+Every servo that the program has moved is let float at its end.
+*/
+
+%!  servo_motor_position(?Port, ?Percent) is nondet.
+%
+%   Send a servo to a position from -100 to 100 percent of its way, 0 being
+%   the middle, or read where it was sent. Percent may be an arithmetic
+%   expression and is rounded. Does not wait. Fails, and moves nothing, beyond
+%   100 percent; reading fails while the servo floats.
+
+servo_motor_position(Port, Percent) :-
+    var(Percent),
+    !,
+    servo_position_(Port, Percent).
+servo_motor_position(Port, Percent0) :-
+    Percent is Percent0,
+    (   servo_set_position_(Port, Percent)
+    ->  true
+    ;   cannot(Port, Percent)
+    ).
+
+%!  servo_motor_angle(?Port, ?Degrees) is nondet.
+%
+%   As servo_motor_position/2, in degrees from the middle, -90 to 90. That is
+%   right for a servo that turns by 180 degrees between the shortest and the
+%   longest pulse; for another, say with servo_motor_pulses/4 what pulses it
+%   takes for -90, 0 and 90 degrees.
+
+servo_motor_angle(Port, Degrees) :-
+    var(Degrees),
+    !,
+    servo_angle_(Port, Degrees).
+servo_motor_angle(Port, Degrees0) :-
+    Degrees is Degrees0,
+    (   servo_set_angle_(Port, Degrees)
+    ->  true
+    ;   cannot(Port, Degrees)
+    ).
+
+cannot(Port, Position) :-
+    (   servo_motor(Port)
+    ->  debug(ev3dev, "the servo at ~w cannot go to ~w", [Port, Position])
+    ;   debug(ev3dev, "there is no servo at ~w", [Port])
+    ),
+    fail.
+
+%!  servo_motor_float(+Port) is semidet.
+%
+%   Let a servo float: it may be turned by hand.
+
+%!  servo_motor_polarity(?Port, ?Polarity) is nondet.
+%
+%   Read or write a servo's polarity: `normal`, or `inversed` to turn the
+%   other way. A servo that does not float goes to the opposite at once.
+%
+%   @error domain_error(polarity, Polarity)
+
+servo_motor_polarity(Port, Polarity) :-
+    var(Polarity),
+    !,
+    servo_motor_attribute(Port, polarity, Polarity).
+servo_motor_polarity(Port, Polarity) :-
+    must_be(atom, Polarity),
+    (   memberchk(Polarity, [normal, inversed])
+    ->  servo_motor_attribute(Port, polarity, Polarity)
+    ;   domain_error(polarity, Polarity)
+    ).
+
+%!  servo_motor_rate(?Port, ?Milliseconds) is nondet.
+%
+%   Read or write how slowly a servo moves: in so many milliseconds for 100
+%   percent, 0 for as fast as it can. The controller may round it.
+%
+%   @error domain_error(rate_sp, Milliseconds) if it is negative
+%   @error permission_error(write, unsupported_attribute, File) if the
+%          controller has one speed only
+
+servo_motor_rate(Port, Milliseconds) :-
+    var(Milliseconds),
+    !,
+    servo_motor_attribute(Port, rate_sp, Milliseconds).
+servo_motor_rate(Port, Milliseconds) :-
+    must_be_within(0, 2147483647, rate_sp, Milliseconds),
+    servo_motor_attribute(Port, rate_sp, Milliseconds).
+
+%!  servo_motor_pulses(?Port, ?Min, ?Mid, ?Max) is nondet.
+%
+%   Read or write the lengths of the pulses, in microseconds, that send a
+%   servo to -100, 0 and 100 percent: 0 to 1000, 1000 to 2000 and 2000 to
+%   3000. They take effect when a position is written.
+%
+%   @error domain_error(min_pulse_sp, Min)
+%   @error domain_error(mid_pulse_sp, Mid)
+%   @error domain_error(max_pulse_sp, Max)
+
+servo_motor_pulses(Port, Min, Mid, Max) :-
+    var(Min),
+    var(Mid),
+    var(Max),
+    !,
+    servo_motor(Port),
+    ev3dev_driver:attribute_('servo-motor', Port, min_pulse_sp, Min),
+    ev3dev_driver:attribute_('servo-motor', Port, mid_pulse_sp, Mid),
+    ev3dev_driver:attribute_('servo-motor', Port, max_pulse_sp, Max).
+servo_motor_pulses(Port, Min, Mid, Max) :-
+    must_be_within(0, 1000, min_pulse_sp, Min),
+    must_be_within(1000, 2000, mid_pulse_sp, Mid),
+    must_be_within(2000, 3000, max_pulse_sp, Max),
+    servo_motor_attribute(Port, min_pulse_sp, Min),
+    servo_motor_attribute(Port, mid_pulse_sp, Mid),
+    servo_motor_attribute(Port, max_pulse_sp, Max).
+
+must_be_within(Lowest, Highest, Domain, Number) :-
+    must_be(integer, Number),
+    (   between(Lowest, Highest, Number)
+    ->  true
+    ;   domain_error(Domain, Number)
+    ).
+
+%!  servo_motor_attribute(?Port, +Attribute, ?Value) is nondet.
+%
+%   Read or write any attribute of a servo, as motor_attribute/3 those of
+%   motors.
+
+servo_motor_attribute(Port, Attribute, Value) :-
+    ev3dev_driver:attribute('servo-motor', Port, Attribute, Value).

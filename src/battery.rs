@@ -1,0 +1,29 @@
+//! `prolog/ev3dev/battery.pl`: the battery.
+use crate::call::{Call, unify_value};
+use crate::error::wrong_value;
+use ev3_driver::{Value, battery};
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_battery();
+}
+
+predicates! {
+    /// battery_(+Key, -Value)
+    #[module("ev3dev_battery")]
+    #[name("battery_")]
+    semidet fn battery(context, key, value) {
+        let call = Call::of(context, "battery", 2);
+        let (name, devices) = (call.text(key)?, call.devices()?);
+        let battery = &call.found(battery::battery(&devices))?;
+        let read = match &*name {
+            "voltage" => battery::volts(battery).map(|volts| Some(Value::Float(volts))),
+            "current" => battery::amperes(battery).map(|read| read.map(Value::Float)),
+            "percent" => battery::percent(battery).map(|read| read.map(Value::Integer)),
+            "type" => battery::chemistry(battery).map(|read| read.map(Value::Text)),
+            _ => return wrong_value(&call, "battery_key", key),
+        };
+        unify_value(value, &call.found(read)?)
+    }
+}

@@ -1,0 +1,36 @@
+//! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
+use crate::call::{Call, unify_atom};
+use crate::motors::move_options;
+use ev3_driver::dc;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_dc_motor_run();
+    register_dc_motor_run_timed();
+}
+
+predicates! {
+    /// dc_motor_run_(+Port, +Percent)
+    #[module("ev3dev_dc_motors")]
+    #[name("dc_motor_run_")]
+    semidet fn dc_motor_run(context, port, percent) {
+        let call = Call::of(context, "dc_motor_run", 2);
+        let (port, percent) = (call.text(port)?, call.float(percent)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        into_prolog_result(call.check(dc::run_forever(&devices, &port, percent, interrupted))?)
+    }
+
+    /// dc_motor_run_timed_(+Port, +Percent, +Seconds, +Options, -Reason): options
+    /// as those of motor_turn_/3.
+    #[module("ev3dev_dc_motors")]
+    #[name("dc_motor_run_timed_")]
+    semidet fn dc_motor_run_timed(context, port, percent, seconds, options, reason) {
+        let call = Call::of(context, "dc_motor_run_timed", 4);
+        let (port, percent) = (call.text(port)?, call.float(percent)?);
+        let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let ended = dc::run_timed(&devices, &port, percent, time, &options, interrupted);
+        unify_atom(reason, call.found(ended)?.word())
+    }
+}

@@ -1,0 +1,19 @@
+//! `prolog/ev3dev/halt.pl`: what happens when a program ends.
+use crate::call::Call;
+use crate::state::devices;
+use ev3_driver::motor;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_stop_started();
+}
+
+predicates! {
+    /// stop_started_: stops what the program started.
+    #[module("ev3dev_halt")]
+    #[name("stop_started_")]
+    semidet fn stop_started(context) {
+        Call::of(context, "halt", 0).check(motor::stop_started(&devices()))
+    }
+}

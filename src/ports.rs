@@ -1,0 +1,54 @@
+//! `prolog/ev3dev/ports.pl`: ports.
+use crate::call::{Call, ListedDevices, unify_atom};
+use crate::driver::unify_port;
+use ev3_driver::lego_port;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_port_set_mode();
+    register_port_device();
+    register_port_set_device();
+}
+
+predicates! {
+    /// port_set_mode_(+Port, +Mode)
+    #[module("ev3dev_ports")]
+    #[name("port_set_mode_")]
+    semidet fn port_set_mode(context, port, mode) {
+        let call = Call::of(context, "port_mode", 2);
+        let (port, mode) = (call.text(port)?, call.text(mode)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = lego_port::set_mode(&devices, &port, &mode, interrupted);
+        into_prolog_result(call.found(set)?)
+    }
+
+    /// port_device_(?Port, -Type)
+    #[module("ev3dev_ports")]
+    #[name("port_device_")]
+    nondet fn port_device<ListedDevices>(context, port, kind) {
+        setup => {
+            let call = Call::of(context, "port_device", 2);
+            let (bound, devices) = (call.text_if_bound(port)?, call.devices()?);
+            let found = call.check(lego_port::devices_at(&devices, bound.as_deref()))?;
+            Ok(Some(found.into_iter()))
+        },
+        call(found) => {
+            Call::of(context, "port_device", 2).next(found, |_| Ok(()), |device, ()| {
+                unify_atom(kind, device.driver())?;
+                unify_port(port, device.port())
+            })
+        }
+    }
+
+    /// port_set_device_(+Port, +Name)
+    #[module("ev3dev_ports")]
+    #[name("port_set_device_")]
+    semidet fn port_set_device(context, port, name) {
+        let call = Call::of(context, "port_device", 2);
+        let (port, name) = (call.text(port)?, call.text(name)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = lego_port::set_device(&devices, &port, &name, interrupted);
+        into_prolog_result(call.found(set)?)
+    }
+}

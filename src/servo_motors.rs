@@ -1,0 +1,93 @@
+//! `prolog/ev3dev/servo_motors.pl`: RC servos.
+use crate::call::{Call, ListedDevices};
+use crate::driver::unify_port;
+use ev3_driver::{Class, Device, servo};
+use std::sync::Arc;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_servo_position();
+    register_servo_angle();
+    register_servo_set_position();
+    register_servo_set_angle();
+    register_servo_motor_float();
+}
+
+predicates! {
+    /// servo_position_(?Port, -Percent)
+    #[module("ev3dev_servo_motors")]
+    #[name("servo_position_")]
+    nondet fn servo_position<ListedDevices>(context, port, percent) {
+        setup => {
+            let call = Call::of(context, "servo_motor_position", 2);
+            call.listed(Class::ServoMotor, port)
+        },
+        call(servos) => {
+            let call = Call::of(context, "servo_motor_position", 2);
+            let devices = &call.devices()?;
+            let read = |servo: &Arc<Device>| {
+                call.found(devices.read(servo, servo::position).map(Option::flatten))
+            };
+            call.next(servos, read, |servo, read| {
+                percent.unify(*read)?;
+                unify_port(port, servo.port())
+            })
+        }
+    }
+
+    /// servo_angle_(?Port, -Degrees)
+    #[module("ev3dev_servo_motors")]
+    #[name("servo_angle_")]
+    nondet fn servo_angle<ListedDevices>(context, port, degrees) {
+        setup => {
+            let call = Call::of(context, "servo_motor_angle", 2);
+            call.listed(Class::ServoMotor, port)
+        },
+        call(servos) => {
+            let call = Call::of(context, "servo_motor_angle", 2);
+            let devices = &call.devices()?;
+            let read = |servo: &Arc<Device>| {
+                call.found(devices.read(servo, servo::position).map(Option::flatten))
+            };
+            call.next(servos, read, |servo, read| {
+                degrees.unify(servo::degrees_of(*read))?;
+                unify_port(port, servo.port())
+            })
+        }
+    }
+
+    /// servo_set_position_(+Port, +Percent)
+    #[module("ev3dev_servo_motors")]
+    #[name("servo_set_position_")]
+    semidet fn servo_set_position(context, port, percent) {
+        let call = Call::of(context, "servo_motor_position", 2);
+        let (port, percent) = (call.text(port)?, call.float(percent)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
+        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
+        into_prolog_result(call.found(set)?)
+    }
+
+    /// servo_set_angle_(+Port, +Degrees)
+    #[module("ev3dev_servo_motors")]
+    #[name("servo_set_angle_")]
+    semidet fn servo_set_angle(context, port, degrees) {
+        let call = Call::of(context, "servo_motor_angle", 2);
+        let (port, percent) = (call.text(port)?, servo::percent_of(call.float(degrees)?));
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
+        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
+        into_prolog_result(call.found(set)?)
+    }
+
+    /// servo_motor_float(+Port)
+    #[module("ev3dev_servo_motors")]
+    semidet fn servo_motor_float(context, port) {
+        let call = Call::of(context, "servo_motor_float", 1);
+        let port = call.text(port)?;
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let float = |servo: &Arc<Device>| servo::float(servo);
+        call.found(devices.with_patience(Class::ServoMotor, &port, interrupted, float))
+    }
+}
