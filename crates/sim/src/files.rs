@@ -178,6 +178,7 @@ impl Machine {
             pose: self.body.pose.compose(&pose),
             angle: sensor.angle,
             rate: sensor.rate,
+            axle: sensor.axle,
             noise: Source::new(noise, self.options.seed, port as usize, sample),
         };
         view.measure(sensor.mode().sense)

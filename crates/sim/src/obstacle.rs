@@ -60,7 +60,9 @@ impl Obstacle {
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
                 reach: radius,
             }),
-            Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } => None,
+            Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } | Item::Beacon { .. } => {
+                None
+            }
         }
     }
 

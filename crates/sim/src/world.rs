@@ -59,6 +59,13 @@ pub enum Item {
         /// at 20 cm, 40 at 50 cm, 3 at 200 cm.
         intensity: f64,
     },
+    /// A remote control whose beacon is on, as high as the sensors. Seen from up to 200 cm.
+    Beacon {
+        /// Where it stands.
+        at: Point,
+        /// 1 to 4.
+        channel: u8,
+    },
 }
 
 impl Item {
@@ -84,6 +91,7 @@ impl Item {
             Item::Patch { .. } => "patch",
             Item::Line { .. } => "line",
             Item::Lamp { .. } => "lamp",
+            Item::Beacon { .. } => "beacon",
         }
     }
 
@@ -118,6 +126,10 @@ impl Item {
                 (finite(&[*at]), NOT_FINITE),
                 (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
             ]),
+            Item::Beacon { at, channel } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                ((1..=4).contains(channel), "needs a channel from 1 to 4"),
+            ]),
         };
         match fault {
             Some(reason) => Err(SpecError::new(format!("{} {self:?}", self.kind()), reason)),
@@ -125,6 +137,10 @@ impl Item {
         }
     }
 }
+
+/// Temperatures that there can be, in degrees Celsius.
+const ABSOLUTE_ZERO: f64 = -273.15;
+const HOTTEST: f64 = 1000.0;
 
 const NOT_FINITE: &str = "has a number that is not finite";
 
@@ -176,18 +192,24 @@ pub struct WorldSpec {
     pub floor: Colour,
     /// Light that comes from everywhere, in the per cent of COL-AMBIENT.
     pub ambient: f64,
+    /// Of the air and everything else, in degrees Celsius.
+    pub temperature: f64,
+    /// How loud it is, in per cent of what an NXT sound sensor can tell.
+    pub loudness: f64,
     /// Where the robot starts.
     pub start: Pose,
 }
 
 impl Default for WorldSpec {
-    /// An endless white floor, a little light, and nothing else.
+    /// An endless white floor, a little light, a silent room's 21.5 degrees, and nothing else.
     fn default() -> Self {
         WorldSpec {
             items: Vec::new(),
             bounds: None,
             floor: Colour::WHITE,
             ambient: 2.0,
+            temperature: 21.5,
+            loudness: 0.0,
             start: Pose::default(),
         }
     }
@@ -222,6 +244,12 @@ impl WorldSpec {
         self.items.iter().try_for_each(Item::validate)?;
         if !(self.ambient.is_finite() && self.ambient >= 0.0) {
             return Err(SpecError::new("ambient", "must be 0 or more"));
+        }
+        if !(ABSOLUTE_ZERO..=HOTTEST).contains(&self.temperature) {
+            return Err(SpecError::new("temperature", "must be from -273.15 to 1000"));
+        }
+        if !(0.0..=100.0).contains(&self.loudness) {
+            return Err(SpecError::new("loudness", "must be from 0 to 100"));
         }
         if !self.start.is_finite() {
             return Err(SpecError::new("start", NOT_FINITE));

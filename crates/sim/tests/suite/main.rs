@@ -6,6 +6,7 @@ mod braitenberg;
 mod dc_motors;
 mod desk;
 mod golden;
+mod more_sensors;
 mod motion;
 mod motors;
 mod plugs;
