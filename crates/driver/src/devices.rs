@@ -114,7 +114,8 @@ impl Devices {
         Ok(Arc::clone(&listing.devices))
     }
 
-    /// The device at a port, which may be spelled either way.
+    /// The device at a port, which may be spelled either way. A sensor on the
+    /// I2C bus is found by its socket, too.
     ///
     /// # Errors
     /// As [`all`](Self::all).
@@ -252,9 +253,13 @@ impl Devices {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port::order(&a_port, &b_port).then_with(|| port::order(&a_name, &b_name))
         });
+        // By its socket, too, if nothing else is there; of two, the first.
+        let in_socket = devices.iter().rev();
+        let in_socket = in_socket.map(|device| (port::socket(device.port()), device));
         // Of two at one port, the one with the higher number came later.
-        let by_port = devices.iter().map(|device| (device.port().to_owned(), Arc::clone(device)));
-        listing.by_port = by_port.collect();
+        let at_port = devices.iter().map(|device| (device.port(), device));
+        let all = in_socket.chain(at_port);
+        listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();
         listing.devices = devices.into();
         Ok(())
     }

@@ -24,6 +24,7 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
+mod bin_data;
 pub mod device;
 pub mod devices;
 pub mod error;

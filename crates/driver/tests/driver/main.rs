@@ -7,5 +7,6 @@ mod files;
 mod laws;
 mod motors;
 mod sensors;
+mod several;
 mod turns;
 mod waits;
