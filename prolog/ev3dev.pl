@@ -6,7 +6,8 @@ The one module a program loads. It offers all predicates of
 
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/sensors): single motors and
-    sensors
+    sensors; library(ev3dev/infrared), library(ev3dev/more_sensors) and
+    library(ev3dev/sensor_info): more of them
   - library(ev3dev/driver): devices and the files that ev3dev shows of them
 
 A machine that is no EV3 gets a simulated one at the first use of a device,
@@ -31,4 +32,7 @@ argument throws.
 :- reexport(ev3dev/driver).
 :- reexport(ev3dev/motors).
 :- reexport(ev3dev/sensors).
+:- reexport(ev3dev/infrared).
+:- reexport(ev3dev/more_sensors).
+:- reexport(ev3dev/sensor_info).
 :- reexport(ev3dev/robot).

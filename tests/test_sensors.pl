@@ -7,7 +7,7 @@
 % As a student's own file adds a sensor.
 :- multifile ev3dev_sensors:reading/4.
 
-ev3dev_sensors:reading(temperature, ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
+ev3dev_sensors:reading(degrees_fahrenheit, ['lego-nxt-temp'], 'NXT-TEMP-F', 0).
 
                 /*******************************
                 *            KINDS             *
@@ -108,9 +108,13 @@ test(a_port_is_no_number,
 
 test(a_program_adds_a_sensor_by_a_fact, all(P-V == [in2-21.5])) :-
     with_tree([in1-'lego-ev3-us', in2-'lego-nxt-temp'],
-              sensor_reading(temperature, P, V)).
+              sensor_reading(degrees_fahrenheit, P, V)).
 test(an_added_sensor_fails_elsewhere, [fail]) :-
-    with_tree(sensor_reading(temperature, _, _)).
+    with_tree(sensor_reading(degrees_fahrenheit, _, _)).
+test(of_several_sensors_with_a_reading_that_at_the_port_is_meant,
+     true(V == 21.5)) :-
+    with_tree([in1-'lego-nxt-temp', in2-'ms-ir-thermometer'],
+              sensor_reading(temperature, in1, V)).
 test(what_is_not_in_the_table_fails, [fail]) :-
     with_tree(sensor_reading(smell, _, _)).
 
