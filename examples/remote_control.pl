@@ -13,7 +13,8 @@
 %!  drive(+Channel) is semidet.
 %
 %   Do as the remote control says until its beacon is switched on. Fails if
-%   there is no infrared sensor, or no motor. However it ends, the wheels stop.
+%   there is no infrared sensor, or no motor. However it ends, the wheels
+%   stop.
 
 drive :-
     drive(1).

@@ -53,7 +53,7 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
 sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
     load_tables,
     (   known_mode(Type, Mode, Count, Decimals, Units, Meaning)
-    ;   table(Table),
+    ;   table_module(Table),
         Table:mode(Type, Mode, Count, Decimals, Units, Meaning)
     ).
 
@@ -65,13 +65,13 @@ sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
 sensor_type(Type, What) :-
     load_tables,
     (   known_type(Type, What)
-    ;   table(Table),
+    ;   table_module(Table),
         Table:type(Type, What)
     ).
 
 % The tables are large, and most programs never ask for them.
-table(ev3dev_lego_sensors).
-table(ev3dev_other_sensors).
+table_module(ev3dev_lego_sensors).
+table_module(ev3dev_other_sensors).
 
 load_tables :-
     current_module(ev3dev_other_sensors),
@@ -80,7 +80,8 @@ load_tables :-
     module_property(ev3dev_sensor_info, file(Here)),
     file_directory_name(Here, Directory),
     with_mutex(ev3dev_sensor_tables,
-               forall(table(Module), load_table(Directory, Module))).
+               forall(table_module(Module),
+                      load_table(Directory, Module))).
 
 load_table(Directory, Module) :-
     atom_concat(ev3dev_, Name, Module),
