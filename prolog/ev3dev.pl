@@ -6,7 +6,8 @@ The one module a program loads. It offers all predicates of
 
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/sensors): single motors and
-    sensors
+    sensors; library(ev3dev/infrared), library(ev3dev/more_sensors) and
+    library(ev3dev/sensor_info): more of them
   - library(ev3dev/motor_moves) and library(ev3dev/motor_settings): all else
     that a motor can do
   - library(ev3dev/dc_motors) and library(ev3dev/servo_motors): motors without
@@ -40,6 +41,9 @@ argument throws.
 :- reexport(ev3dev/dc_motors).
 :- reexport(ev3dev/servo_motors).
 :- reexport(ev3dev/sensors).
+:- reexport(ev3dev/infrared).
+:- reexport(ev3dev/more_sensors).
+:- reexport(ev3dev/sensor_info).
 :- reexport(ev3dev/lights).
 :- reexport(ev3dev/battery).
 :- reexport(ev3dev/ports).

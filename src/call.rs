@@ -167,6 +167,15 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         Err(PrologError::Failure)
     }
 
+    /// Terms of numbers and atoms, as elements of a list.
+    pub(crate) fn terms(&self, values: &[Value]) -> PrologResult<Vec<Term<'a>>> {
+        let term = |value| {
+            let term = self.context.new_term_ref();
+            unify_value(&term, value).map(|()| term)
+        };
+        values.iter().map(term).collect()
+    }
+
     fn wrong_type<T>(&self, expected: &str, term: &Term) -> PrologResult<T> {
         crate::error::wrong_type(self, expected, term)
     }

@@ -156,8 +156,8 @@ impl Bound {
 
     fn admits(&self, device: &Detected) -> bool {
         let admits = |bound: &Option<Text>, text: &str| bound.as_deref().is_none_or(|b| b == text);
-        let port = self.port.as_deref().map(ev3_driver::port::short);
-        port.is_none_or(|port| port == device.port)
+        let port = self.port.as_deref();
+        port.is_none_or(|port| ev3_driver::port::names(port, &device.port))
             && admits(&self.kind, &device.driver)
             && admits(&self.path, &device.path.to_string_lossy())
     }

@@ -42,28 +42,30 @@ predicates! {
         }
     }
 
-    /// sensor_values_(?Port, +Types, +Mode, ?Values): values is a compound of
-    /// three, values 0 to 2.
+    /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): so many values, or
+    /// all that the mode has for a count of 0, as a list.
     #[module("ev3dev_sensors")]
     #[name("sensor_values_")]
-    nondet fn sensor_values<Readings>(context, port, types, mode, values) {
+    nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
-            let call = Call::of(context, "sensor_value", 4);
+            let call = Call::of(context, "sensor_values", 3);
             let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
+            let count = usize::try_from(call.integer(count)?).unwrap_or_default();
             let devices = call.devices()?;
             let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
-            Ok(Some(Readings { devices, sensors, mode, index: 0 }))
+            Ok(Some(Readings { devices, sensors, mode, index: count }))
         },
         call(readings) => {
-            let call = Call::of(context, "sensor_value", 4);
-            let (values, mode) = (call.arguments::<3>(values)?, Some(&*readings.mode));
-            let devices = &readings.devices;
+            let call = Call::of(context, "sensor_values", 3);
+            let Readings { devices, sensors, mode, index: count } = readings;
+            let count = (*count > 0).then_some(*count);
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                call.found(sensor::read_all(devices, device, mode, [0, 1, 2], interrupted))
+                let read = sensor::read_several(devices, device, mode, count, interrupted);
+                call.terms(&call.found(read)?)
             };
-            call.next(&mut readings.sensors, read, |device, read| {
-                values.iter().zip(read).try_for_each(|(term, read)| unify_value(term, read))?;
+            call.next(sensors, read, |device, read| {
+                values.unify(read.as_slice())?;
                 unify_port(port, device.port())
             })
         }
@@ -99,6 +101,7 @@ struct Readings {
     devices: Arc<Devices>,
     sensors: IntoIter<Arc<Device>>,
     mode: Text,
+    /// Which value, or how many.
     index: usize,
 }
 

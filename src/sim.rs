@@ -3,7 +3,7 @@ use crate::call::{Call, unify_atom};
 use crate::error::{no_such, wrong_because, wrong_value};
 use crate::mount;
 use crate::simulated::{Clock, SimulatedFiles, Simulation};
-use crate::spec::{self, Fact, add_to_robot, add_to_world, named};
+use crate::spec::{self, Fact, add_to_robot, add_to_world, buttons, channel_of, named};
 use crate::state::{devices, use_files, use_tree};
 use ev3_driver::Devices;
 use ev3_sim::{Action, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
@@ -30,6 +30,7 @@ pub(crate) fn register() {
     register_sim_wait();
     register_sim_hold();
     register_sim_release();
+    register_sim_remote();
     register_sim_step();
     register_sim_time();
     register_sim_snapshot();
@@ -219,6 +220,18 @@ predicates! {
         Ok(())
     }
 
+    /// sim_remote_(+Channel, +Buttons)
+    #[module("ev3dev_sim")]
+    #[name("sim_remote_")]
+    semidet fn sim_remote(context, channel, list) {
+        let call = Call::of(context, "sim_remote", 2);
+        let (channel, held) = (channel_of(&call, channel)?, buttons(&call, list)?);
+        match simulation()?.machine().hold_buttons(channel, &held) {
+            Ok(()) => Ok(()),
+            Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
+        }
+    }
+
     /// sim_step_(+Seconds)
     #[module("ev3dev_sim")]
     #[name("sim_step_")]
@@ -399,7 +412,7 @@ fn clock_of<'a, C: QueryableContextType>(
 /// A port, in either spelling.
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
     let text = call.text(term)?;
-    match ev3_driver::port::short(&text).parse() {
+    match ev3_driver::port::socket(&text).parse() {
         Ok(port) => Ok(port),
         Err(_) => named(call, "port", term),
     }

@@ -2,8 +2,8 @@
 use crate::call::Call;
 use crate::error::wrong_because;
 use ev3_sim::{
-    Bounds, Colour, Hull, Item, MotorMount, Noise, Point, Port, Pose, RobotSpec, SensorMount,
-    SpecError, Wheel, WorldSpec,
+    Bounds, Button, Colour, Hull, Item, MotorMount, Noise, Point, Port, Pose, RobotSpec,
+    SensorMount, SpecError, Wheel, WorldSpec,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -13,6 +13,8 @@ pub(crate) enum Fact {
     Bounds(Bounds),
     Floor(Colour),
     Ambient(f64),
+    Temperature(f64),
+    Loudness(f64),
     Start(Pose),
     Item(Item),
     /// A whole world, drawn.
@@ -39,6 +41,8 @@ pub(crate) fn add_to_world(world: &mut WorldSpec, fact: Fact) {
         Fact::Bounds(bounds) => world.bounds = Some(bounds),
         Fact::Floor(colour) => world.floor = colour,
         Fact::Ambient(percent) => world.ambient = percent,
+        Fact::Temperature(celsius) => world.temperature = celsius,
+        Fact::Loudness(percent) => world.loudness = percent,
         Fact::Start(pose) => world.start = pose,
         Fact::Item(item) => world.items.push(item),
         Fact::Map(drawn) => {
@@ -143,7 +147,13 @@ fn read<'a, C: QueryableContextType>(
             intensity: number(intensity)?,
             port: named(call, "port", port)?,
         }),
+        ("beacon", [x, y, channel]) => {
+            let channel = channel_of(call, channel)?;
+            Fact::Item(Item::Beacon { at: [number(x)?, number(y)?], channel })
+        }
         ("ambient", [percent]) => Fact::Ambient(number(percent)?),
+        ("temperature", [celsius]) => Fact::Temperature(number(celsius)?),
+        ("loudness", [percent]) => Fact::Loudness(number(percent)?),
         ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
         ("map", [size, rows]) => {
             let rows = call.list(rows)?;
@@ -198,6 +208,30 @@ pub(crate) fn named<T: FromStr, C: QueryableContextType>(
     term: &Term,
 ) -> PrologResult<T> {
     call.text(term)?.parse().or_else(|_| wrong_because(call, domain, term, ""))
+}
+
+/// A channel of beacons and remote controls.
+pub(crate) fn channel_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u8> {
+    match u8::try_from(call.integer(term)?) {
+        Ok(channel @ 1..=4) => Ok(channel),
+        _ => wrong_because(call, "ir_channel", term, ""),
+    }
+}
+
+/// A list of buttons of a remote control.
+pub(crate) fn buttons<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Vec<Button>> {
+    let button = |term: &Term<'a>| match &*call.text(term)? {
+        "red_up" => Ok(Button::RedUp),
+        "red_down" => Ok(Button::RedDown),
+        "blue_up" => Ok(Button::BlueUp),
+        "blue_down" => Ok(Button::BlueDown),
+        "beacon" => Ok(Button::Beacon),
+        _ => wrong_because(call, "ir_button", term, ""),
+    };
+    call.list(term)?.iter().map(button).collect()
 }
 
 /// A list of `[X, Y]`.

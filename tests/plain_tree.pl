@@ -8,7 +8,10 @@
             read_line_of/2,             % +File, -Text
             write_line_to/2             % +File, +Text
           ]).
+:- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(ev3dev)).
 :- use_module(library(filesex)).
+:- use_module(library(lists)).
 :- use_module(library(readutil)).
 
 /** <module> Plain directory trees shaped like ev3dev's
@@ -139,8 +142,14 @@ sensor('lego-ev3-gyro',  'GYRO-ANG GYRO-RATE GYRO-FAS GYRO-G&A GYRO-CAL',       
 sensor('lego-ev3-touch', 'TOUCH',                                                     0, 0).
 sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',        0, 35).
 sensor('ev3-analog-01',  'ANALOG',                                                    3, 0).
-sensor('nxt-analog',     'ANALOG-0 ANALOG-1',                                         3, 0).
 sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                                     1, 215).
+sensor(Type, Modes, Decimals, 0) :-
+    ev3dev_sensor_info:sensor_type(Type, _),
+    \+ sub_atom(Type, 0, _, _, 'lego-ev3'),
+    \+ memberchk(Type, ['lego-nxt-temp', 'ev3-analog-01']),
+    findall(Mode, sensor_mode(Type, Mode, _, _, _, _), Names),
+    atomic_list_concat(Names, ' ', Modes),
+    once(sensor_mode(Type, _, _, Decimals, _, _)).
 
 attribute('tacho-motor', Type, max_speed, Speed) :-
     motor(Type, Speed).
@@ -230,12 +239,15 @@ battery_attribute_text(voltage_max_design, 84000000).
 battery_attribute_text(voltage_min_design, 60000000).
 battery_attribute_text(voltage_now, 7600000).
 
+sensor_attribute_text(command, _, _, _, '').
 sensor_attribute_text(commands, _, _, _, '').
 sensor_attribute_text(decimals, _, Decimals, _, Decimals).
 sensor_attribute_text(mode, Modes, _, _, Mode) :-
     atomic_list_concat([Mode|_], ' ', Modes).
 sensor_attribute_text(modes, Modes, _, _, Modes).
 sensor_attribute_text(num_values, _, _, _, 1).
+sensor_attribute_text(units, _, _, _, '').
 sensor_attribute_text(value0, _, _, Value, Value).
-sensor_attribute_text(value1, _, _, _, 0).
-sensor_attribute_text(value2, _, _, _, 0).
+sensor_attribute_text(Attribute, _, _, _, 0) :-
+    member(Attribute, [ value1, value2, value3, value4, value5, value6,
+                        value7 ]).

@@ -28,7 +28,20 @@ exported(sensors,
            infrared_sensor/1, col_ambient/2, col_reflect/2, col_color/2,
            col_rgb_raw/2, col_rgb_raw/4, us_dist_cm/2, us_dist_inches/2,
            us_listen/2, gyro_ang/2, gyro_rate/2, gyro_reset/1, touch/2,
-           ir_prox/2, sensor_reading/3, sensor_value/4, adjust_val/3 ]).
+           ir_prox/2, sensor_reading/3, sensor_value/4, sensor_values/3,
+           adjust_val/3 ]).
+exported(infrared,
+         [ ir_remote/3, ir_beacon/4, ir_dist_cm/2, ir_seeker/2,
+           ir_seeker/4 ]).
+exported(more_sensors,
+         [ nxt_light/2, nxt_ambient/2, nxt_sound/2, temperature/2,
+           target_temperature/2, pressure/2, compass/2, ht_color/2,
+           ht_color_rgb/2, ht_gyro_rate/2, ht_eopd/3, acceleration/4,
+           rotation_rate/4, tilt/4, magnetic_field/4, angle_deg/2,
+           angle_total/2, angle_rpm/2, light_row/2, line_leader/3,
+           energy_meter/4 ]).
+exported(sensor_info,
+         [ sensor_info/2, sensor_mode/6, sensor_type/2, sensor_command/2 ]).
 exported(motors,
          [ motor_run/2, motor_run/3, motor_run/4, motors_run/1,
            motors_turn/2, motor_start/1, motor_stop/1, motor_stop/2,

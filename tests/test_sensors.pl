@@ -124,6 +124,11 @@ test(a_program_adds_a_sensor_by_a_fact, all(P-V == [in2-2.15])) :-
                 sensor_reading(voltage, P, V) )).
 test(an_added_sensor_fails_elsewhere, [fail]) :-
     with_tree(sensor_reading(voltage, _, _)).
+test(of_several_sensors_with_a_reading_that_at_the_port_is_meant,
+     true(V == 21.5)) :-
+    with_tree([in1-'lego-nxt-temp', in2-'ms-ir-thermometer'],
+              ( put_attribute(in1, value0, 215),
+                sensor_reading(temperature, in1, V) )).
 test(what_is_not_in_the_table_fails, [fail]) :-
     with_tree(sensor_reading(smell, _, _)).
 

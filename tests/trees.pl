@@ -3,6 +3,8 @@
             behaving/1,                 % ?Tree
             on/2,                       % +Tree, :Goal
             equip/2,                    % +Tree, +Devices
+            with_sensor/4,              % +Tree, +Type, +World, :Goal
+            sensor_bus/2,               % ?Type, ?Address
             moving/3,                   % +Tree, +Ports, :Goal
             settle/1                    % +Tree
           ]).
@@ -19,7 +21,8 @@ simulator's files through FUSE.
 
 :- meta_predicate
     on(+, 0),
-    on_mount(0),
+    on_mount(+, +, 0),
+    with_sensor(+, +, +, 0),
     moving(+, +, 0).
 
 %!  tree(?Tree) is nondet.
@@ -59,14 +62,14 @@ on(plain, Goal) :-
 on(simulator, Goal) :-
     with_sim(room, Goal).
 on(mount, Goal) :-
-    on_mount(Goal).
+    on_mount(room, [], Goal).
 
-on_mount(Goal) :-
+on_mount(World, Options, Goal) :-
     tmp_file(mount, Directory),
     setup_call_cleanup(
         make_directory(Directory),
         setup_call_cleanup(
-            ( sim_start(room, [clock(realtime)]),
+            ( sim_start(World, [clock(realtime)|Options]),
               sim_mount(Directory),
               ev3_sysfs(Directory) ),
             once(Goal),
@@ -102,6 +105,55 @@ announce(Port-Type) :-
     sim_step(1),
     port_device(Port, Type).
 announce(_).
+%!  with_sensor(+Tree, +Type, +World, :Goal)
+%
+%   Call Goal once with a sensor of Type at in1 in Tree, which looks ahead from
+%   the middle of the axle; and with two motors. World is a list of facts.
+
+with_sensor(plain, Type, _, Goal) :-
+    (   sensor_bus(Type, Address)
+    ->  atomic_list_concat([in1, Address], ':', Port)
+    ;   Port = in1
+    ),
+    with_tree([Port-Type, outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              once(Goal)).
+with_sensor(simulator, Type, World, Goal) :-
+    robot_with(Type, Robot),
+    with_sim(World, [robot(Robot)], ( tell_port(simulator, Type), Goal )).
+with_sensor(mount, Type, World, Goal) :-
+    robot_with(Type, Robot),
+    on_mount(World, [robot(Robot)], ( tell_port(mount, Type), Goal )).
+
+robot_with(Type, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6),
+                   axle(10.6), hull(circle(8)), mass(0.75),
+                   motor(outB, 'lego-ev3-l-motor'),
+                   motor(outC, 'lego-ev3-l-motor'),
+                   sensor(in1, Type, 0, 0, 0) ]).
+
+% What the brick does not recognise comes up as `nxt-analog`.
+tell_port(Tree, Type) :-
+    (   lego_sensor(in1, 'nxt-analog'),
+        Type \== 'nxt-analog'
+    ->  ev3_sysfs(Root),
+        atom_concat(Root, '/lego-port/port0/set_device', File),
+        file_write(File, Type),
+        settle(Tree)
+    ;   true
+    ).
+
+%!  sensor_bus(?Type, ?Address) is nondet.
+%
+%   Some that are on the I2C bus, and where.
+
+sensor_bus('lego-nxt-us',        i2c1).
+sensor_bus('lego-nxt-temp',      i2c76).
+sensor_bus('lego-power-storage', i2c2).
+sensor_bus('ht-nxt-compass',     i2c1).
+sensor_bus('ht-nxt-color',       i2c1).
+sensor_bus('ht-nxt-color-v2',    i2c1).
+sensor_bus('ht-nxt-ir-seek-v2',  i2c8).
+sensor_bus('ht-nxt-accel',       i2c1).
+sensor_bus('ms-absolute-imu',    i2c17).
 
 %!  moving(+Tree, +Ports, :Goal)
 %

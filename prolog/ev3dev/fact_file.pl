@@ -102,7 +102,10 @@ vocabulary(world, floor,       [1]).
 vocabulary(world, patch,       [2]).
 vocabulary(world, line,        [3]).
 vocabulary(world, lamp,        [3]).
+vocabulary(world, beacon,      [3]).
 vocabulary(world, ambient,     [1]).
+vocabulary(world, temperature, [1]).
+vocabulary(world, loudness,    [1]).
 vocabulary(world, start,       [3]).
 vocabulary(world, map,         [2]).
 vocabulary(robot, left_wheel,  [2, 3]).

@@ -19,8 +19,10 @@
             ir_prox/2,                  % ?Port, -Percent
             sensor_reading/3,           % +Reading, ?Port, -Value
             sensor_value/4,             % ?Port, +Mode, +Index, -Value
+            sensor_values/3,            % ?Port, +Mode, -Values
             adjust_val/3                % +Port, +Raw, -Value
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2]).
 
 /** <module> Sensors
@@ -39,9 +41,17 @@ Distance = 84.3.
 ```
 
 A sensor is put into another mode only if it is not in it already, because
-that takes time: 10 ms, with the infrared sensor 1.1 s. A sensor that has lost
-contact is given 2 s to come back before existence_error(sensor, Port) is
-thrown.
+that takes time: 10 ms, with sensors on the I2C bus 50 ms, with the infrared
+sensor 1.1 s. A sensor that has lost contact is given 2 s to come back before
+existence_error(sensor, Port) is thrown.
+
+A sensor on the I2C bus, as most of other makers, has the address of its port
+and its own there, `in1:i2c1`; `in1` is enough to name it. The kernel reads it
+ten times a second.
+
+Here are the EV3's own sensors and those of the NXT that measure the same.
+Others are in library(ev3dev/infrared) and library(ev3dev/more_sensors), and
+library(ev3dev/sensor_info) tells what any sensor can do.
 
 ## Adding a sensor {#adding-a-sensor}
 
@@ -50,9 +60,9 @@ The readings are a table of facts. A program adds one with a fact of its own:
 ```
 :- multifile ev3dev_sensors:reading/4.
 
-ev3dev_sensors:reading(temperature, ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
+ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 
-?- sensor_reading(temperature, in2, Celsius).
+?- sensor_reading(weight, in2, Grams).
 ```
 */
 
@@ -62,25 +72,53 @@ ev3dev_sensors:reading(temperature, ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
 %
 %   True if sensors of these Types show Reading in Mode as value number Index.
 
-reading(col_ambient,    ['lego-ev3-color'], 'COL-AMBIENT', 0).
-reading(col_reflect,    ['lego-ev3-color'], 'COL-REFLECT', 0).
-reading(col_color,      ['lego-ev3-color'], 'COL-COLOR',   0).
-reading(us_dist_cm,     ['lego-ev3-us'],    'US-DIST-CM',  0).
-reading(us_dist_inches, ['lego-ev3-us'],    'US-DIST-IN',  0).
-reading(us_listen,      ['lego-ev3-us'],    'US-LISTEN',   0).
-reading(gyro_ang,       ['lego-ev3-gyro'],  'GYRO-ANG',    0).
-reading(gyro_rate,      ['lego-ev3-gyro'],  'GYRO-RATE',   0).
-reading(touch,          ['lego-ev3-touch'], 'TOUCH',       0).
-reading(ir_prox,        ['lego-ev3-ir'],    'IR-PROX',     0).
+reading(col_ambient,        ['lego-ev3-color'], 'COL-AMBIENT', 0).
+reading(col_reflect,        ['lego-ev3-color'], 'COL-REFLECT', 0).
+reading(col_color,          ['lego-ev3-color'], 'COL-COLOR', 0).
+reading(us_dist_cm,         ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-CM', 0).
+reading(us_dist_inches,     ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-IN', 0).
+reading(us_listen,          ['lego-ev3-us', 'lego-nxt-us'], 'US-LISTEN', 0).
+reading(gyro_ang,           ['lego-ev3-gyro'], 'GYRO-ANG', 0).
+reading(gyro_rate,          ['lego-ev3-gyro'], 'GYRO-RATE', 0).
+reading(touch,              ['lego-ev3-touch', 'lego-nxt-touch'], 'TOUCH', 0).
+reading(ir_prox,            ['lego-ev3-ir'], 'IR-PROX', 0).
+reading(nxt_light,          ['lego-nxt-light'], 'REFLECT', 0).
+reading(nxt_ambient,        ['lego-nxt-light'], 'AMBIENT', 0).
+reading(temperature,        ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
+reading(temperature,        ['ht-nxt-barometric'], 'TEMP', 0).
+reading(temperature,        ['ms-ir-thermometer'], 'AMBIENT-C', 0).
+reading(target_temperature, ['ms-ir-thermometer'], 'TARGET-C', 0).
+reading(compass,            ['ht-nxt-compass', 'ms-absolute-imu'],
+        'COMPASS', 0).
+reading(ht_color,           ['ht-nxt-color', 'ht-nxt-color-v2'], 'COLOR', 0).
+reading(ht_gyro_rate,       ['ht-nxt-gyro'], 'GYRO', 0).
+reading(angle_deg,          ['ht-nxt-angle'], 'ANGLE', 0).
+reading(angle_total,        ['ht-nxt-angle'], 'ANGLE-ACC', 0).
+reading(angle_total,        ['ms-angle'], 'ANGLE2', 0).
+reading(angle_rpm,          ['ht-nxt-angle', 'ms-angle'], 'SPEED', 0).
+reading(force,              ['ht-nxt-force'], 'FORCE', 0).
+reading(magnet,             ['ht-nxt-mag'], 'MAG', 0).
+reading(motion,             ['ht-nxt-pir'], 'PROX', 0).
+reading(flex,               ['di-dflex'], 'FLEX', 0).
+reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
 %   True if the sensor at Port shows Value for a Reading of the table. Fails
-%   if the table has no such reading.
+%   if the table has no such reading. Besides those that have predicates of
+%   their own there are `force` and `magnet`, both from 0 to 1023, `motion`
+%   from -100 to 100, `flex` from 0 to 100, and `tof_dist_mm`.
 
 sensor_reading(Reading, Port, Value) :-
+    var(Port),
+    !,
     reading(Reading, Types, Mode, Index),
     sensor_value_(Port, Types, Mode, Index, Value).
+sensor_reading(Reading, Port, Value) :-
+    reading(Reading, Types, Mode, Index),
+    sensor_value_(Port, Types, Mode, Index, Read),
+    !,
+    Value = Read.
 
 %!  light_sensor(?Port) is nondet.
 %!  ultrasonic_sensor(?Port) is nondet.
@@ -88,22 +126,40 @@ sensor_reading(Reading, Port, Value) :-
 %!  touch_sensor(?Port) is nondet.
 %!  infrared_sensor(?Port) is nondet.
 %
-%   True if a sensor of that kind is plugged into Port.
+%   True if a sensor of that kind is plugged into Port: an EV3's, or for
+%   ultrasonic_sensor/1 and touch_sensor/1 also an NXT's.
 
 light_sensor(Port) :-
     lego_sensor(Port, 'lego-ev3-color').
 
 ultrasonic_sensor(Port) :-
-    lego_sensor(Port, 'lego-ev3-us').
+    sensor_of(Port, ['lego-ev3-us', 'lego-nxt-us'], _).
 
 gyro_sensor(Port) :-
     lego_sensor(Port, 'lego-ev3-gyro').
 
 touch_sensor(Port) :-
-    lego_sensor(Port, 'lego-ev3-touch').
+    sensor_of(Port, ['lego-ev3-touch', 'lego-nxt-touch'], _).
 
 infrared_sensor(Port) :-
     lego_sensor(Port, 'lego-ev3-ir').
+
+%!  sensor_of(?Port, +Types, -Type) is nondet.
+%
+%   True if a sensor of Type, one of Types, is plugged into Port. The last
+%   leaves no choice.
+
+sensor_of(Port, Types, Type) :-
+    nonvar(Port),
+    !,
+    lego_sensor(Port, Type0),
+    memberchk(Type0, Types),
+    Type = Type0.
+sensor_of(Port, Types, Type) :-
+    findall(P-T,
+            ( lego_sensor(P, T), memberchk(T, Types) ),
+            Sensors),
+    member(Port-Type, Sensors).
 
 %!  col_ambient(?Port, -Percent) is nondet.
 %!  col_reflect(?Port, -Percent) is nondet.
@@ -135,14 +191,15 @@ col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
     col_rgb_raw(Port, Red, Green, Blue).
 
 col_rgb_raw(Port, Red, Green, Blue) :-
-    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW',
-                   rgb(Red, Green, Blue)).
+    sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', 3,
+                   [Red, Green, Blue]).
 
 %!  us_dist_cm(?Port, -Centimetres) is nondet.
 %!  us_dist_inches(?Port, -Inches) is nondet.
 %
-%   True if the ultrasonic sensor sees something at that distance. 255 cm, or
-%   100.3 inches, is also what it says when it sees nothing.
+%   True if the ultrasonic sensor sees something at that distance, the EV3's
+%   to a tenth, the NXT's to a whole centimetre. 255 cm, or 100.3 inches (NXT:
+%   100.0), is also what it says when it sees nothing.
 
 us_dist_cm(Port, Centimetres) :-
     sensor_reading(us_dist_cm, Port, Centimetres).
@@ -182,7 +239,8 @@ gyro_reset(Port) :-
 
 %!  touch(?Port, -Pressed) is nondet.
 %
-%   True if Pressed is 1 while the touch sensor is pressed, else 0.
+%   True if Pressed is 1 while the touch sensor is pressed, else 0. The brick
+%   does not recognise one of the NXT: its port has to be told.
 
 touch(Port, Pressed) :-
     sensor_reading(touch, Port, Pressed).
@@ -207,6 +265,18 @@ ir_prox(Port, Percent) :-
 
 sensor_value(Port, Mode, Index, Value) :-
     sensor_value_(Port, [], Mode, Index, Value).
+
+%!  sensor_values(?Port, +Mode, -Values) is nondet.
+%
+%   True if Values is the list of all values that the sensor at Port shows in
+%   Mode, for any sensor and mode there is; at most eight. They are read at
+%   once where the sensor allows it. An unbound Port is each that has a sensor
+%   with this mode.
+%
+%   @error domain_error(mode, Mode) if the sensor at Port has no such mode
+
+sensor_values(Port, Mode, Values) :-
+    sensor_values_(Port, [], Mode, 0, Values).
 
 %!  adjust_val(+Port, +Raw, -Value) is semidet.
 %

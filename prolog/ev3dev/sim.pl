@@ -13,6 +13,7 @@
             sim_show/3,                 % +Port, +Attribute, +Text
             sim_unshow/2,               % +Port, +Attribute
             sim_wait/1,                 % +Seconds
+            sim_remote/2,               % +Channel, +Buttons
             sim_step/1,                 % +Seconds
             sim_time/1,                 % -Seconds
             sim_snapshot/1,             % -Snapshot
@@ -82,8 +83,15 @@ of
     percentage that col_ambient/2 shows when the sensor looks at it from 100
     cm. The light falls with the square of the distance; what stands between
     throws shadows.
+  - beacon(X, Y, Channel)
+    An infrared beacon on a channel from 1 to 4, see ir_beacon/4. It is seen
+    from up to 200 cm, if nothing stands between.
   - ambient(Percent)
     Light from everywhere, by default 2.
+  - temperature(Celsius)
+    How warm it is, by default 21.5.
+  - loudness(Percent)
+    How loud it is, by default 0: see nxt_sound/2.
   - start(X, Y, Heading)
     Where the robot starts, by default at 0, 0 with heading 0.
   - map(CellSize, Rows)
@@ -119,10 +127,8 @@ A robot is a file of facts, too:
     or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
     The wheels' have to be among them.
   - sensor(Port, Type, X, Y, Heading)
-    A sensor, X to the right and Y ahead of the middle of the axle:
-    `'lego-ev3-us'`, `'lego-ev3-color'`, `'lego-ev3-gyro'`,
-    `'lego-ev3-touch'` or `'lego-ev3-ir'`. A colour sensor sees the floor
-    below it and the lamps ahead of it; a touch sensor is a bumper, 8 cm wide.
+    A sensor, X to the right and Y ahead of the middle of the axle, of any
+    type that ev3dev knows, see [below](#sim-sensors).
   - noise(Port, Sigma, Bias)
     The errors of a device that stands before: a random one, with that
     standard deviation, and a constant one, in units of the sensor's value.
@@ -132,6 +138,27 @@ A robot is a file of facts, too:
 Shipped are `default`, the robot of set_robot(5.6, 10.6, outB, outC) with an
 ultrasonic sensor at in1, colour sensors on its left at in2 and on its right
 at in3, and a gyro at in4; and `touch`, with a bumper at in4.
+
+## Sensors {#sim-sensors}
+
+Of the EV3's own sensors, a colour sensor sees the floor below it and the
+lamps ahead of it; a touch sensor is a bumper, 8 cm wide; and the infrared one
+sees beacons up to 60 degrees aside, which it calls 25, and hears remote
+controls, see sim_remote/2.
+
+LEGO's sensors for the NXT do the same, and tell the temperature and how loud
+it is. A compass takes the y axis for north. `HiTechnic's` infrared seeker
+looks for beacons, too; an angle sensor sits on the axle of the left wheel, an
+accelerometer lies flat and feels gravity alone, and a proximity detector sees
+what is within 25 cm.
+
+For the others of sensor_mode/6 there is nothing in this world. They exist,
+with all their modes, and show the same always: the air has 1013 mbar, boxes
+for motors and servos have 6 V, a camera sees nothing.
+
+What is an NXT sensor with nothing but a voltage comes up as `nxt-analog`, as
+on a brick, except for the light sensor. The port has to be told what it is:
+write the type to the file `set_device` of its `lego-port`.
 
 ## Time {#sim-time}
 
@@ -259,8 +286,9 @@ sim_place(X0, Y0, Heading0) :-
 %!  sim_add(+Fact) is semidet.
 %!  sim_add(+Fact, -Id) is semidet.
 %
-%   Put something into the world: a wall, box, circle, patch, line or lamp, by
-%   a fact as a world file has. Id is a number by which to remove it.
+%   Put something into the world: a wall, box, circle, patch, line, lamp or
+%   beacon, by a fact as a world file has. Id is a number by which to remove
+%   it.
 %
 %   @error domain_error(possible_geometry, Item) if it cannot be, or the robot
 %          stands there
@@ -359,6 +387,21 @@ sim_wait(Seconds0) :-
 %   no time passes on the virtual clock unless this thread waits.
 
 :- public sim_hold_/0, sim_release_/0.
+%!  sim_remote(+Channel, +Buttons) is semidet.
+%
+%   Hold down these buttons of an infrared remote control on a channel from 1
+%   to 4, and let go of all others, until the next call. Buttons is a list of
+%   `red_up`, `red_down`, `blue_up`, `blue_down` and `beacon`: none, one, or
+%   two of the first four. The robot hears it wherever it is.
+%
+%   @error domain_error(ir_channel, Channel)
+%   @error domain_error(ir_button, Button) if there is no such button
+%   @error domain_error(ir_buttons, Buttons) if no sensor could tell these
+%          from others
+
+sim_remote(Channel, Buttons) :-
+    must_be(list, Buttons),
+    sim_remote_(Channel, Buttons).
 
 %!  sim_step(+Seconds) is semidet.
 %

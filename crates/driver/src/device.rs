@@ -234,14 +234,43 @@ impl Device {
     /// # Errors
     /// As [`number`](Self::number).
     pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
-        let is_it =
-            |constant: &Constant| constant.attribute == attribute && *constant.mode == *mode;
-        if let Some(constant) = self.constants.find(is_it) {
-            return Ok(constant.value);
+        if let Some(value) = self.known_in(attribute, mode) {
+            return Ok(value);
         }
         let value = self.number(attribute)?;
-        let make = || Constant { attribute, mode: mode.into(), value };
-        Ok(self.constants.find_or_push(is_it, make).value)
+        self.know_in(attribute, mode, value);
+        Ok(value)
+    }
+
+    /// What is known of the sensor in a mode, by
+    /// [`know_in`](Self::know_in).
+    pub(crate) fn known_in(&self, name: &str, mode: &str) -> Option<i64> {
+        let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
+        self.constants.find(is_it).map(|constant| constant.value)
+    }
+
+    /// Remembers a number that depends on nothing but the sensor's mode. What
+    /// is known already stays.
+    pub(crate) fn know_in(&self, name: &'static str, mode: &str, value: i64) {
+        let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
+        let make = || Constant { attribute: name, mode: mode.into(), value };
+        self.constants.find_or_push(is_it, make);
+    }
+
+    /// Whether an attribute only stores what is written to it.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub(crate) fn is_plain(&self, attribute: &str) -> Result<bool> {
+        self.attribute(attribute).is_plain(self.tree())
+    }
+
+    /// The bytes of an attribute that is no text; how many there are.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where they fill the buffer, else the kernel's.
+    pub(crate) fn bytes(&self, attribute: &str, buffer: &mut [u8]) -> Result<usize> {
+        Ok(self.attribute(attribute).read(self.tree(), buffer)?.len())
     }
 
     /// Calls `look` with the text of a short attribute, as `mode` or `state`.

@@ -144,7 +144,8 @@ impl Devices {
         Ok(Arc::clone(&listing.devices))
     }
 
-    /// The device at a port, which may be spelled either way.
+    /// The device at a port, which may be spelled either way. A sensor on the
+    /// I2C bus is found by its socket, too.
     ///
     /// # Errors
     /// As [`all`](Self::all).
@@ -332,8 +333,12 @@ impl Devices {
         devices.reverse();
         devices.dedup_by(|earlier, later| earlier.port() == later.port());
         devices.reverse();
-        let by_port = devices.iter().map(|device| (device.port().to_owned(), Arc::clone(device)));
-        listing.by_port = by_port.collect();
+        // By its socket, too, if nothing else is there; of two, the first.
+        let in_socket = devices.iter().rev();
+        let in_socket = in_socket.map(|device| (port::socket(device.port()), device));
+        let at_port = devices.iter().map(|device| (device.port(), device));
+        let all = in_socket.chain(at_port);
+        listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();
         listing.devices = devices.into();
         Ok(())
     }

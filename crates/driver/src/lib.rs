@@ -26,6 +26,7 @@
 
 pub mod attributes;
 pub mod battery;
+mod bin_data;
 pub mod dc;
 pub mod device;
 pub mod devices;

@@ -15,6 +15,26 @@ pub fn short(address: &str) -> &str {
     BOARDS.iter().find_map(|board| address.strip_prefix(board)).unwrap_or(address)
 }
 
+/// The socket that a port is in: `in1` for the sensor at address 1 of the I2C
+/// bus there, `in1:i2c1`. What sits on a multiplexer, as `in1:i2c80:mux1`, is in
+/// no socket.
+#[must_use]
+pub fn socket(port: &str) -> &str {
+    let is_address = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    match short(port).rsplit_once(":i2c") {
+        Some((socket, address)) if is_address(address) => socket,
+        _ => short(port),
+    }
+}
+
+/// Whether a device at `address` is meant by `port`: its address in either
+/// spelling, or the socket it is in.
+#[must_use]
+pub fn names(port: &str, address: &str) -> bool {
+    let (port, address) = (short(port), short(address));
+    port == address || port == socket(address)
+}
+
 /// The order in which ports are listed: alphabetical, with numbers in their
 /// own order, so that `S2` comes before `S10`.
 #[must_use]
@@ -53,6 +73,17 @@ mod tests {
         assert_eq!(short("outA"), "outA");
         assert_eq!(short("ev3-ports:in1:i2c1"), "in1:i2c1");
         assert_eq!(short("spi0.1:MA"), "spi0.1:MA");
+    }
+
+    #[test]
+    fn a_socket_names_what_is_on_its_bus() {
+        assert_eq!(socket("ev3-ports:in1:i2c1"), "in1");
+        assert_eq!(socket("spi0.1:S1:i2c76"), "spi0.1:S1");
+        assert_eq!(socket("in1:i2c80:mux1"), "in1:i2c80:mux1");
+        assert_eq!(socket("in1:i2c"), "in1:i2c");
+        assert!(names("in1", "in1:i2c1") && names("ev3-ports:in1", "in1:i2c1"));
+        assert!(names("in1:i2c1", "ev3-ports:in1:i2c1"));
+        assert!(!names("in1:i2c1", "in1") && !names("in2", "in1:i2c1"));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! angle), so it is written only when it differs. After a real change the first
 //! values are still those of the old mode: they are waited out, once.
 use crate::Interrupted;
+use crate::bin_data;
 use crate::device::{Device, Use};
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
@@ -20,6 +21,11 @@ const SETTLING: Duration = Duration::from_millis(10);
 
 /// The same for the infrared sensor.
 const SETTLING_INFRARED: Duration = Duration::from_millis(1100);
+
+/// The same for a sensor on the I2C bus: the kernel reads it at once, which may
+/// take some 25 ms at 9600 bits a second, and some sensors need as long again
+/// to measure something else.
+const SETTLING_ON_BUS: Duration = Duration::from_millis(50);
 
 /// How long a sensor may take to answer again after losing contact: it is
 /// noticed after 0.7 s and the sensor introduces itself anew in about 1 s.
@@ -70,6 +76,59 @@ pub fn read_all<const N: usize>(
         drop(using);
         Ok(values)
     })
+}
+
+/// Reads the first values of a sensor in a mode, as [`read`] does: so many, or
+/// all that the mode has, at most eight. They are of one moment where the
+/// sensor allows it, see the module `bin_data`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_several(
+    devices: &Devices,
+    sensor: &Arc<Device>,
+    mode: &str,
+    count: Option<usize>,
+    interrupted: Interrupted,
+) -> Result<Option<Vec<Value>>> {
+    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+        let using = in_use(devices, sensor, interrupted)?;
+        sensor.check_present()?;
+        ensure_settled(devices, sensor, Some(mode), interrupted)?;
+        let values = values_in(sensor, mode, count)?;
+        drop(using);
+        Ok(values)
+    })
+}
+
+/// The first values of a sensor that is in that mode.
+fn values_in(sensor: &Device, mode: &str, count: Option<usize>) -> Result<Vec<Value>> {
+    let count = match count {
+        Some(count) => count,
+        None => count_in(sensor, mode)?,
+    };
+    if let Some(decimals) = sensor.known_in("decimals", mode) {
+        if let Some(raw) = bin_data::values::<{ VALUES.len() }>(sensor, mode, decimals, count)? {
+            return Ok(raw.iter().take(count).map(|raw| Value::scaled(*raw, decimals)).collect());
+        }
+    }
+    let values: Result<_> = (0..count).map(|index| read_value(sensor, Some(mode), index)).collect();
+    let values = values?;
+    bin_data::learn(sensor, mode)?;
+    Ok(values)
+}
+
+/// How many values there are files for in a mode. A sensor that is getting into
+/// contact has none; then its first value says so.
+fn count_in(sensor: &Device, mode: &str) -> Result<usize> {
+    let count = match sensor.known_in("num_values", mode) {
+        Some(count) => count,
+        None => sensor.number("num_values")?,
+    };
+    if count > 0 {
+        sensor.know_in("num_values", mode, count);
+    }
+    Ok(usize::try_from(count).unwrap_or_default().clamp(1, VALUES.len()))
 }
 
 /// Puts a sensor into a mode, if it is in another, and waits until its values
@@ -174,8 +233,11 @@ fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
 
 fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
     sensor.write("mode", mode)?;
-    let is_infrared = sensor.driver() == "lego-ev3-ir";
-    let settling = if is_infrared { SETTLING_INFRARED } else { SETTLING };
+    let settling = match sensor.driver() {
+        "lego-ev3-ir" => SETTLING_INFRARED,
+        _ if sensor.port().contains(":i2c") => SETTLING_ON_BUS,
+        _ => SETTLING,
+    };
     *sensor.settled_at() = sensor.tree().now().saturating_add(settling);
     Ok(())
 }

@@ -183,6 +183,7 @@ impl Machine {
             angle: sensor.angle,
             rate: sensor.rate,
             power: self.power(),
+            axle: sensor.axle,
             noise: Source::new(noise, self.options.seed, port as usize, sample),
         };
         view.measure(sensor.mode().sense)

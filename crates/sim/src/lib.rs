@@ -2,7 +2,7 @@
 //!
 //! [`Machine`] owns everything: a file tree shaped like `/sys/class` of ev3dev-stretch, the
 //! drivers behind the files, motors with inertia and friction, a robot with two driven wheels, and
-//! a flat world with walls, boxes, coloured floors and lamps. It has no clock: time passes only in
+//! a flat world with walls, boxes, coloured floors, lamps and infrared beacons. It has no clock: time passes only in
 //! [`Machine::step`], in ticks of 2 ms, which is the period of the kernel's motor loop. The same
 //! seed and the same calls give the same bytes on every machine, however time is sliced: all
 //! arithmetic is integer or IEEE `f64`, and sines and cosines come from the `libm` crate.
@@ -78,6 +78,7 @@ mod noise;
 mod obstacle;
 mod plugs;
 mod port;
+mod remote;
 mod robot;
 mod scene;
 mod sense;
@@ -104,9 +105,10 @@ pub use machine::{Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
 pub use port::{Port, UnknownPort};
+pub use remote::Button;
 pub use robot::{Hull, MotorMount, RobotSpec, SensorMount, Wheel};
 pub use scene::ItemId;
-pub use sensor::{Link, SENSOR_KINDS, SensorKind};
+pub use sensor::{Link, SensorKind};
 pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use tree::{Entry, FileKind, NodeId, Stat};

@@ -10,6 +10,7 @@ use crate::brick::{Battery, Board, LEDS, Led};
 use crate::drive::Body;
 use crate::geometry::Pose;
 use crate::port::{LegoPort, Port};
+use crate::remote::{Button, Remote};
 use crate::robot::RobotSpec;
 use crate::scene::{ItemId, Scene};
 use crate::shaft::Shaft;
@@ -189,6 +190,23 @@ impl Machine {
     pub fn remove_item(&mut self, id: ItemId) -> bool {
         self.body.world_changed();
         self.scene.remove(id)
+    }
+
+    /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until
+    /// the next call. Wherever the robot is, its infrared sensors hear it.
+    ///
+    /// # Errors
+    /// If there is no such channel, or these cannot be told from others: any single one can, and
+    /// any two but the beacon's.
+    pub fn hold_buttons(&mut self, channel: u8, buttons: &[Button]) -> Result<(), SpecError> {
+        let item = || format!("remote control on channel {channel}");
+        let index = usize::from(channel).wrapping_sub(1);
+        let Some(remote) = self.scene.remotes.get_mut(index) else {
+            return Err(SpecError::new(item(), "needs a channel from 1 to 4"));
+        };
+        let held = Remote::holding(buttons);
+        *remote = held.ok_or_else(|| SpecError::new(item(), "has no such buttons at once"))?;
+        Ok(())
     }
 
     /// The robot as it was given.

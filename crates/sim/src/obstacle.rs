@@ -60,7 +60,11 @@ impl Obstacle {
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
                 reach: radius,
             }),
-            Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } | Item::Bulb { .. } => None,
+            Item::Patch { .. }
+            | Item::Line { .. }
+            | Item::Lamp { .. }
+            | Item::Bulb { .. }
+            | Item::Beacon { .. } => None,
         }
     }
 

@@ -111,8 +111,9 @@ impl Machine {
         };
         let closed = if at_boot { 0 } else { self.tick + self.udev_ticks() };
         let has_tacho = matches!(plug, Some(Plug::Motor(_))) || mode == "tacho-motor";
-        let has_nxt_analog = mode == "nxt-analog"
-            || matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == "nxt-analog");
+        let plugged = self.sockets[port as usize].plug;
+        let has_nxt_analog =
+            mode == "nxt-analog" || (mode == "auto" && plugged.is_some_and(Plug::is_nxt_analog));
         self.sockets[port as usize].device =
             hardware.map(|hardware| self.tree.add(hardware, closed));
         if matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == servo::DRIVER) {

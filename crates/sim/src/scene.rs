@@ -8,6 +8,7 @@ use parry2d_f64::utils::point_in_poly2d;
 use crate::colour::Colour;
 use crate::geometry::{Frame, Pose, Vec2, length};
 use crate::obstacle::{Contact, Obstacle};
+use crate::remote::{CHANNELS, Remote};
 use crate::robot::Hull;
 use crate::world::{Bounds, Item, SpecError, WorldSpec};
 
@@ -25,6 +26,10 @@ pub(crate) struct Scene {
     pub(crate) bounds: Option<Bounds>,
     pub(crate) floor: Colour,
     pub(crate) ambient: f64,
+    pub(crate) temperature: f64,
+    pub(crate) loudness: f64,
+    /// What is held down on each channel of remote controls.
+    pub(crate) remotes: [Remote; CHANNELS],
     next_id: u32,
 }
 
@@ -37,6 +42,9 @@ impl Scene {
             bounds: spec.bounds,
             floor: spec.floor,
             ambient: spec.ambient,
+            temperature: spec.temperature,
+            loudness: spec.loudness,
+            remotes: [Remote::NONE; CHANNELS],
             next_id: 1,
         };
         if let Some(bounds) = spec.bounds {
@@ -100,6 +108,14 @@ impl Scene {
             Item::Bulb { at: [x, y], intensity, port } => {
                 Some((Vec2::new(*x, *y), *intensity * power[port.slot()]))
             }
+            _ => None,
+        })
+    }
+
+    /// The beacons: where they stand and on which channels.
+    pub(crate) fn beacons(&self) -> impl Iterator<Item = (Vec2, u8)> {
+        self.items.iter().filter_map(|(_, item)| match item {
+            Item::Beacon { at: [x, y], channel } => Some((Vec2::new(*x, *y), *channel)),
             _ => None,
         })
     }

@@ -12,6 +12,9 @@ use crate::ticks_from_ms;
 const ADD_MS: i32 = 370;
 const REMOVE_MS: i32 = 120;
 const INTRODUCTION_MS: i32 = 900;
+const I2C_BOOT_MS: i32 = 1000;
+/// What a voltage on pin 1 comes up as.
+const GENERIC: &str = "nxt-analog";
 
 /// A thing with a plug.
 #[derive(Clone, Copy, Debug)]
@@ -36,8 +39,24 @@ impl Plug {
             Plug::Sensor(kind) if kind.link == Link::Uart => {
                 ticks_from_ms(ADD_MS) + ticks_from_ms(INTRODUCTION_MS)
             }
+            Plug::Sensor(SensorKind { link: Link::I2c(_), .. }) => {
+                ticks_from_ms(ADD_MS) + ticks_from_ms(I2C_BOOT_MS)
+            }
             _ => ticks_from_ms(ADD_MS),
         }
+    }
+
+    /// True if it is a sensor that is a voltage on pin 1.
+    pub(crate) fn is_nxt_analog(self) -> bool {
+        matches!(self, Plug::Sensor(SensorKind { link: Link::NxtAnalog { .. }, .. }))
+    }
+
+    /// True if the brick cannot tell it from others of that kind.
+    fn is_unrecognised(self) -> bool {
+        let Plug::Sensor(kind) = self else {
+            return false;
+        };
+        kind.link == Link::NxtAnalog { recognised: false }
     }
 
     /// What `status` of the port calls it.
@@ -46,9 +65,12 @@ impl Plug {
             None if port.is_output() => "no-motor",
             None => "no-sensor",
             Some(Plug::Motor(_)) => "tacho-motor",
-            Some(Plug::Sensor(kind)) if kind.link == Link::Uart => "ev3-uart",
-            Some(Plug::Sensor(kind)) if kind.driver_name == "nxt-analog" => "nxt-analog",
-            Some(Plug::Sensor(_)) => "ev3-analog",
+            Some(Plug::Sensor(kind)) => match kind.link {
+                Link::Uart => "ev3-uart",
+                Link::Analog => "ev3-analog",
+                Link::NxtAnalog { .. } => "nxt-analog",
+                Link::I2c(_) => "nxt-i2c",
+            },
         }
     }
 }
@@ -86,20 +108,25 @@ impl Socket {
     pub(crate) fn driver(&self, mode: &str) -> Option<Plug> {
         let named = |name: &str| Plug::named(name, self.port);
         if let Some(name) = &self.forced {
-            return named(name);
+            // An input takes the names of sensors that are a voltage on pin 1.
+            return named(name).filter(|plug| self.port.is_output() || plug.is_nxt_analog());
         }
         match (mode, self.plug) {
             // The brick tells medium motors from others only.
             ("auto", Some(Plug::Motor(kind))) if kind.driver_name != "lego-ev3-m-motor" => {
                 named("lego-ev3-l-motor")
             }
+            ("auto", Some(plug)) if plug.is_unrecognised() => named(GENERIC),
             ("auto", plug) => plug,
             ("tacho-motor", _) => named("lego-ev3-l-motor"),
             ("ev3-uart", Some(Plug::Sensor(kind))) if kind.link == Link::Uart => {
                 Some(Plug::Sensor(kind))
             }
             ("ev3-analog", _) => named("ev3-analog-01"),
-            ("nxt-analog", _) => named("nxt-analog"),
+            ("nxt-analog", _) => named(GENERIC),
+            ("nxt-i2c", Some(Plug::Sensor(kind))) if matches!(kind.link, Link::I2c(_)) => {
+                Some(Plug::Sensor(kind))
+            }
             _ => None,
         }
     }

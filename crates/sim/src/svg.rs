@@ -37,7 +37,9 @@ impl Frame {
                     self.include(*point, 1.0);
                 }
             }
-            Item::Lamp { at, .. } | Item::Bulb { at, .. } => self.include(*at, 4.0),
+            Item::Lamp { at, .. } | Item::Bulb { at, .. } | Item::Beacon { at, .. } => {
+                self.include(*at, 4.0);
+            }
         }
     }
 }
@@ -177,6 +179,13 @@ fn draw_item(svg: &mut String, id: u32, item: &Item) {
             format_args!(
                 "<circle id=\"item{id}\" class=\"lamp\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" \
              fill=\"#fd0\" stroke=\"#a80\" stroke-width=\"0.5\"/>"
+            ),
+        ),
+        Item::Beacon { at: [x, y], channel } => line(
+            svg,
+            format_args!(
+                "<circle id=\"item{id}\" class=\"beacon channel{channel}\" cx=\"{x:.2}\" \
+             cy=\"{y:.2}\" r=\"2\" fill=\"#c3c\" stroke=\"#606\" stroke-width=\"0.5\"/>"
             ),
         ),
     }

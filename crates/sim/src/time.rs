@@ -43,7 +43,7 @@ impl Machine {
             let due = match hardware {
                 Hardware::Tacho(motor) => motor.next_timer(),
                 Hardware::DcMotor(motor) => motor.next_timer(),
-                Hardware::Sensor(sensor) if sensor.is_sampled() && moving => {
+                Hardware::Sensor(sensor) if sensor.kind.link.is_analog() && moving => {
                     Some(next_on_grid(JIFFY_TICKS))
                 }
                 Hardware::Sensor(sensor) => sensor.next_event(),
@@ -199,17 +199,24 @@ impl Machine {
                 continue;
             };
             let (_, noise) = self.mount(self.sockets[index].port);
-            let rate = self.body.turn_rate;
+            let (rate, axle_rate) = (self.body.turn_rate, self.axle_rate());
             let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) else {
                 continue;
             };
             // Only a gyro knows a rate; its bias is drift.
-            let drift = if sensor.is_gyro() { noise.bias } else { 0.0 };
-            sensor.tick(tick, rate + drift);
+            let drift = if sensor.kind.is_gyro() { noise.bias } else { 0.0 };
+            sensor.tick(tick, rate + drift, axle_rate);
             if sensor.samples_now() {
                 self.sample(serial);
             }
         }
+    }
+
+    /// How fast the left wheel's axle turns, in degrees per second, positive where it drives ahead.
+    fn axle_rate(&self) -> f64 {
+        let wheel = self.robot.left;
+        let rate = self.shafts[wheel.port.slot()].omega.to_degrees();
+        if wheel.inverted { -rate } else { rate }
     }
 
     fn sample(&mut self, serial: u64) {

@@ -70,6 +70,13 @@ pub enum Item {
         /// The port it is plugged into.
         port: Port,
     },
+    /// A remote control whose beacon is on, as high as the sensors. Seen from up to 200 cm.
+    Beacon {
+        /// Where it stands.
+        at: Point,
+        /// 1 to 4.
+        channel: u8,
+    },
 }
 
 impl Item {
@@ -95,6 +102,7 @@ impl Item {
             Item::Patch { .. } => "patch",
             Item::Line { .. } => "line",
             Item::Lamp { .. } | Item::Bulb { .. } => "lamp",
+            Item::Beacon { .. } => "beacon",
         }
     }
 
@@ -134,6 +142,10 @@ impl Item {
                 (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
                 (port.is_output(), "needs an output port"),
             ]),
+            Item::Beacon { at, channel } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                ((1..=4).contains(channel), "needs a channel from 1 to 4"),
+            ]),
         };
         match fault {
             Some(reason) => Err(SpecError::new(format!("{} {self:?}", self.kind()), reason)),
@@ -141,6 +153,10 @@ impl Item {
         }
     }
 }
+
+/// Temperatures that there can be, in degrees Celsius.
+const ABSOLUTE_ZERO: f64 = -273.15;
+const HOTTEST: f64 = 1000.0;
 
 const NOT_FINITE: &str = "has a number that is not finite";
 
@@ -192,18 +208,24 @@ pub struct WorldSpec {
     pub floor: Colour,
     /// Light that comes from everywhere, in the per cent of COL-AMBIENT.
     pub ambient: f64,
+    /// Of the air and everything else, in degrees Celsius.
+    pub temperature: f64,
+    /// How loud it is, in per cent of what an NXT sound sensor can tell.
+    pub loudness: f64,
     /// Where the robot starts.
     pub start: Pose,
 }
 
 impl Default for WorldSpec {
-    /// An endless white floor, a little light, and nothing else.
+    /// An endless white floor, a little light, a silent room's 21.5 degrees, and nothing else.
     fn default() -> Self {
         WorldSpec {
             items: Vec::new(),
             bounds: None,
             floor: Colour::WHITE,
             ambient: 2.0,
+            temperature: 21.5,
+            loudness: 0.0,
             start: Pose::default(),
         }
     }
@@ -218,6 +240,12 @@ impl WorldSpec {
         self.items.iter().try_for_each(Item::validate)?;
         if !(self.ambient.is_finite() && self.ambient >= 0.0) {
             return Err(SpecError::new("ambient", "must be 0 or more"));
+        }
+        if !(ABSOLUTE_ZERO..=HOTTEST).contains(&self.temperature) {
+            return Err(SpecError::new("temperature", "must be from -273.15 to 1000"));
+        }
+        if !(0.0..=100.0).contains(&self.loudness) {
+            return Err(SpecError::new("loudness", "must be from 0 to 100"));
         }
         if !self.start.is_finite() {
             return Err(SpecError::new("start", NOT_FINITE));

@@ -365,6 +365,8 @@ pub(crate) struct Sensor {
     pub(crate) gyro_lag: Duration,
     /// What the gyro shows for a heading of 0.
     pub(crate) gyro_zero: f64,
+    /// The format of the raw data, if there is a file of them: `u8`, or `s16_be`.
+    pub(crate) raw_format: Option<&'static str>,
     frozen: Option<i64>,
 }
 
@@ -388,6 +390,7 @@ impl Sensor {
             gyro: None,
             gyro_lag: Duration::ZERO,
             gyro_zero: 0.0,
+            raw_format: None,
             frozen: None,
         }
     }
@@ -408,6 +411,22 @@ impl Sensor {
         Ok((self.gyro_zero + heading * factor).floor() as i64)
     }
 
+    /// All values as they lie in `bin_data`, though the line is down.
+    fn raw(&self, now: Duration, headings: &VecDeque<f64>) -> io::Result<Vec<u8>> {
+        let count = self.modes[self.mode].1.len();
+        let mut bytes = Vec::new();
+        for index in 0..count {
+            let value = i16::try_from(self.value(index, now, headings)?).unwrap();
+            match self.raw_format {
+                Some("s16_be") => bytes.extend(value.to_be_bytes()),
+                Some(_) => bytes.push(value.to_le_bytes()[0]),
+                None => return errno(Errno::NOENT),
+            }
+        }
+        bytes.resize(32, 0);
+        Ok(bytes)
+    }
+
     fn read(&self, attribute: &str, now: Duration, headings: &VecDeque<f64>) -> io::Result<String> {
         let (mode, values, decimals) = &self.modes[self.mode];
         let is_lost = now < self.out_of_contact_until;
@@ -422,6 +441,9 @@ impl Sensor {
             "modes" => names.join(" "),
             "num_values" => values.len().to_string(),
             "decimals" => decimals.to_string(),
+            "bin_data_format" | "bin_data" if self.raw_format.is_some() => {
+                self.raw_format.unwrap().to_owned()
+            }
             _ => match attribute.strip_prefix("value").map(str::parse) {
                 Some(Ok(0..8)) if is_lost => return errno(Errno::NXIO),
                 Some(Ok(index @ 0..8)) => self.value(index, now, headings)?.to_string(),
@@ -711,6 +733,13 @@ impl Node for BrickNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
         world.count();
+        if self.attribute == "bin_data" {
+            self.text(&world)?;
+            let sensor = world.sensors.iter().find(|sensor| sensor.inode == self.inode).unwrap();
+            let raw = sensor.raw(world.now, &world.headings)?;
+            buffer[..raw.len()].copy_from_slice(&raw);
+            return Ok(raw.len());
+        }
         let text = self.text(&world)? + "\n";
         buffer[..text.len()].copy_from_slice(text.as_bytes());
         Ok(text.len())

@@ -9,5 +9,6 @@ mod laws;
 mod motors;
 mod moves;
 mod sensors;
+mod several;
 mod turns;
 mod waits;

@@ -1,9 +1,10 @@
 //! The files of a sensor (section 5.1 of the reference sheet).
 
 use super::Sensor;
+use super::bus::VERSION;
 use crate::attr::{Attr, Table, text, uevent, write_uevent};
 use crate::errno::Errno;
-use crate::text::word;
+use crate::text::{lenient_unsigned, word};
 
 macro_rules! value {
     ($name:literal, $index:literal) => {
@@ -13,16 +14,19 @@ macro_rules! value {
 
 impl Table for Sensor {
     const ATTRS: &'static [Attr<Sensor>] = &[
-        Attr::ro("address", |s| text(s.port.address())),
+        Attr::ro("address", |s| text(s.address())),
         Attr::ro("bin_data", |s: &Sensor| Ok(s.bin_data())).size(32).measured(),
         Attr::ro("bin_data_format", |s| text(s.mode().format.name())),
-        // No sensor of the EV3 sets has commands; then the list is a lone newline.
-        Attr::wo("command", |_, _| Err(Errno::EINVAL)),
-        Attr::ro("commands", |_| text("")),
+        // A sensor that has none, as those of the EV3 sets, lists a lone newline.
+        Attr::wo(
+            "command",
+            |s, bytes| Ok(s.command(word(bytes, s.kind.commands.iter().copied())?)),
+        ),
+        Attr::ro("commands", |s| text(s.kind.commands.join(" "))),
         Attr::ro("decimals", |s| text(s.mode().decimals)),
-        Attr::rw("direct", |_| Err(Errno::EOPNOTSUPP), Sensor::direct).size(255),
+        Attr::rw("direct", Sensor::registers, Sensor::direct).size(255),
         Attr::ro("driver_name", |s| text(s.kind.driver_name)),
-        Attr::ro("fw_version", |_| text("")),
+        Attr::ro("fw_version", |s| text(if s.is_on_bus() { VERSION } else { "" })),
         Attr::rw(
             "mode",
             |s| text(if s.out_of_contact() { "" } else { s.mode().name }),
@@ -30,11 +34,18 @@ impl Table for Sensor {
         ),
         Attr::ro("modes", |s| text(s.kind.modes().collect::<Vec<_>>().join(" "))),
         Attr::ro("num_values", |s| text(if s.out_of_contact() { 0 } else { s.mode().values })),
-        Attr::rw("poll_ms", |_| Err(Errno::EOPNOTSUPP), |_, _| Err(Errno::EOPNOTSUPP)),
+        Attr::rw(
+            "poll_ms",
+            |s| text(s.poll_ms()?),
+            |s, bytes| {
+                s.poll_ms()?;
+                s.set_poll_ms(lenient_unsigned(bytes)?)
+            },
+        ),
         Attr::ro("text_value", |_| Err(Errno::EOPNOTSUPP)),
         Attr::rw(
             "uevent",
-            |s| uevent(s.kind.driver_name, s.port.address()),
+            |s| uevent(s.kind.driver_name, &s.address()),
             |_, bytes| write_uevent(bytes),
         ),
         Attr::ro("units", |s| text(s.mode().units)),

@@ -1,50 +1,50 @@
-//! The sensors of the EV3 sets and their modes (section 5.4 of the reference sheet), as data.
+//! What types of sensors there are, as data: how each is connected, and what it shows in each of
+//! its modes. The tables are in `ev3`, `nxt` and `others` below.
+
+mod ev3;
+mod nxt;
+mod others;
+
+use super::format::{Format, Scale};
 
 /// How a sensor talks to the brick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Link {
     /// Over a serial line, by LEGO's protocol: changing the mode takes a moment.
     Uart,
-    /// As a voltage, sampled every 10 ms.
+    /// As a voltage on pin 6, sampled every 10 ms; a resistor tells the type.
     Analog,
+    /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light
+    /// sensor from the others: `recognised`. The others come up as `nxt-analog` until the port is
+    /// told what it has.
+    NxtAnalog {
+        /// Whether the brick knows it when it is plugged in.
+        recognised: bool,
+    },
+    /// On the I2C bus at this address, polled by the kernel.
+    I2c(u8),
 }
 
-/// How one value lies in `bin_data`.
+impl Link {
+    /// True if it is a voltage.
+    #[must_use]
+    pub fn is_analog(self) -> bool {
+        matches!(self, Link::Analog | Link::NxtAnalog { .. })
+    }
+}
+
+/// The colours of the floor that a sensor tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
-    S8,
-    S16,
-    S32,
+pub(crate) enum Parts {
+    /// 0 to 255 each.
+    Bytes,
+    /// The strongest is 255.
+    Normal,
+    /// 16 bits each.
+    Wide,
 }
 
-impl Format {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Format::S8 => "s8",
-            Format::S16 => "s16",
-            Format::S32 => "s32",
-        }
-    }
-
-    pub(crate) fn bytes(self) -> usize {
-        match self {
-            Format::S8 => 1,
-            Format::S16 => 2,
-            Format::S32 => 4,
-        }
-    }
-
-    /// What a value becomes when it has to fit.
-    pub(crate) fn fit(self, value: i32) -> i32 {
-        match self {
-            Format::S8 => value.clamp(-128, 127),
-            Format::S16 => value.clamp(-32768, 32767),
-            Format::S32 => value,
-        }
-    }
-}
-
-/// What a mode measures.
+/// What a mode measures, in the numbers that `value<N>` shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sense {
     Reflection,
@@ -62,11 +62,83 @@ pub(crate) enum Sense {
     AngleAndRate,
     Proximity,
     Seek,
+    Remote,
     RemoteBits,
     Touch,
     /// The touch sensor's pin as millivolts.
     Volts,
-    /// Listening, remote control, calibration: nothing there to be measured.
+    /// In tenths of a per cent.
+    FineReflection,
+    FineAmbient,
+    /// The voltage of a microphone in tenths of a per cent: high in silence.
+    Silence,
+    /// In centimetres, or tenths of an inch; far less exact than the EV3's.
+    NxtDistance {
+        inches: bool,
+        single: bool,
+    },
+    /// So many to the degree Celsius or Fahrenheit.
+    Temperature {
+        per_degree: i32,
+        fahrenheit: bool,
+    },
+    /// Degrees from north, which is +y, clockwise.
+    Compass,
+    /// `HiTechnic`'s number from 0 (black) to 17 (white), and perhaps the parts behind it.
+    ColourNumber {
+        parts: bool,
+    },
+    /// One part: 0 red, 1 green, 2 blue.
+    Part(usize),
+    /// Red, green and blue, and what follows them.
+    Parts(Parts),
+    /// The direction of the nearest beacon in nine steps, and perhaps strengths.
+    Direction {
+        strengths: bool,
+        mean: bool,
+    },
+    /// Degrees per second between these limits.
+    RateWithin {
+        per_degree: i32,
+        limits: [i32; 2],
+    },
+    /// In hundredths of a degree, and perhaps rate and accelerations.
+    Hundredths {
+        all: bool,
+    },
+    /// Three axes; the sensor lies flat and is not jolted.
+    Gravity {
+        per_g: i32,
+    },
+    /// The same in `HiTechnic`'s bytes: high ones, low ones.
+    GravityBytes,
+    /// Tenths of a degree per second about x, y and z.
+    AxesRate,
+    /// The nearest thing ahead, by the time that light takes.
+    Millimetres,
+    /// Light that comes back from something ahead: this over its distance in cm.
+    Reflector {
+        reach: i32,
+    },
+    /// What the left wheel's axle does: degrees from 0 to 359.
+    AxleAngle,
+    /// Degrees since the last reset, times this.
+    AxleTurned {
+        times: i32,
+    },
+    /// Revolutions per minute.
+    AxleSpeed,
+    /// Three of the above.
+    AxleAll,
+    /// Eight light sensors in a row, in per cent of white, times this.
+    Row {
+        times: i32,
+    },
+    /// Where the row sees a dark line: steering, and perhaps more.
+    LineSteering,
+    /// Always these.
+    Fixed(&'static [i32]),
+    /// Listening, calibration: nothing there to be measured.
     Nothing,
 }
 
@@ -78,6 +150,7 @@ pub(crate) struct Mode {
     pub(crate) decimals: u8,
     pub(crate) units: &'static str,
     pub(crate) format: Format,
+    pub(crate) scale: Scale,
     pub(crate) sense: Sense,
     /// In this mode the sensor answers no keep-alive: contact is lost after a while.
     pub(crate) mute: bool,
@@ -92,12 +165,32 @@ impl Mode {
         format: Format,
         sense: Sense,
     ) -> Self {
-        Mode { name, values, decimals, units, format, sense, mute: false }
+        Mode { name, values, decimals, units, format, scale: Scale::None, sense, mute: false }
     }
 
     const fn mute(mut self) -> Self {
         self.mute = true;
         self
+    }
+
+    /// The raw data from one number to another are shown as from one to another.
+    const fn scaled(mut self, raw: [i32; 2], shown: [i32; 2]) -> Self {
+        self.scale = Scale::Linear { raw, shown };
+        self
+    }
+
+    const fn halves(mut self) -> Self {
+        self.scale = Scale::Halves;
+        self
+    }
+
+    /// True if it measures only when the mode is written.
+    pub(crate) fn is_single(&self) -> bool {
+        let (Sense::Distance { single, .. } | Sense::NxtDistance { single, .. }) = self.sense
+        else {
+            return false;
+        };
+        single
     }
 }
 
@@ -111,108 +204,50 @@ pub struct SensorKind {
     /// How long values may be unsettled after a change of mode, in ms. From LEGO's firmware:
     /// 10 for most, 1100 for infrared.
     pub settling_ms: u32,
+    /// The words that it takes as `command`.
+    pub commands: &'static [&'static str],
     pub(crate) modes: &'static [Mode],
 }
 
-const fn distance(name: &'static str, inches: bool, single: bool) -> Mode {
-    let units = if inches { "in" } else { "cm" };
-    Mode::new(name, 1, 1, units, Format::S16, Sense::Distance { inches, single })
-}
+impl SensorKind {
+    const fn uart(driver_name: &'static str, settling_ms: u32, modes: &'static [Mode]) -> Self {
+        SensorKind { driver_name, link: Link::Uart, settling_ms, commands: &[], modes }
+    }
 
-/// Every sensor type that a simulated port can have.
-pub static SENSOR_KINDS: [SensorKind; 8] = [
-    SensorKind {
-        driver_name: "lego-ev3-color",
-        link: Link::Uart,
-        settling_ms: 10,
-        modes: &[
-            Mode::new("COL-REFLECT", 1, 0, "pct", Format::S8, Sense::Reflection),
-            Mode::new("COL-AMBIENT", 1, 0, "pct", Format::S8, Sense::Ambient),
-            Mode::new("COL-COLOR", 1, 0, "col", Format::S8, Sense::Colour),
-            Mode::new("REF-RAW", 2, 0, "", Format::S16, Sense::ReflectionRaw),
-            Mode::new("RGB-RAW", 3, 0, "", Format::S16, Sense::Rgb),
-            Mode::new("COL-CAL", 4, 0, "", Format::S16, Sense::Nothing).mute(),
-        ],
-    },
-    SensorKind {
-        driver_name: "lego-ev3-us",
-        link: Link::Uart,
-        settling_ms: 10,
-        modes: &[
-            distance("US-DIST-CM", false, false),
-            distance("US-DIST-IN", true, false),
-            Mode::new("US-LISTEN", 1, 0, "", Format::S8, Sense::Nothing),
-            distance("US-SI-CM", false, true),
-            distance("US-SI-IN", true, true),
-            distance("US-DC-CM", false, false),
-            distance("US-DC-IN", true, false),
-        ],
-    },
-    SensorKind {
-        driver_name: "lego-ev3-gyro",
-        link: Link::Uart,
-        settling_ms: 10,
-        modes: &[
-            Mode::new("GYRO-ANG", 1, 0, "deg", Format::S16, Sense::Angle),
-            Mode::new("GYRO-RATE", 1, 0, "d/s", Format::S16, Sense::Rate),
-            Mode::new("GYRO-FAS", 1, 0, "", Format::S16, Sense::FineRate),
-            Mode::new("GYRO-G&A", 2, 0, "", Format::S16, Sense::AngleAndRate),
-            Mode::new("GYRO-CAL", 4, 0, "", Format::S16, Sense::Nothing),
-            Mode::new("TILT-RATE", 1, 0, "d/s", Format::S16, Sense::Nothing),
-            Mode::new("TILT-ANG", 1, 0, "deg", Format::S16, Sense::Nothing),
-        ],
-    },
-    SensorKind {
-        driver_name: "lego-ev3-ir",
-        link: Link::Uart,
-        settling_ms: 1100,
-        modes: &[
-            Mode::new("IR-PROX", 1, 0, "pct", Format::S8, Sense::Proximity),
-            Mode::new("IR-SEEK", 8, 0, "pct", Format::S8, Sense::Seek),
-            Mode::new("IR-REMOTE", 4, 0, "btn", Format::S8, Sense::Nothing),
-            Mode::new("IR-REM-A", 1, 0, "", Format::S16, Sense::RemoteBits),
-            Mode::new("IR-S-ALT", 4, 0, "pct", Format::S8, Sense::Nothing).mute(),
-            Mode::new("IR-CAL", 2, 0, "", Format::S32, Sense::Nothing),
-        ],
-    },
-    SensorKind {
-        driver_name: "lego-ev3-touch",
-        link: Link::Analog,
-        settling_ms: 0,
-        modes: &[Mode::new("TOUCH", 1, 0, "", Format::S32, Sense::Touch)],
-    },
-    SensorKind {
-        driver_name: "ev3-analog-01",
-        link: Link::Analog,
-        settling_ms: 0,
-        modes: &[Mode::new("ANALOG", 1, 3, "V", Format::S32, Sense::Volts)],
-    },
-    // Servos are behind it: see `servo`.
-    SensorKind {
-        driver_name: "ms-8ch-servo",
-        link: Link::Analog,
-        settling_ms: 0,
-        modes: &[
-            Mode::new("V3", 1, 3, "V", Format::S16, Sense::Nothing),
-            Mode::new("OLD", 1, 3, "V", Format::S16, Sense::Nothing),
-        ],
-    },
-    SensorKind {
-        driver_name: "nxt-analog",
-        link: Link::Analog,
-        settling_ms: 0,
-        modes: &[
-            Mode::new("ANALOG-0", 1, 3, "V", Format::S32, Sense::Volts),
-            Mode::new("ANALOG-1", 1, 3, "V", Format::S32, Sense::Volts),
-        ],
-    },
-];
+    const fn analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
+        SensorKind { driver_name, link: Link::Analog, settling_ms: 0, commands: &[], modes }
+    }
+
+    const fn nxt_analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
+        let link = Link::NxtAnalog { recognised: false };
+        SensorKind { driver_name, link, settling_ms: 0, commands: &[], modes }
+    }
+
+    const fn i2c(driver_name: &'static str, address: u8, modes: &'static [Mode]) -> Self {
+        SensorKind { driver_name, link: Link::I2c(address), settling_ms: 0, commands: &[], modes }
+    }
+
+    const fn with_commands(mut self, commands: &'static [&'static str]) -> Self {
+        self.commands = commands;
+        self
+    }
+}
 
 impl SensorKind {
     /// The sensor with this driver name.
     #[must_use]
     pub fn named(driver_name: &str) -> Option<&'static SensorKind> {
-        SENSOR_KINDS.iter().find(|kind| kind.driver_name == driver_name)
+        SensorKind::all().find(|kind| kind.driver_name == driver_name)
+    }
+
+    /// Every sensor type that a simulated port can have.
+    pub fn all() -> impl Iterator<Item = &'static SensorKind> {
+        ev3::KINDS.iter().chain(nxt::KINDS).chain(others::KINDS)
+    }
+
+    /// True if it shows angles that drift.
+    pub(crate) fn is_gyro(&self) -> bool {
+        matches!(self.driver_name, "lego-ev3-gyro" | "ht-nxt-gyro" | "mi-xg1300l")
     }
 
     /// The names of its modes, the default first.

@@ -7,10 +7,13 @@
 //! [`Reading`].
 
 mod attrs;
+mod bus;
+mod format;
 mod kind;
 
-pub use kind::{Link, SENSOR_KINDS, SensorKind};
-pub(crate) use kind::{Mode, Sense};
+pub(crate) use bus::Axle;
+pub use kind::{Link, SensorKind};
+pub(crate) use kind::{Mode, Parts, Sense};
 
 use std::time::Duration;
 
@@ -44,10 +47,15 @@ pub(crate) struct Sensor {
     settled_at: u64,
     first_data_at: u64,
     mode_since: u64,
+    plugged_at: u64,
     lost_until: u64,
     locked: bool,
     last_single_shot: Option<u64>,
-    single_shot_wanted: bool,
+    /// A measurement that a write of the mode asked for is still to be taken.
+    wanted: bool,
+    /// How often it is polled; 0 is never.
+    poll_ms: u32,
+    /// The raw data, as they lie in `bin_data`.
     reading: Reading,
     /// What each mode measured last: shown again until the mode has settled.
     left_over: Vec<Option<Reading>>,
@@ -58,6 +66,7 @@ pub(crate) struct Sensor {
     pub(crate) angle: f64,
     /// Degrees per second, clockwise.
     pub(crate) rate: f64,
+    pub(crate) axle: Axle,
     pub(crate) events: u32,
 }
 
@@ -70,7 +79,7 @@ impl Sensor {
         instant: bool,
         at_boot: bool,
     ) -> Self {
-        let warm = instant || at_boot || kind.link == Link::Analog;
+        let warm = instant || at_boot || kind.link != Link::Uart;
         let first_data_at = if warm { now } else { now + ticks_from_ms(FIRST_DATA_MS) };
         Sensor {
             kind,
@@ -81,31 +90,25 @@ impl Sensor {
             settled_at: first_data_at,
             first_data_at,
             mode_since: now,
+            plugged_at: now,
             lost_until: 0,
             locked: false,
             last_single_shot: None,
-            single_shot_wanted: false,
+            wanted: matches!(kind.link, Link::I2c(_)),
+            poll_ms: bus::poll_ms(kind),
             reading: [0; 8],
             left_over: vec![None; kind.modes.len()],
             read_at: None,
             now,
             angle: 0.0,
             rate: 0.0,
+            axle: Axle::default(),
             events: 0,
         }
     }
 
     pub(crate) fn port(&self) -> Port {
         self.port
-    }
-
-    pub(crate) fn is_gyro(&self) -> bool {
-        self.kind.driver_name == "lego-ev3-gyro"
-    }
-
-    /// True if it is sampled on the 10 ms grid rather than when it is read.
-    pub(crate) fn is_sampled(&self) -> bool {
-        self.kind.link == Link::Analog
     }
 
     /// True if who polls `value0` is told of a change: a touch sensor's.
@@ -143,13 +146,15 @@ impl Sensor {
 
     // ---- time -----------------------------------------------------------------------------
 
-    /// One tick. `rate` is how fast the robot turns, in degrees per second.
-    pub(crate) fn tick(&mut self, now: u64, rate: f64) {
+    /// One tick. `rate` is how fast the robot turns, `axle_rate` its left wheel's axle, in degrees
+    /// per second.
+    pub(crate) fn tick(&mut self, now: u64, rate: f64, axle_rate: f64) {
         self.now = now;
         self.rate = rate.clamp(-440.0, 440.0);
         #[expect(clippy::cast_precision_loss, reason = "two milliseconds")]
         let seconds = TICK_MS as f64 / 1000.0;
         self.angle = (self.angle + self.rate * seconds).clamp(-32768.0, 32767.0);
+        self.axle.turn(axle_rate, seconds);
         if let Some((mode, due)) = self.pending {
             if due <= now {
                 self.enter(mode);
@@ -163,13 +168,13 @@ impl Sensor {
     /// The first data of a mode have come. They may be stale; a gyro starts anew.
     fn enter(&mut self, mode: usize) {
         self.pending = None;
-        if self.read_at.take().is_some() && !self.is_gyro() {
+        if self.read_at.take().is_some() && !self.kind.is_gyro() {
             self.left_over[self.mode] = Some(self.reading);
         }
         self.mode = mode;
         self.mode_since = self.now;
         self.angle = 0.0;
-        self.single_shot_wanted = self.measures_once();
+        self.wanted = self.measures_once();
         self.settled_at = self.now;
         if let Some(stale) = self.left_over[mode].filter(|_| !self.instant && !self.measures_once())
         {
@@ -184,12 +189,12 @@ impl Sensor {
     /// not still left over from the last time in this mode.
     pub(crate) fn wants_reading(&self) -> bool {
         let stale = self.read_at != Some(self.now) && self.now >= self.settled_at;
-        let single = self.measures_once();
-        stale && self.has_data() && (!single || self.single_shot_wanted)
+        let at_will = !self.is_on_bus() && !self.measures_once();
+        stale && self.has_data() && (at_will || self.wanted)
     }
 
     fn measures_once(&self) -> bool {
-        matches!(self.mode().sense, Sense::Distance { single: true, .. })
+        self.mode().is_single()
     }
 
     /// Takes a measurement over. A changed touch sensor wakes those who poll `value0`.
@@ -197,23 +202,27 @@ impl Sensor {
         let mode = self.mode();
         let old = self.reading[0];
         for (index, value) in reading.into_iter().enumerate() {
-            self.reading[index] = mode.format.fit(value);
+            self.reading[index] = mode.format.fit(mode.scale.raw(value));
         }
         self.read_at = Some(self.now);
-        self.single_shot_wanted = false;
+        self.wanted = false;
         if self.notifies() && old != self.reading[0] {
             self.events = self.events.wrapping_add(1);
         }
     }
 
-    /// True at the sampling times of a sensor that is sampled.
+    /// True at the sampling times of a sensor that is sampled rather than looked at when it is
+    /// read: voltages on the 10 ms grid, what is on the I2C bus when it is polled.
     pub(crate) fn samples_now(&self) -> bool {
-        self.is_sampled() && self.now % JIFFY_TICKS == 0
+        if self.kind.link.is_analog() {
+            return self.now % JIFFY_TICKS == 0;
+        }
+        self.is_on_bus() && self.is_polled_now()
     }
 
     fn value(&self, index: usize) -> Result<i32, Errno> {
         if self.has_data() && index < self.mode().values {
-            Ok(self.mode().format.fit(self.reading[index]))
+            Ok(self.mode().scale.shown(self.reading[index]))
         } else {
             Err(Errno::ENXIO)
         }
@@ -222,10 +231,8 @@ impl Sensor {
     /// 32 bytes whatever the mode.
     fn bin_data(&self) -> Vec<u8> {
         let mut data = vec![0; 32];
-        let width = self.mode().format.bytes();
         for (index, value) in self.reading.iter().take(self.mode().values).enumerate() {
-            let bytes = value.to_le_bytes();
-            data[index * width..(index + 1) * width].copy_from_slice(&bytes[..width]);
+            self.mode().format.put(*value, index, &mut data);
         }
         data
     }
@@ -234,10 +241,13 @@ impl Sensor {
 
     /// A write to `mode`, also of the present mode: a select message goes out.
     fn select(&mut self, mode: usize) -> Result<Effect, Errno> {
-        if self.kind.link == Link::Analog {
+        if self.kind.link.is_analog() {
             self.mode = mode;
             self.read_at = None;
             return Ok(Effect::Done);
+        }
+        if self.is_on_bus() {
+            return Ok(self.select_on_bus(mode));
         }
         if self.out_of_contact() {
             return Err(Errno::ENODEV);
@@ -248,7 +258,7 @@ impl Sensor {
         if self.pending.is_some() || self.now < self.first_data_at {
             return Err(Errno::EBUSY);
         }
-        if matches!(self.kind.modes[mode].sense, Sense::Distance { single: true, .. }) {
+        if self.kind.modes[mode].is_single() {
             let ready = self.last_single_shot.map(|at| at + ticks_from_ms(SINGLE_SHOT_MS));
             if !self.instant && ready.is_some_and(|ready| self.now < ready) {
                 self.locked = true;
@@ -266,7 +276,7 @@ impl Sensor {
 
     /// A message to the sensor itself. The one that does something: 0x11 zeroes the gyro's angle.
     fn direct(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
-        if self.kind.link == Link::Analog {
+        if self.kind.link.is_analog() {
             return Err(Errno::EOPNOTSUPP);
         }
         if bytes.len() > 32 {

@@ -7,6 +7,7 @@ mod dc_motors;
 mod desk;
 mod golden;
 mod linear;
+mod more_sensors;
 mod motion;
 mod motors;
 mod plugs;

@@ -1,9 +1,12 @@
 //! What each sensor would measure, here and now.
 
+mod floor;
+mod infrared;
+
 use crate::geometry::{Pose, Vec2, direction, length};
 use crate::noise::Source;
 use crate::scene::Scene;
-use crate::sensor::{Reading, Sense};
+use crate::sensor::{Axle, Reading, Sense};
 
 /// The ultrasonic cone: this far to each side, in degrees, in so many rays.
 const SONAR_HALF_ANGLE: f64 = 15.0;
@@ -28,6 +31,15 @@ const RAW_DARK: f64 = 560.0;
 const BUMPER_HALF: f64 = 4.0;
 const BUMPER_TRAVEL: f64 = 0.5;
 
+/// The NXT's sonar: nothing there is 255 cm.
+const NXT_SONAR_NOTHING: f64 = 255.0;
+/// The range of the sensor that measures how long light takes: two metres in a narrow beam.
+const TIME_OF_FLIGHT_FAR: f64 = 200.0;
+/// How far `HiTechnic`'s proximity detector sees its own light come back, in cm.
+const REFLECTOR_FAR: f64 = 25.0;
+/// `HiTechnic`'s accelerometer counts so many to the g, by its data sheet.
+const COUNTS_PER_G: i32 = 200;
+
 /// A look at the world through one sensor.
 pub(crate) struct View<'a> {
     pub(crate) scene: &'a Scene,
@@ -39,6 +51,8 @@ pub(crate) struct View<'a> {
     pub(crate) rate: f64,
     /// The share of the voltage that each output port gives a lamp.
     pub(crate) power: [f64; 4],
+    /// What an angle sensor sits on.
+    pub(crate) axle: Axle,
     pub(crate) noise: Source,
 }
 
@@ -71,14 +85,86 @@ impl View<'_> {
                 reading[1] = self.gyro_rate(1.0, 440.0);
             }
             Sense::Proximity => reading[0] = self.percent(View::proximity),
-            // No beacon: heading 0, distance −128, on each of the four channels.
-            Sense::Seek => reading = [0, -128, 0, -128, 0, -128, 0, -128],
-            Sense::RemoteBits => reading[0] = 384,
+            Sense::Seek => reading = self.seek(),
+            Sense::Remote => reading = self.remotes(),
+            Sense::RemoteBits => reading[0] = self.scene.remotes[0].bits(),
             Sense::Touch => reading[0] = i32::from(self.pressed()),
             Sense::Volts => reading[0] = if self.pressed() { 5000 } else { 0 },
+            Sense::FineReflection => reading[0] = self.fine_percent(View::reflection),
+            Sense::FineAmbient => reading[0] = self.fine_percent(View::light),
+            Sense::Silence => reading[0] = 1000 - self.fine_percent(|view| view.scene.loudness),
+            Sense::NxtDistance { inches, .. } => reading[0] = self.nxt_distance(inches),
+            Sense::Temperature { per_degree, fahrenheit } => {
+                let celsius = self.noise.disturb(self.scene.temperature);
+                let degrees = if fahrenheit { celsius * 1.8 + 32.0 } else { celsius };
+                reading[0] = whole(degrees * f64::from(per_degree));
+            }
+            Sense::Compass => {
+                let heading = self.noise.disturb(self.pose.heading);
+                reading[0] = whole(heading).rem_euclid(360);
+            }
+            Sense::ColourNumber { parts } => reading = self.colour_number(parts),
+            Sense::Part(index) => reading[0] = self.part(index),
+            Sense::Parts(kind) => reading = self.parts(kind),
+            Sense::Direction { strengths, mean } => reading = self.directions(strengths, mean),
+            Sense::RateWithin { per_degree, limits: [low, high] } => {
+                let rate = (self.rate + self.noise.jitter()) * f64::from(per_degree);
+                reading[0] = whole(rate).clamp(low, high);
+            }
+            Sense::Hundredths { all } => {
+                let angle = self.angle + self.noise.jitter();
+                reading[0] = whole(angle * 100.0);
+                if all {
+                    reading[1] = whole(self.rate * 100.0);
+                    reading[4] = 1000;
+                }
+            }
+            Sense::Gravity { per_g } => reading[2] = per_g,
+            // The ten bits of each axis: the upper eight, and further on the lower two.
+            Sense::GravityBytes => {
+                reading[2] = COUNTS_PER_G >> 2;
+                reading[5] = COUNTS_PER_G & 3;
+            }
+            Sense::AxesRate => reading[2] = whole(self.rate * 10.0),
+            Sense::Millimetres => {
+                let distance = self.cone(INFRARED_HALF_ANGLE, INFRARED_RAYS, TIME_OF_FLIGHT_FAR);
+                let seen = self.noise.disturb(distance.unwrap_or(TIME_OF_FLIGHT_FAR));
+                reading[0] = whole(seen.clamp(SONAR_NEAR, TIME_OF_FLIGHT_FAR) * 10.0);
+            }
+            Sense::Reflector { reach } => {
+                let near = self.cone(INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR);
+                let seen = near.map_or(0.0, |distance| f64::from(reach) / distance.max(0.1));
+                reading[0] = whole(self.noise.disturb(seen).clamp(0.0, 100.0));
+            }
+            Sense::AxleAngle => reading[0] = whole(self.axle.angle()).rem_euclid(360),
+            Sense::AxleTurned { times } => {
+                reading[0] = whole(self.axle.turned() * f64::from(times));
+            }
+            Sense::AxleSpeed => reading[0] = whole(self.axle.rate / 6.0),
+            Sense::AxleAll => {
+                reading[0] = whole(self.axle.turned());
+                reading[1] = whole(self.axle.turned() * 2.0);
+                reading[2] = whole(self.axle.rate / 6.0);
+            }
+            Sense::Row { times } => reading = self.row(times),
+            Sense::LineSteering => reading = self.line_steering(),
+            Sense::Fixed(values) => reading[..values.len()].copy_from_slice(values),
             Sense::Nothing => {}
         }
         reading
+    }
+
+    /// In tenths.
+    fn fine_percent(&mut self, measure: impl Fn(&Self) -> f64) -> i32 {
+        let value = measure(self);
+        whole(self.noise.disturb(value).clamp(0.0, 100.0) * 10.0)
+    }
+
+    fn nxt_distance(&mut self, inches: bool) -> i32 {
+        let distance = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR);
+        let heard = self.noise.disturb(distance.unwrap_or(NXT_SONAR_NOTHING));
+        let centimetres = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
+        if inches { centimetres * 1000 / 255 } else { centimetres }
     }
 
     fn percent(&mut self, measure: impl Fn(&Self) -> f64) -> i32 {

@@ -1,0 +1,133 @@
+//! Sensors on the I2C bus.
+//!
+//! The kernel polls them: between two polls their values stay what they
+//! are. A write of the mode makes it be read once more, a moment later; each mode keeps what it
+//! was last read as. Without polling that one reading is still that of the mode before.
+
+use std::time::Duration;
+
+use super::{Link, Sensor, SensorKind};
+use crate::attr::Effect;
+use crate::errno::Errno;
+use crate::{TICK_MS, ticks_from_ms};
+
+/// What one message on the I2C bus takes, and what passes until the answer to the next is there.
+const BUS_MS: i32 = 4;
+/// How often the kernel polls sensors on the I2C bus, and the servo controller.
+const POLL_MS: u32 = 100;
+const SERVO_POLL_MS: u32 = 1000;
+/// What the sensors on the I2C bus say of their version, and where it and their data lie.
+pub(super) const VERSION: &str = "V1.0";
+const VERSION_REGISTER: usize = 0x00;
+const DATA_REGISTER: usize = 0x42;
+/// How many registers the file `direct` shows.
+const REGISTERS: usize = 255;
+
+/// An axle that an angle sensor sits on, in degrees and degrees per second.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Axle {
+    angle: f64,
+    zero: f64,
+    counted_from: f64,
+    pub(crate) rate: f64,
+}
+
+impl Axle {
+    /// Since the sensor was plugged in, or calibrated.
+    pub(crate) fn angle(&self) -> f64 {
+        self.angle - self.zero
+    }
+
+    /// Since the last reset.
+    pub(crate) fn turned(&self) -> f64 {
+        self.angle - self.counted_from
+    }
+
+    pub(super) fn turn(&mut self, rate: f64, seconds: f64) {
+        self.rate = rate;
+        self.angle += rate * seconds;
+    }
+}
+
+/// How often a sensor is polled at first.
+pub(super) fn poll_ms(kind: &SensorKind) -> u32 {
+    if kind.driver_name == "ms-8ch-servo" { SERVO_POLL_MS } else { POLL_MS }
+}
+
+impl Sensor {
+    /// The address that the files show: on the I2C bus, with that of the sensor.
+    pub(super) fn address(&self) -> String {
+        match self.kind.link {
+            Link::I2c(address) => format!("{}:i2c{address}", self.port.address()),
+            _ => self.port.address().to_owned(),
+        }
+    }
+
+    pub(super) fn is_on_bus(&self) -> bool {
+        matches!(self.kind.link, Link::I2c(_))
+    }
+
+    /// True at the times when the kernel polls it. What measures once is not polled.
+    pub(super) fn is_polled_now(&self) -> bool {
+        let period = u64::from(self.poll_ms).div_ceil(TICK_MS);
+        let is_due = period > 0 && (self.now - self.plugged_at) % period == 0;
+        is_due && self.now >= self.settled_at && !self.measures_once()
+    }
+
+    /// The mode of a sensor on the I2C bus: one message, and one more reading.
+    pub(super) fn select_on_bus(&mut self, mode: usize) -> Effect {
+        let is_new = mode != self.mode;
+        if is_new {
+            self.left_over[self.mode] = Some(self.reading);
+            self.reading = self.left_over[mode].unwrap_or_default();
+            self.mode = mode;
+        }
+        self.wanted = self.poll_ms > 0 || !is_new;
+        self.read_at = None;
+        if self.instant {
+            self.settled_at = self.now;
+            return Effect::Done;
+        }
+        self.settled_at = self.now + ticks_from_ms(2 * BUS_MS);
+        Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into()))
+    }
+
+    /// One of the kind's commands. Those that set zeros do; the others change nothing that could
+    /// be measured here.
+    pub(super) fn command(&mut self, index: usize) -> Effect {
+        match self.kind.commands[index] {
+            "RESET" => {
+                self.axle.counted_from = self.axle.angle;
+                self.angle = 0.0;
+            }
+            "CAL" => {
+                self.axle.counted_from = self.axle.angle;
+                self.axle.zero = self.axle.angle;
+            }
+            _ => {}
+        }
+        Effect::Done
+    }
+
+    pub(super) fn poll_ms(&self) -> Result<u32, Errno> {
+        if self.is_on_bus() { Ok(self.poll_ms) } else { Err(Errno::EOPNOTSUPP) }
+    }
+
+    pub(super) fn set_poll_ms(&mut self, poll_ms: u32) -> Result<Effect, Errno> {
+        self.poll_ms()?;
+        self.poll_ms = poll_ms;
+        Ok(Effect::Done)
+    }
+
+    /// The registers of a sensor on the I2C bus, as far as there is something in them.
+    pub(super) fn registers(&self) -> Result<Vec<u8>, Errno> {
+        if !self.is_on_bus() {
+            return Err(Errno::EOPNOTSUPP);
+        }
+        let mut registers = vec![0; REGISTERS];
+        registers[VERSION_REGISTER..VERSION.len()].copy_from_slice(VERSION.as_bytes());
+        let data = self.bin_data();
+        registers[DATA_REGISTER..DATA_REGISTER + data.len()].copy_from_slice(&data);
+        Ok(registers)
+    }
+}

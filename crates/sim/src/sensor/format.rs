@@ -1,0 +1,148 @@
+//! How values lie in `bin_data`, and how the class makes `value<N>` of them (section 5.1 of the
+//! reference sheet).
+
+/// How one value lies in `bin_data`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    U8,
+    S8,
+    U16,
+    S16,
+    S16Be,
+    S32,
+    S32Be,
+}
+
+impl Format {
+    /// As `bin_data_format` has it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Format::U8 => "u8",
+            Format::S8 => "s8",
+            Format::U16 => "u16",
+            Format::S16 => "s16",
+            Format::S16Be => "s16_be",
+            Format::S32 => "s32",
+            Format::S32Be => "s32be",
+        }
+    }
+
+    pub(crate) fn bytes(self) -> usize {
+        match self {
+            Format::U8 | Format::S8 => 1,
+            Format::U16 | Format::S16 | Format::S16Be => 2,
+            Format::S32 | Format::S32Be => 4,
+        }
+    }
+
+    /// What a value becomes when it has to fit.
+    pub(crate) fn fit(self, value: i32) -> i32 {
+        match self {
+            Format::U8 => value.clamp(0, 255),
+            Format::S8 => value.clamp(-128, 127),
+            Format::U16 => value.clamp(0, 65535),
+            Format::S16 | Format::S16Be => value.clamp(-32768, 32767),
+            Format::S32 | Format::S32Be => value,
+        }
+    }
+
+    /// Writes a value that fits, where it belongs.
+    pub(crate) fn put(self, value: i32, index: usize, data: &mut [u8]) {
+        let width = self.bytes();
+        let place = &mut data[index * width..(index + 1) * width];
+        match self {
+            Format::S16Be | Format::S32Be => {
+                place.copy_from_slice(&value.to_be_bytes()[4 - width..]);
+            }
+            _ => place.copy_from_slice(&value.to_le_bytes()[..width]),
+        }
+    }
+}
+
+/// What `value<N>` shows of the raw data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scale {
+    /// The raw data.
+    None,
+    /// Raw data from one number to another stand for values from one to another, in whole numbers
+    /// and without a limit.
+    Linear { raw: [i32; 2], shown: [i32; 2] },
+    /// The first byte counts double, the second single: an angle in `HiTechnic`'s registers.
+    Halves,
+}
+
+impl Scale {
+    /// From raw data to what is shown.
+    pub(crate) fn shown(self, raw: i32) -> i32 {
+        match self {
+            Scale::None => raw,
+            Scale::Linear { raw: [low, high], shown: [first, last] } => {
+                let shown = i64::from(raw - low) * i64::from(last - first) / i64::from(high - low);
+                narrow(shown + i64::from(first))
+            }
+            Scale::Halves => (raw & 0xff) * 2 + (raw >> 8),
+        }
+    }
+
+    /// The raw data that come nearest to being shown so.
+    pub(crate) fn raw(self, shown: i32) -> i32 {
+        match self {
+            Scale::None => shown,
+            Scale::Linear { raw: [low, high], shown: [first, last] } => {
+                let (up, span) = (i64::from(shown - first) * i64::from(high - low), last - first);
+                // What is shown is cut and not rounded: rather a little more than less.
+                let away = i64::from(span.abs() - 1) * up.signum() * i64::from(span.signum());
+                narrow((up + away) / i64::from(span) + i64::from(low))
+            }
+            Scale::Halves => (shown / 2) | ((shown % 2) << 8),
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "clamped")]
+fn narrow(value: i64) -> i32 {
+    value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_scaled_is_shown_again() {
+        let scales: [(Scale, std::ops::RangeInclusive<i32>); 6] = [
+            (Scale::None, -5..=5),
+            (Scale::Linear { raw: [4116, 543], shown: [0, 1000] }, 0..=1000),
+            (Scale::Linear { raw: [0, 5000], shown: [0, 1000] }, 0..=1000),
+            (Scale::Linear { raw: [-14080, 32767], shown: [-550, 1280] }, -550..=1280),
+            (Scale::Linear { raw: [0, 4880], shown: [-540, 400] }, -540..=400),
+            (Scale::Halves, 0..=359),
+        ];
+        for (scale, shown) in scales {
+            for value in shown {
+                assert_eq!(scale.shown(scale.raw(value)), value, "{scale:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn raw_data_stand_for_values_beyond_the_range() {
+        let light = Scale::Linear { raw: [4116, 543], shown: [0, 1000] };
+        assert_eq!(light.shown(4116), 0);
+        assert_eq!(light.shown(543), 1000);
+        assert!(light.shown(4500) < 0);
+    }
+
+    #[test]
+    fn bytes_lie_as_the_format_says() {
+        let put = |format: Format, value| {
+            let mut data = [0; 8];
+            format.put(value, 1, &mut data);
+            data
+        };
+        assert_eq!(put(Format::S8, -2), [0, 0xfe, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(put(Format::U16, 0x1234), [0, 0, 0x34, 0x12, 0, 0, 0, 0]);
+        assert_eq!(put(Format::S16Be, -2), [0, 0, 0xff, 0xfe, 0, 0, 0, 0]);
+        assert_eq!(put(Format::S32Be, 0x0102), [0, 0, 0, 0, 0, 0, 1, 2]);
+    }
+}
