@@ -36,7 +36,8 @@ simulated_start(Kind, Devices, Root) :-
     robot(Devices, Robot),
     clock(Kind, Clock),
     sim_start([start(0, 0, 0)], [clock(Clock), robot(Robot)]),
-    root(Kind, Root).
+    root(Kind, Root),
+    forall(member(Port-'rcx-motor', Devices), port_mode(Port, 'dc-motor')).
 
 clock(simulator, virtual).
 clock(mount, realtime).
@@ -52,10 +53,16 @@ root(mount, Root) :-
 robot(Devices, [axle(10.6)|Facts]) :-
     findall(Fact, ( member(Port-Type, Devices), fact(Port, Type, Fact) ), Facts).
 
+% Lights and the battery are the brick's own.
+fact(_, Type, _) :-
+    memberchk(Type, [led, battery, 'rcx-motor']),
+    !,
+    fail.
 fact(Port, Type, motor(Port, Type)) :-
     sub_atom(Port, 0, _, _, out),
     !.
-fact(Port, Type, sensor(Port, Type, 0, 7, 0)).
+fact(Address, Type, sensor(Port, Type, 0, 7, 0)) :-
+    sub_atom(Address, 0, 3, _, Port).
 
 % A test may have ended the simulation by itself.
 simulated_stop(simulator, _) :-

@@ -104,7 +104,20 @@ call_of(touch(sensor, out)).
 call_of(ir_prox(sensor, out)).
 call_of(sensor_reading(reading, sensor, out)).
 call_of(sensor_value(sensor, mode, index, out)).
+call_of(sensor_values(sensor, mode, out)).
+call_of(sensor_info(sensor, out)).
+call_of(sensor_mode(type, mode, out, out, out, out)).
+call_of(sensor_type(type, out)).
+call_of(sensor_command(sensor, command)).
 call_of(adjust_val(sensor, index, out)).
+call_of(Call) :-
+    member(Module, [ev3dev_infrared, ev3dev_more_sensors]),
+    module_property(Module, exports(Exports)),
+    member(Name/Arity, Exports),
+    Others is Arity - 1,
+    length(Outs, Others),
+    maplist(=(out), Outs),
+    Call =.. [Name, sensor|Outs].
 call_of(motor_run(port, number)).
 call_of(motor_run(port, number, number, quick)).
 call_of(motors_run(runs)).
@@ -117,9 +130,7 @@ call_of(run_forever(port, number)).
 call_of(speed_adjust(number, port, out)).
 call_of(motor_wait_while(port, flag)).
 call_of(motor_wait(port, options, out)).
-call_of(motor_run_timed(port, number, seconds)).
 call_of(motor_run_timed(port, number, seconds, quick)).
-call_of(motor_run_to(port, number, number)).
 call_of(motor_run_to(port, number, number, quick)).
 call_of(motor_run_direct(port, number)).
 call_of(linear_actuator(port)).
@@ -131,7 +142,6 @@ call_of(motor_speed_pid(port, pid)).
 call_of(motor_hold_pid(port, pid)).
 call_of(dc_motor(dc)).
 call_of(dc_motor_run(dc, number)).
-call_of(dc_motor_run_timed(dc, number, seconds)).
 call_of(dc_motor_run_timed(dc, number, seconds, quick)).
 call_of(dc_motor_run_direct(dc, number)).
 call_of(dc_motor_stop(dc)).
@@ -166,6 +176,9 @@ call_of(ev3_sysfs(file)).
 
 % Those that wait, where nothing moves: with the first argument odd only.
 call_of(motor_run(port, number, out)).
+call_of(motor_run_timed(port, number, out)).
+call_of(motor_run_to(port, number, out)).
+call_of(dc_motor_run_timed(dc, number, out)).
 call_of(motor_wait_until(port, out)).
 call_of(go(number, out)).
 call_of(go_cm(number, out)).
@@ -227,6 +240,8 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
                               ev3dev_motor_settings, ev3dev_dc_motors,
                               ev3dev_servo_motors, ev3dev_sensors,
                               ev3dev_lights, ev3dev_battery, ev3dev_ports,
+                              ev3dev_infrared, ev3dev_more_sensors,
+                              ev3dev_sensor_info,
                               ev3dev_robot]),
               module_property(Module, exports(Exports)),
               member(Name/Arity, Exports),

@@ -45,7 +45,7 @@ test(each_kind_of_motor_has_its_enumerator,
                 findall(P, ev3_medium_motor(P), M),
                 findall(P, nxt_motor(P), N) )).
 test(a_servo_is_found,
-     [ condition(only(plain, 'the simulator has no servos')),
+     [ condition(only(plain, 'a controller has eight servos')),
        all(P == ['in1:i2c88:sv2', 'in1:i2c88:sv10']) ]) :-
     with_tree([],
               ( add_device('servo-motor/motor0', 'in1:i2c88:sv10', 'ms-8ch-servo'),

@@ -224,6 +224,11 @@ test(a_motor_that_stops_short_of_its_end_fails, true(Ended-Ws == fails-[])) :-
                 later(0.05, stops(outB)),
                 warnings(( motor_run(outB, 50, 36000)
                          -> Ended = succeeds ; Ended = fails ), Ws) )).
+test(a_slow_motor_is_not_taken_for_a_blocked_one, true(Ws == [])) :-
+    with_tree(( meanwhile(obey(outB), warnings(motor_run(outB, 1, 20), Ws)),
+                get_attribute(outB, position, P) )),
+    atom_number(P, Position),
+    near(Position, 20, 10).
 test(where_nothing_ever_moves_a_move_is_done,
      [condition(only(plain, 'nothing moves')), true(P == '360')]) :-
     with_tree(( motor_run(outB, 50, 360),

@@ -28,6 +28,12 @@ const GRACE: Duration = Duration::from_millis(100);
 /// How long `stalled` must last to be believed: some boards flag each start.
 const STALLED_FOR: Duration = Duration::from_millis(100);
 
+/// How many counts a motor may be behind its regulated speed before it must
+/// have moved. The EV3 adds 3 % of its force for each of them (`Ki` 60 every
+/// 2 ms), and a motor with a wheel needs some 10 % to break away: a slow one
+/// stands for longer than [`STALLED_FOR`] at each start.
+const BEHIND: u64 = 8;
+
 /// How long a position may stay the same under way to one where the board
 /// never flags a stall.
 const STUCK_FOR: Duration = Duration::from_secs(2);
@@ -250,8 +256,10 @@ impl<'a> Watch<'a> {
             self.was_quiet = false;
             let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
             self.stalled_since = since;
-            let patience = if self.motor.is_linear() { SLOW_STUCK_FOR } else { STALLED_FOR };
-            let lasts = since.is_some_and(|since| now.saturating_sub(since) >= patience);
+            let lasts = match since {
+                Some(since) => now.saturating_sub(since) >= self.believed_after()?,
+                None => false,
+            };
             if lasts || self.is_stuck(now)? {
                 return Ok(Look::Blocked);
             }
@@ -306,6 +314,13 @@ impl<'a> Watch<'a> {
             End::Time(time) => now.saturating_add(TICK) >= motion.started.saturating_add(time),
             End::Never => false,
         })
+    }
+
+    /// How long `stalled` must last to be believed, at the motor's speed.
+    fn believed_after(&self) -> Result<Duration> {
+        let speed = self.motor.number("speed_sp")?.unsigned_abs();
+        let slowly = Duration::from_millis((BEHIND * 1000).checked_div(speed).unwrap_or(0));
+        Ok(if self.motor.is_linear() { SLOW_STUCK_FOR } else { slowly.clamp(STALLED_FOR, STUCK_FOR) })
     }
 
     /// Whether the position has been the same for too long under way.
