@@ -163,10 +163,10 @@ fn message(error: &Error) -> String {
     format!("{error}{source}{connected}")
 }
 
-/// The motors and sensors that are plugged in.
+/// The motors and sensors that are plugged in, but for servos: there are many.
 fn connected() -> String {
     let devices = devices();
-    let all = [Class::TachoMotor, Class::Sensor].map(|class| devices.all(class));
+    let all = [Class::TachoMotor, Class::DcMotor, Class::Sensor].map(|class| devices.all(class));
     let names: Vec<String> = all
         .iter()
         .flatten()

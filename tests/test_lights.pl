@@ -1,5 +1,6 @@
 :- use_module(tree).
 :- use_module(trees).
+:- use_module(simulation).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
@@ -148,6 +149,19 @@ test(a_lamp_on_a_port_lights_the_world, [forall(behaving(Tree))]) :-
                led(outD, 50), sim_step(0.05), col_ambient(in2, Half),
                Half > Dark + 10, Half < Lit - 10 )).
 
+test(a_lamp_on_a_port_in_a_world, true(Dark-Half-Lit == 0-24-48)) :-
+    with_sim([ start(0, 0, 30), ambient(0), lamp(0, 50, 12, outD) ],
+             ( port_mode('ev3-ports:outD', 'dc-motor'),
+               col_ambient(in2, Dark),
+               dc_motor_run(outD, -50), sim_step(0.2), col_ambient(in2, Half),
+               dc_motor_run(outD, 100), sim_step(0.2), col_ambient(in2, Lit) )).
+test(a_lamp_needs_an_output_port,
+     [ forall(member(Port-Error, [ in1-domain_error(possible_geometry, _),
+                                   outE-domain_error(port, outE),
+                                   _-instantiation_error ])),
+       error(Error, _) ]) :-
+    with_sim(room, sim_add(lamp(10, 10, 12, Port))).
+
 :- end_tests(led).
 
 :- begin_tests(led_trigger).
@@ -207,6 +221,10 @@ test(the_files_may_come_later, true(On-Off == '200'-'800')) :-
 test(can_blink_again_at_another_pace, [forall(behaving(Tree)), true(On == 50)]) :-
     lit(Tree, ( led_blink(left, 200, 800), led(left, off),
                 led_blink(left, 50, 60), led_blink(left, On, _) )).
+test(the_pace_of_a_light_that_blinks_can_be_changed_and_its_colour_stays,
+     [forall(behaving(Tree)), true(C-On == orange-50)]) :-
+    lit(Tree, ( led(left, orange), led_blink(left, 200, 800),
+                led_blink(left, 50, 60), led_blink(left, On, _), led(left, C) )).
 test(a_light_that_does_not_blink_fails, [forall(tree(Tree)), fail]) :-
     lit(Tree, led_blink(left, _, _)).
 test(a_colour_ends_it, [forall(behaving(Tree)), fail]) :-

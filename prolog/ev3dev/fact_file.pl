@@ -101,7 +101,7 @@ vocabulary(world, circle,      [3]).
 vocabulary(world, floor,       [1]).
 vocabulary(world, patch,       [2]).
 vocabulary(world, line,        [3]).
-vocabulary(world, lamp,        [3]).
+vocabulary(world, lamp,        [3, 4]).
 vocabulary(world, beacon,      [3]).
 vocabulary(world, ambient,     [1]).
 vocabulary(world, temperature, [1]).

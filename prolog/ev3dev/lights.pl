@@ -61,6 +61,7 @@ what is bound is written. A bound port may be spelled either way.
 %   colour.
 %
 %   @error domain_error(led_colour, Colour)
+%   @error instantiation_error if a Colour is to be set and Light is unbound
 
 led(Light, Colour) :-
     var(Colour),

@@ -67,8 +67,10 @@ motor_run_direct(Port, Percent0) :-
     Percent is Percent0,
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
-    ;   debug(ev3dev, "~w cannot run at ~w % of the voltage",
+    ;   tacho_motor(Port)
+    ->  debug(ev3dev, "~w cannot run at ~w % of the voltage",
               [Port, Percent]),
-        tacho_motor(Port),
+        fail
+    ;   debug(ev3dev, "there is no motor at ~w", [Port]),
         fail
     ).

@@ -323,6 +323,7 @@ sim_remove(Fact) :-
 %   Plug a motor or a sensor in, after pulling what is there. As on a brick it
 %   is some time before it is noticed: 0.4 s for a motor, 1.3 s for most
 %   sensors. A sensor sits and looks as the robot's file says for that port.
+%   `'ms-8ch-servo'` is a controller with eight servos behind it.
 %
 %   @error domain_error(possible_geometry, Item) if it does not fit that port
 

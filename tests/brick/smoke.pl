@@ -49,6 +49,14 @@ check_devices(Root) :-
     must(motor_stop(outA)),
     must(holds(Root, 'tacho-motor/motor0/command', stop)),
     must(\+ tacho_motor(outB)),
+    must(led(left, red)),
+    must(holds(Root, 'leds/led0:red:brick-status/brightness', '255')),
+    must(led(left, red)),
+    must(findall(Key-Value, battery(Key, Value), [voltage-7.5])),
+    must(dc_motor_run(outD, -40)),
+    must(holds(Root, 'dc-motor/motor0/duty_cycle_sp', '-40')),
+    must(dc_motor_stop(outD)),
+    must(port_mode(outD, 'dc-motor')),
     must(catch(motor_run(_, 50), error(instantiation_error, _), true)).
 
 must(Goal) :-
@@ -99,7 +107,23 @@ tree(Root) :-
     forall(member(Dir, [Root, Motors, Sensors, Motor, Sensor]),
            make_directory(Dir)),
     forall(motor(Name, Text), write_file(Motor, Name, Text)),
-    forall(sensor(Name, Text), write_file(Sensor, Name, Text)).
+    forall(sensor(Name, Text), write_file(Sensor, Name, Text)),
+    forall(more(Class, Device, Files),
+           ( atomic_list_concat([Root, /, Class], ClassDir),
+             atomic_list_concat([ClassDir, /, Device], Dir),
+             make_directory(ClassDir),
+             make_directory(Dir),
+             forall(member(Name-Text, Files), write_file(Dir, Name, Text)) )).
+
+more(leds, 'led0:red:brick-status',
+     [brightness-0, max_brightness-255, trigger-none]).
+more(power_supply, 'evb-battery', [voltage_now-7500000]).
+more('dc-motor', motor0,
+     [ address-'ev3-ports:outD', driver_name-'rcx-motor', command-'',
+       duty_cycle-0, duty_cycle_sp-0, state-'', stop_action-'' ]).
+more('lego-port', port7,
+     [ address-'ev3-ports:outD', driver_name-'ev3-output-port',
+       mode-'dc-motor', set_device-'' ]).
 
 motor(address, 'ev3-ports:outA').
 motor(driver_name, 'lego-ev3-l-motor').

@@ -328,7 +328,12 @@ pub fn blink(
     let blinking = patiently(devices, &mut *interrupted, || match find(devices, name)? {
         Some(light) => {
             let leds = light.shining()?;
-            leds.iter().try_for_each(|led| led.write("trigger", TIMER))?;
+            for led in &leds {
+                // Anew it would forget the colour, and make its files anew.
+                if trigger(led)? != TIMER {
+                    led.write("trigger", TIMER)?;
+                }
+            }
             Ok(Some(leds))
         }
         None => Ok(None),

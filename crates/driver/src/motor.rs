@@ -578,8 +578,9 @@ impl Ramps {
 
 impl Drop for Ramps {
     fn drop(&mut self) {
-        // What cannot be put back belongs to a motor that was unplugged.
-        for (motor, attribute, milliseconds) in self.0.drain(..) {
+        // In reverse. What cannot be put back belongs to a motor that was
+        // unplugged.
+        for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
             let _ = motor.write_number(attribute, milliseconds);
         }
     }

@@ -25,7 +25,7 @@ pub struct Wheel {
 pub struct MotorMount {
     /// Its port.
     pub port: Port,
-    /// `lego-ev3-l-motor`, `lego-ev3-m-motor` or `lego-nxt-motor`.
+    /// The driver's name, such as `lego-ev3-l-motor`: see [`MOTOR_KINDS`](crate::MOTOR_KINDS).
     pub driver: String,
     /// Its errors.
     pub noise: Noise,

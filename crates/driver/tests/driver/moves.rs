@@ -1,10 +1,13 @@
 //! Moves for a time, to a position and without regulation; motors that are new.
 use crate::brick::{Brick, ms};
+use crate::files::PlainTree;
 use ev3_driver::motor::{
     Move, MoveOptions, Run, Speed, Way, position, run_direct, run_forever, run_to, set_position,
 };
 use ev3_driver::wait::Reason;
-use ev3_driver::{Class, Errno, Error, Value};
+use ev3_driver::{Class, Errno, Error, Value, dc, servo};
+use std::fs;
+use std::path::Path;
 use std::time::Duration;
 
 fn go(port: &str, percent: f64, way: Way) -> Move<'_> {
@@ -138,4 +141,51 @@ fn the_patience_can_be_interrupted() {
     let ended = run_forever(&devices, &[run("outA")], &mut brick.interrupting(ms(100)));
     assert!(matches!(ended, Err(Error::Interrupted)));
     assert!(brick.now() < ms(140), "{:?}", brick.now());
+}
+
+fn text(directory: &Path, file: &str) -> String {
+    fs::read_to_string(directory.join(file)).unwrap().trim_end().to_owned()
+}
+
+#[test]
+fn a_motor_without_sensor_gets_whole_percents_and_milliseconds() {
+    let tree = PlainTree::new();
+    let files = ["command", "duty_cycle_sp", "time_sp", "stop_action", "state", "ramp_up_sp"];
+    let files = files.map(|file| (file, "0"));
+    let path = tree.plug(Class::DcMotor, "motor0", "ev3-ports:outA", &files);
+    let devices = tree.devices();
+    let options = MoveOptions { ramp_up_ms: Some(70), wait: false, ..MoveOptions::default() };
+    let start = |percent, time| {
+        dc::run_timed(&devices, "outA", percent, time, &options, &mut || false).unwrap()
+    };
+    assert_eq!(start(33.4, Duration::from_secs(61)), None);
+    assert_eq!(start(100.5, ms(10)), None);
+    assert_eq!(text(&path, "duty_cycle_sp"), "0", "nothing is written before all is possible");
+    assert_eq!(start(-33.4, Duration::from_micros(1_234_500)), Some(Reason::Reached));
+    let written = ["duty_cycle_sp", "time_sp", "ramp_up_sp", "command"].map(|f| text(&path, f));
+    assert_eq!(written, ["-33", "1235", "0", "run-timed"]);
+    assert!(dc::run_forever(&devices, "outA", 99.9, &mut || false).unwrap());
+    assert_eq!(text(&path, "duty_cycle_sp"), "100");
+    assert!(!dc::run_forever(&devices, "outB", 5.0, &mut || false).unwrap());
+}
+
+#[test]
+fn a_servo_that_floats_has_no_position_and_polarity_does_not_change_its_sign() {
+    let tree = PlainTree::new();
+    let files = [("command", ""), ("position_sp", "-150"), ("polarity", "normal"), ("state", "")];
+    let path = tree.plug(Class::ServoMotor, "motor0", "ev3-ports:in1:i2c88:sv1", &files);
+    let devices = tree.devices();
+    let servo = devices.find(Class::ServoMotor, "in1:i2c88:sv1").unwrap().unwrap();
+    assert_eq!(servo::position(&servo).unwrap(), None);
+    assert!(!servo::set_position(&servo, 101.0).unwrap());
+    assert_eq!(text(&path, "command"), "");
+    assert!(servo::set_position(&servo, servo::percent_of(-45.0)).unwrap());
+    assert_eq!([text(&path, "position_sp"), text(&path, "command")], ["-50", "run"]);
+    fs::write(path.join("state"), "running\n").unwrap();
+    assert_eq!(servo::position(&servo).unwrap(), Some(-50));
+    // As the kernel reads it back.
+    fs::write(path.join("polarity"), "inversed\n").unwrap();
+    fs::write(path.join("position_sp"), "50\n").unwrap();
+    assert_eq!(servo::position(&servo).unwrap(), Some(-50));
+    assert!((servo::degrees_of(-50) + 45.0).abs() < 1e-9);
 }
