@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 use swipl::prelude::*;
 
-/// Ports, attributes, modes and types of the EV3's own devices.
+/// Ports, attributes, modes and types of the EV3's own devices, and of a few others.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "outA", "outB", "outC", "outD", "in1", "in2", "in3", "in4",
@@ -20,6 +20,8 @@ const WORDS: &[&str] = &[
     "run-forever", "run-to-rel-pos", "stop", "coast", "brake", "hold",
     "lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor",
     "lego-ev3-color", "lego-ev3-us", "lego-ev3-gyro", "lego-ev3-touch", "lego-ev3-ir",
+    "lego-nxt-us", "lego-nxt-touch", "lego-nxt-light", "lego-nxt-temp", "ht-nxt-compass",
+    "ms-absolute-imu", "IR-SEEK", "IR-REMOTE", "REFLECT", "AMBIENT", "NXT-TEMP-C", "COMPASS",
     "COL-REFLECT", "COL-AMBIENT", "COL-COLOR", "RGB-RAW", "US-DIST-CM", "US-DIST-IN",
     "US-LISTEN", "GYRO-ANG", "GYRO-RATE", "TOUCH", "IR-PROX",
 ];

@@ -40,13 +40,14 @@ test(goes_turns_and_stops_as_it_is_told, true(End-States == true-([]/[]))) :-
     with_sensor(simulator, 'lego-ev3-ir', [],
                 setup_call_cleanup(
                     thread_create(remote_control:drive, Robot),
-                    ( told([red_up, blue_up], ( sim_pose(_, Y, _), Y > 20 )),
-                      sim_pose(X1, _, H1), near(X1, 0, 1), near(H1, 0, 3),
-                      told([blue_up], ( sim_pose(_, _, H2), H2 < -30 )),
-                      told([red_up, blue_down], ( sim_pose(_, _, H3), H3 > 30 )),
-                      told([], ( sim_pose(_, _, H4), H4 > 30 )),
-                      told([red_down, blue_down], ( sim_pose(_, Y5, _), Y5 < 15 )),
-                      told([red_up, red_down], stands),
+                    ( told([red_up, blue_up], ( sim_pose(_, Y, _), Y > 10 )),
+                      sim_pose(X, _, Heading),
+                      near(X, 0, 1), near(Heading, 0, 3),
+                      told([blue_up], turns(0, 1)),
+                      told([red_up, blue_down], turns(1, -1)),
+                      told([], turns(0, 0)),
+                      told([red_down, blue_down], turns(-1, -1)),
+                      told([red_up, red_down], turns(0, 0)),
                       sim_remote(1, [red_up]),
                       sim_remote(2, [beacon])
                     ),
@@ -80,8 +81,10 @@ told(Buttons, Goal) :-
     sim_remote(1, Buttons),
     eventually(Goal).
 
-stands :-
-    speed(outB, 0),
-    speed(outC, 0).
+turns(Left, Right) :-
+    speed(outB, L),
+    speed(outC, R),
+    Left =:= sign(L),
+    Right =:= sign(R).
 
 :- end_tests(remote_control).

@@ -44,6 +44,9 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
     known_mode/6.                       % Type, Mode, Count, Decimals, Units,
                                         % Meaning
 
+:- dynamic
+    tables_loaded/0.
+
 %!  sensor_mode(?Type, ?Mode, ?Count, ?Decimals, ?Units, ?Meaning) is nondet.
 %
 %   True if sensors of Type have a Mode with Count values, which have that
@@ -74,14 +77,19 @@ table_module(ev3dev_lego_sensors).
 table_module(ev3dev_other_sensors).
 
 load_tables :-
-    current_module(ev3dev_other_sensors),
+    tables_loaded,
     !.
 load_tables :-
+    with_mutex(ev3dev_sensor_tables, load_tables_once).
+
+load_tables_once :-
+    tables_loaded,
+    !.
+load_tables_once :-
     module_property(ev3dev_sensor_info, file(Here)),
     file_directory_name(Here, Directory),
-    with_mutex(ev3dev_sensor_tables,
-               forall(table_module(Module),
-                      load_table(Directory, Module))).
+    forall(table_module(Module), load_table(Directory, Module)),
+    assertz(tables_loaded).
 
 load_table(Directory, Module) :-
     atom_concat(ev3dev_, Name, Module),

@@ -28,7 +28,9 @@ impl Noise {
             "lego-ev3-us" => (0.2, 0.0),
             "lego-ev3-color" => (0.7, 0.0),
             "lego-ev3-gyro" => (0.3, 0.02),
-            "lego-ev3-ir" => (1.0, 0.0),
+            "lego-ev3-ir" | "lego-nxt-us" | "lego-nxt-light" | "ht-nxt-compass" => (1.0, 0.0),
+            "lego-nxt-temp" => (0.05, 0.0),
+            "ht-nxt-gyro" => (0.5, 0.0),
             name if name.ends_with("-motor") => (0.5, 0.0),
             _ => (0.0, 0.0),
         };

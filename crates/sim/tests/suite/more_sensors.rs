@@ -445,3 +445,20 @@ fn a_pressed_nxt_touch_sensor_wakes_who_waits() {
     assert_eq!(desk.number(path), 1);
     assert!(desk.0.event_count(node).unwrap() > before);
 }
+
+#[test]
+fn sensors_of_the_nxt_have_errors_if_they_are_asked_for() {
+    for (driver, mode) in [("lego-nxt-us", "US-DIST-CM"), ("ht-nxt-compass", "COMPASS")] {
+        let mut robot = RobotSpec::default();
+        driver.clone_into(&mut robot.sensors[3].driver);
+        let wall = vec![Item::wall([-100.0, 100.5], [100.0, 100.5])];
+        let world = WorldSpec { items: wall, ..WorldSpec::default() };
+        let mut desk = Desk::with(&world, &robot.with_typical_noise());
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..50 {
+            desk.step(100);
+            seen.insert(values(&mut desk, mode)[0]);
+        }
+        assert!((3..12).contains(&seen.len()), "{driver}: {seen:?}");
+    }
+}
