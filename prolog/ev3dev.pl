@@ -7,7 +7,9 @@ The one module a program loads. It offers all predicates of
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/sensors): single motors and
     sensors
-  - library(ev3dev/driver): devices and the files that ev3dev shows of them
+  - library(ev3dev/keys), library(ev3dev/sound) and library(ev3dev/screen):
+    the brick's own keys, speaker and screen
+  - library(ev3dev/driver) and library(ev3dev/dev): devices and the files that ev3dev shows of them
 
 A machine that is no EV3 gets a simulated one at the first use of a device,
 unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.
@@ -32,3 +34,7 @@ argument throws.
 :- reexport(ev3dev/motors).
 :- reexport(ev3dev/sensors).
 :- reexport(ev3dev/robot).
+:- reexport(ev3dev/dev).
+:- reexport(ev3dev/keys).
+:- reexport(ev3dev/sound).
+:- reexport(ev3dev/screen).

@@ -8,8 +8,10 @@
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
 mod call;
+mod dev;
 mod driver;
 mod error;
+mod keys;
 mod motors;
 #[cfg(all(feature = "sim", feature = "fuse"))]
 mod mount;
@@ -17,11 +19,17 @@ mod mount;
 #[path = "no_mount.rs"]
 mod mount;
 mod robot;
+mod screen;
 mod sensors;
 #[cfg(feature = "sim")]
 mod sim;
 #[cfg(feature = "sim")]
+mod sim_front;
+#[cfg(feature = "sim")]
 mod simulated;
+#[cfg(feature = "sim")]
+mod simulated_dev;
+mod sound;
 #[cfg(feature = "sim")]
 mod spec;
 mod state;
@@ -37,6 +45,12 @@ pub extern "C" fn install() {
     motors::register();
     sensors::register();
     robot::register();
+    dev::register();
+    keys::register();
+    sound::register();
+    screen::register();
     #[cfg(feature = "sim")]
     sim::register();
+    #[cfg(feature = "sim")]
+    sim_front::register();
 }

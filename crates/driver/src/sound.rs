@@ -235,6 +235,9 @@ struct Generator<'a> {
 impl Generator<'_> {
     fn set(&self, hertz: u32) -> Result<()> {
         let mut on = self.sound.on();
+        if hertz == 0 && on.iter().all(|path| path != self.path) {
+            return Ok(());
+        }
         write_tone(self.stream, self.path, hertz)?;
         on.retain(|path| path != self.path);
         if hertz > 0 {
@@ -246,10 +249,8 @@ impl Generator<'_> {
 
 impl Drop for Generator<'_> {
     fn drop(&mut self) {
-        if self.sound.on().iter().any(|path| path == self.path) {
-            // On an error's way out: that one is told.
-            let _ = self.set(0);
-        }
+        // On an error's way out: that one is told.
+        let _ = self.set(0);
     }
 }
 

@@ -1,0 +1,95 @@
+//! `prolog/ev3dev/keys.pl`: the keys of the brick.
+use crate::call::{Call, unify_atom};
+use crate::error::wrong_value;
+use ev3_driver::keys::{self, Event, Events, Key};
+use std::sync::Arc;
+use std::vec::IntoIter;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_button();
+    register_button_wait();
+    register_button_source();
+    register_button_event();
+}
+
+/// What is done to the keys from a moment on.
+#[arc_blob("ev3_buttons", defaults)]
+struct Source {
+    events: Events,
+}
+
+predicates! {
+    /// button_(?Key)
+    #[module("ev3dev_keys")]
+    #[name("button_")]
+    nondet fn button<IntoIter<Key>>(context, key) {
+        setup => {
+            let call = Call::of(context, "button", 1);
+            let wanted = key_of(&call, key)?;
+            let pressed = call.found(keys::pressed(&*call.dev()?))?;
+            let such = |key: &Key| wanted.is_none_or(|wanted| wanted == *key);
+            Ok(Some(pressed.into_iter().filter(such).collect::<Vec<_>>().into_iter()))
+        },
+        call(keys) => {
+            let call = Call::of(context, "button", 1);
+            call.next(keys, |_| Ok(()), |pressed, ()| unify_atom(key, pressed.word()))
+        }
+    }
+
+    /// button_wait_(?Key, ?Event, +Timeout)
+    #[module("ev3dev_keys")]
+    #[name("button_wait_")]
+    semidet fn button_wait(context, key, event, timeout) {
+        let call = Call::of(context, "button_wait", 3);
+        let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
+        let timeout = call.seconds(timeout)?;
+        let events = call.found(Events::from_now(call.dev()?))?;
+        let next = events.next_such(wanted, is_press, timeout, &mut call.interrupted());
+        unify_event(key, event, call.found(next)?)
+    }
+
+    /// button_source_(-Source)
+    #[module("ev3dev_keys")]
+    #[name("button_source_")]
+    semidet fn button_source(context, source) {
+        let call = Call::of(context, "button_events", 1);
+        let events = call.found(Events::from_now(call.dev()?))?;
+        source.unify(Arc::new(Source { events }))
+    }
+
+    /// button_event_(+Source, +Index, -Key, -Event)
+    #[module("ev3dev_keys")]
+    #[name("button_event_")]
+    semidet fn button_event(context, source, index, key, event) {
+        let call = Call::of(context, "button_events", 1);
+        let source: Arc<Source> = source.get_ex()?;
+        let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
+        let read = source.events.nth(index, &mut call.interrupted());
+        unify_event(key, event, call.check(read)?)
+    }
+}
+
+fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
+    unify_atom(key, read.key.word())?;
+    unify_atom(event, if read.is_press { "pressed" } else { "released" })
+}
+
+/// A key by its name, or any.
+fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Key>> {
+    let Some(word) = call.text_if_bound(term)? else {
+        return Ok(None);
+    };
+    Key::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
+}
+
+/// `pressed` or `released`, or any.
+fn is_press_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<bool>> {
+    match call.text_if_bound(term)?.as_deref() {
+        None => Ok(None),
+        Some("pressed") => Ok(Some(true)),
+        Some("released") => Ok(Some(false)),
+        Some(_) => wrong_value(call, "button_event", term),
+    }
+}
