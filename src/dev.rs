@@ -13,9 +13,8 @@ predicates! {
     /// dev_(-Directory)
     #[module("ev3dev_dev")]
     #[name("dev_")]
-    semidet fn dev(context, directory) {
-        let dev = Call::of(context, "ev3_dev", 1).dev()?;
-        unify_atom(directory, &dev.root().to_string_lossy())
+    semidet fn dev(_context, directory) {
+        unify_atom(directory, &state::dev().root().to_string_lossy())
     }
 
     /// dev_use_(+Directory)

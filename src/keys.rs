@@ -2,7 +2,7 @@
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use ev3_driver::keys::{self, Event, Events, Key};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
@@ -14,10 +14,32 @@ pub(crate) fn register() {
     register_button_event();
 }
 
-/// What is done to the keys from a moment on.
+/// What is done to the keys from a moment on, until it is closed.
 #[arc_blob("ev3_buttons", defaults)]
 struct Source {
-    events: Events,
+    events: Mutex<Option<Arc<Events>>>,
+}
+
+impl Source {
+    fn events(&self) -> MutexGuard<'_, Option<Arc<Events>>> {
+        self.events.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The sources that somebody may still read.
+static SOURCES: Mutex<Vec<Weak<Source>>> = Mutex::new(Vec::new());
+
+fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
+    SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Closes all sources: the file system that they are in goes away. Who reads
+/// on fails.
+#[cfg(feature = "fuse")]
+pub(crate) fn close_sources() {
+    for source in sources().drain(..).filter_map(|source| source.upgrade()) {
+        *source.events() = None;
+    }
 }
 
 predicates! {
@@ -56,7 +78,10 @@ predicates! {
     semidet fn button_source(context, source) {
         let call = Call::of(context, "button_events", 1);
         let events = call.found(Events::from_now(call.dev()?))?;
-        source.unify(Arc::new(Source { events }))
+        let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
+        sources().retain(|source| source.strong_count() > 0);
+        sources().push(Arc::downgrade(&opened));
+        source.unify(opened)
     }
 
     /// button_event_(+Source, +Index, -Key, -Event)
@@ -66,7 +91,8 @@ predicates! {
         let call = Call::of(context, "button_events", 1);
         let source: Arc<Source> = source.get_ex()?;
         let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
-        let read = source.events.nth(index, &mut call.interrupted());
+        let events = source.events().clone().ok_or(PrologError::Failure)?;
+        let read = events.nth(index, &mut call.interrupted());
         unify_event(key, event, call.check(read)?)
     }
 }

@@ -1,6 +1,7 @@
 //! The simulated tree as real files, through FUSE.
 use crate::call::Call;
 use crate::error::{no_such, wrong_because};
+use crate::keys::close_sources;
 use crate::state::{dev, devices, use_default_dev, use_default_files};
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
@@ -62,6 +63,7 @@ pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<(
     if let Some(mount) = mounted.dev {
         if dev().root().starts_with(mount.path()) {
             use_default_dev();
+            close_sources();
         }
         gone(call, mount)?;
     }
