@@ -8,7 +8,7 @@
 //! The kernel's driver (`legoev3_sound.c`) makes tones of 100 to 10000 Hz, and
 //! none while a recording plays.
 use crate::Interrupted;
-use crate::dev::{Dev, Speaker, Stream, open_first, until};
+use crate::dev::{Dev, Speaker, Stream, open, open_first, until};
 use crate::error::{Access, Error, Result};
 use crate::keys::EVENT_BYTES;
 use crate::programs::{Program, Programs};
@@ -73,6 +73,7 @@ impl Sound {
         let Some((stream, path)) = open_first(dev, &DEVICES, Access::Write)? else {
             return Ok(None);
         };
+        append(&*stream, &path)?;
         let stops = self.stops.load(Ordering::SeqCst);
         let generator = Generator { sound: self, stream: &*stream, path: &path };
         let mut end = dev.now();
@@ -156,18 +157,13 @@ impl Sound {
     pub fn stop(&self, dev: &dyn Dev) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
         self.programs.end();
-        if let Some(speaker) = dev.speaker() {
-            speaker.silence();
-        }
-        let on = std::mem::take(&mut *self.on());
-        for path in on {
-            let opened = dev.open(&path, Access::Write);
-            let stream = opened.map_err(|source| Error::Open {
-                path: path.clone(),
-                access: Access::Write,
-                source,
-            })?;
-            write_tone(&*stream, &path, 0)?;
+        // Whoever made the tone may go on only once it is over.
+        let mut on = self.on();
+        while let Some(path) = on.pop() {
+            if let Some(stream) = open(dev, &path, Access::Write)? {
+                append(&*stream, &path)?;
+                write_tone(&*stream, &path, 0)?;
+            }
         }
         Ok(())
     }
@@ -254,6 +250,15 @@ impl Drop for Generator<'_> {
     }
 }
 
+/// Where a plain file stands for the device, it keeps all that was written.
+fn append(stream: &dyn Stream, path: &Path) -> Result<()> {
+    stream.skip().map_err(|source| Error::Open {
+        path: path.to_owned(),
+        access: Access::Write,
+        source,
+    })
+}
+
 fn write_tone(stream: &dyn Stream, path: &Path, hertz: u32) -> Result<()> {
     let mut record = [0; EVENT_BYTES];
     if let Some((_, payload)) = record.split_last_chunk_mut::<8>() {
@@ -271,11 +276,11 @@ fn write_tone(stream: &dyn Stream, path: &Path, hertz: u32) -> Result<()> {
 
 /// How long a WAV file lasts.
 fn length_of(path: &Path) -> Result<Duration> {
-    let open = |source| Error::Open { path: path.to_owned(), access: Access::Read, source };
-    let mut file = File::open(path).map_err(open)?;
+    let cannot = |source| Error::Open { path: path.to_owned(), access: Access::Read, source };
+    let mut file = File::open(path).map_err(cannot)?;
     let mut header = [0; 44];
     let is_read = file.read_exact(&mut header).is_ok();
-    let bytes = file.metadata().map_err(open)?.len().saturating_sub(44);
+    let bytes = file.metadata().map_err(cannot)?.len().saturating_sub(44);
     let rate = header.get(28..32).and_then(|rate| rate.try_into().ok()).map(u32::from_le_bytes);
     match rate {
         Some(rate) if is_read && rate > 0 && header.starts_with(b"RIFF") => {
