@@ -267,6 +267,8 @@ impl DevDescriptor {
             // EVIOCGVERSION, EVIOCGID: the version of evdev; bus, vendor, product, version.
             0x01 => 0x0001_0001_i32.to_ne_bytes().to_vec(),
             0x02 => [0x19_u16, 1, 1, 0x100].map(u16::to_ne_bytes).concat(),
+            // EVIOCGEFFECTS: of force feedback there is none.
+            0x84 => 0_i32.to_ne_bytes().to_vec(),
             // EVIOCGNAME, EVIOCGPHYS, EVIOCGKEY
             0x06 => name.into(),
             0x07 => place.into(),
@@ -278,7 +280,7 @@ impl DevDescriptor {
             0x21..=0x3f => vec![0],
             _ => return Err(Errno::EINVAL),
         };
-        let fixed = matches!(command & 0xff, 0x01 | 0x02);
+        let fixed = matches!(command & 0xff, 0x01 | 0x02 | 0x84);
         let answer = &answer[..answer.len().min(room)];
         let result = if fixed { 0 } else { i32::try_from(answer.len()).unwrap_or(i32::MAX) };
         // The kernel wants all the bytes of the number's size; it leaves the rest alone, here it
