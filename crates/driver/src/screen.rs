@@ -74,6 +74,9 @@ fn cut_short(path: &Path) -> Error {
     }
 }
 
+/// No line of such a screen has more bytes.
+const MOST: usize = 4096;
+
 /// How the framebuffer is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Layout {
@@ -105,12 +108,13 @@ impl Layout {
         if (width.parse(), height.parse()) != (Ok(WIDTH), Ok(HEIGHT)) {
             return None;
         }
-        let line = told("stride").and_then(|line| line.trim().parse().ok());
-        match bits {
-            1 => Some(line.map_or(Self::BITS, |line| Self::Bits { line })),
-            32 => Some(line.map_or(Self::XRGB, |line| Self::Xrgb { line })),
-            _ => None,
-        }
+        let line: usize = told("stride")?.trim().parse().ok()?;
+        let (least, layout) = match bits {
+            1 => (WIDTH.div_ceil(8), Self::Bits { line }),
+            32 => (WIDTH * 4, Self::Xrgb { line }),
+            _ => return None,
+        };
+        (least as usize..=MOST).contains(&line).then_some(layout)
     }
 
     /// By how many bytes there are.

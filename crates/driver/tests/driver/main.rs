@@ -2,6 +2,7 @@
 //! kernel with a clock of its own.
 mod attributes;
 mod brick;
+mod dev;
 mod devices;
 mod files;
 mod laws;
