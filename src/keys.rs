@@ -3,12 +3,11 @@ use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use ev3_driver::keys::{self, Event, Events, Key};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
-use std::vec::IntoIter;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
-    register_button();
+    register_buttons();
     register_button_wait();
     register_button_source();
     register_button_event();
@@ -43,21 +42,14 @@ pub(crate) fn close_sources() {
 }
 
 predicates! {
-    /// button_(?Key)
+    /// buttons_(-Keys)
     #[module("ev3dev_keys")]
-    #[name("button_")]
-    nondet fn button<IntoIter<Key>>(context, key) {
-        setup => {
-            let call = Call::of(context, "button", 1);
-            let wanted = key_of(&call, key)?;
-            let pressed = call.found(keys::pressed(&*call.dev()?))?;
-            let such = |key: &Key| wanted.is_none_or(|wanted| wanted == *key);
-            Ok(Some(pressed.into_iter().filter(such).collect::<Vec<_>>().into_iter()))
-        },
-        call(keys) => {
-            let call = Call::of(context, "button", 1);
-            call.next(keys, |_| Ok(()), |pressed, ()| unify_atom(key, pressed.word()))
-        }
+    #[name("buttons_")]
+    semidet fn buttons(context, keys) {
+        let call = Call::of(context, "button", 1);
+        let pressed = call.found(keys::pressed(&*call.dev()?))?;
+        let words: Vec<_> = pressed.into_iter().map(|key| atomable(key.word())).collect();
+        keys.unify(words.as_slice())
     }
 
     /// button_wait_(?Key, ?Event, +Timeout)

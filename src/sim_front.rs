@@ -3,36 +3,25 @@ use crate::call::Call;
 use crate::error::wrong_value;
 use crate::sim::simulation;
 use crate::spec::named;
-use ev3_sim::Key;
+use ev3_sim::{Key, Machine};
 use std::time::Duration;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
-    register_sim_press();
+    register_sim_key();
     register_sim_plan_key();
-    register_sim_release();
 }
 
 predicates! {
-    /// sim_press_(+Key)
+    /// sim_key_(+Key, +IsPress)
     #[module("ev3dev_sim")]
-    #[name("sim_press_")]
-    semidet fn sim_press(context, key) {
+    #[name("sim_key_")]
+    semidet fn sim_key(context, key, is_press) {
         let key: Key = named(&Call::of(context, "sim_press", 1), "button", key)?;
-        let simulation = simulation()?;
-        simulation.machine().press(key);
-        simulation.shared().wake();
-        Ok(())
-    }
-
-    /// sim_release_(+Key)
-    #[module("ev3dev_sim")]
-    #[name("sim_release_")]
-    semidet fn sim_release(context, key) {
-        let key: Key = named(&Call::of(context, "sim_release", 1), "button", key)?;
-        let simulation = simulation()?;
-        simulation.machine().release(key);
+        let (simulation, is_press) = (simulation()?, is_press.get_ex()?);
+        let act = if is_press { Machine::press } else { Machine::release };
+        act(&mut simulation.machine(), key);
         simulation.shared().wake();
         Ok(())
     }

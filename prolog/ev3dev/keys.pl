@@ -5,6 +5,7 @@
             button_events/1             % -Events
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 
@@ -29,7 +30,18 @@ Key = left.
 %   @error domain_error(button, Key)
 
 button(Key) :-
-    button_(Key).
+    var(Key),
+    !,
+    buttons_(Keys),
+    member(Key, Keys).
+button(Key) :-
+    must_be(atom, Key),
+    (   memberchk(Key, [up, down, left, right, enter, back])
+    ->  true
+    ;   domain_error(button, Key)
+    ),
+    buttons_(Keys),
+    memberchk(Key, Keys).
 
 %!  button_wait(?Key, ?Event) is semidet.
 %!  button_wait(?Key, ?Event, +Options) is semidet.

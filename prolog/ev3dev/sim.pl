@@ -333,10 +333,10 @@ sim_jam(Port, Boolean) :-
 %   @error domain_error(button, Key)
 
 sim_press(Key) :-
-    sim_press_(Key).
+    sim_key_(Key, true).
 
 sim_release(Key) :-
-    sim_release_(Key).
+    sim_key_(Key, false).
 
 %!  sim_press(+Key, +Options) is semidet.
 %

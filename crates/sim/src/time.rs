@@ -32,8 +32,8 @@ impl Machine {
 
     /// A time, after now, before which nothing happens that a waiting program could be woken by:
     /// the next 50 ms look at the motors' flags, the end of a sensor's mode change, a plug being
-    /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock may jump
-    /// there with `step(next_event() - now())` and look again.
+    /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock
+    /// may jump there with `step(next_event() - now())` and look again.
     #[must_use]
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
