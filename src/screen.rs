@@ -3,8 +3,8 @@ use crate::call::Call;
 use crate::error::wrong_value;
 use crate::state::{devices, frame};
 use ev3_driver::frame::{Align, Font, Letters, Shade, Shape, Style};
-use ev3_driver::picture::{Picture, to_png};
-use ev3_driver::{frame, screen};
+use ev3_driver::picture::Picture;
+use ev3_driver::{frame, picture, screen};
 use std::path::Path;
 use swipl::prelude::*;
 
@@ -74,16 +74,14 @@ predicates! {
         call.found(screen::show(devices().tree(), &*dev, &frame()))
     }
 
-    /// screen_png_(-Bytes): a list of the bytes of the file.
+    /// screen_png_(+File)
     #[module("ev3dev_screen")]
     #[name("screen_png_")]
-    semidet fn screen_png(context, bytes) {
+    semidet fn screen_png(context, file) {
         let call = Call::of(context, "screen_png", 1);
-        let dev = call.dev()?;
+        let (file, dev) = (call.text(file)?, call.dev()?);
         let seen = call.found(screen::seen(devices().tree(), &*dev))?;
-        let file = to_png(frame::WIDTH, frame::HEIGHT, &seen);
-        let file: Vec<i64> = file.into_iter().map(i64::from).collect();
-        bytes.unify(file.as_slice())
+        call.check(picture::write_png(Path::new(&*file), frame::WIDTH, frame::HEIGHT, &seen))
     }
 }
 

@@ -264,17 +264,13 @@ no_screen :-
 %
 %   Write what is on the screen, whoever has drawn it, to a PNG file. Fails if
 %   there is no screen.
+%
+%   @error existence_error(file, File) if its directory does not exist
 
 screen_png(File) :-
-    (   screen_png_(Bytes)
-    ->  setup_call_cleanup(
-            open(File, write, Stream, [type(binary)]),
-            put_bytes(Bytes, Stream),
-            close(Stream))
+    must_be(nonvar, File),
+    absolute_file_name(File, Path),
+    (   screen_png_(Path)
+    ->  true
     ;   no_screen
     ).
-
-put_bytes([], _).
-put_bytes([Byte|Bytes], Stream) :-
-    put_byte(Stream, Byte),
-    put_bytes(Bytes, Stream).

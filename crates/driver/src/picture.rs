@@ -1,7 +1,6 @@
 //! Pictures in files: PNG and PBM are read, PNG is written.
 use crate::error::{Access, Error, Result};
 use crate::screen::luma;
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use std::path::Path;
 
 /// No picture for this screen is wider or higher.
@@ -131,22 +130,72 @@ fn digit(rest: &mut &[u8]) -> Option<u8> {
     }
 }
 
-/// A PNG file of these shades, line by line: eight bits of grey a pixel.
+/// Writes shades, line by line, to a PNG file.
+///
+/// # Errors
+/// [`Error::Open`].
+pub fn write_png(path: &Path, width: u32, height: u32, shades: &[u8]) -> Result<()> {
+    let written = std::fs::write(path, to_png(width, height, shades));
+    written.map_err(|source| Error::Open { path: path.to_owned(), access: Access::Write, source })
+}
+
+/// A PNG file of these shades, line by line. It is not compressed, which would
+/// take more memory of the program than it saves on the disk; but a pixel has no
+/// more bits than it needs.
 #[must_use]
 pub fn to_png(width: u32, height: u32, shades: &[u8]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+    let bits = bits_needed(shades);
     let mut header = Vec::new();
     header.extend(width.to_be_bytes());
     header.extend(height.to_be_bytes());
-    // Bits, grey, and the only compression, filters and order there are.
-    header.extend([8, 0, 0, 0, 0]);
+    // Grey, and the only compression, filters and order there are.
+    header.extend([bits, 0, 0, 0, 0]);
     chunk(&mut file, *b"IHDR", &header);
-    // Each line begins with its filter: none.
-    let lines = shades.chunks(width.max(1) as usize);
-    let data: Vec<u8> = lines.flat_map(|line| [&[0], line].concat()).collect();
-    chunk(&mut file, *b"IDAT", &compress_to_vec_zlib(&data, 6));
+    let mut data = Vec::new();
+    for line in shades.chunks(width.max(1) as usize) {
+        // Its filter: none.
+        data.push(0);
+        let packed = line.chunks(usize::from(8 / bits)).map(|pixels| {
+            (0..).zip(pixels).fold(0, |byte, (index, shade)| {
+                byte | shade >> (8 - bits) << (8 - bits * (index + 1))
+            })
+        });
+        data.extend(packed);
+    }
+    chunk(&mut file, *b"IDAT", &stored(&data));
     chunk(&mut file, *b"IEND", &[]);
     file
+}
+
+/// One bit for black and white, two for the panel's shades, else eight.
+fn bits_needed(shades: &[u8]) -> u8 {
+    if shades.iter().all(|shade| *shade == 0 || *shade == 255) {
+        1
+    } else if shades.iter().all(|shade| shade % 85 == 0) {
+        2
+    } else {
+        8
+    }
+}
+
+/// A zlib stream that holds its data as they are (RFC 1950, 1951).
+fn stored(data: &[u8]) -> Vec<u8> {
+    let mut stream = vec![0x78, 0x01];
+    let mut blocks = data.chunks(usize::from(u16::MAX)).peekable();
+    while let Some(block) = blocks.next() {
+        let length = u16::try_from(block.len()).unwrap_or(u16::MAX);
+        stream.push(u8::from(blocks.peek().is_none()));
+        stream.extend(length.to_le_bytes());
+        stream.extend((!length).to_le_bytes());
+        stream.extend(block);
+    }
+    let (low, high) = data.iter().fold((1, 0), |(low, high), byte| {
+        let low = (low + u32::from(*byte)) % 65521;
+        (low, (high + low) % 65521)
+    });
+    stream.extend((high << 16 | low).to_be_bytes());
+    stream
 }
 
 fn chunk(file: &mut Vec<u8>, name: [u8; 4], data: &[u8]) {
