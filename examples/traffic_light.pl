@@ -2,8 +2,8 @@
 %
 %   ?- start.
 %
-% The brick's lights, its screen and its speaker show what the light shows. Any
-% other key ends the program.
+% The brick's lights, its screen and its speaker tell what it shows. Any other
+% key ends the program.
 
 :- use_module(library(ev3dev)).
 

@@ -9,7 +9,8 @@ The one module a program loads. It offers all predicates of
     sensors
   - library(ev3dev/keys), library(ev3dev/sound) and library(ev3dev/screen):
     the brick's own keys, speaker and screen
-  - library(ev3dev/driver) and library(ev3dev/dev): devices and the files that ev3dev shows of them
+  - library(ev3dev/driver) and library(ev3dev/dev): devices and the files
+    that ev3dev shows of them
 
 A machine that is no EV3 gets a simulated one at the first use of a device,
 unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.

@@ -33,6 +33,17 @@ exported(motors,
            motors_turn/2, motor_start/1, motor_stop/1, motor_stop/2,
            stop_all_motors/0, motor_reset/1, run_forever/2, speed_adjust/3,
            motor_wait_while/2, motor_wait_until/2, motor_wait/3 ]).
+exported(dev, [ ev3_dev/1 ]).
+exported(keys,
+         [ button/1, button_wait/2, button_wait/3, button_events/1 ]).
+exported(sound,
+         [ tone/2, tones/1, tones/2, say/1, play/1, volume/1, sound_stop/0 ]).
+exported(screen,
+         [ screen_clear/0, screen_point/2, screen_point/3, screen_line/4,
+           screen_line/5, screen_rectangle/4, screen_rectangle/5,
+           screen_circle/3, screen_circle/4, screen_arc/5, screen_arc/6,
+           screen_text/3, screen_text/4, screen_image/3, screen_show/0,
+           screen_png/1 ]).
 exported(robot,
          [ set_robot/4, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
            turn/2 ]).
@@ -78,7 +89,7 @@ test(works_from_any_folder, true(Status-Output == exit(0)-"ok")) :-
                  main :- ( tacho_motor(nothing) -> true ; write(ok) ).",
                 [goal(main), cwd('/')], Status, Output).
 test(each_layer_loads_alone,
-     [ forall(member(Layer, [driver, motors, sensors, robot])),
+     [ forall(member(Layer, [driver, motors, sensors, robot, dev, keys, sound, screen])),
        true(Status-Output == exit(0)-"") ]) :-
     format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
     run_program(Program, [], Status, Output).

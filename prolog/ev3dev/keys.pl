@@ -5,7 +5,7 @@
             button_events/1             % -Events
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 
@@ -79,10 +79,10 @@ must_be_timeout(Seconds) :-
 %!  button_events(-Events) is semidet.
 %
 %   True if Events is the list, without end, of what is done to the keys from
-%   now on, each a pair Key-Event as in button_wait/2. Does not wait: who looks
-%   at an element of the list waits until there is one. As long as the list is
-%   reachable no event is missed, and looking again, also after backtracking,
-%   finds the same.
+%   now on, each a pair Key-Event as in button_wait/2. Does not wait: who
+%   looks at an element of the list waits until there is one. As long as the
+%   list is reachable no event is missed, and looking again, also after
+%   backtracking, finds the same.
 %
 %   ```
 %   ?- button_events(Events), member(Key-released, Events).

@@ -9,7 +9,7 @@
             screen_circle/3,            % +X, +Y, +Radius
             screen_circle/4,            % +X, +Y, +Radius, +Options
             screen_arc/5,               % +X, +Y, +Radius, +Start, +Sweep
-            screen_arc/6,               % +X, +Y, +Radius, +Start, +Sweep, +Options
+            screen_arc/6,               % ..., +Sweep, +Options
             screen_text/3,              % +X, +Y, +Text
             screen_text/4,              % +X, +Y, +Text, +Options
             screen_image/3,             % +X, +Y, +File

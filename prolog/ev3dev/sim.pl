@@ -25,7 +25,7 @@
             sim_unmount/0
           ]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(driver, []).
@@ -457,7 +457,7 @@ sim_svg(File) :-
 %   Show the simulated files in a directory, through FUSE, so that programs in
 %   any language can use them; until sim_unmount/0, or until Prolog halts.
 %   Directory becomes what `/sys/class` is on a brick, and DevDirectory what
-%   `/dev` is, with the screen `fb0` and the event devices of keys and speaker:
+%   `/dev` is, with the screen `fb0` and the event devices:
 %
 %   ```
 %   input/by-path/platform-gpio_keys-event
