@@ -13,7 +13,10 @@ The one module a program loads. It offers all predicates of
   - library(ev3dev/dc_motors) and library(ev3dev/servo_motors): motors without
     rotation sensor and RC servos
   - library(ev3dev/lights), library(ev3dev/battery), library(ev3dev/ports)
-  - library(ev3dev/driver): devices and the files that ev3dev shows of them
+  - library(ev3dev/keys), library(ev3dev/sound) and library(ev3dev/screen):
+    the brick's own keys, speaker and screen
+  - library(ev3dev/driver) and library(ev3dev/dev): devices and the files
+    that ev3dev shows of them
 
 A machine that is no EV3 gets a simulated one at the first use of a device,
 unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.
@@ -48,3 +51,7 @@ argument throws.
 :- reexport(ev3dev/battery).
 :- reexport(ev3dev/ports).
 :- reexport(ev3dev/robot).
+:- reexport(ev3dev/dev).
+:- reexport(ev3dev/keys).
+:- reexport(ev3dev/sound).
+:- reexport(ev3dev/screen).

@@ -2,7 +2,7 @@
 use crate::error::raise;
 use crate::state;
 use crate::words::atom_text;
-use ev3_driver::{Class, Device, Devices, Value};
+use ev3_driver::{Class, Dev, Device, Devices, Value};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
@@ -33,6 +33,15 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             state::chosen();
         }
         Ok(state::devices())
+    }
+
+    /// The device files in use. Until these or the tree are chosen, Prolog is
+    /// asked to.
+    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Dev>> {
+        if !state::is_dev_chosen() {
+            self.devices()?;
+        }
+        Ok(state::dev())
     }
 
     /// The text of an atom or a string.

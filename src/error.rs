@@ -115,6 +115,10 @@ fn formal<'a, C: QueryableContextType>(
             term! {context: existence_error(#class, #port)}
         }
         Error::Malformed { .. } => term! {context: syntax_error(attribute)},
+        Error::Format { format, .. } => term! {context: syntax_error(#atomable(*format))},
+        Error::NoProgram { program, .. } => {
+            term! {context: existence_error(program, #atomable(*program))}
+        }
         Error::NoValue { index, .. } => {
             term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
         }

@@ -10,9 +10,11 @@
 mod battery;
 mod call;
 mod dc_motors;
+mod dev;
 mod driver;
 mod error;
 mod halt;
+mod keys;
 mod lights;
 mod motor_moves;
 mod motor_settings;
@@ -24,12 +26,18 @@ mod mount;
 mod mount;
 mod ports;
 mod robot;
+mod screen;
 mod sensors;
 mod servo_motors;
 #[cfg(feature = "sim")]
 mod sim;
 #[cfg(feature = "sim")]
+mod sim_front;
+#[cfg(feature = "sim")]
 mod simulated;
+#[cfg(feature = "sim")]
+mod simulated_dev;
+mod sound;
 #[cfg(feature = "sim")]
 mod spec;
 mod state;
@@ -53,6 +61,12 @@ pub extern "C" fn install() {
     ports::register();
     sensors::register();
     robot::register();
+    dev::register();
+    keys::register();
+    sound::register();
+    screen::register();
     #[cfg(feature = "sim")]
     sim::register();
+    #[cfg(feature = "sim")]
+    sim_front::register();
 }

@@ -1,32 +1,50 @@
 //! The simulated tree as real files, through FUSE.
 use crate::call::Call;
 use crate::error::{no_such, wrong_because};
-use crate::state::{devices, use_default_files};
+use crate::keys::close_sources;
+use crate::state::{dev, devices, use_default_dev, use_default_files};
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use swipl::prelude::*;
 
-static MOUNTED: Mutex<Option<Mount>> = Mutex::new(None);
+static MOUNTED: Mutex<Option<Mounted>> = Mutex::new(None);
 
-/// Mounts the tree of a machine on a directory. One mount at a time: another
-/// one before is unmounted.
+/// What is mounted: the classes of devices, and the device files if they are.
+struct Mounted {
+    classes: Mount,
+    dev: Option<Mount>,
+}
+
+/// Mounts the tree of a machine on a directory, and its device files on
+/// another one if it is given. One mount at a time: another one before is
+/// unmounted.
 pub(crate) fn mount<C: QueryableContextType>(
     call: &Call<C>,
-    machine: Arc<Shared>,
-    directory: &str,
-    term: &Term,
+    machine: &Arc<Shared>,
+    classes: &Term,
+    dev: Option<&Term>,
 ) -> PrologResult<()> {
     end();
-    match Mount::new(machine, Path::new(directory)) {
-        Ok(mount) => {
-            *MOUNTED.lock().unwrap_or_else(PoisonError::into_inner) = Some(mount);
-            Ok(())
-        }
+    let classes = mounted(call, classes, Mount::new, machine)?;
+    let dev = dev.map(|term| mounted(call, term, Mount::dev, machine)).transpose()?;
+    *MOUNTED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Mounted { classes, dev });
+    Ok(())
+}
+
+fn mounted<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+    mount: fn(Arc<Shared>, &Path) -> Result<Mount, MountError>,
+    machine: &Arc<Shared>,
+) -> PrologResult<Mount> {
+    let directory = call.text(term)?;
+    match mount(Arc::clone(machine), Path::new(&*directory)) {
+        Ok(mount) => Ok(mount),
         Err(error @ MountError::NoFuse) => no_such(call, "device", "/dev/fuse", &error.to_string()),
         Err(error @ MountError::NoDirectory(_)) => {
-            no_such(call, "directory", directory, &error.to_string())
+            no_such(call, "directory", &directory, &error.to_string())
         }
         Err(error) => {
             let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
@@ -37,11 +55,22 @@ pub(crate) fn mount<C: QueryableContextType>(
 
 /// Unmounts; fails where nothing is mounted.
 pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
-    let mount = take().ok_or(PrologError::Failure)?;
-    if devices().tree().root().starts_with(mount.path()) {
-        // Descriptors of our own would keep it busy.
+    let mounted = take().ok_or(PrologError::Failure)?;
+    // Descriptors of our own would keep it busy.
+    if devices().tree().root().starts_with(mounted.classes.path()) {
         call.check(use_default_files())?;
     }
+    if let Some(mount) = mounted.dev {
+        if dev().root().starts_with(mount.path()) {
+            use_default_dev();
+            close_sources();
+        }
+        gone(call, mount)?;
+    }
+    gone(call, mounted.classes)
+}
+
+fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<()> {
     mount.unmount().or_else(|error| no_such(call, "mount", "mount", &error.to_string()))
 }
 
@@ -55,6 +84,6 @@ pub(crate) fn end() {
     drop(take());
 }
 
-fn take() -> Option<Mount> {
+fn take() -> Option<Mounted> {
     MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).take()
 }

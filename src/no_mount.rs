@@ -8,9 +8,9 @@ use swipl::prelude::*;
 /// Says that this cannot be had.
 pub(crate) fn mount<C: QueryableContextType>(
     call: &Call<C>,
-    _machine: Arc<Shared>,
-    _directory: &str,
-    _term: &Term,
+    _machine: &Arc<Shared>,
+    _classes: &Term,
+    _dev: Option<&Term>,
 ) -> PrologResult<()> {
     no_such(call, "feature", "fuse", "this library was built without FUSE")
 }

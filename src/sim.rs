@@ -3,10 +3,11 @@ use crate::call::{Call, unify_atom};
 use crate::error::{no_such, wrong_because, wrong_value};
 use crate::mount;
 use crate::simulated::{Clock, SimulatedFiles, Simulation};
+use crate::simulated_dev::SimulatedDev;
 use crate::spec::{self, Fact, add_to_robot, add_to_world, buttons, channel_of, named};
-use crate::state::{devices, use_files, use_tree};
+use crate::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
 use ev3_driver::Devices;
-use ev3_sim::{Action, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
+use ev3_sim::{Action, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -45,8 +46,8 @@ pub(crate) fn register() {
 /// The simulation that runs.
 static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 
-/// Where the files are that were in use before.
-static BEFORE: Mutex<Option<PathBuf>> = Mutex::new(None);
+/// Where the attributes and the device files are that were in use before.
+static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
 /// A machine as it was.
 #[arc_blob("ev3_snapshot", defaults)]
@@ -62,17 +63,18 @@ predicates! {
         spec::fact(&Call::of(context, "sim_start", 2), term).map(drop)
     }
 
-    /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise)
+    /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise, +ScreenBits)
     #[module("ev3dev_sim")]
     #[name("sim_start_")]
-    semidet fn sim_start(context, world, robot, clock, seed, noise) {
+    semidet fn sim_start(context, world, robot, clock, seed, noise, screen) {
         let call = Call::of(context, "sim_start", 2);
         let facts = |term: &Term<'a>| -> PrologResult<Vec<Fact>> {
             call.list(term)?.iter().map(|term| spec::fact(&call, term)).collect()
         };
         let (world, robot) = (world_of(facts(world)?), robot_of(facts(robot)?, noise.get_ex()?));
         let seed = u64::from_ne_bytes(call.integer(seed)?.to_ne_bytes());
-        let options = Options { seed, ..Options::default() };
+        let depth = if call.integer(screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
+        let options = Options { seed, depth, ..Options::default() };
         let machine = possible(&call, Machine::new(&world, &robot, options))?;
         start(&call, machine, clock_of(&call, clock)?)
     }
@@ -86,7 +88,9 @@ predicates! {
         mount::end();
         *running() = None;
         let before = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take();
-        call.check(before.map_or(Ok(()), use_files))
+        let [files, dev] = before.ok_or(PrologError::Failure)?;
+        use_dev_files(dev);
+        call.check(use_files(files))
     }
 
     /// sim_active_
@@ -293,11 +297,17 @@ predicates! {
             Ok((*at, entry?))
         });
         let events = seen.events().into_iter().map(|event| {
-            let (seconds, path) = (event.at.as_secs_f64(), atomable(event.path.as_str()));
-            let text = atomable(event.text.as_str());
+            let seconds = event.at.as_secs_f64();
+            let (path, text) = (atomable(event.path.as_str()), atomable(event.text.as_str()));
             let entry = match event.action {
                 Action::Written => term! {context: at(#seconds, written(#path, #text))},
                 Action::Read => term! {context: at(#seconds, read(#path, #text))},
+                Action::Tone => term! {context: at(#seconds, tone(#event.text.parse::<i64>().unwrap_or(0)))},
+                Action::Said => term! {context: at(#seconds, said(#text))},
+                Action::Played => term! {context: at(#seconds, played(#text))},
+                Action::Silenced => term! {context: at(#seconds, silenced)},
+                Action::Pressed => term! {context: at(#seconds, pressed(#text))},
+                Action::Released => term! {context: at(#seconds, released(#text))},
             };
             Ok((event.at, entry?))
         });
@@ -315,13 +325,13 @@ predicates! {
         unify_atom(text, &picture)
     }
 
-    /// sim_mount_(+Directory)
+    /// sim_mount_(+Directory, ?DevDirectory)
     #[module("ev3dev_sim")]
     #[name("sim_mount_")]
-    semidet fn sim_mount(context, directory) {
+    semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
-        let directory_text = call.text(directory)?;
-        mount::mount(&call, simulation()?.shared(), &directory_text, directory)
+        let dev = (!dev.is_var()).then_some(dev);
+        mount::mount(&call, &simulation()?.shared(), classes, dev)
     }
 
     /// sim_unmount_
@@ -347,7 +357,7 @@ fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
 }
 
 /// The simulation that runs; a failure if there is none.
-fn simulation() -> PrologResult<Arc<Simulation>> {
+pub(crate) fn simulation() -> PrologResult<Arc<Simulation>> {
     running().clone().ok_or(PrologError::Failure)
 }
 
@@ -363,9 +373,10 @@ fn start<C: QueryableContextType>(
     };
     mount::end();
     if running().replace(Arc::clone(&simulation)).is_none() {
-        let root = devices().tree().root().to_owned();
-        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(root);
+        let roots = [devices().tree().root().to_owned(), dev().root().to_owned()];
+        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(roots);
     }
+    use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 

@@ -21,10 +21,10 @@ use std::time::{Duration, Instant};
 const ROOT: &str = "/sys/class";
 
 /// What a read takes on the virtual clock: as on a brick, by a quick program.
-const READ_TAKES: Duration = Duration::from_micros(500);
+pub(crate) const READ_TAKES: Duration = Duration::from_micros(500);
 
 /// What a write takes on the virtual clock.
-const WRITE_TAKES: Duration = Duration::from_micros(100);
+pub(crate) const WRITE_TAKES: Duration = Duration::from_micros(100);
 
 /// How often the wall clock steps the machine.
 const STEP: Duration = Duration::from_millis(2);
@@ -104,7 +104,7 @@ impl Simulation {
     }
 
     /// An access to a file by this thread, which takes its time.
-    fn access<T>(&self, takes: Duration, act: impl FnOnce(&mut Machine) -> T) -> T {
+    pub(crate) fn access<T>(&self, takes: Duration, act: impl FnOnce(&mut Machine) -> T) -> T {
         let mut machine = self.shared.lock();
         if self.clock == Clock::Virtual {
             machine.step(takes);
@@ -113,7 +113,43 @@ impl Simulation {
         act(&mut machine)
     }
 
-    fn pause(&self, time: Duration) {
+    /// Lets time pass until `is_it` holds, after so much at the latest. Time
+    /// jumps only where it is known when something will happen: somebody who
+    /// presses a key is no thread that could be waited for.
+    pub(crate) fn pause_until(&self, time: Duration, is_it: impl Fn(&Machine) -> bool) {
+        let machine = self.shared.lock();
+        if is_it(&machine) {
+            return;
+        }
+        let now = machine.now();
+        match (self.clock, machine.next_key()) {
+            (Clock::Wall(_), _) => {
+                let latest = Instant::now() + SLICE;
+                let mut machine = machine;
+                while machine.now() < now.saturating_add(time) && !is_it(&machine) {
+                    let left = latest.saturating_duration_since(Instant::now());
+                    if left.is_zero() {
+                        return;
+                    }
+                    machine = self.shared.wait(machine, left);
+                }
+            }
+            (Clock::Virtual, Some(at)) => {
+                drop(machine);
+                self.pause(time.min(at.saturating_sub(now) + STEP));
+            }
+            (Clock::Virtual, None) => {
+                let machine = self.shared.wait(machine, BUSY_FOR);
+                let is_so = is_it(&machine);
+                drop(machine);
+                if !is_so {
+                    self.pause(time);
+                }
+            }
+        }
+    }
+
+    pub(crate) fn pause(&self, time: Duration) {
         match self.clock {
             Clock::Wall(_) => self.pause_by_wall(time),
             Clock::Virtual => self.pause_virtually(time),
@@ -306,6 +342,6 @@ impl Node for SimulatedFile {
     }
 }
 
-fn error(errno: Errno) -> io::Error {
+pub(crate) fn error(errno: Errno) -> io::Error {
     io::Error::from_raw_os_error(errno.0)
 }

@@ -69,6 +69,17 @@ exported(battery, [ battery/2 ]).
 exported(ports,
          [ lego_port/1, port_mode/2, port_modes/2, port_status/2,
            port_device/2 ]).
+exported(dev, [ ev3_dev/1 ]).
+exported(keys,
+         [ button/1, button_wait/2, button_wait/3, button_events/1 ]).
+exported(sound,
+         [ tone/2, tones/1, tones/2, say/1, play/1, volume/1, sound_stop/0 ]).
+exported(screen,
+         [ screen_clear/0, screen_point/2, screen_point/3, screen_line/4,
+           screen_line/5, screen_rectangle/4, screen_rectangle/5,
+           screen_circle/3, screen_circle/4, screen_arc/5, screen_arc/6,
+           screen_text/3, screen_text/4, screen_image/3, screen_show/0,
+           screen_png/1 ]).
 exported(robot,
          [ set_robot/4, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
            turn/2 ]).
@@ -114,7 +125,7 @@ test(works_from_any_folder, true(Status-Output == exit(0)-"ok")) :-
                  main :- ( tacho_motor(nothing) -> true ; write(ok) ).",
                 [goal(main), cwd('/')], Status, Output).
 test(each_layer_loads_alone,
-     [ forall(member(Layer, [driver, motors, sensors, robot])),
+     [ forall(member(Layer, [driver, motors, sensors, robot, dev, keys, sound, screen])),
        true(Status-Output == exit(0)-"") ]) :-
     format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
     run_program(Program, [], Status, Output).

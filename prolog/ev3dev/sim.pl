@@ -14,6 +14,9 @@
             sim_unshow/2,               % +Port, +Attribute
             sim_wait/1,                 % +Seconds
             sim_remote/2,               % +Channel, +Buttons
+            sim_press/1,                % +Key
+            sim_press/2,                % +Key, +Options
+            sim_release/1,              % +Key
             sim_step/1,                 % +Seconds
             sim_time/1,                 % -Seconds
             sim_snapshot/1,             % -Snapshot
@@ -22,6 +25,7 @@
             sim_trace/1,                % -Trace
             sim_svg/1,                  % +File
             sim_mount/1,                % +Directory
+            sim_mount/2,                % +Directory, +DevDirectory
             sim_unmount/0
           ]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
@@ -193,6 +197,9 @@ the same seed does the same each time.
 %       Default is `false`.
 %     - seed(+Integer)
 %       Where chance starts from. Default is 1.
+%     - screen(+Bits)
+%       Bits that the screen has for a pixel: 32 (default) or 1, as with older
+%       versions of ev3dev.
 %
 %   If it cannot be started, nothing changes. What is wrong with a file is
 %   thrown as `error(Formal, fact(Location, Message))`, which is printed with
@@ -205,6 +212,7 @@ the same seed does the same each time.
 %   @error domain_error(possible_geometry, Item)
 %   @error domain_error(clock, Clock)
 %   @error domain_error(sim_option, Option) for an option that is none
+%   @error domain_error(screen_bits, Bits)
 %   @error existence_error(feature, sim) if the pack was built without
 
 sim_start(World) :-
@@ -217,15 +225,17 @@ sim_start(World, Options) :-
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
     option(robot(Robot), Options, default),
+    option(screen(Bits), Options, 32),
     must_be_clock(Clock),
     must_be(integer, Seed),
     must_be(boolean, Noise),
+    must_be_screen(Bits),
     located_facts(world, World, LocatedWorld),
     located_facts(robot, Robot, LocatedRobot),
     pairs_keys(LocatedWorld, WorldFacts),
     pairs_keys(LocatedRobot, RobotFacts),
     append(LocatedWorld, LocatedRobot, Located),
-    catch(sim_start_(WorldFacts, RobotFacts, Clock, Seed, Noise),
+    catch(sim_start_(WorldFacts, RobotFacts, Clock, Seed, Noise, Bits),
           error(domain_error(possible_geometry, Item), context(_, Why)),
           throw_impossible(Item, Why, Located)),
     retractall(added(_, _)).
@@ -248,6 +258,13 @@ clock(virtual).
 clock(scaled(Factor)) :-
     number(Factor),
     Factor > 0.
+
+must_be_screen(Bits) :-
+    must_be(integer, Bits),
+    (   memberchk(Bits, [1, 32])
+    ->  true
+    ;   domain_error(screen_bits, Bits)
+    ).
 
 throw_impossible(Item, Why, Located) :-
     fact_location(Item, Located, Location),
@@ -403,6 +420,48 @@ sim_wait(Seconds0) :-
 sim_remote(Channel, Buttons) :-
     must_be(list, Buttons),
     sim_remote_(Channel, Buttons).
+%!  sim_press(+Key) is semidet.
+%!  sim_release(+Key) is semidet.
+%
+%   Press a key of the brick and hold it, or let go of it: `up`, `down`,
+%   `left`, `right`, `enter` or `back`. Does nothing if it is so already.
+%
+%   @error domain_error(button, Key)
+
+sim_press(Key) :-
+    sim_key_(Key, true).
+
+sim_release(Key) :-
+    sim_key_(Key, false).
+
+%!  sim_press(+Key, +Options) is semidet.
+%
+%   Press a key at some time to come. Does not wait. So a program that waits
+%   for a key can be tried by itself:
+%
+%   ```
+%   ?- sim_press(enter, [after(2)]), button_wait(enter, pressed).
+%   ```
+%
+%   Options, in simulated seconds:
+%
+%     - after(+Seconds)
+%       When it is pressed, from now. Default is 0.
+%     - for(+Seconds)
+%       How long it is held. Default is 0.2; `infinite` until sim_release/1.
+%
+%   @error domain_error(button, Key)
+%   @error domain_error(seconds, Seconds)
+
+sim_press(Key, Options) :-
+    must_be(list, Options),
+    option(after(After), Options, 0),
+    option(for(For), Options, 0.2),
+    (   For == infinite
+    ->  true
+    ;   must_be(number, For)
+    ),
+    sim_plan_key_(Key, After, For).
 
 %!  sim_step(+Seconds) is semidet.
 %
@@ -460,8 +519,18 @@ sim_collisions(Collisions) :-
 %       The robot was there. On long runs these are farther apart.
 %     - written(File, Text)
 %     - read(File, Text)
-%       The program wrote a file, or read a value of a sensor; the latest 4096
-%       are kept.
+%       The program wrote a file, or read a value of a sensor.
+%     - tone(Hertz)
+%       The speaker made a tone; 0 is the end of it.
+%     - said(Text)
+%     - played(File)
+%     - silenced
+%       The program said something, played a recording, or ended one.
+%     - pressed(Key)
+%     - released(Key)
+%       Somebody pressed a key, or let go of it.
+%
+%   The latest 4096 are kept of what was read, and of all the others.
 
 sim_trace(Trace) :-
     sim_trace_(Trace0),
@@ -479,9 +548,21 @@ sim_svg(File) :-
         close(Stream)).
 
 %!  sim_mount(+Directory) is semidet.
+%!  sim_mount(+Directory, +DevDirectory) is semidet.
 %
 %   Show the simulated files in a directory, through FUSE, so that programs in
 %   any language can use them; until sim_unmount/0, or until Prolog halts.
+%   Directory becomes what `/sys/class` is on a brick, and DevDirectory what
+%   `/dev` is, with the screen `fb0` and the event devices:
+%
+%   ```
+%   input/by-path/platform-gpio_keys-event
+%   input/by-path/platform-sound-event
+%   ```
+%
+%   They are regular files, which answer poll(2) and the ioctls that ask about
+%   an event device. That they are no devices means that the screen cannot be
+%   mapped into memory, and that who looks for devices only finds none.
 %
 %   @error existence_error(directory, Directory)
 %   @error existence_error(device, '/dev/fuse') if this machine has no FUSE
@@ -489,7 +570,12 @@ sim_svg(File) :-
 
 sim_mount(Directory) :-
     absolute_file_name(Directory, Path),
-    sim_mount_(Path).
+    sim_mount_(Path, _).
+
+sim_mount(Directory, DevDirectory) :-
+    absolute_file_name(Directory, Path),
+    absolute_file_name(DevDirectory, DevPath),
+    sim_mount_(Path, DevPath).
 
 %!  sim_unmount is semidet.
 %

@@ -17,6 +17,7 @@
 main :-
     tree(Root),
     ev3_sysfs(Root),
+    ev3_dev(Root),
     check_devices(Root),
     findall(Module:Name/Arity, export(Module, Name, Arity), Exports),
     sort(Exports, Sorted),

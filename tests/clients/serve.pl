@@ -1,4 +1,5 @@
-% Mounts a simulated brick until the standard input ends.
+% Mounts a simulated brick until the standard input ends. Each term in it is
+% a goal to be called.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -22,8 +23,17 @@ robot(sensor(in4, 'lego-ev3-gyro', 0, 0, 0)).
 
 serve(Directory, Robot) :-
     sim_start(room, [clock(realtime), robot(Robot)]),
-    sim_mount(Directory),
-    read_term(_, []),
+    atom_concat(Directory, '.dev', Dev),
+    sim_mount(Directory, Dev),
+    obey,
     sim_unmount,
     sim_stop,
     halt(0).
+
+obey :-
+    read_term(Goal, []),
+    (   Goal == end_of_file
+    ->  true
+    ;   call(Goal),
+        obey
+    ).

@@ -98,6 +98,32 @@ pub enum Error {
         /// Why not.
         source: glob::PatternError,
     },
+    /// A file of pictures or sounds that is none.
+    #[error("{} cannot be read as {format}: {reason}", .path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it should be: `png`.
+        format: &'static str,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A program that is needed is not installed.
+    #[error("{program} is not installed; its package is {package}: sudo apt-get install {package}")]
+    NoProgram {
+        /// The program.
+        program: &'static str,
+        /// The Debian package that brings it.
+        package: &'static str,
+    },
+    /// A program could not do its work.
+    #[error("{program}: {message}")]
+    Program {
+        /// The program.
+        program: &'static str,
+        /// What it complained of.
+        message: String,
+    },
     /// The caller abandoned a wait.
     #[error("interrupted")]
     Interrupted,
@@ -135,7 +161,8 @@ impl Error {
             Self::Open { path, .. }
             | Self::Read { path, .. }
             | Self::Write { path, .. }
-            | Self::Malformed { path, .. } => Some(path),
+            | Self::Malformed { path, .. }
+            | Self::Format { path, .. } => Some(path),
             _ => None,
         }
     }

@@ -14,6 +14,8 @@
 //!   it, or something that only behaves so. It also owns the clock.
 //! * [`device`]: one device, its kept descriptors and its constants.
 //! * [`devices`]: which devices there are, by class and port.
+//! * [`dev`]: the device files below `/dev`; [`keys`], [`sound`] and
+//!   [`screen`] work on them, with a [`frame`] to draw on and a [`picture`] for files.
 //! * [`attributes`], [`motor`], [`dc`], [`servo`], [`wait`], [`sensor`],
 //!   [`turn`], [`light`], [`battery`], [`lego_port`]: what robots do.
 //!
@@ -28,22 +30,30 @@ pub mod attributes;
 pub mod battery;
 mod bin_data;
 pub mod dc;
+pub mod dev;
 pub mod device;
 pub mod devices;
 pub mod error;
+pub mod frame;
+pub mod keys;
 pub mod lego_port;
 pub mod light;
 mod list;
 pub mod motor;
 mod patience;
+pub mod picture;
 pub mod port;
+mod programs;
+pub mod screen;
 pub mod sensor;
 pub mod servo;
+pub mod sound;
 pub mod tree;
 pub mod turn;
 pub mod value;
 pub mod wait;
 
+pub use dev::{Dev, DevFiles};
 pub use device::Device;
 pub use devices::{Class, Devices};
 pub use error::{Error, Result};

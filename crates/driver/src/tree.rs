@@ -174,7 +174,7 @@ impl Tree for Files {
 
 /// Whether reads and writes of the file go to a driver, as on sysfs and FUSE,
 /// rather than to a store of bytes.
-fn is_generated(file: &File) -> io::Result<bool> {
+pub(crate) fn is_generated(file: &File) -> io::Result<bool> {
     // From linux/magic.h. Both fit the word's width and sign everywhere.
     const SYSFS: u64 = 0x6265_6572;
     const FUSE: u64 = 0x6573_5546;

@@ -1,7 +1,9 @@
-//! What is built into the brick: status LEDs, battery, the note that says which board it is.
+//! What is built into the brick: status LEDs, battery, the note that says which board it is, and
+//! that which says how the screen is laid out.
 
 use crate::attr::{Attr, Effect, Table, text, write_uevent};
 use crate::errno::Errno;
+use crate::front::{Depth, HEIGHT, WIDTH};
 use crate::text::{lenient_unsigned, word};
 
 /// The EV3's four status lights; a left and a right pair of red and green.
@@ -197,4 +199,16 @@ impl Table for Board {
         },
         |_, bytes| write_uevent(bytes),
     )];
+}
+
+/// How the screen in `/dev/fb0` is laid out.
+#[derive(Clone, Debug)]
+pub(crate) struct Framebuffer(pub(crate) Depth);
+
+impl Table for Framebuffer {
+    const ATTRS: &'static [Attr<Framebuffer>] = &[
+        Attr::ro("bits_per_pixel", |f| text(f.0.bits())),
+        Attr::ro("stride", |f| text(f.0.stride())),
+        Attr::ro("virtual_size", |_| text(format_args!("{WIDTH},{HEIGHT}"))),
+    ];
 }

@@ -57,7 +57,8 @@
 //! # Where to read on
 //!
 //! How the hardware behaves is told where it is modelled: motors in `motor`, sensors in
-//! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`.
+//! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`, keys, speaker and
+//! screen in `front`, and the device files in which programs find these in `dev`.
 #![forbid(unsafe_code)]
 
 mod attr;
@@ -65,9 +66,11 @@ mod brick;
 mod colour;
 mod dc;
 mod descriptor;
+mod dev;
 mod drive;
 mod errno;
 mod files;
+mod front;
 #[cfg(feature = "fuse")]
 mod fuse;
 mod geometry;
@@ -97,7 +100,9 @@ mod world;
 pub use attr::Access;
 pub use colour::{Colour, UnknownColour};
 pub use descriptor::Descriptor;
+pub use dev::DevDescriptor;
 pub use errno::Errno;
+pub use front::{Depth, Key, UnknownKey};
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
 pub use geometry::Pose;

@@ -6,8 +6,9 @@
 use std::time::Duration;
 
 use crate::TICK_US;
-use crate::brick::{Battery, Board, LEDS, Led};
+use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::drive::Body;
+use crate::front::{Depth, Front};
 use crate::geometry::Pose;
 use crate::port::{LegoPort, Port};
 use crate::remote::{Button, Remote};
@@ -28,11 +29,13 @@ pub struct Options {
     /// its mode at once and settled. Real bricks take their time: 0.4 s for a motor, 1.3 s for a
     /// serial sensor, 0.5 s more for write permission, some ms for a mode.
     pub instant: bool,
+    /// How many bits the screen has for a pixel.
+    pub depth: Depth,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, instant: false }
+        Options { seed: 1, instant: false, depth: Depth::default() }
     }
 }
 
@@ -59,6 +62,7 @@ pub struct Machine {
     pub(crate) robot: RobotSpec,
     pub(crate) body: Body,
     pub(crate) scene: Scene,
+    pub(crate) front: Front,
     pub(crate) trace: Trace,
 }
 
@@ -92,6 +96,7 @@ impl Machine {
         }
         let battery = tree.add(Hardware::Battery(Battery::new()), 0);
         tree.add(Hardware::Board(Board), 0);
+        tree.add(Hardware::Framebuffer(Framebuffer(options.depth)), 0);
         let socket = |(port, lego_port)| Socket {
             port,
             plug: None,
@@ -112,6 +117,7 @@ impl Machine {
             robot: robot.clone(),
             body: Body::new(robot, world.start),
             scene,
+            front: Front::new(options.depth),
             trace: Trace::new(),
         };
         machine.check_free(&world.start)?;

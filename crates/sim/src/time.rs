@@ -32,8 +32,8 @@ impl Machine {
 
     /// A time, after now, before which nothing happens that a waiting program could be woken by:
     /// the next 50 ms look at the motors' flags, the end of a sensor's mode change, a plug being
-    /// noticed, the 10 ms sample of a touch sensor on a moving robot. A virtual clock may jump
-    /// there with `step(next_event() - now())` and look again.
+    /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock
+    /// may jump there with `step(next_event() - now())` and look again.
     #[must_use]
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
@@ -51,6 +51,7 @@ impl Machine {
             };
             next = next.min(due.unwrap_or(next).max(self.tick + 1));
         }
+        next = next.min(self.front.next_tick().unwrap_or(next).max(self.tick + 1));
         for due in self.sockets.iter().filter_map(|socket| socket.due) {
             next = next.min(due.max(self.tick + 1));
         }
@@ -68,6 +69,7 @@ impl Machine {
                 self.detect(port);
             }
         }
+        self.use_keys();
         let at = Duration::from_micros(self.tick * TICK_US);
         self.trace.tick(self.tick, at, self.body.pose);
     }

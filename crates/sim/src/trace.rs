@@ -24,23 +24,35 @@ pub struct Collision {
     pub pose: Pose,
 }
 
-/// What a program did to a file.
+/// What a program did to a file or to the speaker, and what somebody did to a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// It wrote the text.
     Written,
     /// It read the text: recorded for the values of sensors.
     Read,
+    /// It made a tone of so many Hz; 0 is silence.
+    Tone,
+    /// It said the text.
+    Said,
+    /// It played a file.
+    Played,
+    /// It ended what it said or played.
+    Silenced,
+    /// Somebody pressed a key.
+    Pressed,
+    /// Somebody let go of a key.
+    Released,
 }
 
-/// One access to a file.
+/// One access to a file, or one thing heard or pressed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Event {
     /// Virtual time.
     pub at: Duration,
-    /// Read or written.
+    /// What was done.
     pub action: Action,
-    /// Path below the class directory.
+    /// Path below the class directory; empty where there is none.
     pub path: String,
     /// The text, without the newline at its end.
     pub text: String,
@@ -118,8 +130,8 @@ impl Trace {
 
     pub(crate) fn event(&mut self, event: Event) {
         let ring = match event.action {
-            Action::Written => &mut self.written,
             Action::Read => &mut self.read,
+            _ => &mut self.written,
         };
         if ring.len() == EVENTS {
             ring.pop_front();

@@ -5,7 +5,7 @@
 //! a node of a device that is gone stays gone when another comes to the same port.
 
 use crate::attr::{Access, Effect, Files};
-use crate::brick::{Battery, Board, Led};
+use crate::brick::{Battery, Board, Framebuffer, Led};
 use crate::dc::DcMotor;
 use crate::errno::Errno;
 use crate::motor::Tacho;
@@ -60,6 +60,7 @@ pub struct Entry {
 pub(crate) enum Class {
     BoardInfo,
     DcMotor,
+    Graphics,
     LegoPort,
     LegoSensor,
     Leds,
@@ -70,9 +71,10 @@ pub(crate) enum Class {
 
 /// Name of the class, what its devices are called before their number, and whether udev opens
 /// their files to the group.
-const CLASSES: [(Class, &str, &str, bool); 8] = [
+const CLASSES: [(Class, &str, &str, bool); 9] = [
     (Class::BoardInfo, "board-info", "board", false),
     (Class::DcMotor, "dc-motor", "motor", true),
+    (Class::Graphics, "graphics", "fb", false),
     (Class::LegoPort, "lego-port", "port", true),
     (Class::LegoSensor, "lego-sensor", "sensor", true),
     (Class::Leds, "leds", "", true),
@@ -92,6 +94,7 @@ pub(crate) enum Hardware {
     Led(Led),
     Battery(Battery),
     Board(Board),
+    Framebuffer(Framebuffer),
 }
 
 impl Hardware {
@@ -105,6 +108,7 @@ impl Hardware {
             Hardware::Led(_) => Class::Leds,
             Hardware::Battery(_) => Class::PowerSupply,
             Hardware::Board(_) => Class::BoardInfo,
+            Hardware::Framebuffer(_) => Class::Graphics,
         }
     }
 
@@ -118,6 +122,7 @@ impl Hardware {
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
             Hardware::Board(device) => device,
+            Hardware::Framebuffer(device) => device,
         }
     }
 
@@ -131,6 +136,7 @@ impl Hardware {
             Hardware::Led(device) => device,
             Hardware::Battery(device) => device,
             Hardware::Board(device) => device,
+            Hardware::Framebuffer(device) => device,
         }
     }
 

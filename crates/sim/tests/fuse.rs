@@ -5,7 +5,7 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
-use std::os::unix::fs::{FileExt, MetadataExt};
+use std::os::unix::fs::{FileExt, MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Errno, Machine, Mount, MountError, Port, RobotSpec, Shared, WorldSpec};
+use ev3_sim::{Errno, Key, Machine, Mount, MountError, Port, RobotSpec, Shared, WorldSpec};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 /// A mounted brick with a clock.
@@ -187,6 +187,88 @@ fn a_mode_write_blocks_for_its_time() {
     assert_eq!(bench.get("lego-sensor/sensor1/mode").unwrap(), "COL-COLOR\n");
     std::thread::sleep(Duration::from_millis(30));
     assert_eq!(bench.get("lego-sensor/sensor1/value0").unwrap(), "6\n");
+}
+
+/// The devices of a brick, mounted; None where the machine has no FUSE.
+fn mounted_devices(name: &str) -> Option<(Mount, Arc<Shared>, PathBuf)> {
+    let root = std::env::temp_dir().join(format!("ev3-sim-{}-{name}", std::process::id()));
+    fs::create_dir_all(&root).unwrap();
+    let shared = Arc::new(Shared::new(Machine::default()));
+    match Mount::dev(Arc::clone(&shared), &root) {
+        Ok(mount) => Some((mount, shared, root)),
+        Err(error) => {
+            eprintln!("skipped: {error}");
+            None
+        }
+    }
+}
+
+#[test]
+fn a_reader_of_keys_waits_for_one() {
+    let Some((mount, shared, root)) = mounted_devices("keys") else {
+        return;
+    };
+    let path = root.join("input/by-path/platform-gpio_keys-event");
+    let mut keys = File::open(&path).unwrap();
+    let ready = |file: &File, at_most: Duration| {
+        let mut fds = [PollFd::new(file, PollFlags::IN)];
+        poll(&mut fds, Some(&Timespec::try_from(at_most).unwrap())).unwrap() > 0
+    };
+    assert!(!ready(&keys, Duration::from_millis(50)));
+    let presser = std::thread::spawn({
+        let shared = Arc::clone(&shared);
+        move || {
+            // Longer than a reader waits before it is sent back once.
+            std::thread::sleep(Duration::from_millis(300));
+            shared.lock().press(Key::Left);
+            shared.wake();
+        }
+    });
+    let mut record = [0; 2 * size_of::<usize>() + 8];
+    keys.read_exact(&mut record).unwrap();
+    presser.join().unwrap();
+    let payload = &record[2 * size_of::<usize>()..];
+    assert_eq!(
+        payload,
+        [&1_u16.to_ne_bytes()[..], &105_u16.to_ne_bytes(), &1_i32.to_ne_bytes()].concat()
+    );
+    assert!(ready(&keys, Duration::ZERO), "the end of the report");
+    keys.read_exact(&mut record).unwrap();
+    let polled = std::thread::spawn({
+        let shared = Arc::clone(&shared);
+        move || {
+            std::thread::sleep(Duration::from_millis(50));
+            shared.lock().release(Key::Left);
+            shared.wake();
+        }
+    });
+    assert!(ready(&keys, Duration::from_secs(5)));
+    polled.join().unwrap();
+    let mut now = OpenOptions::new();
+    let mut now = now.read(true).custom_flags(0o4000).open(&path).unwrap();
+    assert_eq!(now.read(&mut record).unwrap_err().kind(), io::ErrorKind::WouldBlock);
+    drop((keys, now));
+    mount.unmount().unwrap();
+    fs::remove_dir(&root).unwrap();
+}
+
+#[test]
+fn the_screen_is_a_file_of_fixed_length() {
+    let Some((mount, _, root)) = mounted_devices("screen") else {
+        return;
+    };
+    let path = root.join("fb0");
+    assert_eq!(fs::metadata(&path).unwrap().len(), 91136);
+    let screen = OpenOptions::new().read(true).write(true).open(&path).unwrap();
+    screen.write_all_at(&vec![1; 70_000], 20_000).unwrap();
+    assert_eq!(errno(screen.write_all_at(&[1; 2], 91135)), Some(Errno::ENOSPC));
+    let shown = fs::read(&path).unwrap();
+    assert_eq!(shown.len(), 91136);
+    assert_eq!(shown[19_999..20_001], [255, 1]);
+    assert_eq!(errno(fs::remove_file(&path)), Some(Errno::EACCES));
+    drop(screen);
+    mount.unmount().unwrap();
+    fs::remove_dir(&root).unwrap();
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod attributes;
 mod boards;
 mod brick;
+mod dev;
 mod devices;
 mod files;
 mod laws;

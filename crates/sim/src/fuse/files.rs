@@ -29,11 +29,11 @@ pub(super) struct Files {
     pub(super) open: Arc<Mutex<Open>>,
 }
 
-fn fuse_errno(errno: Errno) -> fuser::Errno {
+pub(super) fn fuse_errno(errno: Errno) -> fuser::Errno {
     fuser::Errno::from_i32(errno.0)
 }
 
-fn file_type(kind: FileKind) -> FileType {
+pub(super) fn file_type(kind: FileKind) -> FileType {
     match kind {
         FileKind::Directory => FileType::Directory,
         FileKind::File => FileType::RegularFile,
@@ -41,7 +41,7 @@ fn file_type(kind: FileKind) -> FileType {
 }
 
 /// Whoever asks is shown as the owner: on the brick the group `ev3dev` does that.
-fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
+pub(super) fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
     let time: SystemTime = UNIX_EPOCH + machine.now();
     FileAttr {
         ino: INodeNo(stat.node.0),

@@ -6,6 +6,7 @@
 //! wants to be told of a changed `state`, and writes that block, which are answered when their
 //! time is over. Entries of class directories are plain directories here, not symbolic links.
 
+mod dev;
 mod files;
 
 use std::collections::HashMap;
@@ -16,11 +17,14 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use fuser::{BackgroundSession, Config, MountOption, Notifier, PollHandle, ReplyWrite, Session};
+use fuser::{
+    BackgroundSession, Config, Filesystem, MountOption, Notifier, PollHandle, ReplyWrite, Session,
+};
 
 use crate::descriptor::Descriptor;
 use crate::machine::Machine;
 use crate::shared::Shared;
+use dev::{DevFiles, DevOpen};
 use files::Files;
 
 const DEVICE: &str = "/dev/fuse";
@@ -64,6 +68,32 @@ impl Mount {
     /// # Errors
     /// [`MountError`] says what is missing.
     pub fn new(shared: Arc<Shared>, path: &Path) -> Result<Mount, MountError> {
+        let open = Arc::new(Mutex::new(Open::default()));
+        let files = Files { shared: Arc::clone(&shared), open: Arc::clone(&open) };
+        Mount::start(shared, path, files, move |shared, notifier, stop| {
+            watch(shared, &open, notifier, stop);
+        })
+    }
+
+    /// Mounts the devices of a machine on an existing directory, which then is what `/dev` is on a
+    /// brick.
+    ///
+    /// # Errors
+    /// [`MountError`] says what is missing.
+    pub fn dev(shared: Arc<Shared>, path: &Path) -> Result<Mount, MountError> {
+        let open = Arc::new(Mutex::new(DevOpen::default()));
+        let files = DevFiles { shared: Arc::clone(&shared), open: Arc::clone(&open) };
+        Mount::start(shared, path, files, move |shared, notifier, stop| {
+            dev::watch(shared, &open, notifier, stop);
+        })
+    }
+
+    fn start(
+        shared: Arc<Shared>,
+        path: &Path,
+        files: impl Filesystem,
+        watch: impl FnOnce(&Shared, &Notifier, &AtomicBool) + Send + 'static,
+    ) -> Result<Mount, MountError> {
         if !Path::new(DEVICE).exists() {
             return Err(MountError::NoFuse);
         }
@@ -71,8 +101,6 @@ impl Mount {
             return Err(MountError::NoDirectory(path.to_owned()));
         }
         let refused = |source| MountError::Refused { path: path.to_owned(), source };
-        let open = Arc::new(Mutex::new(Open::default()));
-        let files = Files { shared: Arc::clone(&shared), open: Arc::clone(&open) };
         let mut config = Config::default();
         config.mount_options = vec![
             MountOption::FSName("ev3-sim".to_owned()),
@@ -86,7 +114,7 @@ impl Mount {
         let watcher = std::thread::Builder::new().name("ev3-sim-fuse".to_owned()).spawn({
             let (shared, stop) = (Arc::clone(&shared), Arc::clone(&stop));
             let notifier = session.notifier();
-            move || watch(&shared, &open, &notifier, &stop)
+            move || watch(&shared, &notifier, &stop)
         });
         let watcher = Some(watcher.map_err(refused)?);
         Ok(Mount { session: Some(session), watcher, shared, stop, path: path.to_owned() })

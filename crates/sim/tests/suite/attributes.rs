@@ -251,6 +251,7 @@ fn the_tree_answers_as_a_file_system() {
         [
             "board-info",
             "dc-motor",
+            "graphics",
             "lego-port",
             "lego-sensor",
             "leds",

@@ -16,7 +16,7 @@ fn digest(bytes: &[u8]) -> u64 {
 /// Drives about the noisy room for a minute, turning away from what is near.
 fn run() -> Vec<u8> {
     let robot = RobotSpec::default().with_typical_noise();
-    let options = Options { seed: 42, instant: false };
+    let options = Options { seed: 42, ..Options::default() };
     let mut desk = Desk(Machine::new(&furnished(), &robot, options).unwrap());
     let mut bytes = String::new();
     for step in 0..1200 {

@@ -59,7 +59,7 @@ fn deeds(most: usize) -> impl Strategy<Value = Vec<Deed>> {
 
 fn noisy_room(seed: u64) -> Desk {
     let robot = RobotSpec::default().with_typical_noise();
-    let options = Options { seed, instant: false };
+    let options = Options { seed, ..Options::default() };
     Desk(Machine::new(&furnished(), &robot, options).unwrap())
 }
 

@@ -241,7 +241,8 @@ fn gyro_drift_and_noise_are_off_until_asked_for() {
     robot.sensors[0].noise = Noise { sigma: 1.0, bias: 0.0 };
     let wall = world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]);
     let readings = |seed| {
-        let mut desk = Desk(Machine::new(&wall, &robot, Options { seed, instant: false }).unwrap());
+        let mut desk =
+            Desk(Machine::new(&wall, &robot, Options { seed, ..Options::default() }).unwrap());
         let mut sonar = Vec::new();
         for _ in 0..1000 {
             desk.step(10);

@@ -1,0 +1,264 @@
+//! The keys on the brick.
+//!
+//! The kernel's gpio-keys driver shows them as an event device below
+//! `/dev/input`. Whoever opens it may ask which keys are down, and reads from
+//! then on an event for each that is pressed or released. Each reader has a
+//! queue of its own.
+//!
+//! A plain file may stand in for the device: it holds the events there were,
+//! and whoever waits gets those that are written behind them.
+use crate::Interrupted;
+use crate::dev::{Dev, Stream, open_first, until};
+use crate::error::{Access, Error, Result};
+use input_linux::sys::input_event;
+use rustix::io::Errno;
+use std::collections::VecDeque;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Where the keys of the boards are: EV3 with ev3dev-stretch and with jessie,
+/// EVB, `PiStorms`, whose only key is enter.
+const DEVICES: [&str; 4] = [
+    "input/by-path/platform-gpio_keys-event",
+    "input/by-path/platform-gpio-keys.0-event",
+    "input/by-path/platform-evb-buttons-event",
+    "input/by-path/platform-3f804000.i2c-event",
+];
+
+/// From linux/input-event-codes.h.
+const EV_KEY: u16 = 1;
+
+/// Codes of keys are below 768.
+const STATE_BYTES: usize = 96;
+
+/// An event of the kernel: a time of two words, then type, code and value.
+pub(crate) const EVENT_BYTES: usize = size_of::<input_event>();
+
+/// A key of the brick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// The upper one.
+    Up,
+    /// The lower one.
+    Down,
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// The one in the middle.
+    Enter,
+    /// The one below the screen's left corner; brickrun ends programs by it.
+    Back,
+}
+
+impl Key {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Up, Self::Down, Self::Left, Self::Right, Self::Enter, Self::Back];
+
+    /// The word programs see.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Up => "up",
+            Self::Down => "down",
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Enter => "enter",
+            Self::Back => "back",
+        }
+    }
+
+    /// The key of that name.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|key| key.word() == word)
+    }
+
+    /// The kernel's code, from linux/input-event-codes.h.
+    #[must_use]
+    pub fn code(self) -> u16 {
+        match self {
+            Self::Up => 103,
+            Self::Down => 108,
+            Self::Left => 105,
+            Self::Right => 106,
+            Self::Enter => 28,
+            // KEY_BACKSPACE
+            Self::Back => 14,
+        }
+    }
+
+    fn coded(code: u16) -> Option<Self> {
+        Self::ALL.into_iter().find(|key| key.code() == code)
+    }
+}
+
+/// What was done to a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Which.
+    pub key: Key,
+    /// Pressed, else released.
+    pub is_press: bool,
+}
+
+/// The keys that are down now; `None` where there are no keys.
+///
+/// # Errors
+/// The kernel's, as EACCES for who is not in the group `input`.
+pub fn pressed(dev: &dyn Dev) -> Result<Option<Vec<Key>>> {
+    let Some((stream, path)) = open_first(dev, &DEVICES, Access::Read)? else {
+        return Ok(None);
+    };
+    let mut bits = [0; STATE_BYTES];
+    match stream.key_state(&mut bits) {
+        Ok(()) => Ok(Some(Key::ALL.into_iter().filter(|key| is_set(&bits, *key)).collect())),
+        Err(error) if Errno::from_io_error(&error) == Some(Errno::NOTTY) => {
+            pressed_in(&*stream, &path).map(Some)
+        }
+        Err(source) => Err(Error::Read { path, source }),
+    }
+}
+
+fn is_set(bits: &[u8], key: Key) -> bool {
+    let (byte, bit) = (usize::from(key.code() / 8), key.code() % 8);
+    bits.get(byte).is_some_and(|byte| byte & (1 << bit) != 0)
+}
+
+/// The keys that are down after all events in a file.
+fn pressed_in(stream: &dyn Stream, path: &Path) -> Result<Vec<Key>> {
+    let mut queue = Queue::default();
+    while queue.fill(stream, path)? {}
+    let mut down = Vec::new();
+    for event in queue.events {
+        down.retain(|key| *key != event.key);
+        if event.is_press {
+            down.push(event.key);
+        }
+    }
+    Ok(Key::ALL.into_iter().filter(|key| down.contains(key)).collect())
+}
+
+/// What is done to the keys from a moment on.
+pub struct Events {
+    dev: Arc<dyn Dev>,
+    stream: Box<dyn Stream>,
+    path: PathBuf,
+    queue: Mutex<Queue>,
+}
+
+impl Events {
+    /// Those from now on; `None` where there are no keys.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn from_now(dev: Arc<dyn Dev>) -> Result<Option<Self>> {
+        let Some((stream, path)) = open_first(&*dev, &DEVICES, Access::Read)? else {
+            return Ok(None);
+        };
+        stream.skip().map_err(|source| Error::Read { path: path.clone(), source })?;
+        Ok(Some(Self { dev, stream, path, queue: Mutex::default() }))
+    }
+
+    /// Waits for the next event; `None` if there was none in that time.
+    ///
+    /// # Errors
+    /// The kernel's; [`Error::Interrupted`].
+    pub fn next(
+        &self,
+        timeout: Option<Duration>,
+        interrupted: Interrupted,
+    ) -> Result<Option<Event>> {
+        self.wait(timeout, interrupted, |queue| queue.events.pop_front())
+    }
+
+    /// Waits for the next event of that key, or any, and of that kind, or any.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next).
+    pub fn next_such(
+        &self,
+        key: Option<Key>,
+        is_press: Option<bool>,
+        timeout: Option<Duration>,
+        interrupted: Interrupted,
+    ) -> Result<Option<Event>> {
+        let is_it = |event: &Event| {
+            key.is_none_or(|key| key == event.key)
+                && is_press.is_none_or(|is_press| is_press == event.is_press)
+        };
+        self.wait(timeout, interrupted, |queue| {
+            std::iter::from_fn(|| queue.events.pop_front()).find(is_it)
+        })
+    }
+
+    /// Waits for event number `index` since the beginning. The same number is
+    /// the same event each time: what was read is kept.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next).
+    pub fn nth(&self, index: usize, interrupted: Interrupted) -> Result<Event> {
+        let event = self.wait(None, interrupted, |queue| queue.events.get(index).copied())?;
+        event.ok_or(Error::Interrupted)
+    }
+
+    fn wait<T>(
+        &self,
+        timeout: Option<Duration>,
+        interrupted: Interrupted,
+        mut take: impl FnMut(&mut Queue) -> Option<T>,
+    ) -> Result<Option<T>> {
+        until(&*self.dev, Some(&*self.stream), timeout, interrupted, || {
+            let mut queue = self.queue();
+            while queue.fill(&*self.stream, &self.path)? {}
+            Ok(take(&mut queue))
+        })
+    }
+
+    fn queue(&self) -> MutexGuard<'_, Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Events that were read.
+#[derive(Default)]
+struct Queue {
+    events: VecDeque<Event>,
+    /// The beginning of one that is not read wholly.
+    rest: Vec<u8>,
+}
+
+impl Queue {
+    /// Reads more; `false` if there is nothing at present.
+    fn fill(&mut self, stream: &dyn Stream, path: &Path) -> Result<bool> {
+        let mut buffer = [0; 64 * EVENT_BYTES];
+        let length = match stream.read(&mut buffer) {
+            Ok(length) => length,
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => 0,
+            Err(source) => return Err(Error::Read { path: path.to_owned(), source }),
+        };
+        self.rest.extend_from_slice(buffer.get(..length).unwrap_or_default());
+        let records = self.rest.chunks_exact(EVENT_BYTES);
+        let over = records.remainder().to_vec();
+        self.events.extend(records.filter_map(event));
+        self.rest = over;
+        Ok(length > 0)
+    }
+}
+
+/// The event in a record; `None` if it is not one of our keys' pressed or
+/// released, as one that repeats is not.
+fn event(record: &[u8]) -> Option<Event> {
+    let (_, payload) = record.split_last_chunk::<8>()?;
+    let [t0, t1, c0, c1, value @ ..] = *payload;
+    let is_press = match i32::from_ne_bytes(value) {
+        0 => false,
+        1 => true,
+        _ => return None,
+    };
+    let key = Key::coded(u16::from_ne_bytes([c0, c1]))?;
+    (u16::from_ne_bytes([t0, t1]) == EV_KEY).then_some(Event { key, is_press })
+}

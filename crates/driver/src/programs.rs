@@ -1,0 +1,142 @@
+//! Other programs, as those that speak and play.
+use crate::Interrupted;
+use crate::dev::{Dev, until};
+use crate::error::{Error, Result};
+use std::ffi::OsStr;
+use std::io::{self, Read};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// A program, and the Debian package that brings it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Program {
+    name: &'static str,
+    package: &'static str,
+}
+
+impl Program {
+    pub(crate) const APLAY: Self = Self { name: "aplay", package: "alsa-utils" };
+    pub(crate) const AMIXER: Self = Self { name: "amixer", package: "alsa-utils" };
+    pub(crate) const ESPEAK: Self = Self { name: "espeak", package: "espeak" };
+
+    /// Starts it. What it complains of can be read later.
+    pub(crate) fn start(
+        self,
+        arguments: &[&OsStr],
+        input: Stdio,
+        output: Stdio,
+    ) -> Result<Started> {
+        let mut command = Command::new(self.name);
+        command.args(arguments).stdin(input).stdout(output).stderr(Stdio::piped());
+        let child = command.spawn().map_err(|source| self.cannot_start(&source))?;
+        Ok(Started { program: self, child })
+    }
+
+    /// Runs it to its end; what it printed.
+    pub(crate) fn output(self, arguments: &[&str]) -> Result<String> {
+        let output = Command::new(self.name).args(arguments).stdin(Stdio::null()).output();
+        let output = output.map_err(|source| self.cannot_start(&source))?;
+        if output.status.success() {
+            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+        } else {
+            Err(self.failed(&String::from_utf8_lossy(&output.stderr)))
+        }
+    }
+
+    fn cannot_start(self, source: &io::Error) -> Error {
+        match source.kind() {
+            io::ErrorKind::NotFound => {
+                Error::NoProgram { program: self.name, package: self.package }
+            }
+            _ => self.failed(&source.to_string()),
+        }
+    }
+
+    fn failed(self, message: &str) -> Error {
+        Error::Program { program: self.name, message: message.trim().to_owned() }
+    }
+}
+
+/// A program that runs, and ends when this is dropped.
+#[derive(Debug)]
+pub(crate) struct Started {
+    program: Program,
+    child: Child,
+}
+
+impl Started {
+    /// What it prints, as the input of another one.
+    pub(crate) fn printed(&mut self) -> Stdio {
+        self.child.stdout.take().map_or_else(Stdio::null, Stdio::from)
+    }
+
+    /// Whether it has ended, and well.
+    fn is_over(&mut self) -> Result<bool> {
+        let status = self.child.try_wait();
+        match status.map_err(|source| self.program.failed(&source.to_string()))? {
+            None => Ok(false),
+            Some(status) if status.success() => Ok(true),
+            Some(_) => {
+                let mut message = String::new();
+                if let Some(errors) = &mut self.child.stderr {
+                    // Half of it is better than none.
+                    let _ = errors.read_to_string(&mut message);
+                }
+                Err(self.program.failed(&message))
+            }
+        }
+    }
+}
+
+impl Drop for Started {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Programs that run, by a number for those that run together.
+#[derive(Debug, Default)]
+pub(crate) struct Programs {
+    running: Mutex<Vec<(u64, Started)>>,
+    next: AtomicU64,
+}
+
+impl Programs {
+    /// Waits until all of these have ended, by themselves or by
+    /// [`end`](Self::end). However it is left, they have.
+    pub(crate) fn wait<const N: usize>(
+        &self,
+        dev: &dyn Dev,
+        programs: [Started; N],
+        interrupted: Interrupted,
+    ) -> Result<()> {
+        let number = self.next.fetch_add(1, Ordering::SeqCst);
+        self.running().extend(programs.map(|program| (number, program)));
+        let over = until(dev, None, None, interrupted, || self.are_over(number));
+        self.running().retain(|(other, _)| *other != number);
+        over.map(drop)
+    }
+
+    fn are_over(&self, number: u64) -> Result<Option<()>> {
+        let mut running = self.running();
+        let mine = running.iter_mut().filter(|(other, _)| *other == number);
+        for (_, program) in mine {
+            if !program.is_over()? {
+                return Ok(None);
+            }
+        }
+        Ok(Some(()))
+    }
+
+    /// Ends all that run.
+    pub(crate) fn end(&self) {
+        self.running().clear();
+    }
+
+    fn running(&self) -> MutexGuard<'_, Vec<(u64, Started)>> {
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,107 @@
+:- module(ev3dev_keys,
+          [ button/1,                   % ?Key
+            button_wait/2,              % ?Key, ?Event
+            button_wait/3,              % ?Key, ?Event, +Options
+            button_events/1             % -Events
+          ]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(dev, []).
+
+/** <module> The keys of the brick
+
+A Key is one of `up`, `down`, `left`, `right`, `enter` (in the middle) and
+`back`. A program that was started from the brick's menu is ended by `back`,
+whatever it does with it.
+
+All predicates fail if there are no keys.
+
+```
+?- button_wait(Key, pressed).
+Key = left.
+```
+*/
+
+%!  button(?Key) is nondet.
+%
+%   True if Key is down now; on backtracking, each that is.
+%
+%   @error domain_error(button, Key)
+
+button(Key) :-
+    var(Key),
+    !,
+    buttons_(Keys),
+    member(Key, Keys).
+button(Key) :-
+    must_be(atom, Key),
+    (   memberchk(Key, [up, down, left, right, enter, back])
+    ->  true
+    ;   domain_error(button, Key)
+    ),
+    buttons_(Keys),
+    memberchk(Key, Keys).
+
+%!  button_wait(?Key, ?Event) is semidet.
+%!  button_wait(?Key, ?Event, +Options) is semidet.
+%
+%   Wait until something is done to a key: Event is `pressed` or `released`.
+%   An unbound Key is any key, an unbound Event any of the two. What was done
+%   before the call does not count; to miss nothing between two calls, use
+%   button_events/1. Options:
+%
+%     - timeout(+Seconds)
+%       Fail after that time. Default is `infinite`.
+%
+%   @error domain_error(button, Key)
+%   @error domain_error(button_event, Event)
+%   @error domain_error(timeout, Seconds)
+
+button_wait(Key, Event) :-
+    button_wait_(Key, Event, infinite).
+
+button_wait(Key, Event, Options) :-
+    must_be(list, Options),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    button_wait_(Key, Event, Timeout).
+
+must_be_timeout(infinite) :-
+    !.
+must_be_timeout(Seconds) :-
+    must_be(number, Seconds),
+    (   Seconds >= 0
+    ->  true
+    ;   domain_error(timeout, Seconds)
+    ).
+
+%!  button_events(-Events) is semidet.
+%
+%   True if Events is the list, without end, of what is done to the keys from
+%   now on, each a pair Key-Event as in button_wait/2. Does not wait: who
+%   looks at an element of the list waits until there is one. As long as the
+%   list is reachable no event is missed, and looking again, also after
+%   backtracking, finds the same.
+%
+%   ```
+%   ?- button_events(Events), member(Key-released, Events).
+%   Key = up ;
+%   Key = down .
+%   ```
+
+button_events(Events) :-
+    button_source_(Source),
+    events(Source, 0, Events).
+
+events(Source, Index, Events) :-
+    freeze(Events, events_are(Events, Source, Index)).
+
+%   Reached when Events is bound, and then it is no variable.
+
+events_are([Key-Event|Rest], Source, Index) :-
+    button_event_(Source, Index, Key0, Event0),
+    Key = Key0,
+    Event = Event0,
+    Next is Index + 1,
+    events(Source, Next, Rest).

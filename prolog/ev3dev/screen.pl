@@ -1,0 +1,276 @@
+:- module(ev3dev_screen,
+          [ screen_clear/0,
+            screen_point/2,             % +X, +Y
+            screen_point/3,             % +X, +Y, +Options
+            screen_line/4,              % +X1, +Y1, +X2, +Y2
+            screen_line/5,              % +X1, +Y1, +X2, +Y2, +Options
+            screen_rectangle/4,         % +X, +Y, +Width, +Height
+            screen_rectangle/5,         % +X, +Y, +Width, +Height, +Options
+            screen_circle/3,            % +X, +Y, +Radius
+            screen_circle/4,            % +X, +Y, +Radius, +Options
+            screen_arc/5,               % +X, +Y, +Radius, +Start, +Sweep
+            screen_arc/6,               % ..., +Sweep, +Options
+            screen_text/3,              % +X, +Y, +Text
+            screen_text/4,              % +X, +Y, +Text, +Options
+            screen_image/3,             % +X, +Y, +File
+            screen_show/0,
+            screen_png/1                % +File
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(dev, []).
+
+/** <module> The screen
+
+The screen has 178 x 128 pixels. X goes to the right from 0 and Y down from 0;
+both, and all sizes, are pixels and may be arithmetic expressions. What is
+outside is not seen.
+
+A program draws on a sheet of its own, which screen_show/0 shows at once; one
+that has drawn anything else and shows again sees both. The sheet is white at
+first. All threads share it.
+
+```
+?- screen_clear, screen_text(10, 10, 'Hello'), screen_show.
+```
+
+Drawing works on any machine. screen_show/0 and screen_png/1 fail if there is
+no screen of an EV3.
+
+## Options {#screen-options}
+
+  - color(+Color)
+    `black` (default), `dark_gray`, `light_gray` or `white`. Versions of
+    ev3dev before 2018 show only black and white, the greys as what they are
+    nearer to.
+  - width(+Pixels)
+    How thick lines are, from 1 (default) to 128.
+  - fill(+Boolean)
+    If `true`, rectangles and circles are filled. Default is `false`.
+*/
+
+%!  screen_clear is det.
+%
+%   Make all of the sheet white.
+
+screen_clear :-
+    screen_clear_.
+
+%!  screen_point(+X, +Y) is det.
+%!  screen_point(+X, +Y, +Options) is det.
+%
+%   Draw one pixel.
+%
+%   @error domain_error(pixels, X) here and below, if X is farther away than
+%          10000
+%   @error domain_error(screen_color, Color)
+
+screen_point(X, Y) :-
+    screen_point(X, Y, []).
+
+screen_point(X0, Y0, Options) :-
+    place(X0, X),
+    place(Y0, Y),
+    draw(point(X, Y), Options).
+
+%!  screen_line(+X1, +Y1, +X2, +Y2) is det.
+%!  screen_line(+X1, +Y1, +X2, +Y2, +Options) is det.
+%
+%   Draw a line from one pixel to another.
+%
+%   @error domain_error(line_width, Pixels)
+
+screen_line(X1, Y1, X2, Y2) :-
+    screen_line(X1, Y1, X2, Y2, []).
+
+screen_line(XA0, YA0, XB0, YB0, Options) :-
+    place(XA0, XA),
+    place(YA0, YA),
+    place(XB0, XB),
+    place(YB0, YB),
+    draw(line(XA, YA, XB, YB), Options).
+
+%!  screen_rectangle(+X, +Y, +Width, +Height) is det.
+%!  screen_rectangle(+X, +Y, +Width, +Height, +Options) is det.
+%
+%   Draw a rectangle by its upper left corner. Its line is inside of it.
+%
+%   @error domain_error(pixels, Width) if it is negative
+
+screen_rectangle(X, Y, Width, Height) :-
+    screen_rectangle(X, Y, Width, Height, []).
+
+screen_rectangle(X0, Y0, Width0, Height0, Options) :-
+    place(X0, X),
+    place(Y0, Y),
+    size(Width0, Width),
+    size(Height0, Height),
+    draw(rectangle(X, Y, Width, Height), Options).
+
+%!  screen_circle(+X, +Y, +Radius) is det.
+%!  screen_circle(+X, +Y, +Radius, +Options) is det.
+%
+%   Draw a circle around a pixel.
+%
+%   @error domain_error(pixels, Radius) if it is negative
+
+screen_circle(X, Y, Radius) :-
+    screen_circle(X, Y, Radius, []).
+
+screen_circle(X0, Y0, Radius0, Options) :-
+    place(X0, X),
+    place(Y0, Y),
+    size(Radius0, Radius),
+    draw(circle(X, Y, Radius), Options).
+
+%!  screen_arc(+X, +Y, +Radius, +Start, +Sweep) is det.
+%!  screen_arc(+X, +Y, +Radius, +Start, +Sweep, +Options) is det.
+%
+%   Draw a piece of a circle: from Start on by Sweep. Both are degrees, 0 is
+%   up and clockwise is positive, as for turn/2.
+
+screen_arc(X, Y, Radius, Start, Sweep) :-
+    screen_arc(X, Y, Radius, Start, Sweep, []).
+
+screen_arc(X0, Y0, Radius0, Start0, Sweep0, Options) :-
+    place(X0, X),
+    place(Y0, Y),
+    size(Radius0, Radius),
+    degrees(Start0, Start),
+    degrees(Sweep0, Sweep),
+    draw(arc(X, Y, Radius, Start, Sweep), Options).
+
+draw(Shape, Options) :-
+    must_be(list, Options),
+    option(color(Color), Options, black),
+    option(width(Width), Options, 1),
+    option(fill(Fill), Options, false),
+    must_be(integer, Width),
+    must_be(boolean, Fill),
+    (   between(1, 128, Width)
+    ->  true
+    ;   domain_error(line_width, Width)
+    ),
+    screen_draw_(Shape, style(Color, Width, Fill)).
+
+%   Numbers that the library draws with are not too large to count with.
+
+place(Expression, Pixels) :-
+    Pixels is round(Expression),
+    (   between(-10000, 10000, Pixels)
+    ->  true
+    ;   domain_error(pixels, Expression)
+    ).
+
+size(Expression, Pixels) :-
+    place(Expression, Pixels),
+    (   Pixels >= 0
+    ->  true
+    ;   domain_error(pixels, Expression)
+    ).
+
+degrees(Expression, Degrees) :-
+    Degrees is Expression,
+    (   abs(Degrees) =< 10000
+    ->  true
+    ;   domain_error(degrees, Expression)
+    ).
+
+%!  screen_text(+X, +Y, +Text) is det.
+%!  screen_text(+X, +Y, +Text, +Options) is det.
+%
+%   Write a text, an atom, string or number, with its upper left corner at X,
+%   Y. A newline in it starts another line. Letters are those of western
+%   Europe (ISO 8859-1); others appear as `?`. Options:
+%
+%     - font(+Font)
+%       `tiny` (5 x 8 pixels), `small` (6 x 10), `medium` (7 x 13, default)
+%       or `large` (10 x 20).
+%     - scale(+Times)
+%       So many times as large, from 1 (default) to 16.
+%     - align(+Align)
+%       `left` (default), or `center` or `right` if X is the middle or the
+%       right end of the text.
+%     - color(+Color)
+%     - background(+Color)
+%       The colour behind the letters. By default there is none, and one sees
+%       what was there.
+%
+%   @error domain_error(font, Font)
+%   @error domain_error(text_scale, Times)
+%   @error domain_error(text_align, Align)
+%   @error domain_error(screen_color, Color)
+
+screen_text(X, Y, Text) :-
+    screen_text(X, Y, Text, []).
+
+screen_text(X0, Y0, Text, Options) :-
+    place(X0, X),
+    place(Y0, Y),
+    must_be(atomic, Text),
+    must_be(list, Options),
+    option(font(Font), Options, medium),
+    option(scale(Scale), Options, 1),
+    option(align(Align), Options, left),
+    option(color(Color), Options, black),
+    option(background(Background), Options, none),
+    must_be(integer, Scale),
+    (   between(1, 16, Scale)
+    ->  true
+    ;   domain_error(text_scale, Scale)
+    ),
+    format(string(String), "~w", [Text]),
+    screen_write_(X, Y, String,
+                  letters(Color, Background, Font, Scale, Align)).
+
+%!  screen_image(+X, +Y, +File) is det.
+%
+%   Draw a picture from a PNG or PBM file, with its upper left corner at X, Y.
+%   Colours become greys; what is more than half transparent is left out.
+%
+%   @error existence_error(file, File)
+%   @error syntax_error(png) or syntax_error(pbm) if it is no such file, or an
+%          interlaced PNG, or more than 4096 pixels wide or high
+
+screen_image(X0, Y0, File) :-
+    place(X0, X),
+    place(Y0, Y),
+    must_be(nonvar, File),
+    absolute_file_name(File, Path),
+    screen_image_(X, Y, Path).
+
+%!  screen_show is semidet.
+%
+%   Show what is drawn, at once. Fails if there is no screen.
+%
+%   On the brick a program is seen if it was started from the menu, or by
+%   `brickrun`; otherwise the screen belongs to the menu.
+%
+%   @error permission_error(write, attribute, File) for a user who is not in
+%          the group `video`
+
+screen_show :-
+    (   screen_show_
+    ->  true
+    ;   no_screen
+    ).
+
+no_screen :-
+    debug(ev3dev, "screen: there is no fb0 of 178 x 128 pixels", []),
+    fail.
+
+%!  screen_png(+File) is semidet.
+%
+%   Write what is on the screen, whoever has drawn it, to a PNG file. Fails if
+%   there is no screen.
+%
+%   @error existence_error(file, File) if its directory does not exist
+
+screen_png(File) :-
+    must_be(nonvar, File),
+    absolute_file_name(File, Path),
+    (   screen_png_(Path)
+    ->  true
+    ;   no_screen
+    ).

@@ -1,0 +1,225 @@
+:- module(ev3dev_sound,
+          [ tone/2,                     % +Hertz, +Milliseconds
+            tones/1,                    % +Tones
+            tones/2,                    % +Tones, +Options
+            say/1,                      % +Text
+            play/1,                     % +File
+            volume/1,                   % ?Percent
+            sound_stop/0
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(dev, []).
+
+/** <module> The speaker
+
+All predicates but sound_stop/0 wait until the sound is over. A call that is
+left by an exception, as Ctrl-C, ends its sound first, and when Prolog halts
+nothing sounds any more.
+
+Tones fail if there is no speaker. Speech and recordings need programs that
+may have to be installed: `espeak`, and `aplay` of the package `alsa-utils`.
+
+```
+?- tones([note(c4, quarter), note(e4, quarter), note(g4, half)]).
+?- say('I am a robot').
+```
+*/
+
+%!  tone(+Hertz, +Milliseconds) is semidet.
+%
+%   Make a tone from 100 to 10000 Hz, and wait until it is over. Both may be
+%   arithmetic expressions. While a recording plays, none is heard.
+%
+%   @error domain_error(frequency, Hertz)
+%   @error domain_error(milliseconds, Milliseconds) if it is negative
+
+tone(Hertz, Milliseconds) :-
+    tones([tone(Hertz, Milliseconds)]).
+
+%!  tones(+Tones) is semidet.
+%!  tones(+Tones, +Options) is semidet.
+%
+%   Play a list of tones one after the other, and wait until they are over.
+%   All are checked before the first is heard. Each is one of
+%
+%     - tone(Hertz, Milliseconds)
+%     - note(Pitch, Length)
+%       Pitch is a letter from `a` to `g`, perhaps `s` for sharp or `b` for
+%       flat, and the octave: `c4` is the middle C, `a4` has 440 Hz, `fs4` is
+%       above `f4`, `bb3` below `b3`. The lowest is `gs2`, the highest `ds9`.
+%       It is held for nine tenths of its time, so that notes are heard apart.
+%     - rest(Length)
+%       Silence.
+%
+%   A Length is `whole`, `half`, `quarter`, `eighth` or `sixteenth`,
+%   `dotted(Length)`, half as long again, or `triplet(Length)`, two thirds.
+%   Options:
+%
+%     - tempo(+QuartersPerMinute)
+%       Default is 120.
+%
+%   @error domain_error(tone, Tone)
+%   @error domain_error(note, Pitch)
+%   @error domain_error(note_length, Length)
+%   @error domain_error(tempo, QuartersPerMinute)
+
+tones(Tones) :-
+    tones(Tones, []).
+
+tones(Tones, Options) :-
+    must_be(list, Tones),
+    must_be(list, Options),
+    option(tempo(Tempo), Options, 120),
+    must_be(number, Tempo),
+    (   Tempo > 0
+    ->  Quarter is 60000 / Tempo
+    ;   domain_error(tempo, Tempo)
+    ),
+    native_tones(Tones, Quarter, Native),
+    (   tones_(Native)
+    ->  true
+    ;   debug(ev3dev, "tone: there is no speaker", []),
+        fail
+    ).
+
+%   Native are terms tone(Hertz, Milliseconds), 0 Hz for silence.
+
+native_tones([], _, []).
+native_tones([Tone|Tones], Quarter, Native) :-
+    must_be(nonvar, Tone),
+    (   native(Tone, Quarter, Native, Rest)
+    ->  true
+    ;   domain_error(tone, Tone)
+    ),
+    native_tones(Tones, Quarter, Rest).
+
+native(tone(Hertz0, Time0), _, [tone(Hertz, Time)|Rest], Rest) :-
+    Hertz is round(Hertz0),
+    Time is Time0,
+    (   between(100, 10000, Hertz)
+    ->  true
+    ;   domain_error(frequency, Hertz0)
+    ),
+    (   Time >= 0
+    ->  true
+    ;   domain_error(milliseconds, Time0)
+    ).
+native(note(Pitch, Length), Quarter, [tone(Hertz, Held), tone(0, Gap)|Rest],
+       Rest) :-
+    (   pitch(Pitch, Hertz)
+    ->  true
+    ;   domain_error(note, Pitch)
+    ),
+    time(Length, Quarter, Time),
+    Held is 0.9 * Time,
+    Gap is 0.1 * Time.
+native(rest(Length), Quarter, [tone(0, Time)|Rest], Rest) :-
+    time(Length, Quarter, Time).
+
+%   A tempered scale of twelve steps an octave, in which a4 is number 57.
+
+pitch(Pitch, Hertz) :-
+    must_be(atom, Pitch),
+    atom_codes(Pitch, [Letter|Codes]),
+    step([Letter], Step),
+    (   Codes = [Digit],
+        Shift = 0
+    ;   Codes = [Sign, Digit],
+        shift([Sign], Shift)
+    ),
+    code_type(Digit, digit(Octave)),
+    !,
+    Hertz is round(440 * 2 ** ((12 * Octave + Step + Shift - 57) / 12.0)),
+    between(100, 10000, Hertz).
+
+step(`c`, 0).
+step(`d`, 2).
+step(`e`, 4).
+step(`f`, 5).
+step(`g`, 7).
+step(`a`, 9).
+step(`b`, 11).
+
+shift(`s`, 1).
+shift(`#`, 1).
+shift(`b`, -1).
+
+time(Length, Quarter, Time) :-
+    must_be(nonvar, Length),
+    (   quarters(Length, Quarters)
+    ->  Time is Quarters * Quarter
+    ;   domain_error(note_length, Length)
+    ).
+
+quarters(whole, 4).
+quarters(half, 2).
+quarters(quarter, 1).
+quarters(eighth, 0.5).
+quarters(sixteenth, 0.25).
+quarters(dotted(Length), Quarters) :-
+    nonvar(Length),
+    quarters(Length, Quarters0),
+    Quarters is 1.5 * Quarters0.
+quarters(triplet(Length), Quarters) :-
+    nonvar(Length),
+    quarters(Length, Quarters0),
+    Quarters is 2 * Quarters0 / 3.
+
+%!  say(+Text) is semidet.
+%
+%   Say a text, an atom or a string, and wait until it is said.
+%
+%   @error existence_error(program, espeak) and the same of `aplay`: the
+%          message names the package to install
+%   @error system_error(Words) if one of them cannot do it
+
+say(Text) :-
+    say_(Text).
+
+%!  play(+File) is semidet.
+%
+%   Play a WAV file, and wait until it is over.
+%
+%   @error existence_error(file, File)
+%   @error syntax_error(wav) if it is no such file
+%   @error existence_error(program, aplay): the message names the package to
+%          install
+%   @error system_error(Words) if that cannot do it
+
+play(File) :-
+    must_be(nonvar, File),
+    absolute_file_name(File, Path),
+    play_(Path).
+
+%!  volume(?Percent) is semidet.
+%
+%   Read the volume, or set it to a percentage from 0 to 100, which may be an
+%   arithmetic expression. On ev3dev-stretch it is read from the volume of
+%   recordings, and set for these and tones. Fails if there is nothing to set.
+%
+%   @error domain_error(volume, Percent)
+%   @error existence_error(program, amixer): the message names the package to
+%          install
+
+volume(Percent) :-
+    var(Percent),
+    !,
+    volume_(Percent).
+volume(Percent0) :-
+    Percent is round(Percent0),
+    (   between(0, 100, Percent)
+    ->  volume_set_(Percent)
+    ;   domain_error(volume, Percent0)
+    ).
+
+%!  sound_stop is det.
+%
+%   End all sounds that this program makes. Calls in other threads that wait
+%   for one succeed.
+
+sound_stop :-
+    sound_stop_.
+
+:- at_halt(sound_stop_).

@@ -1,0 +1,157 @@
+//! `prolog/ev3dev/screen.pl`: the screen.
+use crate::call::Call;
+use crate::error::wrong_value;
+use crate::state::{devices, frame};
+use ev3_driver::frame::{Align, Font, Letters, Shade, Shape, Style};
+use ev3_driver::picture::Picture;
+use ev3_driver::{frame, picture, screen};
+use std::path::Path;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_screen_clear();
+    register_screen_draw();
+    register_screen_write();
+    register_screen_image();
+    register_screen_show();
+    register_screen_png();
+}
+
+predicates! {
+    /// screen_clear_
+    #[module("ev3dev_screen")]
+    #[name("screen_clear_")]
+    semidet fn screen_clear(_context) {
+        frame().clear();
+        into_prolog_result(true)
+    }
+
+    /// screen_draw_(+Shape, +style(Color, Width, Fill))
+    #[module("ev3dev_screen")]
+    #[name("screen_draw_")]
+    semidet fn screen_draw(context, shape, style) {
+        let call = Call::of(context, "screen_draw", 2);
+        let shape = shape_of(&call, shape)?;
+        let [color, width, fill] = call.arguments(style)?;
+        let style = Style {
+            color: shade_of(&call, &color)?,
+            width: size(&call, &width)?,
+            fill: fill.get_ex()?,
+        };
+        frame().draw(shape, style);
+        Ok(())
+    }
+
+    /// screen_write_(+X, +Y, +Text, +letters(Color, Background, Font, Scale, Align))
+    #[module("ev3dev_screen")]
+    #[name("screen_write_")]
+    semidet fn screen_write(context, x, y, text, letters) {
+        let call = Call::of(context, "screen_text", 4);
+        let (at, text) = (point(&call, [x, y])?, call.text(text)?);
+        let letters = letters_of(&call, letters)?;
+        frame().write(at, &text, letters);
+        Ok(())
+    }
+
+    /// screen_image_(+X, +Y, +File)
+    #[module("ev3dev_screen")]
+    #[name("screen_image_")]
+    semidet fn screen_image(context, x, y, file) {
+        let call = Call::of(context, "screen_image", 3);
+        let at = point(&call, [x, y])?;
+        let picture = call.check(Picture::read(Path::new(&*call.text(file)?)))?;
+        frame().place(at, &picture);
+        Ok(())
+    }
+
+    /// screen_show_
+    #[module("ev3dev_screen")]
+    #[name("screen_show_")]
+    semidet fn screen_show(context) {
+        let call = Call::of(context, "screen_show", 0);
+        let dev = call.dev()?;
+        call.found(screen::show(devices().tree(), &*dev, &frame()))
+    }
+
+    /// screen_png_(+File)
+    #[module("ev3dev_screen")]
+    #[name("screen_png_")]
+    semidet fn screen_png(context, file) {
+        let call = Call::of(context, "screen_png", 1);
+        let (file, dev) = (call.text(file)?, call.dev()?);
+        let seen = call.found(screen::seen(devices().tree(), &*dev))?;
+        call.check(picture::write_png(Path::new(&*file), frame::WIDTH, frame::HEIGHT, &seen))
+    }
+}
+
+/// `point(X, Y)`, `line(X1, Y1, X2, Y2)`, `rectangle(X, Y, Width, Height)`,
+/// `circle(X, Y, Radius)` or `arc(X, Y, Radius, Start, Sweep)`.
+fn shape_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Shape> {
+    let arguments = call.context.compound_terms_vec(term)?;
+    let name = term.get::<Functor>()?.name_string();
+    Ok(match (&*name, &*arguments) {
+        ("point", [x, y]) => Shape::Point(point(call, [x, y])?),
+        ("line", [x1, y1, x2, y2]) => Shape::Line(point(call, [x1, y1])?, point(call, [x2, y2])?),
+        ("rectangle", [x, y, width, height]) => {
+            Shape::Rectangle(point(call, [x, y])?, [size(call, width)?, size(call, height)?])
+        }
+        ("circle", [x, y, radius]) => Shape::Circle(point(call, [x, y])?, size(call, radius)?),
+        ("arc", [x, y, radius, start, sweep]) => {
+            let angles = [angle(call, start)?, angle(call, sweep)?];
+            Shape::Arc(point(call, [x, y])?, size(call, radius)?, angles)
+        }
+        _ => return wrong_value(call, "shape", term),
+    })
+}
+
+fn letters_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Letters> {
+    let [color, background, font, scale, align] = call.arguments(term)?;
+    let background_is_none = &*call.text(&background)? == "none";
+    let font_named = Font::named(&call.text(&font)?);
+    let align_named = match &*call.text(&align)? {
+        "left" => Align::Left,
+        "center" => Align::Center,
+        "right" => Align::Right,
+        _ => return wrong_value(call, "text_align", &align),
+    };
+    Ok(Letters {
+        color: shade_of(call, &color)?,
+        background: if background_is_none { None } else { Some(shade_of(call, &background)?) },
+        font: font_named.map_or_else(|| wrong_value(call, "font", &font), Ok)?,
+        scale: size(call, &scale)?,
+        align: align_named,
+    })
+}
+
+fn shade_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Shade> {
+    Shade::named(&call.text(term)?).map_or_else(|| wrong_value(call, "screen_color", term), Ok)
+}
+
+/// Pixels from the upper left corner.
+fn point<C: QueryableContextType>(call: &Call<C>, [x, y]: [&Term; 2]) -> PrologResult<[i32; 2]> {
+    Ok([pixels(call, x)?, pixels(call, y)?])
+}
+
+fn pixels<T: TryFrom<i64>, C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<T> {
+    T::try_from(call.integer(term)?).or_else(|_| wrong_value(call, "pixels", term))
+}
+
+fn size<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u32> {
+    pixels(call, term)
+}
+
+/// Degrees. Nobody draws with more digits than that type has.
+#[expect(clippy::cast_possible_truncation, reason = "a circle has few pixels")]
+fn angle<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<f32> {
+    Ok(call.float(term)? as f32)
+}

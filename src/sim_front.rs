@@ -1,0 +1,47 @@
+//! `prolog/ev3dev/sim.pl`, too: the keys of the simulated brick.
+use crate::call::Call;
+use crate::error::wrong_value;
+use crate::sim::simulation;
+use crate::spec::named;
+use ev3_sim::{Key, Machine};
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_sim_key();
+    register_sim_plan_key();
+}
+
+predicates! {
+    /// sim_key_(+Key, +IsPress)
+    #[module("ev3dev_sim")]
+    #[name("sim_key_")]
+    semidet fn sim_key(context, key, is_press) {
+        let key: Key = named(&Call::of(context, "sim_press", 1), "button", key)?;
+        let (simulation, is_press) = (simulation()?, is_press.get_ex()?);
+        let act = if is_press { Machine::press } else { Machine::release };
+        act(&mut simulation.machine(), key);
+        simulation.shared().wake();
+        Ok(())
+    }
+
+    /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For is without end.
+    #[module("ev3dev_sim")]
+    #[name("sim_plan_key_")]
+    semidet fn sim_plan_key(context, key, after, lasts) {
+        let call = Call::of(context, "sim_press", 2);
+        let (key, at) = (named::<Key, _>(&call, "button", key)?, time(&call, after)?);
+        let lasts = if lasts.is_atom() { None } else { Some(time(&call, lasts)?) };
+        let simulation = simulation()?;
+        simulation.machine().plan_key(key, true, at);
+        if let Some(lasts) = lasts {
+            simulation.machine().plan_key(key, false, at.saturating_add(lasts));
+        }
+        Ok(())
+    }
+}
+
+fn time<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Duration> {
+    Duration::try_from_secs_f64(call.float(term)?).or_else(|_| wrong_value(call, "seconds", term))
+}
