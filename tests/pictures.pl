@@ -3,6 +3,7 @@
             draw/1,                     % +Name
             picture_file/3              % +Name, +Bits, -File
           ]).
+:- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
 
 /** <module> Pictures that are compared with files

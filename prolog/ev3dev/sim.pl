@@ -220,7 +220,7 @@ sim_start(World) :-
 
 sim_start(World, Options) :-
     must_be_built,
-    must_be_options(sim_option, [clock, robot, noise, seed], Options),
+    must_be_options(sim_option, [clock, robot, noise, screen, seed], Options),
     option(clock(Clock), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),

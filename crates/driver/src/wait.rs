@@ -320,7 +320,11 @@ impl<'a> Watch<'a> {
     fn believed_after(&self) -> Result<Duration> {
         let speed = self.motor.number("speed_sp")?.unsigned_abs();
         let slowly = Duration::from_millis((BEHIND * 1000).checked_div(speed).unwrap_or(0));
-        Ok(if self.motor.is_linear() { SLOW_STUCK_FOR } else { slowly.clamp(STALLED_FOR, STUCK_FOR) })
+        Ok(if self.motor.is_linear() {
+            SLOW_STUCK_FOR
+        } else {
+            slowly.clamp(STALLED_FOR, STUCK_FOR)
+        })
     }
 
     /// Whether the position has been the same for too long under way.

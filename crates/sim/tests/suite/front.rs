@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use ev3_sim::{Action, Depth, DevDescriptor, Errno, Key, Machine, Options, RobotSpec, WorldSpec};
+use ev3_sim::{Action, Depth, DevDescriptor, Errno, Key, Machine, Options, RobotSpec};
+
+use crate::desk::furnished;
 
 const KEYS: &str = "input/by-path/platform-gpio_keys-event";
 const SOUND: &str = "input/by-path/platform-sound-event";
@@ -168,7 +170,7 @@ fn the_screen_is_so_many_bytes() {
         [(Depth::One, "1\n", "24\n", 3072), (Depth::ThirtyTwo, "32\n", "712\n", 91136)]
     {
         let options = Options { depth, ..Options::default() };
-        let mut machine = Machine::new(&WorldSpec::room(), &RobotSpec::default(), options).unwrap();
+        let mut machine = Machine::new(&furnished(), &RobotSpec::default(), options).unwrap();
         assert_eq!(machine.read_path("graphics/fb0/bits_per_pixel").unwrap(), bits);
         assert_eq!(machine.read_path("graphics/fb0/stride").unwrap(), stride);
         assert_eq!(machine.read_path("graphics/fb0/virtual_size").unwrap(), "178,128\n");
