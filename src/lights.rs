@@ -9,12 +9,8 @@ use swipl::prelude::*;
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_led();
-    register_led_colour();
     register_led_set_colour();
-    register_led_trigger();
-    register_led_triggers();
     register_led_set_trigger();
-    register_led_delays();
     register_led_set_delays();
 }
 
@@ -22,32 +18,24 @@ pub(crate) fn register() {
 type Lights = IntoIter<Light>;
 
 predicates! {
-    /// led(?Light)
+    /// led_(?Light, +What, -Value): what is `name`, `colour`, `trigger`, `triggers`,
+    /// or `delays`, whose value is `delays(On, Off)`.
     #[module("ev3dev_lights")]
-    nondet fn led<Lights>(context, name) {
-        setup => {
-            let call = Call::of(context, "led", 1);
-            lights(&call, name)
-        },
-        call(lights) => {
-            Call::of(context, "led", 1)
-                .next(lights, |_| Ok(()), |light, ()| unify_port(name, light.name()))
-        }
-    }
-
-    /// led_colour_(?Light, -Colour)
-    #[module("ev3dev_lights")]
-    #[name("led_colour_")]
-    nondet fn led_colour<Lights>(context, name, colour) {
+    #[name("led_")]
+    nondet fn led<Lights>(context, name, what, value) {
         setup => {
             let call = Call::of(context, "led", 2);
-            lights(&call, name)
+            let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
+            let mut lights = call.check(light::lights(&devices))?;
+            lights.retain(|light| name.as_deref().is_none_or(|name| light.is_called(name)));
+            Ok(Some(lights.into_iter()))
         },
         call(lights) => {
             let call = Call::of(context, "led", 2);
-            let read = |light: &Light| call.check(light.colour());
+            let what = call.text(what)?;
+            let read = |light: &Light| call.found(read(light, &what));
             call.next(lights, read, |light, read| {
-                unify_colour(colour, read)?;
+                unify_read(value, read)?;
                 unify_port(name, light.name())
             })
         }
@@ -64,43 +52,6 @@ predicates! {
         into_prolog_result(call.found(set)?)
     }
 
-    /// led_trigger_(?Light, -Trigger)
-    #[module("ev3dev_lights")]
-    #[name("led_trigger_")]
-    nondet fn led_trigger<Lights>(context, name, trigger) {
-        setup => {
-            let call = Call::of(context, "led_trigger", 2);
-            lights(&call, name)
-        },
-        call(lights) => {
-            let call = Call::of(context, "led_trigger", 2);
-            let read = |light: &Light| call.check(light.trigger());
-            call.next(lights, read, |light, read| {
-                unify_atom(trigger, read)?;
-                unify_port(name, light.name())
-            })
-        }
-    }
-
-    /// led_triggers_(?Light, -Triggers)
-    #[module("ev3dev_lights")]
-    #[name("led_triggers_")]
-    nondet fn led_triggers<Lights>(context, name, triggers) {
-        setup => {
-            let call = Call::of(context, "led_triggers", 2);
-            lights(&call, name)
-        },
-        call(lights) => {
-            let call = Call::of(context, "led_triggers", 2);
-            let read = |light: &Light| call.check(light.triggers());
-            call.next(lights, read, |light, read| {
-                let words: Vec<_> = read.iter().map(|word| atomable(word.as_str())).collect();
-                triggers.unify(words.as_slice())?;
-                unify_port(name, light.name())
-            })
-        }
-    }
-
     /// led_set_trigger_(+Light, +Trigger)
     #[module("ev3dev_lights")]
     #[name("led_set_trigger_")]
@@ -109,25 +60,6 @@ predicates! {
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         call.found(light::set_trigger(&devices, &name, &trigger, interrupted))
-    }
-
-    /// led_delays_(?Light, -On, -Off)
-    #[module("ev3dev_lights")]
-    #[name("led_delays_")]
-    nondet fn led_delays<Lights>(context, name, on, off) {
-        setup => {
-            let call = Call::of(context, "led_blink", 3);
-            lights(&call, name)
-        },
-        call(lights) => {
-            let call = Call::of(context, "led_blink", 3);
-            let read = |light: &Light| call.found(light.delays());
-            call.next(lights, read, |light, read| {
-                on.unify(read.0)?;
-                off.unify(read.1)?;
-                unify_port(name, light.name())
-            })
-        }
     }
 
     /// led_set_delays_(+Light, +On, +Off)
@@ -141,14 +73,45 @@ predicates! {
     }
 }
 
-/// All lights, or the one that is bound.
-fn lights<C: QueryableContextType>(call: &Call<C>, name: &Term) -> PrologResult<Option<Lights>> {
-    let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
-    let found = call.check(match name {
-        Some(name) => light::find(&devices, &name).map(|light| light.into_iter().collect()),
-        None => light::lights(&devices),
-    })?;
-    Ok(Some(found.into_iter()))
+/// What can be read of a light.
+enum Read {
+    Nothing,
+    Colour(Colour),
+    Trigger(String),
+    Triggers(Vec<String>),
+    Delays(i64, i64),
+}
+
+fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
+    Ok(match what {
+        "colour" => Some(Read::Colour(light.colour()?)),
+        "trigger" => Some(Read::Trigger(light.trigger()?)),
+        "triggers" => Some(Read::Triggers(light.triggers()?)),
+        "delays" => light.delays()?.map(|(on, off)| Read::Delays(on, off)),
+        _ => Some(Read::Nothing),
+    })
+}
+
+fn unify_read(term: &Term, read: &Read) -> PrologResult<()> {
+    match read {
+        Read::Nothing => Ok(()),
+        Read::Colour(Colour::Named(name)) => unify_atom(term, name),
+        Read::Colour(Colour::Level(level)) => term.unify(*level),
+        Read::Colour(Colour::Levels(levels)) => unify_integers(term, "levels", levels),
+        Read::Trigger(word) => unify_atom(term, word),
+        Read::Triggers(words) => {
+            let words: Vec<_> = words.iter().map(|word| atomable(word.as_str())).collect();
+            term.unify(words.as_slice())
+        }
+        Read::Delays(on, off) => unify_integers(term, "delays", &[*on, *off]),
+    }
+}
+
+/// Unifies with a compound of two or three integers.
+fn unify_integers(term: &Term, name: &str, integers: &[i64]) -> PrologResult<()> {
+    let arity = if integers.len() == 2 { 2 } else { 3 };
+    term.unify(Functor::new(name, arity))?;
+    integers.iter().zip(1..).try_for_each(|(integer, nth)| term.unify_arg(nth, *integer))
 }
 
 /// A colour's name, a percentage, or `levels` of two or three.
@@ -169,15 +132,4 @@ fn colour_of<'a, C: QueryableContextType>(
         Colour::named(&call.text(term)?)
     };
     colour.map_or_else(|| wrong_value(call, "led_colour", term), Ok)
-}
-
-fn unify_colour(term: &Term, colour: &Colour) -> PrologResult<()> {
-    let levels = match colour {
-        Colour::Named(name) => return unify_atom(term, name),
-        Colour::Level(level) => return term.unify(*level),
-        Colour::Levels(levels) => levels,
-    };
-    let arity = if levels.len() == 2 { 2 } else { 3 };
-    term.unify(Functor::new("levels", arity))?;
-    levels.iter().zip(1..).try_for_each(|(level, nth)| term.unify_arg(nth, *level))
 }

@@ -8,9 +8,7 @@ use swipl::prelude::*;
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_servo_position();
-    register_servo_angle();
     register_servo_set_position();
-    register_servo_set_angle();
     register_servo_motor_float();
 }
 
@@ -36,45 +34,12 @@ predicates! {
         }
     }
 
-    /// servo_angle_(?Port, -Degrees)
-    #[module("ev3dev_servo_motors")]
-    #[name("servo_angle_")]
-    nondet fn servo_angle<ListedDevices>(context, port, degrees) {
-        setup => {
-            let call = Call::of(context, "servo_motor_angle", 2);
-            call.listed(Class::ServoMotor, port)
-        },
-        call(servos) => {
-            let call = Call::of(context, "servo_motor_angle", 2);
-            let devices = &call.devices()?;
-            let read = |servo: &Arc<Device>| {
-                call.found(devices.read(servo, servo::position).map(Option::flatten))
-            };
-            call.next(servos, read, |servo, read| {
-                degrees.unify(servo::degrees_of(*read))?;
-                unify_port(port, servo.port())
-            })
-        }
-    }
-
     /// servo_set_position_(+Port, +Percent)
     #[module("ev3dev_servo_motors")]
     #[name("servo_set_position_")]
     semidet fn servo_set_position(context, port, percent) {
         let call = Call::of(context, "servo_motor_position", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
-        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
-        into_prolog_result(call.found(set)?)
-    }
-
-    /// servo_set_angle_(+Port, +Degrees)
-    #[module("ev3dev_servo_motors")]
-    #[name("servo_set_angle_")]
-    semidet fn servo_set_angle(context, port, degrees) {
-        let call = Call::of(context, "servo_motor_angle", 2);
-        let (port, percent) = (call.text(port)?, servo::percent_of(call.float(degrees)?));
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
         let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);

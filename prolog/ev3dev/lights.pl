@@ -37,6 +37,9 @@ what is bound is written. A bound port may be spelled either way.
 %
 %   True if Light is one of the lights: `left`, `right`, or a port.
 
+led(Light) :-
+    led_(Light, name, _).
+
 %!  led(?Light, ?Colour) is nondet.
 %
 %   Read the colour of a light, or set it; a light that something else
@@ -66,7 +69,7 @@ what is bound is written. A bound port may be spelled either way.
 led(Light, Colour) :-
     var(Colour),
     !,
-    led_colour_(Light, Colour).
+    led_(Light, colour, Colour).
 led(Light, Colour0) :-
     colour(Colour0, Colour),
     (   led_set_colour_(Light, Colour)
@@ -119,7 +122,7 @@ no_light(Light) :-
 led_trigger(Light, Trigger) :-
     var(Trigger),
     !,
-    led_trigger_(Light, Trigger).
+    led_(Light, trigger, Trigger).
 led_trigger(Light, Trigger) :-
     must_be(atom, Trigger),
     (   led_set_trigger_(Light, Trigger)
@@ -132,7 +135,7 @@ led_trigger(Light, Trigger) :-
 %   True if Triggers is the list of what may switch the light.
 
 led_triggers(Light, Triggers) :-
-    led_triggers_(Light, Triggers).
+    led_(Light, triggers, Triggers).
 
 %!  led_blink(?Light, ?On, ?Off) is nondet.
 %
@@ -147,7 +150,7 @@ led_blink(Light, On, Off) :-
     var(On),
     var(Off),
     !,
-    led_delays_(Light, On, Off).
+    led_(Light, delays, delays(On, Off)).
 led_blink(Light, On, Off) :-
     must_be_milliseconds(On),
     must_be_milliseconds(Off),

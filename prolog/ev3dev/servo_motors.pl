@@ -53,11 +53,12 @@ servo_motor_position(Port, Percent0) :-
 servo_motor_angle(Port, Degrees) :-
     var(Degrees),
     !,
-    servo_angle_(Port, Degrees).
+    servo_position_(Port, Percent),
+    Degrees is Percent * 0.9.
 servo_motor_angle(Port, Degrees0) :-
     Degrees is Degrees0,
-    (   servo_set_angle_(Port, Degrees)
-    ->  true
+    (   abs(Degrees) =< 90
+    ->  servo_motor_position(Port, Degrees / 0.9)
     ;   cannot(Port, Degrees)
     ).
 

@@ -158,8 +158,7 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
 /// # Errors
 /// The kernel's.
 pub fn find(devices: &Devices, name: &str) -> Result<Option<Light>> {
-    let name = port::short(name);
-    Ok(lights(devices)?.into_iter().find(|light| light.name == name))
+    Ok(lights(devices)?.into_iter().find(|light| light.is_called(name)))
 }
 
 impl Light {
@@ -167,6 +166,12 @@ impl Light {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Whether that is its name, a port in either spelling.
+    #[must_use]
+    pub fn is_called(&self, name: &str) -> bool {
+        self.name == port::short(name)
     }
 
     /// The colour it shows now. Of one that blinks that may be any moment's.

@@ -8,10 +8,6 @@ use crate::error::Result;
 use crate::motor::{End, start};
 use crate::wait::has;
 
-/// Degrees to one side for 100 percent of the way, of a servo that turns by 180
-/// degrees in all between the controller's shortest and longest pulse.
-const DEGREES: f64 = 90.0;
-
 /// Sends a servo to a position from -100 to 100 percent, where it stays. `false`
 /// if the position is beyond that; then nothing has moved.
 ///
@@ -40,19 +36,6 @@ pub fn position(servo: &Device) -> Result<Option<i64>> {
     let percent = servo.number("position_sp")?;
     let is_inversed = servo.with_word("polarity", |polarity| polarity == "inversed")?;
     Ok(Some(if is_inversed { -percent } else { percent }))
-}
-
-/// Degrees from the middle as a percentage of the way, and back.
-#[must_use]
-pub fn percent_of(degrees: f64) -> f64 {
-    degrees / DEGREES * 100.0
-}
-
-/// The angle of a position, in degrees from the middle.
-#[must_use]
-#[expect(clippy::cast_precision_loss, reason = "a percentage")]
-pub fn degrees_of(percent: i64) -> f64 {
-    percent as f64 * DEGREES / 100.0
 }
 
 /// Lets a servo float: it no longer keeps its position.
