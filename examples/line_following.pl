@@ -4,8 +4,8 @@
 %
 % The sensor looks at the floor, at in2 or else at any port. Half of its light
 % comes back where the edge is below it. How far it is from that, for how long
-% it has been, and how fast that changes make the rate at which the robot turns:
-% a PID control. Stop it by Ctrl-C.
+% it has been, and how fast that changes make the rate at which the robot
+% turns: a PID control. Stop it by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

@@ -15,8 +15,8 @@ start(Poles) :-
     set_robot(5.6, 10.6, outB, outC),
     slalom(Poles, 60).
 
-%   It crosses the row half-way between two poles, at 60 degrees, and an arc of
-%   120 degrees leads from there around a pole to the next such place.
+%   It crosses the row half-way between two poles, at 60 degrees, and an arc
+%   of 120 degrees leads from there around a pole to the next such place.
 
 slalom(Poles, Gap) :-
     Radius is Gap / sqrt(3),
