@@ -85,8 +85,8 @@ count.
     `stalled`, `timeout`, `stopped` and `unplugged`.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
-move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then. They
-also fail, unless asked for the reason, when they end early: a wheel is
+move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
+They also fail, unless asked for the reason, when they end early: a wheel is
 blocked, the time is up, or another thread stops a motor or tells it something
 else. The robot stands then.
 
