@@ -11,6 +11,7 @@ mod battery;
 mod call;
 mod dc_motors;
 mod dev;
+mod drive;
 mod driver;
 mod error;
 mod halt;
@@ -65,6 +66,7 @@ pub extern "C" fn install() {
     keys::register();
     sound::register();
     screen::register();
+    drive::register();
     #[cfg(feature = "sim")]
     sim::register();
     #[cfg(feature = "sim")]

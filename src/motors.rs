@@ -166,6 +166,7 @@ pub(crate) fn move_options<'a, C: QueryableContextType>(
     })
 }
 
+/// One of the stop actions.
 pub(crate) fn stop_action<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,

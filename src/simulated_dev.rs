@@ -1,5 +1,5 @@
 //! The simulated brick's keys, speaker and screen as a [`Dev`].
-use crate::simulated::{READ_TAKES, Simulation, WRITE_TAKES, error};
+use crate::simulated::{Simulation, error};
 use ev3_driver::Dev;
 use ev3_driver::dev::{Speaker, Stream};
 use ev3_driver::error::Access;
@@ -108,8 +108,7 @@ impl SimulatedStream {
 impl Stream for SimulatedStream {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let Place { descriptor, offset } = &mut *self.place();
-        let read =
-            self.simulation.access(READ_TAKES, |machine| descriptor.read(machine, *offset, buffer));
+        let read = self.simulation.read(|machine| descriptor.read(machine, *offset, buffer));
         let length = read.map_err(error)?;
         *offset += length;
         Ok(length)
@@ -117,9 +116,7 @@ impl Stream for SimulatedStream {
 
     fn write(&self, bytes: &[u8]) -> io::Result<usize> {
         let Place { descriptor, offset } = &mut *self.place();
-        let written = self
-            .simulation
-            .access(WRITE_TAKES, |machine| descriptor.write(machine, *offset, bytes));
+        let written = self.simulation.write(|machine| descriptor.write(machine, *offset, bytes));
         let length = written.map_err(error)?;
         *offset += length;
         Ok(length)
@@ -132,8 +129,7 @@ impl Stream for SimulatedStream {
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
         let place = self.place();
         let command = eviocgkey(bits.len());
-        let state =
-            self.simulation.access(READ_TAKES, |machine| place.descriptor.ioctl(machine, command));
+        let state = self.simulation.read(|machine| place.descriptor.ioctl(machine, command));
         bits.copy_from_slice(&state.map_err(error)?.1);
         Ok(())
     }

@@ -2,8 +2,8 @@
 use crate::call::Call;
 use crate::error::wrong_because;
 use ev3_sim::{
-    Bounds, Button, Colour, Hull, Item, MotorMount, Noise, Point, Port, Pose, RobotSpec,
-    SensorMount, SpecError, Wheel, WorldSpec,
+    Bounds, Button, Colour, Hull, Item, MotorMount, Noise, Port, Pose, RobotSpec, SensorMount,
+    SpecError, Wheel, WorldSpec,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -131,11 +131,11 @@ fn read<'a, C: QueryableContextType>(
         }
         ("floor", [colour]) => Fact::Floor(named(call, "colour", colour)?),
         ("patch", [colour, corners]) => Fact::Item(Item::Patch {
-            corners: points(call, corners)?,
+            corners: call.points(corners)?,
             colour: named(call, "colour", colour)?,
         }),
         ("line", [colour, width, along]) => Fact::Item(Item::Line {
-            points: points(call, along)?,
+            points: call.points(along)?,
             width: number(width)?,
             colour: named(call, "colour", colour)?,
         }),
@@ -232,18 +232,6 @@ pub(crate) fn buttons<'a, C: QueryableContextType>(
         _ => wrong_because(call, "ir_button", term, ""),
     };
     call.list(term)?.iter().map(button).collect()
-}
-
-/// A list of `[X, Y]`.
-fn points<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Vec<Point>> {
-    let point = |term: &Term<'a>| match &*call.list(term)? {
-        [x, y] => Ok([call.float(x)?, call.float(y)?]),
-        _ => wrong_because(call, "point", term, ""),
-    };
-    call.list(term)?.iter().map(point).collect()
 }
 
 /// A wheel: its port, its diameter in cm, and perhaps a list of `inverted(Bool)`

@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/lego_sensors)).
 :- use_module(library(ev3dev/other_sensors)).
+:- use_module(library(ev3dev/drive)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(pldoc)).

@@ -78,6 +78,9 @@ pub fn write(
     }
     devices.with_patience(class, port, interrupted, |device| match name {
         "command" if Class::MOTORS.contains(&class) => motor::command(device, text),
+        "position" if class == Class::TachoMotor => {
+            device.recount(&mut || device.write(name, text))
+        }
         _ => device.write(name, text),
     })
 }

@@ -65,7 +65,7 @@ pub fn run_timed(
             motor.write_number("duty_cycle_sp", duty)?;
             motor.write_number("time_sp", milliseconds)?;
             motor.write("stop_action", options.stop_action.word())?;
-            let mut ramps = Ramps::none();
+            let mut ramps = Ramps::default();
             ramps.set(motor, options)?;
             motor::start(motor, "run-timed", Some(End::Time(time)))?;
             Ok(Arc::clone(motor))

@@ -18,11 +18,14 @@
 //!   [`screen`] work on them, with a [`frame`] to draw on and a [`picture`] for files.
 //! * [`attributes`], [`motor`], [`dc`], [`servo`], [`wait`], [`sensor`],
 //!   [`turn`], [`light`], [`battery`], [`lego_port`]: what robots do.
+//! * [`odometry`], [`path`], [`steering`]: where a robot is and how it gets
+//!   elsewhere, without any device; [`drive`]: the same with its devices.
 //!
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
 //!
-//! Nothing here starts a thread, prints, or waits without asking its caller
+//! Nothing here but [`Tree::every`] over real files starts a thread; nothing
+//! prints, or waits without asking its caller
 //! every few milliseconds whether to go on ([`Interrupted`]).
 #![forbid(unsafe_code)]
 
@@ -33,6 +36,7 @@ pub mod dc;
 pub mod dev;
 pub mod device;
 pub mod devices;
+pub mod drive;
 pub mod error;
 pub mod frame;
 pub mod keys;
@@ -40,6 +44,8 @@ pub mod lego_port;
 pub mod light;
 mod list;
 pub mod motor;
+pub mod odometry;
+pub mod path;
 mod patience;
 pub mod picture;
 pub mod port;
@@ -48,6 +54,7 @@ pub mod screen;
 pub mod sensor;
 pub mod servo;
 pub mod sound;
+pub mod steering;
 pub mod tree;
 pub mod turn;
 pub mod value;

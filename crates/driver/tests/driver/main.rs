@@ -9,6 +9,8 @@ mod files;
 mod laws;
 mod motors;
 mod moves;
+mod odometry;
+mod paths;
 mod sensors;
 mod several;
 mod turns;
