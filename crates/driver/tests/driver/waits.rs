@@ -98,7 +98,7 @@ fn a_slow_motor_takes_longer_to_break_away_and_is_not_blocked() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").sticks_for = ms(400);
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), degrees: 20.0 };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Reached));
 }
@@ -108,7 +108,7 @@ fn a_slow_motor_that_is_blocked_is_noticed() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").is_blocked = true;
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), degrees: 20.0 };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Stalled));
     assert!(brick.now() < ms(700), "{:?}", brick.now());
