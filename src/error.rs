@@ -163,7 +163,10 @@ fn formal<'a, C: QueryableContextType>(
 /// what is connected.
 fn message(error: &Error) -> String {
     let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
-    let connected = if error.is_gone() { connected() } else { String::new() };
+    // That a picture is missing has nothing to do with devices.
+    let is_device = |path: &Path| path.starts_with(devices().tree().root());
+    let is_gone = error.is_gone() && error.path().is_none_or(is_device);
+    let connected = if is_gone { connected() } else { String::new() };
     format!("{error}{source}{connected}")
 }
 

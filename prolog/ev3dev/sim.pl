@@ -174,9 +174,10 @@ Time jumps when a predicate of library(ev3dev) waits, as go_cm/2 does, to the
 end of the wait; so a minute's drive takes milliseconds. Each read of a file
 takes 0.5 ms and each write 0.1 ms, so that time passes for a program, too,
 that only polls a sensor in a loop. sleep/1 does not count: to let time pass
-otherwise, use sim_wait/1. Several threads may wait at once; time goes on when
-each waits or does something else than to use devices. The same program with
-the same seed does the same each time.
+otherwise, use sim_wait/1. Who waits for a key that nobody is known to press
+lets time pass, too, at most 20 times as fast as on the wall. Several threads
+may wait at once; time goes on when each waits or does something else than to
+use devices. The same program with the same seed does the same each time.
 */
 
 :- dynamic added/2.                     % Fact, Id

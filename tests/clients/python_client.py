@@ -180,8 +180,9 @@ class Client(unittest.TestCase):
         button = Button()
         self.assertEqual(button.buttons_pressed, [])
         simulator("sim_press(up), sim_press(back)")
-        self.eventually(lambda: button.up)
-        self.assertTrue(button.check_buttons(["up", "backspace"]))
+        self.eventually(lambda: button.check_buttons(["up", "backspace"]))
+        self.assertTrue(button.up)
+        self.assertFalse(button.enter)
         simulator("sim_release(up), sim_release(back)")
         self.eventually(lambda: not button.any())
 

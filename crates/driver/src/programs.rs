@@ -35,13 +35,15 @@ impl Program {
 
     /// Runs it to its end; what it printed.
     pub(crate) fn output(self, arguments: &[&str]) -> Result<String> {
-        let output = Command::new(self.name).args(arguments).stdin(Stdio::null()).output();
-        let output = output.map_err(|source| self.cannot_start(&source))?;
-        if output.status.success() {
-            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-        } else {
-            Err(self.failed(&String::from_utf8_lossy(&output.stderr)))
+        let arguments: Vec<&OsStr> = arguments.iter().map(OsStr::new).collect();
+        let mut started = self.start(&arguments, Stdio::null(), Stdio::piped())?;
+        let mut printed = String::new();
+        if let Some(output) = &mut started.child.stdout {
+            let read = output.read_to_string(&mut printed);
+            read.map_err(|source| self.failed(&source.to_string()))?;
         }
+        let status = started.child.wait().map_err(|source| self.failed(&source.to_string()))?;
+        if status.success() { Ok(printed) } else { Err(started.complaint()) }
     }
 
     fn cannot_start(self, source: &io::Error) -> Error {
@@ -77,15 +79,18 @@ impl Started {
         match status.map_err(|source| self.program.failed(&source.to_string()))? {
             None => Ok(false),
             Some(status) if status.success() => Ok(true),
-            Some(_) => {
-                let mut message = String::new();
-                if let Some(errors) = &mut self.child.stderr {
-                    // Half of it is better than none.
-                    let _ = errors.read_to_string(&mut message);
-                }
-                Err(self.program.failed(&message))
-            }
+            Some(_) => Err(self.complaint()),
         }
+    }
+
+    /// What it complained of.
+    fn complaint(&mut self) -> Error {
+        let mut message = String::new();
+        if let Some(errors) = &mut self.child.stderr {
+            // Half of it is better than none.
+            let _ = errors.read_to_string(&mut message);
+        }
+        self.program.failed(&message)
     }
 }
 
