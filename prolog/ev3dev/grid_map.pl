@@ -1,0 +1,455 @@
+:- module(ev3dev_grid_map,
+          [ grid_map/2,                 % :Options, -Map
+            grid_start/2,               % +Map, -State
+            grid_cell/2,                % +Map, ?Cell
+            free_cell/2,                % +Map, ?Cell
+            grid_direction/2,           % +Map, ?Direction
+            direction_heading/2,        % +Direction, -Heading
+            grid_step/4,                % +Map, +Action, +State, -Next
+            grid_beside/4,              % +Cell, +Direction, -Left, -Right
+            grid_problem/4,             % +Map, +Start, +Goal, -Problem
+            grid_changed/3              % +Map, +Cells, -States
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth0/3, reverse/2]).
+:- use_module(library(option), [meta_options/3, option/2, option/3]).
+
+/** <module> Maps of grids
+
+A map of square cells, some of them obstructed, and the planning problems
+that it poses to a robot that goes from cell to cell and turns on the spot.
+
+A cell is `[X, Y]`, two integers. A direction is `[DX, DY]`, the way to the
+next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbours also
+`[1,1]` and the like. A state is `state(Cell, Direction)`.
+
+The actions are `move`, to the next cell ahead, and `left` and `right`, to the
+next direction: by a right angle with four neighbours, by half of one with
+eight. A diagonal move also needs the two cells beside its way.
+
+```
+?- grid_map([rows([ ".....",
+                    ".##..",
+                    "^#..."])], Map),
+   grid_problem(Map, state([0,0], [0,1]), state([2,0], _), Problem),
+   plan(a_star, Problem, Plan, Facts).
+Plan = [move, move, right, move, move, move, right, move, right, move|...],
+```
+*/
+
+:- meta_predicate grid_map(:, -).
+
+%!  grid_map(:Options, -Map) is det.
+%
+%   Make a map. Options:
+%
+%     - bounds(+X1, +Y1, +X2, +Y2)
+%       Its lower left and its upper right cell, by default those of Rows, or
+%       0, 0, 7, 7.
+%     - rows(+Rows)
+%       Draw it as a world of the simulator: strings or atoms, a character for
+%       each cell, the first of the last row for the cell [0,0]. What is `#`
+%       or `O` is obstructed; `^`, `>`, `v` or `<` is the start.
+%     - obstacles(+Cells)
+%       These cells are obstructed.
+%     - free(:Goal)
+%       A cell is free only if call(Goal, Cell) is true. It is asked each time
+%       anew, so that the map may change.
+%     - neighbours(+Count)
+%       4 (default) or 8.
+%     - move_cost(+Cost)
+%     - diagonal_cost(+Cost)
+%     - turn_cost(+Cost)
+%       What a move costs, straight or diagonal, and a turn to the next
+%       direction: positive integers. By default 20, 28, and 10 or, with eight
+%       neighbours, 5: tenths of a second, about, for cells of 20 cm.
+%
+%   @error domain_error(map_row, Row)
+%   @error domain_error(neighbours, Count)
+%   @error domain_error(bounds, Bounds) if they hold no cell
+
+grid_map(Module:Options0, Map) :-
+    must_be(list, Options0),
+    meta_options(closure, Module:Options0, Options),
+    option(rows(Rows), Options, []),
+    must_be(list, Rows),
+    drawn(Rows, Drawn, Start, Bounds0),
+    option(obstacles(Cells), Options, []),
+    must_be_cells(Cells),
+    findall(Cell-true, ( member(Cell, Cells) ; member(Cell, Drawn) ), Pairs0),
+    sort(Pairs0, Pairs),
+    list_to_assoc(Pairs, Obstacles),
+    (   option(bounds(X1, Y1, X2, Y2), Options)
+    ->  Bounds = bounds(X1, Y1, X2, Y2)
+    ;   Bounds = Bounds0
+    ),
+    must_be_bounds(Bounds),
+    option(free(Free), Options, any),
+    option(neighbours(Neighbours), Options, 4),
+    costs(Neighbours, Options, Costs),
+    Map = map(Bounds, Neighbours, Costs, Obstacles, Free, Start).
+
+closure(free).
+
+must_be_cells(Cells) :-
+    must_be(list, Cells),
+    maplist(must_be_cell, Cells).
+
+must_be_cell(Cell) :-
+    must_be(ground, Cell),
+    (   Cell = [X, Y],
+        integer(X),
+        integer(Y)
+    ->  true
+    ;   domain_error(grid_cell, Cell)
+    ).
+
+must_be_bounds(Bounds) :-
+    Bounds = bounds(X1, Y1, X2, Y2),
+    maplist(must_be(integer), [X1, Y1, X2, Y2]),
+    (   X1 =< X2,
+        Y1 =< Y2
+    ->  true
+    ;   domain_error(bounds, Bounds)
+    ).
+
+costs(Neighbours, Options, costs(Move, Diagonal, Turn)) :-
+    must_be(nonvar, Neighbours),
+    (   turn_default(Neighbours, Turn0)
+    ->  true
+    ;   domain_error(neighbours, Neighbours)
+    ),
+    option(move_cost(Move), Options, 20),
+    must_be(positive_integer, Move),
+    Diagonal0 is round(Move * sqrt(2)),
+    option(diagonal_cost(Diagonal), Options, Diagonal0),
+    option(turn_cost(Turn), Options, Turn0),
+    must_be(positive_integer, Diagonal),
+    must_be(positive_integer, Turn).
+
+turn_default(4, 10).
+turn_default(8, 5).
+
+drawn([], [], none, bounds(0, 0, 7, 7)) :-
+    !.
+drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
+    maplist(must_be_row, Rows0),
+    reverse(Rows0, Rows),
+    findall(Character-[X, Y],
+            ( nth0(Y, Rows, Row),
+              atom_chars(Row, Characters),
+              nth0(X, Characters, Character)
+            ),
+            Drawn),
+    findall(Cell,
+            ( member(Character-Cell, Drawn),
+              memberchk(Character, [#, 'O'])
+            ),
+            Obstacles),
+    (   member(Character-Cell, Drawn),
+        start(Character, Direction)
+    ->  Start = state(Cell, Direction)
+    ;   Start = none
+    ),
+    length(Rows, Count),
+    Y2 is Count - 1,
+    findall(X, member(_-[X, _], Drawn), Xs),
+    foldl_max(Xs, 0, X2).
+
+foldl_max([], Max, Max).
+foldl_max([X|Xs], Max0, Max) :-
+    Max1 is max(X, Max0),
+    foldl_max(Xs, Max1, Max).
+
+must_be_row(Row) :-
+    must_be(nonvar, Row),
+    (   atomic(Row),
+        atom_chars(Row, Characters),
+        \+ ( member(Character, Characters),
+             \+ character(Character)
+           )
+    ->  true
+    ;   domain_error(map_row, Row)
+    ).
+
+%   Those of the simulator: the rest are free cells.
+character(Character) :-
+    memberchk(Character,
+              [ #, 'O', '.', ' ', 'L', ^, >, v, <, k, b, g, y, r, w, n ]).
+
+start(^, [0, 1]).
+start(>, [1, 0]).
+start(v, [0, -1]).
+start(<, [-1, 0]).
+
+%!  grid_start(+Map, -State) is semidet.
+%
+%   True if State is the start drawn in the map's rows.
+
+grid_start(map(_, _, _, _, _, Start), State) :-
+    Start \== none,
+    State = Start.
+
+%!  grid_cell(+Map, ?Cell) is nondet.
+%
+%   True if Cell is on the map.
+
+grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
+    between(Y1, Y2, Y),
+    between(X1, X2, X).
+
+%!  free_cell(+Map, ?Cell) is nondet.
+%
+%   True if Cell is on the map, and not obstructed.
+
+free_cell(Map, Cell) :-
+    grid_cell(Map, Cell),
+    unobstructed(Map, Cell).
+
+unobstructed(map(_, _, _, Obstacles, Free, _), Cell) :-
+    \+ get_assoc(Cell, Obstacles, _),
+    (   Free == any
+    ->  true
+    ;   \+ \+ call(Free, Cell)
+    ).
+
+%!  grid_direction(+Map, ?Direction) is nondet.
+%
+%   True if Direction is one of the map's, clockwise from `[0,1]` on.
+
+grid_direction(map(_, Neighbours, _, _, _, _), Direction) :-
+    directions(Neighbours, Directions),
+    (   ground(Direction)
+    ->  memberchk(Direction, Directions)
+    ;   member(Direction, Directions)
+    ).
+
+directions(4, [[0,1], [1,0], [0,-1], [-1,0]]).
+directions(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
+                [-1,1]
+              ]).
+
+%!  direction_heading(+Direction, -Heading) is det.
+%
+%   True if Heading is that angle clockwise from up, from 0 to 315 degrees.
+
+direction_heading(Direction, Heading) :-
+    directions(8, Directions),
+    nth0(Eighth, Directions, Direction),
+    !,
+    Heading is Eighth * 45.
+
+%!  grid_step(+Map, +Action, +State, -Next) is det.
+%
+%   True if Action leads from State to Next, were nothing in the way.
+%
+%   @error domain_error(grid_action, Action)
+
+grid_step(Map, Action, state(Cell, Direction), Next) :-
+    must_be(nonvar, Action),
+    (   Action == move
+    ->  ahead(Cell, Direction, Cell1),
+        Next = state(Cell1, Direction)
+    ;   Map = map(_, Neighbours, _, _, _, _),
+        turned(Action, Neighbours, Direction, Direction1)
+    ->  Next = state(Cell, Direction1)
+    ;   domain_error(grid_action, Action)
+    ).
+
+ahead([X0, Y0], [DX, DY], [X, Y]) :-
+    X is X0 + DX,
+    Y is Y0 + DY.
+
+behind([X0, Y0], [DX, DY], [X, Y]) :-
+    X is X0 - DX,
+    Y is Y0 - DY.
+
+turned(right, 4, [DX, DY], [DY, Left]) :-
+    Left is -DX.
+turned(left, 4, [DX, DY], [Left, DX]) :-
+    Left is -DY.
+turned(right, 8, [DX0, DY0], [DX, DY]) :-
+    DX is sign(DX0 + DY0),
+    DY is sign(DY0 - DX0).
+turned(left, 8, [DX0, DY0], [DX, DY]) :-
+    DX is sign(DX0 - DY0),
+    DY is sign(DX0 + DY0).
+
+%!  grid_beside(+Cell, +Direction, -Left, -Right) is semidet.
+%
+%   True if a diagonal move from Cell passes between the cells Left and Right.
+%   Each is next to Cell. Fails if Direction is not diagonal.
+
+grid_beside([X0, Y0], [DX, DY], Left, Right) :-
+    DX =\= 0,
+    DY =\= 0,
+    X is X0 + DX,
+    Y is Y0 + DY,
+    (   DX =:= DY
+    ->  Left = [X0, Y],
+        Right = [X, Y0]
+    ;   Left = [X, Y0],
+        Right = [X0, Y]
+    ).
+
+%!  grid_problem(+Map, +Start, +Goal, -Problem) is det.
+%
+%   True if Problem, for plan/3, is to get from the state Start to the state
+%   Goal. An unbound direction of Goal stands for any.
+%
+%   @error domain_error(grid_state, State)
+
+grid_problem(Map, Start, Goal0, problem(Start, Goal, Options)) :-
+    must_be(ground, Start),
+    must_be_state(Map, Start),
+    must_be(nonvar, Goal0),
+    (   Goal0 = state(Cell, Direction),
+        var(Direction)
+    ->  must_be_cell(Cell),
+        findall(state(Cell, Direction), grid_direction(Map, Direction),
+                Goals),
+        Goal = any(Goals)
+    ;   must_be_state(Map, Goal0),
+        Goal = Goal0
+    ),
+    Options = [ successor(ev3dev_grid_map:next(Map)),
+                predecessor(ev3dev_grid_map:previous(Map)),
+                heuristic(ev3dev_grid_map:estimate(Map))
+              ].
+
+must_be_state(Map, State) :-
+    (   State = state(Cell, Direction)
+    ->  must_be_cell(Cell),
+        must_be(ground, Direction),
+        grid_direction(Map, Direction)
+    ),
+    !.
+must_be_state(_, State) :-
+    domain_error(grid_state, State).
+
+next(Map, state(Cell, Direction), move, state(Next, Direction), Cost) :-
+    ahead(Cell, Direction, Next),
+    way(Map, Cell, Next, Direction, Cost).
+next(Map, state(Cell, Direction), Turn, state(Cell, Next), Cost) :-
+    Map = map(_, Neighbours, costs(_, _, Cost), _, _, _),
+    turned(Turn, Neighbours, Direction, Next).
+
+previous(Map, state(Cell, Direction), move, state(Before, Direction),
+         Cost) :-
+    behind(Cell, Direction, Before),
+    way(Map, Before, Cell, Direction, Cost).
+previous(Map, state(Cell, Direction), Turn, state(Cell, Before), Cost) :-
+    Map = map(_, Neighbours, costs(_, _, Cost), _, _, _),
+    opposite(Turn, Back),
+    turned(Back, Neighbours, Direction, Before).
+
+opposite(left, right).
+opposite(right, left).
+
+way(Map, From, To, Direction, Cost) :-
+    on_map(Map, From),
+    on_map(Map, To),
+    unobstructed(Map, From),
+    unobstructed(Map, To),
+    Map = map(_, _, costs(Straight, Diagonal, _), _, _, _),
+    (   grid_beside(From, Direction, Left, Right)
+    ->  unobstructed(Map, Left),
+        unobstructed(Map, Right),
+        Cost = Diagonal
+    ;   Cost = Straight
+    ).
+
+on_map(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
+    X >= X1,
+    X =< X2,
+    Y >= Y1,
+    Y =< Y2.
+
+%   What it costs on an empty grid: the moves, and the fewest turns with which
+%   the robot at some time looks each way that it has to go.
+
+estimate(Map, state([X1, Y1], Direction1), state([X2, Y2], Direction2),
+         Estimate) :-
+    Map = map(_, Neighbours, costs(Straight, Diagonal, Turn), _, _, _),
+    DX is abs(X2 - X1),
+    DY is abs(Y2 - Y1),
+    SX is sign(X2 - X1),
+    SY is sign(Y2 - Y1),
+    fewest_turns(Neighbours, Direction1, [SX, SY], Direction2, Turns),
+    (   Neighbours =:= 4
+    ->  Estimate is Straight * (DX+DY) + Turn * Turns
+    ;   Both is min(DX, DY),
+        Estimate is min(Diagonal, 2*Straight) * Both
+                    + min(Straight, Diagonal) * (max(DX, DY) - Both)
+                    + Turn * Turns
+    ).
+
+:- dynamic known_turns/2.               % Key, Turns
+
+fewest_turns(Neighbours, Direction1, Way, Direction2, Turns) :-
+    code(Direction1, Code1),
+    code(Way, Code2),
+    code(Direction2, Code3),
+    Key is ((Neighbours * 9 + Code1) * 9 + Code2) * 9 + Code3,
+    (   known_turns(Key, Known)
+    ->  Turns = Known
+    ;   count_turns(Neighbours, Direction1, Way, Direction2, Turns),
+        assertz(known_turns(Key, Turns))
+    ).
+
+code([DX, DY], Code) :-
+    Code is DX*3 + DY + 4.
+
+count_turns(Neighbours, Direction1, [SX, SY], Direction2, Turns) :-
+    directions(Neighbours, All),
+    nth0(From, All, Direction1),
+    nth0(To, All, Direction2),
+    findall(Count,
+            ( nth0(A, All, [DXA, _]),
+              ( SX =:= 0 -> true ; DXA =:= SX ),
+              nth0(B, All, [_, DYB]),
+              ( SY =:= 0 -> true ; DYB =:= SY ),
+              (   turns([From, A, B, To], Neighbours, 0, Count)
+              ;   turns([From, B, A, To], Neighbours, 0, Count)
+              )
+            ),
+            Counts),
+    sort(Counts, [Turns|_]),
+    !.
+
+turns([_], _, Count, Count) :-
+    !.
+turns([A, B|Rest], Neighbours, Count0, Count) :-
+    Right is (B - A) mod Neighbours,
+    Count1 is Count0 + min(Right, Neighbours - Right),
+    turns([B|Rest], Neighbours, Count1, Count).
+
+%!  grid_changed(+Map, +Cells, -States) is det.
+%
+%   True if States are those from which ways have changed, for replan/5, when
+%   the map's Goal `free` has come to another opinion about Cells.
+
+grid_changed(Map, Cells, States) :-
+    must_be_cells(Cells),
+    findall(state(From, Direction),
+            ( member(Cell, Cells),
+              grid_direction(Map, Direction),
+              touches(Direction, Cell, From),
+              on_map(Map, From)
+            ),
+            States0),
+    sort(States0, States).
+
+touches(_, Cell, Cell).
+touches(Direction, Cell, From) :-
+    behind(Cell, Direction, From).
+touches([DX, DY], [X, Y], From) :-
+    DX =\= 0,
+    DY =\= 0,
+    (   X1 is X - DX,
+        From = [X1, Y]
+    ;   Y1 is Y - DY,
+        From = [X, Y1]
+    ).
