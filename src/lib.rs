@@ -8,6 +8,7 @@
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
 mod call;
+mod drive;
 mod driver;
 mod error;
 mod motors;
@@ -37,6 +38,7 @@ pub extern "C" fn install() {
     motors::register();
     sensors::register();
     robot::register();
+    drive::register();
     #[cfg(feature = "sim")]
     sim::register();
 }
