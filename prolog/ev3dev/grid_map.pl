@@ -8,10 +8,12 @@
             grid_step/4,                % +Map, +Action, +State, -Next
             grid_beside/4,              % +Cell, +Direction, -Left, -Right
             grid_problem/4,             % +Map, +Start, +Goal, -Problem
-            grid_changed/3              % +Map, +Cells, -States
+            grid_changed/3,             % +Map, +Cells, -States
+            grid_unknown/3,             % +Map0, :Free_1, -Map
+            must_be_cell/1              % +Cell
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2, nth0/3, reverse/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
@@ -39,7 +41,9 @@ Plan = [move, move, right, move, move, move, right, move, right, move|...],
 ```
 */
 
-:- meta_predicate grid_map(:, -).
+:- meta_predicate
+    grid_map(:, -),
+    grid_unknown(+, 1, -).
 
 %!  grid_map(:Options, -Map) is det.
 %
@@ -96,6 +100,12 @@ closure(free).
 must_be_cells(Cells) :-
     must_be(list, Cells),
     maplist(must_be_cell, Cells).
+
+%!  must_be_cell(+Cell)
+%
+%   Throw unless Cell is `[X, Y]`.
+%
+%   @error domain_error(grid_cell, Cell)
 
 must_be_cell(Cell) :-
     must_be(ground, Cell),
@@ -183,6 +193,15 @@ start(^, [0, 1]).
 start(>, [1, 0]).
 start(v, [0, -1]).
 start(<, [-1, 0]).
+
+%!  grid_unknown(+Map0, :Free_1, -Map) is det.
+%
+%   True if Map is like Map0, but only call(Free_1, Cell) tells which of its
+%   cells are free.
+
+grid_unknown(map(Bounds, Neighbours, Costs, _, _, Start), Free,
+             map(Bounds, Neighbours, Costs, None, Free, Start)) :-
+    empty_assoc(None).
 
 %!  grid_start(+Map, -State) is semidet.
 %
