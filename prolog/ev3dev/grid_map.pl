@@ -9,6 +9,8 @@
             grid_beside/4,              % +Cell, +Direction, -Left, -Right
             grid_problem/4,             % +Map, +Start, +Goal, -Problem
             grid_changed/3,             % +Map, +Cells, -States
+            grid_cost/4,                % +Map, +State, +Action, -Cost
+            grid_bounds/5,              % +Map, -X1, -Y1, -X2, -Y2
             grid_unknown/3,             % +Map0, :Free_1, -Map
             must_be_cell/1              % +Cell
           ]).
@@ -219,6 +221,13 @@ grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
     between(Y1, Y2, Y),
     between(X1, X2, X).
 
+%!  grid_bounds(+Map, -X1, -Y1, -X2, -Y2) is det.
+%
+%   True if the lower left cell of Map is `[X1, Y1]`, and the upper right one
+%   `[X2, Y2]`.
+
+grid_bounds(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), X1, Y1, X2, Y2).
+
 %!  free_cell(+Map, ?Cell) is nondet.
 %
 %   True if Cell is on the map, and not obstructed.
@@ -295,6 +304,19 @@ turned(right, 8, [DX0, DY0], [DX, DY]) :-
 turned(left, 8, [DX0, DY0], [DX, DY]) :-
     DX is sign(DX0 - DY0),
     DY is sign(DX0 + DY0).
+
+%!  grid_cost(+Map, +State, +Action, -Cost) is det.
+%
+%   True if Action costs that much in State.
+
+grid_cost(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
+          state(_, [DX, DY]), Action, Cost) :-
+    (   Action \== move
+    ->  Cost = Turn
+    ;   DX * DY =:= 0
+    ->  Cost = Straight
+    ;   Cost = Diagonal
+    ).
 
 %!  grid_beside(+Cell, +Direction, -Left, -Right) is semidet.
 %

@@ -26,4 +26,5 @@ step(N, add_one, Next, 1) :- Next is N+1, Next =< 10.
 */
 
 :- reexport(planners/search).
+:- reexport(planners/comparison).
 :- reexport(grid_map, except([must_be_cell/1, grid_unknown/3])).
