@@ -3,6 +3,8 @@
 :- use_module(tree).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/planners)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(pldoc)).

@@ -10,10 +10,13 @@
 :- use_module(grid_knowledge).
 :- use_module(grid_map).
 :- use_module(grid_moves).
+:- use_module(grid_problem).
 :- use_module(planners/search).
 :- reexport(grid_knowledge,
             [obstructed/1, obstacle_add/1, obstacle_remove/1]).
-:- reexport(grid_map, except([must_be_cell/1, grid_unknown/3])).
+:- reexport(grid_map,
+            except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
+:- reexport(grid_problem).
 :- reexport(grid_moves, [set_grid/1, grid_place/2, state_position/2]).
 
 /** <module> Finding a way over an unknown grid

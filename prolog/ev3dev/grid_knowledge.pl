@@ -85,7 +85,7 @@ obstacle_add(Cell) :-
     ->  longer(State0, Seconds0, Seconds)
     ;   fading(Seconds)
     ),
-    state(Seconds, State),
+    for_long(Seconds, State),
     retractall(free(Cell, _)),
     retractall(obstacle(Cell, _, _)),
     assertz(obstacle(Cell, State, Seconds)).
@@ -96,9 +96,9 @@ longer(State, Seconds0, Seconds) :-
     ;   Seconds is 2 * Seconds0
     ).
 
-state(never, ever) :-
+for_long(never, ever) :-
     !.
-state(Seconds, until(Time)) :-
+for_long(Seconds, until(Time)) :-
     now(Now),
     Time is Now + Seconds.
 
@@ -151,7 +151,7 @@ unblocked(Cell) :-
 
 saw_free(Cell) :-
     fading(Seconds),
-    state(Seconds, State),
+    for_long(Seconds, State),
     retractall(obstacle(Cell, _, _)),
     retractall(free(Cell, _)),
     assertz(free(Cell, State)).

@@ -6,24 +6,27 @@
             grid_direction/2,           % +Map, ?Direction
             direction_heading/2,        % +Direction, -Heading
             grid_step/4,                % +Map, +Action, +State, -Next
+            grid_ahead/3,               % +Cell, +Direction, -Ahead
             grid_beside/4,              % +Cell, +Direction, -Left, -Right
-            grid_problem/4,             % +Map, +Start, +Goal, -Problem
-            grid_changed/3,             % +Map, +Cells, -States
+            grid_turn/4,                % +Map, ?Turn, +Direction, -Next
             grid_cost/4,                % +Map, +State, +Action, -Cost
+            grid_costs/4,               % +Map, -Straight, -Diagonal, -Turn
+            grid_neighbours/2,          % +Map, -Count
             grid_bounds/5,              % +Map, -X1, -Y1, -X2, -Y2
             grid_unknown/3,             % +Map0, :Free_1, -Map
-            must_be_cell/1              % +Cell
+            must_be_cell/1,             % +Cell
+            must_be_state/2             % +Map, +State
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, memberchk/2, nth0/3, reverse/2]).
+:- use_module(library(lists), [member/2, nth0/3, reverse/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 
 /** <module> Maps of grids
 
-A map of square cells, some of them obstructed, and the planning problems
-that it poses to a robot that goes from cell to cell and turns on the spot.
+A map of square cells, some of them obstructed, for a robot that goes from
+cell to cell and turns on the spot.
 
 A cell is `[X, Y]`, two integers. A direction is `[DX, DY]`, the way to the
 next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbours also
@@ -32,15 +35,6 @@ next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbours also
 The actions are `move`, to the next cell ahead, and `left` and `right`, to the
 next direction: by a right angle with four neighbours, by half of one with
 eight. A diagonal move also needs the two cells beside its way.
-
-```
-?- grid_map([rows([ ".....",
-                    ".##..",
-                    "^#..."])], Map),
-   grid_problem(Map, state([0,0], [0,1]), state([2,0], _), Problem),
-   plan(a_star, Problem, Plan, Facts).
-Plan = [move, move, right, move, move, move, right, move, right, move|...],
-```
 */
 
 :- meta_predicate
@@ -221,6 +215,12 @@ grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
     between(Y1, Y2, Y),
     between(X1, X2, X).
 
+%!  grid_neighbours(+Map, -Count) is det.
+%
+%   True if each cell of Map has 4 or 8 neighbours.
+
+grid_neighbours(map(_, Neighbours, _, _, _, _), Neighbours).
+
 %!  grid_bounds(+Map, -X1, -Y1, -X2, -Y2) is det.
 %
 %   True if the lower left cell of Map is `[X1, Y1]`, and the upper right one
@@ -234,9 +234,7 @@ grid_bounds(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), X1, Y1, X2, Y2).
 
 free_cell(Map, Cell) :-
     grid_cell(Map, Cell),
-    unobstructed(Map, Cell).
-
-unobstructed(map(_, _, _, Obstacles, Free, _), Cell) :-
+    Map = map(_, _, _, Obstacles, Free, _),
     \+ get_assoc(Cell, Obstacles, _),
     (   Free == any
     ->  true
@@ -278,21 +276,27 @@ direction_heading(Direction, Heading) :-
 grid_step(Map, Action, state(Cell, Direction), Next) :-
     must_be(nonvar, Action),
     (   Action == move
-    ->  ahead(Cell, Direction, Cell1),
+    ->  grid_ahead(Cell, Direction, Cell1),
         Next = state(Cell1, Direction)
-    ;   Map = map(_, Neighbours, _, _, _, _),
-        turned(Action, Neighbours, Direction, Direction1)
+    ;   grid_turn(Map, Action, Direction, Direction1)
     ->  Next = state(Cell, Direction1)
     ;   domain_error(grid_action, Action)
     ).
 
-ahead([X0, Y0], [DX, DY], [X, Y]) :-
+%!  grid_ahead(+Cell, +Direction, -Ahead) is det.
+%
+%   True if Ahead is next to Cell in that direction.
+
+grid_ahead([X0, Y0], [DX, DY], [X, Y]) :-
     X is X0 + DX,
     Y is Y0 + DY.
 
-behind([X0, Y0], [DX, DY], [X, Y]) :-
-    X is X0 - DX,
-    Y is Y0 - DY.
+%!  grid_turn(+Map, ?Turn, +Direction, -Next) is nondet.
+%
+%   True if Turn, `left` or `right`, leads from one direction to the next.
+
+grid_turn(map(_, Neighbours, _, _, _, _), Turn, Direction, Next) :-
+    turned(Turn, Neighbours, Direction, Next).
 
 turned(right, 4, [DX, DY], [DY, Left]) :-
     Left is -DX.
@@ -304,6 +308,14 @@ turned(right, 8, [DX0, DY0], [DX, DY]) :-
 turned(left, 8, [DX0, DY0], [DX, DY]) :-
     DX is sign(DX0 - DY0),
     DY is sign(DX0 + DY0).
+
+%!  grid_costs(+Map, -Straight, -Diagonal, -Turn) is det.
+%
+%   True if these are the costs of a straight and a diagonal move, and of a
+%   turn to the next direction.
+
+grid_costs(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
+           Straight, Diagonal, Turn).
 
 %!  grid_cost(+Map, +State, +Action, -Cost) is det.
 %
@@ -335,162 +347,18 @@ grid_beside([X0, Y0], [DX, DY], Left, Right) :-
         Right = [X0, Y]
     ).
 
-%!  grid_problem(+Map, +Start, +Goal, -Problem) is det.
+%!  must_be_state(+Map, +State)
 %
-%   True if Problem, for plan/3, is to get from the state Start to the state
-%   Goal. An unbound direction of Goal stands for any.
+%   Throw unless State is `state(Cell, Direction)` with a direction of Map.
 %
 %   @error domain_error(grid_state, State)
 
-grid_problem(Map, Start, Goal0, problem(Start, Goal, Options)) :-
-    must_be(ground, Start),
-    must_be_state(Map, Start),
-    must_be(nonvar, Goal0),
-    (   Goal0 = state(Cell, Direction),
-        var(Direction)
-    ->  must_be_cell(Cell),
-        findall(state(Cell, Direction), grid_direction(Map, Direction),
-                Goals),
-        Goal = any(Goals)
-    ;   must_be_state(Map, Goal0),
-        Goal = Goal0
-    ),
-    Options = [ successor(ev3dev_grid_map:next(Map)),
-                predecessor(ev3dev_grid_map:previous(Map)),
-                heuristic(ev3dev_grid_map:estimate(Map))
-              ].
-
 must_be_state(Map, State) :-
+    must_be(ground, State),
     (   State = state(Cell, Direction)
     ->  must_be_cell(Cell),
-        must_be(ground, Direction),
         grid_direction(Map, Direction)
     ),
     !.
 must_be_state(_, State) :-
     domain_error(grid_state, State).
-
-next(Map, state(Cell, Direction), move, state(Next, Direction), Cost) :-
-    ahead(Cell, Direction, Next),
-    way(Map, Cell, Next, Direction, Cost).
-next(Map, state(Cell, Direction), Turn, state(Cell, Next), Cost) :-
-    Map = map(_, Neighbours, costs(_, _, Cost), _, _, _),
-    turned(Turn, Neighbours, Direction, Next).
-
-previous(Map, state(Cell, Direction), move, state(Before, Direction),
-         Cost) :-
-    behind(Cell, Direction, Before),
-    way(Map, Before, Cell, Direction, Cost).
-previous(Map, state(Cell, Direction), Turn, state(Cell, Before), Cost) :-
-    Map = map(_, Neighbours, costs(_, _, Cost), _, _, _),
-    opposite(Turn, Back),
-    turned(Back, Neighbours, Direction, Before).
-
-opposite(left, right).
-opposite(right, left).
-
-way(Map, From, To, Direction, Cost) :-
-    on_map(Map, From),
-    on_map(Map, To),
-    unobstructed(Map, From),
-    unobstructed(Map, To),
-    Map = map(_, _, costs(Straight, Diagonal, _), _, _, _),
-    (   grid_beside(From, Direction, Left, Right)
-    ->  unobstructed(Map, Left),
-        unobstructed(Map, Right),
-        Cost = Diagonal
-    ;   Cost = Straight
-    ).
-
-on_map(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
-    X >= X1,
-    X =< X2,
-    Y >= Y1,
-    Y =< Y2.
-
-%   What it costs on an empty grid: the moves, and the fewest turns with which
-%   the robot at some time looks each way that it has to go.
-
-estimate(Map, state([X1, Y1], Direction1), state([X2, Y2], Direction2),
-         Estimate) :-
-    Map = map(_, Neighbours, costs(Straight, Diagonal, Turn), _, _, _),
-    DX is abs(X2 - X1),
-    DY is abs(Y2 - Y1),
-    SX is sign(X2 - X1),
-    SY is sign(Y2 - Y1),
-    fewest_turns(Neighbours, Direction1, [SX, SY], Direction2, Turns),
-    (   Neighbours =:= 4
-    ->  Estimate is Straight * (DX+DY) + Turn * Turns
-    ;   Both is min(DX, DY),
-        Estimate is min(Diagonal, 2*Straight) * Both
-                    + min(Straight, Diagonal) * (max(DX, DY) - Both)
-                    + Turn * Turns
-    ).
-
-:- dynamic known_turns/2.               % Key, Turns
-
-fewest_turns(Neighbours, Direction1, Way, Direction2, Turns) :-
-    code(Direction1, Code1),
-    code(Way, Code2),
-    code(Direction2, Code3),
-    Key is ((Neighbours * 9 + Code1) * 9 + Code2) * 9 + Code3,
-    (   known_turns(Key, Known)
-    ->  Turns = Known
-    ;   count_turns(Neighbours, Direction1, Way, Direction2, Turns),
-        assertz(known_turns(Key, Turns))
-    ).
-
-code([DX, DY], Code) :-
-    Code is DX*3 + DY + 4.
-
-count_turns(Neighbours, Direction1, [SX, SY], Direction2, Turns) :-
-    directions(Neighbours, All),
-    nth0(From, All, Direction1),
-    nth0(To, All, Direction2),
-    findall(Count,
-            ( nth0(A, All, [DXA, _]),
-              ( SX =:= 0 -> true ; DXA =:= SX ),
-              nth0(B, All, [_, DYB]),
-              ( SY =:= 0 -> true ; DYB =:= SY ),
-              (   turns([From, A, B, To], Neighbours, 0, Count)
-              ;   turns([From, B, A, To], Neighbours, 0, Count)
-              )
-            ),
-            Counts),
-    sort(Counts, [Turns|_]),
-    !.
-
-turns([_], _, Count, Count) :-
-    !.
-turns([A, B|Rest], Neighbours, Count0, Count) :-
-    Right is (B - A) mod Neighbours,
-    Count1 is Count0 + min(Right, Neighbours - Right),
-    turns([B|Rest], Neighbours, Count1, Count).
-
-%!  grid_changed(+Map, +Cells, -States) is det.
-%
-%   True if States are those from which ways have changed, for replan/5, when
-%   the map's Goal `free` has come to another opinion about Cells.
-
-grid_changed(Map, Cells, States) :-
-    must_be_cells(Cells),
-    findall(state(From, Direction),
-            ( member(Cell, Cells),
-              grid_direction(Map, Direction),
-              touches(Direction, Cell, From),
-              on_map(Map, From)
-            ),
-            States0),
-    sort(States0, States).
-
-touches(_, Cell, Cell).
-touches(Direction, Cell, From) :-
-    behind(Cell, Direction, From).
-touches([DX, DY], [X, Y], From) :-
-    DX =\= 0,
-    DY =\= 0,
-    (   X1 is X - DX,
-        From = [X1, Y]
-    ;   Y1 is Y - DY,
-        From = [X, Y1]
-    ).

@@ -77,7 +77,7 @@ start(Options, Map, Cell, Direction) :-
     ;   Cell = [0, 0],
         Direction = [0, 1]
     ),
-    grid_problem(Map, state(Cell, Direction), state(Cell, _), _).
+    must_be_state(Map, state(Cell, Direction)).
 
 metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
     option(cell_cm(Cm), Options, 20),
@@ -115,7 +115,7 @@ must_be_positive(Option, Number) :-
 
 grid_place(Cell, Direction) :-
     grid_is(Map, Metric),
-    grid_problem(Map, state(Cell, Direction), state(Cell, _), _),
+    must_be_state(Map, state(Cell, Direction)),
     set_pose_in(Metric, Cell, Direction),
     set_state(Cell, Direction).
 

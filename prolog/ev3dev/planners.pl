@@ -27,4 +27,6 @@ step(N, add_one, Next, 1) :- Next is N+1, Next =< 10.
 
 :- reexport(planners/search).
 :- reexport(planners/comparison).
-:- reexport(grid_map, except([must_be_cell/1, grid_unknown/3])).
+:- reexport(grid_map,
+            except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
+:- reexport(grid_problem).

@@ -11,6 +11,8 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/planners), []).
 :- use_module(library(prolog_xref)).
 :- use_module(library(readutil)).
 
@@ -26,7 +28,8 @@ main :-
     read_list('tests/brick/swipl-7.2.3.txt'),
     expand_file_name('prolog/*.pl', Files0),
     expand_file_name('prolog/*/*.pl', Files1),
-    append([Files0, Files1, ['examples/brick_check.pl']], Files),
+    expand_file_name('prolog/ev3dev/planners/*.pl', Files2),
+    append([Files0, Files1, Files2, ['examples/brick_check.pl']], Files),
     findall(File-Problem,
             ( member(File, Files), problem(File, Problem) ),
             Problems0),

@@ -5,7 +5,6 @@
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
 :- use_module(library(heaps),
               [add_to_heap/4, get_from_heap/4, singleton_heap/3]).
-:- use_module(library(lists), [memberchk/2]).
 :- use_module(space).
 
 /** <module> Best-first search

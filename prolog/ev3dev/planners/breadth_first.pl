@@ -5,7 +5,7 @@
                                         % -Expanded
           ]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(space).
 

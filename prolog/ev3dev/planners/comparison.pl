@@ -6,6 +6,7 @@
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../grid_map').
+:- use_module('../grid_problem').
 :- use_module(picture).
 :- use_module(search).
 

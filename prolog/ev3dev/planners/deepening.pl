@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(assoc),
               [ assoc_to_values/2, empty_assoc/1, get_assoc/3, put_assoc/4 ]).
-:- use_module(library(lists), [memberchk/2, reverse/2]).
+:- use_module(library(lists), [reverse/2]).
 :- use_module(space).
 
 /** <module> Iterative deepening
