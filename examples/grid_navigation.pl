@@ -50,8 +50,8 @@ say(Reason, Goal) :-
     \+ memberchk(Reason, [reached, no_way]),
     format("cannot go on to ~w: ~w~n", [Goal, Reason]).
 
-%   For a planner of one's own: cells into which the robot may go, as far as it
-%   knows.
+%   For a planner of one's own: cells into which the robot may go, as far as
+%   it knows.
 
 free_cell([X, Y]) :-
     between(0, 7, X),

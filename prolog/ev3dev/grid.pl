@@ -14,6 +14,7 @@
 :- use_module(planners/search).
 :- reexport(grid_knowledge,
             [obstructed/1, obstacle_add/1, obstacle_remove/1]).
+:- reexport(grid_compass, [direction_heading/2, grid_beside/4]).
 :- reexport(grid_map,
             except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
 :- reexport(grid_problem).
@@ -48,9 +49,9 @@ move, unless it knows already that they are free.
 %!  plan_and_go_to(+Cell, ?Direction) is semidet.
 %!  plan_and_go_to(+Cell, ?Direction, :Options) is semidet.
 %
-%   Go to a cell and look in a direction there, in any if it is unbound. Waits.
-%   Fails, and prints why, if what is known by then leaves no way, or if the
-%   robot cannot go on. Fails if there is no grid. Options:
+%   Go to a cell and look in a direction there, in any if it is unbound.
+%   Waits. Fails, and prints why, if what is known by then leaves no way, or
+%   if the robot cannot go on. Fails if there is no grid. Options:
 %
 %     - planner(:Planner)
 %       One of planner/1, by default `d_star_lite`, or any other closure:
@@ -201,10 +202,10 @@ ended(Reason, Options, Goal) :-
 
 %!  execute_plan(+Plan) is semidet.
 %
-%   Carry out the actions of a plan, `move`, `left` and `right`, from where the
-%   robot is. Waits. Fails at the first that is not possible, because there is
-%   an obstacle, which is noted, or the edge of the map, or for any reason in
-%   plan_and_go_to/3; state_position/2 tells how far the robot has come.
+%   Carry out the actions of a plan, `move`, `left` and `right`, from where
+%   the robot is. Waits. Fails at the first that is not possible: because there
+%   is an obstacle, which is noted, or the edge of the map, or for any reason
+%   in plan_and_go_to/3; state_position/2 tells how far the robot has come.
 %
 %   @error domain_error(grid_action, Action)
 

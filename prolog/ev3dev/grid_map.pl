@@ -4,10 +4,7 @@
             grid_cell/2,                % +Map, ?Cell
             free_cell/2,                % +Map, ?Cell
             grid_direction/2,           % +Map, ?Direction
-            direction_heading/2,        % +Direction, -Heading
             grid_step/4,                % +Map, +Action, +State, -Next
-            grid_ahead/3,               % +Cell, +Direction, -Ahead
-            grid_beside/4,              % +Cell, +Direction, -Left, -Right
             grid_turn/4,                % +Map, ?Turn, +Direction, -Next
             grid_cost/4,                % +Map, +State, +Action, -Cost
             grid_costs/4,               % +Map, -Straight, -Diagonal, -Turn
@@ -20,8 +17,10 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, nth0/3, reverse/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
+:- use_module(grid_compass).
+:- use_module(grid_drawing).
 
 /** <module> Maps of grids
 
@@ -74,8 +73,7 @@ grid_map(Module:Options0, Map) :-
     must_be(list, Options0),
     meta_options(closure, Module:Options0, Options),
     option(rows(Rows), Options, []),
-    must_be(list, Rows),
-    drawn(Rows, Drawn, Start, Bounds0),
+    grid_drawn(Rows, Drawn, Start, Bounds0),
     option(obstacles(Cells), Options, []),
     must_be_cells(Cells),
     findall(Cell-true, ( member(Cell, Cells) ; member(Cell, Drawn) ), Pairs0),
@@ -138,58 +136,6 @@ costs(Neighbours, Options, costs(Move, Diagonal, Turn)) :-
 turn_default(4, 10).
 turn_default(8, 5).
 
-drawn([], [], none, bounds(0, 0, 7, 7)) :-
-    !.
-drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
-    maplist(must_be_row, Rows0),
-    reverse(Rows0, Rows),
-    findall(Character-[X, Y],
-            ( nth0(Y, Rows, Row),
-              atom_chars(Row, Characters),
-              nth0(X, Characters, Character)
-            ),
-            Drawn),
-    findall(Cell,
-            ( member(Character-Cell, Drawn),
-              memberchk(Character, [#, 'O'])
-            ),
-            Obstacles),
-    (   member(Character-Cell, Drawn),
-        start(Character, Direction)
-    ->  Start = state(Cell, Direction)
-    ;   Start = none
-    ),
-    length(Rows, Count),
-    Y2 is Count - 1,
-    findall(X, member(_-[X, _], Drawn), Xs),
-    foldl_max(Xs, 0, X2).
-
-foldl_max([], Max, Max).
-foldl_max([X|Xs], Max0, Max) :-
-    Max1 is max(X, Max0),
-    foldl_max(Xs, Max1, Max).
-
-must_be_row(Row) :-
-    must_be(nonvar, Row),
-    (   atomic(Row),
-        atom_chars(Row, Characters),
-        \+ ( member(Character, Characters),
-             \+ character(Character)
-           )
-    ->  true
-    ;   domain_error(map_row, Row)
-    ).
-
-%   Those of the simulator: the rest are free cells.
-character(Character) :-
-    memberchk(Character,
-              [ #, 'O', '.', ' ', 'L', ^, >, v, <, k, b, g, y, r, w, n ]).
-
-start(^, [0, 1]).
-start(>, [1, 0]).
-start(v, [0, -1]).
-start(<, [-1, 0]).
-
 %!  grid_unknown(+Map0, :Free_1, -Map) is det.
 %
 %   True if Map is like Map0, but only call(Free_1, Cell) tells which of its
@@ -246,26 +192,11 @@ free_cell(Map, Cell) :-
 %   True if Direction is one of the map's, clockwise from `[0,1]` on.
 
 grid_direction(map(_, Neighbours, _, _, _, _), Direction) :-
-    directions(Neighbours, Directions),
+    compass(Neighbours, Directions),
     (   ground(Direction)
     ->  memberchk(Direction, Directions)
     ;   member(Direction, Directions)
     ).
-
-directions(4, [[0,1], [1,0], [0,-1], [-1,0]]).
-directions(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
-                [-1,1]
-              ]).
-
-%!  direction_heading(+Direction, -Heading) is det.
-%
-%   True if Heading is that angle clockwise from up, from 0 to 315 degrees.
-
-direction_heading(Direction, Heading) :-
-    directions(8, Directions),
-    nth0(Eighth, Directions, Direction),
-    !,
-    Heading is Eighth * 45.
 
 %!  grid_step(+Map, +Action, +State, -Next) is det.
 %
@@ -283,31 +214,12 @@ grid_step(Map, Action, state(Cell, Direction), Next) :-
     ;   domain_error(grid_action, Action)
     ).
 
-%!  grid_ahead(+Cell, +Direction, -Ahead) is det.
-%
-%   True if Ahead is next to Cell in that direction.
-
-grid_ahead([X0, Y0], [DX, DY], [X, Y]) :-
-    X is X0 + DX,
-    Y is Y0 + DY.
-
 %!  grid_turn(+Map, ?Turn, +Direction, -Next) is nondet.
 %
 %   True if Turn, `left` or `right`, leads from one direction to the next.
 
 grid_turn(map(_, Neighbours, _, _, _, _), Turn, Direction, Next) :-
-    turned(Turn, Neighbours, Direction, Next).
-
-turned(right, 4, [DX, DY], [DY, Left]) :-
-    Left is -DX.
-turned(left, 4, [DX, DY], [Left, DX]) :-
-    Left is -DY.
-turned(right, 8, [DX0, DY0], [DX, DY]) :-
-    DX is sign(DX0 + DY0),
-    DY is sign(DY0 - DX0).
-turned(left, 8, [DX0, DY0], [DX, DY]) :-
-    DX is sign(DX0 - DY0),
-    DY is sign(DX0 + DY0).
+    direction_turned(Turn, Neighbours, Direction, Next).
 
 %!  grid_costs(+Map, -Straight, -Diagonal, -Turn) is det.
 %
@@ -328,23 +240,6 @@ grid_cost(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
     ;   DX * DY =:= 0
     ->  Cost = Straight
     ;   Cost = Diagonal
-    ).
-
-%!  grid_beside(+Cell, +Direction, -Left, -Right) is semidet.
-%
-%   True if a diagonal move from Cell passes between the cells Left and Right.
-%   Each is next to Cell. Fails if Direction is not diagonal.
-
-grid_beside([X0, Y0], [DX, DY], Left, Right) :-
-    DX =\= 0,
-    DY =\= 0,
-    X is X0 + DX,
-    Y is Y0 + DY,
-    (   DX =:= DY
-    ->  Left = [X0, Y],
-        Right = [X, Y0]
-    ;   Left = [X, Y0],
-        Right = [X0, Y]
     ).
 
 %!  must_be_state(+Map, +State)

@@ -5,10 +5,12 @@
             state_position/2,           % ?Cell, ?Direction
             carry_out/3                 % +Plan, :Tell_1, -Outcome
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(drive, [face/2, go_to/4, set_pose/3]).
+:- use_module(grid_compass).
 :- use_module(grid_knowledge).
 :- use_module(grid_map).
 :- use_module(sensors, [us_dist_cm/2]).
@@ -26,10 +28,10 @@ Where it is on its grid, how it moves there, and how it looks before it does.
 
 %!  set_grid(+Options) is semidet.
 %
-%   Begin anew: on a grid of which nothing is known, the robot in the middle of
-%   a cell. Fails if no robot is set, or if its motors are not connected.
-%   Options are those of grid_map/2, where `rows` and `obstacles` are what is
-%   known from the start, and
+%   Begin anew on a grid of which nothing is known, the robot in the middle of
+%   a cell. Fails if no robot is set, or a motor is not connected. Options are
+%   those of grid_map/2, where `rows` and `obstacles` are what is known from
+%   the start, and
 %
 %     - start(+Cell, +Direction)
 %       Where the robot is, by default as drawn in `rows`, or in [0,0] with
@@ -87,8 +89,7 @@ metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
     ;   X = 0,
         Y = 0
     ),
-    must_be(number, X),
-    must_be(number, Y),
+    maplist(must_be(number), [X, Y]),
     option(eye(Eye), Options, 7),
     must_be(number, Eye),
     option(speed(Speed), Options, 20),
@@ -108,8 +109,8 @@ must_be_positive(Option, Number) :-
 
 %!  grid_place(+Cell, +Direction) is semidet.
 %
-%   The robot is in the middle of Cell now: someone put it there. What it
-%   knows remains. Fails if there is no grid.
+%   The robot was put into the middle of Cell. It keeps what it knows. Fails
+%   if there is no grid.
 %
 %   @error domain_error(grid_state, State)
 

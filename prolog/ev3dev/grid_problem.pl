@@ -5,6 +5,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(grid_compass).
 :- use_module(grid_map).
 
 /** <module> Planning problems on grids

@@ -5,6 +5,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../grid_compass').
 :- use_module('../grid_map').
 :- use_module('../grid_problem').
 :- use_module(picture).
@@ -28,8 +29,8 @@
 %       How many actions it took to get there, and what they cost together.
 %       Both are missing if there is no way.
 %
-%   At first the robot knows of no obstacle. It looks into the next cell before
-%   each move, and into those beside a diagonal one. Options:
+%   At first the robot knows of no obstacle. Before each move it looks into
+%   the next cell, and into those beside a diagonal one. Options:
 %
 %     - start(+State)
 %       Where it starts: by default as drawn in the map's rows, else

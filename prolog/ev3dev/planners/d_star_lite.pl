@@ -6,7 +6,7 @@
 :- use_module(library(assoc),
               [ empty_assoc/1, get_assoc/3, list_to_assoc/2, put_assoc/4 ]).
 :- use_module(library(heaps),
-              [ add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3 ]).
+              [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(space).
 
@@ -16,9 +16,9 @@ Searches from the goal to where the robot is, and keeps what it found. When
 ways change, and the robot has gone on, only that part is searched again on
 which the change bears (Koenig, Likhachev: D* Lite, 2002).
 
-Each state has a G, what it costs from there to the goal as far as that has been
-worked out, and an RHS, what it costs by the G of the states after it. Where
-the two differ the state is in the heap, with `k(K1, K2)` as its key.
+Each state has a G, what it costs from there to the goal as far as that has
+been worked out, and an RHS, what it costs by the G of the states after it.
+Where the two differ the state is in the heap, with `k(K1, K2)` as its key.
 */
 
 %!  d_star_lite(+Space, +Start, +Goals, -Search) is det.

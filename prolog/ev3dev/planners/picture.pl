@@ -17,9 +17,9 @@ title(36).
 %!  draw_panels(+File, +Map, +Start, +Goal, +Panels) is det.
 %
 %   Write a picture, as SVG, with a panel for each
-%   `panel(Planner, Facts, Way, Cells)`: the map, the more blue a cell the more
-%   often it is in the sorted list Cells, and the way of the robot. How blue
-%   follows the logarithm, the same in all panels.
+%   `panel(Planner, Facts, Way, Cells)`: the map, a cell the more blue the
+%   more often it is in the sorted list Cells, and the way of the robot. How
+%   blue goes by the logarithm, the same in all panels.
 
 draw_panels(File, Map, Start, Goal, Panels0) :-
     findall(panel(Planner, Facts, Way, Counts, Most),
