@@ -171,6 +171,7 @@ fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> P
         ("face", [heading]) => Leg::Face(call.float(heading)?),
         ("towards", [x, y]) => Leg::Towards([call.float(x)?, call.float(y)?]),
         ("to", [x, y]) => Leg::To([call.float(x)?, call.float(y)?]),
+        ("reach", [x, y]) => Leg::Reach([call.float(x)?, call.float(y)?]),
         ("arc", [length, curvature]) => Leg::Arc(call.float(length)?, call.float(curvature)?),
         ("through", [points, radius]) => Leg::Through(call.points(points)?, call.float(radius)?),
         _ => return wrong_value(call, "leg", term),

@@ -237,8 +237,15 @@ place_legs(X, Y, Heading, Legs) :-
     number_value(X, X1),
     number_value(Y, Y1),
     (   Heading == none
-    ->  Legs = [towards(X1, Y1), to(X1, Y1)]
-    ;   Legs = [towards(X1, Y1), to(X1, Y1), face(Heading)]
+    ->  Legs = [towards(X1, Y1), reach(X1, Y1)]
+    ;   % Where the axle is when the robot is there with that heading.
+        (   robot_driven(Robot)
+        ->  arg(8, Robot, Offset)
+        ;   Offset = 0
+        ),
+        X2 is X1 + Offset * sin(Heading * pi / 180),
+        Y2 is Y1 + Offset * cos(Heading * pi / 180),
+        Legs = [towards(X2, Y2), to(X2, Y2), face(Heading)]
     ).
 
 %!  face(+Heading) is semidet.

@@ -28,12 +28,12 @@ const READ_AFTER: f64 = 0.25;
 /// Variance of a wheel's way for each cm, in cm²: 2 mm after a metre.
 const WHEEL_VARIANCE: f64 = 0.0004;
 
-/// Variance of the heading for each cm, in radians²: 0.3 degrees after a metre.
-const HEADING_VARIANCE: f64 = 0.001 * DEGREE * DEGREE;
+/// Variance of the heading for each cm, in radians²: 0.2 degrees after a metre.
+const HEADING_VARIANCE: f64 = 4e-4 * DEGREE * DEGREE;
 
-/// Variance of a turn for each radian of it, in radians²: 0.25 degrees after a
+/// Variance of a turn for each radian of it, in radians²: 0.2 degrees after a
 /// quarter turn, from wheels that are wide and an axle that is not quite known.
-const TURN_VARIANCE: f64 = 0.04 * DEGREE * DEGREE;
+const TURN_VARIANCE: f64 = 0.02 * DEGREE * DEGREE;
 
 /// Standard deviation of what one wheel rolls more than the other, as a share.
 const MISMATCH: f64 = 0.01;
