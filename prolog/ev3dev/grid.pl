@@ -203,9 +203,9 @@ ended(Reason, Options, Goal) :-
 %!  execute_plan(+Plan) is semidet.
 %
 %   Carry out the actions of a plan, `move`, `left` and `right`, from where
-%   the robot is. Waits. Fails at the first that is not possible: because there
-%   is an obstacle, which is noted, or the edge of the map, or for any reason
-%   in plan_and_go_to/3; state_position/2 tells how far the robot has come.
+%   the robot is. Waits. Fails at the first that is not possible: there is an
+%   obstacle, which is noted, or the edge of the map, or any other reason of
+%   plan_and_go_to/3; state_position/2 tells how far the robot has come.
 %
 %   @error domain_error(grid_action, Action)
 

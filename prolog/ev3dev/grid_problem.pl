@@ -18,7 +18,8 @@ library(ev3dev/planners).
                     ".##.",
                     "^#.."])], Map),
    grid_problem(Map, state([0,0], [0,1]), state([2,0], _), Problem),
-   plan(a_star, Problem, Plan, Facts).
+   plan(a_star, Problem, Plan).
+Plan = [move, move, right, move, move, move, right, move, move, right|...].
 ```
 */
 

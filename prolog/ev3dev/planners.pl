@@ -13,8 +13,8 @@ of
   - compare_planners/3, which lets them drive over a map and prints a table
 
 ```
-?- plan(breadth_first,
-        problem(0, 10, [successor(step)]), Plan).
+?- plan(breadth_first, problem(1, 10, [successor(step)]), Plan).
+Plan = [double, double, add_one, double].
 ```
 
 with
