@@ -6,13 +6,12 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(random)).
 :- use_module(library(sha)).
-:- use_module(example(grid_planner)).
 
 :- initialization(load_examples).
 
 %   Each in a module of its own: all have a start/0.
 load_examples :-
-    forall(member(Name, [obstacle_avoidance, braitenberg, grid_navigation]),
+    forall(member(Name, [obstacle_avoidance, braitenberg]),
            load_files(Name:example(Name), [])).
 
 robot :-
@@ -186,77 +185,6 @@ to_free :-
     ).
 
 :- end_tests(maze).
-
-:- begin_tests(grid_navigation).
-
-%   A random world of 8 by 8 cells, 15 % of them obstacles.
-grid(Seed, Cells, World) :-
-    set_random(seed(Seed)),
-    findall([X, Y],
-            ( between(0, 7, X), between(0, 7, Y),
-              [X, Y] \== [0, 0],
-              random(R), R < 0.15
-            ),
-            Cells),
-    findall(box(XCm, YCm, 14, 14),
-            ( member([X, Y], Cells), XCm is 20*X, YCm is 20*Y ),
-            Boxes),
-    World = [bounds(-10, -10, 150, 150), start(0, 0, 0)|Boxes].
-
-free(Cells, [X, Y]) :-
-    between(0, 7, X),
-    between(0, 7, Y),
-    \+ memberchk([X, Y], Cells).
-
-reachable(Cells, Goal) :-
-    plan(free(Cells), state([0, 0], [0, 1]), state(Goal, [0, 1]), _).
-
-navigate(World, [X, Y], Output, Result) :-
-    with_sim(World,
-             ( with_output_to(string(Output),
-                              (   grid_navigation:start([X, Y])
-                              ->  Result = arrived
-                              ;   Result = no_way
-                              )),
-               sim_pose(XCm, YCm, _),
-               sim_collisions(Collisions) )),
-    Collisions == [],
-    (   Result == arrived
-    ->  near(XCm, 20*X, 5),
-        near(YCm, 20*Y, 5)
-    ;   true
-    ).
-
-%   Twenty worlds with a way to the far corner.
-some_worlds(Worlds) :-
-    findnsols(20, Seed-World,
-              ( between(1, inf, Seed),
-                grid(Seed, Cells, World),
-                free(Cells, [7, 7]),
-                reachable(Cells, [7, 7])
-              ),
-              Worlds),
-    !.
-
-test(reaches_its_goal_in_20_of_20_worlds) :-
-    some_worlds(Worlds),
-    length(Worlds, 20),
-    forall(member(Seed-World, Worlds),
-           (   navigate(World, [7, 7], Output, arrived)
-           ->  true
-           ;   format(user_error, "seed ~w: ~w~n", [Seed, Output]),
-               fail
-           )).
-test(says_that_there_is_no_way) :-
-    navigate([ bounds(-10, -10, 150, 150), start(0, 0, 0),
-               box(120, 140, 14, 14), box(140, 120, 14, 14)
-             ], [7, 7], Output, Result),
-    Result == no_way,
-    once(sub_string(Output, _, _, _, "there is no way to [7,7]")).
-test(finds_its_way_in_the_shipped_grid) :-
-    navigate(grid, [3, 3], _, arrived).
-
-:- end_tests(grid_navigation).
 
 :- begin_tests(golden_run).
 

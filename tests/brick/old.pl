@@ -12,6 +12,8 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/planners), []).
 :- use_module(library(prolog_xref)).
 :- use_module(library(readutil)).
 
@@ -27,7 +29,8 @@ main :-
     read_list('tests/brick/swipl-7.2.3.txt'),
     expand_file_name('prolog/*.pl', Files0),
     expand_file_name('prolog/*/*.pl', Files1),
-    append([ Files0, Files1,
+    expand_file_name('prolog/ev3dev/planners/*.pl', Files2),
+    append([ Files0, Files1, Files2,
              [ 'examples/brick_check.pl', 'examples/remote_control.pl',
                'examples/thermometer.pl' ] ], Files),
     findall(File-Problem,

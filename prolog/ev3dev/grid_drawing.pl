@@ -1,0 +1,69 @@
+:- module(ev3dev_grid_drawing,
+          [ grid_drawn/4                % +Rows, -Obstacles, -Start, -Bounds
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists),
+              [max_list/2, member/2, nth0/3, reverse/2]).
+
+/** <module> Maps that are drawn
+*/
+
+%!  grid_drawn(+Rows, -Obstacles, -Start, -Bounds) is det.
+%
+%   True if Rows, strings or atoms with a character for each cell, show these
+%   obstacles and this start, a state or `none`. Without rows there are 8 by 8
+%   cells.
+%
+%   @error domain_error(map_row, Row)
+
+grid_drawn(Rows, Obstacles, Start, Bounds) :-
+    must_be(list, Rows),
+    maplist(must_be_row, Rows),
+    drawn(Rows, Obstacles, Start, Bounds).
+
+drawn([], [], none, bounds(0, 0, 7, 7)) :-
+    !.
+drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
+    reverse(Rows0, Rows),
+    findall(Character-[X, Y],
+            ( nth0(Y, Rows, Row),
+              atom_chars(Row, Characters),
+              nth0(X, Characters, Character)
+            ),
+            Drawn),
+    findall(Cell,
+            ( member(Character-Cell, Drawn),
+              memberchk(Character, [#, 'O'])
+            ),
+            Obstacles),
+    (   member(Character-Cell, Drawn),
+        start(Character, Direction)
+    ->  Start = state(Cell, Direction)
+    ;   Start = none
+    ),
+    length(Rows, Count),
+    Y2 is Count - 1,
+    findall(X, member(_-[X, _], Drawn), Xs),
+    max_list([0|Xs], X2).
+
+must_be_row(Row) :-
+    must_be(nonvar, Row),
+    (   atomic(Row),
+        atom_chars(Row, Characters),
+        \+ ( member(Character, Characters),
+             \+ character(Character)
+           )
+    ->  true
+    ;   domain_error(map_row, Row)
+    ).
+
+%   Those of the simulator: the rest are free cells.
+character(Character) :-
+    memberchk(Character,
+              [ #, 'O', '.', ' ', 'L', ^, >, v, <, k, b, g, y, r, w, n ]).
+
+start(^, [0, 1]).
+start(>, [1, 0]).
+start(v, [0, -1]).
+start(<, [-1, 0]).

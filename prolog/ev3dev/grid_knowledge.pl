@@ -1,0 +1,162 @@
+:- module(ev3dev_grid_knowledge,
+          [ forget_all/2,               % +Seconds, +Obstructed
+            obstructed/1,               % ?Cell
+            obstacle_add/1,             % +Cell
+            obstacle_remove/1,          % +Cell
+            obstacles_fade/1,           % -Cells
+            unblocked/1,                % +Cell
+            saw_free/1,                 % +Cell
+            known_free/1                % +Cell
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(driver, []).
+:- use_module(grid_map, [must_be_cell/1]).
+
+/** <module> What a robot knows of its grid
+
+Which cells it found obstructed, and which it found free, and when. What it
+found may fade: an obstacle that moves about is forgotten after some time.
+Each time that it is still there when the robot comes again, that time
+doubles. So what stands for ever is at last remembered for longer than any way
+takes, and a robot does not go to and fro between two obstacles without end.
+*/
+
+:- dynamic
+    obstacle/3,                         % Cell, State, Seconds
+    free/2,                             % Cell, State
+    fading/1.                           % Seconds or `never`
+
+fading(never).
+
+%   State is `until(Time)`, `ever`, or `faded`, after which it is only known
+%   how long the obstacle was remembered.
+
+%!  forget_all(+Seconds, +Obstructed) is det.
+%
+%   Know nothing but that the cells Obstructed always are. What is found from
+%   now on fades after Seconds, or `never`.
+
+forget_all(Seconds, Obstructed) :-
+    retractall(obstacle(_, _, _)),
+    retractall(free(_, _)),
+    retractall(fading(_)),
+    assertz(fading(Seconds)),
+    forall(member(Cell, Obstructed), assertz(obstacle(Cell, ever, never))).
+
+%!  obstructed(?Cell) is nondet.
+%
+%   True if an obstacle is known in Cell that has not faded. As in the paper,
+%   but obstacle_add/1 and obstacle_remove/1 change what is known.
+
+obstructed(Cell) :-
+    ground(Cell),
+    !,
+    obstacle(Cell, State, _),
+    !,
+    lasts(State).
+obstructed(Cell) :-
+    obstacle(Cell, State, _),
+    lasts(State).
+
+lasts(ever).
+lasts(until(Time)) :-
+    now(Now),
+    Now < Time.
+
+%   In the simulator its time counts.
+
+now(Seconds) :-
+    predicate_property(ev3dev_sim:sim_time_(_), foreign),
+    ev3dev_sim:sim_time_(Simulated),
+    !,
+    Seconds = Simulated.
+now(Seconds) :-
+    get_time(Seconds).
+
+%!  obstacle_add(+Cell) is det.
+%
+%   Note an obstacle in Cell, which fades like those that the robot finds.
+%
+%   @error domain_error(grid_cell, Cell)
+
+obstacle_add(Cell) :-
+    must_be_cell(Cell),
+    (   obstacle(Cell, State0, Seconds0)
+    ->  longer(State0, Seconds0, Seconds)
+    ;   fading(Seconds)
+    ),
+    for_long(Seconds, State),
+    retractall(free(Cell, _)),
+    retractall(obstacle(Cell, _, _)),
+    assertz(obstacle(Cell, State, Seconds)).
+
+longer(State, Seconds0, Seconds) :-
+    (   lasts(State)
+    ->  Seconds = Seconds0
+    ;   Seconds is 2 * Seconds0
+    ).
+
+for_long(never, ever) :-
+    !.
+for_long(Seconds, until(Time)) :-
+    now(Now),
+    Time is Now + Seconds.
+
+%!  obstacle_remove(+Cell) is semidet.
+%
+%   Forget the obstacle in Cell. Fails if none is known there.
+%
+%   @error domain_error(grid_cell, Cell)
+
+obstacle_remove(Cell) :-
+    must_be_cell(Cell),
+    obstructed(Cell),
+    retractall(obstacle(Cell, _, _)).
+
+%!  obstacles_fade(-Cells) is det.
+%
+%   Let what is to fade by now be gone for unblocked/1, too: true if Cells are
+%   where that changed something.
+
+obstacles_fade(Cells) :-
+    findall(Cell-Seconds,
+            ( obstacle(Cell, State, Seconds),
+              State \== faded,
+              \+ lasts(State)
+            ),
+            Faded),
+    findall(Cell,
+            ( member(Cell-Seconds, Faded),
+              retractall(obstacle(Cell, _, _)),
+              assertz(obstacle(Cell, faded, Seconds))
+            ),
+            Cells).
+
+%!  unblocked(+Cell) is semidet.
+%
+%   True if no obstacle in Cell was known when obstacles_fade/1 was last
+%   called, or has been found since. A planner asks this, for which the map
+%   may not change while it searches.
+
+unblocked(Cell) :-
+    \+ ( obstacle(Cell, State, _),
+         State \== faded
+       ).
+
+%!  saw_free(+Cell) is det.
+%!  known_free(+Cell) is semidet.
+%
+%   Note that there is nothing in Cell; true if that was noted and has not
+%   faded.
+
+saw_free(Cell) :-
+    fading(Seconds),
+    for_long(Seconds, State),
+    retractall(obstacle(Cell, _, _)),
+    retractall(free(Cell, _)),
+    assertz(free(Cell, State)).
+
+known_free(Cell) :-
+    free(Cell, State),
+    !,
+    lasts(State).

@@ -1,0 +1,259 @@
+:- module(ev3dev_grid_map,
+          [ grid_map/2,                 % :Options, -Map
+            grid_start/2,               % +Map, -State
+            grid_cell/2,                % +Map, ?Cell
+            free_cell/2,                % +Map, ?Cell
+            grid_direction/2,           % +Map, ?Direction
+            grid_step/4,                % +Map, +Action, +State, -Next
+            grid_turn/4,                % +Map, ?Turn, +Direction, -Next
+            grid_cost/4,                % +Map, +State, +Action, -Cost
+            grid_costs/4,               % +Map, -Straight, -Diagonal, -Turn
+            grid_neighbours/2,          % +Map, -Count
+            grid_bounds/5,              % +Map, -X1, -Y1, -X2, -Y2
+            grid_unknown/3,             % +Map0, :Free_1, -Map
+            must_be_cell/1,             % +Cell
+            must_be_state/2             % +Map, +State
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(assoc), [empty_assoc/1, get_assoc/3, list_to_assoc/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [meta_options/3, option/2, option/3]).
+:- use_module(grid_compass).
+:- use_module(grid_drawing).
+
+/** <module> Maps of grids
+
+A map of square cells, some of them obstructed, for a robot that goes from
+cell to cell and turns on the spot.
+
+A cell is `[X, Y]`, two integers. A direction is `[DX, DY]`, the way to the
+next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbours also
+`[1,1]` and the like. A state is `state(Cell, Direction)`.
+
+The actions are `move`, to the next cell ahead, and `left` and `right`, to the
+next direction: by a right angle with four neighbours, by half of one with
+eight. A diagonal move also needs the two cells beside its way.
+*/
+
+:- meta_predicate
+    grid_map(:, -),
+    grid_unknown(+, 1, -).
+
+%!  grid_map(:Options, -Map) is det.
+%
+%   Make a map. Options:
+%
+%     - bounds(+X1, +Y1, +X2, +Y2)
+%       Its lower left and its upper right cell, by default those of Rows, or
+%       0, 0, 7, 7.
+%     - rows(+Rows)
+%       Draw it as a world of the simulator: strings or atoms, a character for
+%       each cell, the first of the last row for the cell [0,0]. What is `#`
+%       or `O` is obstructed; `^`, `>`, `v` or `<` is the start.
+%     - obstacles(+Cells)
+%       These cells are obstructed.
+%     - free(:Goal)
+%       A cell is free only if call(Goal, Cell) is true. It is asked each time
+%       anew, so that the map may change.
+%     - neighbours(+Count)
+%       4 (default) or 8.
+%     - move_cost(+Cost)
+%     - diagonal_cost(+Cost)
+%     - turn_cost(+Cost)
+%       What a move costs, straight or diagonal, and a turn to the next
+%       direction: positive integers. By default 20, 28, and 10 or, with eight
+%       neighbours, 5: tenths of a second, about, for cells of 20 cm.
+%
+%   @error domain_error(map_row, Row)
+%   @error domain_error(neighbours, Count)
+%   @error domain_error(bounds, Bounds) if they hold no cell
+
+grid_map(Module:Options0, Map) :-
+    must_be(list, Options0),
+    meta_options(closure, Module:Options0, Options),
+    option(rows(Rows), Options, []),
+    grid_drawn(Rows, Drawn, Start, Bounds0),
+    option(obstacles(Cells), Options, []),
+    must_be_cells(Cells),
+    findall(Cell-true, ( member(Cell, Cells) ; member(Cell, Drawn) ), Pairs0),
+    sort(Pairs0, Pairs),
+    list_to_assoc(Pairs, Obstacles),
+    (   option(bounds(X1, Y1, X2, Y2), Options)
+    ->  Bounds = bounds(X1, Y1, X2, Y2)
+    ;   Bounds = Bounds0
+    ),
+    must_be_bounds(Bounds),
+    option(free(Free), Options, any),
+    option(neighbours(Neighbours), Options, 4),
+    costs(Neighbours, Options, Costs),
+    Map = map(Bounds, Neighbours, Costs, Obstacles, Free, Start).
+
+closure(free).
+
+must_be_cells(Cells) :-
+    must_be(list, Cells),
+    maplist(must_be_cell, Cells).
+
+%!  must_be_cell(+Cell)
+%
+%   Throw unless Cell is `[X, Y]`.
+%
+%   @error domain_error(grid_cell, Cell)
+
+must_be_cell(Cell) :-
+    must_be(ground, Cell),
+    (   Cell = [X, Y],
+        integer(X),
+        integer(Y)
+    ->  true
+    ;   domain_error(grid_cell, Cell)
+    ).
+
+must_be_bounds(Bounds) :-
+    Bounds = bounds(X1, Y1, X2, Y2),
+    maplist(must_be(integer), [X1, Y1, X2, Y2]),
+    (   X1 =< X2,
+        Y1 =< Y2
+    ->  true
+    ;   domain_error(bounds, Bounds)
+    ).
+
+costs(Neighbours, Options, costs(Move, Diagonal, Turn)) :-
+    must_be(nonvar, Neighbours),
+    (   turn_default(Neighbours, Turn0)
+    ->  true
+    ;   domain_error(neighbours, Neighbours)
+    ),
+    option(move_cost(Move), Options, 20),
+    must_be(positive_integer, Move),
+    Diagonal0 is round(Move * sqrt(2)),
+    option(diagonal_cost(Diagonal), Options, Diagonal0),
+    option(turn_cost(Turn), Options, Turn0),
+    must_be(positive_integer, Diagonal),
+    must_be(positive_integer, Turn).
+
+turn_default(4, 10).
+turn_default(8, 5).
+
+%!  grid_unknown(+Map0, :Free_1, -Map) is det.
+%
+%   True if Map is like Map0, but only call(Free_1, Cell) tells which of its
+%   cells are free.
+
+grid_unknown(map(Bounds, Neighbours, Costs, _, _, Start), Free,
+             map(Bounds, Neighbours, Costs, None, Free, Start)) :-
+    empty_assoc(None).
+
+%!  grid_start(+Map, -State) is semidet.
+%
+%   True if State is the start drawn in the map's rows.
+
+grid_start(map(_, _, _, _, _, Start), State) :-
+    Start \== none,
+    State = Start.
+
+%!  grid_cell(+Map, ?Cell) is nondet.
+%
+%   True if Cell is on the map.
+
+grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
+    between(Y1, Y2, Y),
+    between(X1, X2, X).
+
+%!  grid_neighbours(+Map, -Count) is det.
+%
+%   True if each cell of Map has 4 or 8 neighbours.
+
+grid_neighbours(map(_, Neighbours, _, _, _, _), Neighbours).
+
+%!  grid_bounds(+Map, -X1, -Y1, -X2, -Y2) is det.
+%
+%   True if the lower left cell of Map is `[X1, Y1]`, and the upper right one
+%   `[X2, Y2]`.
+
+grid_bounds(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), X1, Y1, X2, Y2).
+
+%!  free_cell(+Map, ?Cell) is nondet.
+%
+%   True if Cell is on the map, and not obstructed.
+
+free_cell(Map, Cell) :-
+    grid_cell(Map, Cell),
+    Map = map(_, _, _, Obstacles, Free, _),
+    \+ get_assoc(Cell, Obstacles, _),
+    (   Free == any
+    ->  true
+    ;   \+ \+ call(Free, Cell)
+    ).
+
+%!  grid_direction(+Map, ?Direction) is nondet.
+%
+%   True if Direction is one of the map's, clockwise from `[0,1]` on.
+
+grid_direction(map(_, Neighbours, _, _, _, _), Direction) :-
+    compass(Neighbours, Directions),
+    (   ground(Direction)
+    ->  memberchk(Direction, Directions)
+    ;   member(Direction, Directions)
+    ).
+
+%!  grid_step(+Map, +Action, +State, -Next) is det.
+%
+%   True if Action leads from State to Next, were nothing in the way.
+%
+%   @error domain_error(grid_action, Action)
+
+grid_step(Map, Action, state(Cell, Direction), Next) :-
+    must_be(nonvar, Action),
+    (   Action == move
+    ->  grid_ahead(Cell, Direction, Cell1),
+        Next = state(Cell1, Direction)
+    ;   grid_turn(Map, Action, Direction, Direction1)
+    ->  Next = state(Cell, Direction1)
+    ;   domain_error(grid_action, Action)
+    ).
+
+%!  grid_turn(+Map, ?Turn, +Direction, -Next) is nondet.
+%
+%   True if Turn, `left` or `right`, leads from one direction to the next.
+
+grid_turn(map(_, Neighbours, _, _, _, _), Turn, Direction, Next) :-
+    direction_turned(Turn, Neighbours, Direction, Next).
+
+%!  grid_costs(+Map, -Straight, -Diagonal, -Turn) is det.
+%
+%   True if these are the costs of a straight and a diagonal move, and of a
+%   turn to the next direction.
+
+grid_costs(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
+           Straight, Diagonal, Turn).
+
+%!  grid_cost(+Map, +State, +Action, -Cost) is det.
+%
+%   True if Action costs that much in State.
+
+grid_cost(map(_, _, costs(Straight, Diagonal, Turn), _, _, _),
+          state(_, [DX, DY]), Action, Cost) :-
+    (   Action \== move
+    ->  Cost = Turn
+    ;   DX * DY =:= 0
+    ->  Cost = Straight
+    ;   Cost = Diagonal
+    ).
+
+%!  must_be_state(+Map, +State)
+%
+%   Throw unless State is `state(Cell, Direction)` with a direction of Map.
+%
+%   @error domain_error(grid_state, State)
+
+must_be_state(Map, State) :-
+    must_be(ground, State),
+    (   State = state(Cell, Direction)
+    ->  must_be_cell(Cell),
+        grid_direction(Map, Direction)
+    ),
+    !.
+must_be_state(_, State) :-
+    domain_error(grid_state, State).

@@ -1,0 +1,33 @@
+:- module(ev3dev_planners, []).
+
+/** <module> Planners to compare
+
+Ten planners over one kind of problem, for robots on grids as for any puzzle
+whose states are Prolog terms. library(ev3dev/planners) offers the predicates
+of
+
+  - planners by their names, to solve a problem and to solve it again when it
+    has changed: planner/1, planner_claim/2, plan/3, plan/4, planning/3 and
+    replan/5
+  - maps of grids, and the problems that they pose: grid_map/2, grid_problem/4
+  - compare_planners/3, which lets them drive over a map and prints a table
+
+```
+?- plan(breadth_first, problem(1, 10, [successor(step)]), Plan).
+Plan = [double, double, add_one, double].
+```
+
+with
+
+```
+step(N, double, Next, 1) :- Next is 2*N, Next =< 10.
+step(N, add_one, Next, 1) :- Next is N+1, Next =< 10.
+```
+*/
+
+:- reexport(planners/search).
+:- reexport(planners/comparison).
+:- reexport(grid_compass, [direction_heading/2, grid_beside/4]).
+:- reexport(grid_map,
+            except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
+:- reexport(grid_problem).

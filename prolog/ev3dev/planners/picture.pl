@@ -1,0 +1,149 @@
+:- module(ev3dev_picture,
+          [ draw_panels/5               % +File, +Map, +Start, +Goal, +Panels
+          ]).
+:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../grid_map').
+
+/** <module> A picture of what planners expanded
+*/
+
+%   Widths in pixels: a cell, the gap between panels, the line of its title.
+cell(24).
+gap(16).
+title(36).
+
+%!  draw_panels(+File, +Map, +Start, +Goal, +Panels) is det.
+%
+%   Write a picture, as SVG, with a panel for each
+%   `panel(Planner, Facts, Way, Cells)`: the map, a cell the more blue the
+%   more often it is in the sorted list Cells, and the way of the robot. How
+%   blue goes by the logarithm, the same in all panels.
+
+draw_panels(File, Map, Start, Goal, Panels0) :-
+    findall(panel(Planner, Facts, Way, Counts, Most),
+            ( member(panel(Planner, Facts, Way, Cells), Panels0),
+              count(Cells, Counts),
+              pairs_values(Counts, Numbers),
+              largest(Numbers, 1, Most)
+            ),
+            Panels),
+    findall(Most, member(panel(_, _, _, _, Most), Panels), Mosts),
+    largest(Mosts, 1, Most),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        draw(Out, Map, Start, Goal, Panels, Most),
+        close(Out)).
+
+count([], []).
+count([Cell|Cells], [Cell-Count|Counts]) :-
+    count(Cells, Cell, 1, Count, Rest),
+    count(Rest, Counts).
+
+count([Cell|Cells], Cell, Count0, Count, Rest) :-
+    !,
+    Count1 is Count0 + 1,
+    count(Cells, Cell, Count1, Count, Rest).
+count(Rest, _, Count, Count, Rest).
+
+largest([], Most, Most).
+largest([Number|Numbers], Most0, Most) :-
+    Most1 is max(Most0, Number),
+    largest(Numbers, Most1, Most).
+
+draw(Out, Map, Start, Goal, Panels, Most) :-
+    size(Map, Width, Height),
+    length(Panels, Count),
+    Columns is max(1, min(5, Count)),
+    Rows is (Count + Columns - 1) // Columns,
+    gap(Gap),
+    AllWidth is Columns * (Width + Gap) + Gap,
+    AllHeight is Rows * (Height + Gap) + Gap,
+    format(Out, "<svg xmlns=\"http://www.w3.org/2000/svg\" \c
+                 viewBox=\"0 0 ~d ~d\" width=\"~d\" height=\"~d\" \c
+                 font-family=\"sans-serif\">~n",
+           [AllWidth, AllHeight, AllWidth, AllHeight]),
+    format(Out, "<rect width=\"~d\" height=\"~d\" fill=\"#fff\"/>~n",
+           [AllWidth, AllHeight]),
+    forall(nth0(N, Panels, Panel),
+           ( X is Gap + (N mod Columns) * (Width + Gap),
+             Y is Gap + (N // Columns) * (Height + Gap),
+             format(Out, "<g transform=\"translate(~d,~d)\">~n", [X, Y]),
+             draw_panel(Out, Map, Start, Goal, Panel, Most),
+             format(Out, "</g>~n", [])
+           )),
+    format(Out, "</svg>~n", []).
+
+%   A title takes some room, however narrow the map.
+
+size(Map, Width, Height) :-
+    grid_bounds(Map, X1, Y1, X2, Y2),
+    cell(Cell),
+    title(Title),
+    Width is max(190, (X2 - X1 + 1) * Cell),
+    Height is (Y2 - Y1 + 1) * Cell + Title.
+
+draw_panel(Out, Map, Start, Goal, Panel, Most) :-
+    Panel = panel(Planner, Facts, Way, Counts, _),
+    option(expanded(Expanded), Facts, 0),
+    option(cost(Cost), Facts, none),
+    (   Cost == none
+    ->  Found = 'no way'
+    ;   format(atom(Found), "cost ~w", [Cost])
+    ),
+    format(Out, "<text y=\"12\" font-size=\"13\" font-weight=\"bold\">~w\c
+                 </text>~n", [Planner]),
+    format(Out, "<text y=\"28\" font-size=\"12\">~w expanded, ~w</text>~n",
+           [Expanded, Found]),
+    forall(grid_cell(Map, Cell),
+           draw_cell(Out, Map, Cell, Counts, Most)),
+    draw_way(Out, Map, Way),
+    Start = state(StartCell, _),
+    Goal = state(GoalCell, _),
+    draw_mark(Out, Map, StartCell, '#2a2'),
+    draw_mark(Out, Map, GoalCell, '#d22').
+
+draw_cell(Out, Map, Cell, Counts, Most) :-
+    middle(Map, Cell, X, Y),
+    cell(Size),
+    (   free_cell(Map, Cell)
+    ->  (   member(Cell-Count, Counts)
+        ->  shade(Count, Most, Colour)
+        ;   Colour = '#fff'
+        )
+    ;   Colour = '#444'
+    ),
+    Left is X - Size // 2,
+    Top is Y - Size // 2,
+    format(Out, "<rect x=\"~d\" y=\"~d\" width=\"~d\" height=\"~d\" \c
+                 fill=\"~w\" stroke=\"#bbb\" stroke-width=\"0.5\"/>~n",
+           [Left, Top, Size, Size, Colour]).
+
+%   From pale to deep blue.
+
+shade(Count, Most, Colour) :-
+    Depth is log(1 + Count) / log(1 + Most),
+    Red is round(222 - 190 * Depth),
+    Green is round(238 - 130 * Depth),
+    Blue is round(255 - 60 * Depth),
+    format(atom(Colour), "rgb(~d,~d,~d)", [Red, Green, Blue]).
+
+draw_way(Out, Map, Way) :-
+    format(Out, "<polyline fill=\"none\" stroke=\"#d80\" \c
+                 stroke-width=\"3\" stroke-linejoin=\"round\" points=\"", []),
+    forall(member(Cell, Way),
+           ( middle(Map, Cell, X, Y), format(Out, "~d,~d ", [X, Y]) )),
+    format(Out, "\"/>~n", []).
+
+draw_mark(Out, Map, Cell, Colour) :-
+    middle(Map, Cell, X, Y),
+    format(Out, "<circle cx=\"~d\" cy=\"~d\" r=\"6\" fill=\"~w\"/>~n",
+           [X, Y, Colour]).
+
+middle(Map, [CX, CY], X, Y) :-
+    grid_bounds(Map, X1, _, _, Y2),
+    cell(Size),
+    title(Title),
+    X is (CX - X1) * Size + Size // 2,
+    Y is Title + (Y2 - CY) * Size + Size // 2.

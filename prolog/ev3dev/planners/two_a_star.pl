@@ -1,0 +1,180 @@
+:- module(ev3dev_two_a_star,
+          [ two_a_star/5                % +Space, +Start, +Goals, -Way,
+                                        % -Expanded
+          ]).
+:- use_module(library(assoc),
+              [ empty_assoc/1, get_assoc/3, list_to_assoc/2, put_assoc/4 ]).
+:- use_module(library(heaps),
+              [ add_to_heap/4, empty_heap/1, get_from_heap/4, heap_size/2 ]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
+:- use_module(space).
+
+/** <module> A* from both ends
+
+That both searches have met does not mean that the way is a best one. This is
+the algorithm NBA* (Pijls, Post: Yet another bidirectional algorithm for
+finding the shortest path, 2009): a state is expanded by one side only, and
+not at all if no way through it can be cheaper than the best one known. When
+one side has nothing left to expand, that one is optimal. It takes a heuristic
+that is consistent.
+*/
+
+%!  two_a_star(+Space, +Start, +Goals, -Way, -Expanded) is det.
+%
+%   True if Way is the list of `step(Action, Cost)` that lead from Start to
+%   one of Goals, or `none`, found after expanding so many states.
+
+two_a_star(Space, Start, Goals, Way, Expanded) :-
+    needs_way_back(Space),
+    Search = search(Space, Start, Goals),
+    new_side(ahead, [Start], Search, Ahead),
+    new_side(back, Goals, Search, Back),
+    empty_assoc(Closed),
+    (   member(Start, Goals)
+    ->  Best = best(0, Start)
+    ;   Best = best(inf, none)
+    ),
+    search(Ahead, Back, Closed, Best, Search, 0, Way, Expanded).
+
+%   A side: which way it goes, its heap, how it reached states, and the least
+%   F in its heap.
+
+new_side(Towards, Ends0, Search, side(Towards, Heap, Reached, F)) :-
+    sort(Ends0, Ends),
+    findall(End-reached(0, none), member(End, Ends), Pairs),
+    list_to_assoc(Pairs, Reached),
+    empty_heap(Heap0),
+    push_ends(Ends, Towards, Search, Heap0, Heap),
+    (   get_from_heap(Heap, F-_, _, _)
+    ->  true
+    ;   F = 0
+    ).
+
+push_ends([], _, _, Heap, Heap).
+push_ends([End|Ends], Towards, Search, Heap0, Heap) :-
+    push(End, 0, Towards, Search, Heap0, Heap1),
+    push_ends(Ends, Towards, Search, Heap1, Heap).
+
+push(State, G, Towards, Search, Heap0, Heap) :-
+    to_go(Towards, Search, State, H),
+    F is G + H,
+    Last is -G,
+    add_to_heap(Heap0, F-Last, State-G, Heap).
+
+%   What it still costs at least from a state, as each side sees it.
+
+to_go(ahead, search(Space, _, Goals), State, H) :-
+    space_estimate(Space, State, Goals, H).
+to_go(back, search(Space, Start, _), State, H) :-
+    space_estimate(Space, Start, [State], H).
+
+search(Ahead, Back, Closed, Best, Search, Expanded0, Way, Expanded) :-
+    Ahead = side(_, HeapA, _, _),
+    Back = side(_, HeapB, _, _),
+    heap_size(HeapA, SizeA),
+    heap_size(HeapB, SizeB),
+    (   SizeA =< SizeB
+    ->  next(Ahead, Back, Closed, Best, Search, Expanded0, Way, Expanded)
+    ;   next(Back, Ahead, Closed, Best, Search, Expanded0, Way, Expanded)
+    ).
+
+next(Side0, Other, Closed0, Best0, Search, Expanded0, Way, Expanded) :-
+    Side0 = side(Towards, Heap0, Reached0, _),
+    Best0 = best(Least, _),
+    (   next_open(Heap0, Closed0, Reached0, F, State, G, Heap1),
+        F < Least
+    ->  put_assoc(State, Closed0, closed, Closed),
+        (   hopeless(State, G, Other, Search, Least)
+        ->  search_on(side(Towards, Heap1, Reached0, F), Other, Closed,
+                      Best0, Search, Expanded0, Way, Expanded)
+        ;   Expanded1 is Expanded0 + 1,
+            Search = search(Space, _, _),
+            expand(Towards, Space, State, Ways),
+            reach(Ways, State, G, Towards, Other, Closed, Search,
+                  Heap1, Heap, Reached0, Reached, Best0, Best),
+            search_on(side(Towards, Heap, Reached, F), Other, Closed, Best,
+                      Search, Expanded1, Way, Expanded)
+        )
+    ;   finish(Best0, Side0, Other, Way),
+        Expanded = Expanded0
+    ).
+
+%   The state with the least F that is still open.
+
+next_open(Heap0, Closed, Reached, F, State, G, Heap) :-
+    get_from_heap(Heap0, F1-_, State1-G1, Heap1),
+    (   get_assoc(State1, Reached, reached(Best, _)),
+        G1 =:= Best,
+        \+ get_assoc(State1, Closed, _)
+    ->  F = F1,
+        State = State1,
+        G = G1,
+        Heap = Heap1
+    ;   next_open(Heap1, Closed, Reached, F, State, G, Heap)
+    ).
+
+%   No way that goes on from here, over states that the other side has open
+%   now, is cheaper than the best one known.
+
+hopeless(State, G, side(Other, _, _, FOther), Search, Least) :-
+    to_go(Other, Search, State, HOther),
+    G + FOther - HOther >= Least.
+
+search_on(Side, Other, Closed, Best, Search, Expanded0, Way, Expanded) :-
+    Side = side(ahead, _, _, _),
+    !,
+    search(Side, Other, Closed, Best, Search, Expanded0, Way, Expanded).
+search_on(Side, Other, Closed, Best, Search, Expanded0, Way, Expanded) :-
+    search(Other, Side, Closed, Best, Search, Expanded0, Way, Expanded).
+
+expand(ahead, Space, State, Ways) :-
+    space_next(Space, State, Ways).
+expand(back, Space, State, Ways) :-
+    space_previous(Space, State, Ways).
+
+reach([], _, _, _, _, _, _, Heap, Heap, Reached, Reached, Best, Best).
+reach([way(Action, State, Cost)|Ways], From, G0, Towards, Other, Closed,
+      Search, Heap0, Heap, Reached0, Reached, Best0, Best) :-
+    G is G0 + Cost,
+    (   get_assoc(State, Closed, _)
+    ->  reach(Ways, From, G0, Towards, Other, Closed, Search,
+              Heap0, Heap, Reached0, Reached, Best0, Best)
+    ;   get_assoc(State, Reached0, reached(Known, _)),
+        Known =< G
+    ->  reach(Ways, From, G0, Towards, Other, Closed, Search,
+              Heap0, Heap, Reached0, Reached, Best0, Best)
+    ;   put_assoc(State, Reached0, reached(G, from(From, Action, Cost)),
+                  Reached1),
+        push(State, G, Towards, Search, Heap0, Heap1),
+        meet(State, G, Other, Best0, Best1),
+        reach(Ways, From, G0, Towards, Other, Closed, Search,
+              Heap1, Heap, Reached1, Reached, Best1, Best)
+    ).
+
+meet(State, G, side(_, _, Reached, _), best(Least, Met), Best) :-
+    (   get_assoc(State, Reached, reached(GOther, _)),
+        G + GOther < Least
+    ->  Sum is G + GOther,
+        Best = best(Sum, State)
+    ;   Best = best(Least, Met)
+    ).
+
+finish(best(inf, _), _, _, none) :-
+    !.
+finish(best(_, State), SideA, SideB, Way) :-
+    (   SideA = side(ahead, _, ReachedA, _)
+    ->  SideB = side(_, _, ReachedB, _)
+    ;   SideA = side(_, _, ReachedB, _),
+        SideB = side(_, _, ReachedA, _)
+    ),
+    way(State, ReachedA, [], Ahead),
+    way(State, ReachedB, [], Back),
+    reverse(Back, Rest),
+    append(Ahead, Rest, Way).
+
+way(State, Reached, Way0, Way) :-
+    get_assoc(State, Reached, reached(_, From)),
+    (   From = from(Before, Action, Cost)
+    ->  way(Before, Reached, [step(Action, Cost)|Way0], Way)
+    ;   Way = Way0
+    ).
