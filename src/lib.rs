@@ -16,6 +16,8 @@ mod mount;
 #[cfg(all(feature = "sim", not(feature = "fuse")))]
 #[path = "no_mount.rs"]
 mod mount;
+mod navigation;
+mod roadmap;
 mod robot;
 mod sensors;
 #[cfg(feature = "sim")]
@@ -37,6 +39,8 @@ pub extern "C" fn install() {
     motors::register();
     sensors::register();
     robot::register();
+    roadmap::register();
+    navigation::register();
     #[cfg(feature = "sim")]
     sim::register();
 }

@@ -16,6 +16,7 @@
 //!
 //! [`Views`] is what an ultrasonic sensor has seen on the way: where nothing
 //! stands, so that the robot may go there, and obstacles that the map lacks.
+//! [`Views::next_step`] plans with both, and says how far the robot may go.
 //!
 //! Lengths are in centimetres. X goes to the right and y up; headings are in
 //! degrees, 0 along +y and clockwise positive. The same input gives the same
@@ -34,6 +35,7 @@
 #![forbid(unsafe_code)]
 
 mod arc;
+mod explore;
 mod geometry;
 mod map;
 mod path;
@@ -46,6 +48,7 @@ mod svg;
 mod views;
 mod visibility;
 
+pub use explore::Step;
 pub use geometry::Point;
 pub use map::{Bounds, Fault, Map, Obstacle};
 pub use path::{Leg, Path};

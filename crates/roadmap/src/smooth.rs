@@ -3,7 +3,6 @@ use crate::arc::Arc;
 use crate::geometry::{Point, angle, distance, left_of, point, unit, vec2};
 use crate::map::Map;
 use crate::path::{Leg, Path};
-use crate::plan::SLACK;
 
 /// Each line is cut into so many pieces, where a detour may be left.
 const PIECES: u8 = 4;
@@ -52,7 +51,7 @@ pub(crate) fn rounded(map: &Map, corners: &[Point], keep: f64, arc_radius: f64) 
             let length = distance(corners[line], corners[line + 1]);
             if is_outer { length } else { length / 2.0 }
         };
-        let room = room(index, index == 0).min(room(index + 1, index + 3 == corners.len())) - SLACK;
+        let room = room(index, index == 0).min(room(index + 1, index + 3 == corners.len()));
         let arc = widest(map, [corner[0], corner[1], corner[2]], room, keep, arc_radius);
         let until = arc.map_or(corner[1], |arc| arc.from);
         legs.push(Leg::line(at, until));

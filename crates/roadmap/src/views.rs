@@ -8,7 +8,7 @@
 //! from other directions. Where one of them shows nothing, nothing is, and
 //! what is left of the arc is where the thing must be.
 use crate::geometry::{
-    Point, Vec2, cross, direction, distance, length, parry, point, rotated, vec2,
+    Point, Vec2, cross, direction, distance, left_of, length, parry, point, rotated, vec2,
 };
 use crate::map::{Map, Obstacle};
 use crate::path::Path;
@@ -18,11 +18,13 @@ use std::collections::BTreeMap;
 /// Half of the cone: what may have sent an echo, and what is surely free.
 const ECHO_HALF_ANGLE: f64 = 15.0;
 const FREE_HALF_ANGLE: f64 = 13.0;
-/// What is not counted of a measured distance, in cm: errors of the sensor and
-/// of where the robot believes to be.
-const DOUBT: f64 = 2.0;
+/// What is not counted of a measured distance, in cm and as a part of it:
+/// errors of the sensor and of where the robot believes to be.
+const DOUBT: [f64; 2] = [0.5, 0.03];
+/// By how much two measured places of one thing may differ, in cm.
+const DIFFER: f64 = 2.0;
 /// Nearer than this the sensor does not tell how near, in cm.
-const NEAR: f64 = 4.0;
+const NEAR: f64 = 3.05;
 /// Farther than this nothing is made of an echo, in cm: the cone is too wide.
 const FAR: f64 = 100.0;
 /// Echoes that may come from farther across than this wait for more looks, in cm.
@@ -112,6 +114,34 @@ impl Views {
         Views { hull, seen: Vec::new(), trail: Vec::new(), blocked: Vec::new(), free_cos }
     }
 
+    /// The radius of the hull, in cm.
+    #[must_use]
+    pub fn hull(&self) -> f64 {
+        self.hull
+    }
+
+    /// Notes a look of a robot in a place with a heading: from where its
+    /// sensor is on it, as the robot sees that place and heading, and how far.
+    ///
+    /// True if something stands where an earlier look showed that nothing
+    /// does: things move.
+    pub fn look(&mut self, at: Point, heading: f64, mount: View) -> bool {
+        let ahead = direction(heading);
+        let [aside, forward] = mount.at;
+        let sensor = vec2(at) + ahead * forward - left_of(ahead) * aside;
+        let view = View { at: point(sensor), heading: heading + mount.heading, range: mount.range };
+        let moved = view.range < FAR && self.contradicts(view);
+        self.stand(at);
+        self.add(view);
+        moved
+    }
+
+    fn contradicts(&self, view: View) -> bool {
+        let ahead = direction(view.heading);
+        let seen = Seen { at: view.at, ahead, range: view.range + DIFFER, free: 0.0 };
+        seen.across().into_iter().all(|place| self.shown_free(place))
+    }
+
     /// Notes where the middle of the robot is. Nothing else can be there.
     pub fn stand(&mut self, at: Point) {
         if self.trail.last().is_none_or(|last| distance(*last, at) > STEP) {
@@ -129,7 +159,8 @@ impl Views {
                 || view.range < last.range - STEP
         };
         if self.seen.last().is_none_or(is_new) {
-            let free = if view.range > NEAR { view.range.min(FAR) - DOUBT } else { 0.0 };
+            let far = view.range.min(FAR);
+            let free = if far > NEAR { far - DOUBT[0] - DOUBT[1] * far } else { 0.0 };
             self.seen.push(Seen { at: view.at, ahead, range: view.range, free });
         }
     }
@@ -223,7 +254,7 @@ impl Views {
             let offset = vec2(at) - vec2(seen.at);
             let far = length(offset);
             let aside = cross(seen.ahead, offset) / far;
-            let fits = (far - seen.range).abs() < DOUBT && aside.abs() <= edge;
+            let fits = (far - seen.range).abs() < DIFFER && aside.abs() <= edge;
             (fits && offset.dot(&seen.ahead) > 0.0).then_some(aside)
         });
         let nothing = (f64::INFINITY, f64::NEG_INFINITY);

@@ -1,0 +1,254 @@
+:- module(ev3dev_navigation,
+          [ navigate_to/2,      % +Map, +Goal
+            navigate_to/3       % +Map, +Goal, +Options
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(driver, []).
+:- use_module(drive, [drive_cm/2, face/1, pose/3]).
+:- use_module(motors, [motor_wait/3]).
+:- use_module(roadmap_arguments,
+              [ number_option/4, roadmap_facts/2, roadmap_options/2,
+                roadmap_point/2
+              ]).
+:- use_module(robot, [robot/4, stop/0]).
+:- use_module(sensors, [us_dist_cm/2]).
+
+/** <module> Drive through a room that is not wholly known
+
+The robot knows a map, as of library(ev3dev/roadmap), and where it is on it,
+by pose/3. What the map lacks it sees with its ultrasonic sensor on the way:
+
+```
+?- sim_start(room), set_robot(5.6, 10.6, outB, outC).
+?- sim_pose(X, Y, Heading), set_pose(X, Y, Heading).
+?- navigate_to([bounds(0, 0, 300, 250)], 260-210, [obstacles(New)]).
+```
+
+It goes only where it has looked. At first, and whenever its way leads to a
+place that it has not seen, it turns once around on the spot. An echo tells
+how far something is, but not where in the sensor's cone of 30 degrees; what
+other looks show to be free is taken away, and the rest becomes polygons. With
+them the way is planned anew.
+*/
+
+%!  navigate_to(+Map, +Goal) is semidet.
+%!  navigate_to(+Map, +Goal, +Options) is semidet.
+%
+%   Drive to Goal, `X-Y` in cm, around what Map knows and what is seen on the
+%   way. Waits. Options are those of roadmap_path/5, which apply to the way,
+%   and
+%
+%     - speed(+CmPerSecond)
+%       Default is 15.
+%     - sensor(+X, +Y, +Heading)
+%       Where the ultrasonic sensor is, to the right and ahead of the middle
+%       of the axle, and where it looks. Default is sensor(0, 7, 0), the
+%       shipped robot's.
+%     - tolerance(+Cm)
+%       How near to Goal is there. Default is 2.
+%     - reason(-Reason)
+%       Do not fail if Goal is not reached, but tell why: `reached`;
+%       `unreachable`, as there is no way with what is known and seen;
+%       `stalled`, if something holds the robot.
+%     - obstacles(-Polygons)
+%       What was seen that Map lacks, facts as a map has.
+%
+%   Fails unless Goal is reached, unless asked for the reason; `debug(ev3dev)`
+%   tells it. Nothing moves if there is no way on Map as it is. Fails also if
+%   no robot is set or it has no ultrasonic sensor. The robot stands when it
+%   ends, also by an exception.
+%
+%   Whoever walks into what has been seen free makes the robot stop as soon as
+%   the sensor shows it, forget what it has seen, and look again.
+%
+%   @error as roadmap_path/5
+%   @error existence_error(Kind, Port) if a motor or the sensor is unplugged
+%          under way
+
+navigate_to(Map, Goal) :-
+    navigate_to(Map, Goal, []).
+
+navigate_to(Map, Goal0, Options) :-
+    roadmap_facts(Map, Facts),
+    roadmap_point(Goal0, Goal),
+    roadmap_options(Options, Native),
+    number_option(radius(Radius), positive_number, Options, 8),
+    number_option(margin(Margin), nonneg, Options, 3),
+    number_option(speed(Speed), positive_number, Options, 15),
+    number_option(tolerance(Tolerance), positive_number, Options, 2),
+    sensor(Options, Sensor),
+    once(us_dist_cm(Port, _)),
+    views_new_(Radius, Views),
+    Drive = drive(Views, Facts, Goal, Margin, Native,
+                  Port-Sensor, Speed, Tolerance),
+    setup_call_cleanup(
+        true,
+        navigate(Drive, Reason0),
+        ignore(stop)),
+    debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
+    views_obstacles_(Views, Facts, Obstacles0),
+    option(obstacles(Obstacles), Options, _),
+    option(reason(Reason), Options, reached),
+    Obstacles = Obstacles0,
+    Reason = Reason0.
+
+sensor(Options, sensor(X, Y, Heading)) :-
+    (   option(sensor(X0, Y0, Heading0), Options)
+    ->  true
+    ;   X0 = 0, Y0 = 7, Heading0 = 0
+    ),
+    X is X0,
+    Y is Y0,
+    Heading is Heading0.
+
+%   Plans with the map alone first: if that leaves no way, nothing moves.
+
+navigate(Drive, Reason) :-
+    next_step(Drive, Step),
+    (   Step = no_way(_)
+    ->  Reason = unreachable
+    ;   advance(Step, no, 2, Drive, Reason)
+    ).
+
+next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
+    pose(X, Y, _),
+    views_step_(Views, Facts, way(X-Y, Goal, Margin), Native, Step).
+
+%   Looked tells whether the robot has looked around since it moved. What can
+%   still not be seen then counts as an obstacle. Where that or what else was
+%   made of the echoes leaves no way, it may all have been a mistake: so many
+%   times as Forgets it is forgotten, and looked at anew.
+
+advance(step(_, Length, _, _, Rest, _), _, _, Drive, reached) :-
+    Drive = drive(_, _, _, _, _, _, _, Tolerance),
+    Length + Rest =< Tolerance,
+    !.
+advance(step(Heading, Length, Safe, Unseen, _, Way), _, Forgets, Drive,
+        Reason) :-
+    until(Length, Safe, Unseen, Until),
+    !,
+    look_to(Heading, Drive),
+    follow(Way, Until, Drive, Ended),
+    (   Ended == stalled
+    ->  Reason = stalled
+    ;   next_step(Drive, Step),
+        advance(Step, no, Forgets, Drive, Reason)
+    ).
+advance(_, no, Forgets, Drive, Reason) :-
+    !,
+    look_around(Drive),
+    next_step(Drive, Step),
+    advance(Step, yes, Forgets, Drive, Reason).
+advance(step(_, _, _, Unseen, _, _), yes, Forgets, Drive, Reason) :-
+    !,
+    Drive = drive(Views, _, _, _, _, _, _, _),
+    views_block_(Views, Unseen),
+    next_step(Drive, Step),
+    advance(Step, yes, Forgets, Drive, Reason).
+advance(no_way(_), yes, Forgets, Drive, Reason) :-
+    (   Forgets > 0
+    ->  Left is Forgets - 1,
+        forget(Drive),
+        look_around(Drive),
+        next_step(Drive, Step),
+        advance(Step, yes, Left, Drive, Reason)
+    ;   Reason = unreachable
+    ).
+
+%   Up to where to go: to the end, or well before what was not seen.
+
+until(Length, _, Unseen, Length) :-
+    var(Unseen),
+    !.
+until(_, Safe, _, Until) :-
+    Until is Safe - 1,
+    Until >= 4.
+
+forget(drive(Views, _, _, _, _, _, _, _)) :-
+    views_forget_(Views).
+
+%!  observe(+Drive, -Moved) is semidet.
+%
+%   Notes what the sensor shows. Moved is true if that cannot be, unless
+%   something has moved.
+
+observe(drive(Views, _, _, _, _, Port-Sensor, _, _), Moved) :-
+    pose(X, Y, Heading),
+    us_dist_cm(Port, Distance),
+    !,
+    views_look_(Views, pose(X, Y, Heading), Sensor, Distance, Moved).
+
+%!  look_around(+Drive) is semidet.
+%
+%   Turn once around on the spot, looking.
+
+look_around(Drive) :-
+    pose(_, _, Heading0),
+    Heading is Heading0 + 360,
+    drive_cm(0, 60),
+    look_until(Heading, Drive),
+    stop.
+
+look_until(Heading, Drive) :-
+    observe(Drive, _),
+    pose(_, _, Now),
+    (   Now >= Heading
+    ->  true
+    ;   tick,
+        look_until(Heading, Drive)
+    ).
+
+look_to(Heading, Drive) :-
+    face(Heading),
+    observe(Drive, _).
+
+%!  follow(+Way, +Until, +Drive, -Ended) is semidet.
+%
+%   Keep to Way up to Until, in cm, looking. Ended is `done`, `stalled`, or
+%   `moved` if something has; then what was seen is forgotten.
+
+follow(Way, Until, Drive, Ended) :-
+    follow(Way, Until, 0, 0, Drive, Ended),
+    stop.
+
+follow(Way, Until, Before, Still, Drive, Ended) :-
+    pose(X, Y, Heading),
+    steer_(Way, pose(X, Y, Heading), Before, Gone, Turn),
+    observe(Drive, Moved),
+    Left is Until - Gone,
+    (   Left < 0.5
+    ->  Ended = done
+    ;   Moved == true
+    ->  Ended = moved,
+        stop,
+        forget(Drive)
+    ;   still(Gone, Before, Still, Still1),
+        (   Still1 > 100
+        ->  Ended = stalled
+        ;   steer(Left, Turn, Drive),
+            tick,
+            follow(Way, Until, Gone, Still1, Drive, Ended)
+        )
+    ).
+
+still(Gone, Before, Still0, Still) :-
+    (   Gone > Before
+    ->  Still = 0
+    ;   Still is Still0 + 1
+    ).
+
+%   Slower before the end, and where the way bends: by at most 90 degrees a
+%   second.
+
+steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
+    CmPerSecond is min(Speed, min(max(2, sqrt(30 * Left)),
+                                  90 / max(abs(Turn), 1))),
+    DegreesPerSecond is CmPerSecond * Turn,
+    drive_cm(CmPerSecond, DegreesPerSecond).
+
+%   As long as a motor runs.
+
+tick :-
+    robot(_, _, Left, Right),
+    motor_wait([Left, Right], [timeout(0.03)], _).
