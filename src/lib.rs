@@ -8,6 +8,7 @@
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
 mod call;
+mod drive;
 mod driver;
 mod error;
 mod motors;
@@ -41,6 +42,7 @@ pub extern "C" fn install() {
     robot::register();
     roadmap::register();
     navigation::register();
+    drive::register();
     #[cfg(feature = "sim")]
     sim::register();
 }

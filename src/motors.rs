@@ -157,7 +157,11 @@ fn move_options<'a, C: QueryableContextType>(
     })
 }
 
-fn stop_action<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<StopAction> {
+/// One of the stop actions.
+pub(crate) fn stop_action<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<StopAction> {
     let word = call.text(term)?;
     let actions = [StopAction::Coast, StopAction::Brake, StopAction::Hold];
     match actions.into_iter().find(|action| action.word() == word) {

@@ -11,16 +11,17 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// turn_by_gyro_(+Gyro, +wheels(Left, Right, Gearing), +Percent, +Degrees, -Ended)
+    /// turn_by_gyro_(+Gyro, +wheels(Left, Right, LeftSign, RightSign, Gearing), +Percent, +Degrees, -Ended)
     #[module("ev3dev_robot")]
     #[name("turn_by_gyro_")]
     semidet fn turn_by_gyro(context, gyro, wheels, percent, degrees, ended) {
         let call = Call::of(context, "turn", 2);
         let devices = call.devices()?;
-        let [left, right, gearing] = call.arguments(wheels)?;
+        let [left, right, left_sign, right_sign, gearing] = call.arguments(wheels)?;
         let turn = Turn {
             left: call.text(&left)?.into(),
             right: call.text(&right)?.into(),
+            signs: [call.integer(&left_sign)?, call.integer(&right_sign)?],
             speed: Speed::Percent(call.float(percent)?),
             degrees: call.float(degrees)?,
             gearing: call.float(&gearing)?,

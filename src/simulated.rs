@@ -6,8 +6,12 @@
 //! the program waits (then it jumps to the end of the wait) and, a little, with
 //! each access to a file, so that a program that polls a sensor in a loop gets
 //! somewhere, too.
+//!
+//! What is to be done at a fixed period ([`Tree::every`]) is done by whoever
+//! makes time pass, at that very moment and, on the virtual clock, in no time:
+//! a loop that controls motors does the same in each run.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Files, Node, Tree};
+use ev3_driver::tree::{Entry, Files, Node, Repeated, Tree};
 use ev3_sim::{Errno, Machine, NodeId, Shared};
 use std::collections::HashMap;
 use std::io;
@@ -49,6 +53,7 @@ pub(crate) enum Clock {
 /// A running simulation.
 pub(crate) struct Simulation {
     shared: Arc<Shared>,
+    repeated: Arc<RepeatedActs>,
     clock: Clock,
     threads: Mutex<Threads>,
     stepper: Option<Stepper>,
@@ -67,11 +72,14 @@ impl Simulation {
     /// Starts the clock of a machine.
     pub(crate) fn new(machine: Machine, clock: Clock) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
+        let repeated = Arc::new(RepeatedActs::default());
         let stepper = match clock {
-            Clock::Wall(factor) => Some(Stepper::start(Arc::clone(&shared), factor)?),
+            Clock::Wall(factor) => {
+                Some(Stepper::start(Arc::clone(&shared), Arc::clone(&repeated), factor)?)
+            }
             Clock::Virtual => None,
         };
-        Ok(Self { shared, clock, threads: Mutex::default(), stepper })
+        Ok(Self { shared, repeated, clock, threads: Mutex::default(), stepper })
     }
 
     /// The machine behind its lock, as a mount needs it.
@@ -86,17 +94,37 @@ impl Simulation {
 
     /// Lets time pass, whatever the clock.
     pub(crate) fn step(&self, time: Duration) {
-        self.shared.step(time);
+        drop(self.repeated.step(&self.shared, self.shared.lock(), time));
+        self.shared.wake();
     }
 
-    /// An access to a file by this thread, which takes its time.
-    fn access<T>(&self, takes: Duration, act: impl FnOnce(&mut Machine) -> T) -> T {
+    /// A read of a file by this thread, which takes its time.
+    fn read<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
         let mut machine = self.shared.lock();
-        if self.clock == Clock::Virtual {
-            machine.step(takes);
-            self.threads().accesses.insert(std::thread::current().id(), Instant::now());
+        if self.takes_time() {
+            self.was_busy();
+            machine = self.repeated.step(&self.shared, machine, READ_TAKES);
         }
         act(&mut machine)
+    }
+
+    /// A write by this thread. Nothing else is done meanwhile: who writes may
+    /// have taken care that nobody else does.
+    fn write<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
+        let mut machine = self.shared.lock();
+        if self.takes_time() {
+            self.was_busy();
+            machine.step(WRITE_TAKES);
+        }
+        act(&mut machine)
+    }
+
+    fn takes_time(&self) -> bool {
+        self.clock == Clock::Virtual && !self.repeated.is_acting()
+    }
+
+    fn was_busy(&self) {
+        self.threads().accesses.insert(std::thread::current().id(), Instant::now());
     }
 
     fn pause(&self, time: Duration) {
@@ -130,7 +158,7 @@ impl Simulation {
         while machine.now() < until {
             if self.is_next(me, until) {
                 let left = until.saturating_sub(machine.now());
-                machine.step(left);
+                machine = self.repeated.step(&self.shared, machine, left);
                 self.shared.wake();
             } else {
                 machine = self.shared.wait(machine, BUSY_FOR);
@@ -155,6 +183,80 @@ impl Simulation {
     }
 }
 
+/// What is to be done at a fixed period of the simulated time.
+#[derive(Default)]
+struct RepeatedActs {
+    acts: Mutex<Vec<Due>>,
+    /// The thread that is doing one.
+    actor: Mutex<Option<ThreadId>>,
+}
+
+struct Due {
+    at: Duration,
+    period: Duration,
+    act: Repeated,
+}
+
+impl RepeatedActs {
+    fn add(&self, now: Duration, period: Duration, act: Repeated) {
+        self.acts().push(Due { at: now.saturating_add(period), period, act });
+    }
+
+    /// Whether this thread is doing one: its own waiting and reading is not the
+    /// program's.
+    fn is_acting(&self) -> bool {
+        *self.actor() == Some(std::thread::current().id())
+    }
+
+    /// Lets time pass, and does what is due on the way.
+    fn step<'a>(
+        &self,
+        shared: &'a Shared,
+        mut machine: MutexGuard<'a, Machine>,
+        time: Duration,
+    ) -> MutexGuard<'a, Machine> {
+        let end = machine.now().saturating_add(time);
+        while let Some(Due { at, mut act, .. }) = self.due(machine.now(), end) {
+            let left = at.saturating_sub(machine.now());
+            machine.step(left);
+            drop(machine);
+            *self.actor() = Some(std::thread::current().id());
+            let next = act();
+            *self.actor() = None;
+            machine = shared.lock();
+            if let Some(next) = next {
+                self.add(machine.now(), next, act);
+            }
+        }
+        let left = end.saturating_sub(machine.now());
+        machine.step(left);
+        machine
+    }
+
+    /// The first that is due by then. One at a time: while a thread is at it,
+    /// others let time pass without.
+    fn due(&self, now: Duration, end: Duration) -> Option<Due> {
+        if self.actor().is_some() {
+            return None;
+        }
+        let mut acts = self.acts();
+        for due in &mut *acts {
+            // A machine that was put back to an earlier moment.
+            due.at = due.at.min(now.saturating_add(due.period));
+        }
+        let (index, due) = acts.iter().enumerate().min_by_key(|(_, due)| due.at)?;
+        (due.at <= end).then(|| acts.swap_remove(index))
+    }
+
+    fn acts(&self) -> MutexGuard<'_, Vec<Due>> {
+        self.acts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn actor(&self) -> MutexGuard<'_, Option<ThreadId>> {
+        self.actor.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Steps a machine by the wall clock.
 struct Stepper {
     stop: Arc<AtomicBool>,
@@ -162,7 +264,7 @@ struct Stepper {
 }
 
 impl Stepper {
-    fn start(shared: Arc<Shared>, factor: f64) -> io::Result<Self> {
+    fn start(shared: Arc<Shared>, repeated: Arc<RepeatedActs>, factor: f64) -> io::Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let is_over = Arc::clone(&stop);
         let thread = std::thread::Builder::new().name("ev3-sim".to_owned()).spawn(move || {
@@ -170,7 +272,8 @@ impl Stepper {
             while !is_over.load(Ordering::Relaxed) {
                 std::thread::sleep(STEP);
                 let now = Instant::now();
-                shared.step((now - last).mul_f64(factor));
+                drop(repeated.step(&shared, shared.lock(), (now - last).mul_f64(factor)));
+                shared.wake();
                 last = now;
             }
         })?;
@@ -181,7 +284,9 @@ impl Stepper {
 impl Drop for Stepper {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
+        // It may be this very thread that was the last to use the simulation.
+        let is_me = |thread: &JoinHandle<()>| thread.thread().id() == std::thread::current().id();
+        if let Some(thread) = self.thread.take_if(|thread| !is_me(thread)) {
             // It ends within a step; that it panicked is not news to this one.
             let _ = thread.join();
         }
@@ -264,6 +369,13 @@ impl Tree for SimulatedFiles {
         self.simulation.pause(timeout);
         Ok(())
     }
+
+    fn every(&self, period: Duration, act: Repeated) -> io::Result<()> {
+        let simulation = &self.simulation;
+        let now = simulation.machine().now();
+        simulation.repeated.add(now, period, act);
+        Ok(())
+    }
 }
 
 /// An open file of a simulation.
@@ -274,7 +386,7 @@ struct SimulatedFile {
 
 impl Node for SimulatedFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        let text = self.simulation.access(READ_TAKES, |machine| machine.read(self.node));
+        let text = self.simulation.read(|machine| machine.read(self.node));
         let text = text.map_err(error)?;
         let length = text.len().min(buffer.len());
         buffer[..length].copy_from_slice(&text[..length]);
@@ -282,9 +394,9 @@ impl Node for SimulatedFile {
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
-        let written = self.simulation.access(WRITE_TAKES, |machine| machine.write(self.node, text));
+        let written = self.simulation.write(|machine| machine.write(self.node, text));
         let blocks = written.map_err(error)?.blocks;
-        if !blocks.is_zero() {
+        if !blocks.is_zero() && !self.simulation.repeated.is_acting() {
             self.simulation.pause(blocks);
         }
         Ok(())

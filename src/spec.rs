@@ -2,8 +2,8 @@
 use crate::call::Call;
 use crate::error::wrong_because;
 use ev3_sim::{
-    Bounds, Colour, Hull, Item, MotorMount, Noise, Point, Port, Pose, RobotSpec, SensorMount,
-    SpecError, Wheel, WorldSpec,
+    Bounds, Colour, Hull, Item, MotorMount, Noise, Port, Pose, RobotSpec, SensorMount, SpecError,
+    Wheel, WorldSpec,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -127,11 +127,11 @@ fn read<'a, C: QueryableContextType>(
         }
         ("floor", [colour]) => Fact::Floor(named(call, "colour", colour)?),
         ("patch", [colour, corners]) => Fact::Item(Item::Patch {
-            corners: points(call, corners)?,
+            corners: call.points(corners)?,
             colour: named(call, "colour", colour)?,
         }),
         ("line", [colour, width, along]) => Fact::Item(Item::Line {
-            points: points(call, along)?,
+            points: call.points(along)?,
             width: number(width)?,
             colour: named(call, "colour", colour)?,
         }),
@@ -193,18 +193,6 @@ pub(crate) fn named<T: FromStr, C: QueryableContextType>(
     term: &Term,
 ) -> PrologResult<T> {
     call.text(term)?.parse().or_else(|_| wrong_because(call, domain, term, ""))
-}
-
-/// A list of `[X, Y]`.
-fn points<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Vec<Point>> {
-    let point = |term: &Term<'a>| match &*call.list(term)? {
-        [x, y] => Ok([call.float(x)?, call.float(y)?]),
-        _ => wrong_because(call, "point", term, ""),
-    };
-    call.list(term)?.iter().map(point).collect()
 }
 
 /// A wheel: its port, its diameter in cm, and perhaps a list of `inverted(Bool)`

@@ -1,5 +1,6 @@
 :- module(ev3dev_robot,
           [ set_robot/4,        % +WheelDiameter, +AxleLength, +Left, +Right
+            set_robot/5,        % +WheelDiameter, +AxleLength, +Left, +Right, +Options
             robot/4,            % ?WheelDiameter, ?AxleLength, ?Left, ?Right
             stop/0,
             go/1,               % +Speed
@@ -10,6 +11,8 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [subtract/3]).
+:- use_module(library(option), [option/3]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
 :- use_module(sensors, [gyro_sensor/1]).
@@ -34,28 +37,101 @@ angle of 0. Nothing moves then.
 Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 */
 
-:- dynamic robot/4.
+:- dynamic
+    robot/4,
+    built/3.                            % Diameters, Inverted, Offset
+
+%   Library(ev3dev/drive) makes the moves once it is loaded, and is told of the
+%   robot.
+:- multifile
+    move_hook/2,                        % +Move, -Done
+    robot_hook/0.
 
 %!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right) is semidet.
+%!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right, +Options) is semidet.
 %
 %   Describe the robot: the diameter of its wheels and the distance between
 %   the middles of their treads, both in cm, and the ports of its motors.
 %   Replaces the robot set before. Fails, and changes nothing, unless two
-%   motors of the same type are connected there.
+%   motors of the same type are connected there. Options:
+%
+%     - left_diameter(+Cm)
+%     - right_diameter(+Cm)
+%       The diameter of that wheel alone. Default is WheelDiameter.
+%     - inverted(+Sides)
+%       A list of `left` and `right`: the wheels whose motor is mounted the
+%       other way round, so that it drives backwards.
+%     - axle_offset(+Cm)
+%       How far the axle is ahead of the point that pose/3 of
+%       library(ev3dev/drive) tells, and turns around it. Default is 0.
+%
+%   calibrate/3 of library(ev3dev/drive) finds the figures out.
 %
 %   @error domain_error(positive_number, Length)
+%   @error domain_error(side, Side)
 
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
+    set_robot(WheelDiameter, AxleLength, Left, Right, []).
+
+set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
     must_be_length(WheelDiameter),
     must_be_length(AxleLength),
     must_be(atom, Left),
     must_be(atom, Right),
+    build(WheelDiameter, Options, Diameters, Inverted, Offset),
     tacho_motor(Left, Type, LeftPath),
     tacho_motor(Right, Type, RightPath),
     LeftPath \== RightPath,
     with_mutex(ev3dev_robot,
                ( retractall(robot(_, _, _, _)),
-                 asserta(robot(WheelDiameter, AxleLength, Left, Right)) )).
+                 retractall(built(_, _, _)),
+                 assertz(built(Diameters, Inverted, Offset)),
+                 asserta(robot(WheelDiameter, AxleLength, Left, Right)) )),
+    forall(robot_hook, true).
+
+build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
+    must_be(list, Options),
+    option(left_diameter(LeftDiameter), Options, WheelDiameter),
+    option(right_diameter(RightDiameter), Options, WheelDiameter),
+    option(inverted(Sides), Options, []),
+    option(axle_offset(Offset), Options, 0),
+    must_be_length(LeftDiameter),
+    must_be_length(RightDiameter),
+    must_be(number, Offset),
+    must_be(list(atom), Sides),
+    inverted(Sides, Inverted).
+
+inverted(Sides, Left-Right) :-
+    (   subtract(Sides, [left, right], [Other|_])
+    ->  domain_error(side, Other)
+    ;   inverted(left, Sides, Left),
+        inverted(right, Sides, Right)
+    ).
+
+inverted(Side, Sides, Inverted) :-
+    (   memberchk(Side, Sides)
+    ->  Inverted = true
+    ;   Inverted = false
+    ).
+
+%   The robot as library(ev3dev/drive) wants it.
+robot_built(robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)) :-
+    robot(WheelDiameter, AxleLength, Left, Right),
+    (   built(DL-DR, IL-IR, Offset)
+    ->  true
+    ;   DL-DR = WheelDiameter-WheelDiameter,
+        IL-IR = false-false,
+        Offset = 0
+    ).
+
+%   Forwards is 1, or -1 where the motor is mounted the other way round.
+forwards(LeftSign, RightSign) :-
+    robot_built(robot(_, _, _, _, IL, IR, _, _)),
+    sign_of(IL, LeftSign),
+    sign_of(IR, RightSign).
+
+sign_of(true, -1).
+sign_of(false, 1).
 
 must_be_length(Length) :-
     must_be(number, Length),
@@ -91,7 +167,10 @@ go(Speed) :-
     robot(_, _, Left, Right),
     Percent is Speed,
     moves(Percent),
-    motors_run([run(Left, Percent), run(Right, Percent)]).
+    forwards(LS, RS),
+    LeftPercent is LS * Percent,
+    RightPercent is RS * Percent,
+    motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  go(+Speed, +Angle) is semidet.
 %
@@ -105,9 +184,27 @@ go(Speed, Angle) :-
     Degrees is Angle,
     moves(Percent),
     moves(Degrees),
-    motors_turn([ move(Left, Percent, Degrees),
-                  move(Right, Percent, Degrees)
-                ], []).
+    (   move_hook(go(Percent, Degrees), Done)
+    ->  Done == true
+    ;   wheel_angles(Degrees, Degrees, LeftAngle, RightAngle),
+        motors_turn([ move(Left, Percent, LeftAngle),
+                      move(Right, Percent, RightAngle)
+                    ], [])
+    ).
+
+%   What the motors turn for angles of wheels of the diameter that was given.
+wheel_angles(Left, Right, LeftAngle, RightAngle) :-
+    forwards(LS, RS),
+    robot(Diameter, _, _, _),
+    robot_built(robot(_, _, DL, DR, _, _, _, _)),
+    wheel_angle(LS, Diameter, DL, Left, LeftAngle),
+    wheel_angle(RS, Diameter, DR, Right, RightAngle).
+
+wheel_angle(Sign, Diameter, Own, Angle, MotorAngle) :-
+    (   Diameter =:= Own
+    ->  MotorAngle is Sign * Angle
+    ;   MotorAngle is Sign * Angle * Diameter / Own
+    ).
 
 %!  go_cm(+Speed, +Distance) is semidet.
 %
@@ -126,8 +223,10 @@ go_cm(Speed, Distance) :-
 turn(Speed) :-
     robot(_, _, Left, Right),
     Percent is Speed,
-    Reverse is -Percent,
-    motors_run([run(Left, Percent), run(Right, Reverse)]).
+    forwards(LS, RS),
+    LeftPercent is LS * Percent,
+    RightPercent is -RS * Percent,
+    motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  turn(+Speed, +Angle) is semidet.
 %
@@ -143,16 +242,20 @@ turn(Speed, Angle) :-
     Percent is Speed,
     Degrees is Angle,
     moves(Percent),
-    (   gyro_sensor(Gyro)
-    ->  Gearing is AxleLength / float(WheelDiameter),
+    (   move_hook(turn(Percent, Degrees), Done)
+    ->  Done == true
+    ;   gyro_sensor(Gyro)
+    ->  forwards(LS, RS),
+        Gearing is AxleLength / float(WheelDiameter),
         Signed is Degrees * sign(Percent),
-        Wheels = wheels(Left, Right, Gearing),
+        Wheels = wheels(Left, Right, LS, RS, Gearing),
         turn_by_gyro_(Gyro, Wheels, Percent, Signed, Ended),
         turn_ended(Ended, Degrees)
     ;   WheelAngle is round(AxleLength / WheelDiameter * Degrees),
         Opposite is -WheelAngle,
-        motors_turn([ move(Left, Percent, WheelAngle),
-                      move(Right, Percent, Opposite)
+        wheel_angles(WheelAngle, Opposite, LeftAngle, RightAngle),
+        motors_turn([ move(Left, Percent, LeftAngle),
+                      move(Right, Percent, RightAngle)
                     ], [])
     ).
 

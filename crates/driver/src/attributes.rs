@@ -81,6 +81,7 @@ pub fn write(
     }
     devices.with(class, port, |device| match (class, name) {
         (Class::TachoMotor, "command") => motor::command(device, text),
+        (Class::TachoMotor, "position") => device.recount(&mut || device.write(name, text)),
         _ => device.write(name, text),
     })
 }

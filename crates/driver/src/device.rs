@@ -1,5 +1,6 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
 use crate::devices::{Class, Detected};
+use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
 use crate::list::List;
 use crate::motor::Motion;
@@ -7,7 +8,7 @@ use crate::tree::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, Weak};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
@@ -44,10 +45,28 @@ pub struct Device {
     constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
+    /// Who wants to know of that.
+    watch: Arc<Watch>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
     /// When its values will have settled in that mode; zero once they have.
     settled_at: Mutex<Duration>,
+}
+
+/// The drive that is told what the motors of a tree are told, once there is one.
+#[derive(Default)]
+pub(crate) struct Watch(OnceLock<Weak<Drive>>);
+
+impl Watch {
+    /// There is one for each tree, and it stays.
+    pub(crate) fn set(&self, drive: Weak<Drive>) {
+        // It is set once: who sets it holds the lock under which it is made.
+        let _ = self.0.set(drive);
+    }
+
+    fn drive(&self) -> Option<Arc<Drive>> {
+        self.0.get().and_then(Weak::upgrade)
+    }
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -60,7 +79,12 @@ struct Constant {
 
 impl Device {
     /// Reads who is at `directory/entry`.
-    pub(crate) fn detect(tree: &Arc<dyn Tree>, class: Class, entry: Entry) -> Result<Self> {
+    pub(crate) fn detect(
+        tree: &Arc<dyn Tree>,
+        watch: &Arc<Watch>,
+        class: Class,
+        entry: Entry,
+    ) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
         let (presence, address) = address_of(&**tree, &path)?;
         let driver = read_file(&**tree, &path.join("driver_name"))?;
@@ -77,6 +101,7 @@ impl Device {
             attributes: List::default(),
             constants: List::default(),
             motion: Mutex::default(),
+            watch: Arc::clone(watch),
             user: Mutex::default(),
             settled_at: Mutex::default(),
         })
@@ -169,6 +194,21 @@ impl Device {
     /// What the motor was last told to do.
     pub(crate) fn motion(&self) -> MutexGuard<'_, Option<Motion>> {
         self.motion.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The motor was told to turn.
+    pub(crate) fn started(&self) {
+        if let Some(drive) = self.watch.drive() {
+            drive.started();
+        }
+    }
+
+    /// Does what changes the motor's position without turning it.
+    pub(crate) fn recount(&self, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        match self.watch.drive() {
+            Some(drive) => drive.recount(self, write),
+            None => write(),
+        }
     }
 
     /// The right to change the sensor's mode, if no other thread has it. A

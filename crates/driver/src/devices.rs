@@ -5,7 +5,8 @@
 //! listing is cached: it is made anew when it is older than [`LISTING_AGE`],
 //! when a port is asked for that it does not have, and when a device answers as
 //! an unplugged one does. Devices that are still there keep their descriptors.
-use crate::device::{Device, identity};
+use crate::device::{Device, Watch, identity};
+use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
 use crate::port;
 use crate::tree::Tree;
@@ -78,6 +79,8 @@ pub struct Detected {
 pub struct Devices {
     tree: Arc<dyn Tree>,
     listings: [Mutex<Listing>; Class::ALL.len()],
+    drive: Mutex<Option<Arc<Drive>>>,
+    watch: Arc<Watch>,
 }
 
 /// What a class directory held when it was last looked at.
@@ -93,7 +96,7 @@ impl Devices {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Tree>) -> Self {
-        Self { tree, listings: Default::default() }
+        Self { tree, listings: Default::default(), drive: Mutex::default(), watch: Arc::default() }
     }
 
     /// The tree they are in.
@@ -201,6 +204,15 @@ impl Devices {
         Ok(detected)
     }
 
+    /// The drive of the robot in this tree, if there is one.
+    pub(crate) fn drive(&self) -> MutexGuard<'_, Option<Arc<Drive>>> {
+        self.drive.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
     fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {
         // Class::ALL is in the order of the enum.
         let [tacho_motor, sensor, servo_motor, dc_motor, port] = &self.listings;
@@ -239,7 +251,7 @@ impl Devices {
         for entry in entries {
             match listing.devices.iter().find(|device| device.is_at(&entry)) {
                 Some(known) => devices.push(Arc::clone(known)),
-                None => match Device::detect(&self.tree, class, entry) {
+                None => match Device::detect(&self.tree, &self.watch, class, entry) {
                     Ok(device) => devices.push(Arc::new(device)),
                     Err(error) if is_exhaustion(&error) => return Err(error),
                     // Gone again, or not a device: looked at anew next time.

@@ -15,22 +15,29 @@
 //! * [`device`]: one device, its kept descriptors and its constants.
 //! * [`devices`]: which devices there are, by class and port.
 //! * [`attributes`], [`motor`], [`wait`], [`sensor`], [`turn`]: what robots do.
+//! * [`odometry`], [`path`], [`steering`]: where a robot is and how it gets
+//!   elsewhere, without any device; [`drive`]: the same with its devices.
 //!
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
 //!
-//! Nothing here starts a thread, prints, or waits without asking its caller
+//! Nothing here but [`Tree::every`] over real files starts a thread; nothing
+//! prints, or waits without asking its caller
 //! every few milliseconds whether to go on ([`Interrupted`]).
 #![forbid(unsafe_code)]
 
 pub mod attributes;
 pub mod device;
 pub mod devices;
+pub mod drive;
 pub mod error;
 mod list;
 pub mod motor;
+pub mod odometry;
+pub mod path;
 pub mod port;
 pub mod sensor;
+pub mod steering;
 pub mod tree;
 pub mod turn;
 pub mod value;

@@ -131,6 +131,8 @@ pub(crate) struct Motion {
     pub(crate) started: Duration,
     /// Whether by `run-to-rel-pos`.
     is_relative: bool,
+    /// The number of the drive's motion that it is part of; 0 for none.
+    owner: u32,
     pub(crate) end: End,
 }
 
@@ -186,16 +188,76 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
 
 /// Writes a command, and remembers what it started: `None` if it stops.
 fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
-    let is_relative = word == "run-to-rel-pos";
-    let motion = end.map(|end| Motion { started: motor.tree().now(), is_relative, end });
+    if word == "reset" {
+        return motor.recount(&mut || start_as(motor, word, end));
+    }
+    start_as(motor, word, end)?;
+    if end.is_some() {
+        motor.started();
+    }
+    Ok(())
+}
+
+fn start_as(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
+    let motion = motion(motor, word, end, 0);
+    // The command under the lock: a drive must not start again what was just
+    // stopped.
+    let mut present = motor.motion();
     if motion.is_some() {
         // Before the command: were we stopped in between, it would be one stop
         // too many rather than one too few.
-        *motor.motion() = motion;
+        *present = motion;
     }
     motor.write("command", word)?;
-    *motor.motion() = motion;
+    *present = motion;
     Ok(())
+}
+
+fn motion(motor: &Device, word: &str, end: Option<End>, owner: u32) -> Option<Motion> {
+    let is_relative = word == "run-to-rel-pos";
+    end.map(|end| Motion { started: motor.tree().now(), is_relative, owner, end })
+}
+
+/// Makes a motor part of a drive's motion.
+pub(crate) fn own(motor: &Device, owner: u32) {
+    *motor.motion() = motion(motor, "run-forever", Some(End::Never), owner);
+}
+
+/// Whether a motor is still part of a drive's motion: nobody else has told it
+/// anything since.
+pub(crate) fn is_owned(motor: &Device, owner: u32) -> bool {
+    motor.motion().is_some_and(|motion| motion.owner == owner)
+}
+
+/// Writes a command to a motor that is part of a drive's motion; `false`, and
+/// nothing is written, if it no longer is.
+pub(crate) fn start_owned(motor: &Device, word: &str, end: End, owner: u32) -> Result<bool> {
+    let next = motion(motor, word, Some(end), owner);
+    let mut present = motor.motion();
+    if present.is_none_or(|motion| motion.owner != owner) {
+        return Ok(false);
+    }
+    motor.write("command", word)?;
+    *present = next;
+    Ok(true)
+}
+
+/// Stops a motor that is part of a drive's motion; not if it no longer is.
+pub(crate) fn stop_owned(motor: &Device, action: StopAction, owner: u32) -> Result<()> {
+    let mut present = motor.motion();
+    if present.is_none_or(|motion| motion.owner != owner) {
+        return Ok(());
+    }
+    let chosen = motor.write("stop_action", action.word());
+    motor.write("command", "stop")?;
+    *present = None;
+    chosen
+}
+
+/// Whether a motor was told to run and not to stop by itself.
+pub(crate) fn runs_on(motor: &Device) -> bool {
+    let end = motor.motion().map(|motion| motion.end);
+    matches!(end, Some(End::Never | End::Time(_)))
 }
 
 /// Stops a motor, in some way even if it does not have that action: the
@@ -343,7 +405,7 @@ fn start_moves(
         motor.write_number("speed_sp", plan.speed)?;
         motor.write("stop_action", options.stop_action.word())?;
     }
-    let mut ramps = Ramps(Vec::new());
+    let mut ramps = Ramps::default();
     ramps.set(&motors, options)?;
     let mut ends = plans.iter().map(|plan| End::Position { from: plan.from, target: plan.target });
     start_all(&motors, |motor| start(motor, "run-to-rel-pos", ends.next()))?;
@@ -413,10 +475,11 @@ fn count_from_here(motor: &Device) -> Result<()> {
 /// The ramps that the motors had before a move with its own. The command
 /// copies them, so that they are put back as soon as the motors run, or when
 /// they could not start.
-struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
+#[derive(Default)]
+pub(crate) struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
 
 impl Ramps {
-    fn set(&mut self, motors: &[Arc<Device>], options: &MoveOptions) -> Result<()> {
+    pub(crate) fn set(&mut self, motors: &[Arc<Device>], options: &MoveOptions) -> Result<()> {
         let given = [("ramp_up_sp", options.ramp_up_ms), ("ramp_down_sp", options.ramp_down_ms)];
         for motor in motors {
             for (attribute, milliseconds) in given {

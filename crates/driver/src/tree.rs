@@ -4,6 +4,7 @@
 //! or any directory shaped like it. A simulator may stand in for it within
 //! the process by implementing [`Tree`] and [`Node`].
 use crate::error::{Access, Error, Result};
+use nix::sys::signal::{SigSet, SigmaskHow};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
 use rustix::io::Errno;
@@ -58,7 +59,32 @@ pub trait Tree: Send + Sync {
     /// # Errors
     /// The kernel's, as ENOMEM.
     fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()>;
+
+    /// Calls `act` after `period`, by the tree's clock, and from then on each
+    /// time after what it answers, until that is `None`. By default a thread
+    /// does so, by the wall.
+    ///
+    /// # Errors
+    /// The kernel's, where that takes a thread and none can be had.
+    fn every(&self, period: Duration, mut act: Repeated) -> io::Result<()> {
+        let run = move || {
+            let mut next = Some(period);
+            while let Some(period) = next {
+                std::thread::sleep(period);
+                next = act();
+            }
+        };
+        // Signals are for the program's own threads: a new one takes over what
+        // is blocked in this one.
+        let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
+        let spawned = std::thread::Builder::new().name("ev3-drive".to_owned()).spawn(run);
+        before.thread_set_mask()?;
+        spawned.map(drop)
+    }
 }
+
+/// What is done again and again; answers when to do it next.
+pub type Repeated = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// An open attribute file.
 pub trait Node: Send + Sync {

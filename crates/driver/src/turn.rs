@@ -54,6 +54,8 @@ pub struct Turn {
     pub left: String,
     /// Port of the right motor.
     pub right: String,
+    /// 1, or -1 for a motor that is mounted the other way round.
+    pub signs: [i64; 2],
     /// The fastest the wheels turn; its sign is ignored.
     pub speed: Speed,
     /// Degrees to turn, clockwise positive.
@@ -105,8 +107,15 @@ pub fn by_gyro(
         return Ok(None);
     };
     let per_degree = counts_per_degree(&motors)? * turn.gearing;
-    let mut control =
-        Control { devices, gyro, motors: &motors, per_degree, fastest, running: None };
+    let mut control = Control {
+        devices,
+        gyro,
+        motors: &motors,
+        signs: turn.signs,
+        per_degree,
+        fastest,
+        running: None,
+    };
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
     let stopped = stop_all(&motors, StopAction::Brake);
     let ended = ended.and_then(|ended| stopped.map(|()| ended));
@@ -152,6 +161,7 @@ struct Control<'a> {
     devices: &'a Devices,
     gyro: &'a Arc<Device>,
     motors: &'a [Arc<Device>],
+    signs: [i64; 2],
     /// Tacho counts of a wheel for a degree of the robot.
     per_degree: f64,
     /// The fastest speed of a wheel, in counts per second.
@@ -233,7 +243,7 @@ impl Control<'_> {
         if counts == 0 {
             stop_all(self.motors, StopAction::Brake)?;
         } else {
-            run_at(self.motors, [counts, -counts])?;
+            run_at(self.motors, [self.signs[0] * counts, -self.signs[1] * counts])?;
         }
         self.running = Some(counts);
         Ok(())

@@ -24,7 +24,7 @@ fn robot(gearing: f64) -> Arc<Brick> {
 
 fn turn(percent: f64, degrees: f64, gearing: f64) -> Turn {
     let (left, right) = ("outB".to_owned(), "outC".to_owned());
-    Turn { left, right, speed: Speed::Percent(percent), degrees, gearing }
+    Turn { left, right, signs: [1, 1], speed: Speed::Percent(percent), degrees, gearing }
 }
 
 /// Turns, and sees to it that the motors brake afterwards whatever happens.

@@ -1,0 +1,537 @@
+:- module(ev3dev_drive,
+          [ pose/3,             % -X, -Y, -Heading
+            set_pose/3,         % +X, +Y, +Heading
+            pose_uncertainty/1, % -Covariance
+            heading_wrapped/2,  % +Heading, -Wrapped
+            drive_option/2,     % +Name, ?Value
+            go_cm/3,            % +Speed, +Distance, +Options
+            turn/3,             % +Speed, +Angle, +Options
+            arc_cm/3,           % +Speed, +Radius, +Angle
+            arc_cm/4,           % +Speed, +Radius, +Angle, +Options
+            arc/2,              % +Speed, +Radius
+            arc/3,              % +Speed, +Radius, +Options
+            steer/2,            % +Speed, +Direction
+            steer/3,            % +Speed, +Direction, +Options
+            drive_cm/2,         % +CmPerSecond, +DegreesPerSecond
+            drive_cm/3,         % +CmPerSecond, +DegreesPerSecond, +Options
+            go_to/2,            % +X, +Y
+            go_to/3,            % +X, +Y, +HeadingOrOptions
+            go_to/4,            % +X, +Y, +Heading, +Options
+            face/1,             % +Heading
+            face/2,             % +Heading, +Options
+            follow/1,           % +Points
+            follow/2,           % +Points, +Options
+            drive_wait/2        % +Options, -Reason
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [domain_error/2, instantiation_error/1, must_be/2, type_error/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(driver, []).
+:- use_module(motors, []).
+:- use_module(robot, []).
+
+/** <module> Driving: curves, odometry, going to places
+
+A robot that was described by set_robot/4 knows where it is, and goes where it
+is told. Loaded apart from library(ev3dev):
+
+```
+?- use_module(library(ev3dev/drive)).
+?- set_robot(5.6, 10.6, outB, outC).
+?- go_to(30, 40), face(0).
+?- pose(X, Y, Heading).
+X = 30.0, Y = 40.0, Heading = 0.1.
+```
+
+Lengths are in centimetres, angles in degrees, both any arithmetic expression.
+X goes to the right and y ahead of where the robot started; heading 0 looks
+along y, clockwise is positive, and full turns count. Speeds are in percent of
+what the motors can, and are those of the faster wheel.
+
+While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
+the pose, and keeps the robot on its course; Prolog may do something else
+meanwhile. It does so whoever runs the motors, and ends when they rest. From
+when this library is loaded, go/2, go_cm/2 and turn/2 are driven by it, too.
+
+The gyro, if one is connected, tells the heading, unless
+`drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
+A move puts it into the mode GYRO-ANG; while another mode is read, it does not
+count.
+
+## Options of moves {#drive-options}
+
+  - speed(+Percent)
+    Of the faster wheel, for moves that are not told one. Default is that of
+    drive_option/2. Negative is backwards.
+  - acceleration(+CmPerSquareSecond)
+    How fast the robot gains and loses speed. Default is that of
+    drive_option/2.
+  - stop_action(+Action)
+    What the motors do at the end: `hold` (default), `brake` or `coast`.
+  - wait(+Boolean)
+    If `false`, return as soon as the robot moves. See drive_wait/2. Moves
+    without end never wait.
+  - timeout(+Seconds)
+    Stop the robot if it takes longer.
+  - reason(-Reason)
+    Do not fail if the move ends early, but tell why: one of `reached`,
+    `stalled`, `timeout`, `stopped` and `unplugged`.
+
+All moves fail if no robot is set, if a motor is not connected, and if the move
+is impossible: a speed of 0 or beyond 100 percent. Nothing moves then. They
+also fail, unless asked for the reason, when they end early: a wheel is
+blocked, the time is up, or another thread stops a motor or tells it something
+else. The robot stands then.
+
+They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
+takes the place of one that is under way.
+
+@error existence_error(Kind, Port) if a motor or the gyro is unplugged under
+       way
+@error domain_error(Option, Value)
+*/
+
+:- dynamic option_value/2.
+
+option_value(use_gyro, true).
+option_value(speed, 40).
+option_value(acceleration, 50).
+
+%!  drive_option(+Name, ?Value) is semidet.
+%
+%   Ask for an option of the library, or set it if Value is bound:
+%
+%     - use_gyro: `true` (default) or `false`
+%       Whether a gyro, if one is connected, tells the heading.
+%     - speed: 40
+%       In percent, for moves that are not told one.
+%     - acceleration: 50
+%       In cm/s^2.
+%
+%   @error domain_error(drive_option, Name)
+
+drive_option(Name, Value) :-
+    must_be(atom, Name),
+    (   \+ memberchk(Name, [use_gyro, speed, acceleration])
+    ->  domain_error(drive_option, Name)
+    ;   var(Value)
+    ->  option_value(Name, Value)
+    ;   valid_option(Name, Value, Valid),
+        with_mutex(ev3dev_robot,
+                   ( retractall(option_value(Name, _)),
+                     assertz(option_value(Name, Valid)) ))
+    ).
+
+valid_option(use_gyro, Value, Value) :-
+    must_be(boolean, Value).
+valid_option(speed, Speed, Percent) :-
+    number_value(Speed, Percent),
+    (   Percent =\= 0,
+        abs(Percent) =< 100
+    ->  true
+    ;   domain_error(speed, Percent)
+    ).
+valid_option(acceleration, Acceleration, Value) :-
+    number_value(Acceleration, Value),
+    (   Value > 0,
+        Value < inf
+    ->  true
+    ;   domain_error(acceleration, Value)
+    ).
+
+%!  pose(-X, -Y, -Heading) is semidet.
+%
+%   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
+%   where it was when robot and library came together, or from set_pose/3.
+%   May be asked while it moves, by any thread. Fails if no robot is set or a
+%   motor is not connected.
+
+pose(X, Y, Heading) :-
+    robot(Robot, UseGyro),
+    pose_(Robot, UseGyro, X, Y, Heading).
+
+%!  set_pose(+X, +Y, +Heading) is semidet.
+%
+%   The robot is there now.
+
+set_pose(X, Y, Heading) :-
+    number_value(X, X1),
+    number_value(Y, Y1),
+    number_value(Heading, Heading1),
+    robot(Robot, UseGyro),
+    set_pose_(Robot, UseGyro, X1, Y1, Heading1).
+
+%!  pose_uncertainty(-Covariance) is semidet.
+%
+%   How uncertain the pose is: the covariance of x, y and heading as a list of
+%   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The square
+%   root of XX is the standard deviation of x. It grows with the way, from what
+%   wheels and axle are usually off, and is 0 after set_pose/3.
+
+pose_uncertainty(Covariance) :-
+    robot(Robot, UseGyro),
+    pose_uncertainty_(Robot, UseGyro, Covariance).
+
+%!  heading_wrapped(+Heading, -Wrapped) is det.
+%
+%   Wrapped is that heading without full turns: more than -180, at most 180.
+
+heading_wrapped(Heading, Wrapped) :-
+    number_value(Heading, Degrees),
+    heading_wrapped_(Degrees, Wrapped).
+
+%!  go_cm(+Speed, +Distance, +Options) is semidet.
+%
+%   Go straight on for Distance cm. The signs of speed and distance make the
+%   direction. Ends to the count, beside the line by less than the gyro is off.
+
+go_cm(Speed, Distance, Options) :-
+    number_value(Speed, Percent),
+    number_value(Distance, Way),
+    not_nothing(Way),
+    backwards(Percent * Way, Backwards),
+    Length is abs(Way),
+    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+
+%!  turn(+Speed, +Angle, +Options) is semidet.
+%
+%   Turn on the spot by Angle degrees. The signs of speed and angle make the
+%   direction, clockwise positive.
+
+turn(Speed, Angle, Options) :-
+    number_value(Speed, Percent),
+    number_value(Angle, Degrees),
+    not_nothing(Degrees),
+    Turn is Degrees * sign(Percent),
+    move(Percent, legs([turn(Turn)], false), Options).
+
+%!  arc_cm(+Speed, +Radius, +Angle) is semidet.
+%!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
+%
+%   Go along an arc of a circle. Its centre is on the right if the radius is
+%   positive, and on the left if it is negative. The signs of speed and angle
+%   make the direction, ahead or backwards.
+
+arc_cm(Speed, Radius, Angle) :-
+    arc_cm(Speed, Radius, Angle, []).
+
+arc_cm(Speed, Radius, Angle, Options) :-
+    number_value(Speed, Percent),
+    number_value(Radius, R),
+    number_value(Angle, Degrees),
+    not_nothing(Degrees),
+    backwards(Percent * Degrees, Backwards),
+    Signed is Degrees * sign(Percent),
+    (   R =:= 0
+    ->  move(Percent, legs([turn(Signed)], false), Options)
+    ;   Length is abs(R * Degrees) * pi / 180,
+        Curvature is sign(Signed) * sign(float(R)) / abs(R),
+        move(Percent, legs([arc(Length, Curvature)], Backwards), Options)
+    ).
+
+%!  arc(+Speed, +Radius) is semidet.
+%!  arc(+Speed, +Radius, +Options) is semidet.
+%
+%   Go along a circle until stopped. Does not wait. See arc_cm/3.
+
+arc(Speed, Radius) :-
+    arc(Speed, Radius, []).
+
+arc(Speed, Radius, Options) :-
+    number_value(Speed, Percent),
+    number_value(Radius, R),
+    robot(Robot, _),
+    arg(7, Robot, Axle),
+    Inner is (abs(R) - Axle / 2.0) / (abs(R) + Axle / 2.0),
+    (   R >= 0
+    ->  wheels(Percent, 1, Inner, Options)
+    ;   wheels(Percent, Inner, 1, Options)
+    ).
+
+%!  steer(+Speed, +Direction) is semidet.
+%!  steer(+Speed, +Direction, +Options) is semidet.
+%
+%   Go on until stopped, straight for Direction 0, to the right up to 100 and
+%   to the left down to -100: at 50 the inner wheel stands, at 100 the robot
+%   spins. Does not wait.
+%
+%   @error domain_error(direction, Direction)
+
+steer(Speed, Direction) :-
+    steer(Speed, Direction, []).
+
+steer(Speed, Direction, Options) :-
+    number_value(Speed, Percent),
+    number_value(Direction, D),
+    (   abs(D) =< 100
+    ->  true
+    ;   domain_error(direction, D)
+    ),
+    Inner is 1 - abs(D) / 50.0,
+    (   D >= 0
+    ->  wheels(Percent, 1, Inner, Options)
+    ;   wheels(Percent, Inner, 1, Options)
+    ).
+
+wheels(Percent, Left0, Right0, Options) :-
+    Left is sign(Percent) * Left0,
+    Right is sign(Percent) * Right0,
+    move(Percent, wheels(Left, Right), Options).
+
+%!  drive_cm(+CmPerSecond, +DegreesPerSecond) is semidet.
+%!  drive_cm(+CmPerSecond, +DegreesPerSecond, +Options) is semidet.
+%
+%   Go on at a speed and turn at a rate, clockwise positive, until stopped.
+%   Does not wait. Called again, it changes both smoothly: a program that
+%   controls the robot itself may do so many times a second. Fails if that is
+%   too fast for a wheel.
+
+drive_cm(Speed, Rate) :-
+    drive_cm(Speed, Rate, []).
+
+drive_cm(Speed, Rate, Options) :-
+    number_value(Speed, CmPerSecond),
+    number_value(Rate, DegreesPerSecond),
+    move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
+
+%!  go_to(+X, +Y) is semidet.
+%!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
+%!  go_to(+X, +Y, +Heading, +Options) is semidet.
+%
+%   Turn towards a place, go there, and turn to a heading if one is given. With
+%   a negative speed, back into it.
+
+go_to(X, Y) :-
+    go_to(X, Y, []).
+
+go_to(X, Y, Options) :-
+    is_list(Options),
+    !,
+    place_legs(X, Y, none, Legs),
+    travel(Legs, Options).
+go_to(X, Y, Heading) :-
+    go_to(X, Y, Heading, []).
+
+go_to(X, Y, Heading, Options) :-
+    number_value(Heading, Degrees),
+    place_legs(X, Y, Degrees, Legs),
+    travel(Legs, Options).
+
+place_legs(X, Y, Heading, Legs) :-
+    number_value(X, X1),
+    number_value(Y, Y1),
+    (   Heading == none
+    ->  Legs = [towards(X1, Y1), to(X1, Y1)]
+    ;   Legs = [towards(X1, Y1), to(X1, Y1), face(Heading)]
+    ).
+
+%!  face(+Heading) is semidet.
+%!  face(+Heading, +Options) is semidet.
+%
+%   Turn on the spot to a heading, the shorter way round.
+
+face(Heading) :-
+    face(Heading, []).
+
+face(Heading, Options) :-
+    number_value(Heading, Degrees),
+    speed(Options, Percent),
+    move(Percent, legs([face(Degrees)], false), Options).
+
+%!  follow(+Points) is semidet.
+%!  follow(+Points, +Options) is semidet.
+%
+%   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
+%   on straight lines, and turn on the spot at each. Another option:
+%
+%     - radius(+Cm)
+%       Round the corners with that radius, or with less where the lines are
+%       too short for it, and do not stop there.
+
+follow(Points) :-
+    follow(Points, []).
+
+follow(Points, Options) :-
+    must_be(list, Points),
+    must_be(list, Options),
+    points(Points, Places),
+    option(radius(Radius), Options, 0),
+    number_value(Radius, R),
+    (   R >= 0
+    ->  true
+    ;   domain_error(radius, R)
+    ),
+    (   Places == []
+    ->  true
+    ;   travel([through(Places, R)], Options)
+    ).
+
+points([], []).
+points([Point|Points], [[X, Y]|Places]) :-
+    (   var(Point)
+    ->  instantiation_error(Point)
+    ;   point(Point, X0, Y0)
+    ->  number_value(X0, X),
+        number_value(Y0, Y)
+    ;   type_error(point, Point)
+    ),
+    points(Points, Places).
+
+point([X, Y], X, Y).
+point(X-Y, X, Y).
+point(point(X, Y), X, Y).
+
+%!  drive_wait(+Options, -Reason) is semidet.
+%
+%   Wait until the move under way ends, as one that was started with
+%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   Stops nothing. At once `reached` if there is none. Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most.
+
+drive_wait(Options, Reason) :-
+    must_be(list, Options),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    robot(Robot, _),
+    catch(drive_wait_(Robot, Timeout, Reason),
+          error(existence_error(_, _), _),
+          Reason = unplugged).
+
+                /*******************************
+                *            MOVES             *
+                *******************************/
+
+travel(Legs, Options) :-
+    speed(Options, Percent),
+    backwards(Percent, Backwards),
+    move(Percent, legs(Legs, Backwards), Options).
+
+speed(Options, Percent) :-
+    must_be(list, Options),
+    option_value(speed, Default),
+    option(speed(Speed), Options, Default),
+    number_value(Speed, Percent).
+
+backwards(Direction, Backwards) :-
+    (   Direction < 0
+    ->  Backwards = true
+    ;   Backwards = false
+    ).
+
+not_nothing(Number) :-
+    (   Number =\= 0
+    ->  true
+    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
+        fail
+    ).
+
+%   Percent tells the speed; its sign is in the course.
+move(Percent, Course, Options) :-
+    move_options(Percent, Course, Options, Native),
+    option(reason(Reason), Options, _),
+    robot(Robot, _),
+    (   catch(drive_(Robot, Course, Native, Ended), E, true)
+    ->  (   var(E)
+        ->  true
+        ;   E = error(existence_error(_, _), _),
+            option(reason(_), Options)
+        ->  Ended = unplugged
+        ;   throw(E)
+        ),
+        (   option(reason(_), Options)
+        ->  Reason = Ended
+        ;   ended(Ended, Course)
+        )
+    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
+              [Course, Percent]),
+        fail
+    ).
+
+move_options(Percent, Course, Options,
+             options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
+    must_be(list, Options),
+    Speed is abs(Percent),
+    option_value(acceleration, Default),
+    option(acceleration(Acceleration0), Options, Default),
+    valid_option(acceleration, Acceleration0, Acceleration),
+    option(stop_action(Action), Options, hold),
+    option_value(use_gyro, UseGyro),
+    option(wait(Wait0), Options, true),
+    must_be(boolean, Wait0),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    (   Course = legs(_, _)
+    ->  Wait = Wait0
+    ;   Wait = false
+    ).
+
+must_be_timeout(Seconds) :-
+    Seconds == infinite,
+    !.
+must_be_timeout(Seconds) :-
+    must_be(number, Seconds),
+    (   Seconds >= 0
+    ->  true
+    ;   domain_error(timeout, Seconds)
+    ).
+
+ended(reached, _) :-
+    !.
+ended(stalled, _) :-
+    !,
+    ev3dev_robot:robot(_, _, Left, Right),
+    print_message(warning, ev3dev(stalled([Left, Right]))),
+    fail.
+ended(Reason, Course) :-
+    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
+    fail.
+
+%   The robot, and whether to use the gyro.
+robot(Robot, UseGyro) :-
+    ev3dev_robot:robot_built(Robot),
+    option_value(use_gyro, UseGyro).
+
+%   A number that an expression stands for.
+number_value(Expression, Number) :-
+    Number is Expression,
+    (   Number =:= Number,
+        abs(Number) < inf
+    ->  true
+    ;   domain_error(finite_number, Number)
+    ).
+
+                /*******************************
+                *     PREDICATES OF ROBOT      *
+                *******************************/
+
+:- multifile
+    ev3dev_robot:move_hook/2,
+    ev3dev_robot:robot_hook/0.
+
+ev3dev_robot:move_hook(go(Percent, Degrees), Done) :-
+    ev3dev_robot:robot(WheelDiameter, _, _, _),
+    Distance is Degrees * pi * WheelDiameter / 360,
+    done(go_cm(Percent, Distance, []), Done).
+ev3dev_robot:move_hook(turn(Percent, Degrees), Done) :-
+    done(turn(Percent, Degrees, []), Done).
+
+done(Goal, Done) :-
+    (   call(Goal)
+    ->  Done = true
+    ;   Done = false
+    ).
+
+ev3dev_robot:robot_hook :-
+    odometry.
+
+%   Count from now on, if there is a robot.
+odometry :-
+    (   robot(Robot, _)
+    ->  ignore(odometry_(Robot))
+    ;   true
+    ).
+
+:- initialization(catch(odometry, _, true)).

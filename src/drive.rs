@@ -1,0 +1,192 @@
+//! `prolog/ev3dev/drive.pl`: curves, odometry, going to places.
+use crate::call::{Call, unify_atom};
+use crate::error::wrong_value;
+use crate::motors::stop_action;
+use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
+use ev3_driver::odometry::{Pose, Wheels, wrapped};
+use ev3_driver::steering::Leg;
+use ev3_driver::wait::Reason;
+use std::sync::Arc;
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_odometry();
+    register_pose();
+    register_set_pose();
+    register_pose_uncertainty();
+    register_heading_wrapped();
+    register_drive();
+    register_drive_wait();
+}
+
+predicates! {
+    /// odometry_(+Robot): counts from now on, if it did not.
+    #[module("ev3dev_drive")]
+    #[name("odometry_")]
+    semidet fn odometry(context, robot) {
+        let call = Call::of(context, "set_robot", 4);
+        let (devices, robot) = (call.devices()?, robot_of(&call, robot)?);
+        into_prolog_result(call.check(Drive::of(&devices, &robot).start(&devices))?)
+    }
+
+    /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
+    #[module("ev3dev_drive")]
+    #[name("pose_")]
+    semidet fn pose(context, robot, use_gyro, x, y, heading) {
+        let call = Call::of(context, "pose", 3);
+        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
+        let pose = call.found(drive.pose(&devices))?;
+        x.unify(pose.x)?;
+        y.unify(pose.y)?;
+        heading.unify(pose.heading)
+    }
+
+    /// set_pose_(+Robot, +UseGyro, +X, +Y, +Heading)
+    #[module("ev3dev_drive")]
+    #[name("set_pose_")]
+    semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
+        let call = Call::of(context, "set_pose", 3);
+        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
+        let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
+        into_prolog_result(call.check(drive.set_pose(&devices, pose))?)
+    }
+
+    /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
+    #[module("ev3dev_drive")]
+    #[name("pose_uncertainty_")]
+    semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
+        let call = Call::of(context, "pose_uncertainty", 1);
+        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
+        let covariance = call.found(drive.uncertainty(&devices))?;
+        let lists = covariance.map(|row| floats(&call, &row)).into_iter();
+        rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
+    }
+
+    /// heading_wrapped_(+Heading, -Wrapped)
+    #[module("ev3dev_drive")]
+    #[name("heading_wrapped_")]
+    semidet fn heading_wrapped(context, heading, result) {
+        result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
+    }
+
+    /// drive_(+Robot, +Course, +Options, -Reason): options is
+    /// options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout).
+    #[module("ev3dev_drive")]
+    #[name("drive_")]
+    semidet fn drive(context, robot, course, options, reason) {
+        let call = Call::of(context, "go_to", 4);
+        let (devices, course) = (call.devices()?, course_of(&call, course)?);
+        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
+        let (options, wait, timeout) = options_of(&call, options)?;
+        let interrupted = &mut call.interrupted();
+        let begun = call.found(drive.begin(&devices, &course, &options, interrupted))?;
+        let ended = match wait {
+            true => call.check(drive.wait(&devices, &begun, timeout, interrupted))?,
+            false => Reason::Reached,
+        };
+        unify_atom(reason, ended.word())
+    }
+
+    /// drive_wait_(+Robot, +Timeout, -Reason)
+    #[module("ev3dev_drive")]
+    #[name("drive_wait_")]
+    semidet fn drive_wait(context, robot, timeout, reason) {
+        let call = Call::of(context, "drive_wait", 2);
+        let (devices, timeout) = (call.devices()?, call.seconds(timeout)?);
+        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
+        let ended = drive.wait_last(&devices, timeout, &mut call.interrupted());
+        unify_atom(reason, call.check(ended)?.word())
+    }
+}
+
+/// robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
+/// Axle, Offset)
+fn robot_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Robot> {
+    let [left, right, left_diameter, right_diameter, left_inverted, right_inverted, axle, offset] =
+        call.arguments(term)?;
+    Ok(Robot {
+        ports: [call.text(&left)?.into(), call.text(&right)?.into()],
+        wheels: Wheels {
+            diameters: [call.float(&left_diameter)?, call.float(&right_diameter)?],
+            inverted: [left_inverted.get_ex()?, right_inverted.get_ex()?],
+            axle: call.float(&axle)?,
+            offset: call.float(&offset)?,
+        },
+    })
+}
+
+fn drive_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    robot: &Term<'a>,
+    use_gyro: &Term<'a>,
+) -> PrologResult<(Arc<ev3_driver::Devices>, Arc<Drive>)> {
+    let devices = call.devices()?;
+    let drive = Drive::of(&devices, &robot_of(call, robot)?);
+    drive.use_gyro(use_gyro.get_ex()?);
+    Ok((devices, drive))
+}
+
+/// legs(Legs, Backwards), cruise(CmPerSecond, DegreesPerSecond) or
+/// wheels(LeftShare, RightShare)
+fn course_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Course> {
+    let [first, second] = call.arguments(term)?;
+    let name = term.get::<Functor>()?.name_string();
+    Ok(match &*name {
+        "cruise" => Course::Cruise(call.float(&first)?, call.float(&second)?),
+        "wheels" => Course::Wheels([call.float(&first)?, call.float(&second)?]),
+        _ => {
+            let legs = call.list(&first)?;
+            let legs = legs.iter().map(|leg| leg_of(call, leg)).collect::<PrologResult<_>>()?;
+            Course::Legs(legs, second.get_ex()?)
+        }
+    })
+}
+
+fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Leg> {
+    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+        return wrong_value(call, "leg", term);
+    };
+    let arguments = call.context.compound_terms_vec(term)?;
+    Ok(match (&*functor.name_string(), &*arguments) {
+        ("turn", [degrees]) => Leg::Turn(call.float(degrees)?),
+        ("heading", [heading]) => Leg::Heading(call.float(heading)?),
+        ("face", [heading]) => Leg::Face(call.float(heading)?),
+        ("towards", [x, y]) => Leg::Towards([call.float(x)?, call.float(y)?]),
+        ("to", [x, y]) => Leg::To([call.float(x)?, call.float(y)?]),
+        ("arc", [length, curvature]) => Leg::Arc(call.float(length)?, call.float(curvature)?),
+        ("through", [points, radius]) => Leg::Through(call.points(points)?, call.float(radius)?),
+        _ => return wrong_value(call, "leg", term),
+    })
+}
+
+fn options_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<(DriveOptions, bool, Option<Duration>)> {
+    let [percent, acceleration, action, use_gyro, wait, timeout] = call.arguments(term)?;
+    let options = DriveOptions {
+        percent: call.float(&percent)?,
+        acceleration: call.float(&acceleration)?,
+        stop_action: stop_action(call, &action)?,
+        use_gyro: use_gyro.get_ex()?,
+    };
+    Ok((options, wait.get_ex()?, call.seconds(&timeout)?))
+}
+
+/// A list of floats.
+fn floats<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    values: &[f64],
+) -> PrologResult<Term<'a>> {
+    let list = call.context.new_term_ref();
+    list.unify(values)?;
+    Ok(list)
+}
