@@ -3,6 +3,7 @@
             navigate_to/3       % +Map, +Goal, +Options
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, face/1, pose/3]).
@@ -50,7 +51,10 @@ them the way is planned anew.
 %     - reason(-Reason)
 %       Do not fail if Goal is not reached, but tell why: `reached`;
 %       `unreachable`, as there is no way with what is known and seen;
-%       `stalled`, if something holds the robot.
+%       `stalled`, if something holds the robot; `exhausted`, if it has planned
+%       its way so often as steps(Count) says.
+%     - steps(+Count)
+%       Default is 500.
 %     - obstacles(-Polygons)
 %       What was seen that Map lacks, facts as a map has.
 %
@@ -77,6 +81,8 @@ navigate_to(Map, Goal0, Options) :-
     number_option(margin(Margin), nonneg, Options, 3),
     number_option(speed(Speed), positive_number, Options, 15),
     number_option(tolerance(Tolerance), positive_number, Options, 2),
+    option(steps(Steps), Options, 500),
+    must_be(nonneg, Steps),
     sensor(Options, Sensor),
     once(us_dist_cm(Port, _)),
     views_new_(Radius, Views),
@@ -84,7 +90,7 @@ navigate_to(Map, Goal0, Options) :-
                   Port-Sensor, Speed, Tolerance),
     setup_call_cleanup(
         true,
-        navigate(Drive, Reason0),
+        navigate(Drive, Steps, Reason0),
         ignore(stop)),
     debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
     views_obstacles_(Views, Facts, Obstacles0),
@@ -104,57 +110,84 @@ sensor(Options, sensor(X, Y, Heading)) :-
 
 %   Plans with the map alone first: if that leaves no way, nothing moves.
 
-navigate(Drive, Reason) :-
+navigate(Drive, Steps, Reason) :-
     next_step(Drive, Step),
     (   Step = no_way(_)
     ->  Reason = unreachable
-    ;   advance(Step, no, 2, Drive, Reason)
+    ;   advance(Step, no, 2, Steps, Drive, Reason)
     ).
 
 next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
     pose(X, Y, _),
     views_step_(Views, Facts, way(X-Y, Goal, Margin), Native, Step).
 
+%!  advance(+Step, +Looked, +Forgets, +Steps, +Drive, -Reason) is semidet.
+%
 %   Looked tells whether the robot has looked around since it moved. What can
 %   still not be seen then counts as an obstacle. Where that or what else was
 %   made of the echoes leaves no way, it may all have been a mistake: so many
 %   times as Forgets it is forgotten, and looked at anew.
 
-advance(step(_, Length, _, _, Rest, _), _, _, Drive, reached) :-
-    Drive = drive(_, _, _, _, _, _, _, Tolerance),
-    Length + Rest =< Tolerance,
+advance(Step, _, _, _, Drive, reached) :-
+    is_there(Step, Drive),
     !.
-advance(step(Heading, Length, Safe, Unseen, _, Way), _, Forgets, Drive,
-        Reason) :-
+advance(_, _, _, 0, _, exhausted) :-
+    !.
+advance(Step, Looked, Forgets, Steps, Drive, Reason) :-
+    decided(Step, Looked, Forgets, Decision),
+    (   Decision = end(Reason0)
+    ->  Reason = Reason0
+    ;   carry_out(Decision, Drive, Looked1),
+        (   Looked1 == stalled
+        ->  Reason = stalled
+        ;   forgets(Decision, Forgets, Forgets1),
+            Left is Steps - 1,
+            next_step(Drive, Next),
+            advance(Next, Looked1, Forgets1, Left, Drive, Reason)
+        )
+    ).
+
+is_there(step(_, Length, _, _, Rest, _), Drive) :-
+    Drive = drive(_, _, _, _, _, _, _, Tolerance),
+    Length + Rest =< Tolerance.
+
+decided(step(Heading, Length, Safe, Unseen, _, Way), _, _, Decision) :-
     until(Length, Safe, Unseen, Until),
     !,
-    look_to(Heading, Drive),
+    Decision = go(Heading, Way, Until).
+decided(_, no, _, Decision) :-
+    !,
+    Decision = look.
+decided(step(_, _, _, Unseen, _, _), yes, _, Decision) :-
+    !,
+    Decision = block(Unseen).
+decided(no_way(_), yes, Forgets, Decision) :-
+    (   Forgets > 0
+    ->  Decision = forget
+    ;   Decision = end(unreachable)
+    ).
+
+forgets(Decision, Forgets0, Forgets) :-
+    (   Decision == forget
+    ->  Forgets is Forgets0 - 1
+    ;   Forgets = Forgets0
+    ).
+
+carry_out(go(Heading, Way, Until), Drive, Looked) :-
+    face(Heading),
+    observe(Drive, _),
     follow(Way, Until, Drive, Ended),
     (   Ended == stalled
-    ->  Reason = stalled
-    ;   next_step(Drive, Step),
-        advance(Step, no, Forgets, Drive, Reason)
+    ->  Looked = stalled
+    ;   Looked = no
     ).
-advance(_, no, Forgets, Drive, Reason) :-
-    !,
-    look_around(Drive),
-    next_step(Drive, Step),
-    advance(Step, yes, Forgets, Drive, Reason).
-advance(step(_, _, _, Unseen, _, _), yes, Forgets, Drive, Reason) :-
-    !,
-    Drive = drive(Views, _, _, _, _, _, _, _),
-    views_block_(Views, Unseen),
-    next_step(Drive, Step),
-    advance(Step, yes, Forgets, Drive, Reason).
-advance(no_way(_), yes, Forgets, Drive, Reason) :-
-    (   Forgets > 0
-    ->  Left is Forgets - 1,
-        forget(Drive),
-        look_around(Drive),
-        next_step(Drive, Step),
-        advance(Step, yes, Left, Drive, Reason)
-    ;   Reason = unreachable
-    ).
+carry_out(look, Drive, yes) :-
+    look_around(Drive).
+carry_out(block(Place), drive(Views, _, _, _, _, _, _, _), yes) :-
+    views_block_(Views, Place).
+carry_out(forget, Drive, yes) :-
+    forget(Drive),
+    look_around(Drive).
 
 %   Up to where to go: to the end, or well before what was not seen.
 
@@ -198,10 +231,6 @@ look_until(Heading, Drive) :-
     ;   tick,
         look_until(Heading, Drive)
     ).
-
-look_to(Heading, Drive) :-
-    face(Heading),
-    observe(Drive, _).
 
 %!  follow(+Way, +Until, +Drive, -Ended) is semidet.
 %

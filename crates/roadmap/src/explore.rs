@@ -13,6 +13,8 @@ const MARGINS: [f64; 3] = [1.0, 0.7, 0.1];
 const BESIDE: f64 = 0.5;
 /// Legs whose directions differ by less, in radians, go on without a corner.
 const SMOOTH: f64 = 0.02;
+/// A corner so near to the start is gone round without a stop, in cm.
+const SHORT: f64 = 1.0;
 /// How far ahead on its way a robot aims, in cm.
 const AHEAD: f64 = 4.0;
 
@@ -69,7 +71,12 @@ fn until_corner(path: Path) -> (Path, f64) {
         let (before, after) = (pair[0].direction_at(pair[0].length()), pair[1].direction_at(0.0));
         angle(before, after).abs() < SMOOTH
     };
-    match legs.windows(2).position(|pair| !goes_on(pair)) {
+    let mut way = 0.0;
+    let is_corner = |pair: &[Leg]| {
+        way += pair[0].length();
+        way > SHORT && !goes_on(pair)
+    };
+    match legs.windows(2).position(is_corner) {
         None => (path, 0.0),
         Some(last) => {
             let rest = legs[last + 1..].iter().map(Leg::length).sum();
@@ -82,7 +89,8 @@ impl Path {
     /// Where it begins to go, in degrees.
     #[must_use]
     pub fn heading(&self) -> f64 {
-        let ahead = self.legs().first().map_or(Vec2::zeros(), |leg| leg.direction_at(0.0));
+        let start = self.legs().first().map_or(Vec2::zeros(), |leg| vec2(leg.start()));
+        let ahead = self.beyond(AHEAD) - start;
         libm::atan2(ahead.x, ahead.y).to_degrees()
     }
 
