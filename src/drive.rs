@@ -1,11 +1,11 @@
-//! `prolog/ev3dev/drive.pl`: curves, odometry, going to places.
+//! `prolog/ev3dev/odometry.pl`, `drive.pl`, `calibrate.pl`: curves, odometry, going to places.
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use crate::motors::stop_action;
 use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
 use ev3_driver::odometry::{Pose, Wheels, wrapped};
 use ev3_driver::steering::Leg;
-use ev3_driver::wait::Reason;
+use ev3_driver::wait::{Reason, sleep};
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -19,11 +19,12 @@ pub(crate) fn register() {
     register_heading_wrapped();
     register_drive();
     register_drive_wait();
+    register_drive_pause();
 }
 
 predicates! {
     /// odometry_(+Robot): counts from now on, if it did not.
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_odometry")]
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
@@ -32,7 +33,7 @@ predicates! {
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_odometry")]
     #[name("pose_")]
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
@@ -44,7 +45,7 @@ predicates! {
     }
 
     /// set_pose_(+Robot, +UseGyro, +X, +Y, +Heading)
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_odometry")]
     #[name("set_pose_")]
     semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "set_pose", 3);
@@ -54,7 +55,7 @@ predicates! {
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_odometry")]
     #[name("pose_uncertainty_")]
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
@@ -65,7 +66,7 @@ predicates! {
     }
 
     /// heading_wrapped_(+Heading, -Wrapped)
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_odometry")]
     #[name("heading_wrapped_")]
     semidet fn heading_wrapped(context, heading, result) {
         result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
@@ -98,6 +99,15 @@ predicates! {
         let drive = Drive::of(&devices, &robot_of(&call, robot)?);
         let ended = drive.wait_last(&devices, timeout, &mut call.interrupted());
         unify_atom(reason, call.check(ended)?.word())
+    }
+
+    /// drive_pause_(+Seconds): waits by the clock of the tree.
+    #[module("ev3dev_calibrate")]
+    #[name("drive_pause_")]
+    semidet fn drive_pause(context, seconds) {
+        let call = Call::of(context, "calibrate", 3);
+        let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
+        call.check(sleep(&devices, seconds, &mut call.interrupted()))
     }
 }
 
@@ -161,6 +171,7 @@ fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> P
         ("face", [heading]) => Leg::Face(call.float(heading)?),
         ("towards", [x, y]) => Leg::Towards([call.float(x)?, call.float(y)?]),
         ("to", [x, y]) => Leg::To([call.float(x)?, call.float(y)?]),
+        ("reach", [x, y]) => Leg::Reach([call.float(x)?, call.float(y)?]),
         ("arc", [length, curvature]) => Leg::Arc(call.float(length)?, call.float(curvature)?),
         ("through", [points, radius]) => Leg::Through(call.points(points)?, call.float(radius)?),
         _ => return wrong_value(call, "leg", term),

@@ -1,10 +1,5 @@
 :- module(ev3dev_drive,
-          [ pose/3,             % -X, -Y, -Heading
-            set_pose/3,         % +X, +Y, +Heading
-            pose_uncertainty/1, % -Covariance
-            heading_wrapped/2,  % +Heading, -Wrapped
-            drive_option/2,     % +Name, ?Value
-            go_cm/3,            % +Speed, +Distance, +Options
+          [ go_cm/3,            % +Speed, +Distance, +Options
             turn/3,             % +Speed, +Angle, +Options
             arc_cm/3,           % +Speed, +Radius, +Angle
             arc_cm/4,           % +Speed, +Radius, +Angle, +Options
@@ -27,9 +22,16 @@
 :- use_module(library(error),
               [domain_error/2, instantiation_error/1, must_be/2, type_error/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(driver, []).
-:- use_module(motors, []).
 :- use_module(robot, []).
+:- use_module(odometry,
+              [ drive_option/2, number_value/2, robot_driven/1,
+                valid_drive_option/3
+              ]).
+:- reexport(odometry,
+            [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
+              drive_option/2
+            ]).
+:- reexport(calibrate).
 
 /** <module> Driving: curves, odometry, going to places
 
@@ -67,6 +69,8 @@ count.
   - acceleration(+CmPerSquareSecond)
     How fast the robot gains and loses speed. Default is that of
     drive_option/2.
+  - use_gyro(+Boolean)
+    Whether the gyro tells the heading. Default is that of drive_option/2.
   - stop_action(+Action)
     What the motors do at the end: `hold` (default), `brake` or `coast`.
   - wait(+Boolean)
@@ -91,95 +95,6 @@ takes the place of one that is under way.
        way
 @error domain_error(Option, Value)
 */
-
-:- dynamic option_value/2.
-
-option_value(use_gyro, true).
-option_value(speed, 40).
-option_value(acceleration, 50).
-
-%!  drive_option(+Name, ?Value) is semidet.
-%
-%   Ask for an option of the library, or set it if Value is bound:
-%
-%     - use_gyro: `true` (default) or `false`
-%       Whether a gyro, if one is connected, tells the heading.
-%     - speed: 40
-%       In percent, for moves that are not told one.
-%     - acceleration: 50
-%       In cm/s^2.
-%
-%   @error domain_error(drive_option, Name)
-
-drive_option(Name, Value) :-
-    must_be(atom, Name),
-    (   \+ memberchk(Name, [use_gyro, speed, acceleration])
-    ->  domain_error(drive_option, Name)
-    ;   var(Value)
-    ->  option_value(Name, Value)
-    ;   valid_option(Name, Value, Valid),
-        with_mutex(ev3dev_robot,
-                   ( retractall(option_value(Name, _)),
-                     assertz(option_value(Name, Valid)) ))
-    ).
-
-valid_option(use_gyro, Value, Value) :-
-    must_be(boolean, Value).
-valid_option(speed, Speed, Percent) :-
-    number_value(Speed, Percent),
-    (   Percent =\= 0,
-        abs(Percent) =< 100
-    ->  true
-    ;   domain_error(speed, Percent)
-    ).
-valid_option(acceleration, Acceleration, Value) :-
-    number_value(Acceleration, Value),
-    (   Value > 0,
-        Value < inf
-    ->  true
-    ;   domain_error(acceleration, Value)
-    ).
-
-%!  pose(-X, -Y, -Heading) is semidet.
-%
-%   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
-%   where it was when robot and library came together, or from set_pose/3.
-%   May be asked while it moves, by any thread. Fails if no robot is set or a
-%   motor is not connected.
-
-pose(X, Y, Heading) :-
-    robot(Robot, UseGyro),
-    pose_(Robot, UseGyro, X, Y, Heading).
-
-%!  set_pose(+X, +Y, +Heading) is semidet.
-%
-%   The robot is there now.
-
-set_pose(X, Y, Heading) :-
-    number_value(X, X1),
-    number_value(Y, Y1),
-    number_value(Heading, Heading1),
-    robot(Robot, UseGyro),
-    set_pose_(Robot, UseGyro, X1, Y1, Heading1).
-
-%!  pose_uncertainty(-Covariance) is semidet.
-%
-%   How uncertain the pose is: the covariance of x, y and heading as a list of
-%   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The square
-%   root of XX is the standard deviation of x. It grows with the way, from what
-%   wheels and axle are usually off, and is 0 after set_pose/3.
-
-pose_uncertainty(Covariance) :-
-    robot(Robot, UseGyro),
-    pose_uncertainty_(Robot, UseGyro, Covariance).
-
-%!  heading_wrapped(+Heading, -Wrapped) is det.
-%
-%   Wrapped is that heading without full turns: more than -180, at most 180.
-
-heading_wrapped(Heading, Wrapped) :-
-    number_value(Heading, Degrees),
-    heading_wrapped_(Degrees, Wrapped).
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
 %
@@ -241,7 +156,7 @@ arc(Speed, Radius) :-
 arc(Speed, Radius, Options) :-
     number_value(Speed, Percent),
     number_value(Radius, R),
-    robot(Robot, _),
+    robot_driven(Robot),
     arg(7, Robot, Axle),
     Inner is (abs(R) - Axle / 2.0) / (abs(R) + Axle / 2.0),
     (   R >= 0
@@ -322,8 +237,15 @@ place_legs(X, Y, Heading, Legs) :-
     number_value(X, X1),
     number_value(Y, Y1),
     (   Heading == none
-    ->  Legs = [towards(X1, Y1), to(X1, Y1)]
-    ;   Legs = [towards(X1, Y1), to(X1, Y1), face(Heading)]
+    ->  Legs = [towards(X1, Y1), reach(X1, Y1)]
+    ;   % Where the axle is when the robot is there with that heading.
+        (   robot_driven(Robot)
+        ->  arg(8, Robot, Offset)
+        ;   Offset = 0
+        ),
+        X2 is X1 + Offset * sin(Heading * pi / 180),
+        Y2 is Y1 + Offset * cos(Heading * pi / 180),
+        Legs = [towards(X2, Y2), to(X2, Y2), face(Heading)]
     ).
 
 %!  face(+Heading) is semidet.
@@ -395,7 +317,7 @@ drive_wait(Options, Reason) :-
     must_be(list, Options),
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
-    robot(Robot, _),
+    robot_driven(Robot),
     catch(drive_wait_(Robot, Timeout, Reason),
           error(existence_error(_, _), _),
           Reason = unplugged).
@@ -411,7 +333,7 @@ travel(Legs, Options) :-
 
 speed(Options, Percent) :-
     must_be(list, Options),
-    option_value(speed, Default),
+    drive_option(speed, Default),
     option(speed(Speed), Options, Default),
     number_value(Speed, Percent).
 
@@ -432,7 +354,7 @@ not_nothing(Number) :-
 move(Percent, Course, Options) :-
     move_options(Percent, Course, Options, Native),
     option(reason(Reason), Options, _),
-    robot(Robot, _),
+    robot_driven(Robot),
     (   catch(drive_(Robot, Course, Native, Ended), E, true)
     ->  (   var(E)
         ->  true
@@ -454,11 +376,13 @@ move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
     must_be(list, Options),
     Speed is abs(Percent),
-    option_value(acceleration, Default),
+    drive_option(acceleration, Default),
     option(acceleration(Acceleration0), Options, Default),
-    valid_option(acceleration, Acceleration0, Acceleration),
+    valid_drive_option(acceleration, Acceleration0, Acceleration),
     option(stop_action(Action), Options, hold),
-    option_value(use_gyro, UseGyro),
+    drive_option(use_gyro, Default1),
+    option(use_gyro(UseGyro), Options, Default1),
+    must_be(boolean, UseGyro),
     option(wait(Wait0), Options, true),
     must_be(boolean, Wait0),
     option(timeout(Timeout), Options, infinite),
@@ -489,27 +413,11 @@ ended(Reason, Course) :-
     debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
     fail.
 
-%   The robot, and whether to use the gyro.
-robot(Robot, UseGyro) :-
-    ev3dev_robot:robot_built(Robot),
-    option_value(use_gyro, UseGyro).
-
-%   A number that an expression stands for.
-number_value(Expression, Number) :-
-    Number is Expression,
-    (   Number =:= Number,
-        abs(Number) < inf
-    ->  true
-    ;   domain_error(finite_number, Number)
-    ).
-
                 /*******************************
                 *     PREDICATES OF ROBOT      *
                 *******************************/
 
-:- multifile
-    ev3dev_robot:move_hook/2,
-    ev3dev_robot:robot_hook/0.
+:- multifile ev3dev_robot:move_hook/2.
 
 ev3dev_robot:move_hook(go(Percent, Degrees), Done) :-
     ev3dev_robot:robot(WheelDiameter, _, _, _),
@@ -523,15 +431,3 @@ done(Goal, Done) :-
     ->  Done = true
     ;   Done = false
     ).
-
-ev3dev_robot:robot_hook :-
-    odometry.
-
-%   Count from now on, if there is a robot.
-odometry :-
-    (   robot(Robot, _)
-    ->  ignore(odometry_(Robot))
-    ;   true
-    ).
-
-:- initialization(catch(odometry, _, true)).

@@ -133,6 +133,10 @@ forwards(LeftSign, RightSign) :-
 sign_of(true, -1).
 sign_of(false, 1).
 
+directed(1, Number, Number).
+directed(-1, Number, Opposite) :-
+    Opposite is -Number.
+
 must_be_length(Length) :-
     must_be(number, Length),
     (   Length > 0,
@@ -168,8 +172,8 @@ go(Speed) :-
     Percent is Speed,
     moves(Percent),
     forwards(LS, RS),
-    LeftPercent is LS * Percent,
-    RightPercent is RS * Percent,
+    directed(LS, Percent, LeftPercent),
+    directed(RS, Percent, RightPercent),
     motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  go(+Speed, +Angle) is semidet.
@@ -202,9 +206,10 @@ wheel_angles(Left, Right, LeftAngle, RightAngle) :-
 
 wheel_angle(Sign, Diameter, Own, Angle, MotorAngle) :-
     (   Diameter =:= Own
-    ->  MotorAngle is Sign * Angle
-    ;   MotorAngle is Sign * Angle * Diameter / Own
-    ).
+    ->  OwnAngle = Angle
+    ;   OwnAngle is Angle * Diameter / Own
+    ),
+    directed(Sign, OwnAngle, MotorAngle).
 
 %!  go_cm(+Speed, +Distance) is semidet.
 %
@@ -224,8 +229,9 @@ turn(Speed) :-
     robot(_, _, Left, Right),
     Percent is Speed,
     forwards(LS, RS),
-    LeftPercent is LS * Percent,
-    RightPercent is -RS * Percent,
+    Reverse is -Percent,
+    directed(LS, Percent, LeftPercent),
+    directed(RS, Reverse, RightPercent),
     motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  turn(+Speed, +Angle) is semidet.

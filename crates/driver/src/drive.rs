@@ -30,8 +30,14 @@ pub const PERIOD: Duration = Duration::from_millis(20);
 /// When to come again if the estimate is in use by another thread.
 const BUSY: Duration = Duration::from_millis(1);
 
-/// How long the wheels must stand still for the control to end.
+/// How long the wheels must stand still to be at rest.
 const AT_REST: Duration = Duration::from_secs(1);
+
+/// The period while they are, in which the gyro's drift is measured.
+const REST_PERIOD: Duration = Duration::from_millis(100);
+
+/// How long that takes at most; then nothing is done until a motor is started.
+const MEASURED: Duration = Duration::from_secs(30);
 
 /// How long a wheel that is to turn may stand still.
 const STUCK_FOR: Duration = Duration::from_millis(1500);
@@ -161,8 +167,15 @@ impl Status {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
     }
 
-    fn take(&self) -> Option<Result<Reason>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    /// What it ended with; an error for the first who asks.
+    fn ended(&self) -> Option<Result<Reason>> {
+        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let after = match status.as_ref()? {
+            Ok(reason) => *reason,
+            Err(error) if error.is_gone() => Reason::Unplugged,
+            Err(_) => Reason::Stopped,
+        };
+        status.replace(Ok(after))
     }
 }
 
@@ -311,8 +324,9 @@ impl Drive {
         interrupted: Interrupted,
     ) -> Result<Reason> {
         let ended = self.watch(devices, status, timeout, interrupted);
+        let mut inner = self.lock();
+        inner.last.take_if(|last| Arc::ptr_eq(last, status));
         if matches!(ended, Ok(Reason::Timeout) | Err(_)) {
-            let mut inner = self.lock();
             if inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status)) {
                 inner.end_job(Ok(Reason::Stopped));
             }
@@ -354,7 +368,7 @@ impl Drive {
     ) -> Result<Reason> {
         let deadline = timeout.map(|timeout| devices.tree().now().saturating_add(timeout));
         loop {
-            if let Some(ended) = status.take() {
+            if let Some(ended) = status.ended() {
                 return ended;
             }
             let left = deadline.map(|deadline| deadline.saturating_sub(devices.tree().now()));
@@ -429,11 +443,9 @@ impl Drive {
         };
         inner.conclude(stepped);
         let mut is_called = self.is_called();
-        if inner.is_at_rest() {
-            *is_called = false;
-            return None;
-        }
-        Some(PERIOD)
+        let next = inner.next_call();
+        *is_called = next.is_some();
+        next
     }
 
     fn is_called(&self) -> MutexGuard<'_, bool> {
@@ -674,14 +686,19 @@ impl Inner {
         }
     }
 
-    /// Whether there is nothing to do until a motor is started.
-    fn is_at_rest(&self) -> bool {
-        let Some(found) = &self.found else {
-            return self.job.is_none();
-        };
-        self.job.is_none()
-            && self.now.saturating_sub(self.moved) >= AT_REST
-            && !found.motors.iter().any(|motor| motor::runs_on(motor))
+    /// When to look again; `None` if there is nothing to do until a motor is
+    /// started.
+    fn next_call(&self) -> Option<Duration> {
+        if self.job.is_some() {
+            return Some(PERIOD);
+        }
+        let found = self.found.as_ref()?;
+        let rests = self.now.saturating_sub(self.moved);
+        if rests < AT_REST || found.motors.iter().any(|motor| motor::runs_on(motor)) {
+            Some(PERIOD)
+        } else {
+            (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
+        }
     }
 }
 

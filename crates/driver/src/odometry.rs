@@ -8,27 +8,46 @@
 //! corrects the place, too.
 //!
 //! A gyro tells whole degrees. A reading is therefore not taken as a value with
-//! a bell-shaped error, but as an interval: as long as the estimate agrees with
-//! it, it says nothing.
+//! a bell-shaped error, but as an interval that the true value and a
+//! bell-shaped error lie in together: mean and variance of what is left of the
+//! expectation within that interval are the measurement. Readings that follow
+//! each other at rest show the same error; so one counts each 100 ms.
 
 /// Half of a gyro's resolution, in radians.
 const HALF_STEP: f64 = 0.5 * DEGREE;
 
 /// Standard deviation of a gyro's reading beside its resolution, in radians.
-const GYRO_ERROR: f64 = 0.4 * DEGREE;
+const GYRO_ERROR: f64 = 0.35 * DEGREE;
+
+/// The time from a reading that counts to the next, in seconds, at rest.
+const READ_EVERY: f64 = 0.1;
+
+/// The same as a way in cm and a turn in radians.
+const READ_AFTER: f64 = 0.25;
 
 /// Variance of a wheel's way for each cm, in cm²: 2 mm after a metre.
 const WHEEL_VARIANCE: f64 = 0.0004;
 
-/// Variance of a turn for each radian of it, in radians²: 1 degree after half a
-/// turn, from wheels that are wide and an axle that is not quite known.
-const TURN_VARIANCE: f64 = 1e-4;
+/// Variance of the heading for each cm, in radians²: 0.2 degrees after a metre.
+const HEADING_VARIANCE: f64 = 4e-4 * DEGREE * DEGREE;
+
+/// Variance of a turn for each radian of it, in radians²: 0.2 degrees after a
+/// quarter turn, from wheels that are wide and an axle that is not quite known.
+const TURN_VARIANCE: f64 = 0.02 * DEGREE * DEGREE;
 
 /// Standard deviation of what one wheel rolls more than the other, as a share.
-const MISMATCH: f64 = 0.003;
+const MISMATCH: f64 = 0.01;
 
-/// Standard deviation of a gyro's drift, in radians a second.
-const DRIFT: f64 = 0.1 * DEGREE;
+/// Standard deviation of a gyro's drift, in radians a second: that of one that
+/// stood still when it was plugged in.
+const DRIFT: f64 = 0.03 * DEGREE;
+
+/// The same of one that did not, and shows so while the robot rests.
+const WILD_DRIFT: f64 = 2.0 * DEGREE;
+
+/// Readings at rest that are off by so many standard deviations in sum, for the
+/// root of their number, show so.
+const SUSPICIOUS: f64 = 2.5;
 
 /// How fast the drift may change: variance of the drift for each second.
 const DRIFT_CHANGE: f64 = (0.001 * DEGREE) * (0.001 * DEGREE);
@@ -122,6 +141,11 @@ pub struct Estimate {
     state: [f64; STATES],
     covariance: [[f64; STATES]; STATES],
     has_zero: bool,
+    /// How far readings at rest were off in sum, in standard deviations, and how
+    /// many these were.
+    rest: (f64, f64),
+    /// Time, way and turn since the last reading of the gyro that counted.
+    unread: [f64; 3],
 }
 
 impl Default for Estimate {
@@ -134,8 +158,13 @@ impl Estimate {
     /// A robot that is known to be at a pose, that of the middle of its axle.
     #[must_use]
     pub fn at(pose: Pose) -> Self {
-        let mut estimate =
-            Self { state: [0.0; STATES], covariance: [[0.0; STATES]; STATES], has_zero: false };
+        let mut estimate = Self {
+            state: [0.0; STATES],
+            covariance: [[0.0; STATES]; STATES],
+            has_zero: false,
+            rest: (0.0, 0.0),
+            unread: [0.0; 3],
+        };
         estimate.covariance[BIAS][BIAS] = (MISMATCH / 10.0).powi(2);
         estimate.covariance[RATE][RATE] = DRIFT * DRIFT;
         estimate.place(pose);
@@ -181,6 +210,7 @@ impl Estimate {
     pub fn roll(&mut self, wheels: &Wheels, ways: [f64; 2], seconds: f64) {
         self.state[ZERO] += self.state[RATE] * seconds;
         self.drift_on(seconds);
+        self.unread[0] += seconds;
         if ways == [0.0, 0.0] {
             return;
         }
@@ -192,6 +222,8 @@ impl Estimate {
         self.state[X] += chord * sin;
         self.state[Y] += chord * cos;
         self.state[HEADING] += turn;
+        self.unread[1] += way.abs();
+        self.unread[2] += turn.abs();
         // How the new place depends on the old heading, and on the bias.
         let (dx, dy) = (chord * cos, -chord * sin);
         self.mix(&[(X, HEADING, dx), (Y, HEADING, dy)]);
@@ -200,8 +232,7 @@ impl Estimate {
         // place by half of it.
         let rolled = ways[0].abs() + ways[1].abs();
         let along = WHEEL_VARIANCE * rolled / 4.0;
-        let turned =
-            WHEEL_VARIANCE * rolled / (wheels.axle * wheels.axle) + TURN_VARIANCE * by_wheels.abs();
+        let turned = HEADING_VARIANCE * rolled / 2.0 + TURN_VARIANCE * by_wheels.abs();
         self.add([sin, cos, 0.0], along);
         self.add([dx / 2.0, dy / 2.0, 1.0], turned);
     }
@@ -210,25 +241,27 @@ impl Estimate {
     pub fn see(&mut self, angle: f64) {
         let angle = angle * DEGREE;
         let off = angle - self.state[HEADING] - self.state[ZERO];
-        if !self.has_zero || off.abs() > JUMP {
+        if !self.has_zero || off.abs() > JUMP + WILD_DRIFT * self.unread[0] {
             self.zero_at(angle);
             return;
         }
-        let within = off.clamp(-HALF_STEP, HALF_STEP);
-        let surprise = off - within;
-        let row: [f64; STATES] =
-            std::array::from_fn(|i| self.covariance[i][HEADING] + self.covariance[i][ZERO]);
-        let variance = row[HEADING] + row[ZERO];
-        if surprise == 0.0 && variance < HALF_STEP * HALF_STEP {
+        let [seconds, way, turn] = self.unread;
+        if seconds < READ_EVERY && way < READ_AFTER && turn < HALF_STEP {
             return;
         }
-        let total = variance + GYRO_ERROR * GYRO_ERROR;
+        self.unread = [0.0; 3];
+        let row: [f64; STATES] =
+            std::array::from_fn(|i| self.covariance[i][HEADING] + self.covariance[i][ZERO]);
+        let total = row[HEADING] + row[ZERO] + GYRO_ERROR * GYRO_ERROR;
+        let (shift, narrowed) = within(off, total.sqrt());
+        self.suspect_drift(way == 0.0 && turn == 0.0, shift / total.sqrt());
         for (state, weight) in self.state.iter_mut().zip(row) {
-            *state += weight / total * surprise;
+            *state += weight / total * shift;
         }
+        let share = (1.0 - narrowed) / total;
         for (i, line) in self.covariance.iter_mut().enumerate() {
             for (j, value) in line.iter_mut().enumerate() {
-                *value -= row[i] * row[j] / total;
+                *value -= row[i] * row[j] * share;
             }
         }
     }
@@ -252,10 +285,21 @@ impl Estimate {
             self.covariance[HEADING][HEADING] + HALF_STEP * HALF_STEP / 3.0;
     }
 
+    /// A robot that stands does not turn. If the gyro's readings all are off to
+    /// one side meanwhile, it drifts more than was thought possible.
+    fn suspect_drift(&mut self, is_at_rest: bool, off: f64) {
+        let (sum, count) = if is_at_rest { self.rest } else { (0.0, 0.0) };
+        self.rest = (sum + off, count + 1.0);
+        if self.rest.0.abs() > SUSPICIOUS * self.rest.1.sqrt().max(2.0) {
+            self.rest = (0.0, 0.0);
+            self.covariance[RATE][RATE] = WILD_DRIFT * WILD_DRIFT;
+        }
+    }
+
     fn drift_on(&mut self, seconds: f64) {
         self.mix(&[(ZERO, RATE, seconds)]);
         let drift = &mut self.covariance[RATE][RATE];
-        *drift = (*drift + DRIFT_CHANGE * seconds).min(DRIFT * DRIFT);
+        *drift += DRIFT_CHANGE * seconds;
     }
 
     /// Covariance after `to += factor * from` in the state; no `from` may be a
@@ -293,4 +337,37 @@ pub fn wrapped(degrees: f64) -> f64 {
 /// sin(x) / x.
 fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
+}
+
+/// What is left of a bell curve around 0 within a gyro's step around `off`: the
+/// mean, and the variance as a share of that of the whole.
+fn within(off: f64, deviation: f64) -> (f64, f64) {
+    let (low, high) = ((off - HALF_STEP) / deviation, (off + HALF_STEP) / deviation);
+    // Farther out the step holds too little to tell; its nearer end is it.
+    if low > 3.0 {
+        return (low * deviation, 0.0);
+    }
+    if high < -3.0 {
+        return (high * deviation, 0.0);
+    }
+    let share = normal_below(high) - normal_below(low);
+    let (at_low, at_high) = (normal_at(low), normal_at(high));
+    let mean = (at_low - at_high) / share;
+    let variance = 1.0 + (low * at_low - high * at_high) / share - mean * mean;
+    (mean * deviation, variance.clamp(0.0, 1.0))
+}
+
+/// The density of the standard normal distribution.
+fn normal_at(x: f64) -> f64 {
+    (-x * x / 2.0).exp() / std::f64::consts::TAU.sqrt()
+}
+
+/// The standard normal distribution; off by less than 1e-7 (Abramowitz and
+/// Stegun, Handbook of Mathematical Functions, 26.2.17).
+fn normal_below(x: f64) -> f64 {
+    const TERMS: [f64; 5] =
+        [1.330_274_429, -1.821_255_978, 1.781_477_937, -0.356_563_782, 0.319_381_530];
+    let t = 1.0 / (1.0 + 0.231_641_9 * x.abs());
+    let tail = normal_at(x) * t * TERMS.iter().fold(0.0, |sum, term| sum * t + term);
+    if x < 0.0 { tail } else { 1.0 - tail }
 }

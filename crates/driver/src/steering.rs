@@ -72,8 +72,10 @@ pub enum Leg {
     Face(f64),
     /// Turn on the spot towards a place, front or rear first.
     Towards([f64; 2]),
-    /// Go to a place.
+    /// Go to a place with the middle of the axle.
     To([f64; 2]),
+    /// Go to a place with the point whose pose is told.
+    Reach([f64; 2]),
     /// An arc: its length in cm and its curvature in the direction of travel.
     Arc(f64, f64),
     /// A path through places, its corners rounded with a radius.
@@ -236,13 +238,18 @@ impl Steering {
         }
     }
 
+    /// How far the axle is ahead of the point whose pose is told, on the way.
+    fn lead(&self) -> f64 {
+        if self.is_backwards { -self.wheels.offset } else { self.wheels.offset }
+    }
+
     /// The robot's heading as a direction of travel.
     fn travel(&self, heading: f64) -> f64 {
         if self.is_backwards { heading + 180.0 } else { heading }
     }
 
     fn begin(&mut self, leg: Leg, pose: Pose) {
-        let phase = match leg {
+        let phase = match leg.clone() {
             Leg::Turn(degrees) => self.turn_to(self.goal.heading + degrees),
             Leg::Heading(heading) => self.turn_to(heading),
             Leg::Face(heading) => {
@@ -260,8 +267,11 @@ impl Steering {
                 }
                 self.turn_to(pose.heading + turn)
             }
-            Leg::To([x, y]) => {
-                let line = Segment::line([pose.x, pose.y], [x, y]);
+            Leg::To([x, y]) | Leg::Reach([x, y]) => {
+                let mut line = Segment::line([pose.x, pose.y], [x, y]);
+                if matches!(leg, Leg::Reach(_)) {
+                    line.length = (line.length + self.lead()).max(0.0);
+                }
                 let turn = wrapped(self.travel(line.start.heading) - pose.heading);
                 self.follow(vec![line], pose.heading + turn)
             }
@@ -272,6 +282,11 @@ impl Steering {
             }
             Leg::Through(mut points, radius) => {
                 points.insert(0, [pose.x, pose.y]);
+                if let [.., before, last] = points.as_mut_slice() {
+                    let heading = direction(*before, *last);
+                    let end = Pose { x: last[0], y: last[1], heading }.ahead(self.lead());
+                    *last = [end.x, end.y];
+                }
                 let mut pieces = rounded(&points, radius);
                 let Some(last) = pieces.pop() else {
                     return;

@@ -1,0 +1,153 @@
+:- module(ev3dev_odometry,
+          [ pose/3,                 % -X, -Y, -Heading
+            set_pose/3,             % +X, +Y, +Heading
+            pose_uncertainty/1,     % -Covariance
+            heading_wrapped/2,      % +Heading, -Wrapped
+            drive_option/2,         % +Name, ?Value
+            valid_drive_option/3,   % +Name, +Value, -Valid
+            robot_driven/1,         % -Robot
+            number_value/2          % +Expression, -Number
+          ]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(driver, []).
+:- use_module(robot, []).
+
+/** <module> Odometry: where the robot is
+
+The part of library(ev3dev/drive) that tells where the robot is, and holds its
+options. The pose counts from when a robot is set and this is loaded.
+*/
+
+:- dynamic option_value/2.
+
+option_value(use_gyro, true).
+option_value(speed, 40).
+option_value(acceleration, 50).
+
+%!  drive_option(+Name, ?Value) is semidet.
+%
+%   Ask for an option of the library, or set it if Value is bound:
+%
+%     - use_gyro: `true` (default) or `false`
+%       Whether a gyro, if one is connected, tells the heading.
+%     - speed: 40
+%       In percent, for moves that are not told one.
+%     - acceleration: 50
+%       In cm/s^2.
+%
+%   @error domain_error(drive_option, Name)
+
+drive_option(Name, Value) :-
+    must_be(atom, Name),
+    (   \+ memberchk(Name, [use_gyro, speed, acceleration])
+    ->  domain_error(drive_option, Name)
+    ;   var(Value)
+    ->  option_value(Name, Value)
+    ;   valid_drive_option(Name, Value, Valid),
+        with_mutex(ev3dev_robot,
+                   ( retractall(option_value(Name, _)),
+                     assertz(option_value(Name, Valid)) ))
+    ).
+
+%!  valid_drive_option(+Name, +Value, -Valid) is det.
+%
+%   What the value of an option stands for, or an error.
+
+valid_drive_option(use_gyro, Value, Value) :-
+    must_be(boolean, Value).
+valid_drive_option(speed, Speed, Percent) :-
+    number_value(Speed, Percent),
+    (   Percent =\= 0,
+        abs(Percent) =< 100
+    ->  true
+    ;   domain_error(speed, Percent)
+    ).
+valid_drive_option(acceleration, Acceleration, Value) :-
+    number_value(Acceleration, Value),
+    (   Value > 0,
+        Value < inf
+    ->  true
+    ;   domain_error(acceleration, Value)
+    ).
+
+%!  pose(-X, -Y, -Heading) is semidet.
+%
+%   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
+%   where it was when robot and library came together, or from set_pose/3.
+%   May be asked while it moves, by any thread. Fails if no robot is set or a
+%   motor is not connected.
+
+pose(X, Y, Heading) :-
+    robot(Robot, UseGyro),
+    pose_(Robot, UseGyro, X, Y, Heading).
+
+%!  set_pose(+X, +Y, +Heading) is semidet.
+%
+%   The robot is there now.
+
+set_pose(X, Y, Heading) :-
+    number_value(X, X1),
+    number_value(Y, Y1),
+    number_value(Heading, Heading1),
+    robot(Robot, UseGyro),
+    set_pose_(Robot, UseGyro, X1, Y1, Heading1).
+
+%!  pose_uncertainty(-Covariance) is semidet.
+%
+%   How uncertain the pose is: the covariance of x, y and heading as a list of
+%   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The square
+%   root of XX is the standard deviation of x. It grows with the way, from what
+%   wheels and axle are usually off, and is 0 after set_pose/3.
+
+pose_uncertainty(Covariance) :-
+    robot(Robot, UseGyro),
+    pose_uncertainty_(Robot, UseGyro, Covariance).
+
+%!  heading_wrapped(+Heading, -Wrapped) is det.
+%
+%   Wrapped is that heading without full turns: more than -180, at most 180.
+
+heading_wrapped(Heading, Wrapped) :-
+    number_value(Heading, Degrees),
+    heading_wrapped_(Degrees, Wrapped).
+
+%   The robot, and whether to use the gyro.
+robot(Robot, UseGyro) :-
+    robot_driven(Robot),
+    option_value(use_gyro, UseGyro).
+
+%!  robot_driven(-Robot) is semidet.
+%
+%   The robot that is set, as the native library wants it.
+
+robot_driven(Robot) :-
+    ev3dev_robot:robot_built(Robot).
+
+%!  number_value(+Expression, -Number) is det.
+%
+%   The finite number that an expression stands for.
+%
+%   @error domain_error(finite_number, Number)
+
+number_value(Expression, Number) :-
+    Number is Expression,
+    (   Number =:= Number,
+        abs(Number) < inf
+    ->  true
+    ;   domain_error(finite_number, Number)
+    ).
+
+
+:- multifile ev3dev_robot:robot_hook/0.
+
+ev3dev_robot:robot_hook :-
+    odometry.
+
+%   Count from now on, if there is a robot.
+odometry :-
+    (   robot_driven(Robot)
+    ->  ignore(odometry_(Robot))
+    ;   true
+    ).
+
+:- initialization(catch(odometry, _, true)).
