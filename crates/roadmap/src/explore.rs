@@ -3,8 +3,11 @@ use crate::geometry::{Point, Vec2, angle, cross, direction, distance, length, ve
 use crate::map::Map;
 use crate::path::{Leg, Path};
 use crate::plan::{NoWay, Options, plan};
-use crate::views::Views;
+use crate::views::{FAR, Views};
 
+/// What was heard from afar is vague: where it leaves no way, only that counts
+/// that was heard from nearer, in cm.
+const HEARD: [f64; 2] = [FAR, 40.0];
 /// The parts of the margin that are tried, one after the other. The least is
 /// for a robot that has come too near to something and is to get away.
 const MARGINS: [f64; 3] = [1.0, 0.7, 0.1];
@@ -46,18 +49,22 @@ impl Views {
         margin: f64,
         options: &Options,
     ) -> Result<Step, NoWay> {
-        let mut map = known.clone();
-        self.obstacles(known).into_iter().for_each(|obstacle| map.add(obstacle));
         let mut answer = Err(NoWay::None);
-        for part in MARGINS {
-            let options = Options { keep: self.hull() + margin * part, ..*options };
-            answer = plan(&map, start, goal, &options).map(|found| {
-                let (run, rest) = until_corner(found.path);
-                let safe = self.safe(&run, BESIDE);
-                Step { run, safe: safe.way, unseen: safe.unseen, rest }
-            });
-            if answer.is_ok() {
-                break;
+        for far in HEARD {
+            let mut map = known.clone();
+            for obstacle in self.obstacles_within(far, known) {
+                map.add(obstacle);
+            }
+            for part in MARGINS {
+                let options = Options { keep: self.hull() + margin * part, ..*options };
+                answer = plan(&map, start, goal, &options).map(|found| {
+                    let (run, rest) = until_corner(found.path);
+                    let safe = self.safe(&run, BESIDE);
+                    Step { run, safe: safe.way, unseen: safe.unseen, rest }
+                });
+                if answer.is_ok() {
+                    return answer;
+                }
             }
         }
         answer

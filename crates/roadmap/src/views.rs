@@ -26,7 +26,7 @@ const DIFFER: f64 = 2.0;
 /// Nearer than this the sensor does not tell how near, in cm.
 const NEAR: f64 = 3.05;
 /// Farther than this nothing is made of an echo, in cm: the cone is too wide.
-const FAR: f64 = 100.0;
+pub(crate) const FAR: f64 = 100.0;
 /// Echoes that may come from farther across than this wait for more looks, in cm.
 const WIDE: f64 = 12.0;
 /// Unless looks that differ by this much, as a sine, agree on the place.
@@ -215,8 +215,14 @@ impl Views {
     /// What stands where that a map does not know.
     #[must_use]
     pub fn obstacles(&self, known: &Map) -> Vec<Obstacle> {
+        self.obstacles_within(FAR, known)
+    }
+
+    /// What was heard from no farther than a distance, in cm.
+    pub(crate) fn obstacles_within(&self, far: f64, known: &Map) -> Vec<Obstacle> {
         let mut squares: BTreeMap<[i64; 2], Vec<Point>> = BTreeMap::new();
-        let places = self.seen.iter().flat_map(|seen| self.echo(seen, known));
+        let near = self.seen.iter().filter(|seen| seen.range <= far);
+        let places = near.flat_map(|seen| self.echo(seen, known));
         for place in places.chain(self.blocked.iter().copied()) {
             #[expect(clippy::cast_possible_truncation, reason = "saturates")]
             let square = place.map(|n| libm::floor(n / SQUARE) as i64);
@@ -230,9 +236,6 @@ impl Views {
 
     /// Where a look's echo came from, if that is clear and not known.
     fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
-        if seen.range > FAR {
-            return Vec::new();
-        }
         let mut places = seen.across();
         #[expect(clippy::cast_precision_loss, reason = "few")]
         let grain = 2.0 * ECHO_HALF_ANGLE.to_radians() * seen.range / (places.len() - 1) as f64;
