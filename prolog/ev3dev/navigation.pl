@@ -6,13 +6,12 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
-:- use_module(drive, [drive_cm/2, face/1, pose/3]).
-:- use_module(motors, [motor_wait/3]).
+:- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
 :- use_module(roadmap_arguments,
               [ number_option/4, roadmap_facts/2, roadmap_options/2,
                 roadmap_point/2
               ]).
-:- use_module(robot, [robot/4, stop/0]).
+:- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
 
 /** <module> Drive through a room that is not wholly known
@@ -51,8 +50,9 @@ them the way is planned anew.
 %     - reason(-Reason)
 %       Do not fail if Goal is not reached, but tell why: `reached`;
 %       `unreachable`, as there is no way with what is known and seen;
-%       `stalled`, if something holds the robot; `exhausted`, if it has planned
-%       its way so often as steps(Count) says.
+%       `exhausted`, if it has planned its way so often as steps(Count) says;
+%       `stalled`, if something holds the robot; `unplugged`, if its sensor or
+%       a motor is; `stopped`, if another thread stopped it.
 %     - steps(+Count)
 %       Default is 500.
 %     - obstacles(-Polygons)
@@ -67,8 +67,6 @@ them the way is planned anew.
 %   the sensor shows it, forget what it has seen, and look again.
 %
 %   @error as roadmap_path/5
-%   @error existence_error(Kind, Port) if a motor or the sensor is unplugged
-%          under way
 
 navigate_to(Map, Goal) :-
     navigate_to(Map, Goal, []).
@@ -135,16 +133,14 @@ advance(_, _, _, 0, _, exhausted) :-
     !.
 advance(Step, Looked, Forgets, Steps, Drive, Reason) :-
     decided(Step, Looked, Forgets, Decision),
-    (   Decision = end(Reason0)
+    carry_out(Decision, Drive, Done),
+    (   Done = ended(Reason0)
     ->  Reason = Reason0
-    ;   carry_out(Decision, Drive, Looked1),
-        (   Looked1 == stalled
-        ->  Reason = stalled
-        ;   forgets(Decision, Forgets, Forgets1),
-            Left is Steps - 1,
-            next_step(Drive, Next),
-            advance(Next, Looked1, Forgets1, Left, Drive, Reason)
-        )
+    ;   Done = looked(Looked1),
+        forgets(Decision, Forgets, Forgets1),
+        Left is Steps - 1,
+        next_step(Drive, Next),
+        advance(Next, Looked1, Forgets1, Left, Drive, Reason)
     ).
 
 is_there(step(_, Length, _, _, Rest, _), Drive) :-
@@ -164,7 +160,7 @@ decided(step(_, _, _, Unseen, _, _), yes, _, Decision) :-
 decided(no_way(_), yes, Forgets, Decision) :-
     (   Forgets > 0
     ->  Decision = forget
-    ;   Decision = end(unreachable)
+    ;   Decision = give_up
     ).
 
 forgets(Decision, Forgets0, Forgets) :-
@@ -173,21 +169,20 @@ forgets(Decision, Forgets0, Forgets) :-
     ;   Forgets = Forgets0
     ).
 
-carry_out(go(Heading, Way, Until), Drive, Looked) :-
-    face(Heading),
-    observe(Drive, _),
-    follow(Way, Until, Drive, Ended),
-    (   Ended == stalled
-    ->  Looked = stalled
-    ;   Looked = no
+carry_out(go(Heading, Way, Until), Drive, Done) :-
+    face(Heading, [reason(Reason)]),
+    (   Reason == reached
+    ->  follow(Way, Until, Drive, Done)
+    ;   Done = ended(Reason)
     ).
-carry_out(look, Drive, yes) :-
-    look_around(Drive).
-carry_out(block(Place), drive(Views, _, _, _, _, _, _, _), yes) :-
+carry_out(look, Drive, Done) :-
+    look_around(Drive, Done).
+carry_out(block(Place), drive(Views, _, _, _, _, _, _, _), looked(yes)) :-
     views_block_(Views, Place).
-carry_out(forget, Drive, yes) :-
+carry_out(forget, Drive, Done) :-
     forget(Drive),
-    look_around(Drive).
+    look_around(Drive, Done).
+carry_out(give_up, _, ended(unreachable)).
 
 %   Up to where to go: to the end, or well before what was not seen.
 
@@ -212,60 +207,61 @@ observe(drive(Views, _, _, _, _, Port-Sensor, _, _), Moved) :-
     !,
     views_look_(Views, pose(X, Y, Heading), Sensor, Distance, Moved).
 
-%!  look_around(+Drive) is semidet.
+%!  look_around(+Drive, -Done) is semidet.
 %
-%   Turn once around on the spot, looking.
+%   Turn once around on the spot, looking. Done is looked(yes), or
+%   ended(Reason).
 
-look_around(Drive) :-
-    pose(_, _, Heading0),
-    Heading is Heading0 + 360,
+look_around(Drive, Done) :-
+    pose(_, _, From),
     drive_cm(0, 60),
-    look_until(Heading, Drive),
+    look_around(From, 0, 0, Drive, Done),
     stop.
 
-look_until(Heading, Drive) :-
+look_around(From, Before, Still, Drive, Done) :-
     observe(Drive, _),
-    pose(_, _, Now),
-    (   Now >= Heading
-    ->  true
-    ;   tick,
-        look_until(Heading, Drive)
-    ).
-
-%!  follow(+Way, +Until, +Drive, -Ended) is semidet.
-%
-%   Keep to Way up to Until, in cm, looking. Ended is `done`, `stalled`, or
-%   `moved` if something has; then what was seen is forgotten.
-
-follow(Way, Until, Drive, Ended) :-
-    follow(Way, Until, 0, 0, Drive, Ended),
-    stop.
-
-follow(Way, Until, Before, Still, Drive, Ended) :-
-    pose(X, Y, Heading),
-    steer_(Way, pose(X, Y, Heading), Before, Gone, Turn),
-    observe(Drive, Moved),
-    Left is Until - Gone,
-    (   Left < 0.5
-    ->  Ended = done
-    ;   Moved == true
-    ->  Ended = moved,
-        stop,
-        forget(Drive)
-    ;   still(Gone, Before, Still, Still1),
-        (   Still1 > 100
-        ->  Ended = stalled
-        ;   steer(Left, Turn, Drive),
-            tick,
-            follow(Way, Until, Gone, Still1, Drive, Ended)
+    !,
+    pose(_, _, Heading),
+    Gone is Heading - From,
+    (   Gone >= 360
+    ->  Done = looked(yes)
+    ;   tick(Gone, Before, Still, Still1, Why),
+        (   Why == timeout
+        ->  look_around(From, Gone, Still1, Drive, Done)
+        ;   Done = ended(Why)
         )
     ).
+look_around(_, _, _, _, ended(unplugged)).
 
-still(Gone, Before, Still0, Still) :-
-    (   Gone > Before
-    ->  Still = 0
-    ;   Still is Still0 + 1
+%!  follow(+Way, +Until, +Drive, -Done) is semidet.
+%
+%   Keep to Way up to Until, in cm, looking. Done is looked(no), or
+%   ended(Reason). If something has moved, what was seen is forgotten.
+
+follow(Way, Until, Drive, Done) :-
+    follow(Way, Until, 0, 0, Drive, Done),
+    stop.
+
+follow(Way, Until, Before, Still, Drive, Done) :-
+    observe(Drive, Moved),
+    !,
+    pose(X, Y, Heading),
+    steer_(Way, pose(X, Y, Heading), Before, Gone, Turn),
+    Left is Until - Gone,
+    (   Left < 0.5
+    ->  Done = looked(no)
+    ;   Moved == true
+    ->  Done = looked(no),
+        stop,
+        forget(Drive)
+    ;   steer(Left, Turn, Drive),
+        tick(Gone, Before, Still, Still1, Why),
+        (   Why == timeout
+        ->  follow(Way, Until, Gone, Still1, Drive, Done)
+        ;   Done = ended(Why)
+        )
     ).
+follow(_, _, _, _, _, ended(unplugged)).
 
 %   Slower before the end, and where the way bends: by at most 90 degrees a
 %   second.
@@ -276,8 +272,18 @@ steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
     DegreesPerSecond is CmPerSecond * Turn,
     drive_cm(CmPerSecond, DegreesPerSecond).
 
-%   As long as a motor runs.
+%!  tick(+Gone, +Before, +Still0, -Still, -Why) is det.
+%
+%   Let a moment pass. Why is `timeout` if the move goes on, else why it
+%   ended: `stalled` also where there is no getting on for three seconds.
 
-tick :-
-    robot(_, _, Left, Right),
-    motor_wait([Left, Right], [timeout(0.03)], _).
+tick(Gone, Before, Still0, Still, Why) :-
+    drive_wait([timeout(0.03)], Why0),
+    (   Gone > Before
+    ->  Still = 0
+    ;   Still is Still0 + 1
+    ),
+    (   Still > 100
+    ->  Why = stalled
+    ;   Why = Why0
+    ).

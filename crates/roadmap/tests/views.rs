@@ -41,7 +41,7 @@ fn pillar() -> impl Strategy<Value = (Point, f64)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn what_is_free_is_free(pillars in prop::collection::vec(pillar(), 0..6)) {
@@ -123,4 +123,18 @@ fn what_cannot_be_seen_can_be_taken_for_an_obstacle() {
     let map = Map::new(views.obstacles(&nothing), None).unwrap();
     assert!(map.clearance([33.0, 44.0]) <= 0.0);
     assert!(map.clearance([36.0, 44.0]) > 2.0);
+}
+
+#[test]
+fn what_walks_into_free_space_is_noticed() {
+    let mount = |range| View { at: [0.0, 7.0], heading: 0.0, range };
+    let mut views = Views::new(HULL);
+    for heading in -40..=40 {
+        assert!(!views.look([0.0, 0.0], f64::from(heading), mount(60.0)));
+    }
+    // Nearer as the robot goes on, and not exactly
+    assert!(!views.look([0.0, 20.0], 0.0, mount(39.0)));
+    assert!(views.look([0.0, 20.0], 0.0, mount(20.0)));
+    // Not where nobody has looked
+    assert!(!views.look([0.0, 20.0], 180.0, mount(20.0)));
 }
