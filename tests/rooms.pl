@@ -1,5 +1,6 @@
 :- module(rooms,
           [ room/2,             % +Number, -Room
+            room_map/2,         % +Room, -Map
             drive_room/4        % +Room, +Options, -Reason, -Outcome
           ]).
 :- use_module(simulation).
@@ -62,6 +63,13 @@ free_place(All, Seed0, Seed, Place) :-
     ;   free_place(All, Seed2, Seed, Place)
     ).
 
+%!  room_map(+Room, -Map)
+%
+%   Map is all of a Room, also what the robot does not know.
+
+room_map(room(Known, Unknown, _, _), Map) :-
+    append(Known, Unknown, Map).
+
 %!  drive_room(+Room, +Options, -Reason, -Outcome)
 %
 %   Drive to the goal of a Room. Outcome is outcome(Collisions, Error, Found):
@@ -69,14 +77,14 @@ free_place(All, Seed0, Seed, Place) :-
 %   what it has found. Options are those of sim_start/2.
 
 drive_room(Room, Options, Reason, outcome(Collisions, Error, Found)) :-
-    Room = room(Known, Unknown, (X-Y)/Heading, GoalX-GoalY),
-    append(Known, Unknown, All),
+    Room = room(Known, _, (X-Y)/Heading, GoalX-GoalY),
+    room_map(Room, All),
     with_sim([start(X, Y, Heading)|All], Options,
              ( set_robot(5.6, 10.6, outB, outC),
                set_pose(X, Y, Heading),
                navigate_to(Known, GoalX-GoalY,
                            [reason(Reason), obstacles(Found)]),
                sim_pose(AtX, AtY, _),
-               sim_collisions(All1) )),
-    length(All1, Collisions),
+               sim_collisions(Hits) )),
+    length(Hits, Collisions),
     Error is sqrt((AtX - GoalX)**2 + (AtY - GoalY)**2).

@@ -76,10 +76,11 @@ navigate_to(Map, Goal0, Options) :-
     roadmap_point(Goal0, Goal),
     roadmap_options(Options, Native),
     number_option(radius(Radius), positive_number, Options, 8),
-    number_option(margin(Margin), nonneg, Options, 3),
+    number_option(margin(Margin), nonneg, Options, 4),
     number_option(speed(Speed), positive_number, Options, 15),
     number_option(tolerance(Tolerance), positive_number, Options, 2),
     option(steps(Steps), Options, 500),
+    must_be(integer, Steps),
     must_be(nonneg, Steps),
     sensor(Options, Sensor),
     once(us_dist_cm(Port, _)),
@@ -263,12 +264,12 @@ follow(Way, Until, Before, Still, Drive, Done) :-
     ).
 follow(_, _, _, _, _, ended(unplugged)).
 
-%   Slower before the end, and where the way bends: by at most 90 degrees a
+%   Slower before the end, and where the way bends: by at most 60 degrees a
 %   second.
 
 steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
     CmPerSecond is min(Speed, min(max(2, sqrt(30 * Left)),
-                                  90 / max(abs(Turn), 1))),
+                                  60 / max(abs(Turn), 1))),
     DegreesPerSecond is CmPerSecond * Turn,
     drive_cm(CmPerSecond, DegreesPerSecond).
 

@@ -58,7 +58,7 @@ expressions.
     Of the circle within which the robot turns. Default is 8, the shipped
     robot's.
   - margin(+Cm)
-    What it keeps from obstacles in addition. Default is 3.
+    What it keeps from obstacles in addition. Default is 4.
   - method(+Method)
     Default is `visibility`.
   - arc_radius(+Cm)

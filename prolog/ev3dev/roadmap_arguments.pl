@@ -38,12 +38,13 @@ roadmap_facts(Map, Facts) :-
 roadmap_options(Options, options(Keep, Arc, Method, Samples, Seed)) :-
     must_be(list, Options),
     number_option(radius(Radius), positive_number, Options, 8),
-    number_option(margin(Margin), nonneg, Options, 3),
+    number_option(margin(Margin), nonneg, Options, 4),
     Keep is Radius + Margin,
     number_option(arc_radius(Arc), positive_number, Options, 6),
     option(method(Method), Options, visibility),
     must_be(atom, Method),
     option(samples(Samples), Options, 500),
+    must_be(integer, Samples),
     must_be(nonneg, Samples),
     (   Samples =< 100000
     ->  true

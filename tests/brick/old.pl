@@ -11,6 +11,7 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/roadmap)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(readutil)).
 

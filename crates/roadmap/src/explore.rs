@@ -1,5 +1,5 @@
 //! One step of a drive through a room that is not wholly known.
-use crate::geometry::{Point, Vec2, angle, cross, direction, distance, length, vec2};
+use crate::geometry::{Point, Vec2, angle, cross, direction, distance, length, point, vec2};
 use crate::map::Map;
 use crate::path::{Leg, Path};
 use crate::plan::{NoWay, Options, plan};
@@ -18,6 +18,10 @@ const BESIDE: f64 = 0.5;
 const SMOOTH: f64 = 0.02;
 /// A corner so near to the start is gone round without a stop, in cm.
 const SHORT: f64 = 1.0;
+/// How far a robot steps back that stands too near to something, in cm, and in
+/// how many directions that is tried.
+const BACK: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
+const DIRECTIONS: u8 = 24;
 /// How far ahead on its way a robot aims, in cm.
 const AHEAD: f64 = 4.0;
 
@@ -66,8 +70,33 @@ impl Views {
                     return answer;
                 }
             }
+            let options = Options { keep: self.hull() + margin * MARGINS[1], ..*options };
+            if let Some(step) = self.step_back(&map, start, goal, &options) {
+                return Ok(step);
+            }
         }
         answer
+    }
+
+    /// A straight line over what has been seen free, from a place too near to
+    /// something to one from where there is a way.
+    fn step_back(&self, map: &Map, start: Point, goal: Point, options: &Options) -> Option<Step> {
+        if map.point_clear(start, options.keep) {
+            return None;
+        }
+        let headings = (0..DIRECTIONS).map(|n| 360.0 * f64::from(n) / f64::from(DIRECTIONS));
+        let places = BACK.into_iter().flat_map(|far| {
+            headings.clone().map(move |heading| point(vec2(start) + direction(heading) * far))
+        });
+        let mut steps = places.filter_map(|place| {
+            let run = Path::straight(&[start, place]);
+            if !map.point_clear(place, options.keep) || self.safe(&run, BESIDE).unseen.is_some() {
+                return None;
+            }
+            let found = plan(map, place, goal, options).ok()?;
+            Some(Step { safe: run.length(), run, unseen: None, rest: found.path.length() })
+        });
+        steps.next()
     }
 }
 

@@ -37,9 +37,9 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// For the robot of the paper, with a margin of 3 cm.
+    /// For the robot of the paper, with a margin of 4 cm.
     fn default() -> Self {
-        Options { keep: 11.0, arc_radius: 6.0, method: Method::default(), samples: 500, seed: 1 }
+        Options { keep: 12.0, arc_radius: 6.0, method: Method::default(), samples: 500, seed: 1 }
     }
 }
 
