@@ -54,7 +54,7 @@ them the way is planned anew.
 %       `stalled`, if something holds the robot; `unplugged`, if its sensor or
 %       a motor is; `stopped`, if another thread stopped it.
 %     - steps(+Count)
-%       Default is 500.
+%       Default is 200.
 %     - obstacles(-Polygons)
 %       What was seen that Map lacks, facts as a map has.
 %
@@ -64,7 +64,7 @@ them the way is planned anew.
 %   ends, also by an exception.
 %
 %   Whoever walks into what has been seen free makes the robot stop as soon as
-%   the sensor shows it, forget what it has seen, and look again.
+%   the sensor shows it, forget what it had seen there, and plan anew.
 %
 %   @error as roadmap_path/5
 
@@ -79,7 +79,7 @@ navigate_to(Map, Goal0, Options) :-
     number_option(margin(Margin), nonneg, Options, 4),
     number_option(speed(Speed), positive_number, Options, 15),
     number_option(tolerance(Tolerance), positive_number, Options, 2),
-    option(steps(Steps), Options, 500),
+    option(steps(Steps), Options, 200),
     must_be(integer, Steps),
     must_be(nonneg, Steps),
     sensor(Options, Sensor),
@@ -113,7 +113,7 @@ navigate(Drive, Steps, Reason) :-
     next_step(Drive, Step),
     (   Step = no_way(_)
     ->  Reason = unreachable
-    ;   advance(Step, no, 2, Steps, Drive, Reason)
+    ;   advance(Step, no, 1, Steps, Drive, Reason)
     ).
 
 next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
@@ -215,7 +215,7 @@ observe(drive(Views, _, _, _, _, Port-Sensor, _, _), Moved) :-
 
 look_around(Drive, Done) :-
     pose(_, _, From),
-    drive_cm(0, 60),
+    drive_cm(0, 50),
     look_around(From, 0, 0, Drive, Done),
     stop.
 
@@ -237,7 +237,7 @@ look_around(_, _, _, _, ended(unplugged)).
 %!  follow(+Way, +Until, +Drive, -Done) is semidet.
 %
 %   Keep to Way up to Until, in cm, looking. Done is looked(no), or
-%   ended(Reason). If something has moved, what was seen is forgotten.
+%   ended(Reason). Ends early if something has moved.
 
 follow(Way, Until, Drive, Done) :-
     follow(Way, Until, 0, 0, Drive, Done),
@@ -252,9 +252,7 @@ follow(Way, Until, Before, Still, Drive, Done) :-
     (   Left < 0.5
     ->  Done = looked(no)
     ;   Moved == true
-    ->  Done = looked(no),
-        stop,
-        forget(Drive)
+    ->  Done = looked(no)
     ;   steer(Left, Turn, Drive),
         tick(Gone, Before, Still, Still1, Why),
         (   Why == timeout

@@ -17,12 +17,16 @@ use std::collections::BTreeMap;
 
 /// Half of the cone: what may have sent an echo, and what is surely free.
 const ECHO_HALF_ANGLE: f64 = 15.0;
-const FREE_HALF_ANGLE: f64 = 13.0;
+const FREE_HALF_ANGLE: f64 = 12.0;
 /// What is not counted of a measured distance, in cm and as a part of it:
 /// errors of the sensor and of where the robot believes to be.
 const DOUBT: [f64; 2] = [0.5, 0.03];
 /// By how much two measured places of one thing may differ, in cm.
 const DIFFER: f64 = 2.0;
+/// Something has moved if it is nearer than what was shown to be free by more
+/// than this, in cm, and not too far away to tell.
+const MOVED: f64 = 6.0;
+const MOVED_WITHIN: f64 = 40.0;
 /// Nearer than this the sensor does not tell how near, in cm.
 const NEAR: f64 = 3.05;
 /// Farther than this nothing is made of an echo, in cm: the cone is too wide.
@@ -123,23 +127,30 @@ impl Views {
     /// Notes a look of a robot in a place with a heading: from where its
     /// sensor is on it, as the robot sees that place and heading, and how far.
     ///
-    /// True if something stands where an earlier look showed that nothing
-    /// does: things move.
+    /// True if something stands where earlier looks showed that nothing does:
+    /// it has moved, or was too thin to be heard. Those looks are forgotten.
     pub fn look(&mut self, at: Point, heading: f64, mount: View) -> bool {
         let ahead = direction(heading);
         let [aside, forward] = mount.at;
         let sensor = vec2(at) + ahead * forward - left_of(ahead) * aside;
         let view = View { at: point(sensor), heading: heading + mount.heading, range: mount.range };
-        let moved = view.range < FAR && self.contradicts(view);
+        let moved = view.range < MOVED_WITHIN && self.forget_contradicted(view);
         self.stand(at);
         self.add(view);
         moved
     }
 
-    fn contradicts(&self, view: View) -> bool {
+    /// If looks showed free from where this one has its echo, forgets those.
+    fn forget_contradicted(&mut self, view: View) -> bool {
         let ahead = direction(view.heading);
-        let seen = Seen { at: view.at, ahead, range: view.range + DIFFER, free: 0.0 };
-        seen.across().into_iter().all(|place| self.shown_free(place))
+        let cos = self.free_cos;
+        let beyond = Seen { at: view.at, ahead, range: view.range + MOVED, free: 0.0 };
+        let places = beyond.across();
+        let contradicted = places.iter().all(|place| self.shown_free(*place));
+        if contradicted {
+            self.seen.retain(|seen| !places.iter().any(|place| seen.shows_free(*place, cos)));
+        }
+        contradicted
     }
 
     /// Notes where the middle of the robot is. Nothing else can be there.

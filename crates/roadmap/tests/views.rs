@@ -134,7 +134,9 @@ fn what_walks_into_free_space_is_noticed() {
     }
     // Nearer as the robot goes on, and not exactly
     assert!(!views.look([0.0, 20.0], 0.0, mount(39.0)));
+    assert!(views.is_free([0.0, 57.0]));
     assert!(views.look([0.0, 20.0], 0.0, mount(20.0)));
+    assert!(!views.is_free([0.0, 57.0]));
     // Not where nobody has looked
     assert!(!views.look([0.0, 20.0], 180.0, mount(20.0)));
 }
