@@ -25,8 +25,8 @@ start :-
 
 %!  start(+Goal) is semidet.
 %
-%   Go from where the robot stands first to a place, X-Y. Fails if it cannot be
-%   reached.
+%   Go from where the robot stands first to a place, X-Y. Fails if it cannot
+%   be reached.
 
 start(Goal) :-
     set_robot(5.6, 10.6, outB, outC),

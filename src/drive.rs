@@ -72,8 +72,8 @@ predicates! {
         result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
     }
 
-    /// drive_(+Robot, +Course, +Options, -Reason): options is
-    /// options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout).
+    /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
+    /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`.
     #[module("ev3dev_drive")]
     #[name("drive_")]
     semidet fn drive(context, robot, course, options, reason) {
@@ -83,11 +83,11 @@ predicates! {
         let (options, wait, timeout) = options_of(&call, options)?;
         let interrupted = &mut call.interrupted();
         let begun = call.found(drive.begin(&devices, &course, &options, interrupted))?;
-        let ended = match wait {
-            true => call.check(drive.wait(&devices, &begun, timeout, interrupted))?,
-            false => Reason::Reached,
-        };
-        unify_atom(reason, ended.word())
+        if !wait {
+            return unify_atom(reason, Reason::Reached.word());
+        }
+        let ended = drive.wait(&devices, &begun, timeout, interrupted);
+        unify_atom(reason, call.check(ended)?.word())
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
@@ -111,8 +111,8 @@ predicates! {
     }
 }
 
-/// robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
-/// Axle, Offset)
+/// `robot(Left, Right, LeftDiameter, RightDiameter, LeftInverted, RightInverted,
+/// Axle, Offset)`
 fn robot_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
@@ -141,8 +141,8 @@ fn drive_of<'a, C: QueryableContextType>(
     Ok((devices, drive))
 }
 
-/// legs(Legs, Backwards), cruise(CmPerSecond, DegreesPerSecond) or
-/// wheels(LeftShare, RightShare)
+/// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)` or
+/// `wheels(LeftShare, RightShare)`
 fn course_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,

@@ -47,7 +47,7 @@ fn found<'a, C: QueryableContextType>(
     Ok((map, found))
 }
 
-/// options(Keep, ArcRadius, Method, Samples, Seed), checked in Prolog.
+/// `options(Keep, ArcRadius, Method, Samples, Seed)`, checked in Prolog.
 pub(crate) fn options_of<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
@@ -244,16 +244,14 @@ fn way_term<'a, C: QueryableContextType>(
     term! {context: way(#length, #&points, #&list)}
 }
 
-/// line(From, To) or arc(From, To, Radius, Angle), as arc_cm/3 takes them: the
+/// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the
 /// radius is positive to the right, and the angle always.
 fn leg_term<'a, C: QueryableContextType>(call: &Call<'a, C>, leg: &Leg) -> PrologResult<Term<'a>> {
     let context = call.context;
     let (from, to) = (point_term(call, leg.start())?, point_term(call, leg.end())?);
-    match *leg {
-        Leg::Arc { radius, angle, .. } => {
-            let (radius, angle) = (radius * angle.signum(), angle.abs());
-            term! {context: arc(#&from, #&to, #radius, #angle)}
-        }
-        _ => term! {context: line(#&from, #&to)},
+    if let Leg::Arc { radius, angle, .. } = *leg {
+        let (radius, angle) = (radius * angle.signum(), angle.abs());
+        return term! {context: arc(#&from, #&to, #radius, #angle)};
     }
+    term! {context: line(#&from, #&to)}
 }

@@ -3,6 +3,7 @@
 :- use_module(tree).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).

@@ -9,6 +9,7 @@
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
+:- use_module(library(readutil)).
 :- use_module(library(time)).
 :- use_module(library(yall)).
 
@@ -826,3 +827,115 @@ test(nothing_is_called_when_the_robot_rests, true(T1 == T0)) :-
                   sim_time(T0), sim_step(0), sim_time(T1) )).
 
 :- end_tests(runs).
+
+                /*******************************
+                *          EXAMPLES            *
+                *******************************/
+
+:- initialization(forall(member(Name, [square, slalom, line_following]),
+                         load_files(Name:example(Name), []))).
+
+:- begin_tests(examples).
+
+test(square_returns_to_its_start,
+     [forall(member(Options, [[], [noise(true)]]))]) :-
+    with_sim([], Options,
+             ( with_output_to(string(Said), square:start),
+               sim_pose(X, Y, H) )),
+    near(X, 0, 2),
+    near(Y, 0, 2),
+    near(H, 0, 2),
+    split_string(Said, "\n", "", [_, _, ""]).
+test(slalom_passes_the_poles_on_either_side, true(Collisions == [])) :-
+    findall(circle(0, Y, 3), ( between(0, 3, I), Y is 60*I + 30 ), Poles),
+    with_sim(Poles, [noise(true)],
+             ( slalom:start,
+               sim_collisions(Collisions),
+               sim_trace(Trace),
+               sim_pose(X, Y1, H) )),
+    near(X, 0, 3),
+    near(Y1, 240, 3),
+    near(H, 0, 2),
+    forall(between(0, 3, I),
+           ( Y is 60*I + 30,
+             beside_pole(Trace, Y, Side),
+             near(Side, -17.3 * (1 - 2 * (I mod 2)), 3) )).
+test(line_following_gets_around) :-
+    with_sim(line, [noise(true)],
+             ( for_seconds(60, line_following:start),
+               sim_trace(Trace),
+               sim_collisions([]) )),
+    forall(member([X0, Y0],
+                  [[190, 90], [110, 100], [60, 150], [30, 90], [60, 40]]),
+           ( aggregate_all(min(D),
+                           ( member(_-pose(X, Y, _), Trace),
+                             D is sqrt((X - X0)^2 + (Y - Y0)^2) ),
+                           Nearest),
+             near(Nearest, 0, 5) )).
+
+:- end_tests(examples).
+
+%   Where the robot was when it passed a pole.
+beside_pole(Trace, Y, Side) :-
+    aggregate_all(min(D, X),
+                  ( member(_-pose(X, Y1, _), Trace), D is abs(Y1 - Y) ),
+                  min(_, Side)).
+
+                /*******************************
+                *            COST              *
+                *******************************/
+
+:- begin_tests(cost).
+
+%   Threads of ours over real files, and what signals they block.
+drive_threads(Blocked) :-
+    expand_file_name('/proc/self/task/*', Tasks),
+    findall(Signals,
+            ( member(Task, Tasks),
+              atom_concat(Task, '/status', File),
+              catch(read_file_to_string(File, Text, []), _, fail),
+              sub_string(Text, _, _, _, "ev3-drive"),
+              sub_string(Text, B, _, _, "SigBlk:\t"),
+              Start is B + 8,
+              sub_string(Text, Start, 16, _, Signals) ),
+            Blocked).
+
+motors_alone([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor']).
+
+test(a_thread_works_only_while_something_moves,
+     condition(exists_directory('/proc/self/task'))) :-
+    motors_alone(Motors),
+    eventually(drive_threads([])),
+    with_tree(Motors,
+              ( set_robot(5.6, 10.6, outB, outC),
+                eventually(drive_threads([_])),
+                eventually(drive_threads([])),
+                motor_run(outB, 20),
+                eventually(drive_threads([_])),
+                motor_stop(outB),
+                eventually(drive_threads([])) )).
+test(the_thread_takes_no_signals,
+     [ condition(exists_directory('/proc/self/task')),
+       true(Bits =:= Int + Term) ]) :-
+    motors_alone(Motors),
+    with_tree(Motors,
+              ( set_robot(5.6, 10.6, outB, outC),
+                eventually(drive_threads([Hexadecimal|_])) )),
+    atom_concat('0x', Hexadecimal, Text),
+    atom_number(Text, Mask),
+    Int is 1 << 1,
+    Term is 1 << 14,
+    Bits is Mask /\ (Int + Term).
+test(at_most_2_percent_of_a_core, true(Percent < 2)) :-
+    with_sim([], [clock(realtime)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               steer(30, 20),
+               statistics(process_cputime, C0),
+               get_time(T0),
+               sleep(2),
+               get_time(T1),
+               statistics(process_cputime, C1),
+               Percent is 100 * (C1 - C0) / (T1 - T0),
+               pose_is_right(3, 5) )).
+
+:- end_tests(cost).

@@ -63,6 +63,13 @@ test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
                    wait :- repeat, command_file(outB, F),
                            file_read(F, 'run-to-rel-pos'), !.",
                   [goal(main)], _, C).
+test(a_robot_that_is_driven_is_stopped,
+     [ forall(member(Goal, [ "steer(30, 20)", "go_to(0, 50, [wait(false)])" ])),
+       true(Status-C == exit(0)-(stop-stop)) ]) :-
+    format(string(Text),
+           ":- use_module(library(ev3dev/drive)).
+            main :- set_robot(5.6, 10.6, outB, outC), ~s.", [Goal]),
+    after_program(Text, [goal(main)], Status, C).
 
 :- end_tests(halt).
 
@@ -71,7 +78,10 @@ test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
 test(a_program_that_is_told_to_end_stops_its_motors,
      [ forall(( member(Signal, [term, int, hup]),
                 member(Wait, [ "repeat, sleep(0.01), fail",
-                               "motor_wait([outB, outC], [], _)" ]) )),
+                               "motor_wait([outB, outC], [], _)",
+                               "use_module(library(ev3dev/drive)),
+                                set_robot(5.6, 10.6, outB, outC),
+                                ev3dev_drive:go_to(0, 50)" ]) )),
        true(C == stop-stop) ]) :-
     with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( tree_root(Root),

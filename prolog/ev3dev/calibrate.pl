@@ -27,7 +27,8 @@ So it is found out from how the robot really moves.
 %       The diameters, from a straight line, ahead and back. If the robot does
 %       not go straight, one wheel is larger than the other.
 %     - axle
-%       The distance of the wheels, from turns on the spot in either direction.
+%       The distance of the wheels, from turns on the spot in either
+%       direction.
 %       To be done after the wheels.
 %
 %   A gyro, if one is connected, measures how far the robot turns, unless

@@ -20,7 +20,9 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [domain_error/2, instantiation_error/1, must_be/2, type_error/2]).
+              [ domain_error/2, instantiation_error/1, must_be/2,
+                type_error/2
+              ]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(robot, []).
 :- use_module(odometry,
@@ -82,9 +84,9 @@ count.
     Do not fail if the move ends early, but tell why: one of `reached`,
     `stalled`, `timeout`, `stopped` and `unplugged`.
 
-All moves fail if no robot is set, if a motor is not connected, and if the move
-is impossible: a speed of 0 or beyond 100 percent. Nothing moves then. They
-also fail, unless asked for the reason, when they end early: a wheel is
+All moves fail if no robot is set, if a motor is not connected, and if the
+move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
+They also fail, unless asked for the reason, when they end early: a wheel is
 blocked, the time is up, or another thread stops a motor or tells it something
 else. The robot stands then.
 
@@ -99,7 +101,7 @@ takes the place of one that is under way.
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
 %
 %   Go straight on for Distance cm. The signs of speed and distance make the
-%   direction. Ends to the count, beside the line by less than the gyro is off.
+%   direction.
 
 go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
@@ -214,8 +216,8 @@ drive_cm(Speed, Rate, Options) :-
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
 %
-%   Turn towards a place, go there, and turn to a heading if one is given. With
-%   a negative speed, back into it.
+%   Turn towards a place, go there, and turn to a heading if one is given.
+%   With a negative speed, back into it.
 
 go_to(X, Y) :-
     go_to(X, Y, []).
@@ -258,7 +260,7 @@ face(Heading) :-
 
 face(Heading, Options) :-
     number_value(Heading, Degrees),
-    speed(Options, Percent),
+    speed_option(Options, Percent),
     move(Percent, legs([face(Degrees)], false), Options).
 
 %!  follow(+Points) is semidet.
@@ -327,11 +329,11 @@ drive_wait(Options, Reason) :-
                 *******************************/
 
 travel(Legs, Options) :-
-    speed(Options, Percent),
+    speed_option(Options, Percent),
     backwards(Percent, Backwards),
     move(Percent, legs(Legs, Backwards), Options).
 
-speed(Options, Percent) :-
+speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
     option(speed(Speed), Options, Default),

@@ -95,9 +95,9 @@ set_pose(X, Y, Heading) :-
 %!  pose_uncertainty(-Covariance) is semidet.
 %
 %   How uncertain the pose is: the covariance of x, y and heading as a list of
-%   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The square
-%   root of XX is the standard deviation of x. It grows with the way, from what
-%   wheels and axle are usually off, and is 0 after set_pose/3.
+%   rows, `[[XX,XY,XH], [XY,YY,YH], [XH,YH,HH]]`, in cm and degrees. The
+%   square root of XX is the standard deviation of x. It grows with the way,
+%   from what wheels and axle are usually off, and is 0 after set_pose/3.
 
 pose_uncertainty(Covariance) :-
     robot(Robot, UseGyro),

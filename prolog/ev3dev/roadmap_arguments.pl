@@ -9,13 +9,15 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(fact_file, [located_facts/3]).
 
-/** <module> Arguments of library(ev3dev/roadmap) and library(ev3dev/navigation)
+/** <module> Arguments of planning and navigation
+
+What library(ev3dev/roadmap) and library(ev3dev/navigation) are told.
 */
 
 %!  roadmap_facts(+Map, -Facts) is det.
 %
-%   True if Facts is the list of facts of a Map: itself, or that of a world. They
-%   are checked when they are used.
+%   True if Facts is the list of facts of a Map: itself, or that of a world.
+%   They are checked when they are used.
 %
 %   @error existence_error(world, Map)
 

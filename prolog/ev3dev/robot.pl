@@ -1,6 +1,6 @@
 :- module(ev3dev_robot,
           [ set_robot/4,        % +WheelDiameter, +AxleLength, +Left, +Right
-            set_robot/5,        % +WheelDiameter, +AxleLength, +Left, +Right, +Options
+            set_robot/5,        % ... , +Options
             robot/4,            % ?WheelDiameter, ?AxleLength, ?Left, ?Right
             stop/0,
             go/1,               % +Speed
@@ -41,14 +41,15 @@ Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
     robot/4,
     built/3.                            % Diameters, Inverted, Offset
 
-%   Library(ev3dev/drive) makes the moves once it is loaded, and is told of the
-%   robot.
+%   Library(ev3dev/drive) makes the moves once it is loaded, and is told of
+%   the robot.
 :- multifile
     move_hook/2,                        % +Move, -Done
     robot_hook/0.
 
 %!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right) is semidet.
-%!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right, +Options) is semidet.
+%!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right, +Options)
+%   is semidet.
 %
 %   Describe the robot: the diameter of its wheels and the distance between
 %   the middles of their treads, both in cm, and the ports of its motors.

@@ -323,13 +323,12 @@ impl Drive {
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let ended = self.watch(devices, status, timeout, interrupted);
+        let ended = Self::watch(devices, status, timeout, interrupted);
         let mut inner = self.lock();
         inner.last.take_if(|last| Arc::ptr_eq(last, status));
-        if matches!(ended, Ok(Reason::Timeout) | Err(_)) {
-            if inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status)) {
-                inner.end_job(Ok(Reason::Stopped));
-            }
+        let is_mine = inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status));
+        if is_mine && matches!(ended, Ok(Reason::Timeout) | Err(_)) {
+            inner.end_job(Ok(Reason::Stopped));
         }
         ended
     }
@@ -348,7 +347,7 @@ impl Drive {
         let last = self.lock().last.clone();
         match last {
             Some(status) => {
-                let ended = self.watch(devices, &status, timeout, interrupted);
+                let ended = Self::watch(devices, &status, timeout, interrupted);
                 if !matches!(ended, Ok(Reason::Timeout) | Err(Error::Interrupted)) {
                     let mut inner = self.lock();
                     inner.last.take_if(|last| Arc::ptr_eq(last, &status));
@@ -360,7 +359,6 @@ impl Drive {
     }
 
     fn watch(
-        &self,
         devices: &Devices,
         status: &Status,
         timeout: Option<Duration>,

@@ -8,10 +8,10 @@ use crate::odometry::Pose;
 const STRAIGHT: f64 = 1e-6;
 
 /// Corners that turn farther than this, in degrees, are not rounded.
-const SHARPEST: f64 = 150.0;
+const SHARPEST: f64 = 135.0;
 
 /// Corners are not rounded with less than this radius, in cm.
-const TIGHTEST: f64 = 2.0;
+const TIGHTEST: f64 = 5.0;
 
 /// A line or an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -199,7 +199,7 @@ impl Steering {
             };
             match std::mem::replace(phase, Phase::Next) {
                 Phase::Next => match legs.pop_front() {
-                    Some(leg) => self.begin(leg, pose),
+                    Some(leg) => self.begin(&leg, pose),
                     None => return Order::Arrived,
                 },
                 Phase::Turning { heading, place, corrections } => {
@@ -248,7 +248,7 @@ impl Steering {
         if self.is_backwards { heading + 180.0 } else { heading }
     }
 
-    fn begin(&mut self, leg: Leg, pose: Pose) {
+    fn begin(&mut self, leg: &Leg, pose: Pose) {
         let phase = match leg.clone() {
             Leg::Turn(degrees) => self.turn_to(self.goal.heading + degrees),
             Leg::Heading(heading) => self.turn_to(heading),

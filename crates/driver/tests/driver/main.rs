@@ -6,6 +6,8 @@ mod devices;
 mod files;
 mod laws;
 mod motors;
+mod odometry;
+mod paths;
 mod sensors;
 mod turns;
 mod waits;
