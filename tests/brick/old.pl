@@ -11,11 +11,8 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-<<<<<<< HEAD
-:- use_module(library(ev3dev/roadmap)).
-=======
 :- use_module(library(ev3dev/drive)).
->>>>>>> drive
+:- use_module(library(ev3dev/roadmap)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(readutil)).
 
