@@ -41,7 +41,7 @@ fn pillar() -> impl Strategy<Value = (Point, f64)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn what_is_free_is_free(pillars in prop::collection::vec(pillar(), 0..6)) {
@@ -86,8 +86,9 @@ proptest! {
         let found = views.obstacles(&nothing);
         prop_assert!(!found.is_empty());
         for corner in found.iter().flat_map(|polygon| polygon.corners().unwrap()) {
-            // Echoes from across more than 12 cm are not used.
-            prop_assert!(gap(*corner, pillar) < 14.0, "{corner:?}");
+            // The farther, the vaguer.
+            let far = corner[0].hypot(corner[1]);
+            prop_assert!(gap(*corner, pillar) < 6.0 + 0.15 * far, "{corner:?}");
         }
         // A map that has it is not told anew.
         let known = Map::new(vec![Obstacle::circle(pillar.0, pillar.1).unwrap()], None).unwrap();
@@ -102,7 +103,7 @@ fn nothing_is_free_before_it_was_looked_at() {
     assert!(views.is_free([0.0, 7.0]) && !views.is_free([0.0, 9.0]));
     views.add(View { at: [0.0, 7.0], heading: 0.0, range: 50.0 });
     assert!(views.is_free([0.0, 50.0]) && !views.is_free([0.0, 57.0]));
-    assert!(views.is_free([10.0, 53.0]) && !views.is_free([15.0, 50.0]));
+    assert!(views.is_free([9.0, 53.0]) && !views.is_free([15.0, 50.0]));
     views.forget();
     assert!(!views.is_free([0.0, 50.0]));
 }
