@@ -25,7 +25,9 @@ mod mount;
 #[cfg(all(feature = "sim", not(feature = "fuse")))]
 #[path = "no_mount.rs"]
 mod mount;
+mod navigation;
 mod ports;
+mod roadmap;
 mod robot;
 mod screen;
 mod sensors;
@@ -66,6 +68,8 @@ pub extern "C" fn install() {
     keys::register();
     sound::register();
     screen::register();
+    roadmap::register();
+    navigation::register();
     drive::register();
     #[cfg(feature = "sim")]
     sim::register();

@@ -8,6 +8,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/roadmap)).
 :- use_module(library(check)).
 :- use_module(library(prolog_xref)).
 :- use_module(library(pldoc)).

@@ -1,0 +1,77 @@
+//! Points, vectors and angles.
+use parry2d_f64::math::{Point as ParryPoint, Vector};
+
+/// X and y, in cm.
+pub type Point = [f64; 2];
+
+/// A vector, or a point as the vector to it.
+pub(crate) type Vec2 = Vector<f64>;
+
+pub(crate) fn vec2([x, y]: Point) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+pub(crate) fn point(vector: Vec2) -> Point {
+    [vector.x, vector.y]
+}
+
+pub(crate) fn parry([x, y]: Point) -> ParryPoint<f64> {
+    ParryPoint::new(x, y)
+}
+
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
+    length(vec2(b) - vec2(a))
+}
+
+pub(crate) fn length(vector: Vec2) -> f64 {
+    libm::hypot(vector.x, vector.y)
+}
+
+/// A vector of length 1, or zero for one without a length.
+pub(crate) fn unit(vector: Vec2) -> Vec2 {
+    let length = length(vector);
+    if length > 0.0 { vector / length } else { Vec2::zeros() }
+}
+
+/// The vector turned by a right angle counter-clockwise.
+pub(crate) fn left_of(vector: Vec2) -> Vec2 {
+    Vec2::new(-vector.y, vector.x)
+}
+
+/// Positive if `b` lies counter-clockwise of `a`.
+pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// The angle from `a` to `b` in radians, counter-clockwise positive.
+pub(crate) fn angle(a: Vec2, b: Vec2) -> f64 {
+    libm::atan2(cross(a, b), a.dot(&b))
+}
+
+/// The vector turned counter-clockwise, by radians.
+pub(crate) fn rotated(vector: Vec2, radians: f64) -> Vec2 {
+    let (sin, cos) = libm::sincos(radians);
+    Vec2::new(vector.x * cos - vector.y * sin, vector.x * sin + vector.y * cos)
+}
+
+/// The direction in which a heading points.
+pub(crate) fn direction(heading: f64) -> Vec2 {
+    let (sin, cos) = libm::sincos(heading.to_radians());
+    Vec2::new(sin, cos)
+}
+
+/// The smallest box around points, as its lower left and upper right corner.
+pub(crate) fn around(points: impl IntoIterator<Item = Point>) -> [Point; 2] {
+    let nothing = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.into_iter().fold(nothing, |[low, high], [x, y]| {
+        [[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]
+    })
+}
+
+/// True if two boxes are farther apart than a distance.
+pub(crate) fn apart([low, high]: &[Point; 2], other: &[Point; 2], distance: f64) -> bool {
+    low[0] - other[1][0] > distance
+        || low[1] - other[1][1] > distance
+        || other[0][0] - high[0] > distance
+        || other[0][1] - high[1] > distance
+}

@@ -1,0 +1,100 @@
+//! Cutting detours short, and rounding corners.
+use crate::arc::Arc;
+use crate::geometry::{Point, angle, distance, left_of, point, unit, vec2};
+use crate::map::Map;
+use crate::path::{Leg, Path};
+
+/// Each line is cut into so many pieces, where a detour may be left.
+const PIECES: u8 = 4;
+/// So often is the widest arc that fits halved down to.
+const HALVINGS: u8 = 10;
+/// Corners of fewer radians are none.
+const STRAIGHT: f64 = 1e-6;
+
+/// A way from corner to corner, without the detours.
+pub(crate) fn shortened(map: &Map, corners: &[Point], keep: f64) -> Vec<Point> {
+    let once = taut(map, corners, keep);
+    let mut pieces = vec![once[0]];
+    for pair in once.windows(2) {
+        let way = vec2(pair[1]) - vec2(pair[0]);
+        let share = |piece: u8| f64::from(piece) / f64::from(PIECES);
+        pieces.extend((1..PIECES).map(|piece| point(vec2(pair[0]) + way * share(piece))));
+        pieces.push(pair[1]);
+    }
+    let again = taut(map, &pieces, keep);
+    if length_of(&again) < length_of(&once) { again } else { once }
+}
+
+/// From each corner straight to the farthest that can be reached so.
+fn taut(map: &Map, corners: &[Point], keep: f64) -> Vec<Point> {
+    let mut way = vec![corners[0]];
+    let mut at = 0;
+    while at + 1 < corners.len() {
+        let clear = |to: &usize| map.line_clear(corners[at], corners[*to], keep);
+        at = (at + 2..corners.len()).rev().find(clear).unwrap_or(at + 1);
+        way.push(corners[at]);
+    }
+    way
+}
+
+fn length_of(corners: &[Point]) -> f64 {
+    corners.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
+}
+
+/// A way with arcs of at least a radius in the place of corners, as wide as
+/// fits between the obstacles and on half of the lines at the corner.
+pub(crate) fn rounded(map: &Map, corners: &[Point], keep: f64, arc_radius: f64) -> Path {
+    let mut legs = Vec::new();
+    let mut at = corners[0];
+    for (index, corner) in corners.windows(3).enumerate() {
+        let room = |line: usize, is_outer: bool| {
+            let length = distance(corners[line], corners[line + 1]);
+            if is_outer { length } else { length / 2.0 }
+        };
+        let room = room(index, index == 0).min(room(index + 1, index + 3 == corners.len()));
+        let arc = widest(map, [corner[0], corner[1], corner[2]], room, keep, arc_radius);
+        let until = arc.map_or(corner[1], |arc| arc.from);
+        legs.push(Leg::line(at, until));
+        legs.extend(arc.map(Leg::from));
+        at = arc.map_or(corner[1], |arc| arc.to);
+    }
+    legs.push(Leg::line(at, corners[corners.len() - 1]));
+    Path::new(legs)
+}
+
+/// The widest arc at a corner that keeps the distance, if there is one.
+fn widest(map: &Map, corner: [Point; 3], room: f64, keep: f64, arc_radius: f64) -> Option<Arc> {
+    let turn = angle(vec2(corner[1]) - vec2(corner[0]), vec2(corner[2]) - vec2(corner[1]));
+    if turn.abs() < STRAIGHT {
+        return None;
+    }
+    let fits =
+        |radius: f64| Some(rounding(corner, turn, radius)).filter(|a| map.arc_clear(a, keep));
+    let mut high = room / libm::tan(turn.abs() / 2.0);
+    if high < arc_radius {
+        return None;
+    }
+    if let Some(arc) = fits(high) {
+        return Some(arc);
+    }
+    let mut low = arc_radius;
+    let mut best = fits(low)?;
+    for _ in 0..HALVINGS {
+        let radius = f64::midpoint(low, high);
+        match fits(radius) {
+            Some(arc) => (low, best) = (radius, arc),
+            None => high = radius,
+        }
+    }
+    Some(best)
+}
+
+/// The arc of a radius that touches both lines of a corner.
+fn rounding(corner: [Point; 3], turn: f64, radius: f64) -> Arc {
+    let [before, at, after] = corner.map(vec2);
+    let (along, on) = (unit(at - before), unit(after - at));
+    let cut = radius * libm::tan(turn.abs() / 2.0);
+    let from = at - along * cut;
+    let centre = from + left_of(along) * (radius * turn.signum());
+    Arc { from: point(from), to: point(at + on * cut), centre: point(centre), radius, sweep: turn }
+}

@@ -1,0 +1,289 @@
+//! What an ultrasonic sensor has seen.
+//!
+//! The sensor hears the nearest thing in a cone, 15 degrees to each side, and
+//! tells how far it is, but not where in the cone. So one look says two
+//! things: nothing stands in the cone up to there, and something does at that
+//! distance, somewhere across. The first is what the robot may rely on: it
+//! goes only where it has looked. The second becomes clear with more looks
+//! from other directions. Where one of them shows nothing, nothing is, and
+//! what is left of the arc is where the thing must be.
+use crate::geometry::{
+    Point, Vec2, cross, direction, distance, left_of, length, parry, point, rotated, vec2,
+};
+use crate::map::{Map, Obstacle};
+use crate::path::Path;
+use parry2d_f64::transformation::convex_hull;
+use std::collections::BTreeMap;
+
+/// Half of the cone: what may have sent an echo, and what is surely free.
+const ECHO_HALF_ANGLE: f64 = 15.0;
+const FREE_HALF_ANGLE: f64 = 12.0;
+/// What is not counted of a measured distance, in cm and as a part of it:
+/// errors of the sensor and of where the robot believes to be.
+const DOUBT: [f64; 2] = [0.5, 0.03];
+/// By how much two measured places of one thing may differ, in cm.
+const DIFFER: f64 = 2.0;
+/// Something has moved if it is nearer than what was shown to be free by more
+/// than this, in cm, and not too far away to tell.
+const MOVED: f64 = 6.0;
+const MOVED_WITHIN: f64 = 40.0;
+/// Nearer than this the sensor does not tell how near, in cm.
+const NEAR: f64 = 3.05;
+/// Farther than this nothing is made of an echo, in cm: the cone is too wide.
+pub(crate) const FAR: f64 = 100.0;
+/// Echoes that may come from farther across than this wait for more looks, in cm.
+const WIDE: f64 = 12.0;
+/// Unless looks that differ by this much, as a sine, agree on the place.
+const AGREED: f64 = 0.2;
+/// An echo from so near to a known obstacle is that obstacle's, in cm.
+const KNOWN: f64 = 4.0;
+/// Points across an echo are so far apart, in cm.
+const GRAIN: f64 = 1.5;
+/// Points of echoes in one square of this size, in cm, become one polygon.
+const SQUARE: f64 = 10.0;
+/// A polygon reaches so far beyond its points, in cm.
+const AROUND: f64 = 0.75;
+/// Steps along a way at which it is checked, in cm.
+const STEP: f64 = 1.0;
+/// How far to the left and right the front of the hull is checked, in degrees.
+const FRONT: [f64; 17] = [
+    0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0, 40.0, -40.0, 50.0, -50.0, 60.0, -60.0, 70.0, -70.0,
+    80.0, -80.0,
+];
+
+/// A look through the sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where the sensor was.
+    pub at: Point,
+    /// Where it looked, in degrees.
+    pub heading: f64,
+    /// What it measured, in cm.
+    pub range: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    at: Point,
+    ahead: Vec2,
+    range: f64,
+    /// Up to here the cone is free.
+    free: f64,
+}
+
+impl Seen {
+    fn shows_free(&self, at: Point, cos: f64) -> bool {
+        let offset = vec2(at) - vec2(self.at);
+        let along = offset.dot(&self.ahead);
+        let square = offset.dot(&offset);
+        along >= 0.0 && square < self.free * self.free && along * along >= cos * cos * square
+    }
+
+    /// The points from which the echo may have come.
+    fn across(&self) -> Vec<Point> {
+        let half = ECHO_HALF_ANGLE.to_radians();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+        let steps = libm::ceil(self.range * half / GRAIN) as u32;
+        let turn = |index: u32| half * (f64::from(index) / f64::from(steps) - 1.0);
+        (0..=2 * steps)
+            .map(|index| point(vec2(self.at) + rotated(self.ahead, turn(index)) * self.range))
+            .collect()
+    }
+}
+
+/// How far a way can be gone safely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Safe {
+    /// So many cm of it.
+    pub way: f64,
+    /// What has not been seen free there.
+    pub unseen: Option<Point>,
+}
+
+/// All looks of a drive.
+#[derive(Clone, Debug)]
+pub struct Views {
+    hull: f64,
+    seen: Vec<Seen>,
+    trail: Vec<Point>,
+    blocked: Vec<Point>,
+    free_cos: f64,
+}
+
+impl Views {
+    /// No looks yet, of a robot with a round hull of a radius in cm.
+    #[must_use]
+    pub fn new(hull: f64) -> Views {
+        let free_cos = libm::cos(FREE_HALF_ANGLE.to_radians());
+        Views { hull, seen: Vec::new(), trail: Vec::new(), blocked: Vec::new(), free_cos }
+    }
+
+    /// The radius of the hull, in cm.
+    #[must_use]
+    pub fn hull(&self) -> f64 {
+        self.hull
+    }
+
+    /// Notes a look of a robot in a place with a heading: from where its
+    /// sensor is on it, as the robot sees that place and heading, and how far.
+    ///
+    /// True if something stands where earlier looks showed that nothing does:
+    /// it has moved, or was too thin to be heard. Those looks are forgotten.
+    pub fn look(&mut self, at: Point, heading: f64, mount: View) -> bool {
+        let ahead = direction(heading);
+        let [aside, forward] = mount.at;
+        let sensor = vec2(at) + ahead * forward - left_of(ahead) * aside;
+        let view = View { at: point(sensor), heading: heading + mount.heading, range: mount.range };
+        let moved = view.range < MOVED_WITHIN && self.forget_contradicted(view);
+        self.stand(at);
+        self.add(view);
+        moved
+    }
+
+    /// If looks showed free from where this one has its echo, forgets those.
+    fn forget_contradicted(&mut self, view: View) -> bool {
+        let ahead = direction(view.heading);
+        let cos = self.free_cos;
+        let beyond = Seen { at: view.at, ahead, range: view.range + MOVED, free: 0.0 };
+        let places = beyond.across();
+        let contradicted = places.iter().all(|place| self.shown_free(*place));
+        if contradicted {
+            self.seen.retain(|seen| !places.iter().any(|place| seen.shows_free(*place, cos)));
+        }
+        contradicted
+    }
+
+    /// Notes where the middle of the robot is. Nothing else can be there.
+    pub fn stand(&mut self, at: Point) {
+        if self.trail.last().is_none_or(|last| distance(*last, at) > STEP) {
+            self.trail.push(at);
+        }
+    }
+
+    /// Notes a look. One from where the last one was, to where it looked, is
+    /// left out.
+    pub fn add(&mut self, view: View) {
+        let ahead = direction(view.heading);
+        let is_new = |last: &Seen| {
+            distance(last.at, view.at) > STEP
+                || last.ahead.dot(&ahead) < 0.9986
+                || view.range < last.range - STEP
+        };
+        if self.seen.last().is_none_or(is_new) {
+            let far = view.range.min(FAR);
+            let free = if far > NEAR { far - DOUBT[0] - DOUBT[1] * far } else { 0.0 };
+            self.seen.push(Seen { at: view.at, ahead, range: view.range, free });
+        }
+    }
+
+    /// Forgets all looks, and what was made of them.
+    pub fn forget(&mut self) {
+        self.seen.clear();
+        self.blocked.clear();
+        self.trail.clear();
+    }
+
+    /// Takes something small for granted at a place that cannot be seen.
+    pub fn block(&mut self, at: Point) {
+        self.blocked.push(at);
+    }
+
+    /// True if nothing stands at a place.
+    #[must_use]
+    pub fn is_free(&self, at: Point) -> bool {
+        self.was_at(at, self.hull) || self.shown_free(at)
+    }
+
+    fn shown_free(&self, at: Point) -> bool {
+        self.seen.iter().rev().any(|seen| seen.shows_free(at, self.free_cos))
+    }
+
+    fn was_at(&self, at: Point, reach: f64) -> bool {
+        self.trail.iter().rev().any(|place| distance(*place, at) < reach)
+    }
+
+    /// How far a way can be gone so that the robot, with a margin of so many
+    /// cm, is only where nothing stands.
+    #[must_use]
+    pub fn safe(&self, path: &Path, margin: f64) -> Safe {
+        let mut safe = Safe { way: 0.0, unseen: None };
+        for (way, at, ahead) in path.samples(STEP) {
+            if way > 0.0 {
+                let front = FRONT.map(|degrees| {
+                    let out = rotated(ahead, degrees.to_radians());
+                    point(vec2(at) + out * (self.hull + margin))
+                });
+                safe.unseen = front.into_iter().find(|place| !self.is_free(*place));
+            }
+            if safe.unseen.is_some() {
+                break;
+            }
+            safe.way = way;
+        }
+        safe
+    }
+
+    /// What stands where that a map does not know.
+    #[must_use]
+    pub fn obstacles(&self, known: &Map) -> Vec<Obstacle> {
+        self.obstacles_within(FAR, known)
+    }
+
+    /// What was heard from no farther than a distance, in cm.
+    pub(crate) fn obstacles_within(&self, far: f64, known: &Map) -> Vec<Obstacle> {
+        let mut squares: BTreeMap<[i64; 2], Vec<Point>> = BTreeMap::new();
+        let near = self.seen.iter().filter(|seen| seen.range <= far);
+        let places = near.flat_map(|seen| self.echo(seen, known));
+        for place in places.chain(self.blocked.iter().copied()) {
+            #[expect(clippy::cast_possible_truncation, reason = "saturates")]
+            let square = place.map(|n| libm::floor(n / SQUARE) as i64);
+            squares.entry(square).or_default().push(place);
+        }
+        squares
+            .into_values()
+            .filter_map(|places| Obstacle::polygon(outline(&places)).ok())
+            .collect()
+    }
+
+    /// Where a look's echo came from, if that is clear and not known.
+    fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
+        let mut places = seen.across();
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let grain = 2.0 * ECHO_HALF_ANGLE.to_radians() * seen.range / (places.len() - 1) as f64;
+        places.retain(|place| !self.shown_free(*place));
+        if places.iter().any(|place| known.clearance(*place) < KNOWN) {
+            return Vec::new();
+        }
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let across = places.len() as f64 * grain;
+        places.retain(|place| across <= WIDE || self.is_agreed(*place));
+        places.retain(|place| !self.was_at(*place, self.hull + AROUND));
+        places
+    }
+
+    /// True if looks in different directions have an echo from a place.
+    fn is_agreed(&self, at: Point) -> bool {
+        let edge = libm::sin(ECHO_HALF_ANGLE.to_radians()) + 1e-9;
+        let aside = self.seen.iter().filter_map(|seen| {
+            let offset = vec2(at) - vec2(seen.at);
+            let far = length(offset);
+            let aside = cross(seen.ahead, offset) / far;
+            let fits = (far - seen.range).abs() < DIFFER && aside.abs() <= edge;
+            (fits && offset.dot(&seen.ahead) > 0.0).then_some(aside)
+        });
+        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = aside.fold(nothing, |(low, high), n| (low.min(n), high.max(n)));
+        high - low >= AGREED
+    }
+}
+
+/// The corners of a polygon around some points.
+fn outline(places: &[Point]) -> Vec<Point> {
+    let corners = [[-AROUND, -AROUND], [AROUND, -AROUND], [AROUND, AROUND], [-AROUND, AROUND]];
+    let around = |place: &Point| corners.map(|[x, y]| parry([place[0] + x, place[1] + y]));
+    let cloud: Vec<_> = places.iter().flat_map(around).collect();
+    let mut outline: Vec<Point> =
+        convex_hull(&cloud).into_iter().map(|corner| [corner.x, corner.y]).collect();
+    outline.dedup_by(|a, b| length(vec2(*a) - vec2(*b)) < 1e-6);
+    outline
+}

@@ -1,0 +1,288 @@
+:- module(ev3dev_navigation,
+          [ navigate_to/2,      % +Map, +Goal
+            navigate_to/3       % +Map, +Goal, +Options
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(driver, []).
+:- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
+:- use_module(roadmap_arguments,
+              [ number_option/4, roadmap_facts/2, roadmap_options/2,
+                roadmap_point/2
+              ]).
+:- use_module(robot, [stop/0]).
+:- use_module(sensors, [us_dist_cm/2]).
+
+/** <module> Drive through a room that is not wholly known
+
+The robot knows a map, as of library(ev3dev/roadmap), and where it is on it,
+by pose/3. What the map lacks it sees with its ultrasonic sensor on the way:
+
+```
+?- sim_start(room), set_robot(5.6, 10.6, outB, outC).
+?- sim_pose(X, Y, Heading), set_pose(X, Y, Heading).
+?- navigate_to([bounds(0, 0, 300, 250)], 260-210, [obstacles(New)]).
+```
+
+It goes only where it has looked. At first, and whenever its way leads to a
+place that it has not seen, it turns once around on the spot. An echo tells
+how far something is, but not where in the sensor's cone of 30 degrees; what
+other looks show to be free is taken away, and the rest becomes polygons. With
+them the way is planned anew.
+*/
+
+%!  navigate_to(+Map, +Goal) is semidet.
+%!  navigate_to(+Map, +Goal, +Options) is semidet.
+%
+%   Drive to Goal, `X-Y` in cm, around what Map knows and what is seen on the
+%   way. Waits. Options are those of roadmap_path/5, which apply to the way,
+%   and
+%
+%     - speed(+CmPerSecond)
+%       Default is 15.
+%     - sensor(+X, +Y, +Heading)
+%       Where the ultrasonic sensor is, to the right and ahead of the middle
+%       of the axle, and where it looks. Default is sensor(0, 7, 0), the
+%       shipped robot's.
+%     - tolerance(+Cm)
+%       How near to Goal is there. Default is 2.
+%     - reason(-Reason)
+%       Do not fail if Goal is not reached, but tell why: `reached`;
+%       `unreachable`, as there is no way with what is known and seen;
+%       `exhausted`, if it has planned its way so often as steps(Count) says;
+%       `stalled`, if something holds the robot; `unplugged`, if its sensor or
+%       a motor is; `stopped`, if another thread stopped it.
+%     - steps(+Count)
+%       Default is 200.
+%     - obstacles(-Polygons)
+%       What was seen that Map lacks, facts as a map has.
+%
+%   Fails unless Goal is reached, unless asked for the reason; `debug(ev3dev)`
+%   tells it. Nothing moves if there is no way on Map as it is. Fails also if
+%   no robot is set or it has no ultrasonic sensor. The robot stands when it
+%   ends, also by an exception.
+%
+%   Whoever walks into what has been seen free makes the robot stop as soon as
+%   the sensor shows it, forget what it had seen there, and plan anew.
+%
+%   @error as roadmap_path/5
+
+navigate_to(Map, Goal) :-
+    navigate_to(Map, Goal, []).
+
+navigate_to(Map, Goal0, Options) :-
+    roadmap_facts(Map, Facts),
+    roadmap_point(Goal0, Goal),
+    roadmap_options(Options, Native),
+    number_option(radius(Radius), positive_number, Options, 8),
+    number_option(margin(Margin), nonneg, Options, 4),
+    number_option(speed(Speed), positive_number, Options, 15),
+    number_option(tolerance(Tolerance), positive_number, Options, 2),
+    option(steps(Steps), Options, 200),
+    must_be(integer, Steps),
+    must_be(nonneg, Steps),
+    sensor(Options, Sensor),
+    once(us_dist_cm(Port, _)),
+    views_new_(Radius, Views),
+    Drive = drive(Views, Facts, Goal, Margin, Native,
+                  Port-Sensor, Speed, Tolerance),
+    setup_call_cleanup(
+        true,
+        navigate(Drive, Steps, Reason0),
+        ignore(stop)),
+    debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
+    views_obstacles_(Views, Facts, Obstacles0),
+    option(obstacles(Obstacles), Options, _),
+    option(reason(Reason), Options, reached),
+    Obstacles = Obstacles0,
+    Reason = Reason0.
+
+sensor(Options, sensor(X, Y, Heading)) :-
+    (   option(sensor(X0, Y0, Heading0), Options)
+    ->  true
+    ;   X0 = 0, Y0 = 7, Heading0 = 0
+    ),
+    X is X0,
+    Y is Y0,
+    Heading is Heading0.
+
+%   Plans with the map alone first: if that leaves no way, nothing moves.
+
+navigate(Drive, Steps, Reason) :-
+    next_step(Drive, Step),
+    (   Step = no_way(_)
+    ->  Reason = unreachable
+    ;   advance(Step, no, 1, Steps, Drive, Reason)
+    ).
+
+next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
+    pose(X, Y, _),
+    views_step_(Views, Facts, way(X-Y, Goal, Margin), Native, Step).
+
+%!  advance(+Step, +Looked, +Forgets, +Steps, +Drive, -Reason) is semidet.
+%
+%   Looked tells whether the robot has looked around since it moved. What can
+%   still not be seen then counts as an obstacle. Where that or what else was
+%   made of the echoes leaves no way, it may all have been a mistake: so many
+%   times as Forgets it is forgotten, and looked at anew.
+
+advance(Step, _, _, _, Drive, reached) :-
+    is_there(Step, Drive),
+    !.
+advance(_, _, _, 0, _, exhausted) :-
+    !.
+advance(Step, Looked, Forgets, Steps, Drive, Reason) :-
+    decided(Step, Looked, Forgets, Decision),
+    carry_out(Decision, Drive, Done),
+    (   Done = ended(Reason0)
+    ->  Reason = Reason0
+    ;   Done = looked(Looked1),
+        forgets(Decision, Forgets, Forgets1),
+        Left is Steps - 1,
+        next_step(Drive, Next),
+        advance(Next, Looked1, Forgets1, Left, Drive, Reason)
+    ).
+
+is_there(step(_, Length, _, _, Rest, _), Drive) :-
+    Drive = drive(_, _, _, _, _, _, _, Tolerance),
+    Length + Rest =< Tolerance.
+
+decided(step(Heading, Length, Safe, Unseen, _, Way), _, _, Decision) :-
+    until(Length, Safe, Unseen, Until),
+    !,
+    Decision = go(Heading, Way, Until).
+decided(_, no, _, Decision) :-
+    !,
+    Decision = look.
+decided(step(_, _, _, Unseen, _, _), yes, _, Decision) :-
+    !,
+    Decision = block(Unseen).
+decided(no_way(_), yes, Forgets, Decision) :-
+    (   Forgets > 0
+    ->  Decision = forget
+    ;   Decision = give_up
+    ).
+
+forgets(Decision, Forgets0, Forgets) :-
+    (   Decision == forget
+    ->  Forgets is Forgets0 - 1
+    ;   Forgets = Forgets0
+    ).
+
+carry_out(go(Heading, Way, Until), Drive, Done) :-
+    face(Heading, [reason(Reason)]),
+    (   Reason == reached
+    ->  follow(Way, Until, Drive, Done)
+    ;   Done = ended(Reason)
+    ).
+carry_out(look, Drive, Done) :-
+    look_around(Drive, Done).
+carry_out(block(Place), drive(Views, _, _, _, _, _, _, _), looked(yes)) :-
+    views_block_(Views, Place).
+carry_out(forget, Drive, Done) :-
+    forget(Drive),
+    look_around(Drive, Done).
+carry_out(give_up, _, ended(unreachable)).
+
+%   Up to where to go: to the end, or well before what was not seen.
+
+until(Length, _, Unseen, Length) :-
+    var(Unseen),
+    !.
+until(_, Safe, _, Until) :-
+    Until is Safe - 1,
+    Until >= 4.
+
+forget(drive(Views, _, _, _, _, _, _, _)) :-
+    views_forget_(Views).
+
+%!  observe(+Drive, -Moved) is semidet.
+%
+%   Notes what the sensor shows. Moved is true if that cannot be, unless
+%   something has moved.
+
+observe(drive(Views, _, _, _, _, Port-Sensor, _, _), Moved) :-
+    pose(X, Y, Heading),
+    us_dist_cm(Port, Distance),
+    !,
+    views_look_(Views, pose(X, Y, Heading), Sensor, Distance, Moved).
+
+%!  look_around(+Drive, -Done) is semidet.
+%
+%   Turn once around on the spot, looking. Done is looked(yes), or
+%   ended(Reason).
+
+look_around(Drive, Done) :-
+    pose(_, _, From),
+    drive_cm(0, 50),
+    look_around(From, 0, 0, Drive, Done),
+    stop.
+
+look_around(From, Before, Still, Drive, Done) :-
+    observe(Drive, _),
+    !,
+    pose(_, _, Heading),
+    Gone is Heading - From,
+    (   Gone >= 360
+    ->  Done = looked(yes)
+    ;   tick(Gone, Before, Still, Still1, Why),
+        (   Why == timeout
+        ->  look_around(From, Gone, Still1, Drive, Done)
+        ;   Done = ended(Why)
+        )
+    ).
+look_around(_, _, _, _, ended(unplugged)).
+
+%!  follow(+Way, +Until, +Drive, -Done) is semidet.
+%
+%   Keep to Way up to Until, in cm, looking. Done is looked(no), or
+%   ended(Reason). Ends early if something has moved.
+
+follow(Way, Until, Drive, Done) :-
+    follow(Way, Until, 0, 0, Drive, Done),
+    stop.
+
+follow(Way, Until, Before, Still, Drive, Done) :-
+    observe(Drive, Moved),
+    !,
+    pose(X, Y, Heading),
+    steer_(Way, pose(X, Y, Heading), Before, Gone, Turn),
+    Left is Until - Gone,
+    (   Left < 0.5
+    ->  Done = looked(no)
+    ;   Moved == true
+    ->  Done = looked(no)
+    ;   steer(Left, Turn, Drive),
+        tick(Gone, Before, Still, Still1, Why),
+        (   Why == timeout
+        ->  follow(Way, Until, Gone, Still1, Drive, Done)
+        ;   Done = ended(Why)
+        )
+    ).
+follow(_, _, _, _, _, ended(unplugged)).
+
+%   Slower before the end, and where the way bends: by at most 60 degrees a
+%   second.
+
+steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
+    CmPerSecond is min(Speed, min(max(2, sqrt(30 * Left)),
+                                  60 / max(abs(Turn), 1))),
+    DegreesPerSecond is CmPerSecond * Turn,
+    drive_cm(CmPerSecond, DegreesPerSecond).
+
+%!  tick(+Gone, +Before, +Still0, -Still, -Why) is det.
+%
+%   Let a moment pass. Why is `timeout` if the move goes on, else why it
+%   ended: `stalled` also where there is no getting on for three seconds.
+
+tick(Gone, Before, Still0, Still, Why) :-
+    drive_wait([timeout(0.03)], Why0),
+    (   Gone > Before
+    ->  Still = 0
+    ;   Still is Still0 + 1
+    ),
+    (   Still > 100
+    ->  Why = stalled
+    ;   Why = Why0
+    ).

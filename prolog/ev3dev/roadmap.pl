@@ -1,0 +1,146 @@
+:- module(ev3dev_roadmap,
+          [ roadmap_path/4,     % +Map, +Start, +Goal, -Points
+            roadmap_path/5,     % +Map, +Start, +Goal, -Points, +Options
+            roadmap_legs/5,     % +Map, +Start, +Goal, -Legs, +Options
+            roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(option), [option/3]).
+:- use_module(driver, []).
+:- use_module(roadmap_arguments,
+              [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
+:- reexport(navigation).
+
+/** <module> Ways for a robot between obstacles of any shape
+
+Plans ways, and drives them: navigate_to/2,3 are those of
+library(ev3dev/navigation).
+
+Ways are found over a map of polygons, boxes, walls and circles, in any
+direction, for a robot that is round or turns within a circle:
+
+```
+?- roadmap_path([box(50, 50, 40, 40)], 0-0, 100-100, Points).
+?- roadmap_path(room, 40-40, 270-220, Points, [method(prm), seed(7)]).
+```
+
+A way is looked for on a *roadmap*, straight lines that keep a distance from
+all obstacles. Where it bends it becomes an arc, as wide as fits. How the
+roadmap is made is the option method(Method):
+
+  - visibility
+    All corners of the obstacles are joined that see each other. That has the
+    shortest way, and if it has none, there is none. Its work grows with the
+    square of the number of corners.
+  - prm
+    Probabilistic roadmap: points are drawn at random, and each is joined with
+    those next to it. Its work grows with the number of points.
+  - rrt_star
+    RRT*: a tree grows from the start towards points drawn at random.
+
+## Maps {#roadmap-maps}
+
+A Map is a list of facts or, as for sim_start/1, the name of a shipped world
+or a file. Lengths are in centimetres, x to the right and y up. Of a world's
+facts those count that stop a robot, bounds(X1, Y1, X2, Y2), wall/4,5,
+box/4,5, circle/3 and map/2; a list may also hold
+
+  - polygon(Corners)
+    At least three corners, each `X-Y` or `[X, Y]`, in either order. It may be
+    concave. No two edges may cross or touch, but at the corners.
+
+A Start or Goal is written as a corner is; x and y may be arithmetic
+expressions.
+
+## Options {#roadmap-options}
+
+  - radius(+Cm)
+    Of the circle within which the robot turns. Default is 8, the shipped
+    robot's.
+  - margin(+Cm)
+    What it keeps from obstacles in addition. Default is 4.
+  - method(+Method)
+    Default is `visibility`.
+  - arc_radius(+Cm)
+    The least radius of an arc. Where none fits the way has a corner, at which
+    the robot turns on the spot. Default is 6: half an axle and a little.
+  - samples(+Count)
+    How many points are drawn at random, at most 100000. Default is 500.
+  - seed(+Integer)
+    Where chance starts from. Default is 1. The same seed gives the same way.
+*/
+
+%!  roadmap_path(+Map, +Start, +Goal, -Points) is semidet.
+%!  roadmap_path(+Map, +Start, +Goal, -Points, +Options) is semidet.
+%
+%   True if Points, each `X-Y`, is a way from Start to Goal: where its lines
+%   and arcs begin and end. Options are those above, and
+%
+%     - length(-Cm)
+%       Of the way, along its arcs.
+%
+%   Fails if no way was found, also if an obstacle is too near to Start or
+%   Goal; `debug(ev3dev)` tells why.
+%
+%   @error existence_error(world, Map)
+%   @error domain_error(roadmap_fact, Fact) if a map has no such facts
+%   @error domain_error(possible_geometry, Fact) for a polygon with less than
+%          three corners, or one that crosses itself, and the like
+%   @error domain_error(point, Point)
+%   @error domain_error(roadmap_method, Method)
+%   @error domain_error(Domain, Value) for an option that makes no sense
+
+roadmap_path(Map, Start, Goal, Points) :-
+    roadmap_path(Map, Start, Goal, Points, []).
+
+roadmap_path(Map, Start, Goal, Points, Options) :-
+    way(Map, Start, Goal, Options, way(Length, Points0, _)),
+    option(length(Length0), Options, _),
+    Length0 = Length,
+    Points = Points0.
+
+%!  roadmap_legs(+Map, +Start, +Goal, -Legs, +Options) is semidet.
+%
+%   As roadmap_path/5, but with the way as a list of
+%
+%     - line(From, To)
+%     - arc(From, To, Radius, Angle)
+%       As arc_cm/3 takes them: Radius is positive if the centre is on the
+%       right, negative if on the left, and Angle is positive, in degrees.
+
+roadmap_legs(Map, Start, Goal, Legs, Options) :-
+    way(Map, Start, Goal, Options, way(Length, _, Legs0)),
+    option(length(Length0), Options, _),
+    Length0 = Length,
+    Legs = Legs0.
+
+way(Map, Start0, Goal0, Options, Way) :-
+    roadmap_facts(Map, Facts),
+    roadmap_point(Start0, Start),
+    roadmap_point(Goal0, Goal),
+    roadmap_options(Options, Native),
+    roadmap_(Facts, Start, Goal, Native, Found),
+    (   Found = no_way(Why)
+    ->  debug(ev3dev, "no way from ~p to ~p: ~w", [Start, Goal, Why]),
+        fail
+    ;   Way = Found
+    ).
+
+%!  roadmap_svg(+Map, +Start, +Goal, +File, +Options) is semidet.
+%
+%   Write a picture to a file, as SVG: the obstacles with what is kept free
+%   around them, the lines of the roadmap that were looked at, and the way.
+%   Fails, and writes nothing, if roadmap_path/5 does.
+%
+%   @error as roadmap_path/5, and as open/3
+
+roadmap_svg(Map, Start0, Goal0, File, Options) :-
+    roadmap_facts(Map, Facts),
+    roadmap_point(Start0, Start),
+    roadmap_point(Goal0, Goal),
+    roadmap_options(Options, Native),
+    roadmap_svg_(Facts, Start, Goal, Native, Text),
+    setup_call_cleanup(
+        open(File, write, Stream, [encoding(utf8)]),
+        write(Stream, Text),
+        close(Stream)).

@@ -1,0 +1,135 @@
+//! `prolog/ev3dev/navigation.pl`: driving through a room that is not wholly known.
+use crate::call::Call;
+use crate::roadmap::{map_of, no_way, options_of, point, point_term, points_term};
+use ev3_roadmap::{Obstacle, Path, Step, View, Views};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_views_new();
+    register_views_look();
+    register_views_forget();
+    register_views_block();
+    register_views_obstacles();
+    register_views_step();
+    register_steer();
+}
+
+/// What a robot has seen on its way.
+#[arc_blob("ev3_views", defaults)]
+struct SeenSoFar {
+    views: Mutex<Views>,
+}
+
+/// A way to be followed.
+#[arc_blob("ev3_way", defaults)]
+struct Way {
+    path: Path,
+}
+
+predicates! {
+    /// views_new_(+Radius, -Views)
+    #[module("ev3dev_navigation")]
+    #[name("views_new_")]
+    semidet fn views_new(context, radius, views) {
+        let radius = Call::of(context, "navigate_to", 3).float(radius)?;
+        views.unify(Arc::new(SeenSoFar { views: Mutex::new(Views::new(radius)) }))
+    }
+
+    /// views_look_(+Views, +pose(X, Y, Heading), +sensor(X, Y, Heading), +Range, -Moved)
+    #[module("ev3dev_navigation")]
+    #[name("views_look_")]
+    semidet fn views_look(context, views, pose, sensor, range, moved) {
+        let call = Call::of(context, "navigate_to", 3);
+        let number = |term: &Term| call.float(term);
+        let ([x, y, heading], [aside, ahead, turned]) =
+            (call.arguments(pose)?, call.arguments(sensor)?);
+        let at = [number(&aside)?, number(&ahead)?];
+        let mount = View { at, heading: number(&turned)?, range: number(range)? };
+        let at = [number(&x)?, number(&y)?];
+        moved.unify(locked(&views.get_ex()?).look(at, number(&heading)?, mount))
+    }
+
+    /// views_forget_(+Views)
+    #[module("ev3dev_navigation")]
+    #[name("views_forget_")]
+    semidet fn views_forget(_context, views) {
+        locked(&views.get_ex()?).forget();
+        Ok(())
+    }
+
+    /// views_block_(+Views, +Point)
+    #[module("ev3dev_navigation")]
+    #[name("views_block_")]
+    semidet fn views_block(context, views, at) {
+        let at = point(&Call::of(context, "navigate_to", 3), at)?;
+        locked(&views.get_ex()?).block(at);
+        Ok(())
+    }
+
+    /// views_obstacles_(+Views, +Facts, -Polygons)
+    #[module("ev3dev_navigation")]
+    #[name("views_obstacles_")]
+    semidet fn views_obstacles(context, views, facts, polygons) {
+        let call = Call::of(context, "navigate_to", 3);
+        let found = locked(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
+        let corners = found.iter().filter_map(Obstacle::corners);
+        let terms = corners.map(|corners| {
+            let corners = points_term(&call, corners)?;
+            term! {context: polygon(#&corners)}
+        });
+        polygons.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
+    }
+
+    /// views_step_(+Views, +Facts, +way(Start, Goal, Margin), +Options, -Step): step is
+    /// step(Heading, Length, Safe, Unseen, Rest, Way) or no_way(Why).
+    #[module("ev3dev_navigation")]
+    #[name("views_step_")]
+    semidet fn views_step(context, views, facts, way, options, step) {
+        let call = Call::of(context, "navigate_to", 3);
+        let (map, options) = (map_of(&call, facts)?, options_of(&call, options)?);
+        let [start, goal, margin] = call.arguments(way)?;
+        let (start, goal, margin) =
+            (point(&call, &start)?, point(&call, &goal)?, call.float(&margin)?);
+        let next = locked(&views.get_ex()?).next_step(&map, start, goal, margin, &options);
+        match next {
+            Ok(next) => step.unify(&step_term(&call, next)?),
+            Err(why) => no_way(&call, step, why),
+        }
+    }
+
+    /// steer_(+Way, +pose(X, Y, Heading), +Before, -Gone, -DegreesPerCm)
+    #[module("ev3dev_navigation")]
+    #[name("steer_")]
+    semidet fn steer(context, way, pose, before, gone, turn) {
+        let call = Call::of(context, "navigate_to", 3);
+        let [x, y, heading] = call.arguments(pose)?;
+        let (at, heading) = ([call.float(&x)?, call.float(&y)?], call.float(&heading)?);
+        let way: Arc<Way> = way.get_ex()?;
+        let (now, degrees) = way.path.steer(at, heading, call.float(before)?);
+        gone.unify(now)?;
+        turn.unify(degrees)
+    }
+}
+
+fn locked(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
+    seen.views.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// step(Heading, Length, Safe, Unseen, Rest, Way)
+fn step_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    step: Step,
+) -> PrologResult<Term<'a>> {
+    let context = call.context;
+    let unseen = context.new_term_ref();
+    if let Some(at) = step.unseen {
+        unseen.unify(&point_term(call, at)?)?;
+    }
+    let Step { run, safe, rest, .. } = step;
+    let (heading, length) = (run.heading(), run.length());
+    let way = context.new_term_ref();
+    way.unify(Arc::new(Way { path: run }))?;
+    term! {context: step(#heading, #length, #safe, #&unseen, #rest, #&way)}
+}

@@ -1,0 +1,257 @@
+//! `prolog/ev3dev/roadmap.pl`: ways between obstacles.
+use crate::call::{Call, unify_atom};
+use crate::error::{wrong_because, wrong_value};
+use ev3_roadmap::{
+    Bounds, Fault, Found, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, plan, svg,
+};
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_roadmap();
+    register_roadmap_svg();
+}
+
+predicates! {
+    /// roadmap_(+Facts, +Start, +Goal, +Options, -Way): way is
+    /// way(Length, Points, Legs) or no_way(Why).
+    #[module("ev3dev_roadmap")]
+    #[name("roadmap_")]
+    semidet fn roadmap(context, facts, start, goal, options, way) {
+        let call = Call::of(context, "roadmap_path", 5);
+        match found(&call, [facts, start, goal, options])?.1 {
+            Ok(found) => way.unify(&way_term(&call, &found.path)?),
+            Err(why) => no_way(&call, way, why),
+        }
+    }
+
+    /// roadmap_svg_(+Facts, +Start, +Goal, +Options, -Text)
+    #[module("ev3dev_roadmap")]
+    #[name("roadmap_svg_")]
+    semidet fn roadmap_svg(context, facts, start, goal, options, text) {
+        let call = Call::of(context, "roadmap_svg", 5);
+        let keep = options_of(&call, options)?.keep;
+        let (map, found) = found(&call, [facts, start, goal, options])?;
+        let Ok(found) = found else { return Err(PrologError::Failure) };
+        unify_atom(text, &svg(&map, &found, keep))
+    }
+}
+
+/// The map, and the way that was found on it.
+fn found<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    [facts, start, goal, options]: [&Term<'a>; 4],
+) -> PrologResult<(Map, Result<Found, NoWay>)> {
+    let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
+    let found = plan(&map, point(call, start)?, point(call, goal)?, &options);
+    Ok((map, found))
+}
+
+/// `options(Keep, ArcRadius, Method, Samples, Seed)`, checked in Prolog.
+pub(crate) fn options_of<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<Options> {
+    let [keep, arc_radius, method, samples, seed] = call.arguments(term)?;
+    Ok(Options {
+        keep: call.float(&keep)?,
+        arc_radius: call.float(&arc_radius)?,
+        method: match &*call.text(&method)? {
+            "visibility" => Method::Visibility,
+            "prm" => Method::Prm,
+            "rrt_star" => Method::RrtStar,
+            _ => return wrong_value(call, "roadmap_method", &method),
+        },
+        samples: u32::try_from(call.integer(&samples)?).unwrap_or(u32::MAX),
+        seed: u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes()),
+    })
+}
+
+/// The map of a list of facts.
+pub(crate) fn map_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    facts: &Term<'a>,
+) -> PrologResult<Map> {
+    let mut map = Map::default();
+    for fact in call.list(facts)? {
+        let Some(read) = read(call, &fact)? else {
+            return wrong_value(call, "roadmap_fact", &fact);
+        };
+        let added = read.and_then(|read| add(&mut map, read));
+        added
+            .or_else(|fault| wrong_because(call, "possible_geometry", &fact, &fault.to_string()))?;
+    }
+    Ok(map)
+}
+
+/// What a fact says.
+enum Fact {
+    Obstacles(Vec<Obstacle>),
+    Bounds(Bounds),
+}
+
+fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {
+    match fact {
+        Fact::Bounds(bounds) => *map = Map::new(map.obstacles().to_vec(), Some(bounds))?,
+        Fact::Obstacles(obstacles) => {
+            for obstacle in obstacles {
+                map.add(obstacle);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The vocabulary: that of worlds, and polygons. `None` for a fact that is not
+/// in it.
+fn read<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Option<Result<Fact, Fault>>> {
+    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+        return Ok(None);
+    };
+    let (name, arguments) = (functor.name_string(), call.context.compound_terms_vec(term)?);
+    if let ("polygon", [corners]) = (&*name, &*arguments) {
+        let corners = call.list(corners)?;
+        let corners: PrologResult<Vec<_>> = corners.iter().map(|at| point(call, at)).collect();
+        return Ok(Some(Obstacle::polygon(corners?).map(|one| Fact::Obstacles(vec![one]))));
+    }
+    if let ("map", [size, rows]) = (&*name, &*arguments) {
+        return drawn(call, size, rows);
+    }
+    let numbers =
+        || arguments.iter().map(|term| call.float(term)).collect::<PrologResult<Vec<_>>>();
+    let obstacle = match (&*name, arguments.len()) {
+        ("floor" | "ambient", 1) | ("patch", 2) | ("line" | "lamp" | "start", 3) => {
+            return Ok(Some(Ok(Fact::Obstacles(Vec::new()))));
+        }
+        ("bounds", 4) | ("wall" | "box", 4 | 5) | ("circle", 3) => match (&*name, &*numbers()?) {
+            ("bounds", &[x1, y1, x2, y2]) => {
+                return Ok(Some(Ok(Fact::Bounds(Bounds { low: [x1, y1], high: [x2, y2] }))));
+            }
+            ("wall", &[x1, y1, x2, y2]) => Obstacle::wall([x1, y1], [x2, y2], 1.0),
+            ("wall", &[x1, y1, x2, y2, thickness]) => Obstacle::wall([x1, y1], [x2, y2], thickness),
+            ("box", &[x, y, width, depth]) => Obstacle::rectangle([x, y], width, depth, 0.0),
+            ("box", &[x, y, width, depth, heading]) => {
+                Obstacle::rectangle([x, y], width, depth, heading)
+            }
+            ("circle", &[x, y, radius]) => Obstacle::circle([x, y], radius),
+            _ => return Ok(None),
+        },
+        _ => return Ok(None),
+    };
+    Ok(Some(obstacle.map(|one| Fact::Obstacles(vec![one]))))
+}
+
+/// What a drawn world has: only the simulator can read one.
+#[cfg(feature = "sim")]
+fn drawn<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    size: &Term<'a>,
+    rows: &Term<'a>,
+) -> PrologResult<Option<Result<Fact, Fault>>> {
+    use ev3_sim::{Item, WorldSpec};
+    let list = call.list(rows)?;
+    let lines = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
+    let world = match WorldSpec::from_map(&lines.join("\n"), call.float(size)?) {
+        Ok(world) => world,
+        Err(error) => return wrong_because(call, "possible_geometry", rows, &error.to_string()),
+    };
+    let solid = |item: &Item| match *item {
+        Item::Wall { from, to, thickness } => Some(Obstacle::wall(from, to, thickness)),
+        Item::Box { pose, width, depth } => {
+            Some(Obstacle::rectangle([pose.x, pose.y], width, depth, pose.heading))
+        }
+        Item::Circle { centre, radius } => Some(Obstacle::circle(centre, radius)),
+        Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } => None,
+    };
+    let solids: Result<Vec<_>, Fault> = world.items.iter().filter_map(solid).collect();
+    Ok(Some(solids.map(Fact::Obstacles)))
+}
+
+#[cfg(not(feature = "sim"))]
+#[expect(clippy::unnecessary_wraps, reason = "as its twin")]
+fn drawn<'a, C: QueryableContextType>(
+    _: &Call<'a, C>,
+    _: &Term<'a>,
+    _: &Term<'a>,
+) -> PrologResult<Option<Result<Fact, Fault>>> {
+    Ok(None)
+}
+
+/// `X-Y` or `[X, Y]`.
+pub(crate) fn point<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Point> {
+    let pair = if matches!(term.term_type(), TermType::Nil | TermType::ListPair) {
+        <[Term; 2]>::try_from(call.list(term)?).ok()
+    } else if term.is_var() {
+        Some(call.arguments(term)?)
+    } else {
+        attempt_opt(call.context.compound_terms(term))?
+            .filter(|_| term.get::<Functor>().is_ok_and(|f| f.name_string() == "-"))
+    };
+    match pair {
+        Some([x, y]) => Ok([call.float(&x)?, call.float(&y)?]),
+        None => wrong_value(call, "point", term),
+    }
+}
+
+pub(crate) fn no_way<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+    why: NoWay,
+) -> PrologResult<()> {
+    let context = call.context;
+    let no_way = term! {context: no_way(#atomable(why.to_string()))}?;
+    term.unify(&no_way)
+}
+
+pub(crate) fn point_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    [x, y]: Point,
+) -> PrologResult<Term<'a>> {
+    let term = call.context.new_term_ref();
+    term.unify(Functor::new("-", 2))?;
+    term.unify_arg(1, x)?;
+    term.unify_arg(2, y)?;
+    Ok(term)
+}
+
+pub(crate) fn points_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    points: &[Point],
+) -> PrologResult<Term<'a>> {
+    let terms = points.iter().map(|at| point_term(call, *at)).collect::<PrologResult<Vec<_>>>()?;
+    let list = call.context.new_term_ref();
+    list.unify(terms.as_slice())?;
+    Ok(list)
+}
+
+/// way(Length, Points, Legs)
+fn way_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    path: &Path,
+) -> PrologResult<Term<'a>> {
+    let context = call.context;
+    let legs = path.legs().iter().map(|leg| leg_term(call, leg));
+    let legs = legs.collect::<PrologResult<Vec<_>>>()?;
+    let list = context.new_term_ref();
+    list.unify(legs.as_slice())?;
+    let (length, points) = (path.length(), points_term(call, &path.points())?);
+    term! {context: way(#length, #&points, #&list)}
+}
+
+/// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the
+/// radius is positive to the right, and the angle always.
+fn leg_term<'a, C: QueryableContextType>(call: &Call<'a, C>, leg: &Leg) -> PrologResult<Term<'a>> {
+    let context = call.context;
+    let (from, to) = (point_term(call, leg.start())?, point_term(call, leg.end())?);
+    if let Leg::Arc { radius, angle, .. } = *leg {
+        let (radius, angle) = (radius * angle.signum(), angle.abs());
+        return term! {context: arc(#&from, #&to, #radius, #angle)};
+    }
+    term! {context: line(#&from, #&to)}
+}
