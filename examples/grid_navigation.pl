@@ -31,22 +31,22 @@ start(Goal, Planner) :-
     set_robot(5.6, 10.6, outB, outC),
     set_grid([]),
     plan_and_go_to(Goal, [0, 1],
-                   [planner(Planner), tell(say), reason(Reason)]),
-    say(Reason, Goal),
+                   [planner(Planner), tell(tell), reason(Reason)]),
+    tell(Reason, Goal),
     Reason == reached.
 
 %   What happens on the way, and how it ended.
 
-say(plan(state(Cell, _), Plan)) :-
+tell(plan(state(Cell, _), Plan)) :-
     format("at ~w: ~w~n", [Cell, Plan]).
-say(obstacle(Cell)) :-
+tell(obstacle(Cell)) :-
     format("obstacle in ~w~n", [Cell]).
 
-say(reached, Goal) :-
+tell(reached, Goal) :-
     format("arrived at ~w~n", [Goal]).
-say(no_way, Goal) :-
+tell(no_way, Goal) :-
     format("there is no way to ~w~n", [Goal]).
-say(Reason, Goal) :-
+tell(Reason, Goal) :-
     \+ memberchk(Reason, [reached, no_way]),
     format("cannot go on to ~w: ~w~n", [Goal, Reason]).
 

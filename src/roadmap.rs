@@ -164,7 +164,11 @@ fn drawn<'a, C: QueryableContextType>(
             Some(Obstacle::rectangle([pose.x, pose.y], width, depth, pose.heading))
         }
         Item::Circle { centre, radius } => Some(Obstacle::circle(centre, radius)),
-        Item::Patch { .. } | Item::Line { .. } | Item::Lamp { .. } => None,
+        Item::Patch { .. }
+        | Item::Line { .. }
+        | Item::Lamp { .. }
+        | Item::Bulb { .. }
+        | Item::Beacon { .. } => None,
     };
     let solids: Result<Vec<_>, Fault> = world.items.iter().filter_map(solid).collect();
     Ok(Some(solids.map(Fact::Obstacles)))
