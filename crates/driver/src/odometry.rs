@@ -17,7 +17,7 @@
 const HALF_STEP: f64 = 0.5 * DEGREE;
 
 /// Standard deviation of a gyro's reading beside its resolution, in radians.
-const GYRO_ERROR: f64 = 0.35 * DEGREE;
+const GYRO_ERROR: f64 = 0.25 * DEGREE;
 
 /// The time from a reading that counts to the next, in seconds, at rest.
 const READ_EVERY: f64 = 0.1;

@@ -396,11 +396,14 @@ impl Steering {
         }
         let speed = approach(speed, most, self.limits.acceleration * seconds)
             .min(most.max(speed - 1.5 * self.limits.acceleration * seconds));
-        let ahead = (along + speed * LAG).clamp(0.0, part.length);
+        // Where the robot is when the motors have followed.
+        let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
+        let place = part.locate([soon.x, soon.y], along);
+        let ahead = place.along.clamp(0.0, part.length);
         let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(1.0 / part.curvature.abs().max(1e-3));
         let back = (place.aside / aim).clamp(-1.0, 1.0).asin().to_degrees();
         let heading = self.travel(part.at(ahead).heading) - back;
-        let off = wrapped(heading - pose.heading).to_radians();
+        let off = wrapped(heading - soon.heading).to_radians();
         self.speed = speed * sign;
         self.rate = speed * part.curvature + HEADING_GAIN * off;
         self.set_phase(Phase::Following { path, index, along });
