@@ -126,6 +126,8 @@ check_way(Next, Cost) :-
 
 space_estimate(space(_, _, none, _), _, _, 0) :-
     !.
+space_estimate(_, _, [], 0) :-
+    !.
 space_estimate(space(_, _, Heuristic, _), From, Goals, Estimate) :-
     estimates(Goals, Heuristic, From, inf, Estimate).
 
