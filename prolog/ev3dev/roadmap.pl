@@ -30,8 +30,9 @@ roadmap is made is the option method(Method):
 
   - visibility
     All corners of the obstacles are joined that see each other. That has the
-    shortest way, and if it has none, there is none. Its work grows with the
-    square of the number of corners.
+    shortest way, and if it has none, there is none, but where a bend would
+    have to be within 2 % of the radius. Its work grows with the square of the
+    number of corners.
   - prm
     Probabilistic roadmap: points are drawn at random, and each is joined with
     those next to it. Its work grows with the number of points.

@@ -53,7 +53,8 @@ pub enum NoWay {
     /// An obstacle is too near.
     #[error("an obstacle is too near to the goal")]
     GoalBlocked,
-    /// None was found. There is none, if it is the visibility graph that says so.
+    /// None was found. There is none, if it is the visibility graph that says so:
+    /// at least none that keeps 2 % more.
     #[error("there is no way between the obstacles")]
     None,
 }
