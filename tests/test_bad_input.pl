@@ -219,6 +219,7 @@ call_of(screen_text(number, number, trigger)).
 call_of(screen_text(number, number, trigger, options)).
 call_of(screen_image(number, number, file)).
 call_of(set_robot(number, number, port, port)).
+call_of(set_robot(number, number, port, port, options)).
 call_of(go(number)).
 call_of(turn(number)).
 call_of(ev3_sysfs(file)).

@@ -926,16 +926,5 @@ test(the_thread_takes_no_signals,
     Int is 1 << 1,
     Term is 1 << 14,
     Bits is Mask /\ (Int + Term).
-test(at_most_2_percent_of_a_core, true(Percent < 2)) :-
-    with_sim([], [clock(realtime)],
-             ( set_robot(5.6, 10.6, outB, outC),
-               steer(30, 20),
-               statistics(process_cputime, C0),
-               get_time(T0),
-               sleep(2),
-               get_time(T1),
-               statistics(process_cputime, C1),
-               Percent is 100 * (C1 - C0) / (T1 - T0),
-               pose_is_right(3, 5) )).
 
 :- end_tests(cost).

@@ -81,7 +81,7 @@ exported(screen,
            screen_text/3, screen_text/4, screen_image/3, screen_show/0,
            screen_png/1 ]).
 exported(robot,
-         [ set_robot/4, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
+         [ set_robot/4, set_robot/5, robot/4, stop/0, go/1, go/2, go_cm/2, turn/1,
            turn/2 ]).
 
 test(are_these_and_no_others, true(Missing-More == []-[])) :-
