@@ -1,5 +1,5 @@
 :- module(ev3dev_grid_compass,
-          [ compass/2,                  % +Neighbours, -Directions
+          [ grid_directions/2,          % +Neighbours, -Directions
             direction_heading/2,        % +Direction, -Heading
             direction_turned/4,         % ?Turn, +Neighbours, +Direction,
                                         % -Next
@@ -11,13 +11,13 @@
 /** <module> Directions on a grid
 */
 
-%!  compass(+Neighbours, -Directions) is det.
+%!  grid_directions(+Neighbours, -Directions) is det.
 %
 %   True if Directions, clockwise from `[0,1]` on, are those of a grid whose
 %   cells have 4 or 8 neighbours.
 
-compass(4, [[0,1], [1,0], [0,-1], [-1,0]]).
-compass(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
+grid_directions(4, [[0,1], [1,0], [0,-1], [-1,0]]).
+grid_directions(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
              [-1,1]
            ]).
 
@@ -26,7 +26,7 @@ compass(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
 %   True if Heading is that angle clockwise from up, from 0 to 315 degrees.
 
 direction_heading(Direction, Heading) :-
-    compass(8, Directions),
+    grid_directions(8, Directions),
     nth0(Eighth, Directions, Direction),
     !,
     Heading is Eighth * 45.

@@ -192,7 +192,7 @@ free_cell(Map, Cell) :-
 %   True if Direction is one of the map's, clockwise from `[0,1]` on.
 
 grid_direction(map(_, Neighbours, _, _, _, _), Direction) :-
-    compass(Neighbours, Directions),
+    grid_directions(Neighbours, Directions),
     (   ground(Direction)
     ->  memberchk(Direction, Directions)
     ;   member(Direction, Directions)
