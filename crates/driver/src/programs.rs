@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::process::{Child, Command, Stdio};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A program, and the Debian package that brings it.
@@ -105,8 +105,8 @@ impl Drop for Started {
 /// Programs that run, by a number for those that run together.
 #[derive(Debug, Default)]
 pub(crate) struct Programs {
-    running: Mutex<Vec<(u64, Started)>>,
-    next: AtomicU64,
+    running: Mutex<Vec<(u32, Started)>>,
+    next: AtomicU32,
 }
 
 impl Programs {
@@ -125,7 +125,7 @@ impl Programs {
         over.map(drop)
     }
 
-    fn are_over(&self, number: u64) -> Result<Option<()>> {
+    fn are_over(&self, number: u32) -> Result<Option<()>> {
         let mut running = self.running();
         let mine = running.iter_mut().filter(|(other, _)| *other == number);
         for (_, program) in mine {
@@ -141,7 +141,7 @@ impl Programs {
         self.running().clear();
     }
 
-    fn running(&self) -> MutexGuard<'_, Vec<(u64, Started)>> {
+    fn running(&self) -> MutexGuard<'_, Vec<(u32, Started)>> {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

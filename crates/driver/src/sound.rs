@@ -17,7 +17,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -50,7 +50,7 @@ pub struct Tone {
 pub struct Sound {
     /// How often [`stop`](Self::stop) was called. Who makes sounds ends when
     /// it changes.
-    stops: AtomicU64,
+    stops: AtomicU32,
     /// The tone generators that are on.
     on: Mutex<Vec<PathBuf>>,
     /// The programs that play.
@@ -94,7 +94,7 @@ impl Sound {
         &self,
         dev: &dyn Dev,
         time: Duration,
-        stops: u64,
+        stops: u32,
         interrupted: Interrupted,
     ) -> Result<bool> {
         let stopped = until(dev, None, Some(time), interrupted, || {
