@@ -54,8 +54,8 @@ main() {
     check_symbols "$file"
     check_texts "$file"
 
-    limit=$((2 << 20))
-    [[ $name == armel ]] && limit=$((1 << 20))
+    limit=$((3 << 20))
+    [[ $name == armel ]] && limit=$((3 << 19))
     size=$(stat -c %s "$file")
     [[ $size -le $limit ]] || complain "has $size bytes; $limit is the limit"
 

