@@ -2,6 +2,7 @@
 
 :- use_module(tree).
 :- use_module(trees).
+:- use_module(cases).
 :- use_module(simulation).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -73,7 +74,7 @@ quiet(Gyro, Goal) :-
 
 %   All that seeds answer, or complain of the first that does not.
 each_seed(Goal) :-
-    forall(between(1, 20, Seed),
+    forall(case(20, Seed),
            (   call(Goal, Seed)
            ->  true
            ;   format(user_error, "seed ~w~n", [Seed]),

@@ -2,6 +2,7 @@
 % they say so when there is no way?
 
 :- use_module(simulation).
+:- use_module(cases).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
@@ -124,11 +125,11 @@ wrong(Noise, Seed, Why) :-
 
 test(reaches_what_can_be_reached_in_200_worlds, true(Wrong == [])) :-
     findall(Seed-Why,
-            ( between(1, 200, Seed), wrong(false, Seed, Why) ),
+            ( case(200, Seed), wrong(false, Seed, Why) ),
             Wrong).
 test(does_so_with_noise_and_unequal_wheels, true(Wrong == [])) :-
     findall(Seed-Why,
-            ( between(1, 200, Seed), wrong(true, Seed, Why) ),
+            ( case(200, Seed), wrong(true, Seed, Why) ),
             Wrong).
 test(the_worlds_are_a_fair_lot) :-
     findall(Reason-Neighbours,
@@ -142,7 +143,7 @@ test(the_worlds_are_a_fair_lot) :-
              Count >= 20
            )).
 test(any_planner_will_do, [forall(planner(Planner))]) :-
-    forall(between(1, 5, Seed),
+    forall(case(5, Seed),
            ( grid(Seed, Neighbours, Cells, Goal, World),
              expected(Neighbours, Cells, Goal, Expected),
              with_sim(World,

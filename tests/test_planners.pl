@@ -1,6 +1,7 @@
 % Planners: what they claim holds, on many random maps.
 
 :- asserta(user:file_search_path(library, prolog)).
+:- use_module(cases).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
@@ -130,11 +131,11 @@ unblock(Cell) :-
 
 test(every_planner_keeps_its_claim_on_1000_maps, true(Wrong == [])) :-
     findall(Seed-Planner-Why,
-            ( between(1, 1000, Seed), wrong(Seed, Planner, Why) ),
+            ( case(1000, Seed), wrong(Seed, Planner, Why) ),
             Wrong).
-test(the_maps_are_a_fair_lot) :-
+test(the_maps_are_a_fair_lot, condition(all_cases)) :-
     findall(Solution,
-            ( between(1, 1000, Seed),
+            ( case(1000, Seed),
               task(Seed, [], Task),
               problem(Seed, Task, Problem),
               solve(a_star, Problem, Solution)
@@ -150,7 +151,7 @@ test(the_maps_are_a_fair_lot) :-
 % until none falls any more.
 test(dijkstra_agrees_with_relaxation_on_60_maps, true(Wrong == [])) :-
     findall(Seed,
-            ( between(1, 60, Seed),
+            ( case(60, Seed),
               task(Seed, [], Task),
               problem(Seed, Task, Problem),
               solve(dijkstra, Problem, Solution),
@@ -159,7 +160,7 @@ test(dijkstra_agrees_with_relaxation_on_60_maps, true(Wrong == [])) :-
             Wrong).
 test(the_heuristic_is_consistent_on_60_maps, true(Wrong == [])) :-
     findall(Seed-State-Action,
-            ( between(1, 60, Seed),
+            ( case(60, Seed),
               task(Seed, [], Task),
               Task = task(Map, _, Goal),
               problem(1, Task, problem(_, _, Options)),
@@ -174,7 +175,7 @@ test(the_heuristic_is_consistent_on_60_maps, true(Wrong == [])) :-
             Wrong).
 test(the_way_back_is_the_way_there_on_60_maps, true(Wrong == [])) :-
     findall(Seed,
-            ( between(1, 60, Seed),
+            ( case(60, Seed),
               task(Seed, [], Task),
               Task = task(Map, _, _),
               problem(1, Task, problem(_, _, Options)),
@@ -306,9 +307,10 @@ advance_by(Count, Plan, Map, State0, State) :-
 
 test(d_star_lite_repairs_as_well_as_it_replans_on_200_walks) :-
     findall(Repaired-Anew,
-            ( between(1, 200, Seed), once(walk(Seed, Repaired, Anew)) ),
+            ( case(200, Seed), once(walk(Seed, Repaired, Anew)) ),
             Walks),
-    length(Walks, 200),
+    cases(200, Count),
+    length(Walks, Count),
     aggregate_all(sum(R), member(R-_, Walks), Repaired),
     aggregate_all(sum(A), member(_-A, Walks), Anew),
     Repaired * 2 < Anew.

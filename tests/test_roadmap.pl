@@ -1,6 +1,7 @@
 % Ways between obstacles, and driving through rooms that are not wholly known.
 
 :- use_module(rooms).
+:- use_module(cases).
 :- use_module(simulation).
 :- use_module(trees).
 :- use_module(library(ev3dev)).
@@ -319,9 +320,9 @@ drives_well(Number, Options, Tolerance) :-
     ).
 
 test(a_hundred_rooms_without_a_collision) :-
-    forall(between(1, 100, Number), drives_well(Number, [], 3)).
+    forall(case(100, Number), drives_well(Number, [], 3)).
 test(a_hundred_rooms_with_noise) :-
-    forall(between(1, 100, Number),
+    forall(case(100, Number),
            ( noisy(Number, Robot),
              drives_well(Number, [seed(Number), robot(Robot)], 6) )).
 
@@ -344,7 +345,7 @@ noisy(Number, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
     Right is 5 - Left.
 
 test(shut_in_goals_are_reported) :-
-    forall(( between(1, 20, Number), room(Number, Room), shut(Room, Shut) ),
+    forall(( case(20, Number), room(Number, Room), shut(Room, Shut) ),
            ( drive_room(Shut, [], Reason, outcome(Collisions, _, _)),
              Reason-Collisions == unreachable-0 )).
 
@@ -362,7 +363,7 @@ shut(room(Known, Unknown, (X-Y)/Heading, GX-GY),
 
 %   They are no test unless whoever does not look runs into something.
 
-test(who_does_not_look_runs_into_something, [true(Hits > 20)]) :-
+test(who_does_not_look_runs_into_something, [condition(all_cases), true(Hits > 20)]) :-
     aggregate_all(count,
                   ( between(1, 100, Number),
                     room(Number, Room),

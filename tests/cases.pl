@@ -1,0 +1,41 @@
+:- module(cases,
+          [ case/2,                     % +Count, -Seed
+            cases/2,                    % +Count, -Used
+            all_cases/0
+          ]).
+
+/** <module> How many random cases a test tries
+
+All of them, unless EV3DEV_TEST_PERCENT in the environment says how many
+percent: an emulated EV3 takes twenty times as long for each.
+*/
+
+:- (   getenv('EV3DEV_TEST_PERCENT', Text)
+   ->  atom_number(Text, Percent)
+   ;   Percent = 100
+   ),
+   asserta(percent(Percent)).
+
+%!  case(+Count, -Seed) is nondet.
+%
+%   The seeds of Count cases, from 1 on, or of those of them that are tried.
+
+case(Count, Seed) :-
+    cases(Count, Used),
+    between(1, Used, Seed).
+
+%!  cases(+Count, -Used) is det.
+%
+%   True if that many of Count cases are tried: at least two.
+
+cases(Count, Used) :-
+    percent(Percent),
+    Used is max(2, Count * Percent // 100).
+
+%!  all_cases is semidet.
+%
+%   True if all are. What is said of the lot of them holds for no less.
+
+all_cases :-
+    percent(Percent),
+    Percent >= 100.
