@@ -1,6 +1,10 @@
 % Every query in the README succeeds, in the order in which they stand there.
 
 :- use_module(simulation).
+:- use_module(dev, [bytes_of/2]).
+% They run in another directory.
+:- absolute_file_name(prolog, Library, [file_type(directory)]),
+   asserta(user:file_search_path(library, Library)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(readutil)).
@@ -18,6 +22,18 @@ test(its_queries_succeed, true(Failed == [])) :-
                            \+ succeeds(Query)
                          ),
                          Failed))).
+test(its_face_is_the_picture_beside_it, true(Drawn == Kept)) :-
+    read_file_to_string('README.md', Text, []),
+    sub_string(Text, Start, _, _, "face :-"),
+    sub_string(Text, Start, _, 0, Rest),
+    setup_call_cleanup(open_string(Rest, In), read(In, (face :- Face)), close(In)),
+    !,
+    with_sim(room,
+             ( call(Face),
+               picture(Drawn),
+               screen_clear, screen_image(0, 0, 'tests/pictures/face.png'),
+               screen_show,
+               picture(Kept) )).
 test(each_example_it_names_is_there, [forall(named_example(File))]) :-
     exists_file(File).
 
@@ -53,6 +69,10 @@ queries(File, Queries) :-
               sub_string(Rest, 0, Before, _, Query)
             ),
             Queries).
+
+picture(Bytes) :-
+    tmp_file(picture, File),
+    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
 
 named_example(File) :-
     read_file_to_string('README.md', Text, []),
