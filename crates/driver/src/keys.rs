@@ -116,7 +116,8 @@ pub fn pressed(dev: &dyn Dev) -> Result<Option<Vec<Key>>> {
     let mut bits = [0; STATE_BYTES];
     match stream.key_state(&mut bits) {
         Ok(()) => Ok(Some(Key::ALL.into_iter().filter(|key| is_set(&bits, *key)).collect())),
-        Err(error) if Errno::from_io_error(&error) == Some(Errno::NOTTY) => {
+        // An emulated processor has no words for what the file does not know.
+        Err(error) if matches!(Errno::from_io_error(&error), Some(Errno::NOTTY | Errno::NOSYS)) => {
             pressed_in(&*stream, &path).map(Some)
         }
         Err(source) => Err(Error::Read { path, source }),
