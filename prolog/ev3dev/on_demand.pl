@@ -1,7 +1,9 @@
 :- module(ev3dev_on_demand,
           [ on_demand/2,                % +Library, +Predicates
-            on_demand_loaded/0
+            on_demand_loaded/0,
+            load_on_demand/0
           ]).
+:- use_module(library(lists), [member/2]).
 
 /** <module> Modules that are loaded when they are first used
 
@@ -23,7 +25,8 @@ does the like; but version 7.2.3 has none, and 9.0.4 none for exports.)
 */
 
 :- dynamic
-    stub/3.                             % Module, Name/Arity, Importer
+    stub/3,                             % Module, Name/Arity, Importer
+    replaced/2.                         % Name/Arity, Importer
 
 :- module_transparent on_demand/2.
 
@@ -42,7 +45,7 @@ define(Predicates, Library, Importer) :-
     atom_concat(ev3dev_, Name, Module),
     (   module_property(Module, file(_))
     ->  Importer:reexport(Library)
-    ;   forall('$member'(Predicate, Predicates),
+    ;   forall(member(Predicate, Predicates),
                define_stub(Predicate, Module, Library, Importer))
     ).
 
@@ -72,14 +75,24 @@ replace_stubs(Module) :-
                       replace_stub(Module, Predicate, Importer))).
 
 replace_stub(Module, Predicate, Importer) :-
+    assertz(replaced(Predicate, Importer)),
     abolish(Importer:Predicate),
     Importer:import(Module:Predicate).
 
-% Another thread may call between the two.
+% Another thread may call between these two: it waits until both are done.
 :- multifile user:exception/3.
 :- dynamic user:exception/3.
 
-user:exception(undefined_predicate, ev3dev:Name/Arity, retry) :-
-    functor(Head, Name, Arity),
-    with_mutex(ev3dev_on_demand,
-               predicate_property(ev3dev:Head, imported_from(_))).
+user:exception(undefined_predicate, Importer:Predicate, retry) :-
+    ev3dev_on_demand:replaced(Predicate, Importer),
+    with_mutex(ev3dev_on_demand, true).
+
+%!  load_on_demand is det.
+%
+%   Load all that is not loaded yet, for who looks at everything.
+
+load_on_demand :-
+    findall(Module, stub(Module, _, _), Modules0),
+    sort(Modules0, Modules),
+    forall(( member(Module, Modules), atom_concat(ev3dev_, Name, Module) ),
+           load(library(ev3dev/Name))).
