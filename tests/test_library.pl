@@ -198,6 +198,10 @@ test(threads_that_call_at_once_wait_for_the_module) :-
                      findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
                      sort(Ss, Set), print(Set).",
             "[true]").
+test(a_call_past_the_library_does_no_harm) :-
+    answers("main :- catch(ev3dev_lights:led(left, blu), error(E, _), true),
+                     catch(led(left, blu), error(F, _), true), print(E+F).",
+            "existence_error(procedure,ev3dev_lights:led/2)+domain_error(led_colour,blu)").
 test(what_is_no_predicate_is_unknown) :-
     answers("main :- catch(ev3dev:led, error(E, _), true), print(E).",
             "existence_error(procedure,ev3dev:led/0)").

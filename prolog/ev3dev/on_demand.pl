@@ -45,7 +45,9 @@ define(Predicates, Library, Importer) :-
     atom_concat(ev3dev_, Name, Module),
     (   module_property(Module, file(_))
     ->  Importer:reexport(Library)
-    ;   forall(member(Predicate, Predicates),
+    ;   % Else who calls Module:Predicate too early makes it import the stub.
+        set_module(Module:base(system)),
+        forall(member(Predicate, Predicates),
                define_stub(Predicate, Module, Library, Importer))
     ).
 
