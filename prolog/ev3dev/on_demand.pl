@@ -12,8 +12,8 @@ library(ev3dev) defines the predicates of the others as stubs:
 
 ```
 led(Light, Colour) :-
-    ev3dev_on_demand:load(library(ev3dev/lights)),
-    ev3dev_lights:led(Light, Colour).
+    ev3dev_on_demand:first_call(library(ev3dev/lights), ev3dev_lights,
+                                led(Light, Colour)).
 ```
 
 The first call loads the module. At the end of its file, which says
@@ -25,8 +25,8 @@ does the like; but version 7.2.3 has none, and 9.0.4 none for exports.)
 */
 
 :- dynamic
-    stub/3,                             % Module, Name/Arity, Importer
-    replaced/2.                         % Name/Arity, Importer
+    stubs/3,                            % Module, Predicates, Importer
+    replaced/2.                         % Predicates, Importer
 
 :- module_transparent on_demand/2.
 
@@ -47,15 +47,20 @@ define(Predicates, Library, Importer) :-
     ->  Importer:reexport(Library)
     ;   % Else who calls Module:Predicate too early makes it import the stub.
         set_module(Module:base(system)),
+        assertz(stubs(Module, Predicates, Importer)),
         forall(member(Predicate, Predicates),
                define_stub(Predicate, Module, Library, Importer))
     ).
 
 define_stub(Name/Arity, Module, Library, Importer) :-
     functor(Head, Name, Arity),
-    assertz(stub(Module, Name/Arity, Importer)),
-    assertz((Importer:Head :- ev3dev_on_demand:load(Library), Module:Head)),
+    Call = ev3dev_on_demand:first_call(Library, Module, Head),
+    assertz((Importer:Head :- Call)),
     export(Importer:Name/Arity).
+
+first_call(Library, Module, Head) :-
+    load(Library),
+    call(Module:Head).
 
 load(Library) :-
     ev3dev_on_demand:use_module(Library, []).
@@ -73,20 +78,24 @@ on_demand_loaded :-
 
 replace_stubs(Module) :-
     with_mutex(ev3dev_on_demand,
-               forall(retract(stub(Module, Predicate, Importer)),
-                      replace_stub(Module, Predicate, Importer))).
+               forall(retract(stubs(Module, Predicates, Importer)),
+                      replace_stubs(Predicates, Module, Importer))).
 
-replace_stub(Module, Predicate, Importer) :-
-    assertz(replaced(Predicate, Importer)),
-    abolish(Importer:Predicate),
-    Importer:import(Module:Predicate).
+replace_stubs(Predicates, Module, Importer) :-
+    assertz(replaced(Predicates, Importer)),
+    forall(member(Predicate, Predicates),
+           ( abolish(Importer:Predicate),
+             Importer:import(Module:Predicate)
+           )).
 
 % Another thread may call between these two: it waits until both are done.
 :- multifile user:exception/3.
 :- dynamic user:exception/3.
 
 user:exception(undefined_predicate, Importer:Predicate, retry) :-
-    ev3dev_on_demand:replaced(Predicate, Importer),
+    ev3dev_on_demand:replaced(Predicates, Importer),
+    memberchk(Predicate, Predicates),
+    !,
     with_mutex(ev3dev_on_demand, true).
 
 %!  load_on_demand is det.
@@ -94,7 +103,6 @@ user:exception(undefined_predicate, Importer:Predicate, retry) :-
 %   Load all that is not loaded yet, for who looks at everything.
 
 load_on_demand :-
-    findall(Module, stub(Module, _, _), Modules0),
-    sort(Modules0, Modules),
+    findall(Module, stubs(Module, _, _), Modules),
     forall(( member(Module, Modules), atom_concat(ev3dev_, Name, Module) ),
            load(library(ev3dev/Name))).
