@@ -127,6 +127,20 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
+    /// What each element of a list is; in one pass, and no vector of terms.
+    pub(crate) fn map_list<T>(
+        &self,
+        term: &Term<'a>,
+        of: impl FnMut(Term<'a>) -> PrologResult<T>,
+    ) -> PrologResult<Vec<T>> {
+        match term.term_type() {
+            TermType::Nil | TermType::ListPair => {
+                self.context.term_list_iter(term).map(of).collect()
+            }
+            _ => self.wrong_type("list", term),
+        }
+    }
+
     /// A list of `[X, Y]`.
     pub(crate) fn points(&self, term: &Term<'a>) -> PrologResult<Vec<[f64; 2]>> {
         let point = |term: &Term<'a>| match &*self.list(term)? {

@@ -126,7 +126,7 @@ fn types_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     types: &Term<'a>,
 ) -> PrologResult<Vec<Text>> {
-    call.list(types)?.iter().map(|kind| call.text(kind)).collect()
+    call.map_list(types, |kind| call.text(&kind))
 }
 
 /// The number of a value: sensors have `value0` to `value7`.

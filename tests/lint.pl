@@ -18,6 +18,7 @@
 :- dynamic complaint/0.
 
 main :-
+    ev3dev_on_demand:load_on_demand,
     load_again,
     check,
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
@@ -31,7 +32,7 @@ main :-
 load_again :-
     forall(library_module(Module),
            ( module_property(Module, file(File)),
-             load_files(File, [if(true)])
+             load_files(File, [if(true), imports([])])
            )).
 
 complain(What) :-

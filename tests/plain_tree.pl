@@ -144,7 +144,7 @@ sensor('lego-ev3-ir',    'IR-PROX IR-SEEK IR-REMOTE IR-REM-A IR-S-ALT IR-CAL',  
 sensor('ev3-analog-01',  'ANALOG',                                                    3, 0).
 sensor('lego-nxt-temp',  'NXT-TEMP-C NXT-TEMP-F',                                     1, 215).
 sensor(Type, Modes, Decimals, 0) :-
-    ev3dev_sensor_info:sensor_type(Type, _),
+    ev3dev:sensor_type(Type, _),
     \+ sub_atom(Type, 0, _, _, 'lego-ev3'),
     \+ memberchk(Type, ['lego-nxt-temp', 'ev3-analog-01']),
     findall(Mode, sensor_mode(Type, Mode, _, _, _, _), Names),

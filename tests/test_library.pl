@@ -86,12 +86,16 @@ exported(robot,
 
 test(are_these_and_no_others, true(Missing-More == []-[])) :-
     findall(P, ( exported(_, Ps), member(P, Ps) ), Expected),
-    findall(P,
-            ( exports(ev3dev, P) ; reexported(P) ),
-            Found0),
-    sort(Found0, Found),
+    findall(P, exports(ev3dev, P), Found),
     subtract(Expected, Found, Missing),
     subtract(Found, Expected, More).
+test(are_those_of_the_modules,
+     [ forall(exported(Name, Ps)), true(Missing-More == []-[]) ]) :-
+    use_module(library(ev3dev/Name), []),
+    atom_concat(ev3dev_, Name, Module),
+    findall(P, exports(Module, P), Found),
+    subtract(Ps, Found, Missing),
+    subtract(Found, Ps, More).
 test(each_is_defined,
      [ forall(( exported(_, Ps), member(Name/Arity, Ps) )) ]) :-
     functor(Head, Name, Arity),
@@ -100,15 +104,6 @@ test(each_is_defined,
 exports(Module, P) :-
     module_property(Module, exports(Ps)),
     member(P, Ps).
-
-reexported(P) :-
-    module_property(ev3dev, file(File)),
-    module_property(Module, file(Other)),
-    file_directory_name(File, Directory),
-    atom_concat(Directory, '/ev3dev/', Layer),
-    sub_atom(Other, 0, _, _, Layer),
-    memberchk(Module, [ev3dev_driver, ev3dev_motors, ev3dev_sensors, ev3dev_robot]),
-    exports(Module, P).
 
 :- end_tests(exports).
 
@@ -150,6 +145,70 @@ test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
 :- end_tests(loading).
 
                 /*******************************
+                *           ON DEMAND          *
+                *******************************/
+
+:- begin_tests(on_demand).
+
+answers(Program, Expected) :-
+    atomic_list_concat([":- use_module(library(ev3dev)).
+                         lights(M) :- predicate_property(led(_, _), imported_from(M)).
+                         is_loaded(M) :- module_property(M, file(_)).\n", Program],
+                       Text),
+    run_program(Text, [goal(main)], Status, Output),
+    assertion(Status-Output == exit(0)-Expected).
+
+test(nothing_is_loaded_before_it_is_used) :-
+    answers("main :- \\+ is_loaded(ev3dev_lights), \\+ is_loaded(ev3dev_screen),
+                     lights(M), print(M).",
+            "ev3dev").
+test(the_first_call_loads_the_module_and_its_exception_is_its_own) :-
+    answers("main :- catch(led(left, blu), error(E, context(P, _)), true),
+                     lights(M), print(E/P/M).",
+            "domain_error(led_colour,blu)/(led/2)/ev3dev_lights") .
+test(the_first_call_leaves_no_choice_and_solutions_are_all_there) :-
+    answers("main :- call_cleanup(catch(battery(7, _), error(_, _), true), Det = true),
+                     findall(P, lego_port(P), _),
+                     ( sensor_type('lego-ev3-us', _) -> true ),
+                     print(Det).",
+            "true").
+test(the_module_may_be_loaded_afterwards_too) :-
+    answers(":- use_module(library(ev3dev/lights)).
+             main :- lights(M), print(M).",
+            "ev3dev_lights").
+test(and_before) :-
+    run_program(":- use_module(library(ev3dev/lights)).
+                 :- use_module(library(ev3dev)).
+                 main :- predicate_property(led(_, _), imported_from(M)), print(M).",
+                [goal(main)], Status, Output),
+    assertion(Status-Output == exit(0)-"ev3dev_lights").
+test(another_module_that_imported_the_stub_gets_the_predicate) :-
+    answers(":- use_module(library(ev3dev), [tones/2 as melody, led/2]).
+             main :- catch(ev3dev:led(left, blu), error(_, _), true),
+                     catch(melody(7, 7), error(E, _), true),
+                     lights(M), print(E-M).",
+            "type_error(list,7)-ev3dev_lights").
+test(threads_that_call_at_once_wait_for_the_module) :-
+    answers("main :- findall(Id,
+                             ( between(1, 16, _),
+                               thread_create(catch(led(left, blu), error(E, _),
+                                                   ( E = domain_error(_, _) -> true
+                                                   ; throw(E) )), Id, []) ),
+                             Ids),
+                     findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
+                     sort(Ss, Set), print(Set).",
+            "[true]").
+test(a_call_past_the_library_does_no_harm) :-
+    answers("main :- catch(ev3dev_lights:led(left, blu), error(E, _), true),
+                     catch(led(left, blu), error(F, _), true), print(E+F).",
+            "existence_error(procedure,ev3dev_lights:led/2)+domain_error(led_colour,blu)").
+test(what_is_no_predicate_is_unknown) :-
+    answers("main :- catch(ev3dev:led, error(E, _), true), print(E).",
+            "existence_error(procedure,ev3dev:led/0)").
+
+:- end_tests(on_demand).
+
+                /*******************************
                 *          THE BINARY          *
                 *******************************/
 
@@ -157,17 +216,11 @@ test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
 :- begin_tests(binary).
 
 test(needs_no_libswipl, true(Needs == none)) :-
-    foreign_library(File),
+    ev3dev_library_file:library_file(File),
     read_file_to_string(File, Bytes, [encoding(octet)]),
     (   sub_string(Bytes, _, _, _, "libswipl.so")
     ->  Needs = libswipl
     ;   Needs = none
     ).
-
-foreign_library(File) :-
-    current_foreign_library(File, _),
-    atom(File),
-    file_base_name(File, 'ev3dev.so'),
-    !.
 
 :- end_tests(binary).

@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library_file, [load_library/0]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 :- load_library.
 
@@ -47,3 +48,5 @@ battery_key(voltage).
 battery_key(current).
 battery_key(percent).
 battery_key(type).
+
+:- on_demand_loaded.

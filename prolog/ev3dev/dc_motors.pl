@@ -18,6 +18,7 @@
 :- use_module(motor_moves, []).
 :- use_module(motors, []).
 :- use_module(options, [motor_options/5]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> Motors without rotation sensor, and lamps
 
@@ -203,3 +204,5 @@ must_be_ramp(Attribute, Milliseconds) :-
 
 dc_motor_attribute(Port, Attribute, Value) :-
     ev3dev_driver:attribute('dc-motor', Port, Attribute, Value).
+
+:- on_demand_loaded.

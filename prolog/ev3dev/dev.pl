@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(driver, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> Where keys, speaker and screen are
 
@@ -42,3 +43,5 @@ use_environment :-
     ).
 
 :- use_environment.
+
+:- on_demand_loaded.

@@ -9,6 +9,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> Infrared sensors
 
@@ -136,3 +137,5 @@ ir_seeker(Port, Light, Direction, Strengths) :-
 
 light_mode(pulsed, 'AC-ALL').
 light_mode(steady, 'DC-ALL').
+
+:- on_demand_loaded.

@@ -8,6 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> The keys of the brick
 
@@ -105,3 +106,5 @@ events_are([Key-Event|Rest], Source, Index) :-
     Event = Event0,
     Next is Index + 1,
     events(Source, Next, Rest).
+
+:- on_demand_loaded.

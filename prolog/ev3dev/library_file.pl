@@ -2,8 +2,9 @@
           [ load_library/0,
             library_file/1              % -File
           ]).
-:- use_module(library(shlib), [load_foreign_library/1]).
 :- use_module(library(lists), [member/2, nth0/3]).
+
+:- dynamic loaded/0.
 
 /** <module> Which of the pack's foreign libraries is for this machine
 
@@ -18,16 +19,23 @@ that of the running program is compared with that of each library.
 
 %!  load_library is det.
 %
-%   Load the pack's foreign library for this machine into the calling module.
+%   Load the pack's foreign library for this machine, unless it is loaded. It
+%   has the native predicates of all modules. (Not by library(shlib): to load
+%   that takes longer than all else here.)
 %
 %   @error existence_error(foreign_library, ev3dev) as library_file/1
 
-:- module_transparent load_library/0.
-
 load_library :-
-    context_module(Module),
-    ev3dev_library_file:library_file(File),
-    load_foreign_library(Module:File).
+    with_mutex(ev3dev_library_file, load_once).
+
+load_once :-
+    loaded,
+    !.
+load_once :-
+    library_file(File),
+    open_shared_object(File, Library),
+    call_shared_object_function(Library, install),
+    assertz(loaded).
 
 %!  library_file(-File) is det.
 %

@@ -8,6 +8,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library_file, [load_library/0]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 :- load_library.
 
@@ -165,3 +166,5 @@ must_be_milliseconds(Time) :-
     ->  true
     ;   domain_error(milliseconds, Time)
     ).
+
+:- on_demand_loaded.

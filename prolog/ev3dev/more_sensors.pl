@@ -24,6 +24,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(sensors, [sensor_reading/3]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> Sensors of the NXT and of other makers
 
@@ -276,3 +277,5 @@ energy_meter(Port, power(InV, InA, InW), power(OutV, OutA, OutW), Joules) :-
            [InV, InA, OutV, OutA, Stored, InW, OutW]),
     % The kernel gives all seven three decimals, which joules have not.
     Joules is round(Stored * 1000).
+
+:- on_demand_loaded.

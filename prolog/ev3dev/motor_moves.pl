@@ -10,6 +10,7 @@
 :- use_module(library(lists), [append/3]).
 :- use_module(driver, [tacho_motor/1]).
 :- use_module(motors, [motors_turn/2]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> More ways to run a motor
 
@@ -74,3 +75,5 @@ motor_run_direct(Port, Percent0) :-
     ;   debug(ev3dev, "there is no motor at ~w", [Port]),
         fail
     ).
+
+:- on_demand_loaded.

@@ -11,6 +11,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> What a motor is set to
 
@@ -143,3 +144,5 @@ must_be_within(Highest, Domain, Number) :-
     ->  true
     ;   domain_error(Domain, Number)
     ).
+
+:- on_demand_loaded.

@@ -15,9 +15,7 @@
             motor_wait_until/2,         % +Port, +Flag
             motor_wait/3                % +Ports, +Options, -Reason
           ]).
-:- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(halt, []).

@@ -5,7 +5,6 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 
 /** <module> Options of the pack's predicates
 

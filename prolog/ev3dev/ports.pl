@@ -8,6 +8,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(driver, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> Ports, and what is plugged into them
 
@@ -103,3 +104,5 @@ not_there(Port, What) :-
     ;   debug(ev3dev, "there is no port ~w", [Port])
     ),
     fail.
+
+:- on_demand_loaded.

@@ -9,10 +9,8 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [subtract/3]).
-:- use_module(library(option), [option/3]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
 :- use_module(sensors, [gyro_sensor/1]).

@@ -20,6 +20,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> The screen
 
@@ -274,3 +275,5 @@ screen_png(File) :-
     ->  true
     ;   no_screen
     ).
+
+:- on_demand_loaded.

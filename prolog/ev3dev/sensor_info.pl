@@ -9,6 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> What sensors there are, and what they can do
 
@@ -165,3 +166,5 @@ sensor_command(Port, Command) :-
     must_be(nonvar, Command),
     must_be(nonvar, Port),
     sensor_attribute(Port, command, Command).
+
+:- on_demand_loaded.

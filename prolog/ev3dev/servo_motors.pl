@@ -11,6 +11,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(halt, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> RC servos
 
@@ -149,3 +150,5 @@ must_be_within(Lowest, Highest, Domain, Number) :-
 
 servo_motor_attribute(Port, Attribute, Value) :-
     ev3dev_driver:attribute('servo-motor', Port, Attribute, Value).
+
+:- on_demand_loaded.

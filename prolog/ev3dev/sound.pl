@@ -11,6 +11,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
+:- use_module(on_demand, [on_demand_loaded/0]).
 
 /** <module> The speaker
 
@@ -223,3 +224,5 @@ sound_stop :-
     sound_stop_.
 
 :- at_halt(sound_stop_).
+
+:- on_demand_loaded.

@@ -27,6 +27,7 @@ old_package(Library) :-
     memberchk(Library, [filesex, plunit, process, readutil, socket, time]).
 
 main :-
+    ev3dev_on_demand:load_on_demand,
     read_list('tests/brick/swipl-7.2.3.txt'),
     expand_file_name('prolog/*.pl', Files0),
     expand_file_name('prolog/*/*.pl', Files1),
@@ -106,8 +107,9 @@ fine(_, Module:Goal) :-
         old(_, Name/Arity)
     ).
 fine(_, Goal) :-
-    predicate_property(ev3dev:Goal, imported_from(Module)),
-    atom_concat(ev3dev_, _, Module),
+    functor(Goal, Name, Arity),
+    module_property(ev3dev, exports(Exports)),
+    memberchk(Name/Arity, Exports),
     !.
 fine(Source, Goal) :-
     xref_defined(Source, Goal, How),

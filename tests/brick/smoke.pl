@@ -69,11 +69,8 @@ must(Goal) :-
     ;   throw(failed(Goal))
     ).
 
-export(Module, Name, Arity) :-
-    predicate_property(ev3dev:Head, imported_from(Module)),
-    atom_concat(ev3dev_, _, Module),
-    module_property(Module, exports(Exports)),
-    functor(Head, Name, Arity),
+export(ev3dev, Name, Arity) :-
+    module_property(ev3dev, exports(Exports)),
     member(Name/Arity, Exports).
 
 %   Called with variables, a predicate may succeed, fail, or refuse them; it
