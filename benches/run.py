@@ -236,6 +236,16 @@ def simulator():
             "kilobytes_late": late}
 
 
+def drive():
+    """The share of a core that the loop of a drive takes, in real time, over
+    that of the simulator beside it."""
+    said = subprocess.run(
+        [*SWIPL_PACK, "benches/drive.pl"], check=True, cwd=TOP,
+        capture_output=True, text=True).stdout
+    driving, running = map(float, said.split())
+    return {"driving": driving, "running": running}
+
+
 def growth(rounds):
     """Median seconds of position/2 with ever more motors."""
     times = {}
@@ -332,6 +342,9 @@ def table(results):
     print("simulator: {seconds_per_second} simulated seconds a second; "
           "{kilobytes_early} kB after 6 min, {kilobytes_late} kB after an hour"
           .format(**results["simulator"]))
+    print("the loop of a drive: {:.2f} % of a core".format(
+        100 * (results["drive_share"]["driving"]
+               - results["drive_share"]["running"])))
     if results["latency_seconds"]:
         print("from a motor's stop to the end of the wait, through FUSE: "
               + ", ".join(f"{name} {s * 1e3:.1f} ms" for name, s
@@ -369,6 +382,7 @@ def main():
     results["simulator"] = simulator()
     results["growth_seconds"] = growth(options.rounds)
     results["loading"] = loading(options.rounds)
+    results["drive_share"] = drive()
     if not options.no_callgrind and shutil.which("valgrind"):
         results["instructions"] = instructions(root)
     for tree in trees.values():
