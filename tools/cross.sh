@@ -91,8 +91,7 @@ rust_flags() {
     for prefix in "${prefixes[@]}"; do
         flags+=("--remap-path-prefix=$prefix")
     done
-    [[ $1 != armel ]] || flags+=(
-        "-Cllvm-args=-enable-machine-outliner=always -machine-outliner-reruns=2")
+    [[ $1 != armel ]] || flags+=(-Cllvm-args=-enable-machine-outliner=always)
     (IFS=$'\x1f' && printf '%s' "${flags[*]}")
 }
 
