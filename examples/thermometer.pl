@@ -14,7 +14,7 @@
 %   soon as there is no sensor.
 
 thermometer :-
-    thermometer(inf).
+    thermometer(0).
 
 thermometer(Count) :-
     temperature(_, Celsius),
@@ -28,7 +28,7 @@ thermometer(Count, Before) :-
     bar(Celsius, Bar),
     format("~t~1f~6| C ~w ~w~n", [Celsius, Trend, Bar]),
     (   Count == 1
-    ->  true
+    ->  true                            % from 0 down it never is
     ;   sleep(1),
         Left is Count - 1,
         thermometer(Left, Celsius)

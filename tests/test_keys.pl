@@ -91,8 +91,8 @@ test(does_not_wait_for_a_timeout_of_0, [forall(tree(Tree)), fail]) :-
     on_dev(Tree, ( press(Tree, up), button_wait(_, _, [timeout(0)]) )).
 test(comes_before_its_timeout, forall(tree(Tree))) :-
     waited(Tree, press(Tree, up), button_wait(up, pressed, [timeout(100)])).
-test(can_be_interrupted, [forall(tree(Tree)), throws(time_limit_exceeded)]) :-
-    on_dev(Tree, call_with_time_limit(0.05, button_wait(_, _))).
+test(can_be_interrupted, [forall(tree(Tree)), true(E == time_limit_exceeded)]) :-
+    on_dev(Tree, catch(call_with_time_limit(0.05, button_wait(_, _)), E, true)).
 test(takes_simulated_time, true(abs(Time - 2) < 0.1)) :-
     on_dev(simulator,
            ( sim_press(enter, [after(2)]),
@@ -181,10 +181,10 @@ test(compares_what_happens_with_what_is_expected, [forall(tree(Tree)), fail]) :-
            ( button_events(Events),
              play(Tree, [up]),
              Events = [down-_|_] )).
-test(can_be_interrupted, [forall(tree(Tree)), throws(time_limit_exceeded)]) :-
+test(can_be_interrupted, [forall(tree(Tree)), true(E == time_limit_exceeded)]) :-
     on_dev(Tree,
            ( button_events(Events),
-             call_with_time_limit(0.05, Events = [_|_]) )).
+             catch(call_with_time_limit(0.05, Events = [_|_]), E, true) )).
 test(fails_without_keys, fail) :-
     with_dev([], button_events(_)).
 

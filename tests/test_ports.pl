@@ -91,9 +91,9 @@ test(an_unknown_mode_throws,
     in_tree(Tree, port_mode(outA, 'dc_motor')).
 test(a_device_that_does_not_appear_fails, [fail]) :-
     with_tree([port(outA)-'ev3-output-port'], port_mode(outA, 'dc-motor')).
-test(the_wait_can_be_interrupted, throws(time_limit_exceeded)) :-
+test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
     with_tree([port(outA)-'ev3-output-port'],
-              call_with_time_limit(0.1, port_mode(outA, 'dc-motor'))).
+              catch(call_with_time_limit(0.1, port_mode(outA, 'dc-motor')), E, true)).
 test(what_is_no_mode_throws_and_writes_nothing,
      [ forall(member(Port-Mode-Error,
                      [ outA-7-type_error(atom, 7), outA-"led"-type_error(atom, _),
@@ -146,9 +146,10 @@ test(a_port_that_cannot_be_told_throws,
     in_tree(Tree, port_device(Port, Type)).
 test(a_device_that_does_not_appear_fails, [fail]) :-
     with_tree([port(outA)-'ev3-output-port'], port_device(outA, 'lego-nxt-motor')).
-test(the_wait_can_be_interrupted, throws(time_limit_exceeded)) :-
+test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
     with_tree([port(outA)-'ev3-output-port'],
-              call_with_time_limit(0.1, port_device(outA, 'lego-nxt-motor'))).
+              catch(call_with_time_limit(0.1, port_device(outA, 'lego-nxt-motor')),
+                    E, true)).
 test(an_absent_port_fails, [forall(tree(Tree)), fail]) :-
     in_tree(Tree, ( port_device(outE, _) ; port_device(outE, 'lego-nxt-motor') )).
 test(what_is_no_device_throws_and_writes_nothing,
@@ -185,11 +186,11 @@ test(others_do_not_run_before_it) :-
                     sim_trace(Trace),
                     findall(T, member(T-written(_, 'run-forever'), Trace), [T1, T2]),
                     T2 - T1 < 0.01 )).
-test(the_wait_can_be_interrupted, throws(time_limit_exceeded)) :-
+test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
     on(simulator,
        ( sim_stop, sim_start(room, [clock(scaled(0.1))]),
          sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.38),
-         call_with_time_limit(0.2, motor_run(outD, 50)) )).
+         catch(call_with_time_limit(0.2, motor_run(outD, 50)), E, true) )).
 test(what_can_never_be_written_is_told_at_once,
      [forall(behaving(Tree)), error(permission_error(write, attribute, _), _)]) :-
     on(Tree, motor_attribute(outB, max_speed, 2000)).

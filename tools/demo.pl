@@ -18,10 +18,10 @@ demo(Example, Seconds) :-
         Goal = start
     ),
     load_files(user:examples/Example, []),
-    format("~w in the world ~w, six times as fast as real:~n",
-           [Goal, World]),
+    format("~w of ~w, six times as fast as real:~n", [Goal, Example]),
     sim_start(World, [clock(scaled(6))]),
     thread_create(tell, Teller),
+    prepare(Example),
     catch(call_with_time_limit(Seconds, ignore(user:Goal)),
           time_limit_exceeded,
           stop_all_motors),
@@ -37,6 +37,33 @@ demo(Example, Seconds) :-
 demo(obstacle_avoidance, room, start).
 demo(grid_navigation, grid, start).
 demo(braitenberg, lights, vehicle(taste)).
+demo(line_following, line, start).
+demo(square, [start(0, 0, 0)], start).
+demo(slalom, Poles, start) :-
+    findall(circle(0, Y, 3), member(Y, [30, 90, 150, 210]), Poles).
+demo(remote_control, [start(0, 0, 0)], drive).
+demo(thermometer, room, thermometer).
+demo(compare_planners, grid, start).
+demo(traffic_light, room, start).
+
+%   What somebody has to do beside the robot.
+
+prepare(traffic_light) :-
+    !,
+    sim_press(enter, [after(10)]),
+    sim_press(down, [after(60)]).
+prepare(remote_control) :-
+    !,
+    sim_unplug(in4),
+    sim_plug(in4, 'lego-ev3-ir'),
+    sim_step(2),
+    sim_remote(1, [red_up, blue_up]).
+prepare(thermometer) :-
+    !,
+    sim_unplug(in1),
+    sim_plug(in1, 'lego-nxt-temp'),
+    sim_step(2).
+prepare(_).
 
 tell :-
     sim_time(Time),
