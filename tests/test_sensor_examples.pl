@@ -29,9 +29,9 @@ test(goes_on, true(Lines == ["  21.5 C = **********************",
     with_tree([in1-'lego-nxt-temp'],
               with_output_to(string(Shown), thermometer:thermometer(2))),
     split_string(Shown, "\n", "", Lines).
-test(goes_on_until_the_sensor_is_gone, true(Lines == 2)) :-
+test(goes_on_until_the_sensor_is_gone, true(Lines >= 2)) :-
     with_tree([in1-'lego-nxt-temp'],
-              ( later(1.5, unplug(in1)),
+              ( later(3, unplug(in1)),
                 with_output_to(string(Shown), ignore(thermometer:thermometer)) )),
     split_string(Shown, "\n", "", Parts),
     length(Parts, Count),
