@@ -77,7 +77,7 @@ try() {
 }
 
 run_swipl() {
-    SWIPL=$home/swipl EMULATED_HOME=$home timeout 600 "$root/tools/emulate.sh" "$name" swipl -q "$@"
+    SWIPL=$home/swipl EMULATED_HOME=$home timeout 1800 "$root/tools/emulate.sh" "$name" swipl -q "$@"
 }
 
 nothing_to_build_with() {
