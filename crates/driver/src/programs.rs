@@ -4,9 +4,13 @@ use crate::dev::{Dev, until};
 use crate::error::{Error, Result};
 use std::ffi::OsStr;
 use std::io::{self, Read};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// How a program ends that could not be started, where that is only found out
+/// later: in shells, and on an emulated processor.
+const NOT_FOUND: i32 = 127;
 
 /// A program, and the Debian package that brings it.
 #[derive(Clone, Copy, Debug)]
@@ -43,16 +47,18 @@ impl Program {
             read.map_err(|source| self.failed(&source.to_string()))?;
         }
         let status = started.child.wait().map_err(|source| self.failed(&source.to_string()))?;
-        if status.success() { Ok(printed) } else { Err(started.complaint()) }
+        if status.success() { Ok(printed) } else { Err(started.complaint(status)) }
     }
 
     fn cannot_start(self, source: &io::Error) -> Error {
         match source.kind() {
-            io::ErrorKind::NotFound => {
-                Error::NoProgram { program: self.name, package: self.package }
-            }
+            io::ErrorKind::NotFound => self.missing(),
             _ => self.failed(&source.to_string()),
         }
+    }
+
+    fn missing(self) -> Error {
+        Error::NoProgram { program: self.name, package: self.package }
     }
 
     fn failed(self, message: &str) -> Error {
@@ -79,12 +85,15 @@ impl Started {
         match status.map_err(|source| self.program.failed(&source.to_string()))? {
             None => Ok(false),
             Some(status) if status.success() => Ok(true),
-            Some(_) => Err(self.complaint()),
+            Some(status) => Err(self.complaint(status)),
         }
     }
 
     /// What it complained of.
-    fn complaint(&mut self) -> Error {
+    fn complaint(&mut self, status: ExitStatus) -> Error {
+        if status.code() == Some(NOT_FOUND) {
+            return self.program.missing();
+        }
         let mut message = String::new();
         if let Some(errors) = &mut self.child.stderr {
             // Half of it is better than none.
