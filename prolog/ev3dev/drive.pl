@@ -24,6 +24,7 @@
                 type_error/2
               ]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(options, [must_be_timeout/1]).
 :- use_module(robot, []).
 :- use_module(odometry,
               [ drive_option/2, number_value/2, robot_driven/1,
@@ -392,16 +393,6 @@ move_options(Percent, Course, Options,
     (   Course = legs(_, _)
     ->  Wait = Wait0
     ;   Wait = false
-    ).
-
-must_be_timeout(Seconds) :-
-    Seconds == infinite,
-    !.
-must_be_timeout(Seconds) :-
-    must_be(number, Seconds),
-    (   Seconds >= 0
-    ->  true
-    ;   domain_error(timeout, Seconds)
     ).
 
 ended(reached, _) :-

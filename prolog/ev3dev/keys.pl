@@ -9,6 +9,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_timeout/1]).
 
 /** <module> The keys of the brick
 
@@ -67,15 +68,6 @@ button_wait(Key, Event, Options) :-
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
     button_wait_(Key, Event, Timeout).
-
-must_be_timeout(infinite) :-
-    !.
-must_be_timeout(Seconds) :-
-    must_be(number, Seconds),
-    (   Seconds >= 0
-    ->  true
-    ;   domain_error(timeout, Seconds)
-    ).
 
 %!  button_events(-Events) is semidet.
 %
