@@ -184,6 +184,15 @@ test(play_gives_the_file_to_aplay, true(Text == Expected)) :-
              with_programs([ aplay-'echo "$@" > heard' ],
                            ( play(File), left(heard, Text) ))),
     format(string(Expected), "-q -- ~w", [File]).
+test(the_first_program_of_a_pipe_that_failed_tells_why,
+     [ forall(member(Espeak-Aplay,
+                     [ 'echo why >&2; exit 1'-'cat; echo what >&2; exit 1',
+                       'exec yes'-'echo why >&2; exit 1'
+                     ])),
+       true(Message == why) ]) :-
+    with_programs([ espeak-Espeak, aplay-Aplay ],
+                  catch(say(hello), error(_, context(_, Text)), true)),
+    atomic_list_concat([_, Message], ': ', Text).
 test(a_missing_program_is_named_with_its_package,
      [ forall(member(Goal-(Program-Package),
                      [ say(hello)-(espeak-'apt-get install espeak'),

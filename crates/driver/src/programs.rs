@@ -2,8 +2,10 @@
 use crate::Interrupted;
 use crate::dev::{Dev, until};
 use crate::error::{Error, Result};
+use nix::sys::signal::Signal;
 use std::ffi::OsStr;
 use std::io::{self, Read};
+use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,6 +13,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// How a program ends that could not be started, where that is only found out
 /// later: in shells, and on an emulated processor.
 const NOT_FOUND: i32 = 127;
+
+/// The signal that ends a program whose output nobody reads any more.
+const SIGPIPE: i32 = Signal::SIGPIPE as i32;
 
 /// A program, and the Debian package that brings it.
 #[derive(Clone, Copy, Debug)]
@@ -79,16 +84,6 @@ impl Started {
         self.child.stdout.take().map_or_else(Stdio::null, Stdio::from)
     }
 
-    /// Whether it has ended, and well.
-    fn is_over(&mut self) -> Result<bool> {
-        let status = self.child.try_wait();
-        match status.map_err(|source| self.program.failed(&source.to_string()))? {
-            None => Ok(false),
-            Some(status) if status.success() => Ok(true),
-            Some(status) => Err(self.complaint(status)),
-        }
-    }
-
     /// What it complained of.
     fn complaint(&mut self, status: ExitStatus) -> Error {
         if status.code() == Some(NOT_FOUND) {
@@ -120,7 +115,8 @@ pub(crate) struct Programs {
 
 impl Programs {
     /// Waits until all of these have ended, by themselves or by
-    /// [`end`](Self::end). However it is left, they have.
+    /// [`end`](Self::end). However it is left, they have. They are in the order
+    /// of the pipe between them.
     pub(crate) fn wait<const N: usize>(
         &self,
         dev: &dyn Dev,
@@ -134,15 +130,21 @@ impl Programs {
         over.map(drop)
     }
 
+    /// Whether all have ended. Where several did not end well, the first one
+    /// tells why, but for those that only lost the one they wrote to.
     fn are_over(&self, number: u32) -> Result<Option<()>> {
         let mut running = self.running();
-        let mine = running.iter_mut().filter(|(other, _)| *other == number);
-        for (_, program) in mine {
-            if !program.is_over()? {
-                return Ok(None);
+        let mut failed = Vec::new();
+        for (_, started) in running.iter_mut().filter(|(other, _)| *other == number) {
+            let status = started.child.try_wait();
+            match status.map_err(|source| started.program.failed(&source.to_string()))? {
+                None => return Ok(None),
+                Some(status) if status.success() => (),
+                Some(status) => failed.push((started, status)),
             }
         }
-        Ok(Some(()))
+        failed.sort_by_key(|(_, status)| status.signal() == Some(SIGPIPE));
+        failed.into_iter().next().map_or(Ok(Some(())), |(first, why)| Err(first.complaint(why)))
     }
 
     /// Ends all that run.

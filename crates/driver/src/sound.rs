@@ -116,7 +116,7 @@ impl Sound {
         let mut voice = Program::ESPEAK.start(&arguments, Stdio::null(), Stdio::piped())?;
         let quietly = ["-q"].map(OsStr::new);
         let player = Program::APLAY.start(&quietly, voice.printed(), Stdio::null())?;
-        self.programs.wait(dev, [player, voice], interrupted)
+        self.programs.wait(dev, [voice, player], interrupted)
     }
 
     /// Plays a recording, a WAV file, and waits until it is over.
