@@ -408,7 +408,7 @@ impl Tree for SimulatedFiles {
             }
         }
         paths.retain(|path| matcher.matches_path(path));
-        paths.sort();
+        paths.sort_unstable();
         Ok(paths)
     }
 

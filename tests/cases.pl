@@ -7,7 +7,7 @@
 /** <module> How many random cases a test tries
 
 All of them, unless EV3DEV_TEST_PERCENT in the environment says how many
-percent: an emulated EV3 takes twenty times as long for each.
+percent: an emulated EV3 takes twenty to two hundred times as long for each.
 */
 
 :- (   getenv('EV3DEV_TEST_PERCENT', Text)

@@ -33,9 +33,11 @@ main() {
     work=$(mktemp -d)
     trap 'rm -rf "$work"' EXIT
     unset EV3DEV_SYSFS EV3DEV_DEV EV3DEV_TEST_TREE RUST_BACKTRACE
-    # It is the Prologs that are tried here.
-    export EV3DEV_TEST_PERCENT=10
+    # It is the Prologs that are tried here. Without a floating point unit, and
+    # emulated, geometry takes two hundred times as long.
     for name; do
+        export EV3DEV_TEST_PERCENT=10
+        [[ $name != *armel ]] || EV3DEV_TEST_PERCENT=2
         try "$name"
     done
     echo "$passed passed, $failed failed"

@@ -273,7 +273,9 @@ impl Devices {
                 Err(_) => {}
             }
         }
-        detected.sort_by(|a, b| port::order(&a.port, &b.port));
+        detected.sort_unstable_by(|a, b| {
+            port::order(&a.port, &b.port).then_with(|| a.path.cmp(&b.path))
+        });
         Ok(detected)
     }
 
@@ -336,7 +338,7 @@ impl Devices {
             }
         }
         let key = |device: &Device| (device.port().to_owned(), device.entry().name.clone());
-        devices.sort_by(|a, b| {
+        devices.sort_unstable_by(|a, b| {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port::order(&a_port, &b_port).then_with(|| port::order(&a_name, &b_name))
         });

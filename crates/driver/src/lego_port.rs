@@ -51,7 +51,7 @@ pub fn devices_at(devices: &Devices, port: Option<&str>) -> Result<Vec<Arc<Devic
     }
     let port = port.map(crate::port::short);
     all.retain(|device| port.is_none_or(|port| device.port() == port));
-    all.sort_by(|a, b| crate::port::order(a.port(), b.port()));
+    all.sort_unstable_by(|a, b| crate::port::order(a.port(), b.port()));
     Ok(all)
 }
 

@@ -144,10 +144,10 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
         owners.into_iter().partition(|(_, light)| light.leds.iter().any(|led| led.0 != Hue::Any));
     // The PiStorms has its bank B on the left.
     let is_b_first = |owner: &str| owner.ends_with(":BB");
-    sides.sort_by(|(a, _), (b, _)| {
+    sides.sort_unstable_by(|(a, _), (b, _)| {
         is_b_first(b).cmp(&is_b_first(a)).then_with(|| port::order(a, b))
     });
-    lights.sort_by(|(_, a), (_, b)| port::order(&a.name, &b.name));
+    lights.sort_unstable_by(|(_, a), (_, b)| port::order(&a.name, &b.name));
     let sides = sides.into_iter().zip(["left", "right"]);
     let sides = sides.map(|((_, light), side)| Light { name: side.to_owned(), ..light });
     Ok(sides.chain(lights.into_iter().map(|(_, light)| light)).collect())

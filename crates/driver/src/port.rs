@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn ports_are_listed_in_their_natural_order() {
         let mut ports = ["spi0.1:S10", "outB", "in1:i2c80:mux1", "spi0.1:S2", "outA", "in1"];
-        ports.sort_by(|a, b| order(a, b));
+        ports.sort_unstable_by(|a, b| order(a, b));
         let sorted = ["in1", "in1:i2c80:mux1", "outA", "outB", "spi0.1:S2", "spi0.1:S10"];
         assert_eq!(ports, sorted);
         assert_eq!(order("ä1", "ä1"), Ordering::Equal);

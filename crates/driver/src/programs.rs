@@ -143,8 +143,8 @@ impl Programs {
                 Some(status) => failed.push((started, status)),
             }
         }
-        failed.sort_by_key(|(_, status)| status.signal() == Some(SIGPIPE));
-        failed.into_iter().next().map_or(Ok(Some(())), |(first, why)| Err(first.complaint(why)))
+        let first = failed.into_iter().min_by_key(|(_, status)| status.signal() == Some(SIGPIPE));
+        first.map_or(Ok(Some(())), |(started, why)| Err(started.complaint(why)))
     }
 
     /// Ends all that run.

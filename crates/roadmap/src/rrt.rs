@@ -76,7 +76,9 @@ impl Tree<'_> {
             .filter(|node| *node == nearest || distance(self.points[*node], at) <= reach)
             .collect();
         let through = |tree: &Self, node: usize| tree.cost[node] + distance(tree.points[node], at);
-        near.sort_by(|a, b| through(self, *a).total_cmp(&through(self, *b)).then(a.cmp(b)));
+        near.sort_unstable_by(|a, b| {
+            through(self, *a).total_cmp(&through(self, *b)).then(a.cmp(b))
+        });
         let best = near.iter().copied().find(|node| self.joined(self.points[*node], at));
         let parent = best.unwrap_or(nearest);
         let added = self.points.len();

@@ -120,8 +120,8 @@ pub(crate) struct Front {
     /// The newest events, and how many there were in all.
     events: VecDeque<KeyEvent>,
     pub(crate) event_count: u64,
-    /// What will be done to the keys, and when.
-    planned: Vec<KeyEvent>,
+    /// What will be done to the keys, in the order of time.
+    planned: VecDeque<KeyEvent>,
     /// What the tone generator plays, in Hz; 0 is silence.
     tone: u32,
     /// In percent.
@@ -140,7 +140,7 @@ impl Front {
             down: Vec::new(),
             events: VecDeque::new(),
             event_count: 0,
-            planned: Vec::new(),
+            planned: VecDeque::new(),
             tone: 0,
             volume: 100,
             screen: Arc::new(vec![white; depth.stride() * HEIGHT]),
@@ -161,7 +161,7 @@ impl Front {
 
     /// When the next planned thing happens, in ticks.
     pub(crate) fn next_tick(&self) -> Option<u64> {
-        let at = self.planned.iter().map(|event| event.at).min()?;
+        let at = self.planned.front()?.at;
         u64::try_from(at.as_micros()).ok().map(|at| at.div_ceil(TICK_US))
     }
 }
@@ -180,7 +180,8 @@ impl Machine {
     /// A key is pressed, or let go of, when so much virtual time has passed.
     pub fn plan_key(&mut self, key: Key, is_press: bool, after: Duration) {
         let at = self.now.saturating_add(after);
-        self.front.planned.push(KeyEvent { at, key, is_press });
+        let place = self.front.planned.partition_point(|event| event.at <= at);
+        self.front.planned.insert(place, KeyEvent { at, key, is_press });
     }
 
     /// True while somebody holds the key.
@@ -198,7 +199,7 @@ impl Machine {
     /// When a key that is planned is next pressed or let go of.
     #[must_use]
     pub fn next_key(&self) -> Option<Duration> {
-        self.front.planned.iter().map(|event| event.at).min()
+        self.front.planned.front().map(|event| event.at)
     }
 
     fn set_key(&mut self, event: KeyEvent) {
@@ -222,15 +223,9 @@ impl Machine {
 
     /// Does to the keys what is planned until this tick.
     pub(crate) fn use_keys(&mut self) {
-        if self.front.planned.is_empty() {
-            return;
-        }
         let now = Duration::from_micros(self.tick * TICK_US);
-        let mut due: Vec<_> =
-            self.front.planned.iter().copied().filter(|event| event.at <= now).collect();
-        self.front.planned.retain(|event| event.at > now);
-        due.sort_by_key(|event| event.at);
-        for event in due {
+        while let Some(event) = self.front.planned.front().copied().filter(|next| next.at <= now) {
+            self.front.planned.pop_front();
             self.set_key(event);
         }
     }
