@@ -566,6 +566,8 @@ bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
 bad([rows([1.5])],              domain_error(map_row, 1.5)).
 bad([move_cost(-1)],            type_error(positive_integer, -1)).
+bad([cell(20)],                 domain_error(grid_option, cell(20))).
+bad([start([0, 0])],            domain_error(grid_option, start([0, 0]))).
 
 test(options_are_a_list, error(type_error(list, x), _)) :-
     set_grid(x).
@@ -581,6 +583,8 @@ test(goal_has_no_direction, error(domain_error(grid_state, _), _)) :-
     with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], north) )).
 test(go_options_are_a_list, error(type_error(list, x), _)) :-
     with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], _, x) )).
+test(go_options_are_its_own, error(domain_error(grid_option, eye(7)), _)) :-
+    with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], _, [eye(7)]) )).
 test(obstacle_is_no_cell, error(domain_error(grid_cell, x), _)) :-
     obstacle_add(x).
 test(obstacle_is_unbound, error(instantiation_error, _)) :-

@@ -24,7 +24,8 @@
                 type_error/2
               ]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(options, [must_be_timeout/1]).
+:- use_module(options,
+              [must_be_options/3, must_be_timeout/1, take_options/4]).
 :- use_module(robot, []).
 :- use_module(odometry,
               [ drive_option/2, number_value/2, robot_driven/1,
@@ -97,6 +98,7 @@ takes the place of one that is under way.
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
 @error domain_error(Option, Value)
+@error domain_error(drive_option, Option) for an option that is none
 */
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
@@ -279,9 +281,10 @@ follow(Points) :-
 
 follow(Points, Options) :-
     must_be(list, Points),
-    must_be(list, Options),
+    take_options([radius], Options, Own, Rest),
+    must_be_move_options(Rest),
     points(Points, Places),
-    option(radius(Radius), Options, 0),
+    option(radius(Radius), Own, 0),
     number_value(Radius, R),
     (   R >= 0
     ->  true
@@ -289,7 +292,7 @@ follow(Points, Options) :-
     ),
     (   Places == []
     ->  true
-    ;   travel([through(Places, R)], Options)
+    ;   travel([through(Places, R)], Rest)
     ).
 
 points([], []).
@@ -317,7 +320,7 @@ point(point(X, Y), X, Y).
 %       Wait for so long at most.
 
 drive_wait(Options, Reason) :-
-    must_be(list, Options),
+    must_be_options(drive_option, [timeout], Options),
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
     robot_driven(Robot),
@@ -377,7 +380,7 @@ move(Percent, Course, Options) :-
 
 move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
-    must_be(list, Options),
+    must_be_move_options(Options),
     Speed is abs(Percent),
     drive_option(acceleration, Default),
     option(acceleration(Acceleration0), Options, Default),
@@ -394,6 +397,12 @@ move_options(Percent, Course, Options,
     ->  Wait = Wait0
     ;   Wait = false
     ).
+
+must_be_move_options(Options) :-
+    must_be_options(drive_option,
+                    [ speed, acceleration, use_gyro, stop_action, wait,
+                      timeout, reason ],
+                    Options).
 
 ended(reached, _) :-
     !.

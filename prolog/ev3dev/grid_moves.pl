@@ -13,6 +13,7 @@
 :- use_module(grid_compass).
 :- use_module(grid_knowledge).
 :- use_module(grid_map).
+:- use_module(options, [take_options/4]).
 :- use_module(sensors, [us_dist_cm/2]).
 
 /** <module> A robot that goes from cell to cell
@@ -50,17 +51,19 @@ Where it is on its grid, how it moves there, and how it looks before it does.
 %       time it is found again. By default `never`.
 %
 %   @error domain_error(Option, Value)
+%   @error domain_error(grid_option, Option) for an option that is none
 
 set_grid(Options) :-
-    must_be(list, Options),
-    grid_map(Options, Map0),
+    take_options([start/2, cell_cm, origin/2, eye, speed, fade], Options,
+                 Own, MapOptions),
+    grid_map(MapOptions, Map0),
     findall(Cell,
             ( grid_cell(Map0, Cell), \+ free_cell(Map0, Cell) ),
             Obstructed),
     grid_unknown(Map0, ev3dev_grid_knowledge:unblocked, Map),
-    start(Options, Map0, Cell, Direction),
-    metric(Options, Metric),
-    option(fade(Fade), Options, never),
+    start(Own, Map0, Cell, Direction),
+    metric(Own, Metric),
+    option(fade(Fade), Own, never),
     (   Fade == never
     ->  true
     ;   must_be_positive(fade, Fade)

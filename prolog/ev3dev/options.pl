@@ -1,5 +1,6 @@
 :- module(ev3dev_options,
           [ must_be_options/3,          % +Domain, +Names, +Options
+            take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds
             motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
           ]).
@@ -15,6 +16,7 @@ that is misspelt.
 %!  must_be_options(+Domain, +Names, +Options) is det.
 %
 %   True if Options is a list of Name(Value) or Name=Value with these Names.
+%   An option with more arguments than one is in Names as Name/Arity.
 %
 %   @error domain_error(Domain, Option) for any other Option
 
@@ -24,18 +26,43 @@ must_be_options(Domain, Names, Options) :-
 
 must_be_option(Domain, Names, Option) :-
     must_be(nonvar, Option),
-    (   option_name(Option, Name),
-        atom(Name),
-        memberchk(Name, Names)
+    (   is_option(Option, Names)
     ->  true
     ;   domain_error(Domain, Option)
     ).
 
-option_name(Name=_, Name) :-
-    !.
-option_name(Option, Name) :-
+is_option(Name=_, Names) :-
+    !,
+    atom(Name),
+    memberchk(Name, Names).
+is_option(Option, Names) :-
     compound(Option),
-    compound_name_arity(Option, Name, 1).
+    compound_name_arity(Option, Name, Arity),
+    (   Arity =:= 1
+    ->  memberchk(Name, Names)
+    ;   memberchk(Name/Arity, Names)
+    ).
+
+%!  take_options(+Names, +Options, -Taken, -Rest) is det.
+%
+%   True if Taken are those of Options that are in Names, as for
+%   must_be_options/3, and Rest are the others. So a predicate takes its own
+%   options, and leaves it to another one to refuse what is left.
+
+take_options(Names, Options, Taken, Rest) :-
+    must_be(list, Options),
+    taken(Options, Names, Taken, Rest).
+
+taken([], _, [], []).
+taken([Option|Options], Names, Taken, Rest) :-
+    must_be(nonvar, Option),
+    (   is_option(Option, Names)
+    ->  Taken = [Option|Taken1],
+        Rest = Rest1
+    ;   Taken = Taken1,
+        Rest = [Option|Rest1]
+    ),
+    taken(Options, Names, Taken1, Rest1).
 
 %!  must_be_timeout(+Seconds) is det.
 %

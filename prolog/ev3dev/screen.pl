@@ -21,6 +21,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_options/3]).
 
 /** <module> The screen
 
@@ -49,6 +50,8 @@ no screen of an EV3.
     How thick lines are, from 1 (default) to 128.
   - fill(+Boolean)
     If `true`, rectangles and circles are filled. Default is `false`.
+
+@error domain_error(screen_option, Option) for an option that is none
 */
 
 %!  screen_clear is det.
@@ -143,7 +146,7 @@ screen_arc(X0, Y0, Radius0, Start0, Sweep0, Options) :-
     draw(arc(X, Y, Radius, Start, Sweep), Options).
 
 draw(Shape, Options) :-
-    must_be(list, Options),
+    must_be_options(screen_option, [color, width, fill], Options),
     option(color(Color), Options, black),
     option(width(Width), Options, 1),
     option(fill(Fill), Options, false),
@@ -202,6 +205,7 @@ degrees(Expression, Degrees) :-
 %   @error domain_error(text_scale, Times)
 %   @error domain_error(text_align, Align)
 %   @error domain_error(screen_color, Color)
+%   @error domain_error(screen_option, Option) for an option that is none
 
 screen_text(X, Y, Text) :-
     screen_text(X, Y, Text, []).
@@ -210,7 +214,8 @@ screen_text(X0, Y0, Text, Options) :-
     place(X0, X),
     place(Y0, Y),
     must_be(atomic, Text),
-    must_be(list, Options),
+    must_be_options(screen_option, [font, scale, align, color, background],
+                    Options),
     option(font(Font), Options, medium),
     option(scale(Scale), Options, 1),
     option(align(Align), Options, left),

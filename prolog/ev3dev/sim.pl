@@ -453,9 +453,10 @@ sim_release(Key) :-
 %
 %   @error domain_error(button, Key)
 %   @error domain_error(seconds, Seconds)
+%   @error domain_error(sim_option, Option) for an option that is none
 
 sim_press(Key, Options) :-
-    must_be(list, Options),
+    must_be_options(sim_option, [after, for], Options),
     option(after(After), Options, 0),
     option(for(For), Options, 0.2),
     (   For == infinite
