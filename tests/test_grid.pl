@@ -378,10 +378,10 @@ test(jammed_wheels, Reason == stalled) :-
                plan_and_go_to([0,2], _, [reason(Reason)])
              )).
 test(without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_moves:grid_is(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
                    plan_and_go_to([1,1], _) )).
 test(a_plan_without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_moves:grid_is(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
                    execute_plan([left]) )).
 test(no_grid_without_a_robot, fail) :-
     with_sim([], ( robot, sim_unplug(outB), sim_step(2), set_grid([]) )).
