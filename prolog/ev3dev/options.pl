@@ -2,12 +2,13 @@
           [ must_be_options/3,          % +Domain, +Names, +Options
             take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds
+            must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
             motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> Options of the pack's predicates
+/** <module> Options and numbers that the pack's predicates are told
 
 An option that a predicate does not have is an error: it is most likely one
 that is misspelt.
@@ -80,6 +81,19 @@ must_be_timeout(Seconds) :-
     ;   domain_error(timeout, Seconds)
     ).
 
+%!  must_be_within(+Lowest, +Highest, +Domain, +Integer) is det.
+%
+%   True if Integer is one from Lowest to Highest.
+%
+%   @error domain_error(Domain, Integer) if it is another
+
+must_be_within(Lowest, Highest, Domain, Integer) :-
+    must_be(integer, Integer),
+    (   between(Lowest, Highest, Integer)
+    ->  true
+    ;   domain_error(Domain, Integer)
+    ).
+
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %
 %   Term is what native predicates take for the options of a move: motor_run/4
@@ -113,8 +127,4 @@ must_be_ramp(_, _, Milliseconds) :-
     Milliseconds == default,
     !.
 must_be_ramp(Attribute, Longest, Milliseconds) :-
-    must_be(integer, Milliseconds),
-    (   between(0, Longest, Milliseconds)
-    ->  true
-    ;   domain_error(Attribute, Milliseconds)
-    ).
+    must_be_within(0, Longest, Attribute, Milliseconds).

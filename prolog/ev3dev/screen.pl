@@ -21,7 +21,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_options/3]).
+:- use_module(options, [must_be_options/3, must_be_within/4]).
 
 /** <module> The screen
 
@@ -150,12 +150,8 @@ draw(Shape, Options) :-
     option(color(Color), Options, black),
     option(width(Width), Options, 1),
     option(fill(Fill), Options, false),
-    must_be(integer, Width),
+    must_be_within(1, 128, line_width, Width),
     must_be(boolean, Fill),
-    (   between(1, 128, Width)
-    ->  true
-    ;   domain_error(line_width, Width)
-    ),
     screen_draw_(Shape, style(Color, Width, Fill)).
 
 %   Numbers that the library draws with are not too large to count with.
@@ -221,11 +217,7 @@ screen_text(X0, Y0, Text, Options) :-
     option(align(Align), Options, left),
     option(color(Color), Options, black),
     option(background(Background), Options, none),
-    must_be(integer, Scale),
-    (   between(1, 16, Scale)
-    ->  true
-    ;   domain_error(text_scale, Scale)
-    ),
+    must_be_within(1, 16, text_scale, Scale),
     format(string(String), "~w", [Text]),
     screen_write_(X, Y, String,
                   letters(Color, Background, Font, Scale, Align)).
