@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/odometry.pl`, `drive.pl`, `calibrate.pl`: curves, odometry, going to places.
+//! `prolog/ev3dev/odometry.pl`, `drive_moves.pl`, `calibrate.pl`: curves, odometry, going to places.
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use crate::motors::stop_action;
@@ -74,7 +74,7 @@ predicates! {
 
     /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
     /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`.
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_drive_moves")]
     #[name("drive_")]
     semidet fn drive(context, robot, course, options, reason) {
         let call = Call::of(context, "go_to", 4);
@@ -91,7 +91,7 @@ predicates! {
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
-    #[module("ev3dev_drive")]
+    #[module("ev3dev_drive_moves")]
     #[name("drive_wait_")]
     semidet fn drive_wait(context, robot, timeout, reason) {
         let call = Call::of(context, "drive_wait", 2);

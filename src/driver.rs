@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/driver.pl`: devices, their attributes, files.
+//! `prolog/ev3dev/driver.pl`, `sysfs.pl`: devices, their attributes, files.
 use crate::call::{Call, Text, unify_atom, unify_value};
 use crate::error::wrong_value;
 use crate::state::{devices, use_files};
@@ -24,7 +24,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// subsystem_detect(?Port, ?Type, ?Path, +Pattern)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_sysfs")]
     nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
         setup => {
             let call = Call::of(context, "subsystem_detect", 4);
@@ -97,7 +97,7 @@ predicates! {
     }
 
     /// file_read(+File, -Value)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_sysfs")]
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
@@ -106,7 +106,7 @@ predicates! {
     }
 
     /// file_write(+File, +Value)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_sysfs")]
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
@@ -114,14 +114,14 @@ predicates! {
     }
 
     /// sysfs_(-Root)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_sysfs")]
     #[name("sysfs_")]
     semidet fn sysfs(_context, root) {
         unify_atom(root, &devices().tree().root().to_string_lossy())
     }
 
     /// sysfs_use_(+Root): a directory that exists.
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_sysfs")]
     #[name("sysfs_use_")]
     semidet fn sysfs_use(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);

@@ -2,6 +2,20 @@
 //!
 //! The formal term says what is wrong in terms of the program, its context
 //! which predicate was called, the file, and the kernel's own words.
+//!
+//! | the kernel says | formal term |
+//! |---|---|
+//! | `ENOENT` | `existence_error(file, Path)` |
+//! | `ENODEV`, `ENXIO` | `existence_error(Class, Port)` |
+//! | `EACCES`, `EPERM`, `EROFS` | `permission_error(Access, attribute, Path)` |
+//! | `EBUSY` | `permission_error(Access, busy_attribute, Path)` |
+//! | `EOPNOTSUPP` | `permission_error(Access, unsupported_attribute, Path)` |
+//! | `EINVAL`, `ERANGE` to a write | `domain_error(Attribute, Value)` |
+//! | `EMFILE`, `ENFILE` | `resource_error(max_files)` |
+//! | `ENOMEM` | `resource_error(no_memory)` |
+//! | anything else | `system_error(Words)` |
+//!
+//! Access is `read` or `write`.
 use crate::call::{Call, unify_atom};
 use crate::state::devices;
 use ev3_driver::error::{Access, Error};

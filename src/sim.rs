@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/sim.pl`: the simulator.
+//! `prolog/ev3dev/sim.pl`, `sim_hand.pl`, `sim_time.pl`, `sim_views.pl`: the simulator.
 use crate::call::{Call, unify_atom};
 use crate::error::{no_such, wrong_because, wrong_value};
 use crate::mount;
@@ -101,7 +101,7 @@ predicates! {
     }
 
     /// sim_pose_(-X, -Y, -Heading)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_pose_")]
     semidet fn sim_pose(_context, x, y, heading) {
         let pose = simulation()?.machine().pose();
@@ -111,7 +111,7 @@ predicates! {
     }
 
     /// sim_place_(+X, +Y, +Heading)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_place_")]
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
@@ -121,7 +121,7 @@ predicates! {
     }
 
     /// sim_add_(+Fact, -Id)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_add_")]
     semidet fn sim_add(context, term, id) {
         let call = Call::of(context, "sim_add", 1);
@@ -133,7 +133,7 @@ predicates! {
     }
 
     /// sim_remove_(+Id)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_remove_")]
     semidet fn sim_remove(context, id) {
         let id = Call::of(context, "sim_remove", 1).integer(id)?;
@@ -142,7 +142,7 @@ predicates! {
     }
 
     /// sim_plug_(+Port, +Type)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_plug_")]
     semidet fn sim_plug(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
@@ -152,7 +152,7 @@ predicates! {
     }
 
     /// sim_unplug_(+Port)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_unplug_")]
     semidet fn sim_unplug(context, port) {
         let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
@@ -160,7 +160,7 @@ predicates! {
     }
 
     /// sim_jam_(+Port, +Bool)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_jam_")]
     semidet fn sim_jam(context, port, fast) {
         let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
@@ -170,7 +170,7 @@ predicates! {
     }
 
     /// sim_show_(+Port, +Attribute, +Text)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_show_")]
     semidet fn sim_show(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
@@ -182,7 +182,7 @@ predicates! {
     }
 
     /// sim_unshow_(+Port, +Attribute)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_unshow_")]
     semidet fn sim_unshow(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
@@ -197,7 +197,7 @@ predicates! {
     }
 
     /// sim_wait_(+Seconds)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_wait_")]
     semidet fn sim_wait(context, seconds) {
         let call = Call::of(context, "sim_wait", 1);
@@ -209,7 +209,7 @@ predicates! {
     }
 
     /// sim_hold_
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_hold_")]
     semidet fn sim_hold(_context) {
         simulation()?.hold();
@@ -217,7 +217,7 @@ predicates! {
     }
 
     /// sim_release_
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_release_")]
     semidet fn sim_release(_context) {
         simulation()?.release();
@@ -225,7 +225,7 @@ predicates! {
     }
 
     /// sim_remote_(+Channel, +Buttons)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_remote_")]
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
@@ -237,7 +237,7 @@ predicates! {
     }
 
     /// sim_step_(+Seconds)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_step_")]
     semidet fn sim_step(context, seconds) {
         let call = Call::of(context, "sim_step", 1);
@@ -249,14 +249,14 @@ predicates! {
     }
 
     /// sim_time_(-Seconds)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_time_")]
     semidet fn sim_time(_context, seconds) {
         seconds.unify(simulation()?.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_snapshot_")]
     semidet fn sim_snapshot(_context, snapshot) {
         let machine = simulation()?.machine().clone();
@@ -264,7 +264,7 @@ predicates! {
     }
 
     /// sim_restore_(+Snapshot)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_time")]
     #[name("sim_restore_")]
     semidet fn sim_restore(_context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
@@ -274,7 +274,7 @@ predicates! {
     }
 
     /// sim_collisions_(-Collisions): a list of collision(Time, X, Y, Heading).
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_collisions_")]
     semidet fn sim_collisions(context, collisions) {
         let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
@@ -287,7 +287,7 @@ predicates! {
     }
 
     /// sim_trace_(-Trace): a list of at(Time, Event).
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
         let seen = simulation()?.machine().trace().clone();
@@ -318,7 +318,7 @@ predicates! {
     }
 
     /// sim_svg_(-Text)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_svg_")]
     semidet fn sim_svg(_context, text) {
         let picture = simulation()?.machine().svg();
@@ -326,7 +326,7 @@ predicates! {
     }
 
     /// sim_mount_(+Directory, ?DevDirectory)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_mount_")]
     semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
@@ -335,7 +335,7 @@ predicates! {
     }
 
     /// sim_unmount_
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_views")]
     #[name("sim_unmount_")]
     semidet fn sim_unmount(context) {
         mount::unmount(&Call::of(context, "sim_unmount", 0))

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/sim.pl`, too: the keys of the simulated brick.
+//! `prolog/ev3dev/sim_hand.pl`, too: the keys of the simulated brick.
 use crate::call::Call;
 use crate::error::wrong_value;
 use crate::sim::simulation;
@@ -15,7 +15,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// sim_key_(+Key, +IsPress)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
         let key: Key = named(&Call::of(context, "sim_press", 1), "button", key)?;
@@ -27,7 +27,7 @@ predicates! {
     }
 
     /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For is without end.
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_sim_hand")]
     #[name("sim_plan_key_")]
     semidet fn sim_plan_key(context, key, after, lasts) {
         let call = Call::of(context, "sim_press", 2);

@@ -183,6 +183,18 @@ test(what_is_no_number_throws_and_writes_nothing,
                         go_to(1, 1, [wait(1)])-type_error(_, 1),
                         go_to(1, 1, [timeout(-1)])-domain_error(timeout, -1),
                         go_to(1, 1, [use_gyro(1)])-type_error(_, 1),
+                        go_to(1, 1, [radius(5)])
+                            -domain_error(drive_option, radius(5)),
+                        go_cm(30, 10, [tmeout(5)])
+                            -domain_error(drive_option, tmeout(5)),
+                        drive_cm(10, 0, [wait])
+                            -domain_error(drive_option, wait),
+                        face(90, [sped(5)])
+                            -domain_error(drive_option, sped(5)),
+                        follow([], [raduis(5)])
+                            -domain_error(drive_option, raduis(5)),
+                        drive_wait([wait(true)], _)
+                            -domain_error(drive_option, wait(true)),
                         drive_wait(a, _)-type_error(list, a),
                         drive_option(_, _)-instantiation_error,
                         drive_option(colour, _)
@@ -194,6 +206,8 @@ test(what_is_no_number_throws_and_writes_nothing,
                         heading_wrapped(_, _)-instantiation_error,
                         calibrate(all, [], _)
                             -domain_error(calibration, all),
+                        calibrate(axle, [turn(5)], _)
+                            -domain_error(calibration_option, turn(5)),
                         calibrate(axle, [turns(0)], _)
                             -type_error(_, 0),
                         calibrate(wheels, [distance(0)], _)

@@ -378,10 +378,10 @@ test(jammed_wheels, Reason == stalled) :-
                plan_and_go_to([0,2], _, [reason(Reason)])
              )).
 test(without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_moves:grid_is(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
                    plan_and_go_to([1,1], _) )).
 test(a_plan_without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_moves:grid_is(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
                    execute_plan([left]) )).
 test(no_grid_without_a_robot, fail) :-
     with_sim([], ( robot, sim_unplug(outB), sim_step(2), set_grid([]) )).
@@ -566,6 +566,8 @@ bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
 bad([rows([1.5])],              domain_error(map_row, 1.5)).
 bad([move_cost(-1)],            type_error(positive_integer, -1)).
+bad([cell(20)],                 domain_error(grid_option, cell(20))).
+bad([start([0, 0])],            domain_error(grid_option, start([0, 0]))).
 
 test(options_are_a_list, error(type_error(list, x), _)) :-
     set_grid(x).
@@ -581,6 +583,8 @@ test(goal_has_no_direction, error(domain_error(grid_state, _), _)) :-
     with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], north) )).
 test(go_options_are_a_list, error(type_error(list, x), _)) :-
     with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], _, x) )).
+test(go_options_are_its_own, error(domain_error(grid_option, eye(7)), _)) :-
+    with_sim([], ( robot, set_grid([]), plan_and_go_to([1,1], _, [eye(7)]) )).
 test(obstacle_is_no_cell, error(domain_error(grid_cell, x), _)) :-
     obstacle_add(x).
 test(obstacle_is_unbound, error(instantiation_error, _)) :-

@@ -134,6 +134,8 @@ test(timeout_that_is_no_number, error(type_error(number, soon), _)) :-
     with_keys([], button_wait(up, pressed, [timeout(soon)])).
 test(options_that_are_no_list, error(type_error(list, 5), _)) :-
     with_keys([], button_wait(up, pressed, 5)).
+test(an_option_that_is_none, error(domain_error(button_option, tmeout(0)), _)) :-
+    with_keys([], button_wait(up, pressed, [tmeout(0)])).
 
 :- end_tests(button_wait).
 

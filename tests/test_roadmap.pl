@@ -167,6 +167,8 @@ bad(method(_), instantiation_error).
 bad(samples(-1), type_error(nonneg, -1)).
 bad(samples(1000000), domain_error(samples, 1000000)).
 bad(seed(x), type_error(integer, x)).
+bad(steps(5), domain_error(roadmap_option, steps(5))).
+bad(raduis(5), domain_error(roadmap_option, raduis(5))).
 
 test(options_that_are_no_list, error(type_error(list, x))) :-
     roadmap_path([], 0-0, 1-1, _, x).
@@ -273,6 +275,8 @@ bad(steps(few), type_error(integer, few)).
 bad(steps(-1), type_error(nonneg, -1)).
 bad(sensor(0, a, 0), type_error(evaluable, a/0)).
 bad(radius(_), instantiation_error).
+bad(sensor(0, 7), domain_error(roadmap_option, sensor(0, 7))).
+bad(length(_), domain_error(roadmap_option, length(_))).
 
 test(the_example) :-
     with_sim(room,

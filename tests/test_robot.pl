@@ -67,6 +67,9 @@ test(a_wrong_argument_throws_and_changes_nothing,
        true(Caught-Left == caught-outB) ]) :-
     with_robot(( catch(set_robot(W, A, L, R), error(Error, _), Caught = caught),
                  robot(_, _, Left, _) )).
+test(an_option_that_is_none_throws,
+     error(domain_error(robot_option, axle_ofset(1)), _)) :-
+    with_robot(set_robot(5.6, 10.6, outB, outC, [axle_ofset(1)])).
 test(a_length_that_is_no_length_throws,
      [ forall(( member(Length0, [inf, nan, 10**400, -1.0e308]), Length is Length0 )),
        error(domain_error(positive_number, _), _) ]) :-

@@ -194,6 +194,10 @@ bad(screen_text(1, 1, a, [scale(17)]), domain_error(text_scale, 17)).
 bad(screen_text(1, 1, a, [align(up)]), domain_error(text_align, up)).
 bad(screen_text(1, 1, a, [color(red)]), domain_error(screen_color, red)).
 bad(screen_text(1, 1, a, [background(red)]), domain_error(screen_color, red)).
+bad(screen_line(1, 1, 2, 2, [colour(black)]),
+    domain_error(screen_option, colour(black))).
+bad(screen_point(1, 1, [font(tiny)]), domain_error(screen_option, font(tiny))).
+bad(screen_text(1, 1, a, [size(2)]), domain_error(screen_option, size(2))).
 bad(screen_image(1, 1, _), instantiation_error).
 bad(screen_image(_, 1, 'tests/pictures/sample.png'), instantiation_error).
 

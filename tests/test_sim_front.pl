@@ -51,6 +51,8 @@ test(negative_time,
        error(domain_error(seconds, -1), _)
      ]) :-
     with_sim(room, sim_press(up, [Option])).
+test(no_such_option, error(domain_error(sim_option, until(3)), _)) :-
+    with_sim(room, sim_press(up, [until(3)])).
 test(time_that_is_no_number,
      [ forall(member(Option, [after(soon), for(long)])),
        error(type_error(number, _), _)

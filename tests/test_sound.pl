@@ -94,6 +94,8 @@ test(are_no_list, error(type_error(list, c4), _)) :-
     tones(c4).
 test(have_no_such_tempo, error(domain_error(tempo, 0), _)) :-
     tones([], [tempo(0)]).
+test(have_no_such_option, error(domain_error(tone_option, speed(60)), _)) :-
+    tones([], [speed(60)]).
 test(fail_without_a_speaker, fail) :-
     with_dev([], tones([note(c4, quarter)])).
 test(end_with_sound_stop, [forall(tree(Tree)), true(Tones == [440, 0])]) :-

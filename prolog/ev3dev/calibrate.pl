@@ -4,6 +4,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(options, [must_be_options/3]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
 :- use_module(odometry, [number_value/2, robot_driven/1]).
 :- use_module(drive, [go_cm/3, turn/3]).
@@ -56,10 +57,12 @@ So it is found out from how the robot really moves.
 %   neither a gyro nor what was measured.
 %
 %   @error domain_error(calibration, What)
+%   @error domain_error(calibration_option, Option) for an option that is none
 
 calibrate(What, Module:Options, SetRobot) :-
     must_be(atom, What),
-    must_be(list, Options),
+    must_be_options(calibration_option,
+                    [measured, length, distance, turns, speed], Options),
     robot_driven(Robot),
     (   What == wheels
     ->  wheels(Robot, Module, Options, SetRobot)

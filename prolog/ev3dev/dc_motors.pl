@@ -13,6 +13,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(halt, []).
 :- use_module(motor_moves, []).
@@ -158,15 +159,7 @@ dc_motor_states(Port, States) :-
 %   @error domain_error(polarity, Polarity)
 
 dc_motor_polarity(Port, Polarity) :-
-    var(Polarity),
-    !,
-    dc_motor_attribute(Port, polarity, Polarity).
-dc_motor_polarity(Port, Polarity) :-
-    must_be(atom, Polarity),
-    (   memberchk(Polarity, [normal, inversed])
-    ->  dc_motor_attribute(Port, polarity, Polarity)
-    ;   domain_error(polarity, Polarity)
-    ).
+    class_polarity('dc-motor', Port, Polarity).
 
 %!  dc_motor_ramps(?Port, ?Up, ?Down) is nondet.
 %
@@ -178,24 +171,10 @@ dc_motor_polarity(Port, Polarity) :-
 %   @error domain_error(ramp_down_sp, Down)
 
 dc_motor_ramps(Port, Up, Down) :-
-    var(Up),
-    var(Down),
-    !,
-    dc_motor(Port),
-    ev3dev_driver:attribute_('dc-motor', Port, ramp_up_sp, Up),
-    ev3dev_driver:attribute_('dc-motor', Port, ramp_down_sp, Down).
-dc_motor_ramps(Port, Up, Down) :-
-    must_be_ramp(ramp_up_sp, Up),
-    must_be_ramp(ramp_down_sp, Down),
-    dc_motor_attribute(Port, ramp_up_sp, Up),
-    dc_motor_attribute(Port, ramp_down_sp, Down).
-
-must_be_ramp(Attribute, Milliseconds) :-
-    must_be(integer, Milliseconds),
-    (   between(0, 10000, Milliseconds)
-    ->  true
-    ;   domain_error(Attribute, Milliseconds)
-    ).
+    class_settings('dc-motor', Port,
+                   [ setting(ramp_up_sp, 0, 10000, Up),
+                     setting(ramp_down_sp, 0, 10000, Down)
+                   ]).
 
 %!  dc_motor_attribute(?Port, +Attribute, ?Value) is nondet.
 %

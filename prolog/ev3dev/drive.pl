@@ -8,28 +8,14 @@
             steer/2,            % +Speed, +Direction
             steer/3,            % +Speed, +Direction, +Options
             drive_cm/2,         % +CmPerSecond, +DegreesPerSecond
-            drive_cm/3,         % +CmPerSecond, +DegreesPerSecond, +Options
-            go_to/2,            % +X, +Y
-            go_to/3,            % +X, +Y, +HeadingOrOptions
-            go_to/4,            % +X, +Y, +Heading, +Options
-            face/1,             % +Heading
-            face/2,             % +Heading, +Options
-            follow/1,           % +Points
-            follow/2,           % +Points, +Options
-            drive_wait/2        % +Options, -Reason
+            drive_cm/3          % +CmPerSecond, +DegreesPerSecond, +Options
           ]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(library(error),
-              [ domain_error/2, instantiation_error/1, must_be/2,
-                type_error/2
-              ]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(options, [must_be_timeout/1]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(drive_moves, [backwards/2, move/3, not_nothing/1]).
 :- use_module(robot, []).
-:- use_module(odometry,
-              [ drive_option/2, number_value/2, robot_driven/1,
-                valid_drive_option/3
-              ]).
+:- use_module(odometry, [number_value/2, robot_driven/1]).
+:- reexport(drive_moves, [drive_wait/2]).
+:- reexport(drive_to).
 :- reexport(odometry,
             [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
               drive_option/2
@@ -97,6 +83,7 @@ takes the place of one that is under way.
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
 @error domain_error(Option, Value)
+@error domain_error(drive_option, Option) for an option that is none
 */
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
@@ -212,199 +199,6 @@ drive_cm(Speed, Rate, Options) :-
     number_value(Speed, CmPerSecond),
     number_value(Rate, DegreesPerSecond),
     move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
-
-%!  go_to(+X, +Y) is semidet.
-%!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
-%!  go_to(+X, +Y, +Heading, +Options) is semidet.
-%
-%   Turn towards a place, go there, and turn to a heading if one is given.
-%   With a negative speed, back into it.
-
-go_to(X, Y) :-
-    go_to(X, Y, []).
-
-go_to(X, Y, Options) :-
-    is_list(Options),
-    !,
-    place_legs(X, Y, none, Legs),
-    travel(Legs, Options).
-go_to(X, Y, Heading) :-
-    go_to(X, Y, Heading, []).
-
-go_to(X, Y, Heading, Options) :-
-    number_value(Heading, Degrees),
-    place_legs(X, Y, Degrees, Legs),
-    travel(Legs, Options).
-
-place_legs(X, Y, Heading, Legs) :-
-    number_value(X, X1),
-    number_value(Y, Y1),
-    (   Heading == none
-    ->  Legs = [towards(X1, Y1), reach(X1, Y1)]
-    ;   % Where the axle is when the robot is there with that heading.
-        (   robot_driven(Robot)
-        ->  arg(8, Robot, Offset)
-        ;   Offset = 0
-        ),
-        X2 is X1 + Offset * sin(Heading * pi / 180),
-        Y2 is Y1 + Offset * cos(Heading * pi / 180),
-        Legs = [towards(X2, Y2), to(X2, Y2), face(Heading)]
-    ).
-
-%!  face(+Heading) is semidet.
-%!  face(+Heading, +Options) is semidet.
-%
-%   Turn on the spot to a heading, the shorter way round.
-
-face(Heading) :-
-    face(Heading, []).
-
-face(Heading, Options) :-
-    number_value(Heading, Degrees),
-    speed_option(Options, Percent),
-    move(Percent, legs([face(Degrees)], false), Options).
-
-%!  follow(+Points) is semidet.
-%!  follow(+Points, +Options) is semidet.
-%
-%   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. Another option:
-%
-%     - radius(+Cm)
-%       Round the corners with that radius, or with less where the lines are
-%       too short for it, and do not stop there.
-
-follow(Points) :-
-    follow(Points, []).
-
-follow(Points, Options) :-
-    must_be(list, Points),
-    must_be(list, Options),
-    points(Points, Places),
-    option(radius(Radius), Options, 0),
-    number_value(Radius, R),
-    (   R >= 0
-    ->  true
-    ;   domain_error(radius, R)
-    ),
-    (   Places == []
-    ->  true
-    ;   travel([through(Places, R)], Options)
-    ).
-
-points([], []).
-points([Point|Points], [[X, Y]|Places]) :-
-    (   var(Point)
-    ->  instantiation_error(Point)
-    ;   point(Point, X0, Y0)
-    ->  number_value(X0, X),
-        number_value(Y0, Y)
-    ;   type_error(point, Point)
-    ),
-    points(Points, Places).
-
-point([X, Y], X, Y).
-point(X-Y, X, Y).
-point(point(X, Y), X, Y).
-
-%!  drive_wait(+Options, -Reason) is semidet.
-%
-%   Wait until the move under way ends, as one that was started with
-%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
-%   Stops nothing. At once `reached` if there is none. Options:
-%
-%     - timeout(+Seconds)
-%       Wait for so long at most.
-
-drive_wait(Options, Reason) :-
-    must_be(list, Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
-    robot_driven(Robot),
-    catch(drive_wait_(Robot, Timeout, Reason),
-          error(existence_error(_, _), _),
-          Reason = unplugged).
-
-                /*******************************
-                *            MOVES             *
-                *******************************/
-
-travel(Legs, Options) :-
-    speed_option(Options, Percent),
-    backwards(Percent, Backwards),
-    move(Percent, legs(Legs, Backwards), Options).
-
-speed_option(Options, Percent) :-
-    must_be(list, Options),
-    drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    number_value(Speed, Percent).
-
-backwards(Direction, Backwards) :-
-    (   Direction < 0
-    ->  Backwards = true
-    ;   Backwards = false
-    ).
-
-not_nothing(Number) :-
-    (   Number =\= 0
-    ->  true
-    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
-        fail
-    ).
-
-%   Percent tells the speed; its sign is in the course.
-move(Percent, Course, Options) :-
-    move_options(Percent, Course, Options, Native),
-    option(reason(Reason), Options, _),
-    robot_driven(Robot),
-    (   catch(drive_(Robot, Course, Native, Ended), E, true)
-    ->  (   var(E)
-        ->  true
-        ;   E = error(existence_error(_, _), _),
-            option(reason(_), Options)
-        ->  Ended = unplugged
-        ;   throw(E)
-        ),
-        (   option(reason(_), Options)
-        ->  Reason = Ended
-        ;   ended(Ended, Course)
-        )
-    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
-              [Course, Percent]),
-        fail
-    ).
-
-move_options(Percent, Course, Options,
-             options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
-    must_be(list, Options),
-    Speed is abs(Percent),
-    drive_option(acceleration, Default),
-    option(acceleration(Acceleration0), Options, Default),
-    valid_drive_option(acceleration, Acceleration0, Acceleration),
-    option(stop_action(Action), Options, hold),
-    drive_option(use_gyro, Default1),
-    option(use_gyro(UseGyro), Options, Default1),
-    must_be(boolean, UseGyro),
-    option(wait(Wait0), Options, true),
-    must_be(boolean, Wait0),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
-    (   Course = legs(_, _)
-    ->  Wait = Wait0
-    ;   Wait = false
-    ).
-
-ended(reached, _) :-
-    !.
-ended(stalled, _) :-
-    !,
-    ev3dev_robot:robot(_, _, Left, Right),
-    print_message(warning, ev3dev(stalled([Left, Right]))),
-    fail.
-ended(Reason, Course) :-
-    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
-    fail.
 
                 /*******************************
                 *     PREDICATES OF ROBOT      *

@@ -10,7 +10,9 @@
 :- use_module(grid_knowledge).
 :- use_module(grid_map).
 :- use_module(grid_moves).
+:- use_module(grid_place).
 :- use_module(grid_problem).
+:- use_module(options, [must_be_options/3]).
 :- use_module(planners/search).
 :- reexport(grid_knowledge,
             [obstructed/1, obstacle_add/1, obstacle_remove/1]).
@@ -18,7 +20,7 @@
 :- reexport(grid_map,
             except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
 :- reexport(grid_problem).
-:- reexport(grid_moves, [set_grid/1, grid_place/2, state_position/2]).
+:- reexport(grid_place, [set_grid/1, grid_place/2, state_position/2]).
 
 /** <module> Finding a way over an unknown grid
 
@@ -86,17 +88,18 @@ move, unless it knows already that they are free.
 %   @error domain_error(planner, Planner)
 %   @error domain_error(grid_state, State)
 %   @error domain_error(grid_action, Action)
+%   @error domain_error(grid_option, Option) for an option that is none
 
 plan_and_go_to(Cell, Direction) :-
     plan_and_go_to(Cell, Direction, []).
 
 plan_and_go_to(Cell, Direction, Module:Options0) :-
-    must_be(list, Options0),
+    must_be_options(grid_option, [planner, reason, tell], Options0),
     meta_options(closure, Module:Options0, Options),
     option(planner(Planner0), Options, Module:d_star_lite),
     option(tell(Tell), Options, ev3dev_grid:nobody),
     planner_meant(Planner0, Planner),
-    (   grid(Map)
+    (   grid(Map, _)
     ->  true
     ;   debug(ev3dev, "there is no grid: see set_grid/1", []),
         fail

@@ -66,8 +66,8 @@ lasts(until(Time)) :-
 %   In the simulator its time counts.
 
 now(Seconds) :-
-    predicate_property(ev3dev_sim:sim_time_(_), foreign),
-    ev3dev_sim:sim_time_(Simulated),
+    predicate_property(ev3dev_sim_time:sim_time_(_), foreign),
+    ev3dev_sim_time:sim_time_(Simulated),
     !,
     Seconds = Simulated.
 now(Seconds) :-

@@ -21,6 +21,7 @@
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(grid_compass).
 :- use_module(grid_drawing).
+:- use_module(options, [must_be_options/3]).
 
 /** <module> Maps of grids
 
@@ -68,9 +69,13 @@ eight. A diagonal move also needs the two cells beside its way.
 %   @error domain_error(map_row, Row)
 %   @error domain_error(neighbours, Count)
 %   @error domain_error(bounds, Bounds) if they hold no cell
+%   @error domain_error(grid_option, Option) for an option that is none
 
 grid_map(Module:Options0, Map) :-
-    must_be(list, Options0),
+    must_be_options(grid_option,
+                    [ bounds/4, rows, obstacles, free, neighbours, move_cost,
+                      diagonal_cost, turn_cost ],
+                    Options0),
     meta_options(closure, Module:Options0, Options),
     option(rows(Rows), Options, []),
     grid_drawn(Rows, Drawn, Start, Bounds0),

@@ -9,7 +9,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_timeout/1]).
+:- use_module(options, [must_be_options/3, must_be_timeout/1]).
 
 /** <module> The keys of the brick
 
@@ -58,13 +58,14 @@ button(Key) :-
 %
 %   @error domain_error(button, Key)
 %   @error domain_error(button_event, Event)
+%   @error domain_error(button_option, Option) for an option that is none
 %   @error domain_error(timeout, Seconds)
 
 button_wait(Key, Event) :-
     button_wait_(Key, Event, infinite).
 
 button_wait(Key, Event, Options) :-
-    must_be(list, Options),
+    must_be_options(button_option, [timeout], Options),
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
     button_wait_(Key, Event, Timeout).

@@ -9,6 +9,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library_file, [load_library/0]).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_within/4]).
 
 :- load_library.
 
@@ -161,10 +162,6 @@ led_blink(Light, On, Off) :-
     ).
 
 must_be_milliseconds(Time) :-
-    must_be(integer, Time),
-    (   between(1, 2147483647, Time)
-    ->  true
-    ;   domain_error(milliseconds, Time)
-    ).
+    must_be_within(1, 2147483647, milliseconds, Time).
 
 :- on_demand_loaded.

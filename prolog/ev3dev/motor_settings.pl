@@ -8,10 +8,12 @@
             motor_hold_pid/2            % ?Port, ?PID
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_within/4]).
 
 /** <module> What a motor is set to
 
@@ -67,15 +69,7 @@ motor_duty(Port, Percent) :-
 %   @error domain_error(polarity, Polarity)
 
 motor_polarity(Port, Polarity) :-
-    var(Polarity),
-    !,
-    motor_attribute(Port, polarity, Polarity).
-motor_polarity(Port, Polarity) :-
-    must_be(atom, Polarity),
-    (   memberchk(Polarity, [normal, inversed])
-    ->  motor_attribute(Port, polarity, Polarity)
-    ;   domain_error(polarity, Polarity)
-    ).
+    class_polarity('tacho-motor', Port, Polarity).
 
 %!  motor_ramps(?Port, ?Up, ?Down) is nondet.
 %
@@ -87,17 +81,10 @@ motor_polarity(Port, Polarity) :-
 %   @error domain_error(ramp_down_sp, Down)
 
 motor_ramps(Port, Up, Down) :-
-    var(Up),
-    var(Down),
-    !,
-    tacho_motor(Port),
-    ev3dev_driver:attribute_('tacho-motor', Port, ramp_up_sp, Up),
-    ev3dev_driver:attribute_('tacho-motor', Port, ramp_down_sp, Down).
-motor_ramps(Port, Up, Down) :-
-    must_be_within(60000, ramp_up_sp, Up),
-    must_be_within(60000, ramp_down_sp, Down),
-    motor_attribute(Port, ramp_up_sp, Up),
-    motor_attribute(Port, ramp_down_sp, Down).
+    class_settings('tacho-motor', Port,
+                   [ setting(ramp_up_sp, 0, 60000, Up),
+                     setting(ramp_down_sp, 0, 60000, Down)
+                   ]).
 
 %!  motor_speed_pid(?Port, ?PID) is nondet.
 %!  motor_hold_pid(?Port, ?PID) is nondet.
@@ -134,15 +121,8 @@ motor_pid(Port, Directory, PID) :-
 must_be_pid(PID) :-
     (   PID = pid(P, I, D)
     ->  forall(member(Constant, [P, I, D]),
-               must_be_within(2147483647, pid_constant, Constant))
+               must_be_within(0, 2147483647, pid_constant, Constant))
     ;   domain_error(pid, PID)
-    ).
-
-must_be_within(Highest, Domain, Number) :-
-    must_be(integer, Number),
-    (   between(0, Highest, Number)
-    ->  true
-    ;   domain_error(Domain, Number)
     ).
 
 :- on_demand_loaded.

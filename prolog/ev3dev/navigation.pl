@@ -7,6 +7,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
+:- use_module(options, [take_options/4]).
 :- use_module(roadmap_arguments,
               [ number_option/4, roadmap_facts/2, roadmap_options/2,
                 roadmap_point/2
@@ -36,8 +37,8 @@ them the way is planned anew.
 %!  navigate_to(+Map, +Goal, +Options) is semidet.
 %
 %   Drive to Goal, `X-Y` in cm, around what Map knows and what is seen on the
-%   way. Waits. Options are those of roadmap_path/5, which apply to the way,
-%   and
+%   way. Waits. Options are those of library(ev3dev/roadmap), which apply to
+%   the way, and
 %
 %     - speed(+CmPerSecond)
 %       Default is 15.
@@ -74,15 +75,17 @@ navigate_to(Map, Goal) :-
 navigate_to(Map, Goal0, Options) :-
     roadmap_facts(Map, Facts),
     roadmap_point(Goal0, Goal),
-    roadmap_options(Options, Native),
-    number_option(radius(Radius), positive_number, Options, 8),
-    number_option(margin(Margin), nonneg, Options, 4),
-    number_option(speed(Speed), positive_number, Options, 15),
-    number_option(tolerance(Tolerance), positive_number, Options, 2),
-    option(steps(Steps), Options, 200),
+    take_options([speed, sensor/3, tolerance, reason, steps, obstacles],
+                 Options, Own, OfWay),
+    roadmap_options(OfWay, Native),
+    number_option(radius(Radius), positive_number, OfWay, 8),
+    number_option(margin(Margin), nonneg, OfWay, 4),
+    number_option(speed(Speed), positive_number, Own, 15),
+    number_option(tolerance(Tolerance), positive_number, Own, 2),
+    option(steps(Steps), Own, 200),
     must_be(integer, Steps),
     must_be(nonneg, Steps),
-    sensor(Options, Sensor),
+    sensor(Own, Sensor),
     once(us_dist_cm(Port, _)),
     views_new_(Radius, Views),
     Drive = drive(Views, Facts, Goal, Margin, Native,
@@ -93,8 +96,8 @@ navigate_to(Map, Goal0, Options) :-
         ignore(stop)),
     debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
     views_obstacles_(Views, Facts, Obstacles0),
-    option(obstacles(Obstacles), Options, _),
-    option(reason(Reason), Options, reached),
+    option(obstacles(Obstacles), Own, _),
+    option(reason(Reason), Own, reached),
     Obstacles = Obstacles0,
     Reason = Reason0.
 

@@ -1,12 +1,14 @@
 :- module(ev3dev_options,
           [ must_be_options/3,          % +Domain, +Names, +Options
+            take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds
+            must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
             motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> Options of the pack's predicates
+/** <module> Options and numbers that the pack's predicates are told
 
 An option that a predicate does not have is an error: it is most likely one
 that is misspelt.
@@ -15,6 +17,7 @@ that is misspelt.
 %!  must_be_options(+Domain, +Names, +Options) is det.
 %
 %   True if Options is a list of Name(Value) or Name=Value with these Names.
+%   An option with more arguments than one is in Names as Name/Arity.
 %
 %   @error domain_error(Domain, Option) for any other Option
 
@@ -24,18 +27,43 @@ must_be_options(Domain, Names, Options) :-
 
 must_be_option(Domain, Names, Option) :-
     must_be(nonvar, Option),
-    (   option_name(Option, Name),
-        atom(Name),
-        memberchk(Name, Names)
+    (   is_option(Option, Names)
     ->  true
     ;   domain_error(Domain, Option)
     ).
 
-option_name(Name=_, Name) :-
-    !.
-option_name(Option, Name) :-
+is_option(Name=_, Names) :-
+    !,
+    atom(Name),
+    memberchk(Name, Names).
+is_option(Option, Names) :-
     compound(Option),
-    compound_name_arity(Option, Name, 1).
+    compound_name_arity(Option, Name, Arity),
+    (   Arity =:= 1
+    ->  memberchk(Name, Names)
+    ;   memberchk(Name/Arity, Names)
+    ).
+
+%!  take_options(+Names, +Options, -Taken, -Rest) is det.
+%
+%   True if Taken are those of Options that are in Names, as for
+%   must_be_options/3, and Rest are the others. So a predicate takes its own
+%   options, and leaves it to another one to refuse what is left.
+
+take_options(Names, Options, Taken, Rest) :-
+    must_be(list, Options),
+    taken(Options, Names, Taken, Rest).
+
+taken([], _, [], []).
+taken([Option|Options], Names, Taken, Rest) :-
+    must_be(nonvar, Option),
+    (   is_option(Option, Names)
+    ->  Taken = [Option|Taken1],
+        Rest = Rest1
+    ;   Taken = Taken1,
+        Rest = [Option|Rest1]
+    ),
+    taken(Options, Names, Taken1, Rest1).
 
 %!  must_be_timeout(+Seconds) is det.
 %
@@ -51,6 +79,19 @@ must_be_timeout(Seconds) :-
     (   Seconds >= 0
     ->  true
     ;   domain_error(timeout, Seconds)
+    ).
+
+%!  must_be_within(+Lowest, +Highest, +Domain, +Integer) is det.
+%
+%   True if Integer is one from Lowest to Highest.
+%
+%   @error domain_error(Domain, Integer) if it is another
+
+must_be_within(Lowest, Highest, Domain, Integer) :-
+    must_be(integer, Integer),
+    (   between(Lowest, Highest, Integer)
+    ->  true
+    ;   domain_error(Domain, Integer)
     ).
 
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
@@ -86,8 +127,4 @@ must_be_ramp(_, _, Milliseconds) :-
     Milliseconds == default,
     !.
 must_be_ramp(Attribute, Longest, Milliseconds) :-
-    must_be(integer, Milliseconds),
-    (   between(0, Longest, Milliseconds)
-    ->  true
-    ;   domain_error(Attribute, Milliseconds)
-    ).
+    must_be_within(0, Longest, Attribute, Milliseconds).

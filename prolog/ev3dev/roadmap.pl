@@ -7,6 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
+:- use_module(options, [take_options/4]).
 :- use_module(roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
 :- reexport(navigation).
@@ -90,14 +91,13 @@ expressions.
 %   @error domain_error(point, Point)
 %   @error domain_error(roadmap_method, Method)
 %   @error domain_error(Domain, Value) for an option that makes no sense
+%   @error domain_error(roadmap_option, Option) for an option that is none
 
 roadmap_path(Map, Start, Goal, Points) :-
     roadmap_path(Map, Start, Goal, Points, []).
 
 roadmap_path(Map, Start, Goal, Points, Options) :-
-    way(Map, Start, Goal, Options, way(Length, Points0, _)),
-    option(length(Length0), Options, _),
-    Length0 = Length,
+    way(Map, Start, Goal, Options, Points0, _),
     Points = Points0.
 
 %!  roadmap_legs(+Map, +Start, +Goal, -Legs, +Options) is semidet.
@@ -110,22 +110,23 @@ roadmap_path(Map, Start, Goal, Points, Options) :-
 %       right, negative if on the left, and Angle is positive, in degrees.
 
 roadmap_legs(Map, Start, Goal, Legs, Options) :-
-    way(Map, Start, Goal, Options, way(Length, _, Legs0)),
-    option(length(Length0), Options, _),
-    Length0 = Length,
+    way(Map, Start, Goal, Options, _, Legs0),
     Legs = Legs0.
 
-way(Map, Start0, Goal0, Options, Way) :-
+way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_facts(Map, Facts),
     roadmap_point(Start0, Start),
     roadmap_point(Goal0, Goal),
-    roadmap_options(Options, Native),
+    take_options([length], Options, Own, Rest),
+    roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
     (   Found = no_way(Why)
     ->  debug(ev3dev, "no way from ~p to ~p: ~w", [Start, Goal, Why]),
         fail
-    ;   Way = Found
-    ).
+    ;   Found = way(Length0, Points, Legs)
+    ),
+    option(length(Length), Own, _),
+    Length = Length0.
 
 %!  roadmap_svg(+Map, +Start, +Goal, +File, +Options) is semidet.
 %

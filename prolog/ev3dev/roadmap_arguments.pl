@@ -8,6 +8,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(fact_file, [located_facts/3]).
+:- use_module(options, [must_be_options/3]).
 
 /** <module> Arguments of planning and navigation
 
@@ -38,7 +39,9 @@ roadmap_facts(Map, Facts) :-
 %   @error as roadmap_path/5
 
 roadmap_options(Options, options(Keep, Arc, Method, Samples, Seed)) :-
-    must_be(list, Options),
+    must_be_options(roadmap_option,
+                    [radius, margin, method, arc_radius, samples, seed],
+                    Options),
     number_option(radius(Radius), positive_number, Options, 8),
     number_option(margin(Margin), nonneg, Options, 4),
     Keep is Radius + Margin,

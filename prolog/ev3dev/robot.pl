@@ -13,6 +13,7 @@
 :- use_module(library(lists), [subtract/3]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
+:- use_module(options, [must_be_options/3]).
 :- use_module(sensors, [gyro_sensor/1]).
 
 /** <module> A robot with two wheels
@@ -68,6 +69,7 @@ Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 %
 %   @error domain_error(positive_number, Length)
 %   @error domain_error(side, Side)
+%   @error domain_error(robot_option, Option) for an option that is none
 
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).
@@ -89,7 +91,9 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
     forall(robot_hook, true).
 
 build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
-    must_be(list, Options),
+    must_be_options(robot_option,
+                    [left_diameter, right_diameter, inverted, axle_offset],
+                    Options),
     option(left_diameter(LeftDiameter), Options, WheelDiameter),
     option(right_diameter(RightDiameter), Options, WheelDiameter),
     option(inverted(Sides), Options, []),

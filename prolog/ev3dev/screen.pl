@@ -21,6 +21,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_options/3, must_be_within/4]).
 
 /** <module> The screen
 
@@ -49,6 +50,8 @@ no screen of an EV3.
     How thick lines are, from 1 (default) to 128.
   - fill(+Boolean)
     If `true`, rectangles and circles are filled. Default is `false`.
+
+@error domain_error(screen_option, Option) for an option that is none
 */
 
 %!  screen_clear is det.
@@ -143,16 +146,12 @@ screen_arc(X0, Y0, Radius0, Start0, Sweep0, Options) :-
     draw(arc(X, Y, Radius, Start, Sweep), Options).
 
 draw(Shape, Options) :-
-    must_be(list, Options),
+    must_be_options(screen_option, [color, width, fill], Options),
     option(color(Color), Options, black),
     option(width(Width), Options, 1),
     option(fill(Fill), Options, false),
-    must_be(integer, Width),
+    must_be_within(1, 128, line_width, Width),
     must_be(boolean, Fill),
-    (   between(1, 128, Width)
-    ->  true
-    ;   domain_error(line_width, Width)
-    ),
     screen_draw_(Shape, style(Color, Width, Fill)).
 
 %   Numbers that the library draws with are not too large to count with.
@@ -202,6 +201,7 @@ degrees(Expression, Degrees) :-
 %   @error domain_error(text_scale, Times)
 %   @error domain_error(text_align, Align)
 %   @error domain_error(screen_color, Color)
+%   @error domain_error(screen_option, Option) for an option that is none
 
 screen_text(X, Y, Text) :-
     screen_text(X, Y, Text, []).
@@ -210,17 +210,14 @@ screen_text(X0, Y0, Text, Options) :-
     place(X0, X),
     place(Y0, Y),
     must_be(atomic, Text),
-    must_be(list, Options),
+    must_be_options(screen_option, [font, scale, align, color, background],
+                    Options),
     option(font(Font), Options, medium),
     option(scale(Scale), Options, 1),
     option(align(Align), Options, left),
     option(color(Color), Options, black),
     option(background(Background), Options, none),
-    must_be(integer, Scale),
-    (   between(1, 16, Scale)
-    ->  true
-    ;   domain_error(text_scale, Scale)
-    ),
+    must_be_within(1, 16, text_scale, Scale),
     format(string(String), "~w", [Text]),
     screen_write_(X, Y, String,
                   letters(Color, Background, Font, Scale, Align)).

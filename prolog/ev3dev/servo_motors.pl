@@ -8,7 +8,7 @@
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(halt, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
@@ -82,15 +82,7 @@ cannot(Port, Position) :-
 %   @error domain_error(polarity, Polarity)
 
 servo_motor_polarity(Port, Polarity) :-
-    var(Polarity),
-    !,
-    servo_motor_attribute(Port, polarity, Polarity).
-servo_motor_polarity(Port, Polarity) :-
-    must_be(atom, Polarity),
-    (   memberchk(Polarity, [normal, inversed])
-    ->  servo_motor_attribute(Port, polarity, Polarity)
-    ;   domain_error(polarity, Polarity)
-    ).
+    class_polarity('servo-motor', Port, Polarity).
 
 %!  servo_motor_rate(?Port, ?Milliseconds) is nondet.
 %
@@ -102,12 +94,8 @@ servo_motor_polarity(Port, Polarity) :-
 %          controller has one speed only
 
 servo_motor_rate(Port, Milliseconds) :-
-    var(Milliseconds),
-    !,
-    servo_motor_attribute(Port, rate_sp, Milliseconds).
-servo_motor_rate(Port, Milliseconds) :-
-    must_be_within(0, 2147483647, rate_sp, Milliseconds),
-    servo_motor_attribute(Port, rate_sp, Milliseconds).
+    class_settings('servo-motor', Port,
+                   [setting(rate_sp, 0, 2147483647, Milliseconds)]).
 
 %!  servo_motor_pulses(?Port, ?Min, ?Mid, ?Max) is nondet.
 %
@@ -120,28 +108,11 @@ servo_motor_rate(Port, Milliseconds) :-
 %   @error domain_error(max_pulse_sp, Max)
 
 servo_motor_pulses(Port, Min, Mid, Max) :-
-    var(Min),
-    var(Mid),
-    var(Max),
-    !,
-    servo_motor(Port),
-    ev3dev_driver:attribute_('servo-motor', Port, min_pulse_sp, Min),
-    ev3dev_driver:attribute_('servo-motor', Port, mid_pulse_sp, Mid),
-    ev3dev_driver:attribute_('servo-motor', Port, max_pulse_sp, Max).
-servo_motor_pulses(Port, Min, Mid, Max) :-
-    must_be_within(0, 1000, min_pulse_sp, Min),
-    must_be_within(1000, 2000, mid_pulse_sp, Mid),
-    must_be_within(2000, 3000, max_pulse_sp, Max),
-    servo_motor_attribute(Port, min_pulse_sp, Min),
-    servo_motor_attribute(Port, mid_pulse_sp, Mid),
-    servo_motor_attribute(Port, max_pulse_sp, Max).
-
-must_be_within(Lowest, Highest, Domain, Number) :-
-    must_be(integer, Number),
-    (   between(Lowest, Highest, Number)
-    ->  true
-    ;   domain_error(Domain, Number)
-    ).
+    class_settings('servo-motor', Port,
+                   [ setting(min_pulse_sp, 0, 1000, Min),
+                     setting(mid_pulse_sp, 1000, 2000, Mid),
+                     setting(max_pulse_sp, 2000, 3000, Max)
+                   ]).
 
 %!  servo_motor_attribute(?Port, +Attribute, ?Value) is nondet.
 %

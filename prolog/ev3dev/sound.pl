@@ -12,6 +12,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(dev, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(options, [must_be_options/3]).
 
 /** <module> The speaker
 
@@ -65,13 +66,14 @@ tone(Hertz, Milliseconds) :-
 %   @error domain_error(note, Pitch)
 %   @error domain_error(note_length, Length)
 %   @error domain_error(tempo, QuartersPerMinute)
+%   @error domain_error(tone_option, Option) for an option that is none
 
 tones(Tones) :-
     tones(Tones, []).
 
 tones(Tones, Options) :-
     must_be(list, Tones),
-    must_be(list, Options),
+    must_be_options(tone_option, [tempo], Options),
     option(tempo(Tempo), Options, 120),
     must_be(number, Tempo),
     (   Tempo > 0

@@ -5,15 +5,15 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use fuser::{
-    FileAttr, FileHandle, FileType, Filesystem, FopenFlags, Generation, INodeNo, LockOwner,
-    OpenAccMode, OpenFlags, PollEvents, PollFlags, PollNotifier, RenameFlags, ReplyAttr,
-    ReplyCreate, ReplyData, ReplyDirectory, ReplyEmpty, ReplyEntry, ReplyOpen, ReplyPoll,
-    ReplyWrite, Request, TimeOrNow, WriteFlags,
+    BsdFileFlags, FileAttr, FileHandle, FileType, Filesystem, FopenFlags, Generation, INodeNo,
+    IoctlFlags, LockOwner, OpenAccMode, OpenFlags, PollEvents, PollFlags, PollNotifier,
+    RenameFlags, ReplyAttr, ReplyCreate, ReplyData, ReplyDirectory, ReplyEmpty, ReplyEntry,
+    ReplyIoctl, ReplyOpen, ReplyPoll, ReplyWrite, Request, TimeOrNow, WriteFlags,
 };
 
-use super::{Open, locked};
+use super::open::{Open, locked};
+use super::served::Served;
 use crate::attr::Access;
-use crate::descriptor::Descriptor;
 use crate::errno::Errno;
 use crate::machine::Machine;
 use crate::shared::Shared;
@@ -22,18 +22,23 @@ use crate::tree::{FileKind, NodeId, Stat};
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;
 
+/// From asm-generic/fcntl.h, which ARM and x86 use.
+const O_NONBLOCK: i32 = 0o4000;
+
 /// The file system that the kernel talks to.
 #[derive(Debug)]
-pub(super) struct Files {
+pub(super) struct Files<F> {
     pub(super) shared: Arc<Shared>,
-    pub(super) open: Arc<Mutex<Open>>,
+    pub(super) open: Arc<Mutex<Open<F>>>,
 }
 
-pub(super) fn fuse_errno(errno: Errno) -> fuser::Errno {
-    fuser::Errno::from_i32(errno.0)
+impl From<Errno> for fuser::Errno {
+    fn from(errno: Errno) -> fuser::Errno {
+        fuser::Errno::from_i32(errno.0)
+    }
 }
 
-pub(super) fn file_type(kind: FileKind) -> FileType {
+fn file_type(kind: FileKind) -> FileType {
     match kind {
         FileKind::Directory => FileType::Directory,
         FileKind::File => FileType::RegularFile,
@@ -41,7 +46,7 @@ pub(super) fn file_type(kind: FileKind) -> FileType {
 }
 
 /// Whoever asks is shown as the owner: on the brick the group `ev3dev` does that.
-pub(super) fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
+fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
     let time: SystemTime = UNIX_EPOCH + machine.now();
     FileAttr {
         ino: INodeNo(stat.node.0),
@@ -62,14 +67,15 @@ pub(super) fn attributes(stat: Stat, machine: &Machine, request: &Request) -> Fi
     }
 }
 
-impl Files {
+impl<F: Served> Files<F> {
     fn stat(&self, node: NodeId, request: &Request) -> Result<FileAttr, Errno> {
         let machine = self.shared.lock();
-        machine.stat(node).map(|stat| attributes(stat, &machine, request))
+        F::stat(&machine, node).map(|stat| attributes(stat, &machine, request))
     }
 
     fn find(&self, parent: NodeId, name: &OsStr, request: &Request) -> Result<FileAttr, Errno> {
-        let node = self.shared.lock().lookup(parent, name.to_str().ok_or(Errno::ENOENT)?)?;
+        let name = name.to_str().ok_or(Errno::ENOENT)?;
+        let node = F::lookup(&self.shared.lock(), parent, name)?;
         self.stat(node, request)
     }
 
@@ -79,53 +85,32 @@ impl Files {
             OpenAccMode::O_WRONLY => Access::WriteOnly,
             OpenAccMode::O_RDWR => Access::ReadWrite,
         };
-        self.shared.lock().open_node(node, access)?;
-        let mut open = locked(&self.open);
-        open.next += 1;
-        let handle = open.next;
-        open.files.insert(handle, Descriptor::new(node));
-        Ok(handle)
+        let file = F::open(&self.shared.lock(), node, access)?;
+        Ok(locked(&self.open).insert(file))
     }
 
-    fn read_file(&self, handle: u64, offset: u64, size: u32) -> Result<Vec<u8>, Errno> {
-        let mut machine = self.shared.lock();
-        let mut open = locked(&self.open);
-        let file = open.files.get_mut(&handle).ok_or(Errno::ENODEV)?;
-        let mut buffer = vec![0; usize::try_from(size).unwrap_or(0).min(4096)];
-        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
-        let length = file.pread(&mut machine, offset, &mut buffer)?;
-        buffer.truncate(length);
-        Ok(buffer)
-    }
-
-    fn write_file(&self, node: NodeId, data: &[u8], reply: ReplyWrite) {
-        let mut machine = self.shared.lock();
-        let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
-        match machine.write(node, data) {
-            Ok(written) if written.blocks.is_zero() => reply.written(length),
-            Ok(written) => {
-                let due = machine.now() + written.blocks;
-                locked(&self.open).writes.push((due, length, reply));
-            }
-            Err(errno) => reply.error(fuse_errno(errno)),
-        }
-        drop(machine);
-        self.shared.wake();
+    fn list(&self, ino: INodeNo) -> Result<Vec<(INodeNo, FileType, String)>, Errno> {
+        let entries = F::read_dir(&self.shared.lock(), NodeId(ino.0))?;
+        let dots = [".", ".."].map(|name| (ino, FileType::Directory, name.to_owned()));
+        let entries = entries
+            .into_iter()
+            .map(|entry| (INodeNo(entry.node.0), file_type(entry.kind), entry.name));
+        Ok(dots.into_iter().chain(entries).collect())
     }
 }
 
-impl Filesystem for Files {
+impl<F: Served> Filesystem for Files<F> {
     fn lookup(&self, request: &Request, parent: INodeNo, name: &OsStr, reply: ReplyEntry) {
         match self.find(NodeId(parent.0), name, request) {
             Ok(attr) => reply.entry(&NO_CACHE, &attr, Generation(0)),
-            Err(errno) => reply.error(fuse_errno(errno)),
+            Err(errno) => reply.error(errno.into()),
         }
     }
 
     fn getattr(&self, request: &Request, ino: INodeNo, _: Option<FileHandle>, reply: ReplyAttr) {
         match self.stat(NodeId(ino.0), request) {
             Ok(attr) => reply.attr(&NO_CACHE, &attr),
-            Err(errno) => reply.error(fuse_errno(errno)),
+            Err(errno) => reply.error(errno.into()),
         }
     }
 
@@ -145,17 +130,17 @@ impl Filesystem for Files {
         _crtime: Option<SystemTime>,
         _chgtime: Option<SystemTime>,
         _bkuptime: Option<SystemTime>,
-        _flags: Option<fuser::BsdFileFlags>,
+        _flags: Option<BsdFileFlags>,
         reply: ReplyAttr,
     ) {
         if mode.is_some() || uid.is_some() || gid.is_some() {
-            reply.error(fuse_errno(Errno::EPERM));
+            reply.error(Errno::EPERM.into());
         } else {
             self.getattr(request, ino, fh, reply);
         }
     }
 
-    // What sysfs does not have: its tree is the drivers'. A new file is EACCES, the rest EPERM.
+    // What neither tree lets a program do: they are the drivers'. A new file is always EACCES.
 
     fn create(
         &self,
@@ -167,7 +152,7 @@ impl Filesystem for Files {
         _flags: i32,
         reply: ReplyCreate,
     ) {
-        reply.error(fuse_errno(Errno::EACCES));
+        reply.error(Errno::EACCES.into());
     }
 
     fn mkdir(
@@ -179,15 +164,15 @@ impl Filesystem for Files {
         _umask: u32,
         reply: ReplyEntry,
     ) {
-        reply.error(fuse_errno(Errno::EPERM));
+        reply.error(F::REFUSAL.into());
     }
 
     fn unlink(&self, _: &Request, _parent: INodeNo, _name: &OsStr, reply: ReplyEmpty) {
-        reply.error(fuse_errno(Errno::EPERM));
+        reply.error(F::REFUSAL.into());
     }
 
     fn rmdir(&self, _: &Request, _parent: INodeNo, _name: &OsStr, reply: ReplyEmpty) {
-        reply.error(fuse_errno(Errno::EPERM));
+        reply.error(F::REFUSAL.into());
     }
 
     fn rename(
@@ -200,13 +185,13 @@ impl Filesystem for Files {
         _flags: RenameFlags,
         reply: ReplyEmpty,
     ) {
-        reply.error(fuse_errno(Errno::EPERM));
+        reply.error(F::REFUSAL.into());
     }
 
     fn open(&self, _: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
         match self.open_file(NodeId(ino.0), flags) {
             Ok(handle) => reply.opened(FileHandle(handle), FopenFlags::FOPEN_DIRECT_IO),
-            Err(errno) => reply.error(fuse_errno(errno)),
+            Err(errno) => reply.error(errno.into()),
         }
     }
 
@@ -217,29 +202,65 @@ impl Filesystem for Files {
         fh: FileHandle,
         offset: u64,
         size: u32,
-        _flags: OpenFlags,
+        flags: OpenFlags,
         _lock_owner: Option<LockOwner>,
         reply: ReplyData,
     ) {
-        match self.read_file(fh.0, offset, size) {
+        let mut machine = self.shared.lock();
+        let mut open = locked(&self.open);
+        match open.read(&mut machine, fh.0, offset, size) {
             Ok(bytes) => reply.data(&bytes),
-            Err(errno) => reply.error(fuse_errno(errno)),
+            Err(Errno::EAGAIN) if flags.0 & O_NONBLOCK == 0 => open.read_later(fh.0, size, reply),
+            Err(errno) => reply.error(errno.into()),
         }
     }
 
     fn write(
         &self,
         _: &Request,
-        ino: INodeNo,
-        _fh: FileHandle,
-        _offset: u64,
+        _ino: INodeNo,
+        fh: FileHandle,
+        offset: u64,
         data: &[u8],
         _write_flags: WriteFlags,
         _flags: OpenFlags,
         _lock_owner: Option<LockOwner>,
         reply: ReplyWrite,
     ) {
-        self.write_file(NodeId(ino.0), data, reply);
+        let mut machine = self.shared.lock();
+        let mut open = locked(&self.open);
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
+        match open.file(fh.0).and_then(|file| file.write(&mut machine, offset, data)) {
+            Ok(written) => {
+                let length = u32::try_from(written.length).unwrap_or(u32::MAX);
+                if written.blocks.is_zero() {
+                    reply.written(length);
+                } else {
+                    open.written_at(machine.now() + written.blocks, length, reply);
+                }
+            }
+            Err(errno) => reply.error(errno.into()),
+        }
+        drop((machine, open));
+        self.shared.wake();
+    }
+
+    fn ioctl(
+        &self,
+        _: &Request,
+        _ino: INodeNo,
+        fh: FileHandle,
+        _flags: IoctlFlags,
+        command: u32,
+        _in_data: &[u8],
+        _out_size: u32,
+        reply: ReplyIoctl,
+    ) {
+        let machine = self.shared.lock();
+        match locked(&self.open).file(fh.0).and_then(|file| file.ioctl(&machine, command)) {
+            Ok((result, bytes)) => reply.ioctl(result, &bytes),
+            Err(errno) => reply.error(errno.into()),
+        }
     }
 
     fn flush(&self, _: &Request, _: INodeNo, _: FileHandle, _: LockOwner, reply: ReplyEmpty) {
@@ -256,9 +277,7 @@ impl Filesystem for Files {
         _flush: bool,
         reply: ReplyEmpty,
     ) {
-        let mut open = locked(&self.open);
-        open.files.remove(&fh.0);
-        open.polls.remove(&fh.0);
+        locked(&self.open).remove(fh.0);
         reply.ok();
     }
 
@@ -270,15 +289,11 @@ impl Filesystem for Files {
         offset: u64,
         mut reply: ReplyDirectory,
     ) {
-        let entries = match self.shared.lock().read_dir(NodeId(ino.0)) {
+        let entries = match self.list(ino) {
             Ok(entries) => entries,
-            Err(errno) => return reply.error(fuse_errno(errno)),
+            Err(errno) => return reply.error(errno.into()),
         };
-        let dots = [".", ".."].map(|name| (ino, FileType::Directory, name.to_owned()));
-        let entries = entries
-            .into_iter()
-            .map(|entry| (INodeNo(entry.node.0), file_type(entry.kind), entry.name));
-        for (next, (ino, kind, name)) in (1..).zip(dots.into_iter().chain(entries)) {
+        for (next, (ino, kind, name)) in (1..).zip(entries) {
             if next > offset && reply.add(ino, next, kind, name) {
                 break;
             }
@@ -298,12 +313,11 @@ impl Filesystem for Files {
     ) {
         let machine = self.shared.lock();
         let mut open = locked(&self.open);
-        let ready = open.files.get(&fh.0).is_none_or(|file| file.poll(&machine));
-        let mut events = PollEvents::POLLIN | PollEvents::POLLOUT;
-        if ready {
-            events |= PollEvents::POLLPRI | PollEvents::POLLERR;
+        let mut events = F::ALWAYS;
+        if open.is_ready(fh.0, &machine) {
+            events |= F::READY;
         } else if flags.contains(PollFlags::FUSE_POLL_SCHEDULE_NOTIFY) {
-            open.polls.insert(fh.0, notifier.handle());
+            open.poll_later(fh.0, notifier.handle());
         }
         reply.poll(events);
     }

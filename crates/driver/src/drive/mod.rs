@@ -11,16 +11,21 @@
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
 //! (`tacho_motor_class.c`). The end of a motion is a position that is gone to.
+mod found;
+mod motion;
+
 use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
-use crate::motor::{self, End, Ramps, Speed, StopAction, find_all};
+use crate::motor::{self, StopAction};
 use crate::odometry::{Estimate, Pose, Wheels};
 use crate::sensor;
-use crate::steering::{Leg, Limits, Order, Steering};
-use crate::value::Value;
+use crate::steering::Leg;
 use crate::wait::{Reason, sleep};
+use found::{Found, GYRO_MODE, angle, counts};
+use motion::Job;
+pub use motion::Status;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::Duration;
 
@@ -38,34 +43,6 @@ const REST_PERIOD: Duration = Duration::from_millis(100);
 
 /// How long that takes at most; then nothing is done until a motor is started.
 const MEASURED: Duration = Duration::from_secs(30);
-
-/// How long a wheel that is to turn may stand still.
-const STUCK_FOR: Duration = Duration::from_millis(1500);
-
-/// Less movement than this, in counts, is standing still.
-const STUCK_WITHIN: u64 = 2;
-
-/// Speed of the wheels on their last counts, per second.
-const LANDING_SPEED: i64 = 100;
-
-/// How long the wheels may take for their last counts.
-const LANDING_TAKES: Duration = Duration::from_millis(800);
-
-/// How far from its target a wheel may land, in counts.
-const LANDED_WITHIN: u64 = 1;
-
-/// The same if it takes too long.
-const LANDED_SOMEHOW: u64 = 5;
-
-/// Counts that a wheel may seem to turn beyond what it can: more means that the
-/// counter was written.
-const MARGIN: f64 = 30.0;
-
-/// The gyro's mode in which it tells its angle.
-const GYRO_MODE: &str = "GYRO-ANG";
-
-/// The type of a gyro.
-const GYRO: &str = "lego-ev3-gyro";
 
 /// A robot: where its motors are, and how it is built.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,61 +99,6 @@ struct Inner {
     job: Option<Job>,
     jobs: u32,
     last: Option<Arc<Status>>,
-}
-
-/// The robot's devices as they are plugged in now.
-struct Found {
-    motors: Vec<Arc<Device>>,
-    gyro: Option<Arc<Device>>,
-    counts: [i64; 2],
-    cm_per_count: [f64; 2],
-    /// Counts per second.
-    fastest: f64,
-}
-
-/// A motion under way.
-struct Job {
-    id: u32,
-    motors: Vec<Arc<Device>>,
-    steering: Steering,
-    stop_action: StopAction,
-    at: Duration,
-    /// What the wheels were last told, in counts per second.
-    speeds: Option<[i64; 2]>,
-    landing: Option<Landing>,
-    /// Counts, and since when each wheel has stood there.
-    stuck: [(i64, Duration); 2],
-    status: Arc<Status>,
-    /// Put back when the motion ends.
-    _ramps: Ramps,
-}
-
-/// The wheels go to their last counts.
-struct Landing {
-    targets: [i64; 2],
-    since: Duration,
-    before: [i64; 2],
-}
-
-/// How a motion ended, once it has.
-#[derive(Default)]
-pub struct Status(Mutex<Option<Result<Reason>>>);
-
-impl Status {
-    fn end(&self, result: Result<Reason>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
-    }
-
-    /// What it ended with; an error for the first who asks.
-    fn ended(&self) -> Option<Result<Reason>> {
-        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let after = match status.as_ref()? {
-            Ok(reason) => *reason,
-            Err(error) if error.is_gone() => Reason::Unplugged,
-            Err(_) => Reason::Stopped,
-        };
-        status.replace(Ok(after))
-    }
 }
 
 impl Drive {
@@ -524,166 +446,6 @@ impl Inner {
         Error::Gone { class: Class::TachoMotor, port }
     }
 
-    fn begin(&mut self, course: &Course, options: &DriveOptions) -> Result<Option<Arc<Status>>> {
-        let Some(found) = &self.found else {
-            return Ok(None);
-        };
-        let wheels = self.robot.wheels;
-        let slowest =
-            found.cm_per_count.iter().fold(f64::INFINITY, |least, way| way.abs().min(least));
-        let fastest = found.fastest * slowest;
-        let percent = found
-            .motors
-            .iter()
-            .map(|motor| Speed::Percent(options.percent).in_counts(motor))
-            .collect::<Result<Option<Vec<_>>>>()?;
-        let Some([left, right]) = percent.as_deref() else {
-            return Ok(None);
-        };
-        let speed = left.abs().min(right.abs());
-        #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
-        let limits = Limits { speed: speed as f64 * slowest, acceleration: options.acceleration };
-        let steering = match course {
-            Course::Wheels(shares) => {
-                let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
-                Steering::cruise(wheels, limits, way, turn.to_degrees())
-            }
-            Course::Cruise(speed, rate) => {
-                let ways = wheels.ways(*speed, rate.to_radians());
-                let is_possible = ways.iter().all(|way| way.abs() <= fastest * 1.000_001);
-                if !is_possible {
-                    return Ok(None);
-                }
-                Steering::cruise(wheels, limits, *speed, *rate)
-            }
-            Course::Legs(legs, is_backwards) => {
-                if speed == 0 {
-                    return Ok(None);
-                }
-                let from = (self.estimate.pose(), self.goal);
-                Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
-            }
-        };
-        self.install(steering, options.stop_action).map(Some)
-    }
-
-    /// Puts a motion in the place of the one under way.
-    fn install(&mut self, mut steering: Steering, stop_action: StopAction) -> Result<Arc<Status>> {
-        let before = self.job.take();
-        if let Some(before) = &before {
-            steering.take_over(&before.steering);
-            before.status.end(Ok(Reason::Stopped));
-        }
-        // Its ramps are put back first.
-        drop(before);
-        self.jobs = self.jobs.wrapping_add(1).max(1);
-        let status = Arc::new(Status::default());
-        let Some(found) = &self.found else {
-            return Ok(status);
-        };
-        let options = motor::MoveOptions {
-            ramp_up_ms: Some(0),
-            ramp_down_ms: Some(0),
-            ..motor::MoveOptions::default()
-        };
-        let mut ramps = Ramps::default();
-        for motor in &found.motors {
-            ramps.set(motor, &options)?;
-            motor.write("stop_action", StopAction::Hold.word())?;
-            motor::own(motor, self.jobs);
-        }
-        self.last = Some(Arc::clone(&status));
-        self.goal = None;
-        self.job = Some(Job {
-            id: self.jobs,
-            motors: found.motors.clone(),
-            steering,
-            stop_action,
-            at: self.now.saturating_sub(PERIOD),
-            speeds: None,
-            landing: None,
-            stuck: found.counts.map(|count| (count, self.now)),
-            status: Arc::clone(&status),
-            _ramps: ramps,
-        });
-        Ok(status)
-    }
-
-    /// One period of the motion under way; `Some` when it has ended.
-    fn control(&mut self) -> Result<Option<Reason>> {
-        let (Some(job), Some(found)) = (&mut self.job, &self.found) else {
-            return Ok(None);
-        };
-        let pose = self.estimate.pose();
-        let order = match &mut job.landing {
-            Some(landing) => match landing.look(found.counts, self.now) {
-                Landed::NotYet => return Ok(job.is_foreign(found).then_some(Reason::Stopped)),
-                Landed::Never => return Ok(Some(Reason::Stalled)),
-                Landed::There => {
-                    job.landing = None;
-                    job.stuck = found.counts.map(|count| (count, self.now));
-                    job.steering.landed(pose)
-                }
-            },
-            None => None,
-        };
-        let seconds = self.now.saturating_sub(job.at).as_secs_f64().clamp(0.001, 0.1);
-        job.at = self.now;
-        let order = match order {
-            Some(order) => order,
-            None => job.steering.step(pose, seconds),
-        };
-        match order {
-            Order::Arrived => Ok(Some(Reason::Reached)),
-            Order::Roll(ways) => job.roll(found, ways, self.now),
-            Order::Land(ways) => job.land(found, ways, self.now),
-        }
-    }
-
-    /// Ends the motion if its last period says so.
-    fn conclude(&mut self, stepped: Result<Option<Reason>>) {
-        match stepped {
-            Ok(None) => {}
-            Ok(Some(reason)) => self.end_job(Ok(reason)),
-            Err(error) => {
-                let error = self.named(error);
-                self.end_job(Err(error));
-            }
-        }
-    }
-
-    fn end_job(&mut self, result: Result<Reason>) {
-        let Some(job) = self.job.take() else {
-            return;
-        };
-        let is_reached = matches!(result, Ok(Reason::Reached));
-        if is_reached {
-            self.goal = job.steering.goal();
-        }
-        let action = if is_reached { job.stop_action } else { StopAction::Brake };
-        if !(is_reached && action == StopAction::Hold) {
-            for motor in &job.motors {
-                // One that is gone has nothing to stop.
-                let _ = motor::stop_owned(motor, action, job.id);
-            }
-        }
-        job.status.end(result);
-    }
-
-    /// The error with the device that is gone, where one is.
-    fn named(&self, error: Error) -> Error {
-        if !error.is_stale() {
-            return error;
-        }
-        let devices = self.job.as_ref().map(|job| job.motors.iter());
-        let path = error.path();
-        match devices.into_iter().flatten().find(|d| path.is_some_and(|p| p.starts_with(d.path())))
-        {
-            Some(gone) => gone.gone(),
-            None => error,
-        }
-    }
-
     /// When to look again; `None` if there is nothing to do until a motor is
     /// started.
     fn next_call(&self) -> Option<Duration> {
@@ -696,171 +458,6 @@ impl Inner {
             Some(PERIOD)
         } else {
             (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
-        }
-    }
-}
-
-impl Found {
-    /// The robot's devices; `None` where a motor is absent.
-    fn look(devices: &Devices, robot: &Robot) -> Result<Option<Self>> {
-        let Some(motors) = find_all(devices, robot.ports.iter().map(String::as_str))? else {
-            return Ok(None);
-        };
-        let [left, right] = &*motors else {
-            return Ok(None);
-        };
-        let way = |side, motor: &Device| -> Result<f64> {
-            #[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
-            let counts = motor.constant("count_per_rot")? as f64;
-            Ok(robot.wheels.cm_per_count(side, counts))
-        };
-        let cm_per_count = [way(0, left)?, way(1, right)?];
-        let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
-        let counts = counts(&motors)?;
-        let sensors = devices.all(Class::Sensor)?;
-        let gyro = sensors.iter().find(|sensor| sensor.driver() == GYRO).cloned();
-        #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
-        let fastest = fastest as f64;
-        Ok(Some(Self { motors, gyro, counts, cm_per_count, fastest }))
-    }
-
-    /// Whether the motors are still plugged in.
-    fn is_there(&self) -> bool {
-        self.motors.iter().all(|motor| motor.check_present().is_ok())
-    }
-
-    /// How far the wheels have rolled since the counts before. A counter that
-    /// was written elsewhere has not turned a wheel.
-    #[expect(clippy::cast_precision_loss, reason = "a plausible difference is small")]
-    fn ways(&self, counts: [i64; 2], seconds: f64) -> [f64; 2] {
-        let most = self.fastest * 1.5 * seconds + MARGIN;
-        std::array::from_fn(|side| {
-            let turned = counts[side].saturating_sub(self.counts[side]) as f64;
-            if turned.abs() <= most { turned * self.cm_per_count[side] } else { 0.0 }
-        })
-    }
-
-    /// Counts from a way in cm, or counts per second from a speed.
-    fn in_counts(&self, ways: [f64; 2]) -> [f64; 2] {
-        [ways[0] / self.cm_per_count[0], ways[1] / self.cm_per_count[1]]
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a motor's speed or a short way")]
-fn whole(counts: f64) -> i64 {
-    counts.round() as i64
-}
-
-fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
-    let mut counts = [0; 2];
-    for (count, motor) in counts.iter_mut().zip(motors) {
-        motor.check_present()?;
-        *count = motor.number("position")?;
-    }
-    Ok(counts)
-}
-
-/// What the gyro shows, in degrees; `None` if that is no angle.
-fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
-    gyro.check_present()?;
-    if !gyro.with_word("mode", |mode| mode == GYRO_MODE)? {
-        return Ok(None);
-    }
-    Ok(match sensor::read_value(gyro, Some(GYRO_MODE), 0)? {
-        #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
-        Value::Integer(degrees) => Some(degrees as f64),
-        Value::Float(degrees) => Some(degrees),
-        Value::Text(_) => None,
-    })
-}
-
-impl Job {
-    /// Tells the wheels their speeds in cm/s.
-    fn roll(&mut self, found: &Found, ways: [f64; 2], now: Duration) -> Result<Option<Reason>> {
-        let wanted = found.in_counts(ways);
-        // Too fast for one is too fast for both: the curve stays the same.
-        let most = wanted[0].abs().max(wanted[1].abs());
-        let share = if most > found.fastest { found.fastest / most } else { 1.0 };
-        let speeds = wanted.map(|speed| whole(speed * share));
-        if self.is_stuck(found, speeds, now) {
-            return Ok(Some(Reason::Stalled));
-        }
-        if self.is_foreign(found) {
-            return Ok(Some(Reason::Stopped));
-        }
-        if self.speeds == Some(speeds) {
-            return Ok(None);
-        }
-        for (motor, speed) in found.motors.iter().zip(speeds) {
-            motor.write_number("speed_sp", speed)?;
-        }
-        for motor in &found.motors {
-            if !motor::start_owned(motor, "run-forever", End::Never, self.id)? {
-                return Ok(Some(Reason::Stopped));
-            }
-        }
-        self.speeds = Some(speeds);
-        Ok(None)
-    }
-
-    /// Makes the wheels roll by the last few counts.
-    fn land(&mut self, found: &Found, ways: [f64; 2], now: Duration) -> Result<Option<Reason>> {
-        let by = found.in_counts(ways).map(whole);
-        let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
-        for (motor, target) in found.motors.iter().zip(targets) {
-            motor.write_number("position_sp", target)?;
-            motor.write_number("speed_sp", LANDING_SPEED)?;
-        }
-        for (side, motor) in found.motors.iter().enumerate() {
-            let end = End::Position { from: found.counts[side], target: targets[side] };
-            if !motor::start_owned(motor, "run-to-abs-pos", end, self.id)? {
-                return Ok(Some(Reason::Stopped));
-            }
-        }
-        self.speeds = None;
-        self.landing = Some(Landing { targets, since: now, before: found.counts });
-        Ok(None)
-    }
-
-    /// Whether a wheel that is to turn does not.
-    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], now: Duration) -> bool {
-        let mut is_stuck = false;
-        for (side, (count, since)) in self.stuck.iter_mut().enumerate() {
-            let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
-            if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *since) = (found.counts[side], now);
-            }
-            is_stuck |= now.saturating_sub(*since) >= STUCK_FOR;
-        }
-        is_stuck
-    }
-
-    /// Whether somebody else has told a motor something.
-    fn is_foreign(&self, found: &Found) -> bool {
-        found.motors.iter().any(|motor| !motor::is_owned(motor, self.id))
-    }
-}
-
-enum Landed {
-    NotYet,
-    There,
-    Never,
-}
-
-impl Landing {
-    fn look(&mut self, counts: [i64; 2], now: Duration) -> Landed {
-        let off = |side: usize| counts[side].abs_diff(self.targets[side]);
-        let farthest = off(0).max(off(1));
-        let stands = std::mem::replace(&mut self.before, counts) == counts;
-        let took = now.saturating_sub(self.since);
-        if farthest <= LANDED_WITHIN && stands && took >= PERIOD * 2 {
-            Landed::There
-        } else if took < LANDING_TAKES || !stands {
-            Landed::NotYet
-        } else if farthest <= LANDED_SOMEHOW {
-            Landed::There
-        } else {
-            Landed::Never
         }
     }
 }

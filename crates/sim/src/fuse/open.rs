@@ -1,0 +1,176 @@
+//! What is open in a mount, and who waits for it.
+//!
+//! A process that waits for an answer cannot even be killed, so a reader is sent back every now and
+//! then as if by a signal (EINTR); programs and libraries then ask again.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
+
+use super::served::Served;
+use crate::errno::Errno;
+use crate::machine::Machine;
+use crate::shared::Shared;
+
+/// [`watch`] looks this often, even if nobody wakes it, in wall time.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// How long a reader waits, in wall time, before it is sent back.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// The open files of a mount.
+#[derive(Debug)]
+pub(super) struct Open<F> {
+    next: u64,
+    files: HashMap<u64, F>,
+    /// Who waits in poll(2), by file handle.
+    polls: HashMap<u64, PollHandle>,
+    blocked: Vec<Blocked>,
+}
+
+/// A call that is answered later.
+#[derive(Debug)]
+enum Blocked {
+    /// Until there is something to read, or this wall time.
+    Read { handle: u64, size: u32, until: Instant, reply: ReplyData },
+    /// Until this virtual time; so many bytes were taken.
+    Write { until: Duration, length: u32, reply: ReplyWrite },
+}
+
+impl<F> Default for Open<F> {
+    fn default() -> Open<F> {
+        let (files, polls) = (HashMap::new(), HashMap::new());
+        Open { next: 0, files, polls, blocked: Vec::new() }
+    }
+}
+
+impl<F: Served> Open<F> {
+    /// Takes an open file in; its handle.
+    pub(super) fn insert(&mut self, file: F) -> u64 {
+        self.next += 1;
+        self.files.insert(self.next, file);
+        self.next
+    }
+
+    pub(super) fn remove(&mut self, handle: u64) {
+        self.files.remove(&handle);
+        self.polls.remove(&handle);
+    }
+
+    pub(super) fn file(&mut self, handle: u64) -> Result<&mut F, Errno> {
+        self.files.get_mut(&handle).ok_or(Errno::ENODEV)
+    }
+
+    pub(super) fn is_ready(&self, handle: u64, machine: &Machine) -> bool {
+        self.files.get(&handle).is_none_or(|file| file.is_ready(machine))
+    }
+
+    pub(super) fn read(
+        &mut self,
+        machine: &mut Machine,
+        handle: u64,
+        offset: u64,
+        size: u32,
+    ) -> Result<Vec<u8>, Errno> {
+        let file = self.file(handle)?;
+        let mut buffer = vec![0; usize::try_from(size).unwrap_or(0)];
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
+        let length = file.read(machine, offset, &mut buffer)?;
+        buffer.truncate(length);
+        Ok(buffer)
+    }
+
+    /// Answers a read from the start as soon as there is something.
+    pub(super) fn read_later(&mut self, handle: u64, size: u32, reply: ReplyData) {
+        let until = Instant::now() + PATIENCE;
+        self.blocked.push(Blocked::Read { handle, size, until, reply });
+    }
+
+    /// Answers a write at a virtual time.
+    pub(super) fn written_at(&mut self, until: Duration, length: u32, reply: ReplyWrite) {
+        self.blocked.push(Blocked::Write { until, length, reply });
+    }
+
+    /// Tells by its handle when there is something to read.
+    pub(super) fn poll_later(&mut self, handle: u64, poll: PollHandle) {
+        self.polls.insert(handle, poll);
+    }
+
+    /// Answers the calls that need to wait no longer.
+    fn answer(&mut self, machine: &mut Machine) {
+        let now = Instant::now();
+        for call in std::mem::take(&mut self.blocked) {
+            match call {
+                Blocked::Read { handle, size, until, reply }
+                    if self.is_ready(handle, machine) || until <= now =>
+                {
+                    match self.read(machine, handle, 0, size) {
+                        Ok(bytes) => reply.data(&bytes),
+                        Err(Errno::EAGAIN) => reply.error(Errno::EINTR.into()),
+                        Err(errno) => reply.error(errno.into()),
+                    }
+                }
+                Blocked::Write { until, length, reply } if until <= machine.now() => {
+                    reply.written(length);
+                }
+                waiting => self.blocked.push(waiting),
+            }
+        }
+    }
+
+    /// Answers all calls, as there is nobody to do so later.
+    fn answer_all(&mut self) {
+        for call in std::mem::take(&mut self.blocked) {
+            match call {
+                Blocked::Read { reply, .. } => reply.error(Errno::ENODEV.into()),
+                Blocked::Write { length, reply, .. } => reply.written(length),
+            }
+        }
+    }
+
+    /// Takes out who needs to wait in poll(2) no longer.
+    fn take_ready(&mut self, machine: &Machine) -> Vec<PollHandle> {
+        let handles: Vec<u64> = self.polls.keys().copied().collect();
+        let ready = handles.into_iter().filter(|handle| self.is_ready(*handle, machine));
+        let ready: Vec<u64> = ready.collect();
+        ready.iter().filter_map(|handle| self.polls.remove(handle)).collect()
+    }
+}
+
+/// What is behind a lock. A thread that panicked with it in its hand leaves it in order.
+pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Answers those who wait, whenever time has passed.
+pub(super) fn watch<F: Served>(
+    shared: &Shared,
+    open: &Mutex<Open<F>>,
+    notifier: &Notifier,
+    stop: &AtomicBool,
+) {
+    let mut machine = shared.lock();
+    while !stop.load(Ordering::SeqCst) {
+        let polls = {
+            let mut open = locked(open);
+            open.answer(&mut machine);
+            open.take_ready(&machine)
+        };
+        if polls.is_empty() {
+            machine = shared.wait(machine, LOOK);
+            continue;
+        }
+        // The kernel may ask again at once, so it is told without the lock.
+        drop(machine);
+        for handle in polls {
+            // A program that has gone away need not be told.
+            let _ = notifier.poll(handle);
+        }
+        machine = shared.lock();
+    }
+    drop(machine);
+    locked(open).answer_all();
+}

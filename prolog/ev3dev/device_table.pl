@@ -1,0 +1,79 @@
+:- module(ev3dev_device_table,
+          [ ev3_devices/0
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(driver,
+              [ decimals/2, lego_sensor/2, mode/2, position/2,
+                sensor_attribute/3, state/2, tacho_motor/2, value/3
+              ]).
+:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(sysfs, [ev3_sysfs/1]).
+
+/** <module> A table of what is connected
+*/
+
+%!  ev3_devices is det.
+%
+%   Print a table of what is connected: port, type, and what a motor or sensor
+%   reads at present.
+
+ev3_devices :-
+    findall(Row, device_row(Row), Rows),
+    (   Rows == []
+    ->  ev3_sysfs(Root),
+        format("Nothing is connected (looking in ~w).~n", [Root])
+    ;   format("~w~t~16|~w~t~38|~w~n", ['Port', 'Type', 'Reads']),
+        forall(member(row(Port, Type, Reads), Rows),
+               format("~w~t~16|~w~t~38|~w~n", [Port, Type, Reads]))
+    ).
+
+device_row(row(Port, Type, Reads)) :-
+    lego_sensor(Port, Type),
+    reading(sensor_reading(Port), Reads).
+device_row(row(Port, Type, Reads)) :-
+    tacho_motor(Port, Type),
+    reading(motor_reading(Port), Reads).
+device_row(row(Port, Type, Reads)) :-
+    ev3dev_driver:device_('dc-motor', Port, Type, _),
+    reading(dc_motor_reading(Port), Reads).
+device_row(row(Port, Type, '')) :-
+    ev3dev_driver:device_('servo-motor', Port, Type, _).
+
+% A device that cannot be read now is listed all the same, and says why.
+reading(Goal_1, Reads) :-
+    catch(call(Goal_1, Reads), Error, unreadable(Error, Reads)),
+    !.
+reading(_, '-').
+
+unreadable(error(Formal, _), Reads) :-
+    format(atom(Reads), "~p", [Formal]).
+
+motor_reading(Port, Reads) :-
+    position(Port, Position),
+    state(Port, State),
+    format(atom(Reads), "position ~w ~w", [Position, State]).
+
+dc_motor_reading(Port, Reads) :-
+    ev3dev_driver:attribute_('dc-motor', Port, duty_cycle, Duty),
+    ev3dev_driver:attribute_('dc-motor', Port, state, State),
+    format(atom(Reads), "duty ~w ~w", [Duty, State]).
+
+sensor_reading(Port, Reads) :-
+    mode(Port, Mode),
+    sensor_attribute(Port, num_values, Count),
+    Last is Count - 1,
+    findall(Value,
+            ( between(0, Last, Index), scaled_value(Port, Index, Value) ),
+            Values),
+    atomic_list_concat(Values, ' ', Text),
+    format(atom(Reads), "~w ~w", [Mode, Text]).
+
+scaled_value(Port, Index, Value) :-
+    value(Port, Index, Raw),
+    decimals(Port, Decimals),
+    (   Decimals =:= 0
+    ->  Value = Raw
+    ;   Value is Raw / 10.0 ** Decimals
+    ).
+
+:- on_demand_loaded.

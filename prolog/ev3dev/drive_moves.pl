@@ -1,0 +1,149 @@
+:- module(ev3dev_drive_moves,
+          [ move/3,                     % +Percent, +Course, +Options
+            drive_wait/2,               % +Options, -Reason
+            must_be_move_options/1,     % +Options
+            speed_option/2,             % +Options, -Percent
+            backwards/2,                % +Direction, -Backwards
+            not_nothing/1               % +Number
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(options, [must_be_options/3, must_be_timeout/1]).
+:- use_module(robot, []).
+:- use_module(odometry,
+              [ drive_option/2, number_value/2, robot_driven/1,
+                valid_drive_option/3
+              ]).
+
+/** <module> How a move is carried out
+
+What all moves of library(ev3dev/drive) have in common.
+*/
+
+%!  move(+Percent, +Course, +Options) is semidet.
+%
+%   Make a move with the options of library(ev3dev/drive). Percent tells the
+%   speed; its sign is in Course, which is
+%
+%     - legs(Legs, Backwards)
+%       A list of arc(Length, Curvature), turn(Angle), towards(X, Y),
+%       reach(X, Y), to(X, Y), face(Heading) and through(Places, Radius).
+%     - wheels(Left, Right)
+%       Without end, the speeds of the wheels as shares of Percent.
+%     - cruise(CmPerSecond, DegreesPerSecond)
+%       Without end.
+%
+%   @error as library(ev3dev/drive) tells
+
+move(Percent, Course, Options) :-
+    move_options(Percent, Course, Options, Native),
+    option(reason(Reason), Options, _),
+    robot_driven(Robot),
+    (   catch(drive_(Robot, Course, Native, Ended), E, true)
+    ->  (   var(E)
+        ->  true
+        ;   E = error(existence_error(_, _), _),
+            option(reason(_), Options)
+        ->  Ended = unplugged
+        ;   throw(E)
+        ),
+        (   option(reason(_), Options)
+        ->  Reason = Ended
+        ;   ended(Ended, Course)
+        )
+    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
+              [Course, Percent]),
+        fail
+    ).
+
+move_options(Percent, Course, Options,
+             options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
+    must_be_move_options(Options),
+    Speed is abs(Percent),
+    drive_option(acceleration, Default),
+    option(acceleration(Acceleration0), Options, Default),
+    valid_drive_option(acceleration, Acceleration0, Acceleration),
+    option(stop_action(Action), Options, hold),
+    drive_option(use_gyro, Default1),
+    option(use_gyro(UseGyro), Options, Default1),
+    must_be(boolean, UseGyro),
+    option(wait(Wait0), Options, true),
+    must_be(boolean, Wait0),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    (   Course = legs(_, _)
+    ->  Wait = Wait0
+    ;   Wait = false
+    ).
+
+ended(reached, _) :-
+    !.
+ended(stalled, _) :-
+    !,
+    ev3dev_robot:robot(_, _, Left, Right),
+    print_message(warning, ev3dev(stalled([Left, Right]))),
+    fail.
+ended(Reason, Course) :-
+    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
+    fail.
+
+%!  drive_wait(+Options, -Reason) is semidet.
+%
+%   Wait until the move under way ends, as one that was started with
+%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   Stops nothing. At once `reached` if there is none. Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most.
+
+drive_wait(Options, Reason) :-
+    must_be_options(drive_option, [timeout], Options),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    robot_driven(Robot),
+    catch(drive_wait_(Robot, Timeout, Reason),
+          error(existence_error(_, _), _),
+          Reason = unplugged).
+
+%!  must_be_move_options(+Options) is det.
+%
+%   @error domain_error(drive_option, Option) for an option that moves do not
+%          have
+
+must_be_move_options(Options) :-
+    must_be_options(drive_option,
+                    [ speed, acceleration, use_gyro, stop_action, wait,
+                      timeout, reason ],
+                    Options).
+
+%!  speed_option(+Options, -Percent) is det.
+%
+%   The speed of a move that is not told one.
+
+speed_option(Options, Percent) :-
+    must_be(list, Options),
+    drive_option(speed, Default),
+    option(speed(Speed), Options, Default),
+    number_value(Speed, Percent).
+
+%!  backwards(+Direction, -Backwards) is det.
+%
+%   Backwards is `true` if Direction is negative, else `false`.
+
+backwards(Direction, Backwards) :-
+    (   Direction < 0
+    ->  Backwards = true
+    ;   Backwards = false
+    ).
+
+%!  not_nothing(+Number) is semidet.
+%
+%   Fails, and says so, if a distance or an angle is 0.
+
+not_nothing(Number) :-
+    (   Number =\= 0
+    ->  true
+    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
+        fail
+    ).

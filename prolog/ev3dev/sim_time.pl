@@ -1,0 +1,71 @@
+:- module(ev3dev_sim_time,
+          [ sim_wait/1,                 % +Seconds
+            sim_step/1,                 % +Seconds
+            sim_time/1,                 % -Seconds
+            sim_snapshot/1,             % -Snapshot
+            sim_restore/1               % +Snapshot
+          ]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(driver, []).
+:- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
+
+/** <module> Simulated time
+
+The part of library(ev3dev/sim) that lets time pass, and goes back in it. All
+fail if no simulation runs.
+*/
+
+%!  sim_wait(+Seconds) is semidet.
+%
+%   Wait until so much simulated time has passed, as a program does with
+%   sleep/1 on a brick. With the virtual clock this takes no longer than the
+%   program's other threads let it. Seconds may be an arithmetic expression.
+%
+%   @error domain_error(seconds, Seconds) if it is negative
+
+sim_wait(Seconds0) :-
+    Seconds is Seconds0,
+    sim_wait_(Seconds).
+
+%   sim_hold_ and sim_release_ are for tests of several threads: in between,
+%   no time passes on the virtual clock unless this thread waits.
+
+:- public sim_hold_/0, sim_release_/0.
+
+%!  sim_step(+Seconds) is semidet.
+%
+%   Let so much simulated time pass at once, whatever the clock. Seconds may
+%   be an arithmetic expression.
+%
+%   @error domain_error(seconds, Seconds) if it is negative
+
+sim_step(Seconds0) :-
+    Seconds is Seconds0,
+    sim_step_(Seconds).
+
+%!  sim_time(-Seconds) is semidet.
+%
+%   True if so much simulated time has passed since the start.
+
+sim_time(Seconds) :-
+    sim_time_(Seconds).
+
+%!  sim_snapshot(-Snapshot) is semidet.
+%!  sim_restore(+Snapshot) is semidet.
+%
+%   Keep everything as it is now, and put it back as it was: the robot, its
+%   motors and sensors, the world and the time. So a program can try what
+%   would happen. A Snapshot may be restored any number of times.
+
+sim_snapshot(snapshot(State, Added)) :-
+    sim_snapshot_(State),
+    added_facts(Added).
+
+sim_restore(Snapshot) :-
+    must_be(nonvar, Snapshot),
+    (   Snapshot = snapshot(State, Added)
+    ->  true
+    ;   domain_error(simulator_snapshot, Snapshot)
+    ),
+    sim_restore_(State),
+    set_added_facts(Added).

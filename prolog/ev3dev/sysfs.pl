@@ -1,0 +1,125 @@
+:- module(ev3dev_sysfs,
+          [ subsystem_detect/4,         % ?Port, ?Type, ?Path, +Pattern
+            file_read/2,                % +File, -Value
+            file_write/2,               % +File, +Value
+            ev3_sysfs/1                 % ?Directory
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library_file, [load_library/0]).
+
+:- load_library.
+
+/** <module> Files of devices
+
+Any file by its name, and which tree of files is in use: the brick's own,
+another directory of the same shape, or the simulator's.
+*/
+
+%!  subsystem_detect(?Port, ?Type, ?Path, +Pattern) is nondet.
+%
+%   True if a device of Type is plugged into Port, and its directory Path
+%   matches the file name Pattern, as in
+%
+%   ```
+%   ?- subsystem_detect(Port, Type, Path, '/sys/class/tacho-motor/motor*').
+%   ```
+%
+%   Pattern may hold `*`, `?`, `[abc]` and `**`. What is below `/sys/class`
+%   is looked for in the tree in use, see ev3_sysfs/1. Each match is looked
+%   at anew: for motors and sensors, tacho_motor/3 and lego_sensor/3 are much
+%   faster. Directories that hold no device are passed over.
+%
+%   @error instantiation_error if Pattern is unbound
+%   @error domain_error(file_name_pattern, Pattern)
+
+%!  file_read(+File, -Value) is semidet.
+%
+%   Read an attribute file. Value is a number if the text is one, else an
+%   atom. Fails if Value is bound to something else. The newline that ends
+%   the text is not part of it.
+%
+%   @error existence_error(file, File)
+%   @error permission_error(read, attribute, File)
+%   @error syntax_error(attribute) if File holds no text, or more than the
+%          4096 bytes that an attribute may have
+
+%!  file_write(+File, +Value) is det.
+%
+%   Write an atom, string or number to an attribute file, which must exist.
+%
+%   @error existence_error(file, File)
+%   @error permission_error(write, attribute, File)
+%   @error domain_error(Attribute, Value) if the device does not accept it
+
+%!  ev3_sysfs(?Directory) is det.
+%
+%   Query or set the directory that holds the classes of devices. At first it
+%   is the value of the environment variable EV3DEV_SYSFS, else `/sys/class`.
+%   Setting it stops the motors that the program has started so far, and ends
+%   a simulation, unless that is mounted by sim_mount/1.
+%
+%   On a machine that has no such devices, and where no directory was set, the
+%   first use of a device starts the simulator, sim_start/1, with `room`.
+%
+%   @error existence_error(directory, Directory)
+
+ev3_sysfs(Directory) :-
+    var(Directory),
+    !,
+    sysfs_(Directory).
+ev3_sysfs(Directory) :-
+    (   absolute_file_name(Directory, Path,
+                           [file_type(directory), file_errors(fail)])
+    ->  sysfs_use_(Path)
+    ;   existence_error(directory, Directory)
+    ).
+
+use_environment :-
+    (   getenv('EV3DEV_SYSFS', Directory)
+    ->  ev3_sysfs(Directory)
+    ;   true
+    ).
+
+:- use_environment.
+
+%!  choose_tree is det.
+%
+%   Called by the foreign library at the first use of a device, if no tree was
+%   set: the kernel's if it has devices, else a simulated one, if the library
+%   has the simulator in it.
+
+:- public choose_tree/0.
+
+choose_tree :-
+    with_mutex(ev3dev_tree,
+               (   simulator_needless
+               ->  true
+               ;   simulate
+               )).
+
+simulator_needless :-
+    member(Class, ['tacho-motor', 'lego-sensor']),
+    atom_concat('/sys/class/', Class, Directory),
+    exists_directory(Directory),
+    !.
+simulator_needless :-
+    \+ predicate_property(ev3dev_sim:sim_active_, foreign),
+    !.
+simulator_needless :-
+    ev3dev_sim:sim_active_.
+
+simulate :-
+    module_property(ev3dev_sysfs, file(Here)),
+    file_directory_name(Here, Directory),
+    atom_concat(Directory, '/sim', Simulator),
+    load_files(ev3dev_sysfs:Simulator, [if(not_loaded), imports([])]),
+    ev3dev_sim:sim_start(room),
+    print_message(informational, ev3dev(simulated(room))).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(simulated(World))) -->
+    [ 'This machine is no EV3: simulating one in the world `~w`. '-[World],
+      'See library(ev3dev/sim).'-[]
+    ].
