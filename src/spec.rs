@@ -26,6 +26,7 @@ pub(crate) enum Fact {
     Motor(MotorMount),
     Sensor(SensorMount),
     Noise(Port, Noise),
+    EncoderNoise(Port, f64),
 }
 
 /// Which wheel.
@@ -69,6 +70,11 @@ pub(crate) fn add_to_robot(robot: &mut RobotSpec, fact: Fact) {
             }
             for sensor in robot.sensors.iter_mut().filter(|sensor| sensor.port == port) {
                 sensor.noise = noise;
+            }
+        }
+        Fact::EncoderNoise(port, sigma) => {
+            for motor in robot.motors.iter_mut().filter(|motor| motor.port == port) {
+                motor.encoder_noise = sigma;
             }
         }
         _ => {}
@@ -177,6 +183,7 @@ fn read<'a, C: QueryableContextType>(
             port: named(call, "port", port)?,
             driver: call.text(driver)?.into(),
             noise: Noise::NONE,
+            encoder_noise: 0.0,
         }),
         ("sensor", [port, driver, x, y, heading]) => Fact::Sensor(SensorMount {
             port: named(call, "port", port)?,
@@ -188,6 +195,9 @@ fn read<'a, C: QueryableContextType>(
             named(call, "port", port)?,
             Noise { sigma: number(sigma)?, bias: number(bias)? },
         ),
+        ("encoder_noise", [port, sigma]) => {
+            Fact::EncoderNoise(named(call, "port", port)?, number(sigma)?)
+        }
         _ => return Ok(None),
     };
     Ok(Some(Ok(fact)))

@@ -8,6 +8,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(aggregate)).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
 :- use_module(library(readutil)).
@@ -22,10 +23,17 @@
 %
 %   A simulated robot with wheels of these diameters. Gyro is a boolean; noise
 %   is `none` or `bias(Left, Right)`, how much stronger each motor is than it
-%   should be, in percent; motors and gyro then tremble, and the gyro drifts.
+%   should be, in percent; motors and gyro then tremble, their encoders err, and
+%   the gyro drifts.
 
 robot_of(DL, DR, Axle, Gyro, Noise, Robot) :-
-    Robot = [ left_wheel(outB, DL), right_wheel(outC, DR), axle(Axle),
+    robot_of(DL, DR, Axle, slip(0, 0), Gyro, Noise, Robot).
+
+%   The same with a share of its way that each wheel loses by slipping.
+
+robot_of(DL, DR, Axle, slip(SL, SR), Gyro, Noise, Robot) :-
+    Robot = [ left_wheel(outB, DL, [slip(SL)]),
+              right_wheel(outC, DR, [slip(SR)]), axle(Axle),
                hull(circle(8)), mass(0.75),
                motor(outA, 'lego-ev3-m-motor'),
                motor(outB, 'lego-ev3-l-motor'),
@@ -44,7 +52,11 @@ gyro_of(true, bias(_, _),
         Robot).
 
 noise_of(none, []).
-noise_of(bias(L, R), [noise(outB, 0.5, L), noise(outC, 0.5, R)]).
+noise_of(bias(L, R), [ noise(outB, 0.5, L), noise(outC, 0.5, R),
+                       encoder_noise(outB, 0.5), encoder_noise(outC, 0.5) ]).
+
+exact_encoders(Robot0, Robot) :-
+    exclude([encoder_noise(_, _)]>>true, Robot0, Robot).
 
 %   A motor that is 5 % stronger than the other one: on the left, on the right.
 biased(Seed, Bias) :-
@@ -67,6 +79,16 @@ noisy(Seed, Gyro, Goal) :-
     biased(Seed, Noise),
     robot_of(5.6, 5.6, 10.6, Gyro, Noise, Robot),
     drives(Seed, Robot, Goal).
+
+%   One whose wheels lose a share of their way, and nobody knows.
+slipping(Seed, Slip, Gyro, Goal) :-
+    biased(Seed, Noise),
+    robot_of(5.6, 5.6, 10.6, Slip, Gyro, Noise, Robot),
+    drives(Seed, Robot, Goal).
+
+a_slip(slip(0.05, 0.05)).
+a_slip(slip(0.05, 0)).
+a_slip(slip(0, 0.03)).
 
 quiet(Gyro, Goal) :-
     robot_of(5.6, 5.6, 10.6, Gyro, none, Robot),
@@ -585,6 +607,25 @@ test(the_gyro_makes_the_heading_certain, true(Sd < 2)) :-
                             ( go_cm(30, 100, []), turn(30, 180, []) )),
                      pose_uncertainty([_, _, [_, _, HH]]),
                      Sd is sqrt(HH) )).
+test(without_a_gyro_a_turn_is_as_uncertain_as_the_axle) :-
+    slipping(1, slip(0.03, 0.03), false,
+             ( turn(30, 3600, []),
+               pose(_, _, H), sim_pose(_, _, H0),
+               pose_uncertainty([_, _, [_, _, HH]]) )),
+    Off is abs(H - H0),
+    Off > 60,
+    Off < 3 * sqrt(HH).
+test(the_gyro_teaches_how_the_robot_turns) :-
+    slipping(1, slip(0.05, 0.05), true,
+             ( sim_step(10), turn(30, 720, []), turn(30, -360, []),
+               sim_unplug(in4), sim_step(1),
+               turn(30, 1080, []), pose_is_right(1, 5) )).
+test(a_robot_that_is_described_anew_is_believed) :-
+    robot_of(5.6, 5.6, 10.07, true, bias(0, 0), Robot),
+    drives(1, Robot, ( sim_step(10), turn(30, 720, []),
+                       sim_unplug(in4), sim_step(1),
+                       set_robot(5.6, 10.07, outB, outC),
+                       turn(30, 1080, []), pose_is_right(1, 3) )).
 test(drift_shows_while_the_robot_rests,
      [forall(member(Drift, [0.5, -1, 2]))]) :-
     robot_of(5.6, 5.6, 10.6, true, none, Robot0),
@@ -655,19 +696,32 @@ test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
                 *          ACCURACY            *
                 *******************************/
 
-% Twenty seeds. One motor is 5 % stronger than the other, both tremble, the gyro
-% trembles by 0.3 degrees and drifts by 0.02 degrees a second.
+% Twenty seeds. One motor is 5 % stronger than the other, both tremble, their
+% encoders err by half a degree, the gyro trembles by 0.3 degrees and drifts by
+% 0.02 degrees a second.
 
 :- begin_tests(accuracy).
 
 test(two_metres_straight_with_gyro) :-
-    each_seed([S]>>noisy(S, true, ( go_cm(30, 200), beside(1) ))).
+    each_seed([S]>>noisy(S, true, ( sim_step(10), go_cm(30, 200), beside(1) ))).
+test(two_metres_straight_with_gyro_at_once_by_exact_encoders) :-
+    % By others the robot cannot tell where it looks within half a degree.
+    each_seed([S]>>( biased(S, Noise),
+                     robot_of(5.6, 5.6, 10.6, true, Noise, Robot0),
+                     exact_encoders(Robot0, Robot),
+                     drives(S, Robot, ( go_cm(30, 200), beside(1) )) )).
 test(two_metres_straight_without_gyro) :-
     each_seed([S]>>noisy(S, false, ( go_cm(30, 200), beside(4) ))).
 test(two_metres_straight_by_unequal_wheels_with_gyro) :-
     % One wheel is 5 % larger than the other and nobody knows.
     each_seed([S]>>( biased(S, Noise),
                      robot_of(5.74, 5.46, 10.6, true, Noise, Robot),
+                     drives(S, Robot, ( sim_step(10), go_cm(30, 200),
+                                        beside(1.5) )) )).
+test(the_same_at_once_by_exact_encoders) :-
+    each_seed([S]>>( biased(S, Noise),
+                     robot_of(5.74, 5.46, 10.6, true, Noise, Robot0),
+                     exact_encoders(Robot0, Robot),
                      drives(S, Robot, ( go_cm(30, 200), beside(1.5) )) )).
 test(two_metres_straight_without_noise, [forall(member(Gyro, [true, false]))]) :-
     quiet(Gyro, ( go_cm(30, 200), beside(0.3) )).
@@ -686,6 +740,13 @@ test(ten_places_and_back_by_unequal_wheels) :-
     each_seed([S]>>( biased(S, Noise),
                      robot_of(5.74, 5.46, 10.6, true, Noise, Robot),
                      drives(S, Robot, ten_places_and_back) )).
+test(a_long_turn_of_wheels_that_slip, [forall(a_slip(Slip))]) :-
+    each_seed([S]>>slipping(S, Slip, true,
+                            ( sim_step(10), drive_cm(0, 60), sim_step(60),
+                              stop, sim_step(1), pose_is_right(1, 3) ))).
+test(ten_places_by_wheels_that_slip, [forall(a_slip(Slip))]) :-
+    % How long a way is no gyro tells: 5 % of what is not more than 141 cm.
+    each_seed([S]>>slipping(S, Slip, true, ten_places(8, 3))).
 test(ten_places_and_back_without_noise, [forall(member(Gyro, [true, false]))]) :-
     quiet(Gyro, ten_places_and_back).
 
@@ -704,14 +765,17 @@ keeps_radius(Radius) :-
            ( R is sqrt((X - Radius)^2 + Y^2),
              near(R, abs(Radius), 0.02 * abs(Radius)) )).
 
-ten_places_and_back :-
+ten_places(Cm, Degrees) :-
     % The gyro's drift is measured at rest.
     sim_step(10),
     findall([X, Y],
             ( between(1, 10, _),
               random(-100.0, 100.0, X), random(-100.0, 100.0, Y) ),
             Places),
-    forall(member([X, Y], Places), ( go_to(X, Y), pose_is_right(3, 2) )),
+    forall(member([X, Y], Places), ( go_to(X, Y), pose_is_right(Cm, Degrees) )).
+
+ten_places_and_back :-
+    ten_places(3, 2),
     go_to(0, 0, 0),
     pose_is_right(3, 2),
     sim_pose(X1, Y1, _),
@@ -807,6 +871,19 @@ test(tells_all_there_is_to_write_down, true(Right-Left == 5.6-[left])) :-
                        calibrate(axle, [], set_robot(_, _, outB, outC, All)) )),
     memberchk(left_diameter(Right), All),
     memberchk(inverted(Left), All).
+test(measures_the_wheels_and_not_what_the_gyro_has_taught) :-
+    robot_of(5.74, 5.46, 10.9, true, none, Robot),
+    drives(1, Robot, ( forall(between(1, 5, _),
+                              ( go_cm(30, 50, []), turn(30, 90, []) )),
+                       calibrate(wheels, [], Wheels),
+                       call(Wheels),
+                       forall(between(1, 5, _), turn(30, 90, [])),
+                       calibrate(axle, [], Axle) )),
+    figures(Wheels, DL, DR, _),
+    near(DL, 5.74, 0.01),
+    near(DR, 5.46, 0.01),
+    figures(Axle, _, _, A),
+    near(A, 10.9, 0.03).
 test(fails_without_gyro_and_measure, [fail]) :-
     quiet(false, calibrate(axle, [], _)).
 

@@ -56,8 +56,8 @@ expected(Neighbours, Cells, Goal, Reason) :-
     ).
 
 %   The robot with errors: one motor is 5 % stronger than the other, one wheel
-%   5 % larger, none of which it is told; motors, sonar and gyro are noisy, and
-%   the gyro drifts.
+%   5 % larger, none of which it is told; motors, encoders, sonar and gyro are
+%   noisy, and the gyro drifts.
 
 noisy_robot(Seed,
             [ left_wheel(outB, Left), right_wheel(outC, Right), axle(10.6),
@@ -67,6 +67,7 @@ noisy_robot(Seed,
               sensor(in1, 'lego-ev3-us', 0, 7, 0),
               sensor(in4, 'lego-ev3-gyro', 0, 0, 0),
               noise(outB, 0.5, Bias), noise(outC, 0.5, 0),
+              encoder_noise(outB, 0.5), encoder_noise(outC, 0.5),
               noise(in1, 0.2, 0), noise(in4, 0.3, 0.02)
             ]) :-
     (   Seed mod 2 =:= 0

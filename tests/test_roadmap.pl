@@ -331,7 +331,8 @@ test(a_hundred_rooms_with_noise) :-
              drives_well(Number, [seed(Number), robot(Robot)], 6) )).
 
 %   A motor that is 5 % stronger than the other one, on the left or on the
-%   right; encoders, gyro and ultrasonic sensor tremble, and the gyro drifts.
+%   right; motors, encoders, gyro and ultrasonic sensor are noisy, and the gyro
+%   drifts.
 
 noisy(Number, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
                 hull(circle(8)), mass(0.75),
@@ -343,7 +344,9 @@ noisy(Number, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
                 noise(in1, 0.2, 0),
                 noise(in4, 0.3, 0.02),
                 noise(outB, 0.5, Left),
-                noise(outC, 0.5, Right)
+                noise(outC, 0.5, Right),
+                encoder_noise(outB, 0.5),
+                encoder_noise(outC, 0.5)
               ]) :-
     Left is 5 * (Number mod 2),
     Right is 5 - Left.

@@ -221,6 +221,17 @@ test(unknown_motor) :-
     robot_complaint("mass(1).\nmotor(outA, steam).\n", Formal, Message),
     Formal = domain_error(possible_geometry, _),
     says(Message, 'FILE:2:0: ').
+test(an_encoder_that_is_more_than_exact) :-
+    robot_complaint("motor(outB, 'lego-ev3-l-motor').\nencoder_noise(outA, 1).\nencoder_noise(outB, -1).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:3:0: '),
+    says(Message, 'must not be below 0').
+test(encoder_noise_without_a_number) :-
+    robot_complaint("mass(1).\nencoder_noise(outB).\n", Formal, Message),
+    Formal == domain_error(robot_fact, encoder_noise(outB)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'encoder_noise').
 test(two_sensors_at_a_port) :-
     robot_complaint("sensor(in1, 'lego-ev3-us', 0, 7, 0).\nsensor(in1, 'lego-ev3-us', 0, 7, 90).\n",
                     Formal, Message),
@@ -576,6 +587,26 @@ test(another_seed_makes_other_noise) :-
     readings(7, true, Readings7),
     readings(8, true, Readings8),
     Readings7 \== Readings8.
+test(encoders_err_if_asked_for, true(Wrong \== Right)) :-
+    positions([], Right),
+    positions([encoder_noise(outA, 2)], Wrong).
+test(the_same_seed_makes_the_same_errors_of_encoders, true(A == B)) :-
+    positions([encoder_noise(outA, 2)], A),
+    positions([encoder_noise(outA, 2)], B).
+
+%   What a motor shows that turns by a fixed duty.
+positions(Errors, Positions) :-
+    Robot = [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
+              hull(circle(8)), mass(0.75), motor(outA, 'lego-ev3-m-motor'),
+              motor(outB, 'lego-ev3-l-motor'), motor(outC, 'lego-ev3-l-motor')
+            | Errors ],
+    with_sim([], [robot(Robot)],
+             ( motor_attribute(outA, duty_cycle_sp, 20),
+               command(outA, 'run-direct'),
+               findall(Position,
+                       ( between(1, 50, _), sim_step(0.02),
+                         position(outA, Position) ),
+                       Positions) )).
 
 :- end_tests(sim_chance).
 

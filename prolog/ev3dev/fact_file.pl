@@ -116,6 +116,7 @@ vocabulary(robot, mass,        [1]).
 vocabulary(robot, motor,       [2]).
 vocabulary(robot, sensor,      [5]).
 vocabulary(robot, noise,       [3]).
+vocabulary(robot, encoder_noise, [2]).
 
 %!  fact_location(+Item, +Located, -Location) is det.
 %
@@ -144,6 +145,9 @@ said_of(motor(Port, Type), Start) :-
 said_of(sensor(Port, Type, _, _, _), Start) :-
     !,
     atomic_list_concat([sensor, Type, on, Port], ' ', Start).
+said_of(encoder_noise(Port, _), Start) :-
+    !,
+    atomic_list_concat(['encoder noise on', Port], ' ', Start).
 said_of(start(_, _, _), 'robot at ').
 said_of(map(_, _), 'robot at ').
 said_of(Fact, Start) :-

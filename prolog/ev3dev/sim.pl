@@ -117,6 +117,10 @@ A robot is a file of facts, too:
     standard deviation, and a constant one, in units of the sensor's value.
     For a motor they are in percent; Bias makes it stronger than others. For
     a gyro Bias is a drift in degrees per second.
+  - encoder_noise(Port, Sigma)
+    How inexact the encoder of a motor is that stands before: the standard
+    deviation in degrees by which each tooth of its disc is off, by default
+    0. So `position` is, always by the same where the motor stands the same.
 
 Shipped are `default`, the robot of set_robot(5.6, 10.6, outB, outC) with an
 ultrasonic sensor at in1, colour sensors on its left at in2 and on its right
@@ -171,8 +175,8 @@ use devices. The same program with the same seed does the same each time.
 %     - robot(+Robot)
 %       The robot, given like World. Default is `default`.
 %     - noise(+Boolean)
-%       If `true`, sensors and motors have the errors that real ones have.
-%       Default is `false`.
+%       If `true`, sensors and motors have the errors that real ones have,
+%       encoders one of half a degree. Default is `false`.
 %     - seed(+Integer)
 %       Where chance starts from. Default is 1.
 %     - screen(+Bits)

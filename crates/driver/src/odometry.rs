@@ -3,9 +3,13 @@
 //! Pure arithmetic: no devices, no clock. Between two looks both wheels are
 //! taken to turn evenly, so that the robot moves along an arc, and that arc is
 //! integrated exactly. An extended Kalman filter fuses this with the gyro. Its
-//! state is the pose, how much more one wheel rolls than the other, and zero
-//! and drift of the gyro; what the gyro finds out late about the heading so
-//! corrects the place, too.
+//! state is the pose, by what shares the wheels and the axle differ from what
+//! they are said to be, and zero and drift of the gyro; what the gyro finds out
+//! late about the heading so corrects the place, too.
+//!
+//! The errors of wheels and axle persist: a wheel that slips or a tyre that is
+//! wide makes each turn wrong by the same share. So over long turns it is the
+//! gyro that is right, and what it says is no drift.
 //!
 //! A gyro tells whole degrees. A reading is therefore not taken as a value with
 //! a bell-shaped error, but as an interval that the true value and a
@@ -16,8 +20,12 @@
 /// Half of a gyro's resolution, in radians.
 const HALF_STEP: f64 = 0.5 * DEGREE;
 
-/// Standard deviation of a gyro's reading beside its resolution, in radians.
-const GYRO_ERROR: f64 = 0.25 * DEGREE;
+/// Standard deviation of a gyro's reading beside its resolution, in radians; with
+/// that of the encoders, with which it is compared.
+const GYRO_ERROR: f64 = 0.35 * DEGREE;
+
+/// How far in time readings of gyro and wheels may lie apart, in seconds.
+const LAG: f64 = 0.01;
 
 /// The time from a reading that counts to the next, in seconds, at rest.
 const READ_EVERY: f64 = 0.1;
@@ -28,15 +36,30 @@ const READ_AFTER: f64 = 0.25;
 /// Variance of a wheel's way for each cm, in cm²: 2 mm after a metre.
 const WHEEL_VARIANCE: f64 = 0.0004;
 
-/// Variance of the heading for each cm, in radians²: 0.2 degrees after a metre.
-const HEADING_VARIANCE: f64 = 4e-4 * DEGREE * DEGREE;
+/// Variance of the heading for each cm, in radians²: 0.15 degrees after a metre,
+/// from wheels that slip now and then.
+const HEADING_VARIANCE: f64 = 2e-4 * DEGREE * DEGREE;
 
-/// Variance of a turn for each radian of it, in radians²: 0.2 degrees after a
-/// quarter turn, from wheels that are wide and an axle that is not quite known.
-const TURN_VARIANCE: f64 = 0.02 * DEGREE * DEGREE;
+/// The same for each radian of a turn: 0.13 degrees after a quarter turn.
+const TURN_VARIANCE: f64 = 0.01 * DEGREE * DEGREE;
 
-/// Standard deviation of what one wheel rolls more than the other, as a share.
-const MISMATCH: f64 = 0.01;
+/// Standard deviation of a wheel's way when it starts to roll, in cm, from teeth
+/// of the encoder and play of the gears: a third of a degree of the motor.
+const START: f64 = 0.0175;
+
+/// The time after which a wheel that rolls does so anew, in seconds.
+const STILL: f64 = 0.1;
+
+/// Standard deviation of the share that a wheel rolls more than its diameter
+/// says: one rolls 1 % more than the other.
+const WHEEL: f64 = 0.0075;
+
+/// The same of the share that the robot turns more than the axle says: nobody
+/// knows where wide tyres touch the floor.
+const AXLE_LENGTH: f64 = 0.03;
+
+/// How that may change, with the floor for one: variance for each radian.
+const AXLE_CHANGE: f64 = 0.0005 * 0.0005;
 
 /// Standard deviation of a gyro's drift, in radians a second: that of one that
 /// stood still when it was plugged in.
@@ -46,8 +69,9 @@ const DRIFT: f64 = 0.03 * DEGREE;
 const WILD_DRIFT: f64 = 2.0 * DEGREE;
 
 /// Readings at rest that are off by so many standard deviations in sum, for the
-/// root of their number, show so.
-const SUSPICIOUS: f64 = 2.5;
+/// root of their number, show so. Fewer come about by chance at some moment of a
+/// long run.
+const SUSPICIOUS: f64 = 4.0;
 
 /// How fast the drift may change: variance of the drift for each second.
 const DRIFT_CHANGE: f64 = (0.001 * DEGREE) * (0.001 * DEGREE);
@@ -63,12 +87,15 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const X: usize = 0;
 const Y: usize = 1;
 const HEADING: usize = 2;
-/// Radians by which the robot turns more than the wheels tell, for each cm.
-const BIAS: usize = 3;
+/// The share that each wheel rolls more than it is said to.
+const LEFT: usize = 3;
+const RIGHT: usize = 4;
+/// The share that the robot turns more than the ways of the wheels tell.
+const AXLE: usize = 5;
 /// What the gyro shows at heading 0.
-const ZERO: usize = 4;
-const RATE: usize = 5;
-const STATES: usize = 6;
+const ZERO: usize = 6;
+const RATE: usize = 7;
+const STATES: usize = 8;
 
 /// A place in cm and a heading in degrees: 0 looks along y, clockwise is
 /// positive, and full turns count.
@@ -135,15 +162,27 @@ impl Wheels {
     }
 }
 
+/// What the gyro has shown since the robot came to rest.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rest {
+    /// How far its readings were off in sum, in standard deviations, and how many
+    /// these were.
+    off: f64,
+    count: f64,
+    /// The drift, and its variance, as they were before.
+    drift: f64,
+    variance: f64,
+}
+
 /// The estimate.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     state: [f64; STATES],
     covariance: [[f64; STATES]; STATES],
     has_zero: bool,
-    /// How far readings at rest were off in sum, in standard deviations, and how
-    /// many these were.
-    rest: (f64, f64),
+    rest: Rest,
+    /// For how long the wheels have not rolled, in seconds.
+    still: f64,
     /// Time, way and turn since the last reading of the gyro that counted.
     unread: [f64; 3],
 }
@@ -162,11 +201,13 @@ impl Estimate {
             state: [0.0; STATES],
             covariance: [[0.0; STATES]; STATES],
             has_zero: false,
-            rest: (0.0, 0.0),
+            rest: Rest::default(),
+            still: STILL,
             unread: [0.0; 3],
         };
-        estimate.covariance[BIAS][BIAS] = (MISMATCH / 10.0).powi(2);
         estimate.covariance[RATE][RATE] = DRIFT * DRIFT;
+        estimate.begin_rest();
+        estimate.forget_wheels();
         estimate.place(pose);
         estimate
     }
@@ -178,8 +219,23 @@ impl Estimate {
         self.state[Y] = pose.y;
         self.state[HEADING] = pose.heading.to_radians();
         self.state[ZERO] -= turned;
-        for other in 0..STATES {
-            for known in [X, Y, HEADING] {
+        self.is_certain([X, Y, HEADING]);
+    }
+
+    /// What the gyro has told of wheels and axle holds no longer: these are
+    /// others, or shall do without it.
+    pub fn forget_wheels(&mut self) {
+        let errors = [LEFT, RIGHT, AXLE];
+        self.is_certain(errors);
+        for (error, deviation) in errors.into_iter().zip([WHEEL, WHEEL, AXLE_LENGTH]) {
+            self.state[error] = 0.0;
+            self.covariance[error][error] = deviation * deviation;
+        }
+    }
+
+    fn is_certain(&mut self, states: [usize; 3]) {
+        for known in states {
+            for other in 0..STATES {
                 self.covariance[known][other] = 0.0;
                 self.covariance[other][known] = 0.0;
             }
@@ -212,10 +268,16 @@ impl Estimate {
         self.drift_on(seconds);
         self.unread[0] += seconds;
         if ways == [0.0, 0.0] {
+            self.still += seconds;
             return;
         }
-        let (way, by_wheels) = wheels.twist(ways);
-        let turn = by_wheels + self.state[BIAS] * way;
+        let starts = std::mem::replace(&mut self.still, 0.0) >= STILL;
+        let [left, right] = ways;
+        let [.., left_error, right_error, axle_error, _, _] = self.state;
+        let (way, by_wheels) =
+            wheels.twist([left * (1.0 + left_error), right * (1.0 + right_error)]);
+        let stretch = 1.0 + axle_error;
+        let turn = by_wheels * stretch;
         let middle = self.state[HEADING] + turn / 2.0;
         let chord = way * sinc(turn / 2.0);
         let (sin, cos) = middle.sin_cos();
@@ -224,17 +286,31 @@ impl Estimate {
         self.state[HEADING] += turn;
         self.unread[1] += way.abs();
         self.unread[2] += turn.abs();
-        // How the new place depends on the old heading, and on the bias.
+        // How the new place depends on the old heading, and on each error by
+        // how much way and turn depend on it.
         let (dx, dy) = (chord * cos, -chord * sin);
         self.mix(&[(X, HEADING, dx), (Y, HEADING, dy)]);
-        self.mix(&[(X, BIAS, dx * way / 2.0), (Y, BIAS, dy * way / 2.0), (HEADING, BIAS, way)]);
+        let per_axle = stretch / wheels.axle;
+        for (error, of_way, of_turn) in [
+            (LEFT, left / 2.0, left * per_axle),
+            (RIGHT, right / 2.0, -right * per_axle),
+            (AXLE, 0.0, by_wheels),
+        ] {
+            let of_x = of_way * sin + of_turn * dx / 2.0;
+            let of_y = of_way * cos + of_turn * dy / 2.0;
+            self.mix(&[(X, error, of_x), (Y, error, of_y), (HEADING, error, of_turn)]);
+        }
         // What a step adds: along the way, and to the turn, which shifts the
         // place by half of it.
-        let rolled = ways[0].abs() + ways[1].abs();
-        let along = WHEEL_VARIANCE * rolled / 4.0;
-        let turned = HEADING_VARIANCE * rolled / 2.0 + TURN_VARIANCE * by_wheels.abs();
+        let rolled = left.abs() + right.abs();
+        let start = if starts { START * START } else { 0.0 };
+        let along = WHEEL_VARIANCE * rolled / 4.0 + start / 2.0;
+        let turned = HEADING_VARIANCE * rolled / 2.0
+            + TURN_VARIANCE * turn.abs()
+            + 2.0 * start / (wheels.axle * wheels.axle);
         self.add([sin, cos, 0.0], along);
         self.add([dx / 2.0, dy / 2.0, 1.0], turned);
+        self.covariance[AXLE][AXLE] += AXLE_CHANGE * turn.abs();
     }
 
     /// The gyro shows `angle` degrees.
@@ -252,16 +328,24 @@ impl Estimate {
         self.unread = [0.0; 3];
         let row: [f64; STATES] =
             std::array::from_fn(|i| self.covariance[i][HEADING] + self.covariance[i][ZERO]);
-        let total = row[HEADING] + row[ZERO] + GYRO_ERROR * GYRO_ERROR;
+        let late = LAG * turn / seconds.max(LAG);
+        let error = GYRO_ERROR * GYRO_ERROR + late * late;
+        let total = row[HEADING] + row[ZERO] + error;
         let (shift, narrowed) = within(off, total.sqrt());
+        self.learn(row, shift / total, (1.0 - narrowed) / total);
         self.suspect_drift(way == 0.0 && turn == 0.0, shift / total.sqrt());
+    }
+
+    /// Something is measured that depends on the states by `row` of the
+    /// covariance: it shifts them and makes them more certain by so much for
+    /// each of it.
+    fn learn(&mut self, row: [f64; STATES], shift: f64, certainty: f64) {
         for (state, weight) in self.state.iter_mut().zip(row) {
-            *state += weight / total * shift;
+            *state += weight * shift;
         }
-        let share = (1.0 - narrowed) / total;
         for (i, line) in self.covariance.iter_mut().enumerate() {
             for (j, value) in line.iter_mut().enumerate() {
-                *value -= row[i] * row[j] * share;
+                *value -= row[i] * row[j] * certainty;
             }
         }
     }
@@ -281,18 +365,40 @@ impl Estimate {
             self.covariance[ZERO][other] = shared;
             self.covariance[other][ZERO] = shared;
         }
-        self.covariance[ZERO][ZERO] =
-            self.covariance[HEADING][HEADING] + HALF_STEP * HALF_STEP / 3.0;
+        self.covariance[ZERO][ZERO] = self.covariance[HEADING][HEADING]
+            + HALF_STEP * HALF_STEP / 3.0
+            + GYRO_ERROR * GYRO_ERROR;
+    }
+
+    fn begin_rest(&mut self) {
+        let (drift, variance) = (self.state[RATE], self.covariance[RATE][RATE]);
+        self.rest = Rest { drift, variance, ..Rest::default() };
     }
 
     /// A robot that stands does not turn. If the gyro's readings all are off to
     /// one side meanwhile, it drifts more than was thought possible.
     fn suspect_drift(&mut self, is_at_rest: bool, off: f64) {
-        let (sum, count) = if is_at_rest { self.rest } else { (0.0, 0.0) };
-        self.rest = (sum + off, count + 1.0);
-        if self.rest.0.abs() > SUSPICIOUS * self.rest.1.sqrt().max(2.0) {
-            self.rest = (0.0, 0.0);
-            self.covariance[RATE][RATE] = WILD_DRIFT * WILD_DRIFT;
+        if !is_at_rest {
+            self.begin_rest();
+        }
+        self.rest.off += off;
+        self.rest.count += 1.0;
+        if self.rest.off.abs() > SUSPICIOUS * self.rest.count.sqrt().max(2.0) {
+            self.doubt_drift();
+            self.begin_rest();
+        }
+    }
+
+    /// What was thought of the drift before the rest is taken back, as if it had
+    /// been measured with a negative variance. What is left is what the rest has
+    /// shown.
+    fn doubt_drift(&mut self) {
+        let Rest { drift, variance, .. } = self.rest;
+        let certainty = 1.0 / variance - 1.0 / (WILD_DRIFT * WILD_DRIFT);
+        let total = self.covariance[RATE][RATE] - 1.0 / certainty;
+        if certainty > 0.0 && total < 0.0 {
+            let row = std::array::from_fn(|i| self.covariance[i][RATE]);
+            self.learn(row, (drift - self.state[RATE]) / total, 1.0 / total);
         }
     }
 

@@ -10,6 +10,7 @@ use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::drive::Body;
 use crate::front::{Depth, Front};
 use crate::geometry::Pose;
+use crate::noise::Teeth;
 use crate::port::{LegoPort, Port};
 use crate::remote::{Button, Remote};
 use crate::robot::RobotSpec;
@@ -106,13 +107,18 @@ impl Machine {
             lego_port,
             forced: None,
         };
+        let shafts = std::array::from_fn(|slot| {
+            let mount = robot.motors.iter().find(|mount| mount.port.slot() == slot);
+            let sigma = mount.map_or(0.0, |mount| mount.encoder_noise);
+            Shaft::new(Teeth::new(sigma, options.seed, slot))
+        });
         let mut machine = Machine {
             options,
             now: Duration::ZERO,
             tick: 0,
             tree,
             sockets: Port::ALL.into_iter().zip(lego_ports).map(socket).collect(),
-            shafts: std::array::from_fn(|_| Shaft::new()),
+            shafts,
             battery,
             robot: robot.clone(),
             body: Body::new(robot, world.start),

@@ -38,6 +38,48 @@ impl Noise {
     }
 }
 
+/// Standard deviation of the errors of an encoder's teeth that is plausible, in degrees.
+pub(crate) const TYPICAL_TEETH: f64 = 0.5;
+
+/// Errors of the teeth of a motor's encoder. They sit on its disc: each tooth has its own, the
+/// same at every turn, so a motor at rest shows the same always.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Teeth {
+    sigma: f64,
+    seed: u64,
+    port: usize,
+}
+
+impl Teeth {
+    /// Teeth of a disc that turns with the shaft, one for each period of both light barriers.
+    const COUNT: i32 = 180;
+    /// Edges of both light barriers for each of them.
+    const EDGES: i32 = 4;
+    /// Apart from all samples of the same port.
+    const STREAM: u64 = 0x7ee7;
+
+    pub(crate) fn new(sigma: f64, seed: u64, port: usize) -> Self {
+        Teeth { sigma, seed, port }
+    }
+
+    /// How much more than the truth the disc shows at an edge, in degrees; between two teeth the
+    /// error changes evenly.
+    pub(crate) fn error(&self, edge: i32) -> f64 {
+        if self.sigma <= 0.0 {
+            return 0.0;
+        }
+        let tooth = edge.div_euclid(Self::EDGES);
+        let share = f64::from(edge.rem_euclid(Self::EDGES)) / f64::from(Self::EDGES);
+        self.of_tooth(tooth) * (1.0 - share) + self.of_tooth(tooth + 1) * share
+    }
+
+    fn of_tooth(&self, tooth: i32) -> f64 {
+        let noise = Noise { sigma: self.sigma, bias: 0.0 };
+        let tooth = u64::from(tooth.rem_euclid(Self::COUNT).unsigned_abs());
+        Source::new(noise, self.seed ^ Self::STREAM, self.port, tooth).jitter()
+    }
+}
+
 /// The disturbances of one port during one sample.
 pub(crate) struct Source {
     noise: Noise,

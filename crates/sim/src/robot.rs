@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::motor::MotorKind;
-use crate::noise::Noise;
+use crate::noise::{Noise, TYPICAL_TEETH};
 use crate::port::Port;
 use crate::sensor::SensorKind;
 use crate::world::SpecError;
@@ -29,6 +29,9 @@ pub struct MotorMount {
     pub driver: String,
     /// Its errors.
     pub noise: Noise,
+    /// Standard deviation of the errors of its encoder's teeth, in degrees. They add to
+    /// `position`, are the same at every turn, and depend on the seed.
+    pub encoder_noise: f64,
 }
 
 /// A sensor on an input port.
@@ -101,8 +104,12 @@ impl Default for RobotSpec {
     /// motor on outA, ultrasonic ahead on in1, colour right on in2 and left on in3, gyro on in4.
     fn default() -> Self {
         let wheel = |port| Wheel { port, diameter: 5.6, inverted: false, slip: 0.0 };
-        let motor =
-            |port, driver: &str| MotorMount { port, driver: driver.to_owned(), noise: Noise::NONE };
+        let motor = |port, driver: &str| MotorMount {
+            port,
+            driver: driver.to_owned(),
+            noise: Noise::NONE,
+            encoder_noise: 0.0,
+        };
         let sensor = |port, driver: &str, x, y, heading| SensorMount {
             port,
             driver: driver.to_owned(),
@@ -159,6 +166,7 @@ impl RobotSpec {
     pub fn with_typical_noise(mut self) -> RobotSpec {
         for motor in &mut self.motors {
             motor.noise = Noise::typical(&motor.driver);
+            motor.encoder_noise = TYPICAL_TEETH;
         }
         for sensor in &mut self.sensors {
             sensor.noise = Noise::typical(&sensor.driver);
@@ -195,13 +203,17 @@ impl RobotSpec {
             return Err(SpecError::new("hull", "needs an extent above 0"));
         }
         let mut used = Vec::new();
-        for MotorMount { port, driver, .. } in &self.motors {
+        for MotorMount { port, driver, encoder_noise, .. } in &self.motors {
             let item = || format!("motor {driver} on {port}");
             if MotorKind::named(driver).is_none() {
                 return Err(SpecError::new(item(), "is of no known type"));
             }
             if !port.is_output() || used.contains(port) {
                 return Err(SpecError::new(item(), "needs an output port of its own"));
+            }
+            if !(encoder_noise.is_finite() && *encoder_noise >= 0.0) {
+                let item = format!("encoder noise on {port}");
+                return Err(SpecError::new(item, "must not be below 0"));
             }
             used.push(*port);
         }

@@ -3,6 +3,7 @@
 use crate::TICK_SECONDS;
 use crate::drive::Load;
 use crate::motor::{Bridge, Encoder, MOTOR_KINDS, MotorKind, RATED_VOLTS};
+use crate::noise::Teeth;
 
 /// One of the four shafts. It is there even when no wire is plugged in.
 #[derive(Clone, Debug)]
@@ -18,13 +19,13 @@ pub(crate) struct Shaft {
 }
 
 impl Shaft {
-    pub(crate) fn new() -> Shaft {
+    pub(crate) fn new(teeth: Teeth) -> Shaft {
         Shaft {
             kind: &MOTOR_KINDS[0],
             angle: 0.0,
             omega: 0.0,
             jammed: false,
-            encoder: Encoder::new(),
+            encoder: Encoder::new(teeth),
         }
     }
 

@@ -113,6 +113,7 @@ impl Drive {
                 inner.robot = robot.clone();
                 inner.found = None;
                 inner.goal = None;
+                inner.estimate.forget_wheels();
                 inner.place(pose);
             }
             drop(inner);
@@ -195,6 +196,9 @@ impl Drive {
         if inner.use_gyro != use_gyro {
             inner.use_gyro = use_gyro;
             inner.estimate.lose_gyro();
+            if !use_gyro {
+                inner.estimate.forget_wheels();
+            }
         }
     }
 

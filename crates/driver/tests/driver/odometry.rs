@@ -76,8 +76,135 @@ fn a_place_that_is_known_is_certain() {
     assert!(near(estimate.pose(), Pose { x: 1.0, y: 2.0, heading: 3.0 }, 1e-9));
 }
 
+/// A robot whose wheels and axle are not what it thinks they are.
+struct Ride {
+    estimate: Estimate,
+    truth: Estimate,
+    /// By what share each wheel rolls more than it should, and the robot turns.
+    errors: [f64; 3],
+    /// Degrees a second; nothing for a robot without a gyro.
+    drift: Option<f64>,
+    /// Degrees that the motors have turned, and seconds.
+    angles: [f64; 2],
+    seconds: f64,
+}
+
+impl Ride {
+    const STEP: f64 = 0.02;
+
+    fn new(errors: [f64; 3], drift: Option<f64>) -> Self {
+        let (estimate, truth) = (Estimate::default(), Estimate::default());
+        Self { estimate, truth, errors, drift, angles: [0.0; 2], seconds: 0.0 }
+    }
+
+    /// Speed in cm/s and rate of turn in degrees a second, by the wheels.
+    fn go(&mut self, speed: f64, rate: f64, seconds: f64) {
+        let end = self.seconds + seconds;
+        while self.seconds < end {
+            let ways = WHEELS.ways(speed * Self::STEP, rate.to_radians() * Self::STEP);
+            let [left, right, axle] = self.errors;
+            let really = Wheels { axle: WHEELS.axle / (1.0 + axle), ..WHEELS };
+            self.truth.roll(&really, [ways[0] * (1.0 + left), ways[1] * (1.0 + right)], Self::STEP);
+            // Both encoders and the gyro tell whole degrees.
+            let per_degree = WHEELS.cm_per_count(0, 360.0);
+            let told = std::array::from_fn(|side| {
+                let before = self.angles[side].round();
+                self.angles[side] += ways[side] / per_degree;
+                (self.angles[side].round() - before) * per_degree
+            });
+            self.seconds += Self::STEP;
+            self.estimate.roll(&WHEELS, told, Self::STEP);
+            if let Some(drift) = self.drift {
+                let shown = self.truth.pose().heading + drift * self.seconds;
+                self.estimate.see(shown.round());
+            }
+        }
+    }
+
+    /// How far the heading is off, in degrees.
+    fn off(&self) -> f64 {
+        self.estimate.pose().heading - self.truth.pose().heading
+    }
+}
+
+#[test]
+fn a_long_turn_is_the_gyros() {
+    for errors in [[0.0, 0.0, 0.05], [0.0, 0.0, -0.05], [-0.05, -0.05, 0.0], [-0.05, 0.0, 0.0]] {
+        let mut ride = Ride::new(errors, Some(0.02));
+        ride.go(0.0, 0.0, 10.0);
+        ride.go(0.0, 60.0, 60.0);
+        assert!(ride.off().abs() < 2.0, "{errors:?}: {}", ride.off());
+        let drift = ride.estimate.drift();
+        assert!((drift - 0.02).abs() < 0.03, "{errors:?}: {drift}");
+    }
+}
+
+#[test]
+fn without_rest_too() {
+    let mut ride = Ride::new([0.0, 0.0, -0.05], Some(0.02));
+    ride.go(0.0, 60.0, 60.0);
+    assert!(ride.off().abs() < 4.0, "{}", ride.off());
+}
+
+#[test]
+fn what_the_gyro_has_taught_stays_when_it_is_gone() {
+    let mut ride = Ride::new([0.0, -0.03, 0.05], Some(0.02));
+    ride.go(0.0, 0.0, 10.0);
+    ride.go(20.0, 0.0, 10.0);
+    ride.go(0.0, 60.0, 12.0);
+    ride.estimate.lose_gyro();
+    ride.drift = None;
+    let before = ride.off();
+    ride.go(0.0, -60.0, 30.0);
+    ride.go(20.0, 0.0, 10.0);
+    // By the wheels as they should be it would be 100 degrees.
+    assert!((ride.off() - before).abs() < 8.0, "{before} and then {}", ride.off());
+}
+
+#[test]
+fn other_wheels_are_not_the_ones_that_were_learned() {
+    let mut ride = Ride::new([0.0, -0.03, 0.05], Some(0.02));
+    ride.go(20.0, 60.0, 20.0);
+    ride.estimate.lose_gyro();
+    let before = ride.estimate.pose();
+    ride.estimate.forget_wheels();
+    assert!(near(ride.estimate.pose(), before, 1e-9));
+    let half = std::f64::consts::PI * WHEELS.axle / 2.0;
+    ride.estimate.roll(&WHEELS, [half, -half], 1.0);
+    let turned = ride.estimate.pose().heading - before.heading;
+    assert!((turned - 180.0).abs() < 1e-6, "{turned}");
+}
+
+#[test]
+fn drift_that_is_more_than_thought_is_known_as_well_from_all_of_a_rest() {
+    for drift in [0.3, -0.5, 1.0, -2.0] {
+        let mut ride = Ride::new([0.0; 3], Some(drift));
+        ride.go(0.0, 0.0, 10.0);
+        assert!((ride.estimate.drift() - drift).abs() < 0.05, "{drift}: {}", ride.estimate.drift());
+    }
+}
+
 fn way() -> impl Strategy<Value = f64> {
     -30.0..30.0
+}
+
+#[test]
+fn a_pose_is_as_uncertain_as_wheels_and_axle() {
+    let deviation = |speed, rate, seconds| {
+        let mut ride = Ride::new([0.0; 3], None);
+        ride.go(speed, rate, seconds);
+        ride.estimate.uncertainty()[2][2].sqrt()
+    };
+    // 3 % of two turns, and 1 % of 2 m that one wheel rolls more.
+    let turned = deviation(0.0, 60.0, 12.0);
+    assert!((turned - 21.6).abs() < 1.0, "{turned}");
+    let ahead = deviation(20.0, 0.0, 10.0);
+    assert!((ahead - (2.0_f64 / 10.6).to_degrees()).abs() < 1.0, "{ahead}");
+}
+
+/// The ways of both wheels; the robot may rest.
+fn step() -> impl Strategy<Value = (f64, f64)> {
+    prop_oneof![3 => Just((0.0, 0.0)), 1 => (way(), way())]
 }
 
 proptest! {
@@ -109,12 +236,14 @@ proptest! {
     /// The covariance stays one: no negative variances, symmetric.
     #[test]
     fn covariances_stay_so(
-        steps in prop::collection::vec((way(), way(), -3.0_f64..3.0), 1..200),
+        steps in prop::collection::vec((step(), -3.0_f64..3.0), 1..200),
+        drift in -3.0_f64..3.0,
     ) {
         let mut estimate = Estimate::default();
-        for (left, right, off) in steps {
-            estimate.roll(&WHEELS, [left / 10.0, right / 10.0], 0.02);
-            estimate.see((estimate.pose().heading + off).round());
+        for (count, ((left, right), off)) in (0_u32..).zip(steps) {
+            estimate.roll(&WHEELS, [left / 10.0, right / 10.0], 0.1);
+            let drifted = f64::from(count) * 0.1 * drift;
+            estimate.see((estimate.pose().heading + drifted + off).round());
             let p = estimate.uncertainty();
             for i in 0..3 {
                 prop_assert!(p[i][i] >= -1e-9);
@@ -125,6 +254,47 @@ proptest! {
             }
             let pose = estimate.pose();
             prop_assert!(pose.x.is_finite() && pose.y.is_finite() && pose.heading.is_finite());
+        }
+    }
+
+    /// Whatever wheels and axle are like, the gyro knows better.
+    #[test]
+    fn with_a_gyro_the_heading_is_right(
+        left in -0.02_f64..0.02, right in -0.02_f64..0.02, axle in -0.05_f64..0.05,
+        drift in -0.03_f64..0.03,
+        moves in prop::collection::vec((-30.0_f64..30.0, -90.0_f64..90.0, 0.5_f64..4.0), 1..12),
+    ) {
+        let mut ride = Ride::new([left, right, axle], Some(drift));
+        ride.go(0.0, 0.0, 10.0);
+        for (speed, rate, seconds) in moves {
+            ride.go(speed, rate, seconds);
+            prop_assert!(ride.off().abs() < 3.0, "{}", ride.off());
+        }
+    }
+
+    /// Without one the pose is as uncertain as wheels and axle.
+    #[test]
+    fn without_a_gyro_the_errors_of_the_wheels_are_in_the_covariance(
+        left in -0.0075_f64..0.0075, right in -0.0075_f64..0.0075, axle in -0.03_f64..0.03,
+        moves in prop::collection::vec((-30.0_f64..30.0, -60.0_f64..60.0, 0.5_f64..3.0), 1..6),
+    ) {
+        let mut ride = Ride::new([left, right, axle], None);
+        let (mut way, mut bent) = (0.0, 0.0_f64);
+        for (speed, rate, seconds) in moves {
+            ride.go(speed, rate, seconds);
+            way += speed.abs() * seconds;
+            bent = bent.max(ride.off().to_radians().abs());
+        }
+        let (pose, truth) = (ride.estimate.pose(), ride.truth.pose());
+        let variances = ride.estimate.uncertainty();
+        // Each of the three errors is within its standard deviation, so what they
+        // do together is within the root of 3; but that arcs are no straight lines,
+        // and that encoders tell whole degrees.
+        let off = [pose.x - truth.x, pose.y - truth.y, pose.heading - truth.heading];
+        let curved = way * bent * bent;
+        for (state, more) in [curved, curved, 0.0].into_iter().enumerate() {
+            let within = (3.0 * variances[state][state]).sqrt() + more + 0.4;
+            prop_assert!(off[state].abs() < within, "{state}: {} of {within}", off[state]);
         }
     }
 

@@ -4,9 +4,11 @@
 //! turn, which the driver halves to counts (1 count = 1 degree). A stamp is also written every
 //! 50 ms without an edge. Speed is distance over time across the newest stamps, going back four
 //! at a time until 20 ms are covered, at most 64. So it lags, is coarse when slow, and takes
-//! about 200 ms to reach zero after the wheel has stopped.
+//! about 200 ms to reach zero after the wheel has stopped. Teeth that are not quite where they
+//! should be shift the counts; in the speed that cancels out, as four edges are a whole tooth.
 
 use crate::TICK_US;
+use crate::noise::Teeth;
 
 /// Room for the 64 steps back; a power of two.
 const RING: usize = 128;
@@ -32,20 +34,23 @@ fn edge(angle: f64) -> i64 {
 #[derive(Clone, Debug)]
 pub(crate) struct Encoder {
     edges: i32,
+    teeth: Teeth,
     stamps: Box<[Stamp; RING]>,
     written: usize,
     speed: i32,
 }
 
 impl Encoder {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(teeth: Teeth) -> Self {
         let stamps = Box::new([Stamp::default(); RING]);
-        Encoder { edges: 0, stamps, written: 1, speed: 0 }
+        Encoder { edges: 0, teeth, stamps, written: 1, speed: 0 }
     }
 
-    /// Counts since boot, truncated towards zero as the driver's integer division does.
+    /// Counts since boot, truncated towards zero as the driver's integer division does. All that
+    /// looks at a position gets it from here, with the errors of the teeth.
+    #[expect(clippy::cast_possible_truncation, reason = "an angle of 32 bits and a small error")]
     pub(crate) fn count(&self) -> i32 {
-        self.edges / 2
+        (f64::from(self.edges) / 2.0 + self.teeth.error(self.edges)) as i32
     }
 
     /// Counts per second.
@@ -131,7 +136,7 @@ mod tests {
 
     #[test]
     fn counts_are_degrees_and_speed_is_degrees_per_second() {
-        let mut encoder = Encoder::new();
+        let mut encoder = Encoder::new(Teeth::new(0.0, 1, 0));
         run(&mut encoder, 0..500, 0.0, 1.0);
         assert_eq!(encoder.count(), 500);
         assert!((499..=501).contains(&encoder.speed()), "{}", encoder.speed());
@@ -142,7 +147,7 @@ mod tests {
 
     #[test]
     fn speed_freezes_then_falls_and_is_zero_200_ms_after_the_last_edge() {
-        let mut encoder = Encoder::new();
+        let mut encoder = Encoder::new(Teeth::new(0.0, 1, 0));
         let end = run(&mut encoder, 0..500, 0.0, 1.0);
         run(&mut encoder, 500..523, end, 0.0);
         assert!(encoder.speed() > 490, "frozen for 50 ms: {}", encoder.speed());

@@ -5,6 +5,7 @@ mod avoid;
 mod braitenberg;
 mod dc_motors;
 mod desk;
+mod encoders;
 mod front;
 mod golden;
 mod linear;
