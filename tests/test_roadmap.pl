@@ -351,10 +351,8 @@ noisy(Number, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
     Left is 5 * (Number mod 2),
     Right is 5 - Left.
 
-% Looking for a way that is not there takes long. In one of the twenty the robot
-% gets caught at last at the end of a thin wall, which its sensor does not see.
-test(shut_in_goals_are_reported,
-     [true(Others == [] ; Others = [stalled-1])]) :-
+% Looking for a way that is not there takes long.
+test(shut_in_goals_are_reported, true(Others == [])) :-
     findall(Reason-Collisions,
             ( case(20, Number),
               room(Number, Room),

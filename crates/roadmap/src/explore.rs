@@ -46,7 +46,7 @@ impl Views {
     /// # Errors
     /// Says why there is no way.
     pub fn next_step(
-        &self,
+        &mut self,
         known: &Map,
         start: Point,
         goal: Point,
@@ -172,16 +172,17 @@ mod tests {
         let map = Map::new(Vec::new(), None).unwrap();
         let mut views = Views::new(8.0);
         views.stand([0.0, 0.0]);
-        let step = |views: &Views| {
+        let step = |views: &mut Views| {
             views.next_step(&map, [0.0, 0.0], [0.0, 150.0], 2.0, &Options::default()).unwrap()
         };
-        assert!(step(&views).safe < 1.0 && step(&views).unseen.is_some());
+        let first = step(&mut views);
+        assert!(first.safe < 1.0 && first.unseen.is_some());
         for turn in -60..=60 {
             let heading = f64::from(turn) * 1.5;
             let ahead = direction(heading) * 7.0;
             views.add(View { at: [ahead.x, ahead.y], heading, range: 255.0 });
         }
-        let safe = step(&views).safe;
+        let safe = step(&mut views).safe;
         assert!((90.0..100.0).contains(&safe), "{safe}");
         let wall = Obstacle::wall([-20.0, 30.0], [5.0, 30.0], 1.0).unwrap();
         let map = Map::new(vec![wall], None).unwrap();

@@ -3,7 +3,7 @@ use crate::arc::Arc;
 use crate::geometry::{
     Point, apart, around, cross, direction, distance, left_of, parry, point, unit, vec2,
 };
-use parry2d_f64::math::Isometry;
+use parry2d_f64::math::{Isometry, Point as ParryPoint};
 use parry2d_f64::query::PointQuery;
 use parry2d_f64::query::details::distance_segment_segment;
 use parry2d_f64::shape::Segment;
@@ -135,12 +135,20 @@ impl Edge {
     }
 }
 
+/// The inside of a polygon with the box around it.
+#[derive(Clone, Debug)]
+struct Area {
+    corners: Vec<ParryPoint<f64>>,
+    extent: [Point; 2],
+}
+
 /// All obstacles, and bounds if there are some.
 #[derive(Clone, Debug, Default)]
 pub struct Map {
     pub(crate) obstacles: Vec<Obstacle>,
     pub(crate) bounds: Option<Bounds>,
     edges: Vec<Edge>,
+    areas: Vec<Area>,
 }
 
 impl Map {
@@ -168,6 +176,9 @@ impl Map {
     pub fn add(&mut self, obstacle: Obstacle) {
         if let Shape::Polygon(corners) = &obstacle.0 {
             self.edges.extend(edges(corners).map(Edge::new));
+            let extent = around(corners.iter().copied());
+            let corners = corners.iter().copied().map(parry).collect();
+            self.areas.push(Area { corners, extent });
         }
         self.obstacles.push(obstacle);
     }
@@ -204,14 +215,12 @@ impl Map {
         let outside = self.bounds.is_some_and(|Bounds { low, high }| {
             at[0] < low[0] || at[1] < low[1] || at[0] > high[0] || at[1] > high[1]
         });
+        let is_around = |area: &Area| {
+            !apart(&area.extent, &[at, at], 0.0) && point_in_poly2d(&parry(at), &area.corners)
+        };
         outside
-            || self.obstacles.iter().any(|obstacle| match &obstacle.0 {
-                Shape::Polygon(corners) => {
-                    let corners: Vec<_> = corners.iter().copied().map(parry).collect();
-                    point_in_poly2d(&parry(at), &corners)
-                }
-                Shape::Circle { centre, radius } => distance(at, *centre) < *radius,
-            })
+            || self.circles().any(|(centre, radius)| distance(at, centre) < radius)
+            || self.areas.iter().any(is_around)
     }
 
     /// True if a point keeps a distance.

@@ -62,8 +62,9 @@ pub struct View {
     pub range: f64,
 }
 
+/// What one look tells.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+struct Look {
     at: Point,
     ahead: Vec2,
     range: f64,
@@ -71,7 +72,7 @@ struct Seen {
     free: f64,
 }
 
-impl Seen {
+impl Look {
     fn shows_free(&self, at: Point, cos: f64) -> bool {
         let offset = vec2(at) - vec2(self.at);
         let along = offset.dot(&self.ahead);
@@ -79,15 +80,67 @@ impl Seen {
         along >= 0.0 && square < self.free * self.free && along * along >= cos * cos * square
     }
 
+    /// How far a place that may have sent this echo is off the middle of the
+    /// cone, to the left, as a sine.
+    fn aside(&self, at: Point) -> Option<f64> {
+        let offset = vec2(at) - vec2(self.at);
+        let farthest = self.range + DIFFER;
+        if offset.dot(&self.ahead) <= 0.0 || offset.dot(&offset) > farthest * farthest {
+            return None;
+        }
+        let edge = libm::sin(ECHO_HALF_ANGLE.to_radians()) + 1e-9;
+        let far = length(offset);
+        let aside = cross(self.ahead, offset) / far;
+        ((far - self.range).abs() < DIFFER && aside.abs() <= edge).then_some(aside)
+    }
+
     /// The points from which the echo may have come.
     fn across(&self) -> Vec<Point> {
         let half = ECHO_HALF_ANGLE.to_radians();
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
-        let steps = libm::ceil(self.range * half / GRAIN) as u32;
+        let steps = self.steps();
         let turn = |index: u32| half * (f64::from(index) / f64::from(steps) - 1.0);
         (0..=2 * steps)
             .map(|index| point(vec2(self.at) + rotated(self.ahead, turn(index)) * self.range))
             .collect()
+    }
+
+    /// How many of them are on each side of the middle.
+    fn steps(&self) -> u32 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+        let steps = libm::ceil(self.range * ECHO_HALF_ANGLE.to_radians() / GRAIN) as u32;
+        steps
+    }
+}
+
+/// A place from which an echo may have come, as no look shows it free.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    at: Point,
+    /// How far to the right and to the left of the middle looks have an echo
+    /// from here, as sines.
+    aside: [f64; 2],
+}
+
+/// A look, and the places where its echo may have come from.
+#[derive(Clone, Debug)]
+struct Seen {
+    look: Look,
+    places: Vec<Place>,
+}
+
+impl Seen {
+    /// What another look tells of the places, or this one.
+    fn learn(&mut self, look: &Look, cos: f64) {
+        self.places.retain_mut(|place| {
+            if look.shows_free(place.at, cos) {
+                return false;
+            }
+            if let Some(aside) = look.aside(place.at) {
+                let [right, left] = place.aside;
+                place.aside = [right.min(aside), left.max(aside)];
+            }
+            true
+        });
     }
 }
 
@@ -105,6 +158,9 @@ pub struct Safe {
 pub struct Views {
     hull: f64,
     seen: Vec<Seen>,
+    /// The places of so many of them are those that no look up to there shows
+    /// free.
+    sifted: usize,
     trail: Vec<Point>,
     blocked: Vec<Point>,
     free_cos: f64,
@@ -115,7 +171,14 @@ impl Views {
     #[must_use]
     pub fn new(hull: f64) -> Views {
         let free_cos = libm::cos(FREE_HALF_ANGLE.to_radians());
-        Views { hull, seen: Vec::new(), trail: Vec::new(), blocked: Vec::new(), free_cos }
+        Views {
+            hull,
+            seen: Vec::new(),
+            sifted: 0,
+            trail: Vec::new(),
+            blocked: Vec::new(),
+            free_cos,
+        }
     }
 
     /// The radius of the hull, in cm.
@@ -144,11 +207,12 @@ impl Views {
     fn forget_contradicted(&mut self, view: View) -> bool {
         let ahead = direction(view.heading);
         let cos = self.free_cos;
-        let beyond = Seen { at: view.at, ahead, range: view.range + MOVED, free: 0.0 };
+        let beyond = Look { at: view.at, ahead, range: view.range + MOVED, free: 0.0 };
         let places = beyond.across();
         let contradicted = places.iter().all(|place| self.shown_free(*place));
         if contradicted {
-            self.seen.retain(|seen| !places.iter().any(|place| seen.shows_free(*place, cos)));
+            self.seen.retain(|seen| !places.iter().any(|place| seen.look.shows_free(*place, cos)));
+            self.sifted = 0;
         }
         contradicted
     }
@@ -164,7 +228,7 @@ impl Views {
     /// left out.
     pub fn add(&mut self, view: View) {
         let ahead = direction(view.heading);
-        let is_new = |last: &Seen| {
+        let is_new = |Seen { look: last, .. }: &Seen| {
             distance(last.at, view.at) > STEP
                 || last.ahead.dot(&ahead) < 0.9986
                 || view.range < last.range - STEP
@@ -172,13 +236,15 @@ impl Views {
         if self.seen.last().is_none_or(is_new) {
             let far = view.range.min(FAR);
             let free = if far > NEAR { far - DOUBT[0] - DOUBT[1] * far } else { 0.0 };
-            self.seen.push(Seen { at: view.at, ahead, range: view.range, free });
+            let look = Look { at: view.at, ahead, range: view.range, free };
+            self.seen.push(Seen { look, places: Vec::new() });
         }
     }
 
     /// Forgets all looks, and what was made of them.
     pub fn forget(&mut self) {
         self.seen.clear();
+        self.sifted = 0;
         self.blocked.clear();
         self.trail.clear();
     }
@@ -195,7 +261,7 @@ impl Views {
     }
 
     fn shown_free(&self, at: Point) -> bool {
-        self.seen.iter().rev().any(|seen| seen.shows_free(at, self.free_cos))
+        self.seen.iter().rev().any(|seen| seen.look.shows_free(at, self.free_cos))
     }
 
     fn was_at(&self, at: Point, reach: f64) -> bool {
@@ -225,14 +291,15 @@ impl Views {
 
     /// What stands where that a map does not know.
     #[must_use]
-    pub fn obstacles(&self, known: &Map) -> Vec<Obstacle> {
+    pub fn obstacles(&mut self, known: &Map) -> Vec<Obstacle> {
         self.obstacles_within(FAR, known)
     }
 
-    /// What was heard from no farther than a distance, in cm.
-    pub(crate) fn obstacles_within(&self, far: f64, known: &Map) -> Vec<Obstacle> {
+    /// What was heard from no farther than a distance, in cm, [`FAR`] at most.
+    pub(crate) fn obstacles_within(&mut self, far: f64, known: &Map) -> Vec<Obstacle> {
+        self.sift();
         let mut squares: BTreeMap<[i64; 2], Vec<Point>> = BTreeMap::new();
-        let near = self.seen.iter().filter(|seen| seen.range <= far);
+        let near = self.seen.iter().filter(|seen| seen.look.range <= far);
         let places = near.flat_map(|seen| self.echo(seen, known));
         for place in places.chain(self.blocked.iter().copied()) {
             #[expect(clippy::cast_possible_truncation, reason = "saturates")]
@@ -245,35 +312,38 @@ impl Views {
             .collect()
     }
 
-    /// Where a look's echo came from, if that is clear and not known.
-    fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
-        let mut places = seen.across();
-        #[expect(clippy::cast_precision_loss, reason = "few")]
-        let grain = 2.0 * ECHO_HALF_ANGLE.to_radians() * seen.range / (places.len() - 1) as f64;
-        places.retain(|place| !self.shown_free(*place));
-        if places.iter().any(|place| known.clearance(*place) < KNOWN) {
-            return Vec::new();
+    /// Lets all looks tell of each other's places. Those that have done so
+    /// before only hear of the new ones.
+    fn sift(&mut self) {
+        let cos = self.free_cos;
+        for new in self.sifted..self.seen.len() {
+            let (before, rest) = self.seen.split_at_mut(new);
+            let seen = &mut rest[0];
+            let look = seen.look;
+            let nowhere = [f64::INFINITY, f64::NEG_INFINITY];
+            let places = if look.range <= FAR { look.across() } else { Vec::new() };
+            seen.places = places.into_iter().map(|at| Place { at, aside: nowhere }).collect();
+            for other in before.iter_mut() {
+                seen.learn(&other.look, cos);
+                other.learn(&look, cos);
+            }
+            seen.learn(&look, cos);
         }
-        #[expect(clippy::cast_precision_loss, reason = "few")]
-        let across = places.len() as f64 * grain;
-        places.retain(|place| across <= WIDE || self.is_agreed(*place));
-        places.retain(|place| !self.was_at(*place, self.hull + AROUND));
-        places
+        self.sifted = self.seen.len();
     }
 
-    /// True if looks in different directions have an echo from a place.
-    fn is_agreed(&self, at: Point) -> bool {
-        let edge = libm::sin(ECHO_HALF_ANGLE.to_radians()) + 1e-9;
-        let aside = self.seen.iter().filter_map(|seen| {
-            let offset = vec2(at) - vec2(seen.at);
-            let far = length(offset);
-            let aside = cross(seen.ahead, offset) / far;
-            let fits = (far - seen.range).abs() < DIFFER && aside.abs() <= edge;
-            (fits && offset.dot(&seen.ahead) > 0.0).then_some(aside)
-        });
-        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = aside.fold(nothing, |(low, high), n| (low.min(n), high.max(n)));
-        high - low >= AGREED
+    /// Where a look's echo came from, if that is clear and not known.
+    fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
+        if seen.places.iter().any(|place| !known.point_clear(place.at, KNOWN)) {
+            return Vec::new();
+        }
+        let grain = ECHO_HALF_ANGLE.to_radians() * seen.look.range / f64::from(seen.look.steps());
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let is_narrow = seen.places.len() as f64 * grain <= WIDE;
+        // Or looks in different directions agree.
+        let is_clear = |place: &&Place| is_narrow || place.aside[1] - place.aside[0] >= AGREED;
+        let clear = seen.places.iter().filter(is_clear).map(|place| place.at);
+        clear.filter(|at| !self.was_at(*at, self.hull + AROUND)).collect()
     }
 }
 
