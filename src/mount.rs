@@ -3,10 +3,12 @@ use crate::call::Call;
 use crate::error::{no_such, wrong_because};
 use crate::keys::close_sources;
 use crate::state::{dev, devices, use_default_dev, use_default_files};
+use ev3_driver::Devices;
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::time::{Duration, Instant};
 use swipl::prelude::*;
 
 static MOUNTED: Mutex<Option<Mounted>> = Mutex::new(None);
@@ -57,8 +59,10 @@ fn mounted<C: QueryableContextType>(
 pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
     let mounted = take().ok_or(PrologError::Failure)?;
     // Descriptors of our own would keep it busy.
+    let used = Arc::downgrade(&devices());
     if devices().tree().root().starts_with(mounted.classes.path()) {
         call.check(use_default_files())?;
+        wait_until_unused(&used);
     }
     if let Some(mount) = mounted.dev {
         if dev().root().starts_with(mount.path()) {
@@ -68,6 +72,15 @@ pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<(
         gone(call, mount)?;
     }
     gone(call, mounted.classes)
+}
+
+/// Another thread may be in the midst of a step with these devices, as the loop of
+/// a drive. One that goes on with them for long keeps the mount busy.
+fn wait_until_unused(devices: &Weak<Devices>) {
+    let patience = Instant::now() + Duration::from_secs(1);
+    while devices.strong_count() > 0 && Instant::now() < patience {
+        std::thread::sleep(Duration::from_millis(1));
+    }
 }
 
 fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<()> {
