@@ -33,9 +33,11 @@ fn search_with(map: &Map, sought: &Sought, apart: f64) -> (Vec<Point>, Searched)
     let mut points = vec![sought.start, sought.goal];
     points.extend(corners.iter().map(|corner| corner.at));
 
-    // A shortest way touches each corner that it bends at.
+    // A shortest way touches each corner that it bends at, but next to its ends:
+    // these may be closer to an arc than the corner is.
+    let corner_at = |node: usize| node.checked_sub(2).and_then(|index| corners.get(index));
     let touches = |node: usize, towards: usize| {
-        let Some(corner) = node.checked_sub(2).and_then(|index| corners.get(index)) else {
+        let (Some(corner), Some(_)) = (corner_at(node), corner_at(towards)) else {
             return true;
         };
         let way = unit(vec2(points[towards]) - vec2(corner.at));
