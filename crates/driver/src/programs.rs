@@ -114,17 +114,19 @@ pub(crate) struct Programs {
 }
 
 impl Programs {
-    /// Waits until all of these have ended, by themselves or by
-    /// [`end`](Self::end). However it is left, they have. They are in the order
-    /// of the pipe between them.
-    pub(crate) fn wait<const N: usize>(
+    /// Starts programs, in the order of the pipe between them, and waits until
+    /// all have ended, by themselves or by [`end`](Self::end). However it is
+    /// left, they have.
+    pub(crate) fn run<const N: usize>(
         &self,
         dev: &dyn Dev,
-        programs: [Started; N],
+        start: impl FnOnce() -> Result<[Started; N]>,
         interrupted: Interrupted,
     ) -> Result<()> {
         let number = self.next.fetch_add(1, Ordering::SeqCst);
-        self.running().extend(programs.map(|program| (number, program)));
+        let mut running = self.running();
+        running.extend(start()?.map(|program| (number, program)));
+        drop(running);
         let over = until(dev, None, None, interrupted, || self.are_over(number));
         self.running().retain(|(other, _)| *other != number);
         over.map(drop)
@@ -147,12 +149,45 @@ impl Programs {
         first.map_or(Ok(Some(())), |(started, why)| Err(started.complaint(why)))
     }
 
-    /// Ends all that run.
+    /// Ends all that run, and those that are just being started.
     pub(crate) fn end(&self) {
         self.running().clear();
     }
 
     fn running(&self) -> MutexGuard<'_, Vec<(u32, Started)>> {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dev::DevFiles;
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    const SLEEP: Program = Program { name: "sleep", package: "coreutils" };
+
+    #[test]
+    fn what_is_just_being_started_is_ended() {
+        let programs = &Programs::default();
+        let begun = Instant::now();
+        std::thread::scope(|scope| {
+            let (starting, has_started) = channel();
+            let (ending, is_ended) = channel();
+            scope.spawn(move || {
+                has_started.recv().unwrap();
+                ending.send(()).unwrap();
+                programs.end();
+            });
+            let start = || {
+                let started = SLEEP.start(&[OsStr::new("60")], Stdio::null(), Stdio::null())?;
+                starting.send(()).unwrap();
+                is_ended.recv().unwrap();
+                Ok([started])
+            };
+            programs.run(&DevFiles::new("/dev"), start, &mut || false).unwrap();
+        });
+        assert!(begun.elapsed() < Duration::from_secs(60), "it ran to its end");
     }
 }

@@ -110,13 +110,16 @@ impl Sound {
     /// [`Error::Interrupted`].
     pub fn say(&self, dev: &dyn Dev, text: &str, interrupted: Interrupted) -> Result<()> {
         if let Some(speaker) = dev.speaker() {
-            return self.let_speak(dev, speaker, speaker.say(text), interrupted);
+            return self.let_speak(dev, speaker, || speaker.say(text), interrupted);
         }
-        let arguments = ["--stdout", "--", text].map(OsStr::new);
-        let mut voice = Program::ESPEAK.start(&arguments, Stdio::null(), Stdio::piped())?;
-        let quietly = ["-q"].map(OsStr::new);
-        let player = Program::APLAY.start(&quietly, voice.printed(), Stdio::null())?;
-        self.programs.wait(dev, [voice, player], interrupted)
+        let start = || {
+            let arguments = ["--stdout", "--", text].map(OsStr::new);
+            let mut voice = Program::ESPEAK.start(&arguments, Stdio::null(), Stdio::piped())?;
+            let quietly = ["-q"].map(OsStr::new);
+            let player = Program::APLAY.start(&quietly, voice.printed(), Stdio::null())?;
+            Ok([voice, player])
+        };
+        self.programs.run(dev, start, interrupted)
     }
 
     /// Plays a recording, a WAV file, and waits until it is over.
@@ -127,23 +130,30 @@ impl Sound {
     pub fn play(&self, dev: &dyn Dev, path: &Path, interrupted: Interrupted) -> Result<()> {
         let lasts = length_of(path)?;
         if let Some(speaker) = dev.speaker() {
-            speaker.play(&path.to_string_lossy());
-            return self.let_speak(dev, speaker, lasts, interrupted);
+            let start = || {
+                speaker.play(&path.to_string_lossy());
+                lasts
+            };
+            return self.let_speak(dev, speaker, start, interrupted);
         }
-        let arguments = [OsStr::new("-q"), OsStr::new("--"), path.as_os_str()];
-        let player = Program::APLAY.start(&arguments, Stdio::null(), Stdio::null())?;
-        self.programs.wait(dev, [player], interrupted)
+        let start = || {
+            let arguments = [OsStr::new("-q"), OsStr::new("--"), path.as_os_str()];
+            Ok([Program::APLAY.start(&arguments, Stdio::null(), Stdio::null())?])
+        };
+        self.programs.run(dev, start, interrupted)
     }
 
+    /// `start` tells for how long it speaks.
     fn let_speak(
         &self,
         dev: &dyn Dev,
         speaker: &dyn Speaker,
-        lasts: Duration,
+        start: impl FnOnce() -> Duration,
         interrupted: Interrupted,
     ) -> Result<()> {
+        // Before it starts: a stop from then on is one of it.
         let stops = self.stops.load(Ordering::SeqCst);
-        let spoken = self.pause(dev, lasts, stops, interrupted);
+        let spoken = self.pause(dev, start(), stops, interrupted);
         if !matches!(spoken, Ok(false)) {
             speaker.silence();
         }
