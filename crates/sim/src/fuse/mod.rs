@@ -126,7 +126,11 @@ impl Mount {
             // It only panics if the machine did; unmounting matters more.
             let _ = watcher.join();
         }
-        self.session.take().map_or(Ok(()), BackgroundSession::umount_and_join)
+        match self.session.take().map_or(Ok(()), BackgroundSession::umount_and_join) {
+            // Unmounted, while the kernel was about to ask something.
+            Err(error) if error.kind() == io::ErrorKind::ConnectionAborted => Ok(()),
+            ended => ended,
+        }
     }
 }
 
