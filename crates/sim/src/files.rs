@@ -12,7 +12,7 @@ use crate::noise::{Noise, Source};
 use crate::port::Port;
 use crate::sense::View;
 use crate::sensor::{Reading, Sensor};
-use crate::trace::{Action, Event};
+use crate::trace::Action;
 use crate::tree::{Entry, Hardware, NodeId, Stat, Tree};
 
 /// Where a sensor sits on a port for which the robot names none.
@@ -150,11 +150,10 @@ impl Machine {
     }
 
     fn record(&mut self, action: Action, node: NodeId, bytes: &[u8]) {
-        let Ok(path) = self.tree.path(node) else {
-            return;
-        };
-        let text = String::from_utf8_lossy(bytes.strip_suffix(b"\n").unwrap_or(bytes)).into_owned();
-        self.trace.event(Event { at: self.now, action, path, text });
+        if let Ok(path) = self.tree.attribute_path(node) {
+            let text = String::from_utf8_lossy(bytes.strip_suffix(b"\n").unwrap_or(bytes));
+            self.trace.event(self.now, action, &path, &text);
+        }
     }
 
     // ---- sensors --------------------------------------------------------------------------

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::TICK_US;
 use crate::machine::Machine;
-use crate::trace::{Action, Event};
+use crate::trace::Action;
 
 /// As many events as a reader may be behind; evdev keeps about so many, too.
 const EVENTS: usize = 64;
@@ -218,7 +218,7 @@ impl Machine {
         self.front.events.push_back(event);
         self.front.event_count += 1;
         let action = if is_press { Action::Pressed } else { Action::Released };
-        self.trace.event(Event { at, action, path: String::new(), text: key.to_string() });
+        self.trace.event(at, action, &[], &key.to_string());
     }
 
     /// Does to the keys what is planned until this tick.
@@ -270,7 +270,6 @@ impl Machine {
     }
 
     fn heard(&mut self, action: Action, text: &str) {
-        let event = Event { at: self.now, action, path: String::new(), text: text.to_owned() };
-        self.trace.event(event);
+        self.trace.event(self.now, action, &[], text);
     }
 }

@@ -97,8 +97,13 @@ impl Obstacle {
         }
     }
 
-    /// How far a ray goes before it meets this, at most `max`.
+    /// How far a ray goes before it meets this, at most `max`. Its direction has length 1.
     pub(crate) fn cast(&self, ray: &Ray, max: f64) -> Option<f64> {
+        let offset = self.frame.translation.vector - ray.origin.coords;
+        let aside = ray.dir.x * offset.y - ray.dir.y * offset.x;
+        if aside.abs() > self.reach {
+            return None;
+        }
         match &self.solid {
             Solid::Box(cuboid) => cuboid.cast_ray(&self.frame, ray, max, true),
             Solid::Ball(ball) => ball.cast_ray(&self.frame, ray, max, true),

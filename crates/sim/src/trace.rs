@@ -128,15 +128,26 @@ impl Trace {
         }
     }
 
-    pub(crate) fn event(&mut self, event: Event) {
-        let ring = match event.action {
+    /// Notes an event. The path is given in its parts.
+    pub(crate) fn event(&mut self, at: Duration, action: Action, path: &[&str], text: &str) {
+        let ring = match action {
             Action::Read => &mut self.read,
             _ => &mut self.written,
         };
-        if ring.len() == EVENTS {
-            ring.pop_front();
+        // The strings of the one that is forgotten serve again.
+        let forgotten = if ring.len() == EVENTS { ring.pop_front() } else { None };
+        let (mut old_path, mut old_text) =
+            forgotten.map_or_else(Default::default, |(_, event)| (event.path, event.text));
+        old_path.clear();
+        for (index, part) in path.iter().enumerate() {
+            if index > 0 {
+                old_path.push('/');
+            }
+            old_path.push_str(part);
         }
-        ring.push_back((self.event_count, event));
+        old_text.clear();
+        old_text.push_str(text);
+        ring.push_back((self.event_count, Event { at, action, path: old_path, text: old_text }));
         self.event_count += 1;
     }
 

@@ -415,6 +415,17 @@ impl Tree {
         Ok(device.hardware.events(device.hardware.files().name(row)))
     }
 
+    /// Class, device and name of an attribute.
+    pub(crate) fn attribute_path(&self, node: NodeId) -> Result<[&str; 3], Errno> {
+        match self.place(node)? {
+            Place::Attribute(device, row) => {
+                let class = CLASSES[device.class as usize].1;
+                Ok([class, &device.name, device.hardware.files().name(row)])
+            }
+            _ => Err(Errno::EISDIR),
+        }
+    }
+
     /// The path of a node, for messages and the trace.
     pub(crate) fn path(&self, node: NodeId) -> Result<String, Errno> {
         let class = |device: &Device| CLASSES[device.class as usize].1;
