@@ -62,12 +62,29 @@ pub(crate) struct Simulation {
 /// The threads of the program, for the virtual clock.
 #[derive(Default)]
 struct Threads {
-    /// When each last accessed a file, by the wall.
-    accesses: HashMap<ThreadId, Instant>,
+    /// When each last accessed a file, by the wall. They are few.
+    accesses: Vec<(ThreadId, Instant)>,
     /// Until when each that waits does.
     waits: HashMap<ThreadId, Duration>,
     /// Those without which time stands still unless they wait.
     holders: HashSet<ThreadId>,
+}
+
+impl Threads {
+    /// Notes that a thread accesses a file now.
+    fn accessed(&mut self, thread: ThreadId) {
+        let now = Instant::now();
+        if let Some((_, last)) = self.accesses.iter_mut().find(|(other, _)| *other == thread) {
+            *last = now;
+        } else {
+            self.forget_idle();
+            self.accesses.push((thread, now));
+        }
+    }
+
+    fn forget_idle(&mut self) {
+        self.accesses.retain(|(_, last)| last.elapsed() < BUSY_FOR);
+    }
 }
 
 impl Simulation {
@@ -138,7 +155,7 @@ impl Simulation {
     }
 
     fn was_busy(&self) {
-        self.threads().accesses.insert(std::thread::current().id(), Instant::now());
+        self.threads().accessed(std::thread::current().id());
     }
 
     /// Lets time pass until `is_it` holds, after so much at the latest. Time
@@ -216,15 +233,15 @@ impl Simulation {
         }
         let mut threads = self.threads();
         threads.waits.remove(&me);
-        threads.accesses.insert(me, Instant::now());
+        threads.accessed(me);
     }
 
     /// Whether no other thread is busy, or waits for an earlier time.
     fn is_next(&self, me: ThreadId, until: Duration) -> bool {
         let mut threads = self.threads();
-        let Threads { accesses, waits, holders } = &mut *threads;
-        accesses.retain(|_, last| last.elapsed() < BUSY_FOR);
-        let mut busy = accesses.keys().chain(holders.iter());
+        threads.forget_idle();
+        let Threads { accesses, waits, holders } = &*threads;
+        let mut busy = accesses.iter().map(|(thread, _)| thread).chain(holders.iter());
         let is_busy = busy.any(|other| *other != me && !waits.contains_key(other));
         !is_busy && waits.values().all(|other| *other >= until)
     }
@@ -236,10 +253,13 @@ impl Simulation {
 
 /// What is to be done at a fixed period of the simulated time.
 #[derive(Default)]
-struct RepeatedActs {
-    acts: Mutex<Vec<Due>>,
+struct RepeatedActs(Mutex<Acts>);
+
+#[derive(Default)]
+struct Acts {
+    due: Vec<Due>,
     /// The thread that is doing one.
-    actor: Mutex<Option<ThreadId>>,
+    actor: Option<ThreadId>,
 }
 
 struct Due {
@@ -250,13 +270,13 @@ struct Due {
 
 impl RepeatedActs {
     fn add(&self, now: Duration, period: Duration, act: Repeated) {
-        self.acts().push(Due { at: now.saturating_add(period), period, act });
+        self.acts().due.push(Due { at: now.saturating_add(period), period, act });
     }
 
     /// Whether this thread is doing one: its own waiting and reading is not the
     /// program's.
     fn is_acting(&self) -> bool {
-        *self.actor() == Some(std::thread::current().id())
+        self.acts().actor.is_some_and(|actor| actor == std::thread::current().id())
     }
 
     /// Lets time pass, and does what is due on the way.
@@ -271,9 +291,8 @@ impl RepeatedActs {
             let left = at.saturating_sub(machine.now());
             machine.step(left);
             drop(machine);
-            *self.actor() = Some(std::thread::current().id());
             let next = act();
-            *self.actor() = None;
+            self.acts().actor = None;
             machine = shared.lock();
             if let Some(next) = next {
                 self.add(machine.now(), next, act);
@@ -284,27 +303,27 @@ impl RepeatedActs {
         machine
     }
 
-    /// The first that is due by then. One at a time: while a thread is at it,
-    /// others let time pass without.
+    /// The first that is due by then, for this thread to do. One at a time: while
+    /// a thread is at it, others let time pass without.
     fn due(&self, now: Duration, end: Duration) -> Option<Due> {
-        if self.actor().is_some() {
+        let mut acts = self.acts();
+        if acts.actor.is_some() {
             return None;
         }
-        let mut acts = self.acts();
-        for due in &mut *acts {
+        for due in &mut acts.due {
             // A machine that was put back to an earlier moment.
             due.at = due.at.min(now.saturating_add(due.period));
         }
-        let (index, due) = acts.iter().enumerate().min_by_key(|(_, due)| due.at)?;
-        (due.at <= end).then(|| acts.swap_remove(index))
+        let (index, due) = acts.due.iter().enumerate().min_by_key(|(_, due)| due.at)?;
+        if due.at > end {
+            return None;
+        }
+        acts.actor = Some(std::thread::current().id());
+        Some(acts.due.swap_remove(index))
     }
 
-    fn acts(&self) -> MutexGuard<'_, Vec<Due>> {
-        self.acts.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn actor(&self) -> MutexGuard<'_, Option<ThreadId>> {
-        self.actor.lock().unwrap_or_else(PoisonError::into_inner)
+    fn acts(&self) -> MutexGuard<'_, Acts> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
