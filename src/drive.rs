@@ -141,8 +141,8 @@ fn drive_of<'a, C: QueryableContextType>(
     Ok((devices, drive))
 }
 
-/// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)` or
-/// `wheels(LeftShare, RightShare)`
+/// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)`, `change` with
+/// the same, or `wheels(LeftShare, RightShare)`
 fn course_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
@@ -151,6 +151,7 @@ fn course_of<'a, C: QueryableContextType>(
     let name = term.get::<Functor>()?.name_string();
     Ok(match &*name {
         "cruise" => Course::Cruise(call.float(&first)?, call.float(&second)?),
+        "change" => Course::Change(call.float(&first)?, call.float(&second)?),
         "wheels" => Course::Wheels([call.float(&first)?, call.float(&second)?]),
         _ => {
             let legs = call.list(&first)?;
@@ -161,11 +162,10 @@ fn course_of<'a, C: QueryableContextType>(
 }
 
 fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Leg> {
-    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+    let Some((name, arguments)) = call.compound(term)? else {
         return wrong_value(call, "leg", term);
     };
-    let arguments = call.context.compound_terms_vec(term)?;
-    Ok(match (&*functor.name_string(), &*arguments) {
+    Ok(match (&*name, &*arguments) {
         ("turn", [degrees]) => Leg::Turn(call.float(degrees)?),
         ("heading", [heading]) => Leg::Heading(call.float(heading)?),
         ("face", [heading]) => Leg::Face(call.float(heading)?),

@@ -38,5 +38,6 @@ fn word(ended: Ended) -> &'static str {
         Ended::Stalled => "stalled",
         Ended::Astray => "astray",
         Ended::Missed(_) => "missed",
+        Ended::Stopped => "stopped",
     }
 }

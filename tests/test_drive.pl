@@ -292,6 +292,9 @@ test(the_time_is_up,
                motor_states(outC, []) )).
 test(without_being_asked_for_the_reason_it_fails, [fail]) :-
     quiet(false, go_to(0, 50, [timeout(0.2)])).
+test(another_thread_may_ask_for_the_pose_all_the_time) :-
+    quiet(false, meanwhile(( repeat, pose(_, _, _), fail ),
+                           forall(member(Y, [5, 0, 5, 0, 5, 0, 5, 0]), go_to(0, Y)))).
 test(a_stop_by_another_thread,
      [forall(member(Stop, [ stop, motor_stop(outB), motor_run(outC, 0),
                             motor_run(outB, 20, 90, [wait(false)]) ])),

@@ -48,6 +48,20 @@ test(an_uncaught_error_stops_them, true(Failed-C == failed-(stop-''))) :-
     after_program("main :- motor_run(outB, 20), atom_length(_, _).",
                   [goal(main)], Status, C),
     ( Status == exit(0) -> Failed = Status ; Failed = failed ).
+test(one_that_has_no_descriptors_left_stops_them, true(C == stop-'')) :-
+    after_program(":- use_module(library(rlimit)).
+                   main :- motor_run(outB, 20), rlimit(nofile, _, 40),
+                           sleep(0.2), leak.
+                   leak :- open('/dev/null', read, _), leak.",
+                  [goal(main)], _, C).
+test(without_descriptors_a_motor_can_be_stopped, true(C == stop-'')) :-
+    after_program(":- use_module(library(rlimit)).
+                   main :- motor_run(outB, 20), rlimit(nofile, _, 40),
+                           catch(leak, error(resource_error(_), _), true),
+                           sleep(0.2), motor_stop(outB),
+                           set_prolog_flag(ev3dev_stop_at_halt, false).
+                   leak :- open('/dev/null', read, _), leak.",
+                  [goal(main)], _, C).
 test(a_failed_goal_stops_them, true(C == stop-'')) :-
     after_program("main :- motor_run(outB, 20), fail.", [goal(main)], _, C).
 test(halt_within_the_program_stops_them, true(Status-C == exit(3)-(stop-''))) :-

@@ -3,6 +3,7 @@
 :- use_module(rooms).
 :- use_module(cases).
 :- use_module(simulation).
+:- use_module(tree, [meanwhile/2]).
 :- use_module(trees).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
@@ -135,6 +136,8 @@ evaluated(circle(inf, Y, R), circle(X, Y, R)) :-
     X is inf.
 evaluated(Fact, Fact).
 
+test(a_fact_without_arguments, error(domain_error(roadmap_fact, room))) :-
+    roadmap_path([room], 0-0, 10-10, _).
 test(unknown_fact, error(domain_error(roadmap_fact, pond(1, 2)))) :-
     roadmap_path([pond(1, 2)], 0-0, 1-1, _).
 test(too_many_arguments, error(domain_error(roadmap_fact, _))) :-
@@ -261,6 +264,11 @@ test(an_exception_stops_it) :-
                      sim_pose(X, Y, _),
                      stands([outB, outC]) )),
     sqrt((X - 260)^2 + (Y - 210)^2) > 50.
+test(another_thread_stops_it, [forall(between(1, 8, At)), true(Reason == stopped)]) :-
+    with_sim(room, ( robot_at(40, 40, 40),
+                     meanwhile(stop_running(At),
+                               navigate_to([], 260-210, [reason(Reason)])),
+                     stands([outB, outC]) )).
 test(through_fuse_in_real_time, [forall(tree(mount))]) :-
     on(mount, ( robot_at(40, 40, 40),
                 navigate_to(room, 50-60),
@@ -290,6 +298,20 @@ test(the_example_draws) :-
         ( room_example:picture(260-210, File),
           load_xml(File, [element(svg, _, _)|_], []) ),
         delete_file(File)).
+
+%   Stop the robot once, when it moves after so many seconds.
+
+stop_running(At) :-
+    repeat,
+    sleep(0.001),
+    sim_time(Now),
+    Now >= At,
+    motor_states(outB, [running|_]),
+    !,
+    stop,
+    repeat,
+    sleep(1),
+    fail.
 
 :- end_tests(navigation).
 

@@ -7,6 +7,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
+:- use_module(drive_moves, [move/3]).
 :- use_module(options, [take_options/4]).
 :- use_module(roadmap_arguments,
               [ number_option/4, roadmap_facts/2, roadmap_options/2,
@@ -243,6 +244,7 @@ look_around(_, _, _, _, ended(unplugged)).
 %   ended(Reason). Ends early if something has moved.
 
 follow(Way, Until, Drive, Done) :-
+    drive_cm(0, 0),
     follow(Way, Until, 0, 0, Drive, Done),
     stop.
 
@@ -266,13 +268,13 @@ follow(Way, Until, Before, Still, Drive, Done) :-
 follow(_, _, _, _, _, ended(unplugged)).
 
 %   Slower before the end, and where the way bends: by at most 60 degrees a
-%   second.
+%   second. What somebody has stopped stays so.
 
 steer(Left, Turn, drive(_, _, _, _, _, _, Speed, _)) :-
     CmPerSecond is min(Speed, min(max(2, sqrt(30 * Left)),
                                   60 / max(abs(Turn), 1))),
     DegreesPerSecond is CmPerSecond * Turn,
-    drive_cm(CmPerSecond, DegreesPerSecond).
+    move(100, change(CmPerSecond, DegreesPerSecond), []).
 
 %!  tick(+Gone, +Before, +Still0, -Still, -Why) is det.
 %

@@ -270,6 +270,10 @@ turn(Speed, Angle) :-
 
 turn_ended(reached, _) :-
     !.
+turn_ended(stopped, Degrees) :-
+    !,
+    debug(ev3dev, "turn by ~w degrees ended early: stopped", [Degrees]),
+    fail.
 turn_ended(Ended, Degrees) :-
     print_message(warning, ev3dev(turn(Ended, Degrees))),
     fail.

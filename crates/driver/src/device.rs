@@ -61,7 +61,7 @@ pub(crate) struct Watch(OnceLock<Weak<Drive>>);
 impl Watch {
     /// There is one for each tree, and it stays.
     pub(crate) fn set(&self, drive: Weak<Drive>) {
-        // It is set once: who sets it holds the lock under which it is made.
+        // It is set once, where the drive is made.
         let _ = self.0.set(drive);
     }
 

@@ -16,7 +16,7 @@ use rustix::io::Errno;
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
@@ -109,7 +109,7 @@ pub struct Detected {
 pub struct Devices {
     tree: Arc<dyn Tree>,
     listings: [Mutex<Listing>; Class::ALL.len()],
-    drive: Mutex<Option<Arc<Drive>>>,
+    drive: OnceLock<Arc<Drive>>,
     watch: Arc<Watch>,
 }
 
@@ -126,7 +126,7 @@ impl Devices {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Tree>) -> Self {
-        Self { tree, listings: Default::default(), drive: Mutex::default(), watch: Arc::default() }
+        Self { tree, listings: Default::default(), drive: OnceLock::new(), watch: Arc::default() }
     }
 
     /// The tree they are in.
@@ -147,6 +147,18 @@ impl Devices {
         Ok(Arc::clone(&listing.devices))
     }
 
+    /// The devices of a class that were seen when it was last looked at.
+    pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
+        Arc::clone(&self.listing(class).devices)
+    }
+
+    /// Whether some thread, and be it this one, is looking at a class.
+    pub(crate) fn is_listing(&self) -> bool {
+        let is_locked =
+            |listing: &Mutex<Listing>| matches!(listing.try_lock(), Err(TryLockError::WouldBlock));
+        self.listings.iter().any(is_locked)
+    }
+
     /// The device at a port, which may be spelled either way. A sensor on the
     /// I2C bus is found by its socket, too.
     ///
@@ -157,7 +169,12 @@ impl Devices {
         let mut listing = self.listing(class);
         let is_fresh = self.is_fresh(&listing);
         if !is_fresh || !listing.by_port.contains_key(port) {
-            self.list(class, &mut listing)?;
+            match self.list(class, &mut listing) {
+                // Without means to look, what is known is there: a robot can
+                // be stopped.
+                Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
+                listed => listed?,
+            }
         }
         Ok(listing.by_port.get(port).cloned())
     }
@@ -249,7 +266,7 @@ impl Devices {
     }
 
     /// Makes each class be listed anew when it is next asked for.
-    pub(crate) fn forget_listings(&self) {
+    pub fn forget_listings(&self) {
         for class in Class::ALL {
             self.listing(class).made = None;
         }
@@ -280,8 +297,13 @@ impl Devices {
     }
 
     /// The drive of the robot in this tree, if there is one.
-    pub(crate) fn drive(&self) -> MutexGuard<'_, Option<Arc<Drive>>> {
-        self.drive.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(crate) fn drive(&self) -> Option<&Arc<Drive>> {
+        self.drive.get()
+    }
+
+    /// The same, which is made if there is none yet.
+    pub(crate) fn drive_or(&self, make: impl FnOnce() -> Arc<Drive>) -> &Arc<Drive> {
+        self.drive.get_or_init(make)
     }
 
     pub(crate) fn watch(&self) -> &Watch {

@@ -16,6 +16,7 @@ use crate::value::Value;
 use crate::wait::{Reason, TOLERANCE, has, wait_for};
 use rustix::io::Errno;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 /// What a motor does at the end of a move, or when it is stopped.
@@ -234,18 +235,25 @@ fn motion(motor: &Device, word: &str, end: Option<End>, owner: u32) -> Option<Mo
     end.map(|end| Motion { started: motor.tree().now(), is_relative, owner, end })
 }
 
-/// Makes a motor part of a drive's motion.
+/// A number that tells a motion of several motors from others.
+pub(crate) fn new_owner() -> u32 {
+    static LAST: AtomicU32 = AtomicU32::new(0);
+    // 0 is nobody.
+    LAST.fetch_add(1, Ordering::Relaxed).wrapping_add(1).max(1)
+}
+
+/// Makes a motor part of such a motion.
 pub(crate) fn own(motor: &Device, owner: u32) {
     *motor.motion() = motion(motor, "run-forever", Some(End::Never), owner);
 }
 
-/// Whether a motor is still part of a drive's motion: nobody else has told it
-/// anything since.
+/// Whether a motor is still part of the motion: nobody else has told it anything
+/// since.
 pub(crate) fn is_owned(motor: &Device, owner: u32) -> bool {
     motor.motion().is_some_and(|motion| motion.owner == owner)
 }
 
-/// Writes a command to a motor that is part of a drive's motion; `false`, and
+/// Writes a command to a motor that is part of the motion; `false`, and
 /// nothing is written, if it no longer is.
 pub(crate) fn start_owned(motor: &Device, word: &str, end: End, owner: u32) -> Result<bool> {
     let next = motion(motor, word, Some(end), owner);
@@ -258,7 +266,14 @@ pub(crate) fn start_owned(motor: &Device, word: &str, end: End, owner: u32) -> R
     Ok(true)
 }
 
-/// Stops a motor that is part of a drive's motion; not if it no longer is.
+/// Brakes a motor that is part of the motion, and stays so; `false` if it no longer
+/// is. One that cannot brake just stops.
+pub(crate) fn brake_owned(motor: &Device, owner: u32) -> Result<bool> {
+    somehow(motor.write("stop_action", StopAction::Brake.word()))?;
+    start_owned(motor, "stop", End::Never, owner)
+}
+
+/// Stops a motor that is part of the motion; not if it no longer is.
 pub(crate) fn stop_owned(motor: &Device, action: StopAction, owner: u32) -> Result<()> {
     let mut present = motor.motion();
     if present.is_none_or(|motion| motion.owner != owner) {
@@ -290,11 +305,15 @@ pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
 /// Stops a motor as [`stop`] does, and is content if it stops without having
 /// that action, or is gone.
 fn stop_somehow(motor: &Device, action: StopAction) -> Result<()> {
+    somehow(stop(motor, action))
+}
+
+fn somehow(stopped: Result<()>) -> Result<()> {
     let is_at_rest = |error: &Error| {
         let is_action = error.path().is_some_and(|path| path.ends_with("stop_action"));
         is_action && error.errno() == Some(Errno::INVAL) || error.is_stale()
     };
-    stop(motor, action).or_else(|error| if is_at_rest(&error) { Ok(()) } else { Err(error) })
+    stopped.or_else(|error| if is_at_rest(&error) { Ok(()) } else { Err(error) })
 }
 
 /// Stops all of these motors, even where one of them fails. One that is gone
@@ -310,6 +329,19 @@ pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
     result
 }
 
+/// Stops those of these motors that are still part of the motion, as
+/// [`stop_all`] does.
+///
+/// # Errors
+/// The first that occurred.
+pub(crate) fn stop_all_owned(motors: &[Arc<Device>], action: StopAction, owner: u32) -> Result<()> {
+    let mut result = Ok(());
+    for motor in motors {
+        result = result.and(somehow(stop_owned(motor, action, owner)));
+    }
+    result
+}
+
 /// Stops every motor, of any class, that was started and not stopped since. One
 /// that is gone has nothing to stop.
 ///
@@ -318,8 +350,8 @@ pub fn stop_all(motors: &[Arc<Device>], action: StopAction) -> Result<()> {
 pub fn stop_started(devices: &Devices) -> Result<()> {
     let mut result = Ok(());
     for class in Class::MOTORS {
-        let motors = devices.all(class)?;
-        for motor in motors.iter().filter(|motor| motor.motion().is_some()) {
+        // Those that were started are known: nothing needs to be opened for them.
+        for motor in devices.known(class).iter().filter(|motor| motor.motion().is_some()) {
             result = result.and(match class {
                 Class::ServoMotor => crate::servo::float_somehow(motor),
                 _ => stop_somehow(motor, StopAction::Brake),

@@ -4,12 +4,13 @@
 //! that is left, down to a slow crawl. At the target they brake; once the robot
 //! stands, the gyro says whether it overshot, and the rest is corrected, at a
 //! crawl and a bounded number of times. So a turn ends within [`WITHIN`], or
-//! tells why it does not; it never swings for ever.
+//! tells why it does not; it never swings for ever. It is given up as soon as
+//! another thread has told a motor something.
 use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::Devices;
 use crate::error::{Error, Result};
-use crate::motor::{Speed, StopAction, find_all, prepare, run_at, stop_all};
+use crate::motor::{self, End, Speed, StopAction, find_all, prepare};
 use crate::patience::patiently;
 use crate::sensor;
 use crate::value::Value;
@@ -77,6 +78,8 @@ pub enum Ended {
     Astray,
     /// Corrected as often as is sensible, and still off by this many degrees.
     Missed(f64),
+    /// Another thread stopped a motor, or told it something else.
+    Stopped,
 }
 
 /// Turns a robot on the spot. `None` if a motor or the gyro is absent, the
@@ -87,7 +90,8 @@ pub enum Ended {
 ///
 /// # Errors
 /// The kernel's; [`Error::Gone`] when a device is unplugged under way;
-/// [`Error::Interrupted`]. Both motors are stopped before.
+/// [`Error::Interrupted`]. Both motors are stopped before, unless they obey
+/// another thread by then.
 pub fn by_gyro(
     devices: &Devices,
     gyro: &Arc<Device>,
@@ -119,10 +123,12 @@ pub fn by_gyro(
         signs: turn.signs,
         per_degree,
         fastest,
+        owner: motor::new_owner(),
         running: None,
     };
+    control.take_motors();
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
-    let stopped = stop_all(&motors, StopAction::Brake);
+    let stopped = motor::stop_all_owned(&motors, StopAction::Brake, control.owner);
     let ended = ended.and_then(|ended| stopped.map(|()| ended));
     ended.map(Some).map_err(|error| control.named(error))
 }
@@ -171,18 +177,30 @@ struct Control<'a> {
     per_degree: f64,
     /// The fastest speed of a wheel, in counts per second.
     fastest: f64,
+    /// Whose motion it is, as the motors know it.
+    owner: u32,
     /// What the left wheel was last told to do.
     running: Option<i64>,
 }
 
 impl Control<'_> {
+    fn take_motors(&self) {
+        for motor in self.motors {
+            motor::own(motor, self.owner);
+            motor.started();
+        }
+    }
+
     fn turn_to(&mut self, start: f64, target: f64, interrupted: Interrupted) -> Result<Ended> {
         let mut slowest_only = false;
         for _ in 0..=CORRECTIONS {
             if let Some(failed) = self.approach(start, target, slowest_only, interrupted)? {
                 return Ok(failed);
             }
-            if (target - self.settled(interrupted)?).abs() <= WITHIN {
+            let Some(settled) = self.settled(interrupted)? else {
+                return Ok(Ended::Stopped);
+            };
+            if (target - settled).abs() <= WITHIN {
                 return Ok(Ended::Reached);
             }
             slowest_only = true;
@@ -205,8 +223,9 @@ impl Control<'_> {
         while (target - angle) * direction > WITHIN / 2.0 {
             let rate =
                 if slowest_only { CRAWL } else { ((target - angle) * GAIN).abs().max(CRAWL) };
-            self.run(rate * direction)?;
-            self.pass(interrupted)?;
+            if !self.run(rate * direction)? || !self.pass(interrupted)? {
+                return Ok(Some(Ended::Stopped));
+            }
             angle = self.angle()?;
             if (angle - moved.0).abs() >= WITHIN {
                 moved = (angle, self.now());
@@ -218,51 +237,65 @@ impl Control<'_> {
                 return Ok(Some(Ended::Astray));
             }
         }
-        self.run(0.0)?;
-        Ok(None)
+        Ok((!self.run(0.0)?).then_some(Ended::Stopped))
     }
 
-    /// The angle once it no longer changes.
-    fn settled(&self, interrupted: Interrupted) -> Result<f64> {
+    /// The angle once it no longer changes; `None` if the motors are no longer
+    /// ours.
+    fn settled(&self, interrupted: Interrupted) -> Result<Option<f64>> {
         let mut angle = self.angle()?;
         let (mut since, limit) = (self.now(), self.now() + STUCK_FOR);
         while self.now().saturating_sub(since) < STANDSTILL && self.now() < limit {
-            self.pass(interrupted)?;
+            if !self.pass(interrupted)? {
+                return Ok(None);
+            }
             let next = self.angle()?;
             if (next - angle).abs() >= WITHIN {
                 (angle, since) = (next, self.now());
             }
         }
-        self.angle()
+        self.angle().map(Some)
     }
 
     /// Turns the robot at a rate in degrees per second, clockwise positive; 0
-    /// brakes. Writes nothing where nothing changes.
-    fn run(&mut self, rate: f64) -> Result<()> {
+    /// brakes. Writes nothing where nothing changes. `false` if a motor is no
+    /// longer ours.
+    fn run(&mut self, rate: f64) -> Result<bool> {
         let counts = (rate * self.per_degree).clamp(-self.fastest, self.fastest).round();
         #[expect(clippy::cast_possible_truncation, reason = "clamped to a motor's speed")]
         let counts = counts as i64;
         if self.running == Some(counts) {
-            return Ok(());
+            return Ok(true);
         }
-        if counts == 0 {
-            stop_all(self.motors, StopAction::Brake)?;
-        } else {
-            run_at(self.motors, [self.signs[0] * counts, -self.signs[1] * counts])?;
+        if counts != 0 {
+            for (motor, sign) in self.motors.iter().zip([self.signs[0], -self.signs[1]]) {
+                motor.write_number("speed_sp", sign * counts)?;
+            }
+        }
+        for motor in self.motors {
+            let is_ours = if counts == 0 {
+                motor::brake_owned(motor, self.owner)?
+            } else {
+                motor::start_owned(motor, "run-forever", End::Never, self.owner)?
+            };
+            if !is_ours {
+                return Ok(false);
+            }
         }
         self.running = Some(counts);
-        Ok(())
+        Ok(true)
     }
 
-    /// Lets the robot turn on for a moment.
-    fn pass(&self, interrupted: Interrupted) -> Result<()> {
+    /// Lets the robot turn on for a moment. `false` if a motor is no longer ours
+    /// after that.
+    fn pass(&self, interrupted: Interrupted) -> Result<bool> {
         sleep(self.devices, PERIOD, interrupted)?;
         for device in self.motors.iter().chain([self.gyro]) {
             if !self.devices.has(device)? {
                 return Err(device.gone());
             }
         }
-        Ok(())
+        Ok(self.motors.iter().all(|motor| motor::is_owned(motor, self.owner)))
     }
 
     /// The robot's angle. While it turns there is no time to wait for a gyro

@@ -60,6 +60,8 @@ pub enum Course {
     Legs(Vec<Leg>, bool),
     /// On and on: speed in cm/s, rate of turn in degrees a second.
     Cruise(f64, f64),
+    /// The same for the motion under way, unless somebody has ended it.
+    Change(f64, f64),
     /// On and on: the speed of each wheel as a share of that of the faster one.
     Wheels([f64; 2]),
 }
@@ -97,29 +99,33 @@ struct Inner {
     /// Where the motion before was to end.
     goal: Option<Pose>,
     job: Option<Job>,
-    jobs: u32,
     last: Option<Arc<Status>>,
 }
 
 impl Drive {
     /// The drive of a robot; that of before, if it is the same robot.
     pub fn of(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
-        let mut slot = devices.drive();
-        if let Some(drive) = slot.as_ref() {
-            let mut inner = drive.lock();
-            if inner.robot != *robot {
-                inner.end_job(Ok(Reason::Stopped));
-                let pose = inner.pose();
-                inner.robot = robot.clone();
-                inner.found = None;
-                inner.goal = None;
-                inner.estimate.forget_wheels();
-                inner.place(pose);
-            }
-            drop(inner);
-            return Arc::clone(drive);
+        let drive = devices.drive_or(|| {
+            let drive = Self::new(devices, robot);
+            devices.watch().set(Arc::downgrade(&drive));
+            drive
+        });
+        let mut inner = drive.lock();
+        if inner.robot != *robot {
+            inner.end_job(Ok(Reason::Stopped));
+            let pose = inner.pose();
+            inner.robot = robot.clone();
+            inner.found = None;
+            inner.goal = None;
+            inner.estimate.forget_wheels();
+            inner.place(pose);
         }
-        let inner = Inner {
+        drop(inner);
+        Arc::clone(drive)
+    }
+
+    fn new(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
+        let mut inner = Inner {
             robot: robot.clone(),
             found: None,
             use_gyro: true,
@@ -128,18 +134,14 @@ impl Drive {
             estimate: Estimate::default(),
             goal: None,
             job: None,
-            jobs: 0,
             last: None,
         };
-        let drive = Arc::new(Self {
+        inner.place(Pose::default());
+        Arc::new(Self {
             devices: Arc::downgrade(devices),
             is_called: Mutex::default(),
             inner: Mutex::new(inner),
-        });
-        drive.lock().place(Pose::default());
-        devices.watch().set(Arc::downgrade(&drive));
-        *slot = Some(Arc::clone(&drive));
-        drive
+        })
     }
 
     /// Starts counting, if the robot is there.
@@ -345,15 +347,19 @@ impl Drive {
         let weak = Weak::clone(&self.devices);
         let act = move || {
             let devices = weak.upgrade()?;
-            let drive = devices.drive().clone()?;
-            drive.called(&devices)
+            devices.drive()?.called(&devices)
         };
         // Where no thread can be had, each look at the pose still does a step.
         *is_called = devices.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
-    /// One period; answers when to come again.
+    /// One period; answers when to come again. Takes no lock that is in use:
+    /// on a clock that passes as files are read, who holds it may be this very
+    /// thread.
     fn called(&self, devices: &Devices) -> Option<Duration> {
+        if devices.is_listing() {
+            return Some(BUSY);
+        }
         let mut inner = match self.inner.try_lock() {
             Ok(inner) => inner,
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),

@@ -56,6 +56,10 @@ struct Landing {
 pub struct Status(Mutex<Option<Result<Reason>>>);
 
 impl Status {
+    fn stopped() -> Arc<Self> {
+        Arc::new(Self(Mutex::new(Some(Ok(Reason::Stopped)))))
+    }
+
     fn end(&self, result: Result<Reason>) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
     }
@@ -101,7 +105,7 @@ impl Inner {
                 let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
                 Steering::cruise(wheels, limits, way, turn.to_degrees())
             }
-            Course::Cruise(speed, rate) => {
+            Course::Cruise(speed, rate) | Course::Change(speed, rate) => {
                 let ways = wheels.ways(*speed, rate.to_radians());
                 let is_possible = ways.iter().all(|way| way.abs() <= fastest * 1.000_001);
                 if !is_possible {
@@ -117,7 +121,21 @@ impl Inner {
                 Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
             }
         };
+        if let Course::Change(..) = course {
+            return Ok(Some(self.change(steering)));
+        }
         self.install(steering, options.stop_action).map(Some)
+    }
+
+    /// Makes the motion under way another one. What has ended stays so: it is
+    /// the end of that which is told.
+    fn change(&mut self, mut steering: Steering) -> Arc<Status> {
+        if let Some(job) = &mut self.job {
+            steering.take_over(&job.steering);
+            job.steering = steering;
+            job.landing = None;
+        }
+        Arc::clone(self.last.get_or_insert_with(Status::stopped))
     }
 
     /// Puts a motion in the place of the one under way.
@@ -129,7 +147,7 @@ impl Inner {
         }
         // Its ramps are put back first.
         drop(before);
-        self.jobs = self.jobs.wrapping_add(1).max(1);
+        let id = motor::new_owner();
         let status = Arc::new(Status::default());
         let Some(found) = &self.found else {
             return Ok(status);
@@ -143,12 +161,12 @@ impl Inner {
         for motor in &found.motors {
             ramps.set(motor, &options)?;
             motor.write("stop_action", StopAction::Hold.word())?;
-            motor::own(motor, self.jobs);
+            motor::own(motor, id);
         }
         self.last = Some(Arc::clone(&status));
         self.goal = None;
         self.job = Some(Job {
-            id: self.jobs,
+            id,
             motors: found.motors.clone(),
             steering,
             stop_action,

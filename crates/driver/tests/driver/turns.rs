@@ -1,6 +1,6 @@
 //! Turning by the gyro: how close, how long, and what when it goes wrong.
 use crate::brick::{Brick, ms};
-use ev3_driver::motor::{Speed, run_forever};
+use ev3_driver::motor::{self, Run, Speed, StopAction, run_forever};
 use ev3_driver::turn::{Ended, Turn, WITHIN, by_gyro};
 use ev3_driver::{Class, Error};
 use proptest::prelude::*;
@@ -252,4 +252,58 @@ fn a_robot_that_rolls_already_is_turned_and_stopped() {
     run_forever(&devices, &runs, &mut || false).unwrap();
     brick.pass(ms(500));
     assert_turned(&brick, &turn(40.0, 90.0, 2.2), ms(5000));
+}
+
+/// Turns, while another thread does something after some time.
+fn turned_while(
+    brick: &Arc<Brick>,
+    after: Duration,
+    other: impl Fn(&ev3_driver::Devices),
+) -> Option<Ended> {
+    let devices = brick.devices();
+    let gyro = devices.find(Class::Sensor, "in2").unwrap().unwrap();
+    let started = brick.now();
+    let (mut attentive, mut is_done) = (brick.attentive(), false);
+    let mut interrupted = || {
+        if !is_done && brick.since(started) >= after {
+            is_done = true;
+            other(&devices);
+            brick.take_written();
+        }
+        attentive()
+    };
+    let ended = by_gyro(&devices, &gyro, &turn(50.0, 90.0, 2.2), &mut interrupted);
+    assert!(is_done, "it was over before");
+    ended.unwrap()
+}
+
+#[test]
+fn a_turn_ends_when_another_thread_stops_a_motor_in_whatever_phase() {
+    for after in [20, 200, 600, 900, 1100] {
+        for ports in [&["outB", "outC"][..], &["outB"], &["outC"]] {
+            let brick = robot(2.2);
+            let ended = turned_while(&brick, ms(after), |devices| {
+                for port in ports {
+                    let motor = devices.find(Class::TachoMotor, port).unwrap().unwrap();
+                    motor::stop(&motor, StopAction::Coast).unwrap();
+                }
+            });
+            assert_eq!(ended, Some(Ended::Stopped), "{ports:?} after {after} ms");
+            let written = brick.take_written();
+            assert!(!written.iter().any(|line| line.contains("run-forever")), "{written:?}");
+            assert_at_rest(&brick);
+        }
+    }
+}
+
+#[test]
+fn a_turn_leaves_alone_what_another_thread_has_started() {
+    let brick = robot(2.2);
+    let ended = turned_while(&brick, ms(200), |devices| {
+        let run = Run { port: "outB", speed: Speed::Percent(30.0) };
+        assert!(run_forever(devices, &[run], &mut || false).unwrap());
+    });
+    assert_eq!(ended, Some(Ended::Stopped));
+    let mut world = brick.world();
+    assert!(world.motor("outB").is_powered() && !world.motor("outC").is_powered());
 }
