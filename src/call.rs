@@ -158,6 +158,14 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
+    /// Name and arguments of a compound term; `None` of what is none.
+    pub(crate) fn compound(&self, term: &Term) -> PrologResult<Option<(String, Vec<Term<'a>>)>> {
+        let Some(arguments) = attempt_opt(self.context.compound_terms_vec(term))? else {
+            return Ok(None);
+        };
+        Ok(Some((term.get::<Functor>()?.name_string(), arguments)))
+    }
+
     /// What the driver answered; its error as an exception.
     pub(crate) fn check<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
         result.or_else(|error| raise(self, &error))

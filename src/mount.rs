@@ -58,20 +58,25 @@ fn mounted<C: QueryableContextType>(
 /// Unmounts; fails where nothing is mounted.
 pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
     let mounted = take().ok_or(PrologError::Failure)?;
-    // Descriptors of our own would keep it busy.
-    let used = Arc::downgrade(&devices());
-    if devices().tree().root().starts_with(mounted.classes.path()) {
-        call.check(use_default_files())?;
-        wait_until_unused(&used);
-    }
+    call.check(let_go(&mounted))?;
     if let Some(mount) = mounted.dev {
-        if dev().root().starts_with(mount.path()) {
-            use_default_dev();
-            close_sources();
-        }
         gone(call, mount)?;
     }
     gone(call, mounted.classes)
+}
+
+/// Uses what is mounted no longer: descriptors of our own would keep it busy.
+fn let_go(mounted: &Mounted) -> ev3_driver::Result<()> {
+    let used = Arc::downgrade(&devices());
+    if devices().tree().root().starts_with(mounted.classes.path()) {
+        use_default_files()?;
+        wait_until_unused(&used);
+    }
+    if mounted.dev.as_ref().is_some_and(|mount| dev().root().starts_with(mount.path())) {
+        use_default_dev();
+        close_sources();
+    }
+    Ok(())
 }
 
 /// Another thread may be in the midst of a step with these devices, as the loop of
@@ -94,7 +99,10 @@ pub(crate) fn is_mounted() -> bool {
 
 /// Unmounts whatever is mounted.
 pub(crate) fn end() {
-    drop(take());
+    if let Some(mounted) = take() {
+        // Motors that cannot be stopped any more do not keep it mounted.
+        let _ = let_go(&mounted);
+    }
 }
 
 fn take() -> Option<Mounted> {

@@ -108,10 +108,9 @@ fn read<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Option<Result<Fact, Fault>>> {
-    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+    let Some((name, arguments)) = call.compound(term)? else {
         return Ok(None);
     };
-    let (name, arguments) = (functor.name_string(), call.context.compound_terms_vec(term)?);
     if let ("polygon", [corners]) = (&*name, &*arguments) {
         let corners = call.list(corners)?;
         let corners: PrologResult<Vec<_>> = corners.iter().map(|at| point(call, at)).collect();

@@ -49,6 +49,9 @@ static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 /// Where the attributes and the device files are that were in use before.
 static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
+/// So much simulated time passes between two looks for signals.
+const STEP_SLICE: Duration = Duration::from_secs(1);
+
 /// A machine as it was.
 #[arc_blob("ev3_snapshot", defaults)]
 struct Snapshot {
@@ -241,9 +244,17 @@ predicates! {
     #[name("sim_step_")]
     semidet fn sim_step(context, seconds) {
         let call = Call::of(context, "sim_step", 1);
-        match Duration::try_from_secs_f64(call.float(seconds)?) {
-            Ok(time) => simulation()?.step(time),
-            Err(_) => return wrong_value(&call, "seconds", seconds),
+        let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
+            return wrong_value(&call, "seconds", seconds);
+        };
+        let (simulation, mut interrupted) = (simulation()?, call.interrupted());
+        while !left.is_zero() {
+            let slice = left.min(STEP_SLICE);
+            simulation.step(slice);
+            left -= slice;
+            if interrupted() {
+                return call.check(Err(ev3_driver::Error::Interrupted));
+            }
         }
         Ok(())
     }
@@ -269,7 +280,8 @@ predicates! {
     semidet fn sim_restore(_context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        *simulation()?.machine() = machine;
+        simulation()?.machine().restore(machine);
+        devices().forget_listings();
         Ok(())
     }
 

@@ -33,6 +33,9 @@ const WRITE_TAKES: Duration = Duration::from_micros(100);
 /// How often the wall clock steps the machine.
 const STEP: Duration = Duration::from_millis(2);
 
+/// At most so much of the wall clock is made up for in one step.
+const LATE: Duration = Duration::from_millis(100);
+
 /// How long, by the wall, a wait returns at the latest, so that signals are
 /// handled.
 const SLICE: Duration = Duration::from_millis(20);
@@ -342,7 +345,9 @@ impl Stepper {
             while !is_over.load(Ordering::Relaxed) {
                 std::thread::sleep(STEP);
                 let now = Instant::now();
-                drop(repeated.step(&shared, shared.lock(), (now - last).mul_f64(factor)));
+                // Where the machine cannot keep up, it is late, and not ever later.
+                let passed = (now - last).min(LATE).mul_f64(factor);
+                drop(repeated.step(&shared, shared.lock(), passed));
                 shared.wake();
                 last = now;
             }

@@ -87,11 +87,9 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     term: &Term<'a>,
 ) -> PrologResult<Fact> {
     let unknown = || wrong_because(call, "world_or_robot_fact", term, "");
-    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+    let Some((name, arguments)) = call.compound(term)? else {
         return unknown();
     };
-    let arguments = call.context.compound_terms_vec(term)?;
-    let name = functor.name_string();
     let Some(read) = read(call, &name, &arguments)? else {
         return unknown();
     };
@@ -276,11 +274,10 @@ fn hull<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Option<Hull>> {
-    let Some(functor) = attempt_opt(term.get::<Functor>())? else {
+    let Some((name, arguments)) = call.compound(term)? else {
         return Ok(None);
     };
-    let arguments = call.context.compound_terms_vec(term)?;
-    Ok(match (&*functor.name_string(), &*arguments) {
+    Ok(match (&*name, &*arguments) {
         ("circle", [radius]) => Some(Hull::Circle { radius: call.float(radius)? }),
         ("rectangle", [width, length, offset]) => Some(Hull::Rectangle {
             width: call.float(width)?,

@@ -289,6 +289,10 @@ test(add_something_impossible,
     with_sim([], sim_add(circle(0, 50, -1))).
 test(add_something_unheard_of, error(domain_error(_, unicorn(0, 50)), _)) :-
     with_sim([], sim_add(unicorn(0, 50))).
+test(add_an_atom, error(domain_error(world_or_robot_fact, unicorn), _)) :-
+    with_sim([], sim_add(unicorn)).
+test(a_hull_without_size, error(domain_error(world_or_robot_fact, hull(circle)), _)) :-
+    with_sim([], [robot([hull(circle)])], true).
 test(add_no_thing, error(domain_error(world_item, start(0, 0, 0)), _)) :-
     with_sim([], sim_add(start(0, 0, 0))).
 test(svg_draws_it) :-
@@ -530,6 +534,18 @@ test(what_was_added_can_be_removed_after_a_restore) :-
                sim_restore(A),
                \+ sim_remove(circle(50, 0, 1)),
                sim_remove(circle(0, 50, 1)) )).
+test(what_is_plugged_in_after_a_restore_is_another_device,
+     true(Type-Speed == 'lego-ev3-m-motor'-1560)) :-
+    with_sim([],
+             ( sim_snapshot(S),
+               sim_plug(outD, 'lego-ev3-l-motor'),
+               sim_step(2),
+               max_speed(outD, 1050),
+               sim_restore(S),
+               sim_plug(outD, 'lego-ev3-m-motor'),
+               sim_step(2),
+               tacho_motor(outD, Type),
+               max_speed(outD, Speed) )).
 test(restores_no_other_things, error(domain_error(simulator_snapshot, 1), _)) :-
     with_sim([], sim_restore(1)).
 test(restores_nothing_unbound, error(instantiation_error, _)) :-
@@ -635,6 +651,35 @@ test(a_program_that_ends_unmounts, [condition(can_mount)]) :-
         delete_directory(Directory)).
 test(no_such_directory, error(existence_error(_, _), _)) :-
     with_sim([], sim_mount('/no/such/directory')).
+test(ends_with_the_simulation_while_its_files_are_in_use,
+     [ condition(can_mount),
+       forall(member(End, [sim_stop, sim_start(room, [clock(virtual)])])) ]) :-
+    setup_call_cleanup(
+        ( tmp_file(mount, Directory), make_directory(Directory) ),
+        with_sim([],
+                 ( sim_mount(Directory),
+                   ev3_sysfs(Directory),
+                   max_speed(outA, 1560),
+                   End,
+                   directory_files(Directory, Files),
+                   msort(Files, ['.', '..']),
+                   % For with_sim/2
+                   sim_start(room) )),
+        delete_directory(Directory)).
+test(a_mode_can_be_written_though_time_stands_still,
+     [condition(can_mount), true(Mode == "COL-COLOR\n")]) :-
+    setup_call_cleanup(
+        ( tmp_file(mount, Directory), make_directory(Directory) ),
+        with_sim([],
+                 ( sim_mount(Directory),
+                   atom_concat(Directory, '/lego-sensor/sensor1/mode', File),
+                   setup_call_cleanup(open(File, write, Stream),
+                                      write(Stream, 'COL-COLOR'),
+                                      close(Stream)),
+                   sim_step(0.1),
+                   read_file_to_string(File, Mode, []),
+                   sim_unmount )),
+        delete_directory(Directory)).
 
 :- end_tests(sim_mount).
 

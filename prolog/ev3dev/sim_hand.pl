@@ -51,7 +51,8 @@ sim_place(X0, Y0, Heading0) :-
 %
 %   @error domain_error(possible_geometry, Item) if it cannot be, or the robot
 %          stands there
-%   @error domain_error(world_item, Fact) if it is none of these
+%   @error domain_error(world_item, Fact) if it is another fact of a file
+%   @error domain_error(world_or_robot_fact, Fact) if it is none
 
 sim_add(Fact) :-
     sim_add(Fact, _).

@@ -227,6 +227,13 @@ impl Machine {
         &self.robot
     }
 
+    /// Goes back to a snapshot. What is plugged in from now on gets numbers that no device has had
+    /// in the meantime, either: who still knows that one would take the new one for it.
+    pub fn restore(&mut self, snapshot: Machine) {
+        let before = std::mem::replace(self, snapshot);
+        self.tree.count_on_from(&before.tree);
+    }
+
     /// What happened so far.
     #[must_use]
     pub fn trace(&self) -> &Trace {

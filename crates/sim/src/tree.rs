@@ -231,6 +231,14 @@ impl Tree {
         serial
     }
 
+    /// Gives no number again that another tree has given already.
+    pub(crate) fn count_on_from(&mut self, other: &Tree) {
+        self.next_serial = self.next_serial.max(other.next_serial);
+        for (number, other) in self.numbers.iter_mut().zip(other.numbers) {
+            *number = (*number).max(other);
+        }
+    }
+
     pub(crate) fn remove(&mut self, serial: u64) {
         self.devices.retain(|device| device.serial != serial);
     }

@@ -13,8 +13,10 @@ mod served;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use fuser::{BackgroundSession, Config, MountOption, Session};
 
@@ -26,6 +28,9 @@ use open::Open;
 use served::Served;
 
 const DEVICE: &str = "/dev/fuse";
+
+/// How long unmounting may take.
+const UNMOUNTED_WITHIN: Duration = Duration::from_secs(2);
 
 /// Why a tree could not be mounted.
 #[derive(Debug, thiserror::Error)]
@@ -114,7 +119,8 @@ impl Mount {
     /// Unmounts, and says whether that went well.
     ///
     /// # Errors
-    /// What the kernel answers.
+    /// What the kernel answers, as EBUSY; [`ResourceBusy`](io::ErrorKind::ResourceBusy), too, where
+    /// it is unmounted only once the last open file in it is closed.
     pub fn unmount(mut self) -> io::Result<()> {
         self.end()
     }
@@ -126,10 +132,21 @@ impl Mount {
             // It only panics if the machine did; unmounting matters more.
             let _ = watcher.join();
         }
-        match self.session.take().map_or(Ok(()), BackgroundSession::umount_and_join) {
+        let Some(session) = self.session.take() else {
+            return Ok(());
+        };
+        // Without root the kernel lets it go only with the last open file: by then there may be
+        // nobody to wait for it.
+        let (sender, ended) = channel();
+        std::thread::Builder::new().name("ev3-sim-unmount".to_owned()).spawn(move || {
+            // Where nobody waits any more, it has been told that this may take long.
+            let _ = sender.send(session.umount_and_join());
+        })?;
+        match ended.recv_timeout(UNMOUNTED_WITHIN) {
             // Unmounted, while the kernel was about to ask something.
-            Err(error) if error.kind() == io::ErrorKind::ConnectionAborted => Ok(()),
-            ended => ended,
+            Ok(Err(error)) if error.kind() == io::ErrorKind::ConnectionAborted => Ok(()),
+            Ok(ended) => ended,
+            Err(_) => Err(io::ErrorKind::ResourceBusy.into()),
         }
     }
 }

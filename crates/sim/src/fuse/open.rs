@@ -1,7 +1,8 @@
 //! What is open in a mount, and who waits for it.
 //!
-//! A process that waits for an answer cannot even be killed, so a reader is sent back every now and
-//! then as if by a signal (EINTR); programs and libraries then ask again.
+//! A process that waits for an answer cannot even be killed. So a reader is sent back every now and
+//! then as if by a signal (EINTR); programs and libraries then ask again. A writer is answered after
+//! some time even if on the machine's clock, which may stand still, it is not yet.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,6 +22,9 @@ const LOOK: Duration = Duration::from_millis(100);
 /// How long a reader waits, in wall time, before it is sent back.
 const PATIENCE: Duration = Duration::from_millis(100);
 
+/// The same for a writer. Drivers take less: a second for the mode of a port.
+const WRITERS_PATIENCE: Duration = Duration::from_secs(2);
+
 /// The open files of a mount.
 #[derive(Debug)]
 pub(super) struct Open<F> {
@@ -36,8 +40,8 @@ pub(super) struct Open<F> {
 enum Blocked {
     /// Until there is something to read, or this wall time.
     Read { handle: u64, size: u32, until: Instant, reply: ReplyData },
-    /// Until this virtual time; so many bytes were taken.
-    Write { until: Duration, length: u32, reply: ReplyWrite },
+    /// Until this virtual time, or that wall time; so many bytes were taken.
+    Write { until: Duration, latest: Instant, length: u32, reply: ReplyWrite },
 }
 
 impl<F> Default for Open<F> {
@@ -91,7 +95,8 @@ impl<F: Served> Open<F> {
 
     /// Answers a write at a virtual time.
     pub(super) fn written_at(&mut self, until: Duration, length: u32, reply: ReplyWrite) {
-        self.blocked.push(Blocked::Write { until, length, reply });
+        let latest = Instant::now() + WRITERS_PATIENCE;
+        self.blocked.push(Blocked::Write { until, latest, length, reply });
     }
 
     /// Tells by its handle when there is something to read.
@@ -113,7 +118,9 @@ impl<F: Served> Open<F> {
                         Err(errno) => reply.error(errno.into()),
                     }
                 }
-                Blocked::Write { until, length, reply } if until <= machine.now() => {
+                Blocked::Write { until, latest, length, reply }
+                    if until <= machine.now() || latest <= now =>
+                {
                     reply.written(length);
                 }
                 waiting => self.blocked.push(waiting),
