@@ -13,10 +13,13 @@
 %!  vehicle(+Name) is failure.
 %
 %   Drive as one of the vehicles below for as long as eyes and wheels are
-%   connected.
+%   connected. However it ends, the wheels stop.
 
 vehicle(Name) :-
-    vehicle(Name, nothing).
+    setup_call_cleanup(
+        true,
+        vehicle(Name, nothing),
+        stop_all_motors).
 
 vehicle(Name, Memory0) :-
     col_ambient(in2, Left),

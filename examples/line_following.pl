@@ -5,7 +5,7 @@
 % The sensor looks at the floor, at in2 or else at any port. Half of its light
 % comes back where the edge is below it. How far it is from that, for how long
 % it has been, and how fast that changes make the rate at which the robot
-% turns: a PID control. Stop it by Ctrl-C.
+% turns: a PID control. Stop it by Ctrl-C: however it ends, the wheels stop.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
@@ -24,7 +24,10 @@ start :-
     set_robot(5.6, 10.6, outB, outC),
     eye(Eye),
     error(Eye, Error),
-    line_following(Eye, Error, 0).
+    setup_call_cleanup(
+        true,
+        line_following(Eye, Error, 0),
+        ignore(stop)).
 
 eye(in2) :-
     light_sensor(in2),

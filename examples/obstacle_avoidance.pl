@@ -3,13 +3,17 @@
 %   ?- start.
 %
 % It needs two large motors and an ultrasonic sensor that looks ahead, at
-% whichever port; a gyro makes its turns exact. Stop it by Ctrl-C.
+% whichever port; a gyro makes its turns exact. Stop it by Ctrl-C: however it
+% ends, the wheels stop.
 
 :- use_module(library(ev3dev)).
 
 start :-
     set_robot(5.6, 10.6, outB, outC),
-    obstacle_avoidance.
+    setup_call_cleanup(
+        true,
+        obstacle_avoidance,
+        ignore(stop)).
 
 obstacle_avoidance :-
     (   us_dist_cm(_, Distance),

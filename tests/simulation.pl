@@ -2,6 +2,7 @@
           [ with_sim/2,                 % +World, :Goal
             with_sim/3,                 % +World, +Options, :Goal
             for_seconds/2,              % +Seconds, :Goal
+            at_rest/0,
             with_file/3,                % +Text, -File, :Goal
             can_mount/0,
             near/3                      % +Value, +Expected, +Tolerance
@@ -66,6 +67,15 @@ interrupt_at(End, Thread) :-
 thread_get_message_within(Seconds) :-
     thread_self(Me),
     thread_get_message(Me, stop, [timeout(Seconds)]).
+
+%!  at_rest
+%
+%   True if no motor runs, nor turns a second later.
+
+at_rest :-
+    \+ ( motor_states(_, States), memberchk(running, States) ),
+    sim_step(1),
+    \+ ( speed(_, Speed), Speed =\= 0 ).
 
 %!  with_file(+Text, -File, :Goal)
 %

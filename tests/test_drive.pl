@@ -967,6 +967,8 @@ test(line_following_gets_around) :-
                              D is sqrt((X - X0)^2 + (Y - Y0)^2) ),
                            Nearest),
              near(Nearest, 0, 5) )).
+test(line_following_stands_when_it_is_interrupted) :-
+    with_sim(line, ( for_seconds(5, line_following:start), at_rest )).
 
 :- end_tests(examples).
 

@@ -100,6 +100,8 @@ test(drives_two_minutes_without_a_collision) :-
     aggregate_all(max(Y), member(_-pose(_, Y, _), Trace), North),
     East > 100,
     North > 100.
+test(stands_when_it_is_interrupted, [forall(member(Seconds, [1, 5, 20]))]) :-
+    with_sim(room, ( for_seconds(Seconds, obstacle_avoidance:start), at_rest )).
 
 :- end_tests(obstacle_avoidance).
 
@@ -128,6 +130,15 @@ test(aggression_reaches_the_lamp,
      [forall(member(Start, [[130, 100, 0], [180, 110, -20]]))]) :-
     drive(aggression, Start, Nearest, _),
     Nearest < 10.
+test(stands_when_it_is_interrupted,
+     [forall(member(Vehicle, [alive, memory]))]) :-
+    with_sim(lights, ( for_seconds(5, braitenberg:vehicle(Vehicle)), at_rest )).
+test(stands_when_an_eye_is_pulled) :-
+    with_sim(lights, ( motors_run([run(outB, 50), run(outC, 50)]),
+                       sim_unplug(in3),
+                       sim_step(2),
+                       \+ braitenberg:vehicle(alive),
+                       at_rest )).
 
 :- end_tests(braitenberg).
 
