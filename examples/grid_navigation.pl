@@ -11,7 +11,7 @@
 % by a planner of one's own, such as that in grid_planner.pl:
 %
 %   ?- start([3, 3], a_star).
-%   ?- start([3, 3], plan(free_cell)).
+%   ?- start([3, 3], own_plan(free_cell)).
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/grid)).

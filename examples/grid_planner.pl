@@ -1,4 +1,4 @@
-:- module(grid_planner, [plan/4]).
+:- module(grid_planner, [own_plan/4]).
 :- use_module(library(lists), [append/3, reverse/2]).
 
 /** <module> A planner for grid_navigation.pl
@@ -8,16 +8,16 @@ planner may take its place; the program that carries plans out knows nothing
 of how they were made.
 */
 
-:- meta_predicate plan(:, +, +, -).
+:- meta_predicate own_plan(:, +, +, -).
 
-%!  plan(:Free_1, +Start, +Goal, -Plan) is semidet.
+%!  own_plan(:Free_1, +Start, +Goal, -Plan) is semidet.
 %
 %   True if Plan is a list of `move`, `left` and `right` that leads from Start
 %   to Goal, both `state(Cell, Direction)`, through cells for which
 %   call(Free_1, Cell) is true. A cell is `[X, Y]`, a direction one of
 %   `[0,1]`, `[1,0]`, `[0,-1]`, `[-1,0]`. Fails if there is none.
 
-plan(Free_1, Start, Goal, Plan) :-
+own_plan(Free_1, Start, Goal, Plan) :-
     search([Start-[]], [Start], Free_1, Goal, Reversed),
     reverse(Reversed, Plan).
 

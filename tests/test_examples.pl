@@ -1,4 +1,5 @@
-% Each example loads without a word, each in a program of its own.
+% Each example loads without a word, each in a program of its own, and none of
+% its names is that of a library that may be loaded beside it.
 
 :- use_module(library(plunit)).
 :- use_module(library(process)).
@@ -7,13 +8,25 @@
 :- begin_tests(examples).
 
 test(loads_without_a_word, [forall(example(File)), true(Said-End == ""-exit(0))]) :-
+    loads(File, true, Said, End).
+test(loads_beside_any_library,
+     [forall(example(File)), true(Said-End == ""-exit(0))]) :-
+    loads(File, maplist(use_module, [ library(ev3dev/drive),
+                                      library(ev3dev/grid),
+                                      library(ev3dev/planners),
+                                      library(ev3dev/roadmap),
+                                      library(ev3dev/sim) ]),
+          Said, End).
+
+loads(File, Goal, Said, End) :-
+    format(atom(Text), "~q", [Goal]),
     (   getenv('SWIPL', Swipl)
     ->  true
     ;   current_prolog_flag(executable, Swipl)
     ),
     process_create(path(env),
                    [ Swipl, '-q', '-p', 'library=prolog', '-l', file(File),
-                     '-g', true, '-t', halt ],
+                     '-g', Text, '-t', halt ],
                    [stdin(null), stderr(pipe(Out)), process(Id)]),
     read_string(Out, _, Said),
     close(Out),

@@ -413,13 +413,13 @@ vague(_, _, _).
 
 test(it_finds_the_way, Cell == [0,2]) :-
     in_room([[0,1]],
-            ( plan_and_go_to([0,2], _, [planner(plan(cell))]),
+            ( plan_and_go_to([0,2], _, [planner(own_plan(cell))]),
               state_position(Cell, _)
             )).
 test(it_finds_none, Reason == no_way) :-
     in_room([[0,1], [1,0]],
             plan_and_go_to([0,2], _,
-                           [ planner(plan(cell)), reason(Reason) ])).
+                           [ planner(own_plan(cell)), reason(Reason) ])).
 test(a_planner_that_gives_up, Reason == no_way) :-
     in_room([], plan_and_go_to([0,2], _,
                                [ planner(at_a_loss), reason(Reason) ])).
@@ -628,7 +628,7 @@ test(says_what_else_is_wrong) :-
                               \+ grid_navigation:start([3, 3])) )),
     once(sub_string(Output, _, _, _, "cannot go on to [3,3]: no_sensor")).
 test(takes_any_planner,
-     [forall(member(Planner, [a_star, plan(free_cell)]))]) :-
+     [forall(member(Planner, [a_star, own_plan(free_cell)]))]) :-
     with_sim(grid,
              ( with_output_to(string(_),
                               grid_navigation:start([3, 3], Planner)),
