@@ -45,6 +45,7 @@ demo(remote_control, [start(0, 0, 0)], drive).
 demo(thermometer, room, thermometer).
 demo(compare_planners, grid, start).
 demo(traffic_light, room, start).
+demo(brick_check, room, brick_check:report).
 
 %   What somebody has to do beside the robot.
 
