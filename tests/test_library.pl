@@ -132,6 +132,27 @@ test(takes_the_tree_from_the_environment,
                              main :- findall(P, tacho_motor(P), Ps), print(Ps).",
                             [goal(main), env('EV3DEV_SYSFS'=Root)],
                             Status, Output) )).
+test(an_empty_environment_is_none,
+     [ forall(member(Variable-Query-Default,
+                     [ 'EV3DEV_SYSFS'-ev3_sysfs-"/sys/class",
+                       'EV3DEV_DEV'-ev3_dev-"/dev" ])),
+       true(Status-Output == exit(0)-Default) ]) :-
+    tells_directory(Query, Program),
+    run_program(Program, [goal(main), env(Variable='')], Status, Output).
+% There is a directory of that name beside the library's own files, too.
+test(the_environment_is_relative_to_the_working_directory,
+     [ forall(member(Variable-Query, [ 'EV3DEV_SYSFS'-ev3_sysfs,
+                                       'EV3DEV_DEV'-ev3_dev ])),
+       true(Status-Output == exit(0)-Expected) ]) :-
+    tmp_file(home, Home),
+    atom_concat(Home, '/worlds', Directory),
+    atom_string(Directory, Expected),
+    tells_directory(Query, Program),
+    setup_call_cleanup(
+        make_directory_path(Directory),
+        run_program(Program, [goal(main), cwd(Home), env(Variable=worlds)],
+                    Status, Output),
+        delete_directory_and_contents(Home)).
 test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
     run_program(":- use_module(library(ev3dev)).",
                 [env('EV3DEV_SYSFS'='/nowhere/at/all')], Status, Output),
@@ -141,6 +162,11 @@ test(an_environment_that_names_no_directory_is_an_error, true(Named == true)) :-
     ;   assertion(Status \== exit(0))
     ),
     ( sub_string(Output, _, _, _, "/nowhere/at/all") -> Named = true ; Named = Output ).
+
+tells_directory(Query, Program) :-
+    format(string(Program),
+           ":- use_module(library(ev3dev)).
+            main :- ~q(Directory), write(Directory).", [Query]).
 
 :- end_tests(loading).
 

@@ -1,7 +1,7 @@
 :- module(ev3dev_dev,
           [ ev3_dev/1                   % ?Directory
           ]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(directory, [directory_path/2, environment_directory/2]).
 :- use_module(driver, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
 
@@ -14,8 +14,9 @@ What is no motor, sensor or light is a device file below `/dev`.
 %
 %   Query or set the directory that holds the device files: `fb0`, the screen,
 %   and in `input/by-path` the keys and the speaker. At first it is the value
-%   of the environment variable EV3DEV_DEV, else `/dev`. The simulator has its
-%   own, which are used from sim_start/1 on.
+%   of the environment variable EV3DEV_DEV, if that is set and not empty, else
+%   `/dev`. A relative one is relative to the working directory. The simulator
+%   has its own, which are used from sim_start/1 on.
 %
 %   A regular file or a named pipe may stand there for a device. For the keys
 %   a file holds the events there were; what is written behind them happens
@@ -30,18 +31,12 @@ ev3_dev(Directory) :-
     !,
     dev_(Directory).
 ev3_dev(Directory) :-
-    (   absolute_file_name(Directory, Path,
-                           [file_type(directory), file_errors(fail)])
-    ->  dev_use_(Path)
-    ;   existence_error(directory, Directory)
-    ).
+    directory_path(Directory, Path),
+    dev_use_(Path).
 
-use_environment :-
-    (   getenv('EV3DEV_DEV', Directory)
-    ->  ev3_dev(Directory)
-    ;   true
-    ).
-
-:- use_environment.
+:- (   environment_directory('EV3DEV_DEV', Directory)
+   ->  ev3_dev(Directory)
+   ;   true
+   ).
 
 :- on_demand_loaded.

@@ -4,8 +4,8 @@
             file_write/2,               % +File, +Value
             ev3_sysfs/1                 % ?Directory
           ]).
-:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(directory, [directory_path/2, environment_directory/2]).
 :- use_module(library_file, [load_library/0]).
 
 :- load_library.
@@ -55,7 +55,10 @@ another directory of the same shape, or the simulator's.
 %!  ev3_sysfs(?Directory) is det.
 %
 %   Query or set the directory that holds the classes of devices. At first it
-%   is the value of the environment variable EV3DEV_SYSFS, else `/sys/class`.
+%   is the value of the environment variable EV3DEV_SYSFS, if that is set and
+%   not empty, else `/sys/class`. A relative one is relative to the working
+%   directory.
+%
 %   Setting it stops the motors that the program has started so far, and ends
 %   a simulation, unless that is mounted by sim_mount/1.
 %
@@ -69,19 +72,13 @@ ev3_sysfs(Directory) :-
     !,
     sysfs_(Directory).
 ev3_sysfs(Directory) :-
-    (   absolute_file_name(Directory, Path,
-                           [file_type(directory), file_errors(fail)])
-    ->  sysfs_use_(Path)
-    ;   existence_error(directory, Directory)
-    ).
+    directory_path(Directory, Path),
+    sysfs_use_(Path).
 
-use_environment :-
-    (   getenv('EV3DEV_SYSFS', Directory)
-    ->  ev3_sysfs(Directory)
-    ;   true
-    ).
-
-:- use_environment.
+:- (   environment_directory('EV3DEV_SYSFS', Directory)
+   ->  ev3_sysfs(Directory)
+   ;   true
+   ).
 
 %!  choose_tree is det.
 %
