@@ -99,6 +99,10 @@ test(planner_is_none, error(domain_error(planner, x), _)) :-
     compared([planners([x])], _, _).
 test(known_is_no_boolean, error(type_error(_, perhaps), _)) :-
     compared([known(perhaps)], _, _).
+test(an_option_that_is_none,
+     [ forall(member(Option, [know(true), planner(a_star), x])),
+       error(domain_error(planner_option, Option), _) ]) :-
+    compared([Option], _, _).
 test(options_are_no_list, error(type_error(list, x), _)) :-
     map([], Map),
     compare_planners(Map, state([6,3], _), x).

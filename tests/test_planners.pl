@@ -451,6 +451,11 @@ test(goal_unbound, error(instantiation_error, _)) :-
     plan(a_star, problem(1, f(_), [successor(any)]), _).
 test(options_are_no_list, error(type_error(list, x), _)) :-
     plan(a_star, problem(1, 2, x), _).
+test(an_option_that_is_none,
+     [ forall(member(Option, [heuristics(words), x, successor(any, any)])),
+       error(domain_error(problem_option, Option), _) ]) :-
+    ok([successor(any), Option], Problem),
+    plan(a_star, Problem, _).
 test(no_successor,
      error(existence_error(problem_option, successor), _)) :-
     plan(a_star, problem(1, 2, []), _).

@@ -8,6 +8,7 @@
 :- use_module('../grid_compass').
 :- use_module('../grid_map').
 :- use_module('../grid_problem').
+:- use_module('../options', [must_be_options/3]).
 :- use_module(picture).
 :- use_module(search).
 
@@ -50,9 +51,11 @@
 %
 %   @error domain_error(planner, Planner)
 %   @error domain_error(grid_state, State)
+%   @error domain_error(planner_option, Option) for an option that is none
 
 compare_planners(Map, Goal, Options) :-
-    must_be(list, Options),
+    must_be_options(planner_option, [start, planners, known, svg, runs],
+                    Options),
     start(Options, Map, Start),
     option(known(Known), Options, false),
     must_be(boolean, Known),

@@ -142,6 +142,7 @@ claim(greedy_best_first,           any).
 %   @error domain_error(planner, Planner)
 %   @error domain_error(planning_problem, Problem)
 %   @error existence_error(problem_option, Name) if the planner needs it
+%   @error domain_error(problem_option, Option) for an option that is none
 %   @error domain_error(positive_number, Cost)
 
 plan(Planner, Problem, Plan) :-

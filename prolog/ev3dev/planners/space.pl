@@ -12,6 +12,7 @@
               ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/3]).
+:- use_module('../options', [must_be_options/3]).
 
 /** <module> The space that a planner searches
 
@@ -29,6 +30,7 @@ problem's closures is checked here, once for all planners.
 %
 %   @error domain_error(planning_problem, Problem)
 %   @error existence_error(problem_option, successor)
+%   @error domain_error(problem_option, Option) for an option that is none
 
 search_space(Module:Problem, Start, Goals, Space) :-
     must_be(nonvar, Problem),
@@ -38,7 +40,9 @@ search_space(Module:Problem, Start, Goals, Space) :-
     ),
     must_be(ground, Start),
     must_be(ground, Goal),
-    must_be(list, Options0),
+    must_be_options(problem_option,
+                    [successor, predecessor, heuristic, expanding],
+                    Options0),
     goals(Goal, Goals),
     meta_options(closure, Module:Options0, Options),
     option(successor(Successor), Options, none),
