@@ -152,7 +152,9 @@ any_move(Move) :-
 
 test(nothing_can_be_done_without_a_robot,
      [forall(( any_move(Move), with_options(Move, [], Goal)
-             ; member(Goal, [ pose(_, _, _), set_pose(0, 0, 0),
+             ; member(Goal, [ turn(20, 0), face(0), follow([]),
+                              follow([], [reason(_)]),
+                              pose(_, _, _), set_pose(0, 0, 0),
                               pose_uncertainty(_), drive_wait([], _),
                               calibrate(axle, [], _) ]) )), true(W == [])]) :-
     with_tree(( retractall(ev3dev_robot:robot(_, _, _, _)),
@@ -171,7 +173,8 @@ test(a_missing_motor_fails_and_writes_nothing,
 test(an_impossible_move_fails_and_writes_nothing,
      [forall(( member(Goal, [ go_cm(0, 10, []), go_cm(101, 10, []),
                               go_cm(30, 0, []), turn(0, 90, []),
-                              turn(-101, 90, []), turn(30, 0, []),
+                              turn(-101, 90, []), turn(0, 0, []),
+                              turn(101, 0), follow([], [speed(0)]),
                               arc_cm(101, 20, 90), arc_cm(0, 20, 90),
                               arc_cm(20, 20, 0), drive_cm(60, 0),
                               drive_cm(0, 600), arc(101, 20), steer(120, 0),
@@ -384,6 +387,7 @@ test(each_ends_where_it_should,
                         turn(20, 90)-[0, 0, 90],
                         turn(20, 400, [])-[0, 0, 400],
                         turn(-20, 90, [])-[0, 0, -90],
+                        turn(20, 0)-[0, 0, 0],
                         arc_cm(30, 20, 90)-[20, 20, 90],
                         arc_cm(30, -20, 90)-[-20, 20, -90],
                         arc_cm(-30, 20, 90)-[20, -20, -90],
@@ -401,12 +405,21 @@ test(each_ends_where_it_should,
                         face(-170)-[0, 0, -170],
                         face(530)-[0, 0, 170],
                         follow([])-[0, 0, 0],
+                        follow([], [speed(-30)])-[0, 0, 0],
                         follow([[0, 30], 30-30, point(30, 0)])-[30, 0, 180],
                         follow([[0, 40], [40, 40], [40, 80]], [radius(10)])
                             -[40, 80, 0],
                         follow([[0, 40], [0, 0]], [radius(10)])-[0, 0, 180],
                         follow([[0, -40]], [speed(-30)])-[0, -40, 0] ]) ))]) :-
     quiet(Gyro, ( Move, at(X, Y, H), pose_is_right )).
+test(what_leads_nowhere_is_reached_at_once,
+     [forall(member(Move, [turn(20, 0), turn(-20, 0.0), face(0), follow([])])),
+      true(R == reached)]) :-
+    with_options(Move, [reason(R)], Goal),
+    quiet(true, ( go_cm(30, 10), sim_pose(X, Y, H), Goal, at(X, Y, H) )).
+test(what_leads_nowhere_ends_the_move_before,
+     [forall(member(Goal, [turn(20, 0), follow([])]))]) :-
+    quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
 test(in_the_mount_too, [condition(behaving(mount))]) :-
     on(mount, ( set_robot(5.6, 10.6, outB, outC),
                 sim_pose(X0, Y0, H0),

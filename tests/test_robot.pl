@@ -235,6 +235,9 @@ test(turn_2_is_the_papers_formula,
                          ( turn(Speed, Degrees),
                            wheels(position_sp, P),
                            wheels_near(Left, Right, 10) ))).
+test(turn_2_by_nothing_succeeds, [forall(member(Speed, [20, -20]))]) :-
+    with_robot(( turn(Speed, 0),
+                 wheels_near(0, 0, 1) )).
 test(an_impossible_turn_fails_and_writes_nothing,
      [ forall(member(Goal, [ turn(0, 90), turn(101, 90), turn(20, 1.0e300) ])),
        true(W == []) ]) :-
@@ -293,6 +296,9 @@ test(ends_within_a_degree_and_brakes_both,
                            ( abs(Angle - Target) =< 1 -> Ended = within ; Ended = Angle ),
                            wheels(command, C),
                            wheels(stop_action, A) ))).
+test(by_nothing_it_succeeds) :-
+    gyro(Gyro),
+    with_robot(Gyro, ( turn(20, 0), wheels_near(0, 0, 1) )).
 test(starts_from_whatever_the_gyro_shows, true(Ended == within)) :-
     gyro(Gyro),
     with_robot(Gyro,

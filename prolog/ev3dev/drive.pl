@@ -89,7 +89,7 @@ takes the place of one that is under way.
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
 %
 %   Go straight on for Distance cm. The signs of speed and distance make the
-%   direction.
+%   direction. Fails for a Distance of 0, as go/2 does for an angle of 0.
 
 go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
@@ -102,12 +102,11 @@ go_cm(Speed, Distance, Options) :-
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
 %   Turn on the spot by Angle degrees. The signs of speed and angle make the
-%   direction, clockwise positive.
+%   direction, clockwise positive. A turn by 0 is `reached` at once.
 
 turn(Speed, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Angle, Degrees),
-    not_nothing(Degrees),
     Turn is Degrees * sign(Percent),
     move(Percent, legs([turn(Turn)], false), Options).
 
@@ -116,7 +115,7 @@ turn(Speed, Angle, Options) :-
 %
 %   Go along an arc of a circle. Its centre is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
-%   make the direction, ahead or backwards.
+%   make the direction, ahead or backwards. Fails for an Angle of 0.
 
 arc_cm(Speed, Radius, Angle) :-
     arc_cm(Speed, Radius, Angle, []).

@@ -83,7 +83,8 @@ face(Heading, Options) :-
 %!  follow(+Points, +Options) is semidet.
 %
 %   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. Another option:
+%   on straight lines, and turn on the spot at each. No points are `reached` at
+%   once. Another option:
 %
 %     - radius(+Cm)
 %       Round the corners with that radius, or with less where the lines are
@@ -104,9 +105,11 @@ follow(Points, Options) :-
     ;   domain_error(radius, R)
     ),
     (   Places == []
-    ->  true
-    ;   travel([through(Places, R)], Rest)
-    ).
+    ->  % This, too, takes the place of a move under way.
+        Leg = turn(0)
+    ;   Leg = through(Places, R)
+    ),
+    travel([Leg], Rest).
 
 points([], []).
 points([Point|Points], [[X, Y]|Places]) :-

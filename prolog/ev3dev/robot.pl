@@ -241,7 +241,8 @@ turn(Speed) :-
 %
 %   Turn on the spot by Angle degrees, clockwise positive. Waits. With a gyro,
 %   the first of those connected, it ends within a degree; if that cannot be
-%   had, it prints why and fails. Without one it goes by the wheels.
+%   had, it prints why and fails. Without one it goes by the wheels. A turn by
+%   0 succeeds.
 %
 %   @error existence_error(Kind, Port) if a motor or the gyro is unplugged
 %          under way
