@@ -26,9 +26,9 @@ of most building instructions. It is described once:
 ```
 
 Speeds are in percent of the motors' highest speed, distances in centimetres,
-angles in degrees, all of them any arithmetic expression. The sign of a speed
-and that of a distance or angle together make the direction; clockwise is
-positive.
+angles in degrees; in moves, not in the robot's description, they may be any
+arithmetic expression. The sign of a speed and that of a distance or angle
+together make the direction; clockwise is positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an
