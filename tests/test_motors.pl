@@ -59,10 +59,27 @@ test(runs_none_unless_all_can, [ forall(member(Run, [run(outC, 101), run(outE, 5
 test(a_partial_list_throws_and_runs_none, true(W == [])) :-
     with_tree(( catch(motors_run([run(outB, 50)|_]), error(instantiation_error, _), true),
                 written(W) )).
-test(what_is_no_run_throws,
-     [ forall(member(Runs, [foo, [foo], [run(outB)], [run(1, 5)]])),
-       error(type_error(_, _), _) ]) :-
-    with_tree(motors_run(Runs)).
+test(speeds_may_be_expressions, true([B, C] == ['210', '-105'])) :-
+    with_tree(( motors_run([run(outB, 10+10), run(outC, -max(5, 10))]),
+                get_attribute(outB, speed_sp, B),
+                get_attribute(outC, speed_sp, C) )).
+test(what_is_no_run_throws_and_runs_none,
+     [ forall(member(Runs-Error,
+                     [ foo-type_error(list, _),
+                       [foo]-domain_error(motor_run, foo),
+                       [run(outB)]-domain_error(motor_run, run(outB)),
+                       [go(outB, 20)]-domain_error(motor_run, go(outB, 20)),
+                       [move(outB, 5, 9)]
+                       -domain_error(motor_run, move(outB, 5, 9)),
+                       [_]-instantiation_error,
+                       [run(outB, _)]-instantiation_error,
+                       [run(_, 5)]-instantiation_error,
+                       [run(outB, fast)]-type_error(evaluable, fast/0),
+                       [run(1, 5)]-type_error(_, _) ])),
+       true(E-W == caught-[]) ]) :-
+    with_tree(( catch(motors_run([run(outC, 5)|Runs]), error(Error, _),
+                      E = caught),
+                written(W) )).
 
 :- end_tests(motors_run).
 
@@ -311,10 +328,32 @@ test(moves_none_unless_all_can,
        true(W == []) ]) :-
     with_tree(( \+ motors_turn([move(outB, 50, 90), Move], []),
                 written(W) )).
+test(what_they_are_told_may_be_expressions,
+     true([A, B, C, D] == ['210', '60', '-45', '1500'])) :-
+    with_tree(( motors_turn([ move(outB, 10+10, 120/2), to(outC, 20, -(45)),
+                              for(outD, 4*5, 3/2)
+                            ], [wait(false)]),
+                get_attribute(outB, speed_sp, A),
+                get_attribute(outB, position_sp, B),
+                get_attribute(outC, position_sp, C),
+                get_attribute(outD, time_sp, D) )).
 test(what_is_no_list_of_moves_throws,
-     [ forall(member(Moves-Error, [ _-instantiation_error, [_|_]-instantiation_error,
-                                    foo-type_error(_, _), [foo]-type_error(_, _),
-                                    [move(outB, 5)]-type_error(_, _) ])),
+     [ forall(member(Moves-Error,
+                     [ _-instantiation_error,
+                       [_|_]-instantiation_error,
+                       [_]-instantiation_error,
+                       foo-type_error(_, _),
+                       [foo]-domain_error(motor_move, foo),
+                       [move(outB, 5)]
+                       -domain_error(motor_move, move(outB, 5)),
+                       [run(outB, 5)]-domain_error(motor_move, run(outB, 5)),
+                       [by(outB, 5, 9)]
+                       -domain_error(motor_move, by(outB, 5, 9)),
+                       [move(outB, _, 9)]-instantiation_error,
+                       [to(outB, 5, _)]-instantiation_error,
+                       [for(outB, 5, long)]-type_error(evaluable, long/0),
+                       [for(outB, 5, -1)]-domain_error(seconds, _),
+                       [move(1, 5, 9)]-type_error(_, _) ])),
        error(Error, _) ]) :-
     with_tree(motors_turn(Moves, [])).
 

@@ -20,7 +20,9 @@
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(halt, []).
 :- use_module(options,
-              [ motor_options/5, must_be_options/3, must_be_timeout/1 ]).
+              [ motor_moves/2, motor_options/5, motor_runs/2, must_be_options/3,
+                must_be_timeout/1
+              ]).
 
 /** <module> Motors
 
@@ -57,13 +59,15 @@ motor_run(Port, Speed) :-
 
 %!  motors_run(+Runs) is semidet.
 %
-%   Run several motors, each `run(Port, Percent)`, until they are stopped.
-%   They start at the same moment, or not at all. Does not wait.
+%   Run several motors, each `run(Port, Speed)`, until they are stopped. They
+%   start at the same moment, or not at all. Does not wait.
 %
 %   @error domain_error(distinct_ports, Port) if a port is named twice
+%   @error domain_error(motor_run, Run) if one of Runs is none
+%   @error type_error(evaluable, Speed)
 
-motors_run(Runs) :-
-    must_be(list, Runs),
+motors_run(Runs0) :-
+    motor_runs(Runs0, Runs),
     (   motors_run_(Runs)
     ->  true
     ;   why_not(Runs)
@@ -110,19 +114,20 @@ motor_run(Port, Speed, Angle, Options) :-
 %   moment, or not at all. Options, failure and errors are those of
 %   motor_run/4. Each of Moves is one of
 %
-%     - move(Port, Percent, Degrees)
+%     - move(Port, Speed, Angle)
 %       As motor_run/4.
-%     - to(Port, Percent, Degrees)
+%     - to(Port, Speed, Angle)
 %       As motor_run_to/4.
-%     - for(Port, Percent, Seconds)
+%     - for(Port, Speed, Seconds)
 %       As motor_run_timed/4.
 %
 %   @error domain_error(distinct_ports, Port) if a port is named twice
 %   @error domain_error(motor_move, Move) if it is none of these
 
-motors_turn(Moves, Options) :-
-    must_be(list, Moves),
+motors_turn(Moves0, Options) :-
+    must_be(list, Moves0),
     motor_options(Options, hold, [coast, brake, hold], 60000, Native),
+    motor_moves(Moves0, Moves),
     (   motor_turn_(Moves, Native, Reason)
     ->  turn_ended(Reason, Moves)
     ;   why_not(Moves)

@@ -3,7 +3,9 @@
             take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
-            motor_options/5             % +Options, +Stop, +Stops, +Ramp, -O
+            motor_options/5,            % +Options, +Stop, +Stops, +Ramp, -O
+            motor_runs/2,               % +Runs, -Evaluated
+            motor_moves/2               % +Moves, -Evaluated
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
@@ -128,3 +130,49 @@ must_be_ramp(_, _, Milliseconds) :-
     !.
 must_be_ramp(Attribute, Longest, Milliseconds) :-
     must_be_within(0, Longest, Attribute, Milliseconds).
+
+%!  motor_runs(+Runs, -Evaluated) is det.
+%
+%   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as those
+%   of motors_run/1.
+%
+%   @error domain_error(motor_run, Run) if one of Runs is none
+
+motor_runs(Runs, Evaluated) :-
+    (   is_list(Runs)
+    ->  runs(Runs, Evaluated)
+    ;   must_be(list, Runs)
+    ).
+
+runs([], []).
+runs([Run|Runs], [run(Port, Percent)|Evaluated]) :-
+    (   nonvar(Run),
+        Run = run(Port, Speed)
+    ->  Percent is Speed
+    ;   none_of(motor_run, Run)
+    ),
+    runs(Runs, Evaluated).
+
+%!  motor_moves(+Moves, -Evaluated) is det.
+%
+%   Evaluated is a list of Moves as those of motors_turn/2, with numbers.
+%
+%   @error domain_error(motor_move, Move) if one of Moves is none
+
+motor_moves([], []).
+motor_moves([Move|Moves], [Evaluated|Rest]) :-
+    (   nonvar(Move),
+        move(Move, Speed, Way, Evaluated, Percent, Number)
+    ->  Percent is Speed,
+        Number is Way
+    ;   none_of(motor_move, Move)
+    ),
+    motor_moves(Moves, Rest).
+
+move(move(Port, S, Angle), S, Angle, move(Port, P, N), P, N).
+move(to(Port, S, Angle), S, Angle, to(Port, P, N), P, N).
+move(for(Port, S, Time), S, Time, for(Port, P, N), P, N).
+
+none_of(Domain, Term) :-
+    must_be(nonvar, Term),
+    domain_error(Domain, Term).
