@@ -48,6 +48,10 @@ test(auto_at_first,
     in_tree(Tree, ( findall(M, port_mode(_, M), Ms), sort(Ms, Modes) )).
 test(modes, [forall(tree(Tree)), true(Modes == [auto, 'tacho-motor', 'dc-motor', led, raw])]) :-
     in_tree(Tree, port_modes(outA, Modes)).
+test(no_modes, true(Modes == [])) :-
+    with_tree([port(outA)-'ev3-output-port'],
+              ( put_attribute(port(outA), modes, ''),
+                port_modes(outA, Modes) )).
 test(status, [forall(tree(Tree)), true(S == 'no-motor')]) :-
     in_tree(Tree, port_status(outD, S)).
 test(makes_a_device_appear_and_waits_for_it,

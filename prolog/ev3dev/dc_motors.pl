@@ -144,12 +144,7 @@ dc_motor_duty(Port, Percent) :-
 %   while its next step is due.
 
 dc_motor_states(Port, States) :-
-    ev3dev_driver:attribute_('dc-motor', Port, state, State),
-    (   State == ''
-    ->  States = []
-    ;   atomic_list_concat(States0, ' ', State),
-        States = States0
-    ).
+    ev3dev_driver:attribute_words('dc-motor', Port, state, States).
 
 %!  dc_motor_polarity(?Port, ?Polarity) is nondet.
 %

@@ -162,6 +162,22 @@ attribute(Class, Port, Attribute, Value) :-
 attribute(Class, Port, Attribute, Value) :-
     attribute_write_(Class, Port, Attribute, Value).
 
+%!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
+%
+%   True if Words are those of an attribute's text, with spaces between; a
+%   single number, as a mode called 50, is a word, too. For the pack's own
+%   modules.
+
+:- public attribute_words/4.
+
+attribute_words(Class, Port, Attribute, Words) :-
+    attribute_(Class, Port, Attribute, Text),
+    (   Text == ''
+    ->  Words = []
+    ;   atomic_list_concat(Words0, ' ', Text),
+        Words = Words0
+    ).
+
 %!  command(+Port, +Command) is semidet.
 %
 %   Give a motor one of its commands: `run-forever`, `run-to-abs-pos`,
@@ -228,12 +244,7 @@ state(Port, State) :-
 %   `ramping`, `holding`, `overloaded`, `stalled`.
 
 motor_states(Port, States) :-
-    state(Port, State),
-    (   State == ''
-    ->  States = []
-    ;   atomic_list_concat(States0, ' ', State),
-        States = States0
-    ).
+    attribute_words('tacho-motor', Port, state, States).
 
 %!  mode(?Port, ?Mode) is nondet.
 %

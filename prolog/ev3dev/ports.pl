@@ -62,9 +62,7 @@ port_mode(Port, Mode) :-
 %   True if Modes is the list of the modes that the port can be put into.
 
 port_modes(Port, Modes) :-
-    ev3dev_driver:attribute_('lego-port', Port, modes, Text),
-    atomic_list_concat(Modes0, ' ', Text),
-    Modes = Modes0.
+    ev3dev_driver:attribute_words('lego-port', Port, modes, Modes).
 
 %!  port_status(?Port, -Status) is nondet.
 %

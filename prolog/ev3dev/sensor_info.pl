@@ -134,26 +134,18 @@ info(Port, _, Item) :-
     sensor_attribute(Port, units, Units),
     member(Item, [mode(Mode), values(Values), units(Units)]).
 info(Port, Type, modes(Modes)) :-
-    words(Port, modes, Names),
+    ev3dev_driver:attribute_words('lego-sensor', Port, modes, Names),
     findall(Mode,
             ( member(Name, Names), mode_info(Type, Name, Mode) ),
             Modes).
 info(Port, _, commands(Commands)) :-
-    words(Port, commands, Commands).
+    ev3dev_driver:attribute_words('lego-sensor', Port, commands, Commands).
 
 mode_info(Type, Name, Mode) :-
     sensor_mode(Type, Name, Count, Decimals, Units, Meaning),
     !,
     Mode = mode(Name, Count, Decimals, Units, Meaning).
 mode_info(_, Name, mode(Name)).
-
-% A single number among words, as a mode called 50, is a word, too.
-words(Port, Attribute, Words) :-
-    sensor_attribute(Port, Attribute, Text),
-    (   Text == ''
-    ->  Words = []
-    ;   atomic_list_concat(Words, ' ', Text)
-    ).
 
 %!  sensor_command(+Port, +Command) is semidet.
 %
