@@ -83,8 +83,8 @@ face(Heading, Options) :-
 %!  follow(+Points, +Options) is semidet.
 %
 %   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. No points are `reached` at
-%   once. Another option:
+%   on straight lines, and turn on the spot at each. No points are `reached`
+%   at once. Another option:
 %
 %     - radius(+Cm)
 %       Round the corners with that radius, or with less where the lines are

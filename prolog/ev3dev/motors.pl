@@ -20,8 +20,8 @@
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(halt, []).
 :- use_module(options,
-              [ motor_moves/2, motor_options/5, motor_runs/2, must_be_options/3,
-                must_be_timeout/1
+              [ motor_moves/2, motor_options/5, motor_runs/2,
+                must_be_options/3, must_be_timeout/1
               ]).
 
 /** <module> Motors

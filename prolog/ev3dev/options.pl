@@ -133,8 +133,8 @@ must_be_ramp(Attribute, Longest, Milliseconds) :-
 
 %!  motor_runs(+Runs, -Evaluated) is det.
 %
-%   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as those
-%   of motors_run/1.
+%   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as
+%   those of motors_run/1.
 %
 %   @error domain_error(motor_run, Run) if one of Runs is none
 
