@@ -54,7 +54,8 @@ them the way is planned anew.
 %       `unreachable`, as there is no way with what is known and seen;
 %       `exhausted`, if it has planned its way so often as steps(Count) says;
 %       `stalled`, if something holds the robot; `unplugged`, if its sensor or
-%       a motor is; `stopped`, if another thread stopped it.
+%       a motor is; `stopped`, if another thread stopped it while it moved.
+%       A stop while it stands and plans is none.
 %     - steps(+Count)
 %       Default is 200.
 %     - obstacles(-Polygons)
