@@ -45,6 +45,37 @@ test(throws_for_a_speed_that_is_no_number,
 
 :- end_tests(motor_run_2).
 
+:- begin_tests(why_not).
+
+%   What `debug(ev3dev)` says of Goal, which fails.
+said_of(Goal, Said) :-
+    setup_call_cleanup(
+        ( % It may complain that nobody has spoken of that so far.
+          warnings(debug(ev3dev), _),
+          asserta((prolog:debug_print_hook(ev3dev, Format, Arguments) :-
+                       format(string(Line), Format, Arguments),
+                       assertz(plunit_why_not:said(Line))),
+                  Hook)
+        ),
+        \+ Goal,
+        ( erase(Hook),
+          nodebug(ev3dev)
+        )),
+    findall(Line, retract(said(Line)), Said).
+
+:- dynamic said/1.
+:- multifile prolog:debug_print_hook/3.
+:- dynamic prolog:debug_print_hook/3.
+
+test(an_absent_motor_is_named_and_no_other,
+     true(Said == ["there is no motor at outE"])) :-
+    with_tree(said_of(motors_run([run(outB, 20), run(outE, 20)]), Said)).
+test(what_a_motor_cannot_do_is_told, true(Text == "outB cannot run at 120 %")) :-
+    with_tree(said_of(motor_run(outB, 120), [Said])),
+    sub_string(Said, 0, 24, _, Text).
+
+:- end_tests(why_not).
+
 :- begin_tests(motors_run).
 
 test(runs_each_at_its_speed, true([B, C, D] == ['525', '-105', '0'])) :-

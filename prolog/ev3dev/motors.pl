@@ -146,16 +146,21 @@ turn_ended(Reason, Moves) :-
 
 %!  why_not(+Runs) is failure.
 %
-%   Tell why motors could not be started, if that is being debugged.
+%   Tell why motors could not be started, if that is being debugged: those
+%   that are missing, or else what they were to do.
 
 why_not(Runs) :-
     debugging(ev3dev),
-    member(Run, Runs),
-    arg(1, Run, Port),
-    arg(2, Run, Percent),
-    (   \+ tacho_motor(Port)
-    ->  debug(ev3dev, "there is no motor at ~w", [Port])
-    ;   max_speed(Port, Max),
+    findall(Port,
+            ( member(Run, Runs), arg(1, Run, Port), \+ tacho_motor(Port) ),
+            Missing),
+    (   member(Port, Missing),
+        debug(ev3dev, "there is no motor at ~w", [Port])
+    ;   Missing == [],
+        member(Run, Runs),
+        arg(1, Run, Port),
+        arg(2, Run, Percent),
+        max_speed(Port, Max),
         debug(ev3dev, "~w cannot run at ~w % of its ~w counts/s as ~p asks",
               [Port, Percent, Max, Run])
     ),

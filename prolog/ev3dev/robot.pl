@@ -271,9 +271,8 @@ turn(Speed, Angle) :-
 
 turn_ended(reached, _) :-
     !.
-turn_ended(stopped, Degrees) :-
+turn_ended(stopped, _) :-
     !,
-    debug(ev3dev, "turn by ~w degrees ended early: stopped", [Degrees]),
     fail.
 turn_ended(Ended, Degrees) :-
     print_message(warning, ev3dev(turn(Ended, Degrees))),
