@@ -149,9 +149,7 @@ impl Drive {
     /// # Errors
     /// The kernel's.
     pub fn start(&self, devices: &Devices) -> Result<bool> {
-        let mut inner = self.lock();
-        let is_there = devices.afresh(|| inner.integrate(devices))?;
-        drop(inner);
+        let is_there = self.look(devices)?.is_some();
         if is_there {
             self.be_called(devices);
         }
@@ -163,9 +161,7 @@ impl Drive {
     /// # Errors
     /// The kernel's.
     pub fn pose(&self, devices: &Devices) -> Result<Option<Pose>> {
-        let mut inner = self.lock();
-        let is_there = devices.afresh(|| inner.integrate(devices))?;
-        Ok(is_there.then(|| inner.pose()))
+        Ok(self.look(devices)?.map(|inner| inner.pose()))
     }
 
     /// Says where the robot is.
@@ -173,13 +169,12 @@ impl Drive {
     /// # Errors
     /// The kernel's.
     pub fn set_pose(&self, devices: &Devices, pose: Pose) -> Result<bool> {
-        let mut inner = self.lock();
-        let is_there = devices.afresh(|| inner.integrate(devices))?;
-        if is_there {
-            inner.goal = None;
-            inner.place(pose);
-        }
-        Ok(is_there)
+        let Some(mut inner) = self.look(devices)? else {
+            return Ok(false);
+        };
+        inner.goal = None;
+        inner.place(pose);
+        Ok(true)
     }
 
     /// Covariance of the pose.
@@ -187,9 +182,18 @@ impl Drive {
     /// # Errors
     /// The kernel's.
     pub fn uncertainty(&self, devices: &Devices) -> Result<Option<[[f64; 3]; 3]>> {
+        Ok(self.look(devices)?.map(|inner| inner.estimate.uncertainty()))
+    }
+
+    /// What is known now; `None` where a motor is absent. Who looks all the time
+    /// keeps the tree's calls from doing anything, and so does their work.
+    fn look(&self, devices: &Devices) -> Result<Option<MutexGuard<'_, Inner>>> {
         let mut inner = self.lock();
         let is_there = devices.afresh(|| inner.integrate(devices))?;
-        Ok(is_there.then(|| inner.estimate.uncertainty()))
+        if is_there {
+            inner.catch_up();
+        }
+        Ok(is_there.then_some(inner))
     }
 
     /// Whether the gyro, if there is one, tells the heading.

@@ -34,6 +34,8 @@ pub(super) struct Job {
     steering: Steering,
     stop_action: StopAction,
     at: Duration,
+    /// When its last period was done.
+    controlled: Duration,
     /// What the wheels were last told, in counts per second.
     speeds: Option<[i64; 2]>,
     landing: Option<Landing>,
@@ -171,6 +173,7 @@ impl Inner {
             steering,
             stop_action,
             at: self.now.saturating_sub(PERIOD),
+            controlled: self.now,
             speeds: None,
             landing: None,
             stuck: found.counts.map(|count| (count, self.now)),
@@ -185,6 +188,7 @@ impl Inner {
         let (Some(job), Some(found)) = (&mut self.job, &self.found) else {
             return Ok(None);
         };
+        job.controlled = self.now;
         let pose = self.estimate.pose();
         let order = match &mut job.landing {
             Some(landing) => match landing.look(found.counts, self.now) {
@@ -208,6 +212,15 @@ impl Inner {
             Order::Arrived => Ok(Some(Reason::Reached)),
             Order::Roll(ways) => job.roll(found, ways, self.now),
             Order::Land(ways) => job.land(found, ways, self.now),
+        }
+    }
+
+    /// Does a period of the motion under way, if a whole one was left out.
+    pub(super) fn catch_up(&mut self) {
+        let missed = self.job.as_ref().map(|job| self.now.saturating_sub(job.controlled));
+        if missed.is_some_and(|missed| missed >= PERIOD * 2) {
+            let stepped = self.control();
+            self.conclude(stepped);
         }
     }
 
