@@ -2,6 +2,7 @@
 
 :- use_module(rooms).
 :- use_module(cases).
+:- use_module(simulated_tree, [hold_clock/0, release_clock/0]).
 :- use_module(simulation).
 :- use_module(tree, [meanwhile/2]).
 :- use_module(trees).
@@ -299,16 +300,19 @@ test(the_example_draws) :-
           load_xml(File, [element(svg, _, _)|_], []) ),
         delete_file(File)).
 
-%   Stop the robot once, when it moves after so many seconds.
+%   Stop the robot once, when it moves after so many seconds: while it waits
+%   for time to pass, since it may stand by itself right after that.
 
 stop_running(At) :-
     repeat,
     sleep(0.001),
     sim_time(Now),
     Now >= At,
-    motor_states(outB, [running|_]),
+    setup_call_cleanup(
+        hold_clock,
+        ( sleep(0.02), motor_states(outB, [running|_]), stop ),
+        release_clock),
     !,
-    stop,
     repeat,
     sleep(1),
     fail.
