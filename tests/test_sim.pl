@@ -459,8 +459,8 @@ test(step_passes) :-
     with_sim([], ( sim_step(1+1), sim_time(T), near(T, 2, 0.001) )).
 test(step_back, error(domain_error(seconds, -1), _)) :-
     with_sim([], sim_step(-1)).
-test(a_long_step_can_be_interrupted, throws(time_limit_exceeded)) :-
-    with_sim([], call_with_time_limit(0.1, sim_step(1.0e9))).
+test(a_long_step_can_be_interrupted, true(E == time_limit_exceeded)) :-
+    with_sim([], catch(call_with_time_limit(0.1, sim_step(1.0e9)), E, true)).
 test(step_of_no_number, error(type_error(evaluable, _), _)) :-
     with_sim([], sim_step(long)).
 test(virtual_time_stands_while_the_program_thinks) :-
