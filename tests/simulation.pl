@@ -4,6 +4,7 @@
             for_seconds/2,              % +Seconds, :Goal
             at_rest/0,
             with_file/3,                % +Text, -File, :Goal
+            with_directory/2,           % -Directory, :Goal
             can_mount/0,
             near/3                      % +Value, +Expected, +Tolerance
           ]).
@@ -19,7 +20,8 @@
     with_sim(+, 0),
     with_sim(+, +, 0),
     for_seconds(+, 0),
-    with_file(+, -, 0).
+    with_file(+, -, 0),
+    with_directory(-, 0).
 
 %!  with_sim(+World, :Goal)
 %!  with_sim(+World, +Options, :Goal)
@@ -94,17 +96,24 @@ write_file(Text, File) :-
         write(Stream, Text),
         close(Stream)).
 
+%!  with_directory(-Directory, :Goal)
+%
+%   Call Goal once with a new Directory, in which it leaves nothing.
+
+with_directory(Directory, Goal) :-
+    tmp_file(mount, Directory),
+    setup_call_cleanup(
+        make_directory(Directory),
+        once(Goal),
+        delete_directory(Directory)).
+
 %!  can_mount
 %
 %   True if this machine has FUSE, and the library was built with it.
 
 can_mount :-
     access_file('/dev/fuse', exist),
-    tmp_file(mount, Directory),
-    setup_call_cleanup(
-        make_directory(Directory),
-        with_sim(room, mounts(Directory)),
-        delete_directory(Directory)).
+    with_directory(Directory, with_sim(room, mounts(Directory))).
 
 mounts(Directory) :-
     catch(sim_mount(Directory), error(existence_error(feature, _), _), fail),

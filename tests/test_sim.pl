@@ -386,14 +386,12 @@ test(the_trace_has_what_was_shown) :-
     once(member(_-read('lego-sensor/sensor0/value0', '123'), Trace)).
 test(the_mount_shows_it, [condition(can_mount)]) :-
     with_sim([],
-             setup_call_cleanup(
-                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+             with_directory(Directory,
                  ( sim_mount(Directory),
                    sim_show(in1, value0, 123),
                    atom_concat(Directory, '/lego-sensor/sensor0/value0', File),
                    read_file_to_string(File, "123\n", []),
-                   sim_unmount ),
-                 delete_directory(Directory))).
+                   sim_unmount ))).
 test(where_nothing_is_it_fails,
      [forall(member(Goal, [ sim_show(outD, state, running), sim_unshow(outD, state),
                             sim_unshow(in1, value0) ])), fail]) :-
@@ -632,32 +630,27 @@ positions(Errors, Positions) :-
 
 test(mount_shows_the_files, [condition(can_mount)]) :-
     with_sim([],
-             setup_call_cleanup(
-                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+             with_directory(Directory,
                  ( sim_mount(Directory),
                    atom_concat(Directory, '/tacho-motor/motor0/address', File),
                    exists_file(File),
                    sim_unmount,
                    \+ exists_file(File),
-                   \+ sim_unmount ),
-                 delete_directory(Directory))).
+                   \+ sim_unmount ))).
 test(a_program_that_ends_unmounts, [condition(can_mount)]) :-
-    setup_call_cleanup(
-        ( tmp_file(mount, Directory), make_directory(Directory) ),
+    with_directory(Directory,
         ( format(atom(Goal), "sim_start(room), sim_mount(~q)", [Directory]),
           run_program(":- use_module(library(ev3dev/sim)).\n", [goal(Goal)],
                       Status, Output),
           Status-Output == exit(0)-"",
           directory_files(Directory, Files),
-          msort(Files, ['.', '..']) ),
-        delete_directory(Directory)).
+          msort(Files, ['.', '..']) )).
 test(no_such_directory, error(existence_error(_, _), _)) :-
     with_sim([], sim_mount('/no/such/directory')).
 test(ends_with_the_simulation_while_its_files_are_in_use,
      [ condition(can_mount),
        forall(member(End, [sim_stop, sim_start(room, [clock(virtual)])])) ]) :-
-    setup_call_cleanup(
-        ( tmp_file(mount, Directory), make_directory(Directory) ),
+    with_directory(Directory,
         with_sim([],
                  ( sim_mount(Directory),
                    ev3_sysfs(Directory),
@@ -666,12 +659,10 @@ test(ends_with_the_simulation_while_its_files_are_in_use,
                    directory_files(Directory, Files),
                    msort(Files, ['.', '..']),
                    % For with_sim/2
-                   sim_start(room) )),
-        delete_directory(Directory)).
+                   sim_start(room) ))).
 test(a_mode_can_be_written_though_time_stands_still,
      [condition(can_mount), true(Mode == "COL-COLOR\n")]) :-
-    setup_call_cleanup(
-        ( tmp_file(mount, Directory), make_directory(Directory) ),
+    with_directory(Directory,
         with_sim([],
                  ( sim_mount(Directory),
                    atom_concat(Directory, '/lego-sensor/sensor1/mode', File),
@@ -680,8 +671,7 @@ test(a_mode_can_be_written_though_time_stands_still,
                                       close(Stream)),
                    sim_step(0.1),
                    read_file_to_string(File, Mode, []),
-                   sim_unmount )),
-        delete_directory(Directory)).
+                   sim_unmount ))).
 
 :- end_tests(sim_mount).
 
@@ -705,16 +695,14 @@ test(a_refused_directory_is_not) :-
                    tacho_motor(outA) )).
 test(a_mounted_one_goes_on_in_another_directory, [condition(can_mount)]) :-
     with_sim([],
-             setup_call_cleanup(
-                 ( tmp_file(mount, Directory), make_directory(Directory) ),
+             with_directory(Directory,
                  ( sim_mount(Directory),
                    ev3_sysfs(Directory),
                    max_speed(outA, 1560),
                    with_tree([], ( \+ tacho_motor(_), sim_pose(_, _, _) )),
                    ev3_sysfs(Directory),
                    max_speed(outA, 1560),
-                   sim_unmount ),
-                 delete_directory(Directory))).
+                   sim_unmount ))).
 test(stop_goes_back_to_the_directory_in_use_before) :-
     with_tree([],
               ( ev3_sysfs(Directory),
