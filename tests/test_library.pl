@@ -224,6 +224,28 @@ test(threads_that_call_at_once_wait_for_the_module) :-
                      findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
                      sort(Ss, Set), print(Set).",
             "[true]").
+test(threads_that_go_on_calling_are_not_disturbed) :-
+    answers("try(_) :- catch(led(left, blu), error(domain_error(_, _), _), true).
+             main :- findall(Id,
+                             ( between(1, 16, _),
+                               thread_create(forall(between(1, 200, I), try(I)), Id, []) ),
+                             Ids),
+                     findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
+                     sort(Ss, Set), print(Set).",
+            "[true]").
+test(a_stub_stays_while_another_thread_runs) :-
+    answers("main :- thread_create(thread_get_message(over), Id, []),
+                     catch(led(left, blu), error(_, _), true),
+                     lights(M1), thread_send_message(Id, over), thread_join(Id, _),
+                     catch(led(left, blu), error(_, _), true),
+                     lights(M2), print(M1-M2).",
+            "ev3dev-ev3dev_lights").
+test(a_module_that_is_loaded_beside_a_thread_takes_its_place) :-
+    answers("main :- thread_create(thread_get_message(over), Id, []),
+                     use_module(library(ev3dev/lights)),
+                     lights(M), thread_send_message(Id, over), thread_join(Id, _),
+                     print(M).",
+            "ev3dev_lights").
 test(a_call_past_the_library_does_no_harm) :-
     answers("main :- catch(ev3dev_lights:led(left, blu), error(E, _), true),
                      catch(led(left, blu), error(F, _), true), print(E+F).",

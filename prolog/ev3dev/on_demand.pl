@@ -16,17 +16,23 @@ led(Light, Colour) :-
                                 led(Light, Colour)).
 ```
 
-The first call loads the module. At the end of its file, which says
-on_demand_loaded/0, its predicates take the places of their stubs, in whatever
-module has imported these. From then on it is as if library(ev3dev) had
-reexported the module. Of several threads that call at once, one loads, and
-the others wait until SWI-Prolog lets them have the module. (Its autoload/2
-does the like; but version 7.2.3 has none, and 9.0.4 none for exports.)
+The first call loads the module. Its predicates then take the places of their
+stubs, in whatever module has imported these: as if library(ev3dev) had
+reexported it. So they do if a program loads the module itself, by
+on_demand_loaded/0 at the end of its file. Of several threads that call at
+once, one loads, and the others wait until SWI-Prolog lets them have it.
+
+While a predicate changes places, another thread that calls it finds none. So
+stubs stay, and go on calling the module, until one is called while no other
+thread runs. (SWI-Prolog's autoload/2 does the like of all this; but version
+7.2.3 has none, and 9.0.4 none for exports.)
 */
 
 :- dynamic
     stubs/3,                            % Module, Predicates, Importer
-    replaced/2.                         % Predicates, Importer
+    loaded/1.                           % Module
+:- thread_local
+    is_called/0.                        % A call of a stub loads the module
 
 :- module_transparent on_demand/2.
 
@@ -59,44 +65,56 @@ define_stub(Name/Arity, Module, Library, Importer) :-
     export(Importer:Name/Arity).
 
 first_call(Library, Module, Head) :-
-    load(Library),
+    (   loaded(Module)
+    ->  true
+    ;   setup_call_cleanup(
+            assertz(is_called),
+            load(Library),
+            retractall(is_called))
+    ),
+    (   is_alone
+    ->  replace_stubs(Module)
+    ;   true
+    ),
     call(Module:Head).
 
 load(Library) :-
     ev3dev_on_demand:use_module(Library, []).
 
+% The thread that collects garbage calls none of them.
+is_alone :-
+    statistics(threads, Count),
+    (   Count =:= 1
+    ->  true
+    ;   Count =:= 2,
+        thread_property(_, alias(gc))
+    ),
+    !.
+
 %!  on_demand_loaded is det.
 %
-%   Say at the end of a file that its predicates may be called: they replace
-%   their stubs.
+%   Say at the end of a file that its predicates may be called. Unless a stub
+%   does so already, they replace their stubs.
 
 :- module_transparent on_demand_loaded/0.
 
 on_demand_loaded :-
     context_module(Module),
-    ev3dev_on_demand:replace_stubs(Module).
+    ev3dev_on_demand:is_loaded(Module).
+
+is_loaded(Module) :-
+    assertz(loaded(Module)),
+    (   is_called
+    ->  true
+    ;   replace_stubs(Module)
+    ).
 
 replace_stubs(Module) :-
-    with_mutex(ev3dev_on_demand,
-               forall(retract(stubs(Module, Predicates, Importer)),
-                      replace_stubs(Predicates, Module, Importer))).
-
-replace_stubs(Predicates, Module, Importer) :-
-    assertz(replaced(Predicates, Importer)),
-    forall(member(Predicate, Predicates),
-           ( abolish(Importer:Predicate),
-             Importer:import(Module:Predicate)
-           )).
-
-% Another thread may call between these two: it waits until both are done.
-:- multifile user:exception/3.
-:- dynamic user:exception/3.
-
-user:exception(undefined_predicate, Importer:Predicate, retry) :-
-    ev3dev_on_demand:replaced(Predicates, Importer),
-    memberchk(Predicate, Predicates),
-    !,
-    with_mutex(ev3dev_on_demand, true).
+    forall(retract(stubs(Module, Predicates, Importer)),
+           forall(member(Predicate, Predicates),
+                  ( abolish(Importer:Predicate),
+                    Importer:import(Module:Predicate)
+                  ))).
 
 %!  load_on_demand is det.
 %
