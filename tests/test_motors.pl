@@ -217,11 +217,11 @@ test(reset_throws_for_an_unbound_port, error(instantiation_error, _)) :-
 
 test(writes_what_the_command_depends_on,
      true(W == ['run-to-rel-pos', '360', '525', hold])) :-
-    with_tree(meanwhile(obey(outB),
-                        ( motor_run(outB, 50, 360),
-                          maplist(get_attribute(outB),
-                                  [command, position_sp, speed_sp, stop_action],
-                                  W) ))).
+    with_tree(obeying([outB],
+                      ( motor_run(outB, 50, 360),
+                        maplist(get_attribute(outB),
+                                [command, position_sp, speed_sp, stop_action],
+                                W) ))).
 test(writes_nothing_else,
      true(W == [ command='run-to-rel-pos', position_sp='3600',
                  speed_sp='525', stop_action=hold ])) :-
@@ -243,9 +243,9 @@ test(speed_and_angle_are_expressions, true(D-S == '45'-'262')) :-
                 get_attribute(outB, position_sp, D),
                 get_attribute(outB, speed_sp, S) )).
 test(waits_until_the_motor_is_there) :-
-    with_tree(meanwhile(obey(outB),
-                        ( motor_run(outB, 50, 360),
-                          get_attribute(outB, position, P) ))),
+    with_tree(obeying([outB],
+                      ( motor_run(outB, 50, 360),
+                        get_attribute(outB, position, P) ))),
     atom_number(P, Position),
     near(Position, 360, 10).
 test(an_impossible_move_fails_and_writes_nothing,
@@ -273,7 +273,7 @@ test(a_motor_that_stops_short_of_its_end_fails, true(Ended-Ws == fails-[])) :-
                 warnings(( motor_run(outB, 50, 36000)
                          -> Ended = succeeds ; Ended = fails ), Ws) )).
 test(a_slow_motor_is_not_taken_for_a_blocked_one, true(Ws == [])) :-
-    with_tree(( meanwhile(obey(outB), warnings(motor_run(outB, 1, 20), Ws)),
+    with_tree(( obeying([outB], warnings(motor_run(outB, 1, 20), Ws)),
                 get_attribute(outB, position, P) )),
     atom_number(P, Position),
     near(Position, 20, 10).
@@ -321,7 +321,7 @@ test(a_time_that_is_up_stops_the_motor_and_fails, true(C == stop)) :-
                 \+ motor_run(outB, 50, 3600, [timeout(0.05)]),
                 get_attribute(outB, command, C) )).
 test(a_time_long_enough_changes_nothing) :-
-    with_tree(meanwhile(obey(outB), motor_run(outB, 50, 360, [timeout(60)]))).
+    with_tree(obeying([outB], motor_run(outB, 50, 360, [timeout(60)]))).
 test(a_wrong_option_throws_and_writes_nothing,
      [ forall(member(Options-Error,
                      [ _-instantiation_error,
@@ -352,8 +352,8 @@ test(each_motor_makes_its_move, true([B, C] == ['90', '-45'])) :-
                 get_attribute(outB, position_sp, B),
                 get_attribute(outC, position_sp, C) )).
 test(waits_for_all) :-
-    with_tree(meanwhile(( obey(outB), obey(outC) ),
-                        motors_turn([move(outB, 50, 90), move(outC, 50, 90)], []))).
+    with_tree(obeying([outB, outC],
+                      motors_turn([move(outB, 50, 90), move(outC, 50, 90)], []))).
 test(moves_none_unless_all_can,
      [ forall(member(Move, [move(outC, 101, 9), move(outE, 50, 9), move(outC, 0, 9)])),
        true(W == []) ]) :-
@@ -397,10 +397,10 @@ test(what_is_no_list_of_moves_throws,
 :- begin_tests(motor_wait).
 
 test(reached) :-
-    with_tree(meanwhile(obey(outB),
-                        ( motor_run(outB, 50, 90, [wait(false)]),
-                          motor_wait(outB, [], R),
-                          assertion(R == reached) ))).
+    with_tree(obeying([outB],
+                      ( motor_run(outB, 50, 90, [wait(false)]),
+                        motor_wait(outB, [], R),
+                        assertion(R == reached) ))).
 test(stalled, true(R-C == stalled-'run-to-rel-pos')) :-
     with_tree(( block(outB),
                 motor_run(outB, 50, 90, [wait(false)]),
@@ -426,10 +426,10 @@ test(a_motor_that_runs_for_ever_can_only_be_stopped, true(R == stopped)) :-
                 later(0.05, stops(outB)),
                 motor_wait(outB, [], R) )).
 test(several_motors_are_waited_for_together, true(R == reached)) :-
-    with_tree(meanwhile(( obey(outB), obey(outC) ),
-                        ( motor_run(outB, 50, 90, [wait(false)]),
-                          motor_run(outC, 50, 90, [wait(false)]),
-                          motor_wait([outB, 'ev3-ports:outC'], [], R) ))).
+    with_tree(obeying([outB, outC],
+                      ( motor_run(outB, 50, 90, [wait(false)]),
+                        motor_run(outC, 50, 90, [wait(false)]),
+                        motor_wait([outB, 'ev3-ports:outC'], [], R) ))).
 test(one_that_is_unplugged_ends_the_wait_for_all, true(R == unplugged)) :-
     with_tree(( runs(outB),
                 runs(outC),

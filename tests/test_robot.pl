@@ -107,25 +107,25 @@ test(go_1_takes_an_expression, true(S == '262'-'262')) :-
     with_robot(( go(min(50, 100 / 4)),
                  wheels(speed_sp, S) )).
 test(go_2_turns_both_wheels_and_waits, true(S-A == ('525'-'525')-(hold-hold))) :-
-    with_robot(meanwhile(( obey(outB), obey(outC) ),
-                         ( go(50, 180),
-                           wheels_near(180, 180, 10),
-                           wheels(speed_sp, S),
-                           wheels(stop_action, A) ))).
+    with_robot(obeying([outB, outC],
+                       ( go(50, 180),
+                         wheels_near(180, 180, 10),
+                         wheels(speed_sp, S),
+                         wheels(stop_action, A) ))).
 test(go_2_has_the_sign_of_both,
      [ forall(member(Speed-Angle-D, [ -50-180-'-180', 50-(-180)-'-180',
                                       -50-(-180)-'180' ])),
        true(P == D-D) ]) :-
-    with_robot(meanwhile(( obey(outB), obey(outC) ),
-                         ( go(Speed, Angle),
-                           wheels(position_sp, P) ))).
+    with_robot(obeying([outB, outC],
+                       ( go(Speed, Angle),
+                         wheels(position_sp, P) ))).
 test(go_cm_is_the_papers_formula,
      [ forall(member(Distance, [10, -3, 20.5])), true(P == Angle-Angle) ]) :-
     Expected is round((Distance * 360) / (pi * 5.6)),
     atom_number(Angle, Expected),
-    with_robot(meanwhile(( obey(outB), obey(outC) ),
-                         ( go_cm(20, Distance),
-                           wheels(position_sp, P) ))).
+    with_robot(obeying([outB, outC],
+                       ( go_cm(20, Distance),
+                         wheels(position_sp, P) ))).
 test(an_impossible_move_fails_and_writes_nothing,
      [ forall(member(Goal, [ go(0), go(0.0), go(101), go(inf), go(10**400),
                              go(0, 90), go(50, 0), go(101, 90), go(50, 10**400),
@@ -231,10 +231,10 @@ test(turn_2_is_the_papers_formula,
     Right is -Left,
     atom_number(L, Left),
     atom_number(R, Right),
-    with_robot(meanwhile(( obey(outB), obey(outC) ),
-                         ( turn(Speed, Degrees),
-                           wheels(position_sp, P),
-                           wheels_near(Left, Right, 10) ))).
+    with_robot(obeying([outB, outC],
+                       ( turn(Speed, Degrees),
+                         wheels(position_sp, P),
+                         wheels_near(Left, Right, 10) ))).
 test(turn_2_by_nothing_succeeds, [forall(member(Speed, [20, -20]))]) :-
     with_robot(( turn(Speed, 0),
                  wheels_near(0, 0, 1) )).

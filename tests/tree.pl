@@ -18,7 +18,7 @@
             later/2,                    % +Seconds, :Goal
             meanwhile/2,                % :Other, :Goal
             eventually/1,               % :Goal
-            obey/1,                     % +Port
+            obeying/2,                  % +Ports, :Goal
             runs/1,                     % +Port
             stops/1,                    % +Port
             block/1,                    % +Port
@@ -39,7 +39,7 @@ environment chooses the one of this run:
 
   - plain (default)
     A directory of files as the kernel shows them after plugging in. They store
-    what is written, and nothing moves: later/2, meanwhile/2 and obey/1 make a
+    what is written, and nothing moves: later/2, meanwhile/2 and obeying/2 make a
     thread play the kernel's part.
   - simulator
     The simulator within the process, on its virtual clock.
@@ -56,6 +56,7 @@ only/2 as its condition; how many tests that leaves out is told at the end.
     with_tree(+, 0),
     later(+, 0),
     meanwhile(0, 0),
+    obeying(+, 0),
     eventually(0),
     warnings(0, -).
 
@@ -395,11 +396,11 @@ meanwhile(Other, Goal) :-
 %
 %   Wait until Goal succeeds, and commit to that.
 %
-%   @error assertion_failed(eventually(Goal)) if it does not within 5 s
+%   @error assertion_failed(eventually(Goal)) if it does not within 20 s
 
 eventually(Goal) :-
     get_time(Now),
-    Deadline is Now + 5,
+    Deadline is Now + 20,
     repeat,
     (   call(Goal)
     ->  true
@@ -411,20 +412,29 @@ eventually(Goal) :-
     ),
     !.
 
-%!  obey(+Port)
+%!  obeying(+Ports, :Goal)
 %
-%   Play the motor at Port through one position move, where it does not move by
-%   itself: wait for its command, run, go half-way, be at the end and rest.
+%   Call Goal once, which makes one position move of each motor at Ports. Where
+%   they do not move by themselves, another thread plays them: it waits for the
+%   commands, and lets the motors go half-way, be at their ends and rest.
+%
+%   They run from the beginning, lest they are taken for motors that do not
+%   run at all where that thread comes late.
 
-obey(_) :-
+obeying(_, Goal) :-
     \+ tree_kind(plain),
-    !.
+    !,
+    once(Goal).
+obeying(Ports, Goal) :-
+    forall(member(Port, Ports), put_attribute(Port, state, running)),
+    meanwhile(forall(member(Port, Ports), obey(Port)), Goal).
+
 obey(Port) :-
     eventually(get_attribute(Port, command, 'run-to-rel-pos')),
-    put_attribute(Port, state, running),
     get_number(Port, position, From),
-    get_number(Port, position_sp, End),
-    Half is (From + End) // 2,
+    get_number(Port, position_sp, Way),
+    Half is From + Way // 2,
+    End is From + Way,
     sleep(0.02),
     put_attribute(Port, position, Half),
     sleep(0.02),

@@ -158,14 +158,11 @@ sensor_bus('ms-absolute-imu',    i2c17).
 %!  moving(+Tree, +Ports, :Goal)
 %
 %   Call Goal, which makes one move of the motors at Ports. In a plain tree
-%   threads move them.
+%   a thread moves them.
 
-moving(plain, [], Goal) :-
+moving(plain, Ports, Goal) :-
     !,
-    call(Goal).
-moving(plain, [Port|Ports], Goal) :-
-    !,
-    meanwhile(obey(Port), moving(plain, Ports, Goal)).
+    obeying(Ports, Goal).
 moving(_, _, Goal) :-
     call(Goal).
 
