@@ -33,8 +33,8 @@ for LEGO EV3" (Schwarz, Wenzel 2019).
 
 Three rules hold everywhere. A port is an atom, `outB` or
 `'ev3-ports:outB'`. What is asked of a device that is not there fails, and so
-does a move that is impossible; `debug(ev3dev)` tells why a motor does not
-run. What is no sensible argument throws.
+does a move that is impossible; `debug(ev3dev)` tells what is missing, or why
+a motor does not run. What is no sensible argument throws.
 */
 
 :- reexport(ev3dev/driver).

@@ -74,6 +74,18 @@ test(what_a_motor_cannot_do_is_told, true(Text == "outB cannot run at 120 %")) :
     with_tree(said_of(motor_run(outB, 120), [Said])),
     sub_string(Said, 0, 24, _, Text).
 
+test(what_is_missing_is_told,
+     [ forall(member(Goal-Line,
+                     [ motor_stop(outE)-"there is no motor at outE",
+                       us_dist_cm(in2, _)-"in2 has no sensor for us_dist_cm",
+                       set_robot(5.6, 10.6, outA, outB)
+                       -"outA and outB are not two motors of one type",
+                       go(20)-"no robot is set: see set_robot/4",
+                       stop-"no robot is set: see set_robot/4" ])),
+       setup(retractall(ev3dev_robot:robot(_, _, _, _))),
+       true(Said == [Line]) ]) :-
+    with_tree(said_of(Goal, Said)).
+
 :- end_tests(why_not).
 
 :- begin_tests(motors_run).

@@ -186,7 +186,10 @@ motor_stop(Port) :-
     motor_stop(Port, brake).
 
 motor_stop(Port, StopAction) :-
-    motor_stop_('tacho-motor', Port, StopAction).
+    (   motor_stop_('tacho-motor', Port, StopAction)
+    ->  true
+    ;   why_not([run(Port, 0)])
+    ).
 
 %!  stop_all_motors is det.
 %

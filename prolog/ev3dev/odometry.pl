@@ -149,7 +149,8 @@ ev3dev_robot:robot_hook :-
 
 %   Count from now on, if there is a robot.
 odometry :-
-    (   robot_driven(Robot)
+    (   ev3dev_robot:robot(_, _, _, _),
+        robot_driven(Robot)
     ->  ignore(odometry_(Robot))
     ;   true
     ).

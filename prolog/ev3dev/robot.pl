@@ -80,9 +80,14 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
     must_be(atom, Left),
     must_be(atom, Right),
     build(WheelDiameter, Options, Diameters, Inverted, Offset),
-    tacho_motor(Left, Type, LeftPath),
-    tacho_motor(Right, Type, RightPath),
-    LeftPath \== RightPath,
+    (   tacho_motor(Left, Type, LeftPath),
+        tacho_motor(Right, Type, RightPath),
+        LeftPath \== RightPath
+    ->  true
+    ;   debug(ev3dev, "~w and ~w are not two motors of one type",
+              [Left, Right]),
+        fail
+    ),
     with_mutex(ev3dev_robot,
                ( retractall(robot(_, _, _, _)),
                  retractall(built(_, _, _)),
@@ -119,7 +124,7 @@ inverted(Side, Sides, Inverted) :-
 
 %   The robot as library(ev3dev/drive) wants it.
 robot_built(robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)) :-
-    robot(WheelDiameter, AxleLength, Left, Right),
+    robot_set(WheelDiameter, AxleLength, Left, Right),
     (   built(DL-DR, IL-IR, Offset)
     ->  true
     ;   DL-DR = WheelDiameter-WheelDiameter,
@@ -152,6 +157,14 @@ must_be_length(Length) :-
 %
 %   True if that is the robot that was set by set_robot/4.
 
+%   As robot/4 does, for who can do nothing without.
+robot_set(WheelDiameter, AxleLength, Left, Right) :-
+    (   robot(WheelDiameter, AxleLength, Left, Right)
+    ->  true
+    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
+        fail
+    ).
+
 %!  stop is semidet.
 %
 %   Stop both motors of the robot, with `brake`. Does not wait until they
@@ -159,7 +172,7 @@ must_be_length(Length) :-
 %   not connected, stops the other one and fails.
 
 stop :-
-    robot(_, _, Left, Right),
+    robot_set(_, _, Left, Right),
     (   motor_stop(Left)
     ->  motor_stop(Right)
     ;   motor_stop(Right),
@@ -171,7 +184,7 @@ stop :-
 %   Go straight on, until stopped; backwards if Speed is negative.
 
 go(Speed) :-
-    robot(_, _, Left, Right),
+    robot_set(_, _, Left, Right),
     Percent is Speed,
     moves(Percent),
     forwards(LS, RS),
@@ -186,7 +199,7 @@ go(Speed) :-
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
 go(Speed, Angle) :-
-    robot(_, _, Left, Right),
+    robot_set(_, _, Left, Right),
     Percent is Speed,
     Degrees is Angle,
     moves(Percent),
@@ -221,7 +234,7 @@ wheel_angle(Sign, Diameter, Own, Angle, MotorAngle) :-
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
 go_cm(Speed, Distance) :-
-    robot(WheelDiameter, _, _, _),
+    robot_set(WheelDiameter, _, _, _),
     go(Speed, round(Distance * 360 / (pi * WheelDiameter))).
 
 %!  turn(+Speed) is semidet.
@@ -229,7 +242,7 @@ go_cm(Speed, Distance) :-
 %   Turn on the spot, clockwise, until stopped.
 
 turn(Speed) :-
-    robot(_, _, Left, Right),
+    robot_set(_, _, Left, Right),
     Percent is Speed,
     forwards(LS, RS),
     Reverse is -Percent,
@@ -248,7 +261,7 @@ turn(Speed) :-
 %          under way
 
 turn(Speed, Angle) :-
-    robot(WheelDiameter, AxleLength, Left, Right),
+    robot_set(WheelDiameter, AxleLength, Left, Right),
     Percent is Speed,
     Degrees is Angle,
     moves(Percent),

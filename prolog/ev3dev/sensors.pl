@@ -115,10 +115,12 @@ sensor_reading(Reading, Port, Value) :-
     reading(Reading, Types, Mode, Index),
     sensor_value_(Port, Types, Mode, Index, Value).
 sensor_reading(Reading, Port, Value) :-
-    reading(Reading, Types, Mode, Index),
-    sensor_value_(Port, Types, Mode, Index, Read),
-    !,
-    Value = Read.
+    (   reading(Reading, Types, Mode, Index),
+        sensor_value_(Port, Types, Mode, Index, Read)
+    ->  Value = Read
+    ;   debug(ev3dev, "~w has no sensor for ~w", [Port, Reading]),
+        fail
+    ).
 
 %!  light_sensor(?Port) is nondet.
 %!  ultrasonic_sensor(?Port) is nondet.
