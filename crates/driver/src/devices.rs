@@ -9,6 +9,7 @@ use crate::Interrupted;
 use crate::device::{Device, Watch, identity};
 use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
+use crate::held::Held;
 use crate::patience::patiently;
 use crate::port;
 use crate::tree::Tree;
@@ -16,7 +17,7 @@ use rustix::io::Errno;
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
@@ -150,13 +151,6 @@ impl Devices {
     /// The devices of a class that were seen when it was last looked at.
     pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
         Arc::clone(&self.listing(class).devices)
-    }
-
-    /// Whether some thread, and be it this one, is looking at a class.
-    pub(crate) fn is_listing(&self) -> bool {
-        let is_locked =
-            |listing: &Mutex<Listing>| matches!(listing.try_lock(), Err(TryLockError::WouldBlock));
-        self.listings.iter().any(is_locked)
     }
 
     /// The device at a port, which may be spelled either way. A sensor on the
@@ -310,7 +304,7 @@ impl Devices {
         &self.watch
     }
 
-    fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {
+    fn listing(&self, class: Class) -> Held<'_, Listing> {
         // Class::ALL is in the order of the enum.
         let [tacho_motor, sensor, servo_motor, dc_motor, port, led, battery] = &self.listings;
         let listing = match class {
@@ -322,7 +316,7 @@ impl Devices {
             Class::Led => led,
             Class::Battery => battery,
         };
-        listing.lock().unwrap_or_else(PoisonError::into_inner)
+        Held::lock(listing)
     }
 
     fn is_fresh(&self, listing: &Listing) -> bool {

@@ -39,6 +39,7 @@ pub mod devices;
 pub mod drive;
 pub mod error;
 pub mod frame;
+mod held;
 pub mod keys;
 pub mod lego_port;
 pub mod light;

@@ -18,6 +18,7 @@ use crate::Interrupted;
 use crate::device::Device;
 use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
+use crate::held::{self, Held};
 use crate::motor::{self, StopAction};
 use crate::odometry::{Estimate, Pose, Wheels};
 use crate::sensor;
@@ -27,13 +28,16 @@ use found::{Found, GYRO_MODE, angle, counts};
 use motion::Job;
 pub use motion::Status;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The period of the control.
 pub const PERIOD: Duration = Duration::from_millis(20);
 
-/// When to come again if the estimate is in use by another thread.
+/// When to come again if the estimate is in use.
 const BUSY: Duration = Duration::from_millis(1);
+
+/// How long, by the wall, to wait for another thread that uses it.
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// How long the wheels must stand still to be at rest.
 const AT_REST: Duration = Duration::from_secs(1);
@@ -187,7 +191,7 @@ impl Drive {
 
     /// What is known now; `None` where a motor is absent. Who looks all the time
     /// keeps the tree's calls from doing anything, and so does their work.
-    fn look(&self, devices: &Devices) -> Result<Option<MutexGuard<'_, Inner>>> {
+    fn look(&self, devices: &Devices) -> Result<Option<Held<'_, Inner>>> {
         let mut inner = self.lock();
         let is_there = devices.afresh(|| inner.integrate(devices))?;
         if is_there {
@@ -357,17 +361,10 @@ impl Drive {
         *is_called = devices.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
-    /// One period; answers when to come again. Takes no lock that is in use:
-    /// on a clock that passes as files are read, who holds it may be this very
-    /// thread.
+    /// One period; answers when to come again.
     fn called(&self, devices: &Devices) -> Option<Duration> {
-        if devices.is_listing() {
+        let Some(mut inner) = self.lock_soon() else {
             return Some(BUSY);
-        }
-        let mut inner = match self.inner.try_lock() {
-            Ok(inner) => inner,
-            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-            Err(TryLockError::WouldBlock) => return Some(BUSY),
         };
         let integrated = inner.integrate(devices);
         let stepped = match integrated {
@@ -386,8 +383,25 @@ impl Drive {
         self.is_called.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn lock(&self) -> MutexGuard<'_, Inner> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> Held<'_, Inner> {
+        Held::lock(&self.inner)
+    }
+
+    /// As [`lock`](Self::lock), for who comes in the middle of a read. `None` if
+    /// this thread holds what it may need, or another one does for long.
+    fn lock_soon(&self) -> Option<Held<'_, Inner>> {
+        if held::by_this_thread() {
+            return None;
+        }
+        let latest = Instant::now() + PATIENCE;
+        loop {
+            match self.inner.try_lock() {
+                Ok(inner) => return Some(Held::new(inner)),
+                Err(TryLockError::Poisoned(inner)) => return Some(Held::new(inner.into_inner())),
+                Err(TryLockError::WouldBlock) if Instant::now() >= latest => return None,
+                Err(TryLockError::WouldBlock) => std::thread::sleep(PATIENCE / 1000),
+            }
+        }
     }
 }
 

@@ -12,6 +12,11 @@ use std::time::Duration;
 /// How long a wheel that is to turn may stand still.
 const STUCK_FOR: Duration = Duration::from_millis(1500);
 
+/// At most so much of the time between two looks counts as standing still: what
+/// nobody looked at may have moved, and a look that was held up between reading
+/// a wheel and the clock tells an old count at a new time.
+const LONGEST_LOOK: Duration = Duration::from_millis(100);
+
 /// Less movement than this, in counts, is standing still.
 const STUCK_WITHIN: u64 = 2;
 
@@ -33,13 +38,14 @@ pub(super) struct Job {
     motors: Vec<Arc<Device>>,
     steering: Steering,
     stop_action: StopAction,
-    at: Duration,
     /// When its last period was done.
     controlled: Duration,
+    /// When the steering was last asked.
+    steered: Duration,
     /// What the wheels were last told, in counts per second.
     speeds: Option<[i64; 2]>,
     landing: Option<Landing>,
-    /// Counts, and since when each wheel has stood there.
+    /// Counts, and how long each wheel has stood there.
     stuck: [(i64, Duration); 2],
     pub(super) status: Arc<Status>,
     /// Put back when the motion ends.
@@ -49,8 +55,10 @@ pub(super) struct Job {
 /// The wheels go to their last counts.
 struct Landing {
     targets: [i64; 2],
-    since: Duration,
+    took: Duration,
     before: [i64; 2],
+    /// How long they have stood there.
+    stood: Duration,
 }
 
 /// How a motion ended, once it has.
@@ -172,11 +180,11 @@ impl Inner {
             motors: found.motors.clone(),
             steering,
             stop_action,
-            at: self.now.saturating_sub(PERIOD),
             controlled: self.now,
+            steered: self.now.saturating_sub(PERIOD),
             speeds: None,
             landing: None,
-            stuck: found.counts.map(|count| (count, self.now)),
+            stuck: found.counts.map(|count| (count, Duration::ZERO)),
             status: Arc::clone(&status),
             _ramps: ramps,
         });
@@ -188,30 +196,31 @@ impl Inner {
         let (Some(job), Some(found)) = (&mut self.job, &self.found) else {
             return Ok(None);
         };
+        let passed = self.now.saturating_sub(job.controlled).min(LONGEST_LOOK);
         job.controlled = self.now;
         let pose = self.estimate.pose();
         let order = match &mut job.landing {
-            Some(landing) => match landing.look(found.counts, self.now) {
+            Some(landing) => match landing.look(found.counts, passed) {
                 Landed::NotYet => return Ok(job.is_foreign(found).then_some(Reason::Stopped)),
                 Landed::Never => return Ok(Some(Reason::Stalled)),
                 Landed::There => {
                     job.landing = None;
-                    job.stuck = found.counts.map(|count| (count, self.now));
+                    job.stuck = found.counts.map(|count| (count, Duration::ZERO));
                     job.steering.landed(pose)
                 }
             },
             None => None,
         };
-        let seconds = self.now.saturating_sub(job.at).as_secs_f64().clamp(0.001, 0.1);
-        job.at = self.now;
+        let seconds = self.now.saturating_sub(job.steered).as_secs_f64().clamp(0.001, 0.1);
+        job.steered = self.now;
         let order = match order {
             Some(order) => order,
             None => job.steering.step(pose, seconds),
         };
         match order {
             Order::Arrived => Ok(Some(Reason::Reached)),
-            Order::Roll(ways) => job.roll(found, ways, self.now),
-            Order::Land(ways) => job.land(found, ways, self.now),
+            Order::Roll(ways) => job.roll(found, ways, passed),
+            Order::Land(ways) => job.land(found, ways),
         }
     }
 
@@ -275,14 +284,15 @@ fn whole(counts: f64) -> i64 {
 }
 
 impl Job {
-    /// Tells the wheels their speeds in cm/s.
-    fn roll(&mut self, found: &Found, ways: [f64; 2], now: Duration) -> Result<Option<Reason>> {
+    /// Tells the wheels their speeds in cm/s. So much time has passed since they
+    /// were last looked at.
+    fn roll(&mut self, found: &Found, ways: [f64; 2], passed: Duration) -> Result<Option<Reason>> {
         let wanted = found.in_counts(ways);
         // Too fast for one is too fast for both: the curve stays the same.
         let most = wanted[0].abs().max(wanted[1].abs());
         let share = if most > found.fastest { found.fastest / most } else { 1.0 };
         let speeds = wanted.map(|speed| whole(speed * share));
-        if self.is_stuck(found, speeds, now) {
+        if self.is_stuck(found, speeds, passed) {
             return Ok(Some(Reason::Stalled));
         }
         if self.is_foreign(found) {
@@ -304,7 +314,7 @@ impl Job {
     }
 
     /// Makes the wheels roll by the last few counts.
-    fn land(&mut self, found: &Found, ways: [f64; 2], now: Duration) -> Result<Option<Reason>> {
+    fn land(&mut self, found: &Found, ways: [f64; 2]) -> Result<Option<Reason>> {
         let by = found.in_counts(ways).map(whole);
         let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
         for (motor, target) in found.motors.iter().zip(targets) {
@@ -318,19 +328,26 @@ impl Job {
             }
         }
         self.speeds = None;
-        self.landing = Some(Landing { targets, since: now, before: found.counts });
+        self.landing = Some(Landing {
+            targets,
+            took: Duration::ZERO,
+            before: found.counts,
+            stood: Duration::ZERO,
+        });
         Ok(None)
     }
 
     /// Whether a wheel that is to turn does not.
-    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], now: Duration) -> bool {
+    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
-        for (side, (count, since)) in self.stuck.iter_mut().enumerate() {
+        for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
             let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
             if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *since) = (found.counts[side], now);
+                (*count, *stood) = (found.counts[side], Duration::ZERO);
+            } else {
+                *stood += passed;
             }
-            is_stuck |= now.saturating_sub(*since) >= STUCK_FOR;
+            is_stuck |= *stood >= STUCK_FOR;
         }
         is_stuck
     }
@@ -348,19 +365,57 @@ enum Landed {
 }
 
 impl Landing {
-    fn look(&mut self, counts: [i64; 2], now: Duration) -> Landed {
+    fn look(&mut self, counts: [i64; 2], passed: Duration) -> Landed {
         let off = |side: usize| counts[side].abs_diff(self.targets[side]);
         let farthest = off(0).max(off(1));
-        let stands = std::mem::replace(&mut self.before, counts) == counts;
-        let took = now.saturating_sub(self.since);
-        if farthest <= LANDED_WITHIN && stands && took >= PERIOD * 2 {
+        let stood = std::mem::replace(&mut self.before, counts) == counts;
+        self.stood = if stood { self.stood + passed } else { Duration::ZERO };
+        // Two looks may follow each other at once.
+        let stands = self.stood >= PERIOD / 2;
+        self.took += passed;
+        if farthest <= LANDED_WITHIN && stands && self.took >= PERIOD * 2 {
             Landed::There
-        } else if took < LANDING_TAKES || !stands {
+        } else if self.took < LANDING_TAKES || !stands {
             Landed::NotYet
         } else if farthest <= LANDED_SOMEHOW {
             Landed::There
         } else {
             Landed::Never
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn landing() -> Landing {
+        Landing { targets: [100, 100], took: Duration::ZERO, before: [0, 0], stood: Duration::ZERO }
+    }
+
+    #[test]
+    fn wheels_that_stand_on_their_counts_are_there() {
+        let mut landing = landing();
+        assert!(matches!(landing.look([100, 99], PERIOD), Landed::NotYet));
+        assert!(matches!(landing.look([100, 99], PERIOD), Landed::There));
+    }
+
+    #[test]
+    fn wheels_that_stand_elsewhere_never_get_there() {
+        let mut landing = landing();
+        let looks = (0..50).map(|_| landing.look([50, 50], PERIOD));
+        let before = looks.take_while(|landed| matches!(landed, Landed::NotYet)).count();
+        assert_eq!(before, 39, "in 800 ms");
+        assert!(matches!(landing.look([50, 50], PERIOD), Landed::Never));
+    }
+
+    #[test]
+    fn wheels_that_turn_do_not_stand_because_two_looks_follow_each_other() {
+        let mut landing = landing();
+        for count in 0..90 {
+            assert!(matches!(landing.look([count, count], PERIOD), Landed::NotYet));
+            let at_once = landing.look([count, count], PERIOD / 20);
+            assert!(matches!(at_once, Landed::NotYet), "at {count}");
         }
     }
 }
