@@ -336,7 +336,7 @@ test(the_gyro_is_unplugged, true(E-S-S == existence_error(sensor, in4)-[]-[])) :
 test(a_time_limit_stops_both_wheels,
      [forall(behaving(Tree)), true(E == time_limit_exceeded)]) :-
     on(Tree, ( set_robot(5.6, 10.6, outB, outC),
-               catch(call_with_time_limit(0.05, goes_to_and_fro), E, true),
+               catch(call_with_time_limit(0.05, arc_cm(20, 5, 1.0e6)), E, true),
                motor_states(outB, []),
                motor_states(outC, []) )).
 test(drive_wait_has_nothing_to_wait_for, true(R == reached)) :-
@@ -347,11 +347,6 @@ test(drive_wait_stops_nothing, true(R-S == timeout-[running])) :-
                    motor_states(outB, S) )).
 
 :- end_tests(early_ends).
-
-goes_to_and_fro :-
-    go_cm(20, 20),
-    go_cm(-20, 20),
-    goes_to_and_fro.
 
 %   Pull a wire at a moment of the simulated time, and wait for the end.
 pull(At, Port) :-
