@@ -23,10 +23,11 @@ test(loading_starts_nothing) :-
     prints(true, [], Output),
     \+ told(Output).
 test(the_first_use_starts_the_room_and_tells_once) :-
+    % It turns a little if its wheels do not start at the same time.
     prints(( set_robot(5.6, 10.6, outB, outC),
              go_cm(30, 5),
              us_dist_cm(in1, _),
-             ev3dev_sim:sim_pose(_, _, H), H =:= 40
+             ev3dev_sim:sim_pose(_, _, H), abs(H - 40) < 3
            ), [], Output),
     told(Output),
     findall(At, sub_string(Output, At, _, _, "simulating"), [_]).
