@@ -25,6 +25,7 @@ test(loading_starts_nothing) :-
 test(the_first_use_starts_the_room_and_tells_once) :-
     % It turns a little if its wheels do not start at the same time.
     prints(( set_robot(5.6, 10.6, outB, outC),
+             ev3dev_sim:sim_pose(_, _, H0), H0 =:= 40,
              go_cm(30, 5),
              us_dist_cm(in1, _),
              ev3dev_sim:sim_pose(_, _, H), abs(H - 40) < 3

@@ -426,7 +426,7 @@ obeying(_, Goal) :-
     !,
     once(Goal).
 obeying(Ports, Goal) :-
-    forall(member(Port, Ports), put_attribute(Port, state, running)),
+    forall(member(Port, Ports), runs(Port)),
     meanwhile(forall(member(Port, Ports), obey(Port)), Goal).
 
 obey(Port) :-
