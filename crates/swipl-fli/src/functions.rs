@@ -1,12 +1,15 @@
 //! Functions that every version from 7.2 to 10 has.
 //!
-//! Two kinds, told apart by what the headers say of the result:
+//! Three kinds, told apart by what the headers say:
 //! [`truth!`] declares those that answer `int` in old versions and `bool` in
-//! new ones; the plain `extern` block those that have one type everywhere.
+//! new ones; [`translated!`] those that take or answer numbers which changed
+//! ([`crate::version`]); the plain `extern` block those that are the same
+//! everywhere.
 use crate::types::{
     IOSTREAM, PL_blob_t, PL_engine_t, PL_fid_t, atom_t, control_t, foreign_t, functor_t, module_t,
     pl_function_t, predicate_t, qid_t, record_t, term_t,
 };
+use crate::version::Version;
 use std::ffi::{c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -28,6 +31,7 @@ macro_rules! truth {
 }
 
 truth! {
+    PL_destroy_engine(engine: PL_engine_t);
     PL_get_arg(index: c_int, t: term_t, a: term_t);
     PL_get_atom(t: term_t, a: *mut atom_t);
     PL_get_blob(t: term_t, blob: *mut *mut c_void, len: *mut usize, kind: *mut *mut PL_blob_t);
@@ -37,7 +41,6 @@ truth! {
     PL_get_functor(t: term_t, f: *mut functor_t);
     PL_get_int64(t: term_t, i: *mut i64);
     PL_get_list(l: term_t, h: term_t, t: term_t);
-    PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32);
     PL_get_nil(l: term_t);
     PL_get_stream(t: term_t, s: *mut *mut IOSTREAM, flags: c_int);
     PL_get_string(t: term_t, s: *mut *mut c_char, len: *mut usize);
@@ -51,7 +54,6 @@ truth! {
     PL_put_atom(t: term_t, a: atom_t);
     PL_put_blob(t: term_t, blob: *mut c_void, len: usize, kind: *mut PL_blob_t);
     PL_put_bool(t: term_t, value: c_int);
-    PL_put_chars(t: term_t, flags: c_int, len: usize, chars: *const c_char);
     PL_put_float(t: term_t, f: f64);
     PL_put_functor(t: term_t, f: functor_t);
     PL_put_int64(t: term_t, i: i64);
@@ -62,12 +64,12 @@ truth! {
     PL_raise_exception(exception: term_t);
     PL_recorded(record: record_t, t: term_t);
     PL_release_stream(s: *mut IOSTREAM);
+    PL_thread_destroy_engine();
     PL_unify(t1: term_t, t2: term_t);
     PL_unify_arg(index: usize, t: term_t, a: term_t);
     PL_unify_atom(t: term_t, a: atom_t);
     PL_unify_blob(t: term_t, blob: *mut c_void, len: usize, kind: *mut PL_blob_t);
     PL_unify_bool(t: term_t, n: c_int);
-    PL_unify_chars(t: term_t, flags: c_int, len: usize, s: *const c_char);
     PL_unify_compound(t: term_t, f: functor_t);
     PL_unify_float(t: term_t, f: f64);
     PL_unify_int64(t: term_t, i: i64);
@@ -92,6 +94,65 @@ pub unsafe fn PL_is_initialised(count: *mut c_int, args: *mut *mut *mut c_char) 
     c_int::from(answer)
 }
 
+/// Registers a predicate; `meta` is its meta-predicate specification, or null.
+pub unsafe fn PL_register_foreign_in_module(
+    module: *const c_char,
+    name: *const c_char,
+    arity: c_int,
+    function: pl_function_t,
+    flags: c_int,
+    meta: *const c_char,
+) -> c_int {
+    unsafe extern "C" {
+        fn PL_register_foreign_in_module(
+            module: *const c_char,
+            name: *const c_char,
+            arity: c_int,
+            function: pl_function_t,
+            flags: c_int,
+            ...
+        ) -> u8;
+    }
+    c_int::from(unsafe {
+        PL_register_foreign_in_module(module, name, arity, function, flags, meta)
+    })
+}
+
+/// Declares functions that take or answer numbers which not all versions share.
+/// After `=>` comes the call, in which `version` is the running one.
+macro_rules! translated {
+    ($(fn $name:ident($($arg:ident: $type:ty),*) -> $c:ty
+       => |$version:ident| ($($passed:expr),*) |$answer:ident| $result:expr;)*) => {$(
+        #[inline]
+        pub unsafe fn $name($($arg: $type),*) -> c_int {
+            unsafe extern "C" {
+                #[allow(clashing_extern_declarations, reason = "wrapped under its own name")]
+                fn $name($($arg: $type),*) -> $c;
+            }
+            let $version = Version::running();
+            let $answer = c_int::from(unsafe { $name($($passed),*) });
+            $result
+        }
+    )*};
+}
+
+translated! {
+    fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> u8
+        => |version| (t, len, s, version.text_flags(flags)) |answer| answer;
+    fn PL_unify_chars(t: term_t, flags: c_int, len: usize, s: *const c_char) -> u8
+        => |version| (t, version.typed_text_flags(flags), len, s) |answer| answer;
+    fn PL_term_type(t: term_t) -> c_int
+        => |version| (t) |answer| version.type_from(answer);
+}
+
+/// Puts text into a term. Version 7.2 has no such function; what it does is this.
+pub unsafe fn PL_put_chars(t: term_t, flags: c_int, len: usize, s: *const c_char) -> c_int {
+    unsafe {
+        PL_put_variable(t);
+        PL_unify_chars(t, flags, len, s)
+    }
+}
+
 unsafe extern "C" {
     // Atoms, functors, modules, predicates
     pub fn PL_register_atom(a: atom_t);
@@ -108,7 +169,6 @@ unsafe extern "C" {
     pub fn PL_new_term_ref() -> term_t;
     pub fn PL_new_term_refs(n: usize) -> term_t;
     pub fn PL_reset_term_refs(t: term_t);
-    pub fn PL_term_type(t: term_t) -> c_int;
     pub fn PL_compare(t1: term_t, t2: term_t) -> c_int;
     pub fn PL_record(t: term_t) -> record_t;
     pub fn PL_erase(record: record_t);
@@ -122,24 +182,14 @@ unsafe extern "C" {
     pub fn PL_handle_signals() -> c_int;
 
     // Foreign predicates
-    pub fn PL_register_foreign_in_module(
-        module: *const c_char,
-        name: *const c_char,
-        arity: c_int,
-        function: pl_function_t,
-        flags: c_int,
-        ...
-    ) -> c_int;
     pub fn PL_foreign_control(control: control_t) -> c_int;
     pub fn PL_foreign_context_address(control: control_t) -> *mut c_void;
     pub fn _PL_retry_address(address: *mut c_void) -> foreign_t;
 
     // Engines
     pub fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
-    pub fn PL_destroy_engine(engine: PL_engine_t) -> c_int;
     pub fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
     pub fn PL_thread_attach_engine(attributes: *mut c_void) -> c_int;
-    pub fn PL_thread_destroy_engine() -> c_int;
 
     // Streams
     pub fn _PL_streams() -> *mut *mut IOSTREAM;
@@ -151,7 +201,9 @@ unsafe extern "C" {
     pub fn Sfwrite(data: *const c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
 }
 
-/// Declares functions that take a query, narrowing it to what C expects.
+/// Declares functions that take a query, narrowing it to what C expects. (Before
+/// version 8, `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does
+/// not look at what they answer.)
 macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]
@@ -168,13 +220,26 @@ of_query! {
     PL_close_query -> c_int;
     PL_cut_query -> c_int;
     PL_exception -> term_t;
-    PL_next_solution -> c_int;
+}
+
+/// The next solution: -1 for an exception, 0 for failure, 1 if there may be more,
+/// 2 if not. Versions without `PL_Q_EXT_STATUS` answer 0 and 1 only.
+pub unsafe fn PL_next_solution(query: qid_t) -> c_int {
+    unsafe extern "C" {
+        fn PL_next_solution(query: usize) -> c_int;
+    }
+    let status = unsafe { PL_next_solution(narrow(query)) };
+    if Version::running().has_extended_status() || status != 0 {
+        return status;
+    }
+    if unsafe { PL_exception(query) } == 0 { 0 } else { -1 }
 }
 
 pub unsafe fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> qid_t {
     unsafe extern "C" {
         fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> usize;
     }
+    let flags = Version::running().query_flags(flags);
     unsafe { PL_open_query(m, flags, pred, t0) as qid_t }
 }
 

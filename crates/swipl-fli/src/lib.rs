@@ -27,12 +27,14 @@
     non_snake_case,
     non_upper_case_globals,
     clippy::missing_safety_doc,
+    clippy::must_use_candidate,
     reason = "names are C's, and documented in SWI-Prolog's manual"
 )]
 
 pub mod functions;
 pub mod late;
 pub mod types;
+mod version;
 
 pub use functions::*;
 pub use late::*;

@@ -1,4 +1,5 @@
-//! Types and constants of `SWI-Prolog.h` and `SWI-Stream.h`.
+//! Types and constants of `SWI-Prolog.h` and `SWI-Stream.h`, in the numbers
+//! since 8.1.22. `version.rs` translates those that were others before.
 use std::ffi::{c_char, c_int, c_void};
 
 pub type atom_t = usize;
@@ -97,6 +98,10 @@ pub struct IOPOS {
 }
 
 /// A stream, up to the last field that `swipl` looks at.
+///
+/// In 7.2 other fields come before `encoding`, and what is read in its place is
+/// padding that is 0 (64 bit) or half of a pointer (32 bit). `swipl` then writes
+/// text character by character, which is right for every encoding.
 #[repr(C)]
 pub struct IOSTREAM {
     bufp: *mut c_char,
