@@ -37,6 +37,7 @@ does a move that is impossible; `debug(ev3dev)` tells what is missing, or why
 a motor does not run. What is no sensible argument throws.
 */
 
+:- use_module(ev3dev/scripts, []).
 :- reexport(ev3dev/driver).
 :- reexport(ev3dev/motors).
 :- reexport(ev3dev/sensors).

@@ -49,7 +49,7 @@ for_seconds(Seconds, Goal) :-
     End is Start + Seconds,
     thread_self(Me),
     catch(setup_call_cleanup(
-              thread_create(interrupt_at(End, Me), Id),
+              thread_create(interrupt_at(End, Me), Id, []),
               Goal,
               ( thread_send_message(Id, stop),
                 thread_join(Id, _)

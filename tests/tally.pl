@@ -32,7 +32,7 @@ print_tally(Only) :-
     getenv_or('EV3DEV_TEST_TREE', plain, Kind),
     format("tally ~w: ~d tests, ~d left out~n", [Kind, Run, Left]),
     msort(Whys, Sorted),
-    maplist([Why, Why-1]>>true, Sorted, Pairs),
+    findall(Why-1, member(Why, Sorted), Pairs),
     group_pairs_by_key(Pairs, Groups),
     forall(member(Why-Ones, Groups),
            ( length(Ones, Count), format("    ~d: ~w~n", [Count, Why]) )).

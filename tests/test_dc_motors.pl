@@ -2,6 +2,7 @@
 :- use_module(trees).
 :- use_module(child).
 :- use_module(simulation).
+:- use_module(old_prolog).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(time)).
@@ -54,7 +55,7 @@ test(direct_changes_at_once, [forall(behaving(Tree)), true(D == 70)]) :-
                     dc_motor_duty(outA, D) )).
 test(beyond_100_percent_it_fails_and_writes_nothing,
      [ forall(( member(Percent0, [101, -101, 100.6, inf, nan, 10**400]),
-                Percent is Percent0,
+                evaluated(Percent0, Percent),
                 member(Goal, [ dc_motor_run(outA, Percent),
                                dc_motor_run_direct(outA, Percent),
                                dc_motor_run_timed(outA, Percent, 1) ]) )),

@@ -3,6 +3,7 @@
 
 :- use_module(simulation).
 :- use_module(cases).
+:- use_module(old_prolog).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
@@ -348,7 +349,7 @@ test(a_robot_that_is_stopped_by_another_thread, Reason == stopped) :-
              ( robot,
                set_grid([]),
                setup_call_cleanup(
-                   thread_create(stop_when_moving, Id),
+                   thread_create(stop_when_moving, Id, []),
                    plan_and_go_to([0,7], _, [reason(Reason)]),
                    thread_join(Id, _))
              )).

@@ -68,7 +68,7 @@ test(halt_within_the_program_stops_them, true(Status-C == exit(3)-(stop-''))) :-
     after_program("main :- motor_run(outB, 20), halt(3).", [goal(main)], Status, C).
 test(halt_in_a_thread_while_another_waits_stops_them, true(C == stop-'')) :-
     after_program("main :- shows_running,
-                           thread_create(motor_run(outB, 20, 360000), _),
+                           thread_create(motor_run(outB, 20, 360000), _, []),
                            wait, halt.
                    % A plain file has to be told.
                    shows_running :- state_file(outB, F),

@@ -99,7 +99,7 @@ test(are_those_of_the_modules,
 test(each_is_defined,
      [ forall(( exported(_, Ps), member(Name/Arity, Ps) )) ]) :-
     functor(Head, Name, Arity),
-    once(predicate_property(Head, defined)).
+    once(predicate_property(Head, visible)).
 
 exports(Module, P) :-
     module_property(Module, exports(Ps)),
@@ -190,8 +190,8 @@ test(nothing_is_loaded_before_it_is_used) :-
             "ev3dev").
 test(the_first_call_loads_the_module_and_its_exception_is_its_own) :-
     answers("main :- catch(led(left, blu), error(E, context(P, _)), true),
-                     lights(M), print(E/P/M).",
-            "domain_error(led_colour,blu)/(led/2)/ev3dev_lights") .
+                     lights(M), print([E,P,M]).",
+            "[domain_error(led_colour,blu),led/2,ev3dev_lights]").
 test(the_first_call_leaves_no_choice_and_solutions_are_all_there) :-
     answers("main :- call_cleanup(catch(battery(7, _), error(_, _), true), Det = true),
                      findall(P, lego_port(P), _),

@@ -2,6 +2,7 @@
 
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(cases).
+:- use_module(old_prolog).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).

@@ -3,6 +3,7 @@
 :- use_module(simulation).
 :- use_module(tree).
 :- use_module(trees).
+:- use_module(old_prolog).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(filesex)).

@@ -46,7 +46,7 @@ test(fails_without_a_sensor, [fail]) :-
 test(goes_turns_and_stops_as_it_is_told, true(End-States == true-([]/[]))) :-
     with_sensor(simulator, 'lego-ev3-ir', [],
                 setup_call_cleanup(
-                    thread_create(remote_control:drive, Robot),
+                    thread_create(remote_control:drive, Robot, []),
                     ( told([red_up, blue_up], ( sim_pose(_, Y, _), Y > 10 )),
                       sim_pose(X, _, Heading),
                       near(X, 0, 1), near(Heading, 0, 3),

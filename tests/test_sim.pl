@@ -369,7 +369,7 @@ test(a_motor_may_seem_to_be_blocked) :-
                    motor_wait(outA, [], stalled) )).
 test(a_wait_sees_what_another_thread_shows) :-
     with_sim([], ( motor_run(outA, 20),
-                   thread_create(( sim_wait(0.5), sim_show(outA, state, holding) ), Id),
+                   thread_create(( sim_wait(0.5), sim_show(outA, state, holding) ), Id, []),
                    motor_wait_until(outA, holding),
                    thread_join(Id, true) )).
 test(unplugging_ends_it) :-
@@ -433,7 +433,7 @@ test(several_threads_wait_at_once) :-
                                  thread_self(Me),
                                  thread_create(( sim_wait(S),
                                                  thread_send_message(Me, after(S)) ),
-                                               Id) ), Ids),
+                                               Id, []) ), Ids),
                    findall(S, ( member(_, Ids), thread_get_message(after(S)) ), Ss),
                    forall(member(Id, Ids), thread_join(Id, true)) )),
     msort(Ss, [0.1, 0.2, 0.3]).
@@ -470,7 +470,7 @@ test(virtual_time_passes_for_a_program_that_polls) :-
     near(T, 1, 0.7).
 test(several_threads_wait_at_once) :-
     with_sim([],
-             ( thread_create(motor_run(outA, 50, 360), Id),
+             ( thread_create(motor_run(outA, 50, 360), Id, []),
                motor_run(outB, 50, 360),
                thread_join(Id, Status),
                sim_time(T) )),

@@ -246,7 +246,7 @@ test(play_needs_a_file, error(instantiation_error, _)) :-
 played_until(Goal, Error, Alive) :-
     with_wav(10, File,
              with_programs([ aplay-'echo $$ > pid.new; mv pid.new pid; exec sleep 1000' ],
-                           ( thread_create(( started, Goal ), Id),
+                           ( thread_create(( started, Goal ), Id, []),
                              catch(( play(File), Error = none ), Error, true),
                              thread_join(Id, true),
                              left(pid, Pid),
@@ -306,7 +306,7 @@ test(does_nothing_in_silence) :-
 test(ends_speech_of_the_simulator, true(Events == [said(Text), silenced])) :-
     Text = 'and so on, and so on, and so on, and so on, and so on, and so on',
     with_sim(room, [clock(realtime)],
-             ( thread_create(say(Text), Id),
+             ( thread_create(say(Text), Id, []),
                eventually(( sim_trace(T0), memberchk(_-said(_), T0) )),
                sound_stop,
                thread_join(Id, true),
@@ -318,7 +318,7 @@ test(nothing_sounds_after_halt, true(Status-Tones == exit(0)-[440, 0])) :-
              format(string(Text),
                     ":- use_module(library(ev3dev)).
                      main :- ev3_dev('~w'),
-                             thread_create(tone(440, 100000000), _),
+                             thread_create(tone(440, 100000000), _, []),
                              heard, halt.
                      heard :- repeat,
                               size_file('~w/input/by-path/platform-sound-event', N),

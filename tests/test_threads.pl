@@ -15,7 +15,7 @@ test(eight_threads_call_everything_at_once, true(Ends == Fine)) :-
                 get_time(Now),
                 End is Now + Seconds,
                 findall(Id, ( worker(Goal_1),
-                              thread_create(work(Goal_1, End), Id) ), Ids),
+                              thread_create(work(Goal_1, End), Id, []) ), Ids),
                 maplist(thread_join, Ids, Ends),
                 stop_all_motors )).
 

@@ -381,7 +381,7 @@ later_by_clock(Main, Seconds, Goal) :-
 
 meanwhile(Other, Goal) :-
     setup_call_cleanup(
-        thread_create(Other, Thread),
+        thread_create(Other, Thread, []),
         once(Goal),
         ( catch(thread_signal(Thread, throw(over)), _, true),
           thread_join(Thread, Status)

@@ -128,7 +128,7 @@ planner_meant(Module:Planner, Meant) :-
         length(Arguments, Count),
         Arity is Count + 3,
         functor(Head, Name, Arity),
-        predicate_property(Module:Head, defined)
+        predicate_property(Module:Head, visible)
     ->  Meant = own(Module:Planner)
     ;   domain_error(planner, Planner)
     ).

@@ -13,7 +13,7 @@
 :- use_module(grid_compass).
 :- use_module(grid_knowledge).
 :- use_module(grid_map).
-:- use_module(options, [take_options/4]).
+:- use_module(options, [finite/1, take_options/4]).
 
 /** <module> A robot on a grid
 
@@ -102,7 +102,7 @@ metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
 must_be_positive(Option, Number) :-
     must_be(number, Number),
     (   Number > 0,
-        Number < inf
+        finite(Number)
     ->  true
     ;   domain_error(Option, Number)
     ).

@@ -25,17 +25,18 @@ stop_at_halt :-
 % at_halt/1 goals. Handlers of the program's own are left alone.
 halt_on(Signal) :-
     on_signal(Signal, Handler, Handler),
-    (   ends_at_once(Handler)
+    (   ends_at_once(Signal, Handler)
     ->  on_signal(Signal, _, halt_by)
     ;   true
     ).
 
 % Before version 9 SIGINT is for the debugger even where nobody is there to
-% answer it.
-ends_at_once(default).
-ends_at_once(debug) :-
+% answer it. Version 7.2.3 shows the debugger's handler as a C function, is at
+% its end of input then, and halts as it should: leave it.
+ends_at_once(_, default).
+ends_at_once(int, debug) :-
     \+ stream_property(user_input, tty(true)).
-ends_at_once('$foreign_function'(_)).
+ends_at_once(term, '$foreign_function'(_)).
 
 halt_by(Signal) :-
     status(Signal, Status),

@@ -10,6 +10,7 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver, []).
+:- use_module(options, [finite/1]).
 :- use_module(robot, []).
 
 /** <module> Odometry: where the robot is
@@ -67,7 +68,7 @@ valid_drive_option(speed, Speed, Percent) :-
 valid_drive_option(acceleration, Acceleration, Value) :-
     number_value(Acceleration, Value),
     (   Value > 0,
-        Value < inf
+        finite(Value)
     ->  true
     ;   domain_error(acceleration, Value)
     ).
@@ -135,8 +136,7 @@ robot_driven(Robot) :-
 
 number_value(Expression, Number) :-
     Number is Expression,
-    (   Number =:= Number,
-        abs(Number) < inf
+    (   finite(Number)
     ->  true
     ;   domain_error(finite_number, Number)
     ).

@@ -3,6 +3,7 @@
             take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
+            finite/1,                   % +Number
             motor_options/5,            % +Options, +Stop, +Stops, +Ramp, -O
             motor_runs/2,               % +Runs, -Evaluated
             motor_moves/2               % +Moves, -Evaluated
@@ -95,6 +96,14 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
     ->  true
     ;   domain_error(Domain, Integer)
     ).
+
+%!  finite(+Number) is semidet.
+%
+%   True if Number is neither infinite nor undefined. (The functions `inf` and
+%   `nan` came with SWI-Prolog 7.3.15.)
+
+finite(Number) :-
+    abs(Number) =< 1.7976931348623157e308.
 
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %

@@ -8,7 +8,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(fact_file, [located_facts/3]).
-:- use_module(options, [must_be_options/3]).
+:- use_module(options, [finite/1, must_be_options/3]).
 
 /** <module> Arguments of planning and navigation
 
@@ -72,7 +72,7 @@ number_option(Option, Domain, Options, Default) :-
     arg(1, Given, Value),
     option(Given, Options, Default),
     Number is Value,
-    (   Number < inf,
+    (   finite(Number),
         in_domain(Domain, Number)
     ->  true
     ;   domain_error(Domain, Number)

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [subtract/3]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
-:- use_module(options, [must_be_options/3]).
+:- use_module(options, [finite/1, must_be_options/3]).
 :- use_module(sensors, [gyro_sensor/1]).
 
 /** <module> A robot with two wheels
@@ -148,7 +148,7 @@ directed(-1, Number, Opposite) :-
 must_be_length(Length) :-
     must_be(number, Length),
     (   Length > 0,
-        Length < inf
+        finite(Length)
     ->  true
     ;   domain_error(positive_number, Length)
     ).

@@ -9,6 +9,7 @@
           ]).
 :- use_module(library(error),
               [domain_error/2, must_be/2]).
+:- use_module('../options', [finite/1]).
 :- use_module(best_first).
 :- use_module(breadth_first).
 :- use_module(d_star_lite).
@@ -66,7 +67,7 @@ known(Planner) :-
 known(weighted_a_star(Weight)) :-
     number(Weight),
     Weight >= 1,
-    Weight < inf.
+    finite(Weight).
 
 %!  planner_claim(?Planner, ?Claim) is nondet.
 %

@@ -12,7 +12,7 @@
               ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/3]).
-:- use_module('../options', [must_be_options/3]).
+:- use_module('../options', [finite/1, must_be_options/3]).
 
 /** <module> The space that a planner searches
 
@@ -113,7 +113,7 @@ ways(Closure, State, Ways) :-
 check_way(Next, Cost) :-
     number(Cost),
     Cost > 0,
-    Cost < inf,
+    finite(Cost),
     ground(Next),
     !.
 check_way(Next, Cost) :-
@@ -133,19 +133,24 @@ space_estimate(space(_, _, none, _), _, _, 0) :-
 space_estimate(_, _, [], 0) :-
     !.
 space_estimate(space(_, _, Heuristic, _), From, Goals, Estimate) :-
-    estimates(Goals, Heuristic, From, inf, Estimate).
+    Goals = [Goal|Others],
+    estimate(Goal, Heuristic, From, Estimate0),
+    estimates(Others, Heuristic, From, Estimate0, Estimate).
 
 estimates([], _, _, Estimate, Estimate).
 estimates([Goal|Goals], Heuristic, From, Estimate0, Estimate) :-
-    call(Heuristic, From, Goal, Estimate1),
-    !,
-    (   number(Estimate1)
-    ->  true
-    ;   must_be(number, Estimate1)
-    ),
+    estimate(Goal, Heuristic, From, Estimate1),
     (   Estimate1 < Estimate0
     ->  estimates(Goals, Heuristic, From, Estimate1, Estimate)
     ;   estimates(Goals, Heuristic, From, Estimate0, Estimate)
     ).
-estimates([Goal|_], Heuristic, From, _, _) :-
+
+estimate(Goal, Heuristic, From, Estimate) :-
+    call(Heuristic, From, Goal, Estimate0),
+    !,
+    (   number(Estimate0)
+    ->  Estimate = Estimate0
+    ;   must_be(number, Estimate0)
+    ).
+estimate(Goal, Heuristic, From, _) :-
     domain_error(heuristic(From, Goal), Heuristic).

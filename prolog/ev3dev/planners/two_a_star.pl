@@ -32,7 +32,7 @@ two_a_star(Space, Start, Goals, Way, Expanded) :-
     empty_assoc(Closed),
     (   member(Start, Goals)
     ->  Best = best(0, Start)
-    ;   Best = best(inf, none)
+    ;   Best = best(none, none)
     ),
     search(Ahead, Back, Closed, Best, Search, 0, Way, Expanded).
 
@@ -82,7 +82,7 @@ next(Side0, Other, Closed0, Best0, Search, Expanded0, Way, Expanded) :-
     Side0 = side(Towards, Heap0, Reached0, _),
     Best0 = best(Least, _),
     (   next_open(Heap0, Closed0, Reached0, F, State, G, Heap1),
-        F < Least
+        cheaper(F, Least)
     ->  put_assoc(State, Closed0, closed, Closed),
         (   hopeless(State, G, Other, Search, Least)
         ->  search_on(side(Towards, Heap1, Reached0, F), Other, Closed,
@@ -118,6 +118,7 @@ next_open(Heap0, Closed, Reached, F, State, G, Heap) :-
 
 hopeless(State, G, side(Other, _, _, FOther), Search, Least) :-
     to_go(Other, Search, State, HOther),
+    Least \== none,
     G + FOther - HOther >= Least.
 
 search_on(Side, Other, Closed, Best, Search, Expanded0, Way, Expanded) :-
@@ -153,13 +154,20 @@ reach([way(Action, State, Cost)|Ways], From, G0, Towards, Other, Closed,
 
 meet(State, G, side(_, _, Reached, _), best(Least, Met), Best) :-
     (   get_assoc(State, Reached, reached(GOther, _)),
-        G + GOther < Least
-    ->  Sum is G + GOther,
-        Best = best(Sum, State)
+        Sum is G + GOther,
+        cheaper(Sum, Least)
+    ->  Best = best(Sum, State)
     ;   Best = best(Least, Met)
     ).
 
-finish(best(inf, _), _, _, none) :-
+%   Least is `none` until a way is known.
+
+cheaper(_, none) :-
+    !.
+cheaper(Cost, Least) :-
+    Cost < Least.
+
+finish(best(none, _), _, _, none) :-
     !.
 finish(best(_, State), SideA, SideB, Way) :-
     (   SideA = side(ahead, _, ReachedA, _)
