@@ -3,7 +3,8 @@
 :- use_module(simulation).
 :- use_module(dev, [bytes_of/2]).
 % They run in another directory.
-:- absolute_file_name(prolog, Library, [file_type(directory)]),
+:- working_directory(Home, Home),
+   atom_concat(Home, prolog, Library),
    asserta(user:file_search_path(library, Library)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).

@@ -5,11 +5,14 @@
 # plunit suite: what is about devices over plain directory trees, and over the
 # simulator within the process.
 #
-# Usage: tools/versions.sh [NAME...]        as in tools/emulate.sh, or 7.2.3;
-#                                           default: all of the PC's processor
+# Usage: tools/versions.sh [NAME...]        as in tools/emulate.sh, or 7.2.3 or
+#                                           10.1; default: all of the PC's
+#                                           processor, and those two if given
 #
 # Environment: ARCHIVE  the pack to try (default: the newest in dist/)
-#              SWIPL_723  the swipl of a built 7.2.3, for want of packages
+#              SWIPL_723, SWIPL_101  swipl of a built 7.2.3 and 10.1, which come
+#                       in no package. They need the packages clib, plunit, sgml,
+#                       http and archive.
 #              SUITE    the test files (default: tests/test_*.pl)
 
 set -euo pipefail
@@ -29,6 +32,7 @@ main() {
     if [[ $# -eq 0 ]]; then
         set -- "${pc[@]}"
         [[ -z ${SWIPL_723:-} ]] || set -- 7.2.3 "$@"
+        [[ -z ${SWIPL_101:-} ]] || set -- "$@" 10.1
     fi
     work=$(mktemp -d)
     trap 'rm -rf "$work"' EXIT
@@ -49,22 +53,21 @@ try() {
     mkdir -p "$home" "$tree"
     tar -xzf "$archive" -C "$tree"
     cp -R "$root/tests" "$tree/ev3dev/"
-    [[ $name == 7.2.3 ]] || "$root/tools/emulate.sh" "$name" >/dev/null
+    built_swipl "$name" >/dev/null || "$root/tools/emulate.sh" "$name" >/dev/null
 
-    if [[ $name == 7.2.3 ]]; then
-        # It may have been built without the packages that pack_install needs.
-        step "$name: every predicate" \
-            env EV3DEV_PACK="$tree/ev3dev" "$SWIPL_723" -q -g main -t 'halt(1)' \
-            "$root/tests/brick/smoke.pl"
-        return
-    fi
     cp "$archive" "$home/"
     # For tests that start programs
-    printf '#!/bin/sh\nexec "%s/tools/emulate.sh" "%s" swipl "$@"\n' \
-        "$root" "$name" >"$home/swipl"
-    chmod +x "$home/swipl"
+    if built_swipl "$name" >/dev/null; then
+        ln -s "$(built_swipl "$name")" "$home/swipl"
+    else
+        printf '#!/bin/sh\nexec "%s/tools/emulate.sh" "%s" swipl "$@"\n' \
+            "$root" "$name" >"$home/swipl"
+        chmod +x "$home/swipl"
+    fi
     step "$name: pack_install" nothing_to_build_with \
         -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
+    step "$name: pack_install again, to update" nothing_to_build_with \
+        -g "pack_install('$home/${archive##*/}', [interactive(false), upgrade(true)])" -t halt
     step "$name: every predicate" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/smoke.pl"
     step "$name: an example" nothing_to_build_with \
@@ -78,8 +81,28 @@ try() {
     cd "$root"
 }
 
+# built_swipl NAME: the swipl that the environment names for it
+built_swipl() {
+    case $1 in
+    7.2.3) echo "${SWIPL_723:?is where 7.2.3 was built}" ;;
+    10.1) echo "${SWIPL_101:?is where 10.1 was built}" ;;
+    *) return 1 ;;
+    esac
+}
+
 run_swipl() {
-    SWIPL=$home/swipl EMULATED_HOME=$home timeout 1800 "$root/tools/emulate.sh" "$name" swipl -q "$@"
+    local timeout
+    timeout=$(type -P timeout)
+    if built_swipl "$name" >/dev/null; then
+        (
+            unset XDG_DATA_HOME XDG_CONFIG_HOME
+            export HOME=$home SWIPL=$home/swipl PATH=${EMULATED_PATH:-$PATH}
+            exec "$timeout" 1800 "$SWIPL" -q "$@"
+        )
+    else
+        SWIPL=$home/swipl EMULATED_HOME=$home timeout 1800 \
+            "$root/tools/emulate.sh" "$name" swipl -q "$@"
+    fi
 }
 
 nothing_to_build_with() {
