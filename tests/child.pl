@@ -1,6 +1,7 @@
 :- module(child,
           [ run_program/4,              % +Text, +Options, -Status, -Output
             start_program/3,            % +Text, +Options, -Child
+            run_state/4,                % +File, +Options, -Status, -Output
             end_program/3,              % +Child, -Status, -Output
             end_output/2                % +Child, -Output
           ]).
@@ -48,18 +49,29 @@ start_program(Text, Options, child(Pid, Out, File)) :-
            [Library, Text]),
     close(Stream),
     option(goal(Goal), Options, true),
+    status_options(StatusOptions),
+    start([ '-q', '-f', none, '-l', file(File), '-g', Goal, '-t', halt
+          | StatusOptions ], Options, Pid, Out).
+
+start(Arguments, Options, Pid, Out) :-
     option(cwd(Directory), Options, '.'),
     (   option(env(Variable=Value), Options)
     ->  format(atom(Assignment), "~w=~w", [Variable, Value])
     ;   Assignment = 'EV3DEV_TEST=1'
     ),
     swipl(Swipl),
-    status_options(StatusOptions),
-    process_create(path(env),
-                   [ Assignment, Swipl, '-q', '-f', none, '-l', file(File),
-                     '-g', Goal, '-t', halt | StatusOptions ],
+    process_create(path(env), [Assignment, Swipl | Arguments],
                    [ process(Pid), cwd(Directory), stdin(null),
                      stdout(pipe(Out)), stderr(pipe(Out)) ]).
+
+%!  run_state(+File, +Options, -Status, -Output)
+%
+%   As run_program/4, but of a saved state.
+
+run_state(File, Options, Status, Output) :-
+    start(['-x', file(File)], Options, Pid, Out),
+    read_to_end(Out, Output),
+    process_wait(Pid, Status).
 
 %   SWIPL in the environment counts, as this one may not start by itself: an
 %   emulated one does not.
@@ -88,7 +100,10 @@ end_program(child(Pid, Out, File), Status, Output) :-
 %   The rest of what a program printed that is known to be over.
 
 end_output(child(_, Out, File), Output) :-
+    read_to_end(Out, Output),
+    delete_file(File).
+
+read_to_end(Out, Output) :-
     read_stream_to_codes(Out, Codes),
     close(Out),
-    string_codes(Output, Codes),
-    delete_file(File).
+    string_codes(Output, Codes).

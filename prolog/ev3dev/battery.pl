@@ -2,10 +2,8 @@
           [ battery/2                   % ?Key, -Value
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library_file, [load_library/0]).
+:- use_module(library_file, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
-
-:- load_library.
 
 /** <module> The battery
 */

@@ -34,9 +34,12 @@ ev3_dev(Directory) :-
     directory_path(Directory, Path),
     dev_use_(Path).
 
-:- (   environment_directory('EV3DEV_DEV', Directory)
-   ->  ev3_dev(Directory)
-   ;   true
-   ).
+use_environment :-
+    (   environment_directory('EV3DEV_DEV', Directory)
+    ->  ev3_dev(Directory)
+    ;   true
+    ).
+
+:- initialization(use_environment, now).
 
 :- on_demand_loaded.

@@ -1,9 +1,10 @@
 :- module(ev3dev_halt, []).
-:- use_module(library_file, [load_library/0]).
+:- use_module(library_file, []).
 
-:- load_library.
-
-:- create_prolog_flag(ev3dev_stop_at_halt, true, [keep(true), type(boolean)]).
+:- initialization(
+       create_prolog_flag(ev3dev_stop_at_halt, true,
+                          [keep(true), type(boolean)]),
+       now).
 
 /** <module> Nothing moves when the program has ended
 
@@ -13,7 +14,7 @@ ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
 `false`. A servo floats then.
 */
 
-:- at_halt(stop_at_halt).
+:- initialization(at_halt(stop_at_halt), now).
 
 stop_at_halt :-
     (   current_prolog_flag(ev3dev_stop_at_halt, true)
@@ -45,11 +46,14 @@ halt_by(Signal) :-
 status(int, 130).
 status(term, 143).
 
-:- halt_on(term), halt_on(int).
+:- initialization(( halt_on(term), halt_on(int) ), now).
 
 % The thread that collects garbage takes such a signal now and then, and then
 % nothing comes of it. A brick has one core, and no use for that thread.
-:- (   current_prolog_flag(gc_thread, true)
-   ->  set_prolog_flag(gc_thread, false)
-   ;   true
-   ).
+without_gc_thread :-
+    (   current_prolog_flag(gc_thread, true)
+    ->  set_prolog_flag(gc_thread, false)
+    ;   true
+    ).
+
+:- initialization(without_gc_thread, now).

@@ -5,6 +5,7 @@
 :- use_module(library(lists), [member/2, nth0/3]).
 
 :- dynamic loaded/0.
+:- volatile loaded/0.
 
 /** <module> Which of the pack's foreign libraries is for this machine
 
@@ -15,6 +16,11 @@ one is for the EV3 (`armel`: floats are passed in integer registers) and
 another for the Raspberry Pi (`armhf`: in those of a floating point unit); and
 before version 8, Debian's answered `armel` and `armhf`. The ELF headers tell:
 that of the running program is compared with that of each library.
+
+A saved state (`swipl -c`) holds nothing of what a module does while it is loaded.
+So what each process needs is a goal of `initialization(Goal, now)`, which is
+called when a state starts, too. A state finds the foreign library where the pack
+was when the state was made.
 */
 
 %!  load_library is det.
@@ -166,3 +172,6 @@ machine_text(40, hard, 'ARM with hard floats').
 machine_text(62, _, 'x86-64').
 machine_text(183, _, 'AArch64').
 machine_text(243, _, 'RISC-V').
+
+% Everything above is needed for it.
+:- initialization(load_library, now).

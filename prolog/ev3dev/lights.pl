@@ -7,11 +7,9 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library_file, [load_library/0]).
+:- use_module(library_file, []).
 :- use_module(on_demand, [on_demand_loaded/0]).
 :- use_module(options, [must_be_within/4]).
-
-:- load_library.
 
 /** <module> Lights
 

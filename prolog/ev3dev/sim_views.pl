@@ -106,7 +106,7 @@ sim_mount(Directory, DevDirectory) :-
 sim_unmount :-
     sim_unmount_.
 
-:- at_halt(unmount_at_halt).
+:- initialization(at_halt(unmount_at_halt), now).
 
 unmount_at_halt :-
     (   predicate_property(ev3dev_sim_views:sim_unmount_, foreign)

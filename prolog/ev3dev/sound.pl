@@ -225,6 +225,6 @@ volume(Percent0) :-
 sound_stop :-
     sound_stop_.
 
-:- at_halt(sound_stop_).
+:- initialization(at_halt(sound_stop_), now).
 
 :- on_demand_loaded.

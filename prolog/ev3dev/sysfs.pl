@@ -6,9 +6,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(directory, [directory_path/2, environment_directory/2]).
-:- use_module(library_file, [load_library/0]).
-
-:- load_library.
+:- use_module(library_file, []).
 
 /** <module> Files of devices
 
@@ -75,10 +73,13 @@ ev3_sysfs(Directory) :-
     directory_path(Directory, Path),
     sysfs_use_(Path).
 
-:- (   environment_directory('EV3DEV_SYSFS', Directory)
-   ->  ev3_sysfs(Directory)
-   ;   true
-   ).
+use_environment :-
+    (   environment_directory('EV3DEV_SYSFS', Directory)
+    ->  ev3_sysfs(Directory)
+    ;   true
+    ).
+
+:- initialization(use_environment, now).
 
 %!  choose_tree is det.
 %
