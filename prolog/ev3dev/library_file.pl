@@ -2,7 +2,7 @@
           [ load_library/0,
             library_file/1              % -File
           ]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(one_of).
 
 :- dynamic loaded/0.
 :- volatile loaded/0.
@@ -86,7 +86,7 @@ shipped_file(Pack, File) :-
     atom_concat(Pack, '/native', Native),
     exists_directory(Native),
     directory_files(Native, Names),
-    member(Name, Names),
+    one_of(Names, Name),
     atomic_list_concat([Native, /, Name], Folder),
     folder_file(Folder, File).
 
@@ -130,14 +130,17 @@ first_bytes(N, In, [Byte|Bytes]) :-
 
 half_word(Order, Offset, Bytes, Value) :-
     low_bytes(Order, Offset, Low, High),
-    nth0(Low, Bytes, L),
-    nth0(High, Bytes, H),
+    Header =.. [header|Bytes],
+    arg(Low, Header, L),
+    arg(High, Header, H),
     Value is H<<8 \/ L.
 
-low_bytes(1, Offset, Offset, High) :-
-    High is Offset+1.
-low_bytes(2, Offset, Low, Offset) :-
-    Low is Offset+1.
+low_bytes(1, Offset, Low, High) :-
+    Low is Offset+1,
+    High is Offset+2.
+low_bytes(2, Offset, Low, High) :-
+    High is Offset+1,
+    Low is Offset+2.
 
 no_suitable_file(Pack) :-
     current_prolog_flag(arch, Arch),

@@ -3,7 +3,6 @@
             on_demand_loaded/0,
             load_on_demand/0
           ]).
-:- use_module(library(lists), [member/2]).
 
 /** <module> Modules that are loaded when they are first used
 
@@ -54,9 +53,13 @@ define(Predicates, Library, Importer) :-
     ;   % Else who calls Module:Predicate too early makes it import the stub.
         set_module(Module:base(system)),
         assertz(stubs(Module, Predicates, Importer)),
-        forall(member(Predicate, Predicates),
-               define_stub(Predicate, Module, Library, Importer))
+        define_stubs(Predicates, Module, Library, Importer)
     ).
+
+define_stubs([], _, _, _).
+define_stubs([Predicate|Predicates], Module, Library, Importer) :-
+    define_stub(Predicate, Module, Library, Importer),
+    define_stubs(Predicates, Module, Library, Importer).
 
 define_stub(Name/Arity, Module, Library, Importer) :-
     functor(Head, Name, Arity),
@@ -111,16 +114,18 @@ is_loaded(Module) :-
 
 replace_stubs(Module) :-
     forall(retract(stubs(Module, Predicates, Importer)),
-           forall(member(Predicate, Predicates),
-                  ( abolish(Importer:Predicate),
-                    Importer:import(Module:Predicate)
-                  ))).
+           replace_each(Predicates, Module, Importer)).
+
+replace_each([], _, _).
+replace_each([Predicate|Predicates], Module, Importer) :-
+    abolish(Importer:Predicate),
+    Importer:import(Module:Predicate),
+    replace_each(Predicates, Module, Importer).
 
 %!  load_on_demand is det.
 %
 %   Load all that is not loaded yet, for who looks at everything.
 
 load_on_demand :-
-    findall(Module, stubs(Module, _, _), Modules),
-    forall(( member(Module, Modules), atom_concat(ev3dev_, Name, Module) ),
+    forall(( stubs(Module, _, _), atom_concat(ev3dev_, Name, Module) ),
            load(library(ev3dev/Name))).

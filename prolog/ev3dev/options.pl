@@ -9,7 +9,6 @@
             motor_moves/2               % +Moves, -Evaluated
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [member/2]).
 
 /** <module> Options and numbers that the pack's predicates are told
 
@@ -26,7 +25,12 @@ that is misspelt.
 
 must_be_options(Domain, Names, Options) :-
     must_be(list, Options),
-    forall(member(Option, Options), must_be_option(Domain, Names, Option)).
+    must_each_be_option(Options, Domain, Names).
+
+must_each_be_option([], _, _).
+must_each_be_option([Option|Options], Domain, Names) :-
+    must_be_option(Domain, Names, Option),
+    must_each_be_option(Options, Domain, Names).
 
 must_be_option(Domain, Names, Option) :-
     must_be(nonvar, Option),

@@ -10,7 +10,6 @@
             turn/2              % +Speed, +Angle
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [subtract/3]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
 :- use_module(options, [finite/1, must_be_options/3]).
@@ -110,10 +109,15 @@ build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     inverted(Sides, Inverted).
 
 inverted(Sides, Left-Right) :-
-    (   subtract(Sides, [left, right], [Other|_])
-    ->  domain_error(side, Other)
-    ;   inverted(left, Sides, Left),
-        inverted(right, Sides, Right)
+    must_be_sides(Sides),
+    inverted(left, Sides, Left),
+    inverted(right, Sides, Right).
+
+must_be_sides([]).
+must_be_sides([Side|Sides]) :-
+    (   memberchk(Side, [left, right])
+    ->  must_be_sides(Sides)
+    ;   domain_error(side, Side)
     ).
 
 inverted(Side, Sides, Inverted) :-

@@ -22,8 +22,8 @@
             sensor_values/3,            % ?Port, +Mode, -Values
             adjust_val/3                % +Port, +Raw, -Value
           ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2]).
+:- use_module(one_of).
 
 /** <module> Sensors
 
@@ -161,7 +161,7 @@ sensor_of(Port, Types, Type) :-
     findall(P-T,
             ( lego_sensor(P, T), memberchk(T, Types) ),
             Sensors),
-    member(Port-Type, Sensors).
+    one_of(Sensors, Port-Type).
 
 %!  col_ambient(?Port, -Percent) is nondet.
 %!  col_reflect(?Port, -Percent) is nondet.

@@ -4,7 +4,6 @@
             file_write/2,               % +File, +Value
             ev3_sysfs/1                 % ?Directory
           ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(directory, [directory_path/2, environment_directory/2]).
 :- use_module(library_file, []).
 
@@ -97,7 +96,7 @@ choose_tree :-
                )).
 
 simulator_needless :-
-    member(Class, ['tacho-motor', 'lego-sensor']),
+    ( Class = 'tacho-motor' ; Class = 'lego-sensor' ),
     atom_concat('/sys/class/', Class, Directory),
     exists_directory(Directory),
     !.
