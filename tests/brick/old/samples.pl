@@ -109,6 +109,10 @@ sample("p(X) :- must_be(list(pair), X), must_be(list(atom), X),
 sample("p(X) :- maplist(must_be(type), X), is_of_type(bool, X),
                must_be(between(1, 2), X).",
        [key(must_be/2)-type, key(is_of_type/2)-bool]).
+sample(":- multifile error:has_type/2.
+        error:has_type(port, X) :- atom(X).
+        p(X) :- must_be(list(port), X), must_be(pair, X).",
+       [key(must_be/2)-pair]).
 sample("p(X) :- prolog_load_context(reloading, X).
         p(X) :- prolog_load_context(file, X).",
        [key(prolog_load_context/2)-reloading]).

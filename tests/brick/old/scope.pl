@@ -17,6 +17,7 @@
     own/1,                              % Name/Arity: defined or imported
     own_meta/1,                         % Head of a meta_predicate
     own_function/1,                     % Name/Arity
+    own_type/1,                         % Type of must_be/2
     used_library/1,                     % Library
     context/1.                          % Module
 
@@ -29,6 +30,7 @@ set_scope(Terms, Source) :-
     retractall(own(_)),
     retractall(own_meta(_)),
     retractall(own_function(_)),
+    retractall(own_type(_)),
     retractall(used_library(_)),
     retractall(context(_)),
     (   module_property(Module, file(Source))
@@ -42,6 +44,9 @@ set_scope(Terms, Source) :-
 defined((:- Directive), Source, Fact) :-
     !,
     declared(Directive, Source, Fact).
+defined(Term, _, own_type(Type)) :-
+    clause_head(Term, error:has_type(Type, _), 0),
+    nonvar(Type).
 defined(Term, _, own(Name/Arity)) :-
     clause_head(Term, Head, More),
     unqualified(Head, Plain),
@@ -146,7 +151,10 @@ newer(property(Predicate)-Property, property(Predicate)-What) :-
          used_library(ev3dev)
        ).
 newer(key(Predicate)-Key, key(Predicate)-What) :-
-    newer_term(key(Predicate), Key, What).
+    newer_term(key(Predicate), Key, What),
+    \+ ( memberchk(Predicate, [must_be/2, is_of_type/2]),
+         own_type(Key)
+       ).
 newer(directive-Letter, directive-Letter) :-
     \+ old(directive, Letter).
 newer(element-Element, element-Element) :-
