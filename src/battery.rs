@@ -11,7 +11,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// battery_(+Key, -Value)
-    #[module("ev3dev_battery")]
+    #[module("ev3dev_native")]
     #[name("battery_")]
     semidet fn battery(context, key, value) {
         let call = Call::of(context, "battery", 2);

@@ -29,7 +29,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Devices>> {
         if !state::is_chosen() {
-            self.context.call_once(pred!("ev3dev_sysfs:choose_tree/0"), [])?;
+            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
         }
         Ok(state::devices())

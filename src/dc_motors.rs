@@ -12,7 +12,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// dc_motor_run_(+Port, +Percent)
-    #[module("ev3dev_dc_motors")]
+    #[module("ev3dev_native")]
     #[name("dc_motor_run_")]
     semidet fn dc_motor_run(context, port, percent) {
         let call = Call::of(context, "dc_motor_run", 2);
@@ -23,7 +23,7 @@ predicates! {
 
     /// dc_motor_run_timed_(+Port, +Percent, +Seconds, +Options, -Reason): options
     /// as those of motor_turn_/3.
-    #[module("ev3dev_dc_motors")]
+    #[module("ev3dev_native")]
     #[name("dc_motor_run_timed_")]
     semidet fn dc_motor_run_timed(context, port, percent, seconds, options, reason) {
         let call = Call::of(context, "dc_motor_run_timed", 4);

@@ -11,14 +11,14 @@ pub(crate) fn register() {
 
 predicates! {
     /// dev_(-Directory)
-    #[module("ev3dev_dev")]
+    #[module("ev3dev_native")]
     #[name("dev_")]
     semidet fn dev(_context, directory) {
         unify_atom(directory, &state::dev().root().to_string_lossy())
     }
 
     /// dev_use_(+Directory)
-    #[module("ev3dev_dev")]
+    #[module("ev3dev_native")]
     #[name("dev_use_")]
     semidet fn dev_use(context, directory) {
         let directory = Call::of(context, "ev3_dev", 1).text(directory)?;

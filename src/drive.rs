@@ -24,7 +24,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// odometry_(+Robot): counts from now on, if it did not.
-    #[module("ev3dev_odometry")]
+    #[module("ev3dev_native")]
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
@@ -33,7 +33,7 @@ predicates! {
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
-    #[module("ev3dev_odometry")]
+    #[module("ev3dev_native")]
     #[name("pose_")]
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
@@ -45,7 +45,7 @@ predicates! {
     }
 
     /// set_pose_(+Robot, +UseGyro, +X, +Y, +Heading)
-    #[module("ev3dev_odometry")]
+    #[module("ev3dev_native")]
     #[name("set_pose_")]
     semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "set_pose", 3);
@@ -55,7 +55,7 @@ predicates! {
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
-    #[module("ev3dev_odometry")]
+    #[module("ev3dev_native")]
     #[name("pose_uncertainty_")]
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
@@ -66,7 +66,7 @@ predicates! {
     }
 
     /// heading_wrapped_(+Heading, -Wrapped)
-    #[module("ev3dev_odometry")]
+    #[module("ev3dev_native")]
     #[name("heading_wrapped_")]
     semidet fn heading_wrapped(context, heading, result) {
         result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
@@ -74,7 +74,7 @@ predicates! {
 
     /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
     /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`.
-    #[module("ev3dev_drive_moves")]
+    #[module("ev3dev_native")]
     #[name("drive_")]
     semidet fn drive(context, robot, course, options, reason) {
         let call = Call::of(context, "go_to", 4);
@@ -91,7 +91,7 @@ predicates! {
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
-    #[module("ev3dev_drive_moves")]
+    #[module("ev3dev_native")]
     #[name("drive_wait_")]
     semidet fn drive_wait(context, robot, timeout, reason) {
         let call = Call::of(context, "drive_wait", 2);
@@ -102,7 +102,7 @@ predicates! {
     }
 
     /// drive_pause_(+Seconds): waits by the clock of the tree.
-    #[module("ev3dev_calibrate")]
+    #[module("ev3dev_native")]
     #[name("drive_pause_")]
     semidet fn drive_pause(context, seconds) {
         let call = Call::of(context, "calibrate", 3);

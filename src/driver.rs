@@ -23,8 +23,9 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// subsystem_detect(?Port, ?Type, ?Path, +Pattern)
-    #[module("ev3dev_sysfs")]
+    /// subsystem_detect_(?Port, ?Type, ?Path, +Pattern)
+    #[module("ev3dev_native")]
+    #[name("subsystem_detect_")]
     nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
         setup => {
             let call = Call::of(context, "subsystem_detect", 4);
@@ -41,7 +42,7 @@ predicates! {
     }
 
     /// device_(+Class, ?Port, ?Type, ?Path): `device_` for `tacho_motor/3` and its like.
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_native")]
     #[name("device_")]
     nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
         setup => {
@@ -62,7 +63,7 @@ predicates! {
     }
 
     /// attribute_(+Class, ?Port, +Attribute, ?Value)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_native")]
     #[name("attribute_")]
     nondet fn attribute<AttributeReads>(context, class, port, attribute, value) {
         setup => {
@@ -85,7 +86,7 @@ predicates! {
     }
 
     /// attribute_write_(+Class, +Port, +Attribute, +Value)
-    #[module("ev3dev_driver")]
+    #[module("ev3dev_native")]
     #[name("attribute_write_")]
     semidet fn attribute_write(context, class, port, attribute, value) {
         let class = class_of(context, class)?;
@@ -96,8 +97,9 @@ predicates! {
         call.found(attributes::write(&devices, class, &port, &name, &text, interrupted))
     }
 
-    /// file_read(+File, -Value)
-    #[module("ev3dev_sysfs")]
+    /// file_read_(+File, -Value)
+    #[module("ev3dev_native")]
+    #[name("file_read_")]
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
@@ -105,8 +107,9 @@ predicates! {
         unify_value(value, &read)
     }
 
-    /// file_write(+File, +Value)
-    #[module("ev3dev_sysfs")]
+    /// file_write_(+File, +Value)
+    #[module("ev3dev_native")]
+    #[name("file_write_")]
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
@@ -114,14 +117,14 @@ predicates! {
     }
 
     /// sysfs_(-Root)
-    #[module("ev3dev_sysfs")]
+    #[module("ev3dev_native")]
     #[name("sysfs_")]
     semidet fn sysfs(_context, root) {
         unify_atom(root, &devices().tree().root().to_string_lossy())
     }
 
     /// sysfs_use_(+Root): a directory that exists.
-    #[module("ev3dev_sysfs")]
+    #[module("ev3dev_native")]
     #[name("sysfs_use_")]
     semidet fn sysfs_use(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);

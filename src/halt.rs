@@ -11,7 +11,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// stop_started_: stops what the program started.
-    #[module("ev3dev_halt")]
+    #[module("ev3dev_native")]
     #[name("stop_started_")]
     semidet fn stop_started(context) {
         Call::of(context, "halt", 0).check(motor::stop_started(&devices()))

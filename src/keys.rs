@@ -43,7 +43,7 @@ pub(crate) fn close_sources() {
 
 predicates! {
     /// buttons_(-Keys)
-    #[module("ev3dev_keys")]
+    #[module("ev3dev_native")]
     #[name("buttons_")]
     semidet fn buttons(context, keys) {
         let call = Call::of(context, "button", 1);
@@ -53,7 +53,7 @@ predicates! {
     }
 
     /// button_wait_(?Key, ?Event, +Timeout)
-    #[module("ev3dev_keys")]
+    #[module("ev3dev_native")]
     #[name("button_wait_")]
     semidet fn button_wait(context, key, event, timeout) {
         let call = Call::of(context, "button_wait", 3);
@@ -65,7 +65,7 @@ predicates! {
     }
 
     /// button_source_(-Source)
-    #[module("ev3dev_keys")]
+    #[module("ev3dev_native")]
     #[name("button_source_")]
     semidet fn button_source(context, source) {
         let call = Call::of(context, "button_events", 1);
@@ -77,7 +77,7 @@ predicates! {
     }
 
     /// button_event_(+Source, +Index, -Key, -Event)
-    #[module("ev3dev_keys")]
+    #[module("ev3dev_native")]
     #[name("button_event_")]
     semidet fn button_event(context, source, index, key, event) {
         let call = Call::of(context, "button_events", 1);

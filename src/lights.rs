@@ -20,7 +20,7 @@ type Lights = IntoIter<Light>;
 predicates! {
     /// led_(?Light, +What, -Value): what is `name`, `colour`, `trigger`, `triggers`,
     /// or `delays`, whose value is `delays(On, Off)`.
-    #[module("ev3dev_lights")]
+    #[module("ev3dev_native")]
     #[name("led_")]
     nondet fn led<Lights>(context, name, what, value) {
         setup => {
@@ -42,7 +42,7 @@ predicates! {
     }
 
     /// led_set_colour_(+Light, +Colour)
-    #[module("ev3dev_lights")]
+    #[module("ev3dev_native")]
     #[name("led_set_colour_")]
     semidet fn led_set_colour(context, name, colour) {
         let call = Call::of(context, "led", 2);
@@ -53,7 +53,7 @@ predicates! {
     }
 
     /// led_set_trigger_(+Light, +Trigger)
-    #[module("ev3dev_lights")]
+    #[module("ev3dev_native")]
     #[name("led_set_trigger_")]
     semidet fn led_set_trigger(context, name, trigger) {
         let call = Call::of(context, "led_trigger", 2);
@@ -63,7 +63,7 @@ predicates! {
     }
 
     /// led_set_delays_(+Light, +On, +Off)
-    #[module("ev3dev_lights")]
+    #[module("ev3dev_native")]
     #[name("led_set_delays_")]
     semidet fn led_set_delays(context, name, on, off) {
         let call = Call::of(context, "led_blink", 3);

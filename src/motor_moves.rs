@@ -11,7 +11,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// motor_run_direct_(+Class, +Port, +Percent)
-    #[module("ev3dev_motor_moves")]
+    #[module("ev3dev_native")]
     #[name("motor_run_direct_")]
     semidet fn motor_run_direct(context, class, port, percent) {
         let call = Call::of(context, "motor_run_direct", 2);

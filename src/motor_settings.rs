@@ -13,7 +13,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// motor_position_(?Port, -Position)
-    #[module("ev3dev_motor_settings")]
+    #[module("ev3dev_native")]
     #[name("motor_position_")]
     nondet fn motor_position<ListedDevices>(context, port, position) {
         setup => {
@@ -32,7 +32,7 @@ predicates! {
     }
 
     /// motor_set_position_(+Port, +Position)
-    #[module("ev3dev_motor_settings")]
+    #[module("ev3dev_native")]
     #[name("motor_set_position_")]
     semidet fn motor_set_position(context, port, position) {
         let call = Call::of(context, "motor_position", 2);

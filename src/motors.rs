@@ -24,7 +24,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// motor_run_(+Port, +Percent)
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motor_run_")]
     semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
@@ -35,7 +35,7 @@ predicates! {
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("run_forever_")]
     semidet fn run_forever(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
@@ -46,7 +46,7 @@ predicates! {
     }
 
     /// motors_run_(+Runs): a list of run(Port, Percent), started together.
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motors_run_")]
     semidet fn motors_run(context, runs) {
         let call = Call::of(context, "motors_run", 1);
@@ -65,7 +65,7 @@ predicates! {
     /// move(Port, Percent, Degrees), to(Port, Percent, Degrees) and
     /// for(Port, Percent, Seconds), options is
     /// options(StopAction, RampUp, RampDown, Wait, Timeout).
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motor_turn_")]
     semidet fn motor_turn(context, moves, options, reason) {
         let call = Call::of(context, "motor_run", 4);
@@ -83,7 +83,7 @@ predicates! {
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motor_stop_")]
     semidet fn motor_stop(context, class, port, action) {
         let call = Call::of(context, "motor_stop", 2);
@@ -94,8 +94,9 @@ predicates! {
         call.found(devices.with_patience(class, &port, interrupted, stop))
     }
 
-    /// stop_all_motors
-    #[module("ev3dev_motors")]
+    /// stop_all_motors_
+    #[module("ev3dev_native")]
+    #[name("stop_all_motors_")]
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         let devices = call.devices()?;
@@ -104,8 +105,9 @@ predicates! {
         call.check(motor::stop_all(&motors, StopAction::Brake))
     }
 
-    /// motor_reset(+Port)
-    #[module("ev3dev_motors")]
+    /// motor_reset_(+Port)
+    #[module("ev3dev_native")]
+    #[name("motor_reset_")]
     semidet fn motor_reset(context, port) {
         let call = Call::of(context, "motor_reset", 1);
         let port = call.text(port)?;
@@ -115,7 +117,7 @@ predicates! {
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motor_wait_")]
     semidet fn motor_wait(context, ports, timeout, reason) {
         let call = Call::of(context, "motor_wait", 3);
@@ -128,7 +130,7 @@ predicates! {
     }
 
     /// motor_wait_flag_(+Port, +Flag, +Present)
-    #[module("ev3dev_motors")]
+    #[module("ev3dev_native")]
     #[name("motor_wait_flag_")]
     semidet fn motor_wait_flag(context, port, flag, present) {
         let call = Call::of(context, "motor_wait_while", 2);

@@ -30,7 +30,7 @@ struct Way {
 
 predicates! {
     /// views_new_(+Radius, -Views)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_new_")]
     semidet fn views_new(context, radius, views) {
         let radius = Call::of(context, "navigate_to", 3).float(radius)?;
@@ -38,7 +38,7 @@ predicates! {
     }
 
     /// views_look_(+Views, +pose(X, Y, Heading), +sensor(X, Y, Heading), +Range, -Moved)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_look_")]
     semidet fn views_look(context, views, pose, sensor, range, moved) {
         let call = Call::of(context, "navigate_to", 3);
@@ -52,7 +52,7 @@ predicates! {
     }
 
     /// views_forget_(+Views)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_forget_")]
     semidet fn views_forget(_context, views) {
         locked(&views.get_ex()?).forget();
@@ -60,7 +60,7 @@ predicates! {
     }
 
     /// views_block_(+Views, +Point)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_block_")]
     semidet fn views_block(context, views, at) {
         let at = point(&Call::of(context, "navigate_to", 3), at)?;
@@ -69,7 +69,7 @@ predicates! {
     }
 
     /// views_obstacles_(+Views, +Facts, -Polygons)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_obstacles_")]
     semidet fn views_obstacles(context, views, facts, polygons) {
         let call = Call::of(context, "navigate_to", 3);
@@ -84,7 +84,7 @@ predicates! {
 
     /// views_step_(+Views, +Facts, +way(Start, Goal, Margin), +Options, -Step): step is
     /// step(Heading, Length, Safe, Unseen, Rest, Way) or no_way(Why).
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("views_step_")]
     semidet fn views_step(context, views, facts, way, options, step) {
         let call = Call::of(context, "navigate_to", 3);
@@ -100,7 +100,7 @@ predicates! {
     }
 
     /// steer_(+Way, +pose(X, Y, Heading), +Before, -Gone, -DegreesPerCm)
-    #[module("ev3dev_navigation")]
+    #[module("ev3dev_native")]
     #[name("steer_")]
     semidet fn steer(context, way, pose, before, gone, turn) {
         let call = Call::of(context, "navigate_to", 3);

@@ -13,7 +13,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// port_set_mode_(+Port, +Mode)
-    #[module("ev3dev_ports")]
+    #[module("ev3dev_native")]
     #[name("port_set_mode_")]
     semidet fn port_set_mode(context, port, mode) {
         let call = Call::of(context, "port_mode", 2);
@@ -24,7 +24,7 @@ predicates! {
     }
 
     /// port_device_(?Port, -Type)
-    #[module("ev3dev_ports")]
+    #[module("ev3dev_native")]
     #[name("port_device_")]
     nondet fn port_device<ListedDevices>(context, port, kind) {
         setup => {
@@ -42,7 +42,7 @@ predicates! {
     }
 
     /// port_set_device_(+Port, +Name)
-    #[module("ev3dev_ports")]
+    #[module("ev3dev_native")]
     #[name("port_set_device_")]
     semidet fn port_set_device(context, port, name) {
         let call = Call::of(context, "port_device", 2);

@@ -15,7 +15,7 @@ pub(crate) fn register() {
 predicates! {
     /// roadmap_(+Facts, +Start, +Goal, +Options, -Way): way is
     /// way(Length, Points, Legs) or no_way(Why).
-    #[module("ev3dev_roadmap")]
+    #[module("ev3dev_native")]
     #[name("roadmap_")]
     semidet fn roadmap(context, facts, start, goal, options, way) {
         let call = Call::of(context, "roadmap_path", 5);
@@ -26,7 +26,7 @@ predicates! {
     }
 
     /// roadmap_svg_(+Facts, +Start, +Goal, +Options, -Text)
-    #[module("ev3dev_roadmap")]
+    #[module("ev3dev_native")]
     #[name("roadmap_svg_")]
     semidet fn roadmap_svg(context, facts, start, goal, options, text) {
         let call = Call::of(context, "roadmap_svg", 5);

@@ -12,7 +12,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// turn_by_gyro_(+Gyro, +wheels(Left, Right, LeftSign, RightSign, Gearing), +Percent, +Degrees, -Ended)
-    #[module("ev3dev_robot")]
+    #[module("ev3dev_native")]
     #[name("turn_by_gyro_")]
     semidet fn turn_by_gyro(context, gyro, wheels, percent, degrees, ended) {
         let call = Call::of(context, "turn", 2);

@@ -20,7 +20,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// screen_clear_
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_clear_")]
     semidet fn screen_clear(_context) {
         frame().clear();
@@ -28,7 +28,7 @@ predicates! {
     }
 
     /// screen_draw_(+Shape, +style(Color, Width, Fill))
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_draw_")]
     semidet fn screen_draw(context, shape, style) {
         let call = Call::of(context, "screen_draw", 2);
@@ -44,7 +44,7 @@ predicates! {
     }
 
     /// screen_write_(+X, +Y, +Text, +letters(Color, Background, Font, Scale, Align))
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_write_")]
     semidet fn screen_write(context, x, y, text, letters) {
         let call = Call::of(context, "screen_text", 4);
@@ -55,7 +55,7 @@ predicates! {
     }
 
     /// screen_image_(+X, +Y, +File)
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_image_")]
     semidet fn screen_image(context, x, y, file) {
         let call = Call::of(context, "screen_image", 3);
@@ -66,7 +66,7 @@ predicates! {
     }
 
     /// screen_show_
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_show_")]
     semidet fn screen_show(context) {
         let call = Call::of(context, "screen_show", 0);
@@ -75,7 +75,7 @@ predicates! {
     }
 
     /// screen_png_(+File)
-    #[module("ev3dev_screen")]
+    #[module("ev3dev_native")]
     #[name("screen_png_")]
     semidet fn screen_png(context, file) {
         let call = Call::of(context, "screen_png", 1);

@@ -17,7 +17,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// sensor_value_(?Port, +Types, +Mode, +Index, -Value)
-    #[module("ev3dev_sensors")]
+    #[module("ev3dev_native")]
     #[name("sensor_value_")]
     nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
@@ -44,7 +44,7 @@ predicates! {
 
     /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): so many values, or
     /// all that the mode has for a count of 0, as a list.
-    #[module("ev3dev_sensors")]
+    #[module("ev3dev_native")]
     #[name("sensor_values_")]
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
@@ -72,7 +72,7 @@ predicates! {
     }
 
     /// sensor_restart_(+Port, +Types, +Mode)
-    #[module("ev3dev_sensors")]
+    #[module("ev3dev_native")]
     #[name("sensor_restart_")]
     semidet fn sensor_restart(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
@@ -85,7 +85,7 @@ predicates! {
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
-    #[module("ev3dev_sensors")]
+    #[module("ev3dev_native")]
     #[name("sensor_scale_")]
     semidet fn sensor_scale(context, port, raw, value) {
         let call = Call::of(context, "adjust_val", 3);

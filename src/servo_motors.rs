@@ -14,7 +14,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// servo_position_(?Port, -Percent)
-    #[module("ev3dev_servo_motors")]
+    #[module("ev3dev_native")]
     #[name("servo_position_")]
     nondet fn servo_position<ListedDevices>(context, port, percent) {
         setup => {
@@ -35,7 +35,7 @@ predicates! {
     }
 
     /// servo_set_position_(+Port, +Percent)
-    #[module("ev3dev_servo_motors")]
+    #[module("ev3dev_native")]
     #[name("servo_set_position_")]
     semidet fn servo_set_position(context, port, percent) {
         let call = Call::of(context, "servo_motor_position", 2);
@@ -46,8 +46,9 @@ predicates! {
         into_prolog_result(call.found(set)?)
     }
 
-    /// servo_motor_float(+Port)
-    #[module("ev3dev_servo_motors")]
+    /// servo_motor_float_(+Port)
+    #[module("ev3dev_native")]
+    #[name("servo_motor_float_")]
     semidet fn servo_motor_float(context, port) {
         let call = Call::of(context, "servo_motor_float", 1);
         let port = call.text(port)?;

@@ -60,14 +60,14 @@ struct Snapshot {
 
 predicates! {
     /// sim_check_(+Fact)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_native")]
     #[name("sim_check_")]
     semidet fn sim_check(context, term) {
         spec::fact(&Call::of(context, "sim_start", 2), term).map(drop)
     }
 
     /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise, +ScreenBits)
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_native")]
     #[name("sim_start_")]
     semidet fn sim_start(context, world, robot, clock, seed, noise, screen) {
         let call = Call::of(context, "sim_start", 2);
@@ -83,7 +83,7 @@ predicates! {
     }
 
     /// sim_stop_
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_native")]
     #[name("sim_stop_")]
     semidet fn sim_stop(context) {
         let call = Call::of(context, "sim_stop", 0);
@@ -97,14 +97,14 @@ predicates! {
     }
 
     /// sim_active_
-    #[module("ev3dev_sim")]
+    #[module("ev3dev_native")]
     #[name("sim_active_")]
     semidet fn sim_active(_context) {
         simulation().map(drop)
     }
 
     /// sim_pose_(-X, -Y, -Heading)
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_pose_")]
     semidet fn sim_pose(_context, x, y, heading) {
         let pose = simulation()?.machine().pose();
@@ -114,7 +114,7 @@ predicates! {
     }
 
     /// sim_place_(+X, +Y, +Heading)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_place_")]
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
@@ -124,7 +124,7 @@ predicates! {
     }
 
     /// sim_add_(+Fact, -Id)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_add_")]
     semidet fn sim_add(context, term, id) {
         let call = Call::of(context, "sim_add", 1);
@@ -136,7 +136,7 @@ predicates! {
     }
 
     /// sim_remove_(+Id)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_remove_")]
     semidet fn sim_remove(context, id) {
         let id = Call::of(context, "sim_remove", 1).integer(id)?;
@@ -145,7 +145,7 @@ predicates! {
     }
 
     /// sim_plug_(+Port, +Type)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_plug_")]
     semidet fn sim_plug(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
@@ -155,7 +155,7 @@ predicates! {
     }
 
     /// sim_unplug_(+Port)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_unplug_")]
     semidet fn sim_unplug(context, port) {
         let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
@@ -163,7 +163,7 @@ predicates! {
     }
 
     /// sim_jam_(+Port, +Bool)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_jam_")]
     semidet fn sim_jam(context, port, fast) {
         let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
@@ -173,7 +173,7 @@ predicates! {
     }
 
     /// sim_show_(+Port, +Attribute, +Text)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_show_")]
     semidet fn sim_show(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
@@ -185,7 +185,7 @@ predicates! {
     }
 
     /// sim_unshow_(+Port, +Attribute)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_unshow_")]
     semidet fn sim_unshow(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
@@ -200,7 +200,7 @@ predicates! {
     }
 
     /// sim_wait_(+Seconds)
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_wait_")]
     semidet fn sim_wait(context, seconds) {
         let call = Call::of(context, "sim_wait", 1);
@@ -212,7 +212,7 @@ predicates! {
     }
 
     /// sim_hold_
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_hold_")]
     semidet fn sim_hold(_context) {
         simulation()?.hold();
@@ -220,7 +220,7 @@ predicates! {
     }
 
     /// sim_release_
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_release_")]
     semidet fn sim_release(_context) {
         simulation()?.release();
@@ -228,7 +228,7 @@ predicates! {
     }
 
     /// sim_remote_(+Channel, +Buttons)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_remote_")]
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
@@ -240,7 +240,7 @@ predicates! {
     }
 
     /// sim_step_(+Seconds)
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_step_")]
     semidet fn sim_step(context, seconds) {
         let call = Call::of(context, "sim_step", 1);
@@ -260,14 +260,14 @@ predicates! {
     }
 
     /// sim_time_(-Seconds)
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_time_")]
     semidet fn sim_time(_context, seconds) {
         seconds.unify(simulation()?.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_snapshot_")]
     semidet fn sim_snapshot(_context, snapshot) {
         let machine = simulation()?.machine().clone();
@@ -275,7 +275,7 @@ predicates! {
     }
 
     /// sim_restore_(+Snapshot)
-    #[module("ev3dev_sim_time")]
+    #[module("ev3dev_native")]
     #[name("sim_restore_")]
     semidet fn sim_restore(_context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
@@ -286,7 +286,7 @@ predicates! {
     }
 
     /// sim_collisions_(-Collisions): a list of collision(Time, X, Y, Heading).
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_collisions_")]
     semidet fn sim_collisions(context, collisions) {
         let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
@@ -299,7 +299,7 @@ predicates! {
     }
 
     /// sim_trace_(-Trace): a list of at(Time, Event).
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
         let seen = simulation()?.machine().trace().clone();
@@ -330,7 +330,7 @@ predicates! {
     }
 
     /// sim_svg_(-Text)
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_svg_")]
     semidet fn sim_svg(_context, text) {
         let picture = simulation()?.machine().svg();
@@ -338,7 +338,7 @@ predicates! {
     }
 
     /// sim_mount_(+Directory, ?DevDirectory)
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_mount_")]
     semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
@@ -347,7 +347,7 @@ predicates! {
     }
 
     /// sim_unmount_
-    #[module("ev3dev_sim_views")]
+    #[module("ev3dev_native")]
     #[name("sim_unmount_")]
     semidet fn sim_unmount(context) {
         mount::unmount(&Call::of(context, "sim_unmount", 0))

@@ -15,7 +15,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// sim_key_(+Key, +IsPress)
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
         let key: Key = named(&Call::of(context, "sim_press", 1), "button", key)?;
@@ -27,7 +27,7 @@ predicates! {
     }
 
     /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For is without end.
-    #[module("ev3dev_sim_hand")]
+    #[module("ev3dev_native")]
     #[name("sim_plan_key_")]
     semidet fn sim_plan_key(context, key, after, lasts) {
         let call = Call::of(context, "sim_press", 2);

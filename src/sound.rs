@@ -18,7 +18,7 @@ pub(crate) fn register() {
 
 predicates! {
     /// tones_(+Tones): a list of tone(Hertz, Milliseconds); 0 Hz is silence.
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("tones_")]
     semidet fn tones(context, tones) {
         let call = Call::of(context, "tones", 2);
@@ -29,7 +29,7 @@ predicates! {
     }
 
     /// say_(+Text)
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("say_")]
     semidet fn say(context, text) {
         let call = Call::of(context, "say", 1);
@@ -38,7 +38,7 @@ predicates! {
     }
 
     /// play_(+File)
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("play_")]
     semidet fn play(context, file) {
         let call = Call::of(context, "play", 1);
@@ -47,7 +47,7 @@ predicates! {
     }
 
     /// volume_(-Percent)
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("volume_")]
     semidet fn volume(context, percent) {
         let call = Call::of(context, "volume", 1);
@@ -55,7 +55,7 @@ predicates! {
     }
 
     /// volume_set_(+Percent): from 0 to 100.
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("volume_set_")]
     semidet fn volume_set(context, percent) {
         let call = Call::of(context, "volume", 1);
@@ -64,7 +64,7 @@ predicates! {
     }
 
     /// sound_stop_
-    #[module("ev3dev_sound")]
+    #[module("ev3dev_native")]
     #[name("sound_stop_")]
     semidet fn sound_stop(context) {
         // Without choosing a tree: what sounds has done so.

@@ -3,8 +3,8 @@
 :- use_module(tree).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(ev3dev/lego_sensors)).
-:- use_module(library(ev3dev/other_sensors)).
+:- use_module(library(ev3dev/private/sensor_table/lego)).
+:- use_module(library(ev3dev/private/sensor_table/other)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
@@ -18,7 +18,6 @@
 :- dynamic complaint/0.
 
 main :-
-    ev3dev_on_demand:load_on_demand,
     load_again,
     check,
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),

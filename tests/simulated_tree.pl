@@ -144,10 +144,10 @@ simulated_pause(Seconds) :-
 %   In between, no time passes on the virtual clock unless this thread waits.
 
 hold_clock :-
-    ev3dev_sim_time:sim_hold_.
+    ev3dev_native:sim_hold_.
 
 release_clock :-
-    ignore(ev3dev_sim_time:sim_release_).
+    ignore(ev3dev_native:sim_release_).
 
 %!  last_written(+RelativeFile, -Text)
 %

@@ -22,7 +22,8 @@ exported(driver,
            position/2, position_file/2, position_sp/2, position_sp_file/2,
            state/2, state_file/2, motor_states/2,
            mode/2, mode_file/2, value/3, value_file/3,
-           decimals/2, decimals_file/2, ev3_sysfs/1, ev3_devices/0 ]).
+           decimals/2, decimals_file/2, ev3_sysfs/1, ev3_dev/1 ]).
+exported(device_table, [ ev3_devices/0 ]).
 exported(sensors,
          [ light_sensor/1, ultrasonic_sensor/1, gyro_sensor/1, touch_sensor/1,
            infrared_sensor/1, col_ambient/2, col_reflect/2, col_color/2,
@@ -33,7 +34,7 @@ exported(sensors,
 exported(infrared,
          [ ir_remote/3, ir_beacon/4, ir_dist_cm/2, ir_seeker/2,
            ir_seeker/4 ]).
-exported(more_sensors,
+exported(nxt_sensors,
          [ nxt_light/2, nxt_ambient/2, nxt_sound/2, temperature/2,
            target_temperature/2, pressure/2, compass/2, ht_color/2,
            ht_color_rgb/2, ht_gyro_rate/2, ht_eopd/3, acceleration/4,
@@ -46,9 +47,8 @@ exported(motors,
          [ motor_run/2, motor_run/3, motor_run/4, motors_run/1,
            motors_turn/2, motor_start/1, motor_stop/1, motor_stop/2,
            stop_all_motors/0, motor_reset/1, run_forever/2, speed_adjust/3,
-           motor_wait_while/2, motor_wait_until/2, motor_wait/3 ]).
-exported(motor_moves,
-         [ motor_run_timed/3, motor_run_timed/4, motor_run_to/3,
+           motor_wait_while/2, motor_wait_until/2, motor_wait/3,
+           motor_run_timed/3, motor_run_timed/4, motor_run_to/3,
            motor_run_to/4, motor_run_direct/2 ]).
 exported(motor_settings,
          [ linear_actuator/1, motor_position/2, motor_duty/2,
@@ -69,8 +69,7 @@ exported(battery, [ battery/2 ]).
 exported(ports,
          [ lego_port/1, port_mode/2, port_modes/2, port_status/2,
            port_device/2 ]).
-exported(dev, [ ev3_dev/1 ]).
-exported(keys,
+exported(buttons,
          [ button/1, button_wait/2, button_wait/3, button_events/1 ]).
 exported(sound,
          [ tone/2, tones/1, tones/2, say/1, play/1, volume/1, sound_stop/0 ]).
@@ -93,7 +92,7 @@ test(are_those_of_the_modules,
      [ forall(exported(Name, Ps)), true(Missing-More == []-[]) ]) :-
     use_module(library(ev3dev/Name), []),
     atom_concat(ev3dev_, Name, Module),
-    findall(P, exports(Module, P), Found),
+    findall(P, ( exports(Module, P), P \== reading_types/2 ), Found),
     subtract(Ps, Found, Missing),
     subtract(Found, Ps, More).
 test(each_is_defined,
@@ -169,92 +168,6 @@ tells_directory(Query, Program) :-
             main :- ~q(Directory), write(Directory).", [Query]).
 
 :- end_tests(loading).
-
-                /*******************************
-                *           ON DEMAND          *
-                *******************************/
-
-:- begin_tests(on_demand).
-
-answers(Program, Expected) :-
-    atomic_list_concat([":- use_module(library(ev3dev)).
-                         lights(M) :- predicate_property(led(_, _), imported_from(M)).
-                         is_loaded(M) :- module_property(M, file(_)).\n", Program],
-                       Text),
-    run_program(Text, [goal(main)], Status, Output),
-    assertion(Status-Output == exit(0)-Expected).
-
-test(nothing_is_loaded_before_it_is_used) :-
-    answers("main :- \\+ is_loaded(ev3dev_lights), \\+ is_loaded(ev3dev_screen),
-                     lights(M), print(M).",
-            "ev3dev").
-test(the_first_call_loads_the_module_and_its_exception_is_its_own) :-
-    answers("main :- catch(led(left, blu), error(E, context(P, _)), true),
-                     lights(M), print([E,P,M]).",
-            "[domain_error(led_colour,blu),led/2,ev3dev_lights]").
-test(the_first_call_leaves_no_choice_and_solutions_are_all_there) :-
-    answers("main :- call_cleanup(catch(battery(7, _), error(_, _), true), Det = true),
-                     findall(P, lego_port(P), _),
-                     ( sensor_type('lego-ev3-us', _) -> true ),
-                     print(Det).",
-            "true").
-test(the_module_may_be_loaded_afterwards_too) :-
-    answers(":- use_module(library(ev3dev/lights)).
-             main :- lights(M), print(M).",
-            "ev3dev_lights").
-test(and_before) :-
-    run_program(":- use_module(library(ev3dev/lights)).
-                 :- use_module(library(ev3dev)).
-                 main :- predicate_property(led(_, _), imported_from(M)), print(M).",
-                [goal(main)], Status, Output),
-    assertion(Status-Output == exit(0)-"ev3dev_lights").
-test(another_module_that_imported_the_stub_gets_the_predicate) :-
-    answers(":- use_module(library(ev3dev), [tones/2 as melody, led/2]).
-             main :- catch(ev3dev:led(left, blu), error(_, _), true),
-                     catch(melody(7, 7), error(E, _), true),
-                     lights(M), print(E-M).",
-            "type_error(list,7)-ev3dev_lights").
-test(threads_that_call_at_once_wait_for_the_module) :-
-    answers("main :- findall(Id,
-                             ( between(1, 16, _),
-                               thread_create(catch(led(left, blu), error(E, _),
-                                                   ( E = domain_error(_, _) -> true
-                                                   ; throw(E) )), Id, []) ),
-                             Ids),
-                     findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
-                     sort(Ss, Set), print(Set).",
-            "[true]").
-test(threads_that_go_on_calling_are_not_disturbed) :-
-    answers("try(_) :- catch(led(left, blu), error(domain_error(_, _), _), true).
-             main :- findall(Id,
-                             ( between(1, 16, _),
-                               thread_create(forall(between(1, 200, I), try(I)), Id, []) ),
-                             Ids),
-                     findall(S, ( member(Id, Ids), thread_join(Id, S) ), Ss),
-                     sort(Ss, Set), print(Set).",
-            "[true]").
-test(a_stub_stays_while_another_thread_runs) :-
-    answers("main :- thread_create(thread_get_message(over), Id, []),
-                     catch(led(left, blu), error(_, _), true),
-                     lights(M1), thread_send_message(Id, over), thread_join(Id, _),
-                     catch(led(left, blu), error(_, _), true),
-                     lights(M2), print(M1-M2).",
-            "ev3dev-ev3dev_lights").
-test(a_module_that_is_loaded_beside_a_thread_takes_its_place) :-
-    answers("main :- thread_create(thread_get_message(over), Id, []),
-                     use_module(library(ev3dev/lights)),
-                     lights(M), thread_send_message(Id, over), thread_join(Id, _),
-                     print(M).",
-            "ev3dev_lights").
-test(a_call_past_the_library_does_no_harm) :-
-    answers("main :- catch(ev3dev_lights:led(left, blu), error(E, _), true),
-                     catch(led(left, blu), error(F, _), true), print(E+F).",
-            "existence_error(procedure,ev3dev_lights:led/2)+domain_error(led_colour,blu)").
-test(what_is_no_predicate_is_unknown) :-
-    answers("main :- catch(ev3dev:led, error(E, _), true), print(E).",
-            "existence_error(procedure,ev3dev:led/0)").
-
-:- end_tests(on_demand).
 
                 /*******************************
                 *          THE BINARY          *

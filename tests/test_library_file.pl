@@ -1,6 +1,6 @@
 :- module(test_library_file, []).
 :- asserta(user:file_search_path(library, prolog)).
-:- use_module(library(ev3dev/library_file)).
+:- use_module(library(ev3dev/private/library_file)).
 :- use_module(library(filesex)).
 :- use_module(library(plunit)).
 

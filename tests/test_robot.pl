@@ -80,7 +80,7 @@ test(writes_nothing, true(W == [])) :-
 
 :- end_tests(set_robot).
 
-:- begin_tests(no_robot, [ setup(retractall(ev3dev_robot:robot(_, _, _, _))) ]).
+:- begin_tests(no_robot, [ setup(retractall(ev3dev_robot_state:robot(_, _, _, _))) ]).
 
 test(nothing_can_be_done_without_a_robot,
      [ forall(member(Goal, [ robot(_, _, _, _), stop, go(50), go(50, 90),

@@ -2,8 +2,7 @@
           [ battery/2                   % ?Key, -Value
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library_file, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(private/native, [battery_/2]).
 
 /** <module> The battery
 */
@@ -46,5 +45,3 @@ battery_key(voltage).
 battery_key(current).
 battery_key(percent).
 battery_key(type).
-
-:- on_demand_loaded.

@@ -4,10 +4,12 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(options, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
-:- use_module(odometry, [number_value/2, robot_driven/1]).
+:- use_module(odometry, [number_value/2]).
 :- use_module(drive, [go_cm/3, turn/3]).
+:- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/native, [drive_pause_/1]).
 
 /** <module> Calibration: how large wheels and axle really are
 
@@ -63,7 +65,7 @@ calibrate(What, Module:Options, SetRobot) :-
     must_be(atom, What),
     must_be_options(calibration_option,
                     [measured, length, distance, turns, speed], Options),
-    robot_driven(Robot),
+    robot_description(Robot),
     (   What == wheels
     ->  wheels(Robot, Module, Options, SetRobot)
     ;   What == axle

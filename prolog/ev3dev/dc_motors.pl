@@ -13,13 +13,16 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(class_settings, [class_polarity/3, class_settings/3]).
+:- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
-:- use_module(halt, []).
-:- use_module(motor_moves, []).
+:- use_module(private/halt, []).
 :- use_module(motors, []).
-:- use_module(options, [motor_options/5]).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(motors, []).
+:- use_module(private/arguments, [motor_options/5]).
+:- use_module(private/attributes, [attribute/4, attribute_words/4]).
+:- use_module(private/native,
+              [ attribute_/4, dc_motor_run_/2, dc_motor_run_timed_/5,
+                motor_run_direct_/3, motor_stop_/3 ]).
 
 /** <module> Motors without rotation sensor, and lamps
 
@@ -102,7 +105,7 @@ run_ended(Reason, Port) :-
 
 dc_motor_run_direct(Port, Percent0) :-
     Percent is Percent0,
-    (   ev3dev_motor_moves:motor_run_direct_('dc-motor', Port, Percent)
+    (   motor_run_direct_('dc-motor', Port, Percent)
     ->  true
     ;   cannot(Port, Percent)
     ).
@@ -127,7 +130,7 @@ dc_motor_stop(Port) :-
 dc_motor_stop(Port, StopAction) :-
     must_be(atom, StopAction),
     (   memberchk(StopAction, [coast, brake])
-    ->  ev3dev_motors:motor_stop_('dc-motor', Port, StopAction)
+    ->  motor_stop_('dc-motor', Port, StopAction)
     ;   domain_error(stop_action, StopAction)
     ).
 
@@ -136,7 +139,7 @@ dc_motor_stop(Port, StopAction) :-
 %   True if the motor gets that much of the battery's voltage now.
 
 dc_motor_duty(Port, Percent) :-
-    ev3dev_driver:attribute_('dc-motor', Port, duty_cycle, Percent).
+    attribute_('dc-motor', Port, duty_cycle, Percent).
 
 %!  dc_motor_states(?Port, -States) is nondet.
 %
@@ -144,7 +147,7 @@ dc_motor_duty(Port, Percent) :-
 %   while its next step is due.
 
 dc_motor_states(Port, States) :-
-    ev3dev_driver:attribute_words('dc-motor', Port, state, States).
+    attribute_words('dc-motor', Port, state, States).
 
 %!  dc_motor_polarity(?Port, ?Polarity) is nondet.
 %
@@ -177,6 +180,4 @@ dc_motor_ramps(Port, Up, Down) :-
 %   of others.
 
 dc_motor_attribute(Port, Attribute, Value) :-
-    ev3dev_driver:attribute('dc-motor', Port, Attribute, Value).
-
-:- on_demand_loaded.
+    attribute('dc-motor', Port, Attribute, Value).

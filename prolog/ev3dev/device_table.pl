@@ -6,8 +6,8 @@
               [ decimals/2, lego_sensor/2, mode/2, position/2,
                 sensor_attribute/3, state/2, tacho_motor/2, value/3
               ]).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(sysfs, [ev3_sysfs/1]).
+:- use_module(files, [ev3_sysfs/1]).
+:- use_module(private/native, [attribute_/4, device_/4]).
 
 /** <module> A table of what is connected
 */
@@ -34,10 +34,10 @@ device_row(row(Port, Type, Reads)) :-
     tacho_motor(Port, Type),
     reading(motor_reading(Port), Reads).
 device_row(row(Port, Type, Reads)) :-
-    ev3dev_driver:device_('dc-motor', Port, Type, _),
+    device_('dc-motor', Port, Type, _),
     reading(dc_motor_reading(Port), Reads).
 device_row(row(Port, Type, '')) :-
-    ev3dev_driver:device_('servo-motor', Port, Type, _).
+    device_('servo-motor', Port, Type, _).
 
 % A device that cannot be read now is listed all the same, and says why.
 reading(Goal_1, Reads) :-
@@ -54,8 +54,8 @@ motor_reading(Port, Reads) :-
     format(atom(Reads), "position ~w ~w", [Position, State]).
 
 dc_motor_reading(Port, Reads) :-
-    ev3dev_driver:attribute_('dc-motor', Port, duty_cycle, Duty),
-    ev3dev_driver:attribute_('dc-motor', Port, state, State),
+    attribute_('dc-motor', Port, duty_cycle, Duty),
+    attribute_('dc-motor', Port, state, State),
     format(atom(Reads), "duty ~w ~w", [Duty, State]).
 
 sensor_reading(Port, Reads) :-
@@ -75,5 +75,3 @@ scaled_value(Port, Index, Value) :-
     ->  Value = Raw
     ;   Value is Raw / 10.0 ** Decimals
     ).
-
-:- on_demand_loaded.

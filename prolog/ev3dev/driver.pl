@@ -22,18 +22,23 @@
             motor_states/2,             % ?Port, ?States
             mode/2,                     % ?Port, ?Mode
             value/3,                    % ?Port, +Index, ?Value
-            decimals/2                  % ?Port, ?Decimals
+            decimals/2,                 % ?Port, ?Decimals
+            command_file/2,             % ?Port, -File
+            speed_file/2,               % ?Port, -File
+            speed_sp_file/2,            % ?Port, -File
+            max_speed_file/2,           % ?Port, -File
+            position_file/2,            % ?Port, -File
+            position_sp_file/2,         % ?Port, -File
+            state_file/2,               % ?Port, -File
+            mode_file/2,                % ?Port, -File
+            value_file/3,               % ?Port, +Index, -File
+            decimals_file/2             % ?Port, -File
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(on_demand, [on_demand/2]).
-:- reexport(sysfs).
-
-:- on_demand(library(ev3dev/attribute_files),
-             [ command_file/2, speed_file/2, speed_sp_file/2,
-               max_speed_file/2, position_file/2, position_sp_file/2,
-               state_file/2, mode_file/2, value_file/3, decimals_file/2 ]).
-:- on_demand(library(ev3dev/device_table),
-             [ ev3_devices/0 ]).
+:- use_module(private/attributes,
+              [attribute/4, attribute_words/4, value_attribute/2]).
+:- use_module(private/native, [attribute_/4, attribute_write_/4, device_/4]).
+:- reexport(files).
 
 /** <module> Driver framework: devices and their files
 
@@ -52,9 +57,8 @@ write it, it is written when the value is bound:
 An unbound port enumerates the devices in the order of their ports; writing
 needs a bound one.
 
-Exported here, too, are the predicates of library(ev3dev/sysfs), any files and
-where they are; of library(ev3dev/attribute_files), what files are called; and
-of library(ev3dev/device_table), all devices at a glance.
+Exported here, too, are the predicates of library(ev3dev/files): any files, and
+where they are. library(ev3dev/device_table) shows all devices at a glance.
 
 @see http://www.ev3dev.org for each driver's attributes
 */
@@ -155,29 +159,6 @@ motor_attribute(Port, Attribute, Value) :-
 sensor_attribute(Port, Attribute, Value) :-
     attribute('lego-sensor', Port, Attribute, Value).
 
-attribute(Class, Port, Attribute, Value) :-
-    var(Value),
-    !,
-    attribute_(Class, Port, Attribute, Value).
-attribute(Class, Port, Attribute, Value) :-
-    attribute_write_(Class, Port, Attribute, Value).
-
-%!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
-%
-%   True if Words are those of an attribute's text, with spaces between; a
-%   single number, as a mode called 50, is a word, too. For the pack's own
-%   modules.
-
-:- public attribute_words/4.
-
-attribute_words(Class, Port, Attribute, Words) :-
-    attribute_(Class, Port, Attribute, Text),
-    (   Text == ''
-    ->  Words = []
-    ;   atomic_list_concat(Words0, ' ', Text),
-        Words = Words0
-    ).
-
 %!  command(+Port, +Command) is semidet.
 %
 %   Give a motor one of its commands: `run-forever`, `run-to-abs-pos`,
@@ -269,16 +250,57 @@ value(Port, Index, Value) :-
     value_attribute(Index, Attribute),
     attribute_('lego-sensor', Port, Attribute, Value).
 
-value_attribute(Index, Attribute) :-
-    must_be(nonneg, Index),
-    (   Index < 8
-    ->  atom_concat(value, Index, Attribute)
-    ;   domain_error(sensor_value_index, Index)
-    ).
-
 %!  decimals(?Port, ?Decimals) is nondet.
 %
 %   True if the sensor's values in its present mode have that many decimals.
 
 decimals(Port, Decimals) :-
     attribute_('lego-sensor', Port, decimals, Decimals).
+
+%!  command_file(?Port, -File) is nondet.
+%!  speed_file(?Port, -File) is nondet.
+%!  speed_sp_file(?Port, -File) is nondet.
+%!  max_speed_file(?Port, -File) is nondet.
+%!  position_file(?Port, -File) is nondet.
+%!  position_sp_file(?Port, -File) is nondet.
+%!  state_file(?Port, -File) is nondet.
+%!  mode_file(?Port, -File) is nondet.
+%!  value_file(?Port, +Index, -File) is nondet.
+%!  decimals_file(?Port, -File) is nondet.
+%
+%   True if File is the attribute's file of the motor or sensor at Port.
+
+command_file(Port, File) :-
+    attribute_file('tacho-motor', Port, command, File).
+
+speed_file(Port, File) :-
+    attribute_file('tacho-motor', Port, speed, File).
+
+speed_sp_file(Port, File) :-
+    attribute_file('tacho-motor', Port, speed_sp, File).
+
+max_speed_file(Port, File) :-
+    attribute_file('tacho-motor', Port, max_speed, File).
+
+position_file(Port, File) :-
+    attribute_file('tacho-motor', Port, position, File).
+
+position_sp_file(Port, File) :-
+    attribute_file('tacho-motor', Port, position_sp, File).
+
+state_file(Port, File) :-
+    attribute_file('tacho-motor', Port, state, File).
+
+mode_file(Port, File) :-
+    attribute_file('lego-sensor', Port, mode, File).
+
+value_file(Port, Index, File) :-
+    value_attribute(Index, Attribute),
+    attribute_file('lego-sensor', Port, Attribute, File).
+
+decimals_file(Port, File) :-
+    attribute_file('lego-sensor', Port, decimals, File).
+
+attribute_file(Class, Port, Attribute, File) :-
+    device_(Class, Port, _, Path),
+    atomic_list_concat([Path, Attribute], /, File).

@@ -7,20 +7,20 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
-:- use_module(grid_knowledge).
-:- use_module(grid_map).
-:- use_module(grid_moves).
-:- use_module(grid_place).
-:- use_module(grid_problem).
-:- use_module(options, [must_be_options/3]).
+:- use_module(private/grid/knowledge).
+:- use_module(private/grid/map).
+:- use_module(private/grid/moves).
+:- use_module(private/grid/place).
+:- use_module(private/grid/problem).
+:- use_module(private/arguments, [must_be_options/3]).
 :- use_module(planners/search).
-:- reexport(grid_knowledge,
+:- reexport(private/grid/knowledge,
             [obstructed/1, obstacle_add/1, obstacle_remove/1]).
-:- reexport(grid_compass, [direction_heading/2, grid_beside/4]).
-:- reexport(grid_map,
+:- reexport(private/grid/compass, [direction_heading/2, grid_beside/4]).
+:- reexport(private/grid/map,
             except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
-:- reexport(grid_problem).
-:- reexport(grid_place, [set_grid/1, grid_place/2, state_position/2]).
+:- reexport(private/grid/problem).
+:- reexport(private/grid/place, [set_grid/1, grid_place/2, state_position/2]).
 
 /** <module> Finding a way over an unknown grid
 

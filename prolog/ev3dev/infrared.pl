@@ -9,7 +9,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(private/native, [sensor_values_/5]).
 
 /** <module> Infrared sensors
 
@@ -33,7 +33,7 @@ first port that has one; on backtracking, the next.
 
 ir_remote(Port, Channel, Buttons) :-
     must_be_channel(Channel),
-    ev3dev_sensors:sensor_values_(Port, ['lego-ev3-ir'], 'IR-REMOTE', 4,
+    sensor_values_(Port, ['lego-ev3-ir'], 'IR-REMOTE', 4,
                                   Codes),
     nth1(Channel, Codes, Code),
     buttons(Code, Held),
@@ -63,7 +63,7 @@ buttons(11, [blue_up, blue_down]).
 
 ir_beacon(Port, Channel, Heading, Percent) :-
     must_be_channel(Channel),
-    ev3dev_sensors:sensor_values_(Port, ['lego-ev3-ir'], 'IR-SEEK', 8,
+    sensor_values_(Port, ['lego-ev3-ir'], 'IR-SEEK', 8,
                                   Values),
     findall(beacon(Channel, Seen, Far),
             ( between(1, 4, Channel),
@@ -109,7 +109,7 @@ ir_dist_cm(Port, Centimetres) :-
 %   @see http://www.hitechnic.com/blog/ir-seeker for degrees and directions
 
 ir_seeker(Port, Degrees) :-
-    ev3dev_sensors:sensor_values_(Port, ['ht-nxt-ir-seek-v2'], 'AC', 1,
+    sensor_values_(Port, ['ht-nxt-ir-seek-v2'], 'AC', 1,
                                   [Direction]),
     Direction > 0,
     Degrees is (Direction - 5) * 30.
@@ -129,7 +129,7 @@ ir_seeker(Port, Light, Direction, Strengths) :-
     ->  true
     ;   domain_error(ir_light, Light)
     ),
-    ev3dev_sensors:sensor_values_(Port, ['ht-nxt-ir-seek-v2'], Mode, 6,
+    sensor_values_(Port, ['ht-nxt-ir-seek-v2'], Mode, 6,
                                   [Direction0|Seen]),
     Direction0 > 0,
     Direction = Direction0,
@@ -137,5 +137,3 @@ ir_seeker(Port, Light, Direction, Strengths) :-
 
 light_mode(pulsed, 'AC-ALL').
 light_mode(steady, 'DC-ALL').
-
-:- on_demand_loaded.

@@ -7,9 +7,10 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library_file, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_within/4]).
+:- use_module(private/arguments, [must_be_within/4]).
+:- use_module(private/native,
+              [ led_/3, led_set_colour_/2, led_set_delays_/3,
+                led_set_trigger_/2 ]).
 
 /** <module> Lights
 
@@ -161,5 +162,3 @@ led_blink(Light, On, Off) :-
 
 must_be_milliseconds(Time) :-
     must_be_within(1, 2147483647, milliseconds, Time).
-
-:- on_demand_loaded.

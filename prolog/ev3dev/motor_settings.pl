@@ -10,10 +10,11 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(class_settings, [class_polarity/3, class_settings/3]).
+:- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_within/4]).
+:- use_module(private/arguments, [must_be_within/4]).
+:- use_module(private/native,
+              [ attribute_/4, motor_position_/2, motor_set_position_/2 ]).
 
 /** <module> What a motor is set to
 
@@ -58,7 +59,7 @@ motor_position(Port, Position0) :-
 %   to 100.
 
 motor_duty(Port, Percent) :-
-    ev3dev_driver:attribute_('tacho-motor', Port, duty_cycle, Percent).
+    attribute_('tacho-motor', Port, duty_cycle, Percent).
 
 %!  motor_polarity(?Port, ?Polarity) is nondet.
 %
@@ -124,5 +125,3 @@ must_be_pid(PID) :-
                must_be_within(0, 2147483647, pid_constant, Constant))
     ;   domain_error(pid, PID)
     ).
-
-:- on_demand_loaded.

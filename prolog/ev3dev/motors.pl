@@ -13,15 +13,27 @@
             speed_adjust/3,             % +Percent, ?Port, -CountsPerSecond
             motor_wait_while/2,         % +Port, +Flag
             motor_wait_until/2,         % +Port, +Flag
-            motor_wait/3                % +Ports, +Options, -Reason
+            motor_wait/3,               % +Ports, +Options, -Reason
+            motor_run_timed/3,          % +Port, +Speed, +Seconds
+            motor_run_timed/4,          % +Port, +Speed, +Seconds, +Options
+            motor_run_to/3,             % +Port, +Speed, +Angle
+            motor_run_to/4,             % +Port, +Speed, +Angle, +Options
+            motor_run_direct/2          % +Port, +Percent
           ]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
-:- use_module(halt, []).
-:- use_module(options,
+:- use_module(private/halt, []).
+:- use_module(private/arguments,
               [ motor_moves/2, motor_options/5, motor_runs/2,
                 must_be_options/3, must_be_timeout/1
+              ]).
+:- use_module(private/native,
+              [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
+                motor_stop_/3, motor_turn_/3, motor_wait_/3,
+                motor_wait_flag_/3, motors_run_/1, run_forever_/2,
+                stop_all_motors_/0
               ]).
 
 /** <module> Motors
@@ -31,8 +43,7 @@ shaft, both any arithmetic expression. Where there is an angle, its sign and
 that of the speed together make the direction. Of a linear actuator what is
 called an angle here is a length, in millimetres.
 
-More commands are in library(ev3dev/motor_moves), what can be set in
-library(ev3dev/motor_settings), motors without rotation sensor in
+More commands are in library(ev3dev/motor_settings), motors without rotation sensor in
 library(ev3dev/dc_motors), and RC servos in library(ev3dev/servo_motors).
 
 Every motor that the program has started is stopped when Prolog halts, or is
@@ -196,10 +207,16 @@ motor_stop(Port, StopAction) :-
 %   Stop every motor that is connected, with or without rotation sensor,
 %   whoever started it, with `brake`. Servos keep their positions.
 
+stop_all_motors :-
+    stop_all_motors_.
+
 %!  motor_reset(+Port) is semidet.
 %
 %   Stop a motor and put all it was told back to what it is after plugging in:
 %   position 0, speed 0, no ramps, normal polarity.
+
+motor_reset(Port) :-
+    motor_reset_(Port).
 
 %!  run_forever(+Port, +CountsPerSecond) is semidet.
 %
@@ -291,3 +308,61 @@ motor_wait(Ports, Options, Reason) :-
 prolog:message(ev3dev(stalled(Ports))) -->
     { atomic_list_concat(Ports, ', ', Text) },
     [ 'Motor blocked, stopped: ~w'-[Text] ].
+
+%!  motor_run_timed(+Port, +Speed, +Seconds) is semidet.
+%!  motor_run_timed(+Port, +Speed, +Seconds, +Options) is semidet.
+%
+%   Run a motor at Speed percent for so many Seconds, and wait until they are
+%   over. Seconds may be an arithmetic expression. Options are those of
+%   motor_run/4, but that `stop_action` is `brake` by default. Slowing down
+%   with a `ramp_down` comes on top of the time.
+%
+%   @error domain_error(seconds, Seconds) if they are negative
+%   @error existence_error(motor, Port) if the motor is unplugged under way
+
+motor_run_timed(Port, Speed, Seconds) :-
+    motor_run_timed(Port, Speed, Seconds, []).
+
+motor_run_timed(Port, Speed, Seconds0, Options0) :-
+    Percent is Speed,
+    Seconds is Seconds0,
+    must_be(list, Options0),
+    append(Options0, [stop_action(brake)], Options),
+    motors_turn([for(Port, Percent, Seconds)], Options).
+
+%!  motor_run_to(+Port, +Speed, +Angle) is semidet.
+%!  motor_run_to(+Port, +Speed, +Angle, +Options) is semidet.
+%
+%   Turn a motor to Angle degrees at Speed percent, and wait until it is
+%   there. Angle is that of motor_position/2: 0 is where the motor was when it
+%   was plugged in or reset, or where the program says. The sign of Speed does
+%   not matter. Options, failure and errors are those of motor_run/4.
+
+motor_run_to(Port, Speed, Angle) :-
+    motor_run_to(Port, Speed, Angle, []).
+
+motor_run_to(Port, Speed, Angle, Options) :-
+    Percent is Speed,
+    Degrees is Angle,
+    motors_turn([to(Port, Percent, Degrees)], Options).
+
+%!  motor_run_direct(+Port, +Percent) is semidet.
+%
+%   Give a motor that much of the battery's voltage, from -100 to 100, until
+%   it is stopped: nothing keeps its speed when it has to push. Does not wait.
+%   When the motor runs so already, it gets that much from now on.
+%
+%   @error domain_error(command, 'run-direct') if the motor cannot run so, as
+%          those of some other boards
+
+motor_run_direct(Port, Percent0) :-
+    Percent is Percent0,
+    (   motor_run_direct_('tacho-motor', Port, Percent)
+    ->  true
+    ;   tacho_motor(Port)
+    ->  debug(ev3dev, "~w cannot run at ~w % of the voltage",
+              [Port, Percent]),
+        fail
+    ;   debug(ev3dev, "there is no motor at ~w", [Port]),
+        fail
+    ).

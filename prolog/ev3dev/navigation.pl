@@ -7,14 +7,17 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
-:- use_module(drive_moves, [move/3]).
-:- use_module(options, [take_options/4]).
-:- use_module(roadmap_arguments,
+:- use_module(private/drive_moves, [move/3]).
+:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/roadmap_arguments,
               [ number_option/4, roadmap_facts/2, roadmap_options/2,
                 roadmap_point/2
               ]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
+:- use_module(private/native,
+              [ steer_/5, views_block_/2, views_forget_/1, views_look_/5,
+                views_new_/2, views_obstacles_/3, views_step_/5 ]).
 
 /** <module> Drive through a room that is not wholly known
 

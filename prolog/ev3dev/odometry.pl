@@ -5,13 +5,15 @@
             heading_wrapped/2,      % +Heading, -Wrapped
             drive_option/2,         % +Name, ?Value
             valid_drive_option/3,   % +Name, +Value, -Valid
-            robot_driven/1,         % -Robot
             number_value/2          % +Expression, -Number
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver, []).
-:- use_module(options, [finite/1]).
-:- use_module(robot, []).
+:- use_module(private/arguments, [finite/1]).
+:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/native,
+              [ heading_wrapped_/2, odometry_/1, pose_/5,
+                pose_uncertainty_/3, set_pose_/5 ]).
 
 /** <module> Odometry: where the robot is
 
@@ -118,15 +120,8 @@ heading_wrapped(Heading, Wrapped) :-
 
 %   The robot, and whether to use the gyro.
 robot(Robot, UseGyro) :-
-    robot_driven(Robot),
+    robot_description(Robot),
     option_value(use_gyro, UseGyro).
-
-%!  robot_driven(-Robot) is semidet.
-%
-%   The robot that is set, as the native library wants it.
-
-robot_driven(Robot) :-
-    ev3dev_robot:robot_built(Robot).
 
 %!  number_value(+Expression, -Number) is det.
 %
@@ -142,15 +137,15 @@ number_value(Expression, Number) :-
     ).
 
 
-:- multifile ev3dev_robot:robot_hook/0.
+:- multifile ev3dev_robot_state:robot_hook/0.
 
-ev3dev_robot:robot_hook :-
+ev3dev_robot_state:robot_hook :-
     odometry.
 
 %   Count from now on, if there is a robot.
 odometry :-
-    (   ev3dev_robot:robot(_, _, _, _),
-        robot_driven(Robot)
+    (   robot(_, _, _, _),
+        robot_description(Robot)
     ->  ignore(odometry_(Robot))
     ;   true
     ).

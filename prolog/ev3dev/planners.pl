@@ -27,7 +27,7 @@ step(N, add_one, Next, 1) :- Next is N+1, Next =< 10.
 
 :- reexport(planners/search).
 :- reexport(planners/comparison).
-:- reexport(grid_compass, [direction_heading/2, grid_beside/4]).
-:- reexport(grid_map,
+:- reexport(private/grid/compass, [direction_heading/2, grid_beside/4]).
+:- reexport(private/grid/map,
             except([ grid_unknown/3, must_be_cell/1, must_be_state/2 ])).
-:- reexport(grid_problem).
+:- reexport(private/grid/problem).

@@ -8,7 +8,10 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(driver, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(private/attributes, [attribute_words/4]).
+:- use_module(private/native,
+              [ attribute_/4, device_/4, port_device_/2, port_set_device_/2,
+                port_set_mode_/2 ]).
 
 /** <module> Ports, and what is plugged into them
 
@@ -33,7 +36,7 @@ All predicates fail if there is no such port.
 %   True if Port is one of the brick's: `in1` to `in4` and `outA` to `outD`.
 
 lego_port(Port) :-
-    ev3dev_driver:device_('lego-port', Port, _, _).
+    device_('lego-port', Port, _, _).
 
 %!  port_mode(?Port, ?Mode) is nondet.
 %
@@ -49,7 +52,7 @@ lego_port(Port) :-
 port_mode(Port, Mode) :-
     var(Mode),
     !,
-    ev3dev_driver:attribute_('lego-port', Port, mode, Mode).
+    attribute_('lego-port', Port, mode, Mode).
 port_mode(Port, Mode) :-
     must_be(atom, Mode),
     (   port_set_mode_(Port, Mode)
@@ -62,7 +65,7 @@ port_mode(Port, Mode) :-
 %   True if Modes is the list of the modes that the port can be put into.
 
 port_modes(Port, Modes) :-
-    ev3dev_driver:attribute_words('lego-port', Port, modes, Modes).
+    attribute_words('lego-port', Port, modes, Modes).
 
 %!  port_status(?Port, -Status) is nondet.
 %
@@ -70,7 +73,7 @@ port_modes(Port, Modes) :-
 %   `tacho-motor`, `no-sensor`, `ev3-uart` or `error`.
 
 port_status(Port, Status) :-
-    ev3dev_driver:attribute_('lego-port', Port, status, Status).
+    attribute_('lego-port', Port, status, Status).
 
 %!  port_device(?Port, ?Device) is nondet.
 %
@@ -102,5 +105,3 @@ not_there(Port, What) :-
     ;   debug(ev3dev, "there is no port ~w", [Port])
     ),
     fail.
-
-:- on_demand_loaded.

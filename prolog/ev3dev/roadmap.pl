@@ -7,10 +7,11 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
-:- use_module(options, [take_options/4]).
-:- use_module(roadmap_arguments,
+:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
 :- reexport(navigation).
+:- use_module(private/native, [roadmap_/5, roadmap_svg_/5]).
 
 /** <module> Ways for a robot between obstacles of any shape
 

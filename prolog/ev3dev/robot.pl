@@ -1,7 +1,6 @@
 :- module(ev3dev_robot,
           [ set_robot/4,        % +WheelDiameter, +AxleLength, +Left, +Right
             set_robot/5,        % ... , +Options
-            robot/4,            % ?WheelDiameter, ?AxleLength, ?Left, ?Right
             stop/0,
             go/1,               % +Speed
             go/2,               % +Speed, +Angle
@@ -12,8 +11,13 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
-:- use_module(options, [finite/1, must_be_options/3]).
+:- use_module(private/arguments, [finite/1, must_be_options/3]).
+:- use_module(private/robot_state,
+              [ move_hook/2, robot_description/1, robot_set/4,
+                store_robot/2 ]).
+:- reexport(private/robot_state, [robot/4]).
 :- use_module(sensors, [gyro_sensor/1]).
+:- use_module(private/native, [turn_by_gyro_/5]).
 
 /** <module> A robot with two wheels
 
@@ -34,16 +38,6 @@ move is impossible: a speed beyond 100 percent, or going with a speed or an
 angle of 0. Nothing moves then.
 Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 */
-
-:- dynamic
-    robot/4,
-    built/3.                            % Diameters, Inverted, Offset
-
-%   Library(ev3dev/drive) makes the moves once it is loaded, and is told of
-%   the robot.
-:- multifile
-    move_hook/2,                        % +Move, -Done
-    robot_hook/0.
 
 %!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right) is semidet.
 %!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right, +Options)
@@ -87,12 +81,10 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
               [Left, Right]),
         fail
     ),
-    with_mutex(ev3dev_robot,
-               ( retractall(robot(_, _, _, _)),
-                 retractall(built(_, _, _)),
-                 assertz(built(Diameters, Inverted, Offset)),
-                 asserta(robot(WheelDiameter, AxleLength, Left, Right)) )),
-    forall(robot_hook, true).
+    Diameters = DL-DR,
+    Inverted = IL-IR,
+    store_robot(robot(WheelDiameter, AxleLength, Left, Right),
+                robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)).
 
 build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     must_be_options(robot_option,
@@ -126,19 +118,9 @@ inverted(Side, Sides, Inverted) :-
     ;   Inverted = false
     ).
 
-%   The robot as library(ev3dev/drive) wants it.
-robot_built(robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)) :-
-    robot_set(WheelDiameter, AxleLength, Left, Right),
-    (   built(DL-DR, IL-IR, Offset)
-    ->  true
-    ;   DL-DR = WheelDiameter-WheelDiameter,
-        IL-IR = false-false,
-        Offset = 0
-    ).
-
 %   Forwards is 1, or -1 where the motor is mounted the other way round.
 forwards(LeftSign, RightSign) :-
-    robot_built(robot(_, _, _, _, IL, IR, _, _)),
+    robot_description(robot(_, _, _, _, IL, IR, _, _)),
     sign_of(IL, LeftSign),
     sign_of(IR, RightSign).
 
@@ -155,18 +137,6 @@ must_be_length(Length) :-
         finite(Length)
     ->  true
     ;   domain_error(positive_number, Length)
-    ).
-
-%!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
-%
-%   True if that is the robot that was set by set_robot/4.
-
-%   As robot/4 does, for who can do nothing without.
-robot_set(WheelDiameter, AxleLength, Left, Right) :-
-    (   robot(WheelDiameter, AxleLength, Left, Right)
-    ->  true
-    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
-        fail
     ).
 
 %!  stop is semidet.
@@ -220,7 +190,7 @@ go(Speed, Angle) :-
 wheel_angles(Left, Right, LeftAngle, RightAngle) :-
     forwards(LS, RS),
     robot(Diameter, _, _, _),
-    robot_built(robot(_, _, DL, DR, _, _, _, _)),
+    robot_description(robot(_, _, DL, DR, _, _, _, _)),
     wheel_angle(LS, Diameter, DL, Left, LeftAngle),
     wheel_angle(RS, Diameter, DR, Right, RightAngle).
 

@@ -19,9 +19,11 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
-:- use_module(dev, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_options/3, must_be_within/4]).
+:- use_module(files, []).
+:- use_module(private/arguments, [must_be_options/3, must_be_within/4]).
+:- use_module(private/native,
+              [ screen_clear_/0, screen_draw_/2, screen_image_/3,
+                screen_png_/1, screen_show_/0, screen_write_/4 ]).
 
 /** <module> The screen
 
@@ -272,5 +274,3 @@ screen_png(File) :-
     ->  true
     ;   no_screen
     ).
-
-:- on_demand_loaded.

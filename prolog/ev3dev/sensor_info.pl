@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(private/attributes, [attribute_words/4]).
 
 /** <module> What sensors there are, and what they can do
 
@@ -57,7 +57,7 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
 sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
     load_tables,
     (   known_mode(Type, Mode, Count, Decimals, Units, Meaning)
-    ;   table_module(Table),
+    ;   table(Table, _),
         Table:mode(Type, Mode, Count, Decimals, Units, Meaning)
     ).
 
@@ -69,13 +69,13 @@ sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
 sensor_type(Type, What) :-
     load_tables,
     (   known_type(Type, What)
-    ;   table_module(Table),
+    ;   table(Table, _),
         Table:type(Type, What)
     ).
 
 % The tables are large, and most programs never ask for them.
-table_module(ev3dev_lego_sensors).
-table_module(ev3dev_other_sensors).
+table(ev3dev_lego_sensors, lego).
+table(ev3dev_other_sensors, other).
 
 load_tables :-
     tables_loaded,
@@ -89,12 +89,11 @@ load_tables_once :-
 load_tables_once :-
     module_property(ev3dev_sensor_info, file(Here)),
     file_directory_name(Here, Directory),
-    forall(table_module(Module), load_table(Directory, Module)),
+    forall(table(_, Name), load_table(Directory, Name)),
     assertz(tables_loaded).
 
-load_table(Directory, Module) :-
-    atom_concat(ev3dev_, Name, Module),
-    atomic_list_concat([Directory, /, Name], File),
+load_table(Directory, Name) :-
+    atomic_list_concat([Directory, '/private/sensor_table/', Name], File),
     load_files(ev3dev_sensor_info:File, [if(not_loaded), imports([])]).
 
 %!  sensor_info(?Port, -Info) is nondet.
@@ -134,12 +133,12 @@ info(Port, _, Item) :-
     sensor_attribute(Port, units, Units),
     member(Item, [mode(Mode), values(Values), units(Units)]).
 info(Port, Type, modes(Modes)) :-
-    ev3dev_driver:attribute_words('lego-sensor', Port, modes, Names),
+    attribute_words('lego-sensor', Port, modes, Names),
     findall(Mode,
             ( member(Name, Names), mode_info(Type, Name, Mode) ),
             Modes).
 info(Port, _, commands(Commands)) :-
-    ev3dev_driver:attribute_words('lego-sensor', Port, commands, Commands).
+    attribute_words('lego-sensor', Port, commands, Commands).
 
 mode_info(Type, Name, Mode) :-
     sensor_mode(Type, Name, Count, Decimals, Units, Meaning),
@@ -158,5 +157,3 @@ sensor_command(Port, Command) :-
     must_be(nonvar, Command),
     must_be(nonvar, Port),
     sensor_attribute(Port, command, Command).
-
-:- on_demand_loaded.

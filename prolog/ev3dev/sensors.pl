@@ -20,10 +20,14 @@
             sensor_reading/3,           % +Reading, ?Port, -Value
             sensor_value/4,             % ?Port, +Mode, +Index, -Value
             sensor_values/3,            % ?Port, +Mode, -Values
-            adjust_val/3                % +Port, +Raw, -Value
+            adjust_val/3,               % +Port, +Raw, -Value
+            reading_types/2             % ?Reading, ?Types
           ]).
 :- use_module(driver, [lego_sensor/2]).
-:- use_module(one_of).
+:- use_module(private/sensor_type, [sensor_of/3]).
+:- use_module(private/native,
+              [ sensor_restart_/3, sensor_scale_/3, sensor_value_/5,
+                sensor_values_/5 ]).
 
 /** <module> Sensors
 
@@ -50,7 +54,7 @@ and its own there, `in1:i2c1`; `in1` is enough to name it. The kernel reads it
 ten times a second.
 
 Here are the EV3's own sensors and those of the NXT that measure the same.
-Others are in library(ev3dev/infrared) and library(ev3dev/more_sensors), and
+Others are in library(ev3dev/infrared) and library(ev3dev/nxt_sensors), and
 library(ev3dev/sensor_info) tells what any sensor can do.
 
 ## Adding a sensor {#adding-a-sensor}
@@ -67,6 +71,14 @@ ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 */
 
 :- multifile reading/4.
+
+%!  reading_types(?Reading, ?Types) is nondet.
+%
+%   True if sensors of these Types show Reading in one of their modes. For
+%   libraries that add readings.
+
+reading_types(Reading, Types) :-
+    reading(Reading, Types, _, _).
 
 %!  reading(?Reading, ?Types, ?Mode, ?Index) is nondet.
 %
@@ -145,23 +157,6 @@ touch_sensor(Port) :-
 
 infrared_sensor(Port) :-
     lego_sensor(Port, 'lego-ev3-ir').
-
-%!  sensor_of(?Port, +Types, -Type) is nondet.
-%
-%   True if a sensor of Type, one of Types, is plugged into Port. The last
-%   leaves no choice.
-
-sensor_of(Port, Types, Type) :-
-    nonvar(Port),
-    !,
-    lego_sensor(Port, Type0),
-    memberchk(Type0, Types),
-    Type = Type0.
-sensor_of(Port, Types, Type) :-
-    findall(P-T,
-            ( lego_sensor(P, T), memberchk(T, Types) ),
-            Sensors),
-    one_of(Sensors, Port-Type).
 
 %!  col_ambient(?Port, -Percent) is nondet.
 %!  col_reflect(?Port, -Percent) is nondet.

@@ -8,10 +8,11 @@
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(class_settings, [class_polarity/3, class_settings/3]).
+:- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).
-:- use_module(halt, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(private/halt, []).
+:- use_module(private/attributes, [attribute/4]).
+:- use_module(private/native, [servo_motor_float_/1, servo_position_/2, servo_set_position_/2]).
 
 /** <module> RC servos
 
@@ -74,6 +75,9 @@ cannot(Port, Position) :-
 %
 %   Let a servo float: it may be turned by hand.
 
+servo_motor_float(Port) :-
+    servo_motor_float_(Port).
+
 %!  servo_motor_polarity(?Port, ?Polarity) is nondet.
 %
 %   Read or write a servo's polarity: `normal`, or `inversed` to turn the
@@ -120,6 +124,4 @@ servo_motor_pulses(Port, Min, Mid, Max) :-
 %   motors.
 
 servo_motor_attribute(Port, Attribute, Value) :-
-    ev3dev_driver:attribute('servo-motor', Port, Attribute, Value).
-
-:- on_demand_loaded.
+    attribute('servo-motor', Port, Attribute, Value).

@@ -8,13 +8,14 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(driver, []).
-:- use_module(options, [must_be_options/3]).
-:- use_module(fact_file,
+:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/facts,
               [fact_location/3, located_facts/3, throw_located/3]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- reexport(sim_time).
 :- reexport(sim_views).
+:- use_module(private/native, [sim_active_/0, sim_start_/6, sim_stop_/0]).
 
 /** <module> A simulated robot in a simulated world
 
@@ -223,7 +224,7 @@ sim_start(World, Options) :-
     set_added_facts([]).
 
 must_be_built :-
-    (   predicate_property(ev3dev_sim:sim_active_, foreign)
+    (   predicate_property(sim_active_, foreign)
     ->  true
     ;   existence_error(feature, sim)
     ).

@@ -19,7 +19,11 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
-:- use_module(options, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/native,
+              [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
+                sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,
+                sim_show_/3, sim_unplug_/1, sim_unshow_/2 ]).
 
 /** <module> A hand in the simulated world
 

@@ -8,6 +8,9 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(driver, []).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
+:- use_module(private/native,
+              [ sim_restore_/1, sim_snapshot_/1,
+                sim_step_/1, sim_time_/1, sim_wait_/1 ]).
 
 /** <module> Simulated time
 
@@ -26,11 +29,6 @@ fail if no simulation runs.
 sim_wait(Seconds0) :-
     Seconds is Seconds0,
     sim_wait_(Seconds).
-
-%   sim_hold_ and sim_release_ are for tests of several threads: in between,
-%   no time passes on the virtual clock unless this thread waits.
-
-:- public sim_hold_/0, sim_release_/0.
 
 %!  sim_step(+Seconds) is semidet.
 %

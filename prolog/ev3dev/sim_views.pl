@@ -9,6 +9,9 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, []).
+:- use_module(private/native,
+              [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
+                sim_trace_/1, sim_unmount_/0 ]).
 
 /** <module> What a simulation shows
 
@@ -109,7 +112,7 @@ sim_unmount :-
 :- initialization(at_halt(unmount_at_halt), now).
 
 unmount_at_halt :-
-    (   predicate_property(ev3dev_sim_views:sim_unmount_, foreign)
+    (   predicate_property(sim_unmount_, foreign)
     ->  ignore(sim_unmount_)
     ;   true
     ).

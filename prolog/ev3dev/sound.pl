@@ -10,9 +10,11 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
-:- use_module(dev, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_options/3]).
+:- use_module(files, []).
+:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/native,
+              [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
+                volume_set_/1 ]).
 
 /** <module> The speaker
 
@@ -226,5 +228,3 @@ sound_stop :-
     sound_stop_.
 
 :- initialization(at_halt(sound_stop_), now).
-
-:- on_demand_loaded.

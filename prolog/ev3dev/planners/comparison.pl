@@ -5,10 +5,10 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../grid_compass').
-:- use_module('../grid_map').
-:- use_module('../grid_problem').
-:- use_module('../options', [must_be_options/3]).
+:- use_module('../private/grid/compass').
+:- use_module('../private/grid/map').
+:- use_module('../private/grid/problem').
+:- use_module('../private/arguments', [must_be_options/3]).
 :- use_module(picture).
 :- use_module(search).
 

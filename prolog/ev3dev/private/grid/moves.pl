@@ -2,12 +2,12 @@
           [ carry_out/3                 % +Plan, :Tell_1, -Outcome
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(drive, [face/2, go_to/4]).
-:- use_module(grid_compass).
-:- use_module(grid_knowledge).
-:- use_module(grid_map).
-:- use_module(grid_place).
-:- use_module(sensors, [us_dist_cm/2]).
+:- use_module('../../drive', [face/2, go_to/4]).
+:- use_module(compass).
+:- use_module(knowledge).
+:- use_module(map).
+:- use_module(place).
+:- use_module('../../sensors', [us_dist_cm/2]).
 
 /** <module> A robot that goes from cell to cell
 

@@ -19,9 +19,9 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
-:- use_module(grid_compass).
-:- use_module(grid_drawing).
-:- use_module(options, [must_be_options/3]).
+:- use_module(compass).
+:- use_module(drawing).
+:- use_module('../arguments', [must_be_options/3]).
 
 /** <module> Maps of grids
 

@@ -1,4 +1,4 @@
-:- module(ev3dev_options,
+:- module(ev3dev_arguments,
           [ must_be_options/3,          % +Domain, +Names, +Options
             take_options/4,             % +Names, +Options, -Taken, -Rest
             must_be_timeout/1,          % +Seconds

@@ -1,10 +1,11 @@
-:- module(ev3dev_fact_file,
+:- module(ev3dev_facts,
           [ located_facts/3,            % +Kind, +Source, -Located
             fact_location/3,            % +Item, +Located, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
+:- use_module(native, [sim_check_/1]).
 
 /** <module> Files of facts about worlds and robots
 
@@ -49,14 +50,15 @@ located_facts(Kind, Source, Located) :-
 
 shipped(Kind, Name, File) :-
     atomic(Name),
-    module_property(ev3dev_fact_file, file(Here)),
-    file_directory_name(Here, Directory),
-    atomic_list_concat([Directory, /, Kind, 's/', Name, '.pl'], File),
+    module_property(ev3dev_facts, file(Here)),
+    file_directory_name(Here, Private),
+    atomic_list_concat([Private, '/../', Kind, 's/', Name, '.pl'], Path),
+    absolute_file_name(Path, File),
     exists_file(File).
 
 read_facts(Stream, Kind, File, Located) :-
     read_term(Stream, Fact,
-              [module(ev3dev_fact_file), term_position(Position)]),
+              [module(ev3dev_facts), term_position(Position)]),
     (   Fact == end_of_file
     ->  Located = []
     ;   location(File, Position, Location),
@@ -77,7 +79,7 @@ check_all([Fact-Location|Rest], Kind) :-
 
 check(Kind, Fact, Location) :-
     must_be_of_kind(Kind, Fact, Location),
-    catch(ev3dev_sim:sim_check_(Fact),
+    catch(sim_check_(Fact),
           error(Formal, context(_, Why)),
           throw_located(Formal, Location, Why)).
 

@@ -62,9 +62,14 @@ library_file(File) :-
 
 pack_folder(Pack) :-
     module_property(ev3dev_library_file, file(File)),
-    file_directory_name(File, Folder),
-    file_directory_name(Folder, Prolog),
-    file_directory_name(Prolog, Pack).
+    parent(4, File, Pack).
+
+parent(0, Path, Path) :-
+    !.
+parent(N, Path0, Path) :-
+    N1 is N-1,
+    file_directory_name(Path0, Path1),
+    parent(N1, Path1, Path).
 
 suitable_file(Pack, File) :-
     program_kind(Kind),

@@ -1,5 +1,5 @@
 :- module(ev3dev_halt, []).
-:- use_module(library_file, []).
+:- use_module(native, [stop_started_/0]).
 
 :- initialization(
        create_prolog_flag(ev3dev_stop_at_halt, true,

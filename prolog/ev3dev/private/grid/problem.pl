@@ -5,12 +5,12 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
-:- use_module(grid_compass).
-:- use_module(grid_map).
+:- use_module(compass).
+:- use_module(map).
 
 /** <module> Planning problems on grids
 
-What a map of library(ev3dev/grid_map) asks of a planner of
+What a map of private/grid/map.pl asks of a planner of
 library(ev3dev/planners).
 
 ```

@@ -9,12 +9,13 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(options, [must_be_options/3, must_be_timeout/1]).
-:- use_module(robot, []).
-:- use_module(odometry,
-              [ drive_option/2, number_value/2, robot_driven/1,
+:- use_module(arguments, [must_be_options/3, must_be_timeout/1]).
+:- use_module('../odometry',
+              [ drive_option/2, number_value/2,
                 valid_drive_option/3
               ]).
+:- use_module(robot_state, [robot/4, robot_description/1]).
+:- use_module(native, [drive_/4, drive_wait_/3]).
 
 /** <module> How a move is carried out
 
@@ -39,7 +40,7 @@ What all moves of library(ev3dev/drive) have in common.
 move(Percent, Course, Options) :-
     move_options(Percent, Course, Options, Native),
     option(reason(Reason), Options, _),
-    robot_driven(Robot),
+    robot_description(Robot),
     (   catch(drive_(Robot, Course, Native, Ended), E, true)
     ->  (   var(E)
         ->  true
@@ -81,7 +82,7 @@ ended(reached, _) :-
     !.
 ended(stalled, _) :-
     !,
-    ev3dev_robot:robot(_, _, Left, Right),
+    robot(_, _, Left, Right),
     print_message(warning, ev3dev(stalled([Left, Right]))),
     fail.
 ended(Reason, Course) :-
@@ -101,7 +102,7 @@ drive_wait(Options, Reason) :-
     must_be_options(drive_option, [timeout], Options),
     option(timeout(Timeout), Options, infinite),
     must_be_timeout(Timeout),
-    robot_driven(Robot),
+    robot_description(Robot),
     catch(drive_wait_(Robot, Timeout, Reason),
           error(existence_error(_, _), _),
           Reason = unplugged).

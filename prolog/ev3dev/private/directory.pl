@@ -6,7 +6,7 @@
 
 /** <module> Directories that a program or its environment names
 
-What library(ev3dev/sysfs) and library(ev3dev/dev) have in common.
+Where the trees of devices and of device files are.
 */
 
 %!  directory_path(+Directory, -Path) is det.

@@ -7,8 +7,8 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(fact_file, [located_facts/3]).
-:- use_module(options, [finite/1, must_be_options/3]).
+:- use_module(facts, [located_facts/3]).
+:- use_module(arguments, [finite/1, must_be_options/3]).
 
 /** <module> Arguments of planning and navigation
 

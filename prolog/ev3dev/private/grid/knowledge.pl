@@ -9,8 +9,9 @@
             known_free/1                % +Cell
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(driver, []).
-:- use_module(grid_map, [must_be_cell/1]).
+:- use_module('../../driver', []).
+:- use_module(map, [must_be_cell/1]).
+:- use_module('../native', [sim_time_/1]).
 
 /** <module> What a robot knows of its grid
 
@@ -66,8 +67,8 @@ lasts(until(Time)) :-
 %   In the simulator its time counts.
 
 now(Seconds) :-
-    predicate_property(ev3dev_sim_time:sim_time_(_), foreign),
-    ev3dev_sim_time:sim_time_(Simulated),
+    predicate_property(sim_time_(_), foreign),
+    sim_time_(Simulated),
     !,
     Seconds = Simulated.
 now(Seconds) :-

@@ -1,11 +1,15 @@
-:- module(ev3dev_sysfs,
+:- module(ev3dev_files,
           [ subsystem_detect/4,         % ?Port, ?Type, ?Path, +Pattern
             file_read/2,                % +File, -Value
             file_write/2,               % +File, +Value
-            ev3_sysfs/1                 % ?Directory
+            ev3_sysfs/1,                % ?Directory
+            ev3_dev/1                   % ?Directory
           ]).
-:- use_module(directory, [directory_path/2, environment_directory/2]).
-:- use_module(library_file, []).
+:- use_module(private/directory, [directory_path/2, environment_directory/2]).
+:- use_module(private/native,
+              [ dev_/1, dev_use_/1, file_read_/2, file_write_/2,
+                sim_active_/0, subsystem_detect_/4, sysfs_/1, sysfs_use_/1
+              ]).
 
 /** <module> Files of devices
 
@@ -30,6 +34,9 @@ another directory of the same shape, or the simulator's.
 %   @error instantiation_error if Pattern is unbound
 %   @error domain_error(file_name_pattern, Pattern)
 
+subsystem_detect(Port, Type, Path, Pattern) :-
+    subsystem_detect_(Port, Type, Path, Pattern).
+
 %!  file_read(+File, -Value) is semidet.
 %
 %   Read an attribute file. Value is a number if the text is one, else an
@@ -41,6 +48,9 @@ another directory of the same shape, or the simulator's.
 %   @error syntax_error(attribute) if File holds no text, or more than the
 %          4096 bytes that an attribute may have
 
+file_read(File, Value) :-
+    file_read_(File, Value).
+
 %!  file_write(+File, +Value) is det.
 %
 %   Write an atom, string or number to an attribute file, which must exist.
@@ -48,6 +58,9 @@ another directory of the same shape, or the simulator's.
 %   @error existence_error(file, File)
 %   @error permission_error(write, attribute, File)
 %   @error domain_error(Attribute, Value) if the device does not accept it
+
+file_write(File, Value) :-
+    file_write_(File, Value).
 
 %!  ev3_sysfs(?Directory) is det.
 %
@@ -101,16 +114,16 @@ simulator_needless :-
     exists_directory(Directory),
     !.
 simulator_needless :-
-    \+ predicate_property(ev3dev_sim:sim_active_, foreign),
+    \+ predicate_property(sim_active_, foreign),
     !.
 simulator_needless :-
-    ev3dev_sim:sim_active_.
+    sim_active_.
 
 simulate :-
-    module_property(ev3dev_sysfs, file(Here)),
+    module_property(ev3dev_files, file(Here)),
     file_directory_name(Here, Directory),
     atom_concat(Directory, '/sim', Simulator),
-    load_files(ev3dev_sysfs:Simulator, [if(not_loaded), imports([])]),
+    load_files(ev3dev_files:Simulator, [if(not_loaded), imports([])]),
     ev3dev_sim:sim_start(room),
     print_message(informational, ev3dev(simulated(room))).
 
@@ -120,3 +133,35 @@ prolog:message(ev3dev(simulated(World))) -->
     [ 'This machine is no EV3: simulating one in the world `~w`. '-[World],
       'See library(ev3dev/sim).'-[]
     ].
+
+%!  ev3_dev(?Directory) is det.
+%
+%   Query or set the directory that holds the device files: `fb0`, the screen,
+%   and in `input/by-path` the keys and the speaker. At first it is the value
+%   of the environment variable EV3DEV_DEV, if that is set and not empty, else
+%   `/dev`. A relative one is relative to the working directory. The simulator
+%   has its own, which are used from sim_start/1 on.
+%
+%   A regular file or a named pipe may stand there for a device. For the keys
+%   a file holds the events there were; what is written behind them happens
+%   then. The screen is told by its length: 3072 bytes, one bit for a pixel,
+%   or 91136, four bytes for a pixel.
+%
+%   @error existence_error(directory, Directory)
+%   @see ev3_sysfs/1 for what is below `/sys/class`
+
+ev3_dev(Directory) :-
+    var(Directory),
+    !,
+    dev_(Directory).
+ev3_dev(Directory) :-
+    directory_path(Directory, Path),
+    dev_use_(Path).
+
+use_dev_environment :-
+    (   environment_directory('EV3DEV_DEV', Directory)
+    ->  ev3_dev(Directory)
+    ;   true
+    ).
+
+:- initialization(use_dev_environment, now).

@@ -4,8 +4,10 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(driver, []).
-:- use_module(options, [must_be_within/4]).
+:- use_module('../driver', []).
+:- use_module(arguments, [must_be_within/4]).
+:- use_module(attributes, [attribute/4]).
+:- use_module(native, [attribute_/4, attribute_write_/4, device_/4]).
 
 /** <module> What motors of any class are set to
 */
@@ -21,7 +23,7 @@
 class_settings(Class, Port, Settings) :-
     maplist(is_unbound, Settings),
     !,
-    ev3dev_driver:device_(Class, Port, _, _),
+    device_(Class, Port, _, _),
     maplist(setting_read(Class, Port), Settings).
 class_settings(Class, Port, Settings) :-
     maplist(must_be_setting, Settings),
@@ -34,10 +36,10 @@ must_be_setting(setting(Attribute, Lowest, Highest, Value)) :-
     must_be_within(Lowest, Highest, Attribute, Value).
 
 setting_read(Class, Port, setting(Attribute, _, _, Value)) :-
-    ev3dev_driver:attribute_(Class, Port, Attribute, Value).
+    attribute_(Class, Port, Attribute, Value).
 
 setting_write(Class, Port, setting(Attribute, _, _, Value)) :-
-    ev3dev_driver:attribute_write_(Class, Port, Attribute, Value).
+    attribute_write_(Class, Port, Attribute, Value).
 
 %!  class_polarity(+Class, ?Port, ?Polarity) is nondet.
 %
@@ -53,4 +55,4 @@ class_polarity(Class, Port, Polarity) :-
     ->  true
     ;   domain_error(polarity, Polarity)
     ),
-    ev3dev_driver:attribute(Class, Port, polarity, Polarity).
+    attribute(Class, Port, polarity, Polarity).

@@ -1,4 +1,4 @@
-:- module(ev3dev_more_sensors,
+:- module(ev3dev_nxt_sensors,
           [ nxt_light/2,                % ?Port, -Percent
             nxt_ambient/2,              % ?Port, -Percent
             nxt_sound/2,                % ?Port, -Percent
@@ -23,8 +23,9 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(sensors, [sensor_reading/3]).
-:- use_module(on_demand, [on_demand_loaded/0]).
+:- use_module(sensors, [reading_types/2, sensor_reading/3]).
+:- use_module(private/sensor_type, [sensor_of/3]).
+:- use_module(private/native, [sensor_values_/5]).
 
 /** <module> Sensors of the NXT and of other makers
 
@@ -47,17 +48,17 @@ measured(Reading, Port, Value) :-
     sensor_reading(Reading, Port, Value).
 measured(Reading, Port, Value) :-
     findall(Type,
-            ( ev3dev_sensors:reading(Reading, Types, _, _),
+            ( reading_types(Reading, Types),
               member(Type, Types)
             ),
             All),
-    ev3dev_sensors:sensor_of(Port, All, _),
+    sensor_of(Port, All, _),
     sensor_reading(Reading, Port, Value).
 
 % So many values of a sensor of one of these types.
 values(Port, Types, Mode, Values) :-
     length(Values, Count),
-    ev3dev_sensors:sensor_values_(Port, Types, Mode, Count, Values).
+    sensor_values_(Port, Types, Mode, Count, Values).
 
 %!  nxt_light(?Port, -Percent) is nondet.
 %!  nxt_ambient(?Port, -Percent) is nondet.
@@ -101,7 +102,7 @@ target_temperature(Port, Celsius) :-
 %   the tube of mindsensors' pneumatic sensor. A hectopascal is a millibar.
 
 pressure(Port, Hectopascal) :-
-    ev3dev_sensors:sensor_of(Port, ['ht-nxt-barometric', 'ms-pps58-nx'],
+    sensor_of(Port, ['ht-nxt-barometric', 'ms-pps58-nx'],
                              Type),
     pressure_of(Type, Port, Pressure),
     Hectopascal = Pressure.
@@ -133,7 +134,7 @@ ht_color(Port, Number) :-
     sensor_reading(ht_color, Port, Number).
 
 ht_color_rgb(Port, RGB) :-
-    ev3dev_sensors:sensor_of(Port, ['ht-nxt-color', 'ht-nxt-color-v2'], Type),
+    sensor_of(Port, ['ht-nxt-color', 'ht-nxt-color-v2'], Type),
     rgb_of(Type, Port, Seen),
     RGB = Seen.
 
@@ -178,7 +179,7 @@ eopd_mode(short, 'SHORT').
 %   @see http://www.hitechnic.com, sensor NAC1040, for its 200 counts to the g
 
 acceleration(Port, X, Y, Z) :-
-    ev3dev_sensors:sensor_of(Port, [ 'ht-nxt-accel', 'ms-absolute-imu',
+    sensor_of(Port, [ 'ht-nxt-accel', 'ms-absolute-imu',
                                      'mi-xg1300l' ], Type),
     acceleration_of(Type, Port, Felt),
     Felt = [X, Y, Z].
@@ -246,7 +247,7 @@ angle_rpm(Port, RevolutionsPerMinute) :-
 %   the commands `CAL-WHITE` and `CAL-BLACK`.
 
 light_row(Port, Percents) :-
-    ev3dev_sensors:sensor_values_(Port, ['ms-light-array', 'ms-line-leader'],
+    sensor_values_(Port, ['ms-light-array', 'ms-line-leader'],
                                   'CAL', 8, Percents).
 
 %!  line_leader(?Port, -Steering, -Seen) is nondet.
@@ -277,5 +278,3 @@ energy_meter(Port, power(InV, InA, InW), power(OutV, OutA, OutW), Joules) :-
            [InV, InA, OutV, OutA, Stored, InW, OutW]),
     % The kernel gives all seven three decimals, which joules have not.
     Joules is round(Stored * 1000).
-
-:- on_demand_loaded.

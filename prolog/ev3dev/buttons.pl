@@ -1,4 +1,4 @@
-:- module(ev3dev_keys,
+:- module(ev3dev_buttons,
           [ button/1,                   % ?Key
             button_wait/2,              % ?Key, ?Event
             button_wait/3,              % ?Key, ?Event, +Options
@@ -7,9 +7,11 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module(dev, []).
-:- use_module(on_demand, [on_demand_loaded/0]).
-:- use_module(options, [must_be_options/3, must_be_timeout/1]).
+:- use_module(files, []).
+:- use_module(private/arguments, [must_be_options/3, must_be_timeout/1]).
+:- use_module(private/native,
+              [ button_event_/4, button_source_/1, button_wait_/3,
+                buttons_/1 ]).
 
 /** <module> The keys of the brick
 
@@ -99,5 +101,3 @@ events_are([Key-Event|Rest], Source, Index) :-
     Event = Event0,
     Next is Index + 1,
     events(Source, Next, Rest).
-
-:- on_demand_loaded.

@@ -9,11 +9,11 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(drive, [set_pose/3]).
-:- use_module(grid_compass).
-:- use_module(grid_knowledge).
-:- use_module(grid_map).
-:- use_module(options, [finite/1, take_options/4]).
+:- use_module('../../drive', [set_pose/3]).
+:- use_module(compass).
+:- use_module(knowledge).
+:- use_module(map).
+:- use_module('../arguments', [finite/1, take_options/4]).
 
 /** <module> A robot on a grid
 

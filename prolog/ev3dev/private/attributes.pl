@@ -1,0 +1,45 @@
+:- module(ev3dev_attributes,
+          [ attribute/4,                % +Class, ?Port, +Attribute, ?Value
+            attribute_words/4,          % +Class, ?Port, +Attribute, -Words
+            value_attribute/2           % +Index, -Attribute
+          ]).
+:- use_module(native, [attribute_/4, attribute_write_/4]).
+
+/** <module> Attributes of devices of any class
+*/
+
+%!  attribute(+Class, ?Port, +Attribute, ?Value) is nondet.
+%
+%   Read an attribute, or write it if Value is bound.
+
+attribute(Class, Port, Attribute, Value) :-
+    var(Value),
+    !,
+    attribute_(Class, Port, Attribute, Value).
+attribute(Class, Port, Attribute, Value) :-
+    attribute_write_(Class, Port, Attribute, Value).
+
+%!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
+%
+%   True if Words are those of an attribute's text, with spaces between; a
+%   single number, as a mode called 50, is a word, too. For the pack's own
+%   modules.
+
+attribute_words(Class, Port, Attribute, Words) :-
+    attribute_(Class, Port, Attribute, Text),
+    (   Text == ''
+    ->  Words = []
+    ;   atomic_list_concat(Words0, ' ', Text),
+        Words = Words0
+    ).
+
+%!  value_attribute(+Index, -Attribute) is det.
+%
+%   Attribute is that of a sensor's value of this Index.
+
+value_attribute(Index, Attribute) :-
+    must_be(nonneg, Index),
+    (   Index < 8
+    ->  atom_concat(value, Index, Attribute)
+    ;   domain_error(sensor_value_index, Index)
+    ).

@@ -1,0 +1,64 @@
+:- module(ev3dev_robot_state,
+          [ robot/4,                    % ?WheelDiameter, ?Axle, ?Left, ?Right
+            robot_set/4,                % -WheelDiameter, -Axle, -Left, -Right
+            robot_description/1,        % -Robot
+            store_robot/2,              % +Robot, +Description
+            robot_hook/0,
+            move_hook/2                 % +Move, -Done
+          ]).
+:- use_module(library(debug), [debug/3]).
+
+/** <module> The robot that is set
+*/
+
+:- dynamic
+    robot/4,
+    description/1.
+
+%   Library(ev3dev/odometry) is told of the robot, and library(ev3dev/drive)
+%   makes the moves, once they are loaded.
+:- multifile
+    robot_hook/0,
+    move_hook/2.
+
+%!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
+%
+%   True if that is the robot that was set by set_robot/4.
+
+%!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
+%
+%   Like robot/4, but explains with debug(ev3dev) why it fails.
+
+robot_set(WheelDiameter, AxleLength, Left, Right) :-
+    (   robot(WheelDiameter, AxleLength, Left, Right)
+    ->  true
+    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
+        fail
+    ).
+
+%!  robot_description(-Robot) is semidet.
+%
+%   The robot as the foreign library takes it: a term robot(Left, Right,
+%   LeftDiameter, RightDiameter, LeftInverted, RightInverted, AxleLength,
+%   AxleOffset). Fails like robot_set/4.
+
+robot_description(Robot) :-
+    robot_set(WheelDiameter, AxleLength, Left, Right),
+    (   description(Robot)
+    ->  true
+    ;   % a program's own robot/4
+        Robot = robot(Left, Right, WheelDiameter, WheelDiameter, false, false,
+                      AxleLength, 0)
+    ).
+
+%!  store_robot(+Robot, +Description) is det.
+%
+%   Replace the robot by a term robot/4, and its description.
+
+store_robot(Robot, Description) :-
+    with_mutex(ev3dev_robot,
+               ( retractall(robot(_, _, _, _)),
+                 retractall(description(_)),
+                 assertz(description(Description)),
+                 asserta(Robot) )),
+    forall(robot_hook, true).

@@ -1,0 +1,25 @@
+:- module(ev3dev_sensor_type,
+          [ sensor_of/3                 % ?Port, +Types, -Type
+          ]).
+:- use_module('../driver', [lego_sensor/2]).
+:- use_module(one_of).
+
+/** <module> Sensors of one of several types
+*/
+
+%!  sensor_of(?Port, +Types, -Type) is nondet.
+%
+%   True if a sensor of Type, one of Types, is plugged into Port. The last
+%   leaves no choice.
+
+sensor_of(Port, Types, Type) :-
+    nonvar(Port),
+    !,
+    lego_sensor(Port, Type0),
+    memberchk(Type0, Types),
+    Type = Type0.
+sensor_of(Port, Types, Type) :-
+    findall(P-T,
+            ( lego_sensor(P, T), memberchk(T, Types) ),
+            Sensors),
+    one_of(Sensors, Port-Type).
