@@ -43,3 +43,30 @@ is_made() {
 made() {
     echo "$2" >"$1/.made"
 }
+
+# version: the pack's
+version() {
+    local version=
+    if [[ -e $root/pack.pl ]]; then
+        version=$(sed -n "s/^version('\(.*\)')\..*/\1/p" "$root/pack.pl")
+    else
+        version=$(sed -n 's/^version = "\(.*\)"$/\1/p' "$root/Cargo.toml" | head -n 1)
+    fi
+    [[ -n $version ]] || die "no version in pack.pl"
+    echo "$version"
+}
+
+# pack STAGE NAME ARCHIVE: folder NAME of STAGE as a .tgz, and its checksum
+# beside it. The same files make the same bytes: their time is that of the last
+# commit, or SOURCE_DATE_EPOCH. It is never 0: SWI-Prolog 9.0.4 autoloads a
+# library of that time again and again, until its stack is full.
+pack() {
+    local stage=$1 name=$2 archive=$3 time
+    time=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || echo 1)}
+    [[ $time != 0 ]] || time=1
+    tar -C "$stage" --create --format=ustar --sort=name --mtime="@$time" \
+        --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX "$name" |
+        gzip -n -9 >"$archive.new"
+    mv "$archive.new" "$archive"
+    (cd "${archive%/*}" && sha256sum "${archive##*/}" >"${archive##*/}.sha256")
+}

@@ -40,8 +40,7 @@ main() {
     done
 
     archive=$root/dist/ev3dev-$(version).tgz
-    pack "$stage" "$archive"
-    (cd "$root/dist" && sha256sum "${archive##*/}" >"${archive##*/}.sha256")
+    pack "$stage" ev3dev "$archive"
     echo "${archive#"$root"/}: $(stat -c %s "$archive") bytes"
 }
 
@@ -51,26 +50,6 @@ copy_contents() {
         [[ ! -e $root/$item ]] || cp -R "$root/$item" "$1/"
     done
     find "$1" \( -name '.*' -o -name '*~' -o -name '*.qlf' \) -delete
-}
-
-version() {
-    local version=
-    if [[ -e $root/pack.pl ]]; then
-        version=$(sed -n "s/^version('\(.*\)')\..*/\1/p" "$root/pack.pl")
-    else
-        version=$(sed -n 's/^version = "\(.*\)"$/\1/p' "$root/Cargo.toml" | head -n 1)
-    fi
-    [[ -n $version ]] || die "no version in pack.pl"
-    echo "$version"
-}
-
-pack() {
-    local stage=$1 archive=$2 time
-    time=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || echo 0)}
-    tar -C "$stage" --create --format=ustar --sort=name --mtime="@$time" \
-        --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX ev3dev |
-        gzip -n -9 >"$archive.new"
-    mv "$archive.new" "$archive"
 }
 
 main
