@@ -91,8 +91,9 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Call<C>) -> PrologResu
     throw(call, &formal, "")
 }
 
-/// Raises `error(Formal, context(Name/Arity, Message))`; an empty message
-/// stays unbound.
+/// Raises `error(Formal, context(Called, Message))`, as
+/// `prolog/ev3dev/private/errors.pl` does: that finds out what the program called,
+/// and has words for what has no message.
 fn throw<T, C: QueryableContextType>(
     call: &Call<C>,
     formal: &Term,
@@ -104,11 +105,10 @@ fn throw<T, C: QueryableContextType>(
     indicator.unify_arg(1, atomable(call.name))?;
     indicator.unify_arg(2, call.arity)?;
     let text = context.new_term_ref();
-    if !message.is_empty() {
-        unify_atom(&text, message)?;
-    }
-    let error = term! {context: error(#formal, context(#&indicator, #&text))}?;
-    context.raise_exception(&error)
+    unify_atom(&text, message)?;
+    context.call_once(pred!("ev3dev_errors:throw_error/3"), [formal, &indicator, &text])?;
+    // It has thrown.
+    Err(PrologError::Exception)
 }
 
 /// The formal term of a driver's error.

@@ -131,5 +131,5 @@ fn colour_of<'a, C: QueryableContextType>(
     } else {
         Colour::named(&call.text(term)?)
     };
-    colour.map_or_else(|| wrong_value(call, "led_colour", term), Ok)
+    colour.map_or_else(|| wrong_value(call, "led_color", term), Ok)
 }

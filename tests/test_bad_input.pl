@@ -304,7 +304,8 @@ called_elsewhere(tones/2).
 called_elsewhere(say/1).
 called_elsewhere(screen_png/1).
 
-test(whatever_is_thrown_is_an_iso_error, true(Bad == [])) :-
+test(whatever_is_thrown_is_an_iso_error_that_names_what_was_called,
+     true(Bad == [])) :-
     with_tree([ in1-'lego-ev3-us', outA-'lego-ev3-m-motor',
                 outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor',
                 outD-'rcx-motor', 'in2:i2c88:sv1'-'ms-8ch-servo',
@@ -326,14 +327,23 @@ ends_badly(Goal, How) :-
                          Error = none )),
                    Error, true),
              _),
-    \+ is_fine(Error),
+    \+ is_fine(Error, Goal),
     How = Error.
 
-is_fine(none).
-is_fine(error(Formal, Context)) :-
+is_fine(none, _).
+is_fine(error(Formal, context(Called, Message)), Goal) :-
     nonvar(Formal),
     iso(Formal),
-    ( var(Context) -> true ; Context = context(_, _) ).
+    functor(Goal, Name, Arity),
+    Called == Name/Arity,
+    in_words(Message).
+
+% Words for a person, not what a debugger shows of Rust values.
+in_words(Message) :-
+    atom(Message),
+    Message \== '',
+    forall(member(Debug, ['Some(', 'None', 'Err(', ' { ']),
+           \+ sub_atom(Message, _, _, _, Debug)).
 
 iso(instantiation_error).
 iso(uninstantiation_error(_)).

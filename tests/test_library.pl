@@ -119,7 +119,7 @@ test(works_from_any_folder, true(Status-Output == exit(0)-"ok")) :-
                  main :- ( tacho_motor(nothing) -> true ; write(ok) ).",
                 [goal(main), cwd('/')], Status, Output).
 test(each_layer_loads_alone,
-     [ forall(member(Layer, [driver, motors, sensors, robot, dev, keys, sound, screen])),
+     [ forall(member(Layer, [driver, motors, sensors, robot, files, buttons, sound, screen])),
        true(Status-Output == exit(0)-"") ]) :-
     format(string(Program), ":- use_module(library(ev3dev/~w)).", [Layer]),
     run_program(Program, [], Status, Output).

@@ -1,7 +1,7 @@
 :- module(ev3dev_battery,
           [ battery/2                   % ?Key, -Value
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/native, [battery_/2]).
 
 /** <module> The battery

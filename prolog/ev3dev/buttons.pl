@@ -4,7 +4,7 @@
             button_wait/3,              % ?Key, ?Event, +Options
             button_events/1             % -Events
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(files, []).

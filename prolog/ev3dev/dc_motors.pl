@@ -12,7 +12,9 @@
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/halt, []).
@@ -48,7 +50,7 @@ Every motor that the program has started is stopped at its end.
 %   Run a motor until it is stopped. Does not wait.
 
 dc_motor_run(Port, Percent0) :-
-    Percent is Percent0,
+    evaluated(Percent0, Percent),
     (   dc_motor_run_(Port, Percent)
     ->  true
     ;   cannot(Port, Percent)
@@ -84,8 +86,8 @@ dc_motor_run_timed(Port, Percent, Seconds) :-
     dc_motor_run_timed(Port, Percent, Seconds, []).
 
 dc_motor_run_timed(Port, Percent0, Seconds0, Options) :-
-    Percent is Percent0,
-    Seconds is Seconds0,
+    evaluated(Percent0, Percent),
+    evaluated(Seconds0, Seconds),
     motor_options(Options, brake, [coast, brake], 10000, Native),
     (   dc_motor_run_timed_(Port, Percent, Seconds, Native, Reason)
     ->  run_ended(Reason, Port)
@@ -104,7 +106,7 @@ run_ended(Reason, Port) :-
 %   takes effect, too.
 
 dc_motor_run_direct(Port, Percent0) :-
-    Percent is Percent0,
+    evaluated(Percent0, Percent),
     (   motor_run_direct_('dc-motor', Port, Percent)
     ->  true
     ;   cannot(Port, Percent)

@@ -17,8 +17,10 @@
             follow/1,           % +Points
             follow/2            % +Points, +Options
           ]).
-:- use_module(library(error),
-              [domain_error/2, instantiation_error/1, must_be/2, type_error/2]).
+:- use_module(private/errors,
+              [ domain_error/2, instantiation_error/1, must_be/2,
+                term_expansion/2, type_error/2
+              ]).
 :- use_module(library(option), [option/3]).
 :- use_module(private/arguments, [take_options/4]).
 :- use_module(private/drive_moves,

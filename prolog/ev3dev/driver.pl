@@ -34,7 +34,7 @@
             value_file/3,               % ?Port, +Index, -File
             decimals_file/2             % ?Port, -File
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/attributes,
               [attribute/4, attribute_words/4, value_attribute/2]).
 :- use_module(private/native, [attribute_/4, attribute_write_/4, device_/4]).
@@ -57,8 +57,9 @@ write it, it is written when the value is bound:
 An unbound port enumerates the devices in the order of their ports; writing
 needs a bound one.
 
-Exported here, too, are the predicates of library(ev3dev/files): any files, and
-where they are. library(ev3dev/device_table) shows all devices at a glance.
+Exported here, too, are the predicates of library(ev3dev/files): any files,
+and where they are. library(ev3dev/device_table) shows all devices at a
+glance.
 
 @see http://www.ev3dev.org for each driver's attributes
 */

@@ -4,7 +4,7 @@
             execute_plan/1              % +Plan
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(private/grid/knowledge).

@@ -6,7 +6,7 @@
             ir_seeker/4                 % ?Port, +Light, -Direction,
                                         % -Strengths
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native, [sensor_values_/5]).

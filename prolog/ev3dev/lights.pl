@@ -6,7 +6,9 @@
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native,
               [ led_/3, led_set_colour_/2, led_set_delays_/3,
@@ -64,7 +66,7 @@ led(Light) :-
 %   blue, with `levels(Red, Green, Blue)`. Fails if the light cannot show that
 %   colour.
 %
-%   @error domain_error(led_colour, Colour)
+%   @error domain_error(led_color, Colour)
 %   @error instantiation_error if a Colour is to be set and Light is unbound
 
 led(Light, Colour) :-
@@ -98,14 +100,14 @@ colour(Colour0, Colour) :-
     !,
     percent(Colour0, Colour).
 colour(Colour, _) :-
-    domain_error(led_colour, Colour).
+    domain_error(led_color, Colour).
 
 percent(Expression, Percent) :-
-    Value is Expression,
+    evaluated(Expression, Value),
     (   Value >= 0,
         Value =< 100
-    ->  Percent is round(Value)
-    ;   domain_error(led_colour, Value)
+    ->  evaluated(round(Value), Percent)
+    ;   domain_error(led_color, Value)
     ).
 
 no_light(Light) :-

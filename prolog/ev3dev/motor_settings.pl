@@ -8,7 +8,9 @@
             motor_hold_pid/2            % ?Port, ?PID
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, term_expansion/2
+              ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
@@ -50,7 +52,7 @@ motor_position(Port, Position) :-
     !,
     motor_position_(Port, Position).
 motor_position(Port, Position0) :-
-    Position is Position0,
+    evaluated(Position0, Position),
     motor_set_position_(Port, Position).
 
 %!  motor_duty(?Port, -Percent) is nondet.

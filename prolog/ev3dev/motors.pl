@@ -21,7 +21,9 @@
             motor_run_direct/2          % +Port, +Percent
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(private/halt, []).
@@ -43,8 +45,9 @@ shaft, both any arithmetic expression. Where there is an angle, its sign and
 that of the speed together make the direction. Of a linear actuator what is
 called an angle here is a length, in millimetres.
 
-More commands are in library(ev3dev/motor_settings), motors without rotation sensor in
-library(ev3dev/dc_motors), and RC servos in library(ev3dev/servo_motors).
+What can be set is in library(ev3dev/motor_settings), motors without rotation
+sensor are in library(ev3dev/dc_motors), and RC servos in
+library(ev3dev/servo_motors).
 
 Every motor that the program has started is stopped when Prolog halts, or is
 ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
@@ -62,7 +65,7 @@ angle. Nothing moves then. `debug(ev3dev)` tells why.
 %   @error type_error(evaluable, Speed)
 
 motor_run(Port, Speed) :-
-    Percent is Speed,
+    evaluated(Speed, Percent),
     (   motor_run_(Port, Percent)
     ->  true
     ;   why_not([run(Port, Percent)])
@@ -115,8 +118,8 @@ motor_run(Port, Speed, Angle) :-
     motor_run(Port, Speed, Angle, []).
 
 motor_run(Port, Speed, Angle, Options) :-
-    Percent is Speed,
-    Degrees is Angle,
+    evaluated(Speed, Percent),
+    evaluated(Angle, Degrees),
     motors_turn([move(Port, Percent, Degrees)], Options).
 
 %!  motors_turn(+Moves, +Options) is semidet.
@@ -224,7 +227,7 @@ motor_reset(Port) :-
 %   not wait.
 
 run_forever(Port, Speed) :-
-    CountsPerSecond is round(Speed),
+    evaluated(round(Speed), CountsPerSecond),
     (   abs(CountsPerSecond) < 2 ** 31,
         run_forever_(Port, CountsPerSecond)
     ->  true
@@ -240,7 +243,7 @@ run_forever(Port, Speed) :-
 
 speed_adjust(Percent, Port, CountsPerSecond) :-
     max_speed(Port, MaxSpeed),
-    CountsPerSecond is floor(Percent / 100.0 * MaxSpeed).
+    evaluated(floor(Percent / 100.0 * MaxSpeed), CountsPerSecond).
 
 %!  motor_wait_while(+Port, +Flag) is semidet.
 %!  motor_wait_until(+Port, +Flag) is semidet.
@@ -324,8 +327,8 @@ motor_run_timed(Port, Speed, Seconds) :-
     motor_run_timed(Port, Speed, Seconds, []).
 
 motor_run_timed(Port, Speed, Seconds0, Options0) :-
-    Percent is Speed,
-    Seconds is Seconds0,
+    evaluated(Speed, Percent),
+    evaluated(Seconds0, Seconds),
     must_be(list, Options0),
     append(Options0, [stop_action(brake)], Options),
     motors_turn([for(Port, Percent, Seconds)], Options).
@@ -342,8 +345,8 @@ motor_run_to(Port, Speed, Angle) :-
     motor_run_to(Port, Speed, Angle, []).
 
 motor_run_to(Port, Speed, Angle, Options) :-
-    Percent is Speed,
-    Degrees is Angle,
+    evaluated(Speed, Percent),
+    evaluated(Angle, Degrees),
     motors_turn([to(Port, Percent, Degrees)], Options).
 
 %!  motor_run_direct(+Port, +Percent) is semidet.
@@ -356,7 +359,7 @@ motor_run_to(Port, Speed, Angle, Options) :-
 %          those of some other boards
 
 motor_run_direct(Port, Percent0) :-
-    Percent is Percent0,
+    evaluated(Percent0, Percent),
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
     ;   tacho_motor(Port)

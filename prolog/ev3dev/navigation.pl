@@ -3,7 +3,7 @@
             navigate_to/3       % +Map, +Goal, +Options
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
@@ -111,9 +111,9 @@ sensor(Options, sensor(X, Y, Heading)) :-
     ->  true
     ;   X0 = 0, Y0 = 7, Heading0 = 0
     ),
-    X is X0,
-    Y is Y0,
-    Heading is Heading0.
+    evaluated(X0, X),
+    evaluated(Y0, Y),
+    evaluated(Heading0, Heading).
 
 %   Plans with the map alone first: if that leaves no way, nothing moves.
 

@@ -7,7 +7,9 @@
             valid_drive_option/3,   % +Name, +Value, -Valid
             number_value/2          % +Expression, -Number
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(driver, []).
 :- use_module(private/arguments, [finite/1]).
 :- use_module(private/robot_state, [robot/4, robot_description/1]).
@@ -130,7 +132,7 @@ robot(Robot, UseGyro) :-
 %   @error domain_error(finite_number, Number)
 
 number_value(Expression, Number) :-
-    Number is Expression,
+    evaluated(Expression, Number),
     (   finite(Number)
     ->  true
     ;   domain_error(finite_number, Number)

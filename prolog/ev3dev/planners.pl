@@ -1,4 +1,5 @@
 :- module(ev3dev_planners, []).
+:- use_module(private/errors, [term_expansion/2]).
 
 /** <module> Planners to compare
 

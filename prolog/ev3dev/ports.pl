@@ -6,7 +6,7 @@
             port_device/2               % ?Port, ?Device
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(driver, []).
 :- use_module(private/attributes, [attribute_words/4]).
 :- use_module(private/native,

@@ -4,6 +4,7 @@
             roadmap_legs/5,     % +Map, +Start, +Goal, -Legs, +Options
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
+:- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).

@@ -8,7 +8,9 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
 :- use_module(private/arguments, [finite/1, must_be_options/3]).
@@ -159,7 +161,7 @@ stop :-
 
 go(Speed) :-
     robot_set(_, _, Left, Right),
-    Percent is Speed,
+    evaluated(Speed, Percent),
     moves(Percent),
     forwards(LS, RS),
     directed(LS, Percent, LeftPercent),
@@ -174,8 +176,8 @@ go(Speed) :-
 
 go(Speed, Angle) :-
     robot_set(_, _, Left, Right),
-    Percent is Speed,
-    Degrees is Angle,
+    evaluated(Speed, Percent),
+    evaluated(Angle, Degrees),
     moves(Percent),
     moves(Degrees),
     (   move_hook(go(Percent, Degrees), Done)
@@ -217,7 +219,7 @@ go_cm(Speed, Distance) :-
 
 turn(Speed) :-
     robot_set(_, _, Left, Right),
-    Percent is Speed,
+    evaluated(Speed, Percent),
     forwards(LS, RS),
     Reverse is -Percent,
     directed(LS, Percent, LeftPercent),
@@ -236,8 +238,8 @@ turn(Speed) :-
 
 turn(Speed, Angle) :-
     robot_set(WheelDiameter, AxleLength, Left, Right),
-    Percent is Speed,
-    Degrees is Angle,
+    evaluated(Speed, Percent),
+    evaluated(Angle, Degrees),
     moves(Percent),
     (   move_hook(turn(Percent, Degrees), Done)
     ->  Done == true
@@ -248,7 +250,7 @@ turn(Speed, Angle) :-
         Wheels = wheels(Left, Right, LS, RS, Gearing),
         turn_by_gyro_(Gyro, Wheels, Percent, Signed, Ended),
         turn_ended(Ended, Degrees)
-    ;   WheelAngle is round(AxleLength / WheelDiameter * Degrees),
+    ;   evaluated(round(AxleLength / WheelDiameter * Degrees), WheelAngle),
         Opposite is -WheelAngle,
         wheel_angles(WheelAngle, Opposite, LeftAngle, RightAngle),
         motors_turn([ move(Left, Percent, LeftAngle),

@@ -17,10 +17,13 @@
             screen_png/1                % +File
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(library(option), [option/3]).
 :- use_module(files, []).
 :- use_module(private/arguments, [must_be_options/3, must_be_within/4]).
+:- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ screen_clear_/0, screen_draw_/2, screen_image_/3,
                 screen_png_/1, screen_show_/0, screen_write_/4 ]).
@@ -159,8 +162,9 @@ draw(Shape, Options) :-
 %   Numbers that the library draws with are not too large to count with.
 
 place(Expression, Pixels) :-
-    Pixels is round(Expression),
-    (   between(-10000, 10000, Pixels)
+    evaluated(round(Expression), Pixels),
+    (   integer(Pixels),
+        between(-10000, 10000, Pixels)
     ->  true
     ;   domain_error(pixels, Expression)
     ).
@@ -173,7 +177,7 @@ size(Expression, Pixels) :-
     ).
 
 degrees(Expression, Degrees) :-
-    Degrees is Expression,
+    evaluated(Expression, Degrees),
     (   abs(Degrees) =< 10000
     ->  true
     ;   domain_error(degrees, Expression)
@@ -237,7 +241,7 @@ screen_image(X0, Y0, File) :-
     place(X0, X),
     place(Y0, Y),
     must_be(nonvar, File),
-    absolute_file_name(File, Path),
+    file_path(File, Path),
     screen_image_(X, Y, Path).
 
 %!  screen_show is semidet.
@@ -269,7 +273,7 @@ no_screen :-
 
 screen_png(File) :-
     must_be(nonvar, File),
-    absolute_file_name(File, Path),
+    file_path(File, Path),
     (   screen_png_(Path)
     ->  true
     ;   no_screen

@@ -23,6 +23,7 @@
             adjust_val/3,               % +Port, +Raw, -Value
             reading_types/2             % ?Reading, ?Types
           ]).
+:- use_module(private/errors, [term_expansion/2]).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,

@@ -7,12 +7,15 @@
             servo_motor_pulses/4,       % ?Port, ?Min, ?Mid, ?Max
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
+:- use_module(private/errors, [evaluated/2, term_expansion/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(private/halt, []).
 :- use_module(private/attributes, [attribute/4]).
-:- use_module(private/native, [servo_motor_float_/1, servo_position_/2, servo_set_position_/2]).
+:- use_module(private/native,
+              [ servo_motor_float_/1, servo_position_/2, servo_set_position_/2
+              ]).
 
 /** <module> RC servos
 
@@ -39,7 +42,7 @@ servo_motor_position(Port, Percent) :-
     !,
     servo_position_(Port, Percent).
 servo_motor_position(Port, Percent0) :-
-    Percent is Percent0,
+    evaluated(Percent0, Percent),
     (   servo_set_position_(Port, Percent)
     ->  true
     ;   cannot(Port, Percent)
@@ -58,7 +61,7 @@ servo_motor_angle(Port, Degrees) :-
     servo_position_(Port, Percent),
     Degrees is Percent * 0.9.
 servo_motor_angle(Port, Degrees0) :-
-    Degrees is Degrees0,
+    evaluated(Degrees0, Degrees),
     (   abs(Degrees) =< 90
     ->  servo_motor_position(Port, Degrees / 0.9)
     ;   cannot(Port, Degrees)

@@ -3,7 +3,10 @@
             sim_start/2,                % +World, +Options
             sim_stop/0
           ]).
-:- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, existence_error/2, must_be/2,
+                term_expansion/2
+              ]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).

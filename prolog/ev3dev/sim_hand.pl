@@ -15,7 +15,7 @@
             added_facts/1,              % -Added
             set_added_facts/1           % +Added
           ]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
@@ -41,9 +41,9 @@ what is around it. All fail if no simulation runs.
 %   @error domain_error(possible_geometry, Item) if something stands there
 
 sim_place(X0, Y0, Heading0) :-
-    X is X0,
-    Y is Y0,
-    Heading is Heading0,
+    evaluated(X0, X),
+    evaluated(Y0, Y),
+    evaluated(Heading0, Heading),
     sim_place_(X, Y, Heading).
 
 %!  sim_add(+Fact) is semidet.

@@ -5,7 +5,9 @@
             sim_snapshot/1,             % -Snapshot
             sim_restore/1               % +Snapshot
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(driver, []).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
@@ -27,7 +29,7 @@ fail if no simulation runs.
 %   @error domain_error(seconds, Seconds) if it is negative
 
 sim_wait(Seconds0) :-
-    Seconds is Seconds0,
+    evaluated(Seconds0, Seconds),
     sim_wait_(Seconds).
 
 %!  sim_step(+Seconds) is semidet.
@@ -38,7 +40,7 @@ sim_wait(Seconds0) :-
 %   @error domain_error(seconds, Seconds) if it is negative
 
 sim_step(Seconds0) :-
-    Seconds is Seconds0,
+    evaluated(Seconds0, Seconds),
     sim_step_(Seconds).
 
 %!  sim_time(-Seconds) is semidet.

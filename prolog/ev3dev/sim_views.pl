@@ -7,8 +7,10 @@
             sim_mount/2,                % +Directory, +DevDirectory
             sim_unmount/0
           ]).
+:- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, []).
+:- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
                 sim_trace_/1, sim_unmount_/0 ]).
@@ -94,12 +96,12 @@ sim_svg(File) :-
 %   @error existence_error(feature, fuse) if the pack was built without
 
 sim_mount(Directory) :-
-    absolute_file_name(Directory, Path),
+    file_path(Directory, Path),
     sim_mount_(Path, _).
 
 sim_mount(Directory, DevDirectory) :-
-    absolute_file_name(Directory, Path),
-    absolute_file_name(DevDirectory, DevPath),
+    file_path(Directory, Path),
+    file_path(DevDirectory, DevPath),
     sim_mount_(Path, DevPath).
 
 %!  sim_unmount is semidet.

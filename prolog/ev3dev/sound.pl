@@ -8,10 +8,13 @@
             sound_stop/0
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(private/errors,
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              ]).
 :- use_module(library(option), [option/3]).
 :- use_module(files, []).
 :- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
                 volume_set_/1 ]).
@@ -101,9 +104,10 @@ native_tones([Tone|Tones], Quarter, Native) :-
     native_tones(Tones, Quarter, Rest).
 
 native(tone(Hertz0, Time0), _, [tone(Hertz, Time)|Rest], Rest) :-
-    Hertz is round(Hertz0),
-    Time is Time0,
-    (   between(100, 10000, Hertz)
+    evaluated(round(Hertz0), Hertz),
+    evaluated(Time0, Time),
+    (   integer(Hertz),
+        between(100, 10000, Hertz)
     ->  true
     ;   domain_error(frequency, Hertz0)
     ),
@@ -195,7 +199,7 @@ say(Text) :-
 
 play(File) :-
     must_be(nonvar, File),
-    absolute_file_name(File, Path),
+    file_path(File, Path),
     play_(Path).
 
 %!  volume(?Percent) is semidet.
@@ -213,8 +217,9 @@ volume(Percent) :-
     !,
     volume_(Percent).
 volume(Percent0) :-
-    Percent is round(Percent0),
-    (   between(0, 100, Percent)
+    evaluated(round(Percent0), Percent),
+    (   integer(Percent),
+        between(0, 100, Percent)
     ->  volume_set_(Percent)
     ;   domain_error(volume, Percent0)
     ).

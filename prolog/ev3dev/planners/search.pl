@@ -7,7 +7,7 @@
             replan/5                    % +Start, +Changed, -Result,
                                         % +Planning0, -Planning
           ]).
-:- use_module(library(error),
+:- use_module('../private/errors',
               [domain_error/2, must_be/2]).
 :- use_module('../private/arguments', [finite/1]).
 :- use_module(best_first).

@@ -6,7 +6,7 @@
             space_ways/3,               % +Space, +State, -Nexts
             space_estimate/4            % +Space, +From, +Goals, -Estimate
           ]).
-:- use_module(library(error),
+:- use_module('../private/errors',
               [ domain_error/2, existence_error/2, instantiation_error/1,
                 must_be/2, type_error/2
               ]).

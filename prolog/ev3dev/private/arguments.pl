@@ -8,7 +8,8 @@
             motor_runs/2,               % +Runs, -Evaluated
             motor_moves/2               % +Moves, -Evaluated
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(errors,
+              [domain_error/2, evaluated/2, must_be/2, throw_error/3]).
 
 /** <module> Options and numbers that the pack's predicates are told
 
@@ -36,7 +37,7 @@ must_be_option(Domain, Names, Option) :-
     must_be(nonvar, Option),
     (   is_option(Option, Names)
     ->  true
-    ;   domain_error(Domain, Option)
+    ;   throw_error(domain_error(Domain, Option), _, one_of(Option, Names))
     ).
 
 is_option(Name=_, Names) :-
@@ -98,7 +99,9 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
     must_be(integer, Integer),
     (   between(Lowest, Highest, Integer)
     ->  true
-    ;   domain_error(Domain, Integer)
+    ;   format(atom(Message), 'an integer from ~d to ~d is expected',
+               [Lowest, Highest]),
+        throw_error(domain_error(Domain, Integer), _, Message)
     ).
 
 %!  finite(+Number) is semidet.
@@ -135,7 +138,8 @@ must_be_stop_action(Stops, Action) :-
     must_be(atom, Action),
     (   memberchk(Action, Stops)
     ->  true
-    ;   domain_error(stop_action, Action)
+    ;   throw_error(domain_error(stop_action, Action), _,
+                    one_of(Action, Stops))
     ).
 
 must_be_ramp(_, _, Milliseconds) :-
@@ -161,7 +165,7 @@ runs([], []).
 runs([Run|Runs], [run(Port, Percent)|Evaluated]) :-
     (   nonvar(Run),
         Run = run(Port, Speed)
-    ->  Percent is Speed
+    ->  evaluated(Speed, Percent)
     ;   none_of(motor_run, Run)
     ),
     runs(Runs, Evaluated).
@@ -176,8 +180,8 @@ motor_moves([], []).
 motor_moves([Move|Moves], [Evaluated|Rest]) :-
     (   nonvar(Move),
         move(Move, Speed, Way, Evaluated, Percent, Number)
-    ->  Percent is Speed,
-        Number is Way
+    ->  evaluated(Speed, Percent),
+        evaluated(Way, Number)
     ;   none_of(motor_move, Move)
     ),
     motor_moves(Moves, Rest).

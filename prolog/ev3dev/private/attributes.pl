@@ -3,6 +3,7 @@
             attribute_words/4,          % +Class, ?Port, +Attribute, -Words
             value_attribute/2           % +Index, -Attribute
           ]).
+:- use_module(errors, [domain_error/2, must_be/2]).
 :- use_module(native, [attribute_/4, attribute_write_/4]).
 
 /** <module> Attributes of devices of any class

@@ -3,7 +3,7 @@
             class_polarity/3            % +Class, ?Port, ?Polarity
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(errors, [domain_error/2, must_be/2]).
 :- use_module('../driver', []).
 :- use_module(arguments, [must_be_within/4]).
 :- use_module(attributes, [attribute/4]).

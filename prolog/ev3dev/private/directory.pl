@@ -1,13 +1,22 @@
 :- module(ev3dev_directory,
-          [ directory_path/2,           % +Directory, -Path
+          [ file_path/2,                % +File, -Path
+            directory_path/2,           % +Directory, -Path
             environment_directory/2     % +Variable, -Directory
           ]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(errors, [existence_error/2, in_own_name/1, must_be/2]).
 
 /** <module> Directories that a program or its environment names
 
 Where the trees of devices and of device files are.
 */
+
+%!  file_path(+File, -Path) is det.
+%
+%   Path is the absolute name of File, as absolute_file_name/2 has it.
+
+file_path(File, Path) :-
+    must_be(ground, File),
+    in_own_name(absolute_file_name(File, Path)).
 
 %!  directory_path(+Directory, -Path) is det.
 %
@@ -18,12 +27,14 @@ Where the trees of devices and of device files are.
 %   @error existence_error(directory, Directory)
 
 directory_path(Directory, Path) :-
+    must_be(ground, Directory),
     working_directory(Here, Here),
     (   \+ memberchk(Directory, ['', ""]),
-        absolute_file_name(Directory, Path0,
-                           [ file_type(directory), file_errors(fail),
-                             relative_to(Here)
-                           ])
+        in_own_name(absolute_file_name(Directory, Path0,
+                                       [ file_type(directory),
+                                         file_errors(fail),
+                                         relative_to(Here)
+                                       ]))
     ->  Path = Path0
     ;   existence_error(directory, Directory)
     ).

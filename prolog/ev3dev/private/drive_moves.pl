@@ -7,7 +7,7 @@
             not_nothing/1               % +Number
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(arguments, [must_be_options/3, must_be_timeout/1]).
 :- use_module('../odometry',
@@ -61,7 +61,7 @@ move(Percent, Course, Options) :-
 move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
     must_be_move_options(Options),
-    Speed is abs(Percent),
+    evaluated(abs(Percent), Speed),
     drive_option(acceleration, Default),
     option(acceleration(Acceleration0), Options, Default),
     valid_drive_option(acceleration, Acceleration0, Acceleration),

@@ -3,7 +3,7 @@
             fact_location/3,            % +Item, +Located, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(errors, [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(native, [sim_check_/1]).
 

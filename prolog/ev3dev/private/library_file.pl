@@ -17,10 +17,10 @@ another for the Raspberry Pi (`armhf`: in those of a floating point unit); and
 before version 8, Debian's answered `armel` and `armhf`. The ELF headers tell:
 that of the running program is compared with that of each library.
 
-A saved state (`swipl -c`) holds nothing of what a module does while it is loaded.
-So what each process needs is a goal of `initialization(Goal, now)`, which is
-called when a state starts, too. A state finds the foreign library where the pack
-was when the state was made.
+A saved state (`swipl -c`) holds nothing of what a module does while it is
+loaded. So what each process needs is a goal of `initialization(Goal, now)`,
+which is called when a state starts, too. A state finds the foreign library
+where the pack was when the state was made.
 */
 
 %!  load_library is det.

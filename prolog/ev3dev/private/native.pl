@@ -1,132 +1,307 @@
 :- module(ev3dev_native,
-          [ % Devices and attributes
-            attribute_/4,               % +Class, ?Port, +Attribute, ?Value
-            attribute_write_/4,         % +Class, +Port, +Attribute, +Value
-            device_/4,                  % +Class, ?Port, ?Type, ?Path
-            file_read_/2,               % +File, -Value
-            file_write_/2,              % +File, +Value
-            subsystem_detect_/4,        % ?Port, ?Type, ?Path, +Pattern
-            sysfs_/1,                   % -Root
-            sysfs_use_/1,               % +Root
-            % Device files
-            dev_/1,                     % -Directory
-            dev_use_/1,                 % +Directory
-            % Motors
-            motor_position_/2,          % ?Port, -Position
-            motor_set_position_/2,      % +Port, +Position
-            motor_reset_/1,             % +Port
-            motor_run_/2,               % +Port, +Percent
-            motor_stop_/3,              % +Class, +Port, +StopAction
-            motor_turn_/3,              % +Moves, +Options, -Reason
-            motor_wait_/3,              % +Ports, +Timeout, -Reason
-            motor_wait_flag_/3,         % +Port, +Flag, +Present
-            motors_run_/1,              % +Runs
-            run_forever_/2,             % +Port, +CountsPerSecond
+          [ attribute_/4,
+            attribute_write_/4,
+            device_/4,
+            file_read_/2,
+            file_write_/2,
+            subsystem_detect_/4,
+            sysfs_/1,
+            sysfs_use_/1,
+            dev_/1,
+            dev_use_/1,
+            motor_position_/2,
+            motor_reset_/1,
+            motor_run_/2,
+            motor_run_direct_/3,
+            motor_set_position_/2,
+            motor_stop_/3,
+            motor_turn_/3,
+            motor_wait_/3,
+            motor_wait_flag_/3,
+            motors_run_/1,
+            run_forever_/2,
             stop_all_motors_/0,
-            motor_run_direct_/3,        % +Class, +Port, +Percent
-            % Motors without rotation sensor
-            dc_motor_run_/2,            % +Port, +Percent
-            dc_motor_run_timed_/5,      % +Port, +Percent, +Seconds, +Options, -Reason
-            % Servo motors
-            servo_motor_float_/1,       % +Port
-            servo_position_/2,          % ?Port, -Percent
-            servo_set_position_/2,      % +Port, +Percent
-            % Sensors
-            sensor_restart_/3,          % +Port, +Types, +Mode
-            sensor_scale_/3,            % +Port, +Raw, -Value
-            sensor_value_/5,            % ?Port, +Types, +Mode, +Index, -Value
-            sensor_values_/5,           % ?Port, +Types, +Mode, +Count, ?Values
-            % Lights
-            led_/3,                     % ?Light, +What, -Value
-            led_set_colour_/2,          % +Light, +Colour
-            led_set_delays_/3,          % +Light, +On, +Off
-            led_set_trigger_/2,         % +Light, +Trigger
-            % Buttons
-            button_event_/4,            % +Source, +Index, -Key, -Event
-            button_source_/1,           % -Source
-            button_wait_/3,             % ?Key, ?Event, +Timeout
-            buttons_/1,                 % -Keys
-            % Sound
-            play_/1,                    % +File
-            say_/1,                     % +Text
+            dc_motor_run_/2,
+            dc_motor_run_timed_/5,
+            servo_motor_float_/1,
+            servo_position_/2,
+            servo_set_position_/2,
+            sensor_restart_/3,
+            sensor_scale_/3,
+            sensor_value_/5,
+            sensor_values_/5,
+            led_/3,
+            led_set_colour_/2,
+            led_set_delays_/3,
+            led_set_trigger_/2,
+            button_event_/4,
+            button_source_/1,
+            button_wait_/3,
+            buttons_/1,
+            play_/1,
+            say_/1,
             sound_stop_/0,
-            tones_/1,                   % +Tones
-            volume_/1,                  % -Percent
-            volume_set_/1,              % +Percent
-            % Screen
+            tones_/1,
+            volume_/1,
+            volume_set_/1,
             screen_clear_/0,
-            screen_draw_/2,             % +Shape, +style(Color, Width, Fill)
-            screen_image_/3,            % +X, +Y, +File
-            screen_png_/1,              % +File
+            screen_draw_/2,
+            screen_image_/3,
+            screen_png_/1,
             screen_show_/0,
-            screen_write_/4,            % +X, +Y, +Text, +letters(Color, Background, Font, Scale, Align)
-            % Battery
-            battery_/2,                 % +Key, -Value
-            % Ports
-            port_device_/2,             % ?Port, -Type
-            port_set_device_/2,         % +Port, +Name
-            port_set_mode_/2,           % +Port, +Mode
-            % Turns by a gyro
-            turn_by_gyro_/5,            % +Gyro, +wheels(Left, Right, LeftSign, RightSign, Gearing), +Percent, +Degrees, -Ended
-            % Driving and odometry
-            drive_/4,                   % +Robot, +Course, +Options, -Reason
-            drive_pause_/1,             % +Seconds
-            drive_wait_/3,              % +Robot, +Timeout, -Reason
-            heading_wrapped_/2,         % +Heading, -Wrapped
-            odometry_/1,                % +Robot
-            pose_/5,                    % +Robot, +UseGyro, -X, -Y, -Heading
-            pose_uncertainty_/3,        % +Robot, +UseGyro, -Rows
-            set_pose_/5,                % +Robot, +UseGyro, +X, +Y, +Heading
-            % Roadmaps
-            roadmap_/5,                 % +Facts, +Start, +Goal, +Options, -Way
-            roadmap_svg_/5,             % +Facts, +Start, +Goal, +Options, -Text
-            % Navigation
-            steer_/5,                   % +Way, +pose(X, Y, Heading), +Before, -Gone, -DegreesPerCm
-            views_block_/2,             % +Views, +Point
-            views_forget_/1,            % +Views
-            views_look_/5,              % +Views, +pose(X, Y, Heading), +sensor(X, Y, Heading), +Range, -Moved
-            views_new_/2,               % +Radius, -Views
-            views_obstacles_/3,         % +Views, +Facts, -Polygons
-            views_step_/5,              % +Views, +Facts, +way(Start, Goal, Margin), +Options, -Step
-            % Simulator
+            screen_write_/4,
+            battery_/2,
+            port_device_/2,
+            port_set_device_/2,
+            port_set_mode_/2,
+            turn_by_gyro_/5,
+            drive_/4,
+            drive_pause_/1,
+            drive_wait_/3,
+            heading_wrapped_/2,
+            odometry_/1,
+            pose_/5,
+            pose_uncertainty_/3,
+            set_pose_/5,
+            roadmap_/5,
+            roadmap_svg_/5,
+            steer_/5,
+            views_block_/2,
+            views_forget_/1,
+            views_look_/5,
+            views_new_/2,
+            views_obstacles_/3,
+            views_step_/5,
             sim_active_/0,
-            sim_add_/2,                 % +Fact, -Id
-            sim_check_/1,               % +Fact
-            sim_collisions_/1,          % -Collisions
+            sim_add_/2,
+            sim_check_/1,
+            sim_collisions_/1,
             sim_hold_/0,
-            sim_jam_/2,                 % +Port, +Bool
-            sim_mount_/2,               % +Directory, ?DevDirectory
-            sim_place_/3,               % +X, +Y, +Heading
-            sim_plug_/2,                % +Port, +Type
-            sim_pose_/3,                % -X, -Y, -Heading
+            sim_jam_/2,
+            sim_key_/2,
+            sim_mount_/2,
+            sim_place_/3,
+            sim_plan_key_/3,
+            sim_plug_/2,
+            sim_pose_/3,
             sim_release_/0,
-            sim_remote_/2,              % +Channel, +Buttons
-            sim_remove_/1,              % +Id
-            sim_restore_/1,             % +Snapshot
-            sim_show_/3,                % +Port, +Attribute, +Text
-            sim_snapshot_/1,            % -Snapshot
-            sim_start_/6,               % +WorldFacts, +RobotFacts, +Clock, +Seed, +Noise, +ScreenBits
-            sim_step_/1,                % +Seconds
+            sim_remote_/2,
+            sim_remove_/1,
+            sim_restore_/1,
+            sim_show_/3,
+            sim_snapshot_/1,
+            sim_start_/6,
+            sim_step_/1,
             sim_stop_/0,
-            sim_svg_/1,                 % -Text
-            sim_time_/1,                % -Seconds
-            sim_trace_/1,               % -Trace
+            sim_svg_/1,
+            sim_time_/1,
+            sim_trace_/1,
             sim_unmount_/0,
-            sim_unplug_/1,              % +Port
-            sim_unshow_/2,              % +Port, +Attribute
-            sim_wait_/1,                % +Seconds
-            sim_key_/2,                 % +Key, +IsPress
-            sim_plan_key_/3,            % +Key, +After, +For
-            % The end of the program
+            sim_unplug_/1,
+            sim_unshow_/2,
+            sim_wait_/1,
             stop_started_/0
           ]).
+:- use_module(errors, []).
 :- use_module(library_file, []).
 
 /** <module> The native predicates
 
 All that the foreign library defines, and the only way to it. The modules that
-make predicates of them import them from here. A native predicate `p_/N` belongs
-to `src/`: there its comment says what it does, and which public predicate it
-serves. It expects arguments of the right types, evaluated; it throws ISO errors,
-and fails where a device is missing.
+make predicates of them import them from here. What a native predicate does is
+told at its place below `src/`. It expects arguments of the right types, with
+expressions evaluated. It throws ISO errors, and fails where a device is
+missing.
 */
+
+% Devices and attributes
+
+%!  attribute_(+Class, ?Port, +Attribute, ?Value) is nondet.
+%!  attribute_write_(+Class, +Port, +Attribute, +Value) is semidet.
+%!  device_(+Class, ?Port, ?Type, ?Path) is nondet.
+%!  file_read_(+File, -Value) is semidet.
+%!  file_write_(+File, +Value) is semidet.
+%!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
+%!  sysfs_(-Root) is semidet.
+%!  sysfs_use_(+Root) is semidet.
+%
+%   `src/driver.rs`
+
+% Device files
+
+%!  dev_(-Directory) is semidet.
+%!  dev_use_(+Directory) is semidet.
+%
+%   `src/dev.rs`
+
+% Motors
+
+%!  motor_position_(?Port, -Position) is nondet.
+%!  motor_reset_(+Port) is semidet.
+%!  motor_run_(+Port, +Percent) is semidet.
+%!  motor_run_direct_(+Class, +Port, +Percent) is semidet.
+%!  motor_set_position_(+Port, +Position) is semidet.
+%!  motor_stop_(+Class, +Port, +StopAction) is semidet.
+%!  motor_turn_(+Moves, +Options, -Reason) is semidet.
+%!  motor_wait_(+Ports, +Timeout, -Reason) is semidet.
+%!  motor_wait_flag_(+Port, +Flag, +Present) is semidet.
+%!  motors_run_(+Runs) is semidet.
+%!  run_forever_(+Port, +CountsPerSecond) is semidet.
+%!  stop_all_motors_ is semidet.
+%
+%   `src/motor_moves.rs` and `src/motor_settings.rs` and `src/motors.rs`
+
+% Motors without rotation sensor
+
+%!  dc_motor_run_(+Port, +Percent) is semidet.
+%!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is semidet.
+%
+%   `src/dc_motors.rs`
+
+% Servo motors
+
+%!  servo_motor_float_(+Port) is semidet.
+%!  servo_position_(?Port, -Percent) is nondet.
+%!  servo_set_position_(+Port, +Percent) is semidet.
+%
+%   `src/servo_motors.rs`
+
+% Sensors
+
+%!  sensor_restart_(+Port, +Types, +Mode) is semidet.
+%!  sensor_scale_(+Port, +Raw, -Value) is semidet.
+%!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
+%!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
+%
+%   `src/sensors.rs`
+
+% Lights
+
+%!  led_(?Light, +What, -Value) is nondet.
+%!  led_set_colour_(+Light, +Colour) is semidet.
+%!  led_set_delays_(+Light, +On, +Off) is semidet.
+%!  led_set_trigger_(+Light, +Trigger) is semidet.
+%
+%   `src/lights.rs`
+
+% Buttons
+
+%!  button_event_(+Source, +Index, -Key, -Event) is semidet.
+%!  button_source_(-Source) is semidet.
+%!  button_wait_(?Key, ?Event, +Timeout) is semidet.
+%!  buttons_(-Keys) is semidet.
+%
+%   `src/keys.rs`
+
+% Sound
+
+%!  play_(+File) is semidet.
+%!  say_(+Text) is semidet.
+%!  sound_stop_ is semidet.
+%!  tones_(+Tones) is semidet.
+%!  volume_(-Percent) is semidet.
+%!  volume_set_(+Percent) is semidet.
+%
+%   `src/sound.rs`
+
+% Screen
+
+%!  screen_clear_ is semidet.
+%!  screen_draw_(+Shape, +Style) is semidet.
+%!  screen_image_(+X, +Y, +File) is semidet.
+%!  screen_png_(+File) is semidet.
+%!  screen_show_ is semidet.
+%!  screen_write_(+X, +Y, +Text, +Letters) is semidet.
+%
+%   `src/screen.rs`
+
+% Battery
+
+%!  battery_(+Key, -Value) is semidet.
+%
+%   `src/battery.rs`
+
+% Ports
+
+%!  port_device_(?Port, -Type) is nondet.
+%!  port_set_device_(+Port, +Name) is semidet.
+%!  port_set_mode_(+Port, +Mode) is semidet.
+%
+%   `src/ports.rs`
+
+% Turns by a gyro
+
+%!  turn_by_gyro_(+Gyro, +Wheels, +Percent, +Degrees, -Ended) is semidet.
+%
+%   `src/robot.rs`
+
+% Driving and odometry
+
+%!  drive_(+Robot, +Course, +Options, -Reason) is semidet.
+%!  drive_pause_(+Seconds) is semidet.
+%!  drive_wait_(+Robot, +Timeout, -Reason) is semidet.
+%!  heading_wrapped_(+Heading, -Wrapped) is semidet.
+%!  odometry_(+Robot) is semidet.
+%!  pose_(+Robot, +UseGyro, -X, -Y, -Heading) is semidet.
+%!  pose_uncertainty_(+Robot, +UseGyro, -Rows) is semidet.
+%!  set_pose_(+Robot, +UseGyro, +X, +Y, +Heading) is semidet.
+%
+%   `src/drive.rs`
+
+% Roadmaps
+
+%!  roadmap_(+Facts, +Start, +Goal, +Options, -Way) is semidet.
+%!  roadmap_svg_(+Facts, +Start, +Goal, +Options, -Text) is semidet.
+%
+%   `src/roadmap.rs`
+
+% Navigation
+
+%!  steer_(+Way, +Pose, +Before, -Gone, -DegreesPerCm) is semidet.
+%!  views_block_(+Views, +Point) is semidet.
+%!  views_forget_(+Views) is semidet.
+%!  views_look_(+Views, +Pose, +Sensor, +Range, -Moved) is semidet.
+%!  views_new_(+Radius, -Views) is semidet.
+%!  views_obstacles_(+Views, +Facts, -Polygons) is semidet.
+%!  views_step_(+Views, +Facts, +Way, +Options, -Step) is semidet.
+%
+%   `src/navigation.rs`
+
+% Simulator
+
+%!  sim_active_ is semidet.
+%!  sim_add_(+Fact, -Id) is semidet.
+%!  sim_check_(+Fact) is semidet.
+%!  sim_collisions_(-Collisions) is semidet.
+%!  sim_hold_ is semidet.
+%!  sim_jam_(+Port, +Bool) is semidet.
+%!  sim_key_(+Key, +IsPress) is semidet.
+%!  sim_mount_(+Directory, ?DevDirectory) is semidet.
+%!  sim_place_(+X, +Y, +Heading) is semidet.
+%!  sim_plan_key_(+Key, +After, +For) is semidet.
+%!  sim_plug_(+Port, +Type) is semidet.
+%!  sim_pose_(-X, -Y, -Heading) is semidet.
+%!  sim_release_ is semidet.
+%!  sim_remote_(+Channel, +Buttons) is semidet.
+%!  sim_remove_(+Id) is semidet.
+%!  sim_restore_(+Snapshot) is semidet.
+%!  sim_show_(+Port, +Attribute, +Text) is semidet.
+%!  sim_snapshot_(-Snapshot) is semidet.
+%!  sim_start_(+World, +Robot, +Clock, +Seed, +Noise, +Bits) is semidet.
+%!  sim_step_(+Seconds) is semidet.
+%!  sim_stop_ is semidet.
+%!  sim_svg_(-Text) is semidet.
+%!  sim_time_(-Seconds) is semidet.
+%!  sim_trace_(-Trace) is semidet.
+%!  sim_unmount_ is semidet.
+%!  sim_unplug_(+Port) is semidet.
+%!  sim_unshow_(+Port, +Attribute) is semidet.
+%!  sim_wait_(+Seconds) is semidet.
+%
+%   `src/sim.rs` and `src/sim_front.rs`
+
+% The end of the program
+
+%!  stop_started_ is semidet.
+%
+%   `src/halt.rs`

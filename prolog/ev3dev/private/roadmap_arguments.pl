@@ -4,7 +4,7 @@
             roadmap_point/2,            % +Point, -Native
             number_option/4             % +Option, +Domain, +Options, +Default
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(errors, [evaluated/2, domain_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(facts, [located_facts/3]).
@@ -71,7 +71,7 @@ number_option(Option, Domain, Options, Default) :-
     arg(1, Option, Number),
     arg(1, Given, Value),
     option(Given, Options, Default),
-    Number is Value,
+    evaluated(Value, Number),
     (   finite(Number),
         in_domain(Domain, Number)
     ->  true
@@ -93,8 +93,8 @@ in_domain(positive_number, Number) :-
 roadmap_point(Point, X-Y) :-
     must_be(nonvar, Point),
     (   coordinates(Point, X0, Y0)
-    ->  X is X0,
-        Y is Y0
+    ->  evaluated(X0, X),
+        evaluated(Y0, Y)
     ;   domain_error(point, Point)
     ).
 

@@ -15,11 +15,15 @@
     robot/4,
     description/1.
 
-%   Library(ev3dev/odometry) is told of the robot, and library(ev3dev/drive)
-%   makes the moves, once they are loaded.
 :- multifile
     robot_hook/0,
     move_hook/2.
+
+%!  robot_hook is det.
+%!  move_hook(+Move, -Done) is semidet.
+%
+%   Hooks: library(ev3dev/odometry) is told of the robot, and
+%   library(ev3dev/drive) makes the moves, once they are loaded.
 
 %!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
 %

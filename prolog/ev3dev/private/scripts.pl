@@ -2,11 +2,11 @@
 
 /** <module> Programs as scripts, in old versions, too
 
-A program that starts by `:- initialization(main, main).` calls main/0 when it is
-loaded, and then ends: with status 1 if main/0 failed or 2 if it threw. Versions
-before 7.5.8, such as the brick's 7.2.3, refuse that directive; here they learn it.
-As in later versions, nothing is called if the program is loaded into a session,
-or with a toplevel of its own (`swipl -t`).
+A program that starts by `:- initialization(main, main).` calls main/0 when
+it is loaded, and then ends: with status 1 if main/0 failed or 2 if it threw.
+Versions before 7.5.8, such as the brick's 7.2.3, refuse that directive; here
+they learn it. As in later versions, nothing is called if the program is
+loaded into a session, or with a toplevel of its own (`swipl -t`).
 */
 
 :- if((current_prolog_flag(version, Version), Version < 70508)).
@@ -15,8 +15,9 @@ or with a toplevel of its own (`swipl -t`).
 :- dynamic user:term_expansion/2.
 
 user:term_expansion((:- initialization(Main, When)),
-                    (:- initialization(ev3dev_scripts:script(Module:Main)))) :-
+                    (:- initialization(Start))) :-
     When == main,
+    Start = ev3dev_scripts:script(Module:Main),
     prolog_load_context(module, Module).
 
 script(Main) :-

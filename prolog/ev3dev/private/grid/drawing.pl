@@ -2,7 +2,7 @@
           [ grid_drawn/4                % +Rows, -Obstacles, -Start, -Bounds
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module('../errors', [domain_error/2, must_be/2]).
 :- use_module(library(lists),
               [max_list/2, member/2, nth0/3, reverse/2]).
 

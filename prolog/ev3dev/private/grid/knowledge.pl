@@ -8,6 +8,7 @@
             saw_free/1,                 % +Cell
             known_free/1                % +Cell
           ]).
+:- use_module('../errors', [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
 :- use_module(map, [must_be_cell/1]).

@@ -7,7 +7,7 @@
             cell_place/4                % +Metric, +Cell, -X, -Y
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module('../errors', [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).

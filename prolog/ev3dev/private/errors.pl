@@ -1,0 +1,286 @@
+:- module(ev3dev_errors,
+          [ must_be/2,                  % +Type, ?Term
+            evaluated/2,                % +Expression, -Number
+            in_own_name/1,              % :Goal
+            type_error/2,               % +Type, +Term
+            domain_error/2,             % +Domain, +Term
+            existence_error/2,          % +Kind, +Name
+            instantiation_error/1,      % +Term
+            throw_error/3,              % +Formal, +Called, +Message
+            term_expansion/2            % +Clause0, -Clause
+          ]).
+:- use_module(domains, [allowed/2]).
+
+/** <module> Errors that name what was called
+
+Every error of the pack is thrown here. Its context names the predicate that
+the program called, not one further in, and says in words what is wrong; where
+only some values are allowed, which these are. The predicates have the names
+and meanings of those in library(error), which the pack does not load: that
+takes a tenth of the time of loading all of it.
+
+What was called is found when an error is thrown, so that a call that succeeds
+costs nothing: from the frame of the error outwards it is the last exported
+predicate of the pack before the program's own code. Prolog gives a frame up
+before the last call of a clause. So a module with public predicates imports
+term_expansion/2 from here, which puts `true` behind the last call of each
+clause of an exported predicate. (With `swipl -O`, which leaves `true` out, an
+error names a predicate further in.)
+*/
+
+:- meta_predicate in_own_name(0).
+
+%!  must_be(+Type, ?Term) is det.
+%
+%   True if Term is of Type: `atom`, `atomic`, `boolean`, `callable`,
+%   `ground`, `integer`, `list`, `list(Type)`, `nonneg`, `nonvar`, `number`,
+%   `positive_integer` or `text`.
+%
+%   @error instantiation_error if Term is not instantiated enough
+%   @error type_error(Type, Term)
+
+must_be(Type, Term) :-
+    (   is_of(Type, Term)
+    ->  true
+    ;   is_not(Type, Term)
+    ).
+
+is_of(nonvar, Term) :- nonvar(Term).
+is_of(atom, Term) :- atom(Term).
+is_of(atomic, Term) :- atomic(Term).
+is_of(text, Term) :- ( atom(Term) -> true ; string(Term) ).
+is_of(boolean, Term) :- ( Term == true -> true ; Term == false ).
+is_of(number, Term) :- number(Term).
+is_of(integer, Term) :- integer(Term).
+is_of(nonneg, Term) :- integer(Term), Term >= 0.
+is_of(positive_integer, Term) :- integer(Term), Term >= 1.
+is_of(callable, Term) :- callable(Term).
+is_of(ground, Term) :- ground(Term).
+is_of(list, Term) :- is_list(Term).
+is_of(list(Type), Term) :- is_list(Term), all_of(Term, Type).
+
+all_of([], _).
+all_of([Element|Elements], Type) :-
+    is_of(Type, Element),
+    all_of(Elements, Type).
+
+is_not(Type, Term) :-
+    (   var(Term)
+    ;   Type == ground
+    ;   memberchk(Type, [list, list(_)]),
+        partial_list(Term)
+    ),
+    !,
+    instantiation_error(Term).
+is_not(list(Type), Term) :-
+    is_list(Term),
+    !,
+    each_must_be(Term, Type).
+is_not(list(_), Term) :-
+    !,
+    type_error(list, Term).
+is_not(Type, Term) :-
+    memberchk(Type, [nonneg, positive_integer]),
+    \+ integer(Term),
+    !,
+    type_error(integer, Term).
+is_not(boolean, Term) :-
+    !,
+    type_error(bool, Term).
+is_not(Type, Term) :-
+    type_error(Type, Term).
+
+each_must_be([Element|Elements], Type) :-
+    must_be(Type, Element),
+    each_must_be(Elements, Type).
+
+partial_list(Term) :-
+    '$skip_list'(_, Term, Tail),
+    var(Tail).
+
+%!  evaluated(+Expression, -Number) is det.
+%
+%   Number is the value of an arithmetic Expression.
+%
+%   @error as is/2
+
+evaluated(Expression, Number) :-
+    (   number(Expression)
+    ->  Number = Expression
+    ;   in_own_name(Number is Expression)
+    ).
+
+%!  in_own_name(:Goal) is nondet.
+%
+%   Call a Goal of Prolog's own library. Its errors name what the program
+%   called.
+
+in_own_name(Goal) :-
+    catch(Goal, error(Formal, _), throw_formal(Formal)).
+
+%!  type_error(+Type, +Term).
+%!  domain_error(+Domain, +Term).
+%!  existence_error(+Kind, +Name).
+%!  instantiation_error(+Term).
+%
+%   Throw that error.
+
+type_error(Type, Term) :-
+    throw_formal(type_error(Type, Term)).
+
+domain_error(Domain, Term) :-
+    throw_formal(domain_error(Domain, Term)).
+
+existence_error(Kind, Name) :-
+    throw_formal(existence_error(Kind, Name)).
+
+instantiation_error(_) :-
+    throw_formal(instantiation_error).
+
+throw_formal(Formal) :-
+    throw_error(Formal, _, '').
+
+%!  throw_error(+Formal, +Called, +Message).
+%
+%   Throw error(Formal, context(Name/Arity, Text)). Called is what was called
+%   if no frame tells. Text is Message; where that is empty, what is known of
+%   Formal; where it is one_of(Term, Values), that Term is not one of them.
+%   The foreign library throws by this predicate, too.
+
+throw_error(Formal, Called0, Message) :-
+    prolog_current_frame(Frame),
+    (   called(Frame, none, Called),
+        Called \== none
+    ->  true
+    ;   Called = Called0
+    ),
+    (   Message = one_of(Term, Values)
+    ->  not_one_of(Term, Values, Text)
+    ;   Message \== ''
+    ->  Text = Message
+    ;   in_words(Formal, Text)
+    ->  true
+    ;   true
+    ),
+    throw(error(Formal, context(Called, Text))).
+
+%   The last exported predicate of the pack on the way out to the program.
+
+called(Frame, Called0, Called) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
+    (   in_pack(Indicator, Module, Predicate)
+    ->  (   is_public(Module, Predicate)
+        ->  Called1 = Predicate
+        ;   Called1 = Called0
+        ),
+        outwards(Frame, Called1, Called)
+    ;   is_of_system(Indicator)
+    ->  outwards(Frame, Called0, Called)
+    ;   Called = Called0
+    ).
+
+outwards(Frame, Called0, Called) :-
+    (   prolog_frame_attribute(Frame, parent, Parent)
+    ->  called(Parent, Called0, Called)
+    ;   Called = Called0
+    ).
+
+in_pack(Module:Predicate, Module, Predicate) :-
+    sub_atom(Module, 0, _, _, ev3dev).
+
+%   A library for programs exports the predicate, its own or that of a private
+%   module.
+
+is_public(Module, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Module:Head, exported),
+    current_module(Library),
+    sub_atom(Library, 0, _, _, ev3dev),
+    module_property(Library, file(File)),
+    \+ sub_atom(File, _, _, _, '/private/'),
+    module_property(Library, exports(Exports)),
+    memberchk(Name/Arity, Exports),
+    (   Library == Module
+    ->  true
+    ;   predicate_property(Library:Head, imported_from(Module))
+    ),
+    !.
+
+is_of_system(_/_).
+is_of_system(Module:_) :-
+    module_property(Module, class(Class)),
+    memberchk(Class, [system, library]).
+
+%!  term_expansion(+Clause0, -Clause) is semidet.
+%
+%   Keep the frames of exported predicates, see above.
+
+term_expansion((Head :- Body), (Head :- Body, true)) :-
+    prolog_load_context(module, Module),
+    callable(Head),
+    functor(Head, Name, Arity),
+    module_property(Module, exports(Exports)),
+    memberchk(Name/Arity, Exports).
+
+                /*******************************
+                *            WORDS             *
+                *******************************/
+
+in_words(instantiation_error, 'an argument is an unbound variable').
+in_words(type_error(evaluable, Name/0), Text) :-
+    !,
+    format(atom(Text), 'a number is expected, not ~q', [Name]).
+in_words(type_error(evaluable, Function), Text) :-
+    !,
+    format(atom(Text), 'there is no arithmetic function ~q', [Function]).
+in_words(type_error(Type, Term), Text) :-
+    kind(Type, Wanted),
+    format(atom(Text), '~w is expected, not ~p', [Wanted, Term]).
+in_words(domain_error(Domain, Term), Text) :-
+    allowed(Domain, What),
+    !,
+    (   is_list(What)
+    ->  not_one_of(Term, What, Text)
+    ;   format(atom(Text), '~w, not ~p', [What, Term])
+    ).
+in_words(domain_error(Domain, Term), Text) :-
+    words_of(Domain, Words),
+    format(atom(Text), '~p cannot be a ~w', [Term, Words]).
+in_words(existence_error(Kind, Name), Text) :-
+    words_of(Kind, Words),
+    format(atom(Text), 'there is no ~w ~p', [Words, Name]).
+in_words(evaluation_error(What), Text) :-
+    words_of(What, Text).
+in_words(representation_error(int64_t), Text) :-
+    !,
+    Text = 'an integer of at most 64 bits is expected'.
+in_words(representation_error(What), Text) :-
+    words_of(What, Words),
+    format(atom(Text), 'beyond the ~w', [Words]).
+
+kind(atom, 'an atom or a string') :- !.
+kind(bool, 'true or false') :- !.
+kind(list, 'a list') :- !.
+kind(integer, 'an integer') :- !.
+kind(nonneg, 'an integer from 0 on') :- !.
+kind(positive_integer, 'an integer from 1 on') :- !.
+kind(Type, Text) :-
+    words_of(Type, Words),
+    format(atom(Text), 'a ~w', [Words]).
+
+words_of(Name, Words) :-
+    (   atom(Name)
+    ->  atomic_list_concat(Parts, '_', Name),
+        atomic_list_concat(Parts, ' ', Words)
+    ;   format(atom(Words), '~p', [Name])
+    ).
+
+not_one_of(Term, Values, Text) :-
+    quoted(Values, Atoms),
+    atomic_list_concat(Atoms, ', ', Listed),
+    format(atom(Text), '~p is not one of: ~w', [Term, Listed]).
+
+quoted([], []).
+quoted([Value|Values], [Atom|Atoms]) :-
+    format(atom(Atom), '~w', [Value]),
+    quoted(Values, Atoms).
