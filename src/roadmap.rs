@@ -2,7 +2,7 @@
 use crate::call::{Call, unify_atom};
 use crate::error::{wrong_because, wrong_value};
 use ev3_roadmap::{
-    Bounds, Fault, Found, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, plan, svg,
+    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan, svg,
 };
 use swipl::prelude::*;
 
@@ -41,7 +41,7 @@ predicates! {
 fn found<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     [facts, start, goal, options]: [&Term<'a>; 4],
-) -> PrologResult<(Map, Result<Found, NoWay>)> {
+) -> PrologResult<(Map, Result<Solution, NoWay>)> {
     let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
     let found = plan(&map, point(call, start)?, point(call, goal)?, &options);
     Ok((map, found))

@@ -3,7 +3,7 @@
 //! way comes ever closer to the shortest.
 use crate::geometry::{Point, distance};
 use crate::map::Map;
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::{Searched, shortest};
 
 pub(crate) fn search(map: &Map, sought: &Sought) -> (Vec<Point>, Searched) {

@@ -2,7 +2,7 @@
 //! is joined anew where that shortens a way.
 use crate::geometry::{Point, distance, point, vec2};
 use crate::map::Map;
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::Searched;
 
 /// One of so many draws is the goal itself.

@@ -7,7 +7,7 @@
 //! is too far out for a narrow place, 22.5 degrees make it 2 %.
 use crate::geometry::{Point, Vec2, angle, cross, left_of, point, rotated, unit, vec2};
 use crate::map::{Map, Obstacle, Shape};
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::{Searched, shortest};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, TAU};
 

@@ -5,7 +5,9 @@
     clippy::cast_sign_loss,
     reason = "small counts"
 )]
-use ev3_roadmap::{Bounds, Found, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, plan};
+use ev3_roadmap::{
+    Bounds, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan,
+};
 use proptest::prelude::*;
 
 const KEEP: f64 = 8.0;
@@ -117,7 +119,7 @@ fn directions(leg: &Leg) -> [Point; 2] {
 }
 
 fn is_sound(
-    found: &Found,
+    found: &Solution,
     start: Point,
     goal: Point,
     arc_radius: f64,
@@ -182,7 +184,7 @@ proptest! {
         let drawn = plan(&map, [x, y], [u, v], &Options { method, ..options });
         match (best, drawn) {
             (Ok(best), Ok(drawn)) => {
-                let length = |found: &Found| -> f64 {
+                let length = |found: &Solution| -> f64 {
                     found.raw.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
                 };
                 // Around the outside of its polygons it is longer by at most
