@@ -162,7 +162,7 @@ fn drawn<'a, C: QueryableContextType>(
         Item::Box { pose, width, depth } => {
             Some(Obstacle::rectangle([pose.x, pose.y], width, depth, pose.heading))
         }
-        Item::Circle { centre, radius } => Some(Obstacle::circle(centre, radius)),
+        Item::Circle { center, radius } => Some(Obstacle::circle(center, radius)),
         Item::Patch { .. }
         | Item::Line { .. }
         | Item::Lamp { .. }

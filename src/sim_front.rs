@@ -3,7 +3,7 @@ use crate::call::Call;
 use crate::error::wrong_value;
 use crate::sim::simulation;
 use crate::spec::named;
-use ev3_sim::{Key, Machine};
+use ev3_sim::{Button, Machine};
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -14,11 +14,11 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// sim_key_(+Key, +IsPress)
+    /// sim_key_(+Button, +IsPress)
     #[module("ev3dev_sim_hand")]
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
-        let key: Key = named(&Call::of(context, "sim_press", 1), "button", key)?;
+        let key: Button = named(&Call::of(context, "sim_press", 1), "button", key)?;
         let (simulation, is_press) = (simulation()?, is_press.get_ex()?);
         let act = if is_press { Machine::press } else { Machine::release };
         act(&mut simulation.machine(), key);
@@ -26,17 +26,17 @@ predicates! {
         Ok(())
     }
 
-    /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For is without end.
+    /// sim_plan_key_(+Button, +After, +For): seconds; an atom as For is without end.
     #[module("ev3dev_sim_hand")]
     #[name("sim_plan_key_")]
     semidet fn sim_plan_key(context, key, after, lasts) {
         let call = Call::of(context, "sim_press", 2);
-        let (key, at) = (named::<Key, _>(&call, "button", key)?, time(&call, after)?);
+        let (key, at) = (named::<Button, _>(&call, "button", key)?, time(&call, after)?);
         let lasts = if lasts.is_atom() { None } else { Some(time(&call, lasts)?) };
         let simulation = simulation()?;
-        simulation.machine().plan_key(key, true, at);
+        simulation.machine().plan_button(key, true, at);
         if let Some(lasts) = lasts {
-            simulation.machine().plan_key(key, false, at.saturating_add(lasts));
+            simulation.machine().plan_button(key, false, at.saturating_add(lasts));
         }
         Ok(())
     }

@@ -170,7 +170,7 @@ impl Simulation {
             return;
         }
         let now = machine.now();
-        match (self.clock, machine.next_key()) {
+        match (self.clock, machine.next_button()) {
             (Clock::Wall(_), _) => {
                 let latest = Instant::now() + SLICE;
                 let mut machine = machine;

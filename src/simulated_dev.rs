@@ -51,8 +51,8 @@ impl Dev for SimulatedDev {
     fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()> {
         match stream {
             Some(_) => {
-                let count = self.simulation.machine().key_events();
-                let is_new = |machine: &ev3_sim::Machine| machine.key_events() != count;
+                let count = self.simulation.machine().button_events();
+                let is_new = |machine: &ev3_sim::Machine| machine.button_events() != count;
                 self.simulation.pause_until(timeout, is_new);
             }
             None => self.simulation.pause(timeout),

@@ -2,7 +2,7 @@
 use crate::call::Call;
 use crate::error::wrong_because;
 use ev3_sim::{
-    Bounds, Button, Colour, Hull, Item, MotorMount, Noise, Port, Pose, RobotSpec, SensorMount,
+    Bounds, Color, Hull, Item, MotorMount, Noise, Port, Pose, RemoteButton, RobotSpec, SensorMount,
     SpecError, Wheel, WorldSpec,
 };
 use std::str::FromStr;
@@ -11,7 +11,7 @@ use swipl::prelude::*;
 /// A fact of a world or robot file.
 pub(crate) enum Fact {
     Bounds(Bounds),
-    Floor(Colour),
+    Floor(Color),
     Ambient(f64),
     Temperature(f64),
     Loudness(f64),
@@ -40,7 +40,7 @@ pub(crate) enum Side {
 pub(crate) fn add_to_world(world: &mut WorldSpec, fact: Fact) {
     match fact {
         Fact::Bounds(bounds) => world.bounds = Some(bounds),
-        Fact::Floor(colour) => world.floor = colour,
+        Fact::Floor(color) => world.floor = color,
         Fact::Ambient(percent) => world.ambient = percent,
         Fact::Temperature(celsius) => world.temperature = celsius,
         Fact::Loudness(percent) => world.loudness = percent,
@@ -131,17 +131,17 @@ fn read<'a, C: QueryableContextType>(
             depth: number(depth)?,
         }),
         ("circle", [x, y, radius]) => {
-            Fact::Item(Item::Circle { centre: [number(x)?, number(y)?], radius: number(radius)? })
+            Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
         }
-        ("floor", [colour]) => Fact::Floor(named(call, "colour", colour)?),
-        ("patch", [colour, corners]) => Fact::Item(Item::Patch {
+        ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
+        ("patch", [color, corners]) => Fact::Item(Item::Patch {
             corners: call.points(corners)?,
-            colour: named(call, "colour", colour)?,
+            color: named(call, "colour", color)?,
         }),
-        ("line", [colour, width, along]) => Fact::Item(Item::Line {
+        ("line", [color, width, along]) => Fact::Item(Item::Line {
             points: call.points(along)?,
             width: number(width)?,
-            colour: named(call, "colour", colour)?,
+            color: named(call, "colour", color)?,
         }),
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
@@ -209,7 +209,7 @@ pub(crate) fn pose<C: QueryableContextType>(
     Ok(Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
 }
 
-/// Something that has a name: a port, a colour.
+/// Something that has a name: a port, a color.
 pub(crate) fn named<T: FromStr, C: QueryableContextType>(
     call: &Call<C>,
     domain: &str,
@@ -230,13 +230,13 @@ pub(crate) fn channel_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -
 pub(crate) fn buttons<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Vec<Button>> {
+) -> PrologResult<Vec<RemoteButton>> {
     let button = |term: &Term<'a>| match &*call.text(term)? {
-        "red_up" => Ok(Button::RedUp),
-        "red_down" => Ok(Button::RedDown),
-        "blue_up" => Ok(Button::BlueUp),
-        "blue_down" => Ok(Button::BlueDown),
-        "beacon" => Ok(Button::Beacon),
+        "red_up" => Ok(RemoteButton::RedUp),
+        "red_down" => Ok(RemoteButton::RedDown),
+        "blue_up" => Ok(RemoteButton::BlueUp),
+        "blue_down" => Ok(RemoteButton::BlueDown),
+        "beacon" => Ok(RemoteButton::Beacon),
         _ => wrong_because(call, "ir_button", term, ""),
     };
     call.list(term)?.iter().map(button).collect()

@@ -1,7 +1,7 @@
 //! Ways for a round robot among obstacles in the plane.
 //!
 //! A [`Map`] holds polygons, which may be concave, and circles. A way is found
-//! for the robot's centre, which keeps a distance from all of them: the
+//! for the robot's center, which keeps a distance from all of them: the
 //! robot's radius, and what it is to leave as a margin. [`plan`] does it in
 //! two steps:
 //!

@@ -22,7 +22,7 @@ pub enum Method {
 /// What to plan for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How far the robot's centre keeps from obstacles, in cm.
+    /// How far the robot's center keeps from obstacles, in cm.
     pub keep: f64,
     /// Arcs have at least this radius, in cm. Where none fits, a corner stays.
     pub arc_radius: f64,

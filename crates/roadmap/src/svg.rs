@@ -50,8 +50,8 @@ pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
         ));
     }
     svg.way(found);
-    for ([x, y], colour) in ends.into_iter().zip(["#2a2", "#d33"]) {
-        svg.line(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"{colour}\"/>"));
+    for ([x, y], color) in ends.into_iter().zip(["#2a2", "#d33"]) {
+        svg.line(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"{color}\"/>"));
     }
     svg.0.push_str("</g>\n</svg>\n");
     svg.0
@@ -71,7 +71,7 @@ impl Svg {
                 Shape::Polygon(corners) => {
                     self.line(format_args!("<polygon points=\"{}\" {style}/>", list(corners)));
                 }
-                Shape::Circle { centre: [x, y], radius } => self.line(format_args!(
+                Shape::Circle { center: [x, y], radius } => self.line(format_args!(
                     "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" {style}/>"
                 )),
             }

@@ -24,7 +24,7 @@ impl Thing {
     fn obstacle(&self) -> Obstacle {
         match self {
             Thing::Polygon(corners) => Obstacle::polygon(corners.clone()).unwrap(),
-            Thing::Circle(centre, radius) => Obstacle::circle(*centre, *radius).unwrap(),
+            Thing::Circle(center, radius) => Obstacle::circle(*center, *radius).unwrap(),
         }
     }
 
@@ -136,10 +136,10 @@ fn is_sound(
         prop_assert!(distance(before, after) < 1e-3, "a kink before or after an arc: {pair:?}");
     }
     for leg in found.path.legs() {
-        if let Leg::Arc { from, to, centre, radius, .. } = *leg {
+        if let Leg::Arc { from, to, center, radius, .. } = *leg {
             prop_assert!(radius >= arc_radius - 1e-9);
-            prop_assert!((distance(from, centre) - radius).abs() < 1e-6);
-            prop_assert!((distance(to, centre) - radius).abs() < 1e-6);
+            prop_assert!((distance(from, center) - radius).abs() < 1e-6);
+            prop_assert!((distance(to, center) - radius).abs() < 1e-6);
             prop_assert!(distance(leg.at(leg.length()), to) < 1e-6);
         }
     }

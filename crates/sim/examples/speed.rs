@@ -46,7 +46,7 @@ fn main() {
     let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
     let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
     let mut eyes = file(&machine, "lego-sensor/sensor0/value0");
-    let mut colour = file(&machine, "lego-sensor/sensor1/value0");
+    let mut color = file(&machine, "lego-sensor/sensor1/value0");
     let mut gyro = file(&machine, "lego-sensor/sensor3/value0");
     let mut state = file(&machine, "tacho-motor/motor1/state");
     let node = |machine: &Machine, path: &str| open(machine, path, Access::WriteOnly);
@@ -59,7 +59,7 @@ fn main() {
     let mut turning = true;
     while machine.now() < simulated {
         let near = number(&mut machine, &mut eyes) < 500;
-        number(&mut machine, &mut colour);
+        number(&mut machine, &mut color);
         number(&mut machine, &mut gyro);
         let mut text = [0; 64];
         state.pread(&mut machine, 0, &mut text).expect("the motor stays plugged in");

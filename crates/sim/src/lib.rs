@@ -2,7 +2,7 @@
 //!
 //! [`Machine`] owns everything: a file tree shaped like `/sys/class` of ev3dev-stretch, the
 //! drivers behind the files, motors with inertia and friction, a robot with two driven wheels, and
-//! a flat world with walls, boxes, coloured floors, lamps and infrared beacons. It has no clock: time passes only in
+//! a flat world with walls, boxes, colored floors, lamps and infrared beacons. It has no clock: time passes only in
 //! [`Machine::step`], in ticks of 2 ms, which is the period of the kernel's motor loop. The same
 //! seed and the same calls give the same bytes on every machine, however time is sliced: all
 //! arithmetic is integer or IEEE `f64`, and sines and cosines come from the `libm` crate.
@@ -56,68 +56,54 @@
 //!
 //! # Where to read on
 //!
-//! How the hardware behaves is told where it is modelled: motors in `motor`, sensors in
-//! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`, keys, speaker and
-//! screen in `front`, and the device files in which programs find these in `dev`.
+//! Each folder's comments say how the hardware behaves that it models. Each imports only from those
+//! before it, and from `noise.rs`:
+//!
+//! - `files`: what attribute files have in common;
+//! - `brick`: ports, lights, battery, buttons, speaker and screen;
+//! - `world`: walls, boxes, floors and lamps, and how they stop rays and hulls;
+//! - `motor`, `sensor`: the kernel's drivers, and what is inside the devices;
+//! - `robot.rs`: what a robot is made of;
+//! - `mechanics`: shafts, wheels and the body;
+//! - `sense`: what the sensors notice of the world;
+//! - `machine`: all of these as one value, its file tree, and time;
+//! - `fuse`: the tree as real files.
 #![forbid(unsafe_code)]
 
-mod attr;
 mod brick;
-mod colour;
-mod dc;
-mod descriptor;
-mod dev;
-mod drive;
-mod errno;
 mod files;
-mod front;
 #[cfg(feature = "fuse")]
 mod fuse;
-mod geometry;
 mod machine;
-mod map;
+mod mechanics;
 mod motor;
 mod noise;
-mod obstacle;
-mod plugs;
-mod port;
-mod remote;
 mod robot;
-mod scene;
 mod sense;
 mod sensor;
-mod servo;
-mod shaft;
 mod shared;
-mod socket;
-mod svg;
-mod text;
-mod time;
 mod trace;
-mod tree;
 mod world;
 
-pub use attr::Access;
-pub use colour::{Colour, UnknownColour};
-pub use descriptor::Descriptor;
-pub use dev::DevDescriptor;
-pub use errno::Errno;
-pub use front::{Depth, Key, UnknownKey};
+pub use brick::panel::{Button, UnknownButton};
+pub use brick::port::{Port, UnknownPort};
+pub use brick::remote::RemoteButton;
+pub use brick::screen::Depth;
+pub use files::attr::Access;
+pub use files::errno::Errno;
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
-pub use geometry::Pose;
-pub use machine::{Machine, Options, Written};
+pub use machine::tree::{Entry, FileKind, NodeId, Stat};
+pub use machine::{Descriptor, DevDescriptor, Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
-pub use port::{Port, UnknownPort};
-pub use remote::Button;
-pub use robot::{Hull, MotorMount, RobotSpec, SensorMount, Wheel};
-pub use scene::ItemId;
+pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel};
 pub use sensor::{Link, SensorKind};
 pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
-pub use tree::{Entry, FileKind, NodeId, Stat};
-pub use world::{Bounds, Item, Point, SpecError, WorldSpec};
+pub use world::color::{Color, UnknownColor};
+pub use world::geometry::Pose;
+pub use world::{Bounds, Hull, Item, ItemId, Point, SpecError, WorldSpec};
 
 /// One turn of the kernel's motor loop.
 const TICK_MS: u64 = 2;

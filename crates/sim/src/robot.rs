@@ -1,11 +1,11 @@
 //! What the robot is made of, as plain data: the vocabulary of robot files.
 
-use crate::geometry::Pose;
+use crate::brick::port::Port;
 use crate::motor::MotorKind;
 use crate::noise::{Noise, TYPICAL_TEETH};
-use crate::port::Port;
 use crate::sensor::SensorKind;
-use crate::world::SpecError;
+use crate::world::geometry::Pose;
+use crate::world::{Hull, SpecError};
 
 /// A driven wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,42 +42,11 @@ pub struct SensorMount {
     /// The driver's name, such as `lego-ev3-us`.
     pub driver: String,
     /// Where it sits, from the middle of the axle: x to the right, y ahead, in cm, and where it
-    /// looks. A colour sensor sees the floor below this point, and lamps in its direction; a touch
+    /// looks. A color sensor sees the floor below this point, and lamps in its direction; a touch
     /// sensor is an 8 cm wide bumper across its heading.
     pub pose: Pose,
     /// Its errors.
     pub noise: Noise,
-}
-
-/// The outline that walls and boxes stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hull {
-    /// A circle around the middle of the axle.
-    Circle {
-        /// Radius in cm.
-        radius: f64,
-    },
-    /// A rectangle.
-    Rectangle {
-        /// Extent from left to right, in cm.
-        width: f64,
-        /// Extent from back to front, in cm.
-        length: f64,
-        /// How far its centre lies ahead of the axle, in cm.
-        offset: f64,
-    },
-}
-
-impl Hull {
-    /// The largest distance of a point of it from the middle of the axle.
-    pub(crate) fn reach(&self) -> f64 {
-        match *self {
-            Hull::Circle { radius } => radius,
-            Hull::Rectangle { width, length, offset } => {
-                libm::hypot(width / 2.0, length / 2.0 + offset.abs())
-            }
-        }
-    }
 }
 
 /// A robot with two driven wheels.
@@ -101,7 +70,7 @@ pub struct RobotSpec {
 
 impl Default for RobotSpec {
     /// The paper's vehicle: 5.6 cm wheels 10.6 cm apart on outB (left) and outC (right), a medium
-    /// motor on outA, ultrasonic ahead on in1, colour right on in2 and left on in3, gyro on in4.
+    /// motor on outA, ultrasonic ahead on in1, color right on in2 and left on in3, gyro on in4.
     fn default() -> Self {
         let wheel = |port| Wheel { port, diameter: 5.6, inverted: false, slip: 0.0 };
         let motor = |port, driver: &str| MotorMount {

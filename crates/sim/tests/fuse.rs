@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Errno, Key, Machine, Mount, MountError, Port, RobotSpec, Shared, WorldSpec};
+use ev3_sim::{Button, Errno, Machine, Mount, MountError, Port, RobotSpec, Shared, WorldSpec};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 /// A mounted brick with a clock.
@@ -129,11 +129,11 @@ fn errors_are_the_kernels() {
     assert_eq!(errno(bench.put(&motor("speed_sp"), "99999999999")), Some(Errno::ERANGE));
     assert_eq!(errno(bench.put(&motor("state"), "running")), Some(Errno::EACCES));
     assert_eq!(errno(bench.get(&motor("command"))), Some(Errno::EACCES));
-    assert_eq!(errno(bench.get(&motor("colour"))), Some(Errno::ENOENT));
+    assert_eq!(errno(bench.get(&motor("color"))), Some(Errno::ENOENT));
     assert_eq!(errno(bench.get("lego-sensor/sensor0/value1")), Some(Errno::ENXIO));
     assert_eq!(errno(bench.get("lego-sensor/sensor0/poll_ms")), Some(Errno::EOPNOTSUPP));
     assert_eq!(errno(fs::remove_file(bench.path(&motor("state")))), Some(Errno::EPERM));
-    assert_eq!(errno(bench.put(&motor("colour"), "red")), Some(Errno::EACCES));
+    assert_eq!(errno(bench.put(&motor("color"), "red")), Some(Errno::EACCES));
     assert_eq!(fs::metadata(bench.path(&motor("state"))).unwrap().mode() & 0o777, 0o444);
     let truncated =
         OpenOptions::new().write(true).truncate(true).open(bench.path(&motor("position")));
@@ -220,7 +220,7 @@ fn a_reader_of_keys_waits_for_one() {
         move || {
             // Longer than a reader waits before it is sent back once.
             std::thread::sleep(Duration::from_millis(300));
-            shared.lock().press(Key::Left);
+            shared.lock().press(Button::Left);
             shared.wake();
         }
     });
@@ -238,7 +238,7 @@ fn a_reader_of_keys_waits_for_one() {
         let shared = Arc::clone(&shared);
         move || {
             std::thread::sleep(Duration::from_millis(50));
-            shared.lock().release(Key::Left);
+            shared.lock().release(Button::Left);
             shared.wake();
         }
     });

@@ -1,4 +1,4 @@
-//! `dc-motor`: duty and nothing else (section 4.1 of the sheet).
+//! `dc-motor`: duty and nothing else (`docs/ev3dev-sysfs.md`, 4.1).
 
 use ev3_sim::{Errno, Item, Port, Pose, RobotSpec, WorldSpec};
 

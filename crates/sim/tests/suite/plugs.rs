@@ -113,11 +113,11 @@ fn a_shown_state_wakes_who_polls_once() {
 fn what_cannot_be_shown_is_refused() {
     let mut desk = instant();
     assert_eq!(desk.0.show(Port::OutD, "state", ""), Err(Errno::ENODEV));
-    assert_eq!(desk.0.show(Port::OutB, "colour", "red"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.show(Port::OutB, "color", "red"), Err(Errno::ENOENT));
     assert_eq!(desk.0.show(Port::OutB, "command", "stop"), Err(Errno::EACCES));
     assert_eq!(desk.0.show(Port::OutB, "state", &"x".repeat(4096)), Err(Errno::EINVAL));
     desk.0.show(Port::OutB, "state", &"x".repeat(4095)).unwrap();
-    assert_eq!(desk.0.unshow(Port::OutB, "colour"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.unshow(Port::OutB, "color"), Err(Errno::ENOENT));
     assert_eq!(desk.0.unshow(Port::OutD, "state"), Err(Errno::ENODEV));
 }
 

@@ -119,7 +119,7 @@ fn the_sonar_measures_the_nearest_thing_in_its_cone() {
     );
     // The sensor sits 7 cm ahead of the axle; the wall's near face is at 99.5 cm.
     assert_eq!(value(&mut desk, SONAR, 0), 925);
-    let pillar = desk.0.add_item(Item::Circle { centre: [5.0, 60.0], radius: 3.0 }).unwrap();
+    let pillar = desk.0.add_item(Item::Circle { center: [5.0, 60.0], radius: 3.0 }).unwrap();
     desk.step(2);
     let pillar_at = value(&mut desk, SONAR, 0);
     assert!((498..=506).contains(&pillar_at), "{pillar_at}");
@@ -162,16 +162,16 @@ fn single_shots_are_taken_once_and_not_too_often() {
 }
 
 #[test]
-fn the_floor_has_colours() {
-    let colour = |name: &str| name.parse().unwrap();
+fn the_floor_has_colors() {
+    let color = |name: &str| name.parse().unwrap();
     for (code, name) in (1..).zip(["black", "blue", "green", "yellow", "red", "white", "brown"]) {
-        let floor = WorldSpec { floor: colour(name), ..WorldSpec::default() };
+        let floor = WorldSpec { floor: color(name), ..WorldSpec::default() };
         let mut desk = Desk::with(&floor, &RobotSpec::default());
         mode(&mut desk, RIGHT, "COL-COLOR");
         assert_eq!(value(&mut desk, RIGHT, 0), code, "{name}");
     }
     let line =
-        Item::Line { points: vec![[3.0, -50.0], [3.0, 50.0]], width: 2.0, colour: colour("black") };
+        Item::Line { points: vec![[3.0, -50.0], [3.0, 50.0]], width: 2.0, color: color("black") };
     let mut desk = Desk::with(&world(vec![line]), &RobotSpec::default());
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
     assert_eq!(value(&mut desk, LEFT, 0), 92);
@@ -193,7 +193,7 @@ fn lamps_fall_off_with_the_square_and_throw_shadows() {
     let dark = WorldSpec { ambient: 0.0, ..WorldSpec::default() };
     let read = |distance: f64, heading: f64, box_at: Option<f64>| {
         let mut items = vec![Item::Lamp { at: [0.0, distance], intensity: 12.0 }];
-        items.extend(box_at.map(|y| Item::Circle { centre: [0.0, y], radius: 3.0 }));
+        items.extend(box_at.map(|y| Item::Circle { center: [0.0, y], radius: 3.0 }));
         let mut desk = Desk::with(&WorldSpec { items, ..dark.clone() }, &robot);
         desk.0.place(Pose::new(0.0, 0.0, heading)).unwrap();
         mode(&mut desk, RIGHT, "COL-AMBIENT");
@@ -306,7 +306,7 @@ fn a_mode_change_takes_a_moment_and_leaves_stale_values() {
     desk.0.step(blocks);
     assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR");
     assert_eq!(value(&mut desk, RIGHT, 0), 6, "nothing that could be left over");
-    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Colour::BLACK);
+    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Color::BLACK);
     desk.0.add_item(black).unwrap();
     desk.put(&format!("{RIGHT}mode"), "COL-REFLECT");
     assert_eq!(value(&mut desk, RIGHT, 0), 92, "left over from the last time");

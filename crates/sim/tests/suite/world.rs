@@ -11,7 +11,7 @@ fn impossible_worlds_and_robots_are_named() {
     };
     let robot = RobotSpec::default();
     let mut world = furnished();
-    world.items.push(Item::Circle { centre: [0.0, 0.0], radius: 0.0 });
+    world.items.push(Item::Circle { center: [0.0, 0.0], radius: 0.0 });
     assert!(build(&world, &robot).contains("needs a radius"), "{}", build(&world, &robot));
     let world = WorldSpec {
         bounds: Some(Bounds { low: [10.0, 0.0], high: [0.0, 10.0] }),

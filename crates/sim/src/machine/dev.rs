@@ -12,10 +12,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::errno::Errno;
-use crate::front::{Key, KeyEvent};
+use crate::brick::panel::{Button, ButtonEvent};
+use crate::files::errno::Errno;
 use crate::machine::Machine;
-use crate::tree::{Entry, FileKind, NodeId, Stat};
+use crate::machine::tree::{Entry, FileKind, NodeId, Stat};
 
 /// A device below `/dev`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,7 +103,7 @@ impl Machine {
         let kind = kind(node)?;
         let (mode, size) = match (kind, node.0) {
             (FileKind::Directory, _) => (0o755, 0),
-            (_, SCREEN) => (0o660, self.front.screen.len()),
+            (_, SCREEN) => (0o660, self.panel.screen.len()),
             _ => (0o660, 0),
         };
         Ok(Stat { node, kind, mode, size: u32::try_from(size).unwrap_or(u32::MAX) })
@@ -142,13 +142,13 @@ impl DevDescriptor {
             SCREEN => Device::Screen,
             _ => return Err(Errno::EISDIR),
         };
-        Ok(DevDescriptor { device, read: machine.front.event_count, is_half: false })
+        Ok(DevDescriptor { device, read: machine.panel.event_count, is_half: false })
     }
 
     /// How many bytes there are; event devices have no end.
     #[must_use]
     pub fn length(&self, machine: &Machine) -> Option<usize> {
-        (self.device == Device::Screen).then(|| machine.front.screen.len())
+        (self.device == Device::Screen).then(|| machine.panel.screen.len())
     }
 
     /// Reads: the next events, or the screen from an offset on.
@@ -162,7 +162,7 @@ impl DevDescriptor {
         buffer: &mut [u8],
     ) -> Result<usize, Errno> {
         if self.device == Device::Screen {
-            let rest = machine.front.screen.get(offset..).unwrap_or(&[]);
+            let rest = machine.panel.screen.get(offset..).unwrap_or(&[]);
             let length = rest.len().min(buffer.len());
             buffer[..length].copy_from_slice(&rest[..length]);
             return Ok(length);
@@ -186,11 +186,11 @@ impl DevDescriptor {
         if self.device != Device::Keys {
             return None;
         }
-        let (number, KeyEvent { at, key, is_press }) = machine.front.event(self.read)?;
+        let (number, ButtonEvent { at, button, is_press }) = machine.panel.event(self.read)?;
         self.is_half = !self.is_half;
         if self.is_half {
             self.read = number;
-            return Some(record(at, EV_KEY, key.code(), i32::from(is_press)));
+            return Some(record(at, EV_KEY, button.code(), i32::from(is_press)));
         }
         self.read = number + 1;
         Some(record(at, EV_SYN, 0, 0))
@@ -200,7 +200,7 @@ impl DevDescriptor {
     #[must_use]
     pub fn is_ready(&self, machine: &Machine) -> bool {
         match self.device {
-            Device::Keys => machine.front.event(self.read).is_some(),
+            Device::Keys => machine.panel.event(self.read).is_some(),
             Device::Sound => false,
             Device::Screen => true,
         }
@@ -217,7 +217,7 @@ impl DevDescriptor {
         bytes: &[u8],
     ) -> Result<usize, Errno> {
         if self.device == Device::Screen {
-            let screen = Arc::make_mut(&mut machine.front.screen);
+            let screen = Arc::make_mut(&mut machine.panel.screen);
             let room = screen.get_mut(offset..).ok_or(Errno::EFBIG)?;
             let length = room.len().min(bytes.len());
             room[..length].copy_from_slice(&bytes[..length]);
@@ -272,10 +272,10 @@ impl DevDescriptor {
             // EVIOCGNAME, EVIOCGPHYS, EVIOCGKEY
             0x06 => name.into(),
             0x07 => place.into(),
-            0x18 => bits(Key::codes().filter(|code| down(*code)), KEY_BYTES),
+            0x18 => bits(Button::codes().filter(|code| down(*code)), KEY_BYTES),
             // EVIOCGBIT: kinds of events, then codes of each kind.
             0x20 => bits([EV_SYN, if is_keys { EV_KEY } else { EV_SND }].into_iter(), 4),
-            0x21 if is_keys => bits(Key::codes(), KEY_BYTES),
+            0x21 if is_keys => bits(Button::codes(), KEY_BYTES),
             0x32 if !is_keys => bits([SND_BELL, SND_TONE].into_iter(), 1),
             0x21..=0x3f => vec![0],
             _ => return Err(Errno::EINVAL),
@@ -292,8 +292,9 @@ impl DevDescriptor {
 }
 
 fn down(machine: &Machine, code: u16) -> bool {
-    let keys = [Key::Up, Key::Down, Key::Left, Key::Right, Key::Enter, Key::Back];
-    keys.into_iter().any(|key| key.code() == code && machine.is_pressed(key))
+    let buttons =
+        [Button::Up, Button::Down, Button::Left, Button::Right, Button::Enter, Button::Back];
+    buttons.into_iter().any(|button| button.code() == code && machine.is_pressed(button))
 }
 
 fn bits(numbers: impl Iterator<Item = u16>, bytes: usize) -> Vec<u8> {

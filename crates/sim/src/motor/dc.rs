@@ -1,13 +1,14 @@
-//! A plain motor without a counter (`dc-motor`, driver `rcx-motor`): it gets a duty, and nobody
-//! knows what it makes of it. It appears when `dc-motor` is written to an output port's mode.
+//! A plain motor without a counter (`dc-motor`, driver `rcx-motor`): it gets a duty, and its
+//! speed is not measured. It appears when `dc-motor` is written to an output port's mode.
 //!
 //! Every change of the duty goes through a ramp with steps of 100 ms, even one without length.
-//! While a step is scheduled, a command or a new duty waits for it: up to 100 ms (section 4.1).
+//! While a step is scheduled, a command or a new duty waits for it: up to 100 ms
+//! (`docs/ev3dev-sysfs.md`, 4.1).
 
-use crate::attr::{Attr, Effect, Table, text, uevent, write_uevent};
+use crate::brick::port::Port;
+use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
+use crate::files::text::{lenient_unsigned, strict_int_in, word};
 use crate::motor::Bridge;
-use crate::port::Port;
-use crate::text::{lenient_unsigned, strict_int_in, word};
 use crate::{Errno, JIFFY_TICKS, ticks_from_ms};
 
 const DRIVER: &str = "rcx-motor";

@@ -4,10 +4,9 @@ use parry2d_f64::math::Point;
 use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
 use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
 
-use crate::geometry::{Frame, Pose, Vec2, frame, length, outside};
-use crate::robot::Hull;
-use crate::scene::ItemId;
-use crate::world::{Bounds, Item};
+use crate::world::Hull;
+use crate::world::geometry::{Frame, Pose, Vec2, frame, length, outside};
+use crate::world::{Bounds, Item, ItemId};
 
 /// How thick the walls of the bounds are.
 const BOUND_THICKNESS: f64 = 10.0;
@@ -24,7 +23,7 @@ pub(crate) struct Obstacle {
     pub(crate) id: ItemId,
     solid: Solid,
     frame: Frame,
-    /// The largest distance of a point of it from its centre.
+    /// The largest distance of a point of it from its center.
     reach: f64,
 }
 
@@ -54,7 +53,7 @@ impl Obstacle {
             Item::Box { pose, width, depth } => {
                 Some(Obstacle::cuboid(id, pose.frame(), width / 2.0, depth / 2.0))
             }
-            Item::Circle { centre: [x, y], radius } => Some(Obstacle {
+            Item::Circle { center: [x, y], radius } => Some(Obstacle {
                 id,
                 solid: Solid::Ball(Ball::new(radius)),
                 frame: frame(Vec2::new(x, y), 1.0, 0.0),
@@ -111,15 +110,15 @@ impl Obstacle {
     }
 
     /// Not farther than this obstacle is from a circle: cheap.
-    pub(crate) fn at_least(&self, centre: Vec2, radius: f64) -> f64 {
-        length(self.frame.translation.vector - centre) - self.reach - radius
+    pub(crate) fn at_least(&self, center: Vec2, radius: f64) -> f64 {
+        length(self.frame.translation.vector - center) - self.reach - radius
     }
 
     /// True if it overlaps a hull.
     pub(crate) fn overlaps(&self, hull: Hull, pose: &Pose) -> bool {
         let frame = pose.frame();
-        let test = if let Some((outline, centre)) = hull_box(hull, &frame) {
-            query::intersection_test(&centre, &outline, &self.frame, self.shape())
+        let test = if let Some((outline, center)) = hull_box(hull, &frame) {
+            query::intersection_test(&center, &outline, &self.frame, self.shape())
         } else {
             let outline = Ball::new(hull.reach());
             query::intersection_test(&frame, &outline, &self.frame, self.shape())
@@ -145,7 +144,7 @@ impl Obstacle {
         mut found: impl FnMut(f64, Vec2, Vec2),
     ) {
         let middle = frame.translation.vector;
-        let centre = self.frame.translation.vector;
+        let center = self.frame.translation.vector;
         match (hull_box(hull, frame), &self.solid) {
             (None, Solid::Box(cuboid)) => {
                 let (distance, normal) = away_from(cuboid, &self.frame, middle);
@@ -153,15 +152,15 @@ impl Obstacle {
                 found(distance - radius, normal, middle - normal * radius);
             }
             (None, Solid::Ball(ball)) => {
-                let offset = middle - centre;
+                let offset = middle - center;
                 let distance = length(offset).max(1e-9);
                 let normal = offset / distance;
                 let radius = hull.reach();
                 found(distance - radius - ball.radius, normal, middle - normal * radius);
             }
             (Some((outline, place)), Solid::Ball(ball)) => {
-                let (distance, normal) = away_from(&outline, &place, centre);
-                found(distance - ball.radius, -normal, centre - normal * distance);
+                let (distance, normal) = away_from(&outline, &place, center);
+                found(distance - ball.radius, -normal, center - normal * distance);
             }
             (Some((outline, place)), Solid::Box(cuboid)) => {
                 for corner in corners(&outline, &place) {
@@ -177,17 +176,17 @@ impl Obstacle {
     }
 }
 
-/// A rectangular hull and the frame of its centre.
+/// A rectangular hull and the frame of its center.
 fn hull_box(hull: Hull, frame: &Frame) -> Option<(Cuboid, Frame)> {
     let Hull::Rectangle { width, length, offset } = hull else {
         return None;
     };
-    let centre = outside(frame, Vec2::new(0.0, offset));
+    let center = outside(frame, Vec2::new(0.0, offset));
     let outline = Cuboid::new(Vec2::new(width / 2.0, length / 2.0));
-    Some((outline, Frame::from_parts(centre.into(), frame.rotation)))
+    Some((outline, Frame::from_parts(center.into(), frame.rotation)))
 }
 
-/// The corners of a box around its centre.
+/// The corners of a box around its center.
 fn corners(cuboid: &Cuboid, frame: &Frame) -> [Vec2; 4] {
     let (x, y) = (cuboid.half_extents.x, cuboid.half_extents.y);
     [(x, y), (x, -y), (-x, -y), (-x, y)].map(|(x, y)| outside(frame, Vec2::new(x, y)))

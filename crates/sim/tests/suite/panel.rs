@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ev3_sim::{Action, Depth, DevDescriptor, Errno, Key, Machine, Options, RobotSpec};
+use ev3_sim::{Action, Button, Depth, DevDescriptor, Errno, Machine, Options, RobotSpec};
 
 use crate::desk::furnished;
 
@@ -45,14 +45,14 @@ fn read_number(size: u32, number: u32) -> u32 {
 #[test]
 fn a_reader_gets_what_happens_after_it_opened_the_device() {
     let mut machine = Machine::default();
-    machine.press(Key::Up);
+    machine.press(Button::Up);
     let mut file = DevDescriptor::open(&machine, KEYS).unwrap();
     assert!(!file.is_ready(&machine));
     assert_eq!(events(&mut file, &machine), []);
-    machine.press(Key::Up);
+    machine.press(Button::Up);
     assert_eq!(events(&mut file, &machine), [], "it was down already");
-    machine.release(Key::Up);
-    machine.press(Key::Back);
+    machine.release(Button::Up);
+    machine.press(Button::Back);
     assert!(file.is_ready(&machine));
     assert_eq!(events(&mut file, &machine), [(1, 103, 0), (0, 0, 0), (1, 14, 1), (0, 0, 0)]);
     assert!(!file.is_ready(&machine));
@@ -63,8 +63,8 @@ fn readers_have_queues_of_their_own_which_are_no_longer_than_the_kernels() {
     let mut machine = Machine::default();
     let mut slow = DevDescriptor::open(&machine, "input/event1").unwrap();
     for _ in 0..100 {
-        machine.press(Key::Enter);
-        machine.release(Key::Enter);
+        machine.press(Button::Enter);
+        machine.release(Button::Enter);
     }
     let mut late = DevDescriptor::open(&machine, "input/event1").unwrap();
     assert_eq!(events(&mut late, &machine), []);
@@ -83,7 +83,7 @@ fn a_record_holds_its_time_and_does_not_fit_less_room() {
     let mut machine = Machine::default();
     let mut file = DevDescriptor::open(&machine, KEYS).unwrap();
     machine.step(Duration::from_millis(3250));
-    machine.press(Key::Left);
+    machine.press(Button::Left);
     assert_eq!(file.read(&machine, 0, &mut [0; EVENT - 1]), Err(Errno::EINVAL));
     let mut record = [0; EVENT];
     assert_eq!(file.read(&machine, 0, &mut record), Ok(EVENT));
@@ -95,11 +95,11 @@ fn a_record_holds_its_time_and_does_not_fit_less_room() {
 fn planned_keys_come_at_their_time_however_time_is_sliced() {
     for slice in [1, 7, 1000] {
         let mut machine = Machine::default();
-        machine.plan_key(Key::Down, true, Duration::from_millis(301));
-        machine.plan_key(Key::Down, false, Duration::from_millis(500));
-        assert_eq!(machine.next_key(), Some(Duration::from_millis(301)));
+        machine.plan_button(Button::Down, true, Duration::from_millis(301));
+        machine.plan_button(Button::Down, false, Duration::from_millis(500));
+        assert_eq!(machine.next_button(), Some(Duration::from_millis(301)));
         while machine.now() < Duration::from_secs(1) {
-            let is_down = machine.is_pressed(Key::Down);
+            let is_down = machine.is_pressed(Button::Down);
             let ms = machine.now().as_millis();
             assert!(!is_down || (301..=501).contains(&ms), "{ms}");
             machine.step(Duration::from_millis(slice));
@@ -107,14 +107,14 @@ fn planned_keys_come_at_their_time_however_time_is_sliced() {
         let trace: Vec<_> = machine.trace().events().into_iter().cloned().collect();
         let seen: Vec<_> = trace.iter().map(|e| (e.at.as_millis(), e.action, &*e.text)).collect();
         assert_eq!(seen, [(301, Action::Pressed, "down"), (500, Action::Released, "down")]);
-        assert_eq!(machine.next_key(), None);
+        assert_eq!(machine.next_button(), None);
     }
 }
 
 #[test]
 fn a_virtual_clock_finds_a_planned_key() {
     let mut machine = Machine::default();
-    machine.plan_key(Key::Enter, true, Duration::from_millis(13));
+    machine.plan_button(Button::Enter, true, Duration::from_millis(13));
     assert_eq!(machine.next_event(), Duration::from_millis(14), "on the grid of ticks");
 }
 
@@ -124,8 +124,8 @@ fn the_state_of_keys_is_asked_as_the_kernel_is() {
     let file = DevDescriptor::open(&machine, KEYS).unwrap();
     let state = |machine: &Machine, room| file.ioctl(machine, read_number(room, 0x18)).unwrap();
     assert_eq!(state(&machine, 96), (96, vec![0; 96]));
-    machine.press(Key::Right);
-    machine.press(Key::Enter);
+    machine.press(Button::Right);
+    machine.press(Button::Enter);
     let (length, bits) = state(&machine, 95);
     assert_eq!((length, bits.len()), (95, 95));
     let set: Vec<_> = (0..95 * 8).filter(|bit| bits[bit / 8] >> (bit % 8) & 1 == 1).collect();

@@ -1,10 +1,15 @@
 //! What is built into the brick: status LEDs, battery, the note that says which board it is, and
 //! that which says how the screen is laid out.
 
-use crate::attr::{Attr, Effect, Table, text, write_uevent};
-use crate::errno::Errno;
-use crate::front::{Depth, HEIGHT, WIDTH};
-use crate::text::{lenient_unsigned, word};
+pub(crate) mod panel;
+pub(crate) mod port;
+pub(crate) mod remote;
+pub(crate) mod screen;
+
+use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::{lenient_unsigned, word};
+use screen::{Depth, HEIGHT, WIDTH};
 
 /// The EV3's four status lights; a left and a right pair of red and green.
 pub(crate) const LEDS: [(&str, u32); 4] = [

@@ -5,26 +5,22 @@ use parry2d_f64::query::{PointQuery, Ray};
 use parry2d_f64::shape::Segment;
 use parry2d_f64::utils::point_in_poly2d;
 
-use crate::colour::Colour;
-use crate::geometry::{Frame, Pose, Vec2, length};
-use crate::obstacle::{Contact, Obstacle};
-use crate::remote::{CHANNELS, Remote};
-use crate::robot::Hull;
-use crate::world::{Bounds, Item, SpecError, WorldSpec};
-
-/// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
-/// and what is added later gets the next number; numbers are not used again.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct ItemId(pub u32);
+use crate::brick::remote::{CHANNELS, Remote};
+use crate::world::Hull;
+use crate::world::color::Color;
+use crate::world::geometry::{Frame, Pose, Vec2, length};
+use crate::world::obstacle::{Contact, Obstacle};
+use crate::world::{Bounds, Item, ItemId, SpecError, WorldSpec};
 
 const BOUNDS: ItemId = ItemId(0);
+
 /// A world in working order.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     items: Vec<(ItemId, Item)>,
     obstacles: Vec<Obstacle>,
     pub(crate) bounds: Option<Bounds>,
-    pub(crate) floor: Colour,
+    pub(crate) floor: Color,
     pub(crate) ambient: f64,
     pub(crate) temperature: f64,
     pub(crate) loudness: f64,
@@ -120,19 +116,19 @@ impl Scene {
         })
     }
 
-    /// The colour of the floor at a point.
-    pub(crate) fn colour_at(&self, point: Vec2) -> Colour {
+    /// The color of the floor at a point.
+    pub(crate) fn color_at(&self, point: Vec2) -> Color {
         let on_top = self.items.iter().rev().find_map(|(_, item)| match item {
-            Item::Patch { corners, colour } => {
+            Item::Patch { corners, color } => {
                 let corners: Vec<_> = corners.iter().copied().map(Point::from).collect();
-                point_in_poly2d(&Point::from(point), &corners).then_some(*colour)
+                point_in_poly2d(&Point::from(point), &corners).then_some(*color)
             }
-            Item::Line { points, width, colour } => {
+            Item::Line { points, width, color } => {
                 let near = |pair: &[[f64; 2]]| {
                     let part = Segment::new(Point::from(pair[0]), Point::from(pair[1]));
                     part.distance_to_local_point(&Point::from(point), true) <= width / 2.0
                 };
-                points.windows(2).any(near).then_some(*colour)
+                points.windows(2).any(near).then_some(*color)
             }
             _ => None,
         });
@@ -194,7 +190,7 @@ mod tests {
             assert!((distance - expected).abs() < 1e-9, "{distance}");
         };
         near(99.5, &scene);
-        scene.add(Item::Circle { centre: [0.0, 80.0], radius: 5.0 }).unwrap();
+        scene.add(Item::Circle { center: [0.0, 80.0], radius: 5.0 }).unwrap();
         near(75.0, &scene);
         let pose = Pose::new(0.0, 50.0, 45.0);
         let diamond = scene.add(Item::Box { pose, width: 10.0, depth: 10.0 }).unwrap();
@@ -210,18 +206,18 @@ mod tests {
         let red = "red".parse().unwrap();
         scene.add(Item::rectangle([0.0, 0.0], [10.0, 10.0], red)).unwrap();
         let points = vec![[0.0, 5.0], [20.0, 5.0], [20.0, 20.0]];
-        scene.add(Item::Line { points, width: 2.0, colour: Colour::BLACK }).unwrap();
-        let at = |x, y| scene.colour_at(Vec2::new(x, y));
-        assert_eq!(at(-1.0, 1.0), Colour::WHITE);
+        scene.add(Item::Line { points, width: 2.0, color: Color::BLACK }).unwrap();
+        let at = |x, y| scene.color_at(Vec2::new(x, y));
+        assert_eq!(at(-1.0, 1.0), Color::WHITE);
         assert_eq!(at(5.0, 8.0), red);
-        assert_eq!(at(5.0, 5.9), Colour::BLACK);
-        assert_eq!(at(19.5, 15.0), Colour::BLACK);
+        assert_eq!(at(5.0, 5.9), Color::BLACK);
+        assert_eq!(at(19.5, 15.0), Color::BLACK);
     }
 
     #[test]
     fn impossible_items_are_named() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
-        let error = scene.add(Item::Circle { centre: [0.0, 0.0], radius: -1.0 }).unwrap_err();
+        let error = scene.add(Item::Circle { center: [0.0, 0.0], radius: -1.0 }).unwrap_err();
         assert!(error.to_string().starts_with("circle"), "{error}");
         assert!(scene.add(Item::wall([1.0, 1.0], [1.0, 1.0])).is_err());
         assert!(scene.add(Item::Lamp { at: [f64::NAN, 0.0], intensity: 1.0 }).is_err());

@@ -8,8 +8,8 @@
 //! #########
 //! ```
 
-use crate::colour::Colour;
-use crate::geometry::Pose;
+use crate::world::color::Color;
+use crate::world::geometry::Pose;
 use crate::world::{Item, Point, SpecError, WorldSpec};
 
 const FLOORS: [(char, &str); 7] = [
@@ -42,21 +42,21 @@ impl WorldSpec {
         for (row, line) in rows.iter().enumerate() {
             for (column, character) in line.iter().enumerate() {
                 let place = || format!("map row {} column {}", row + 1, column + 1);
-                let centre = corner(column, height - 1 - row, 0.5, cell);
+                let center = corner(column, height - 1 - row, 0.5, cell);
                 match *character {
                     '#' | '.' | ' ' => {}
-                    'O' => world.items.push(Item::Circle { centre, radius: cell * 0.4 }),
-                    'L' => world.items.push(Item::Lamp { at: centre, intensity: LAMP_INTENSITY }),
+                    'O' => world.items.push(Item::Circle { center, radius: cell * 0.4 }),
+                    'L' => world.items.push(Item::Lamp { at: center, intensity: LAMP_INTENSITY }),
                     other => {
                         if let Some(heading) = start_heading(other) {
                             if std::mem::replace(&mut started, true) {
                                 return Err(SpecError::new(place(), "is a second start"));
                             }
-                            world.start = Pose::new(centre[0], centre[1], heading);
-                        } else if let Some(colour) = floor_colour(other) {
+                            world.start = Pose::new(center[0], center[1], heading);
+                        } else if let Some(color) = floor_color(other) {
                             let low = corner(column, height - 1 - row, 0.0, cell);
                             let high = corner(column, height - 1 - row, 1.0, cell);
-                            world.items.push(Item::rectangle(low, high, colour));
+                            world.items.push(Item::rectangle(low, high, color));
                         } else {
                             let reason = format!("has an unknown character: {other:?}");
                             return Err(SpecError::new(place(), reason));
@@ -80,7 +80,7 @@ fn start_heading(character: char) -> Option<f64> {
     }
 }
 
-fn floor_colour(character: char) -> Option<Colour> {
+fn floor_color(character: char) -> Option<Color> {
     let (_, name) = FLOORS.iter().find(|(letter, _)| *letter == character)?;
     name.parse().ok()
 }

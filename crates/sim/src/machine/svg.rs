@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::geometry::Pose;
 use crate::machine::Machine;
-use crate::robot::Hull;
+use crate::world::Hull;
+use crate::world::geometry::Pose;
 use crate::world::{Item, Point};
 
 /// Room around everything, in cm.
@@ -31,7 +31,7 @@ impl Frame {
             Item::Box { pose, width, depth } => {
                 self.include([pose.x, pose.y], libm::hypot(*width, *depth) / 2.0);
             }
-            Item::Circle { centre, radius } => self.include(*centre, *radius),
+            Item::Circle { center, radius } => self.include(*center, *radius),
             Item::Patch { corners: points, .. } | Item::Line { points, .. } => {
                 for point in points {
                     self.include(*point, 1.0);
@@ -153,23 +153,23 @@ fn draw_item(svg: &mut String, id: u32, item: &Item) {
                 -pose.heading
             ),
         ),
-        Item::Circle { centre: [x, y], radius } => line(
+        Item::Circle { center: [x, y], radius } => line(
             svg,
             format_args!(
                 "<circle id=\"item{id}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"#987\"/>"
             ),
         ),
-        Item::Patch { corners, colour } => line(
+        Item::Patch { corners, color } => line(
             svg,
             format_args!(
-                "<polygon id=\"item{id}\" points=\"{}\" fill=\"{colour}\"/>",
+                "<polygon id=\"item{id}\" points=\"{}\" fill=\"{color}\"/>",
                 list(corners.iter().copied())
             ),
         ),
-        Item::Line { points, width, colour } => line(
+        Item::Line { points, width, color } => line(
             svg,
             format_args!(
-                "<polyline id=\"item{id}\" points=\"{}\" fill=\"none\" stroke=\"{colour}\" \
+                "<polyline id=\"item{id}\" points=\"{}\" fill=\"none\" stroke=\"{color}\" \
              stroke-width=\"{width:.2}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
                 list(points.iter().copied())
             ),

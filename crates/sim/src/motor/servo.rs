@@ -3,12 +3,12 @@
 //! The controller sends each servo a pulse again and again, whose length is the position; without
 //! a pulse the servo floats. The driver keeps no position that it could show: it reads the pulse
 //! back, so that a floating servo is at -150 %, and one with another polarity at the opposite of
-//! what was written (section 4.3 of the reference sheet).
+//! what was written (`docs/ev3dev-sysfs.md`, 4.3).
 
-use crate::attr::{Attr, Effect, Table, text, uevent, write_uevent};
-use crate::errno::Errno;
-use crate::port::Port;
-use crate::text::{lenient_int_in, lenient_unsigned, word};
+use crate::brick::port::Port;
+use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::{lenient_int_in, lenient_unsigned, word};
 
 /// Of the controller, which is a sensor to the kernel, and of its servos.
 pub(crate) const DRIVER: &str = "ms-8ch-servo";

@@ -2,14 +2,14 @@
 
 use std::time::Duration;
 
-use crate::drive::Load;
-use crate::geometry::Pose;
+use crate::brick::port::Port;
 use crate::machine::Machine;
+use crate::machine::socket::Plug;
+use crate::machine::tree::Hardware;
+use crate::mechanics::Load;
 use crate::motor::Bridge;
 use crate::noise::{Noise, Source};
-use crate::port::Port;
-use crate::socket::Plug;
-use crate::tree::Hardware;
+use crate::world::geometry::Pose;
 use crate::{JIFFY_TICKS, NOTIFY_TICKS, TICK_US};
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
@@ -51,7 +51,7 @@ impl Machine {
             };
             next = next.min(due.unwrap_or(next).max(self.tick + 1));
         }
-        next = next.min(self.front.next_tick().unwrap_or(next).max(self.tick + 1));
+        next = next.min(self.panel.next_tick().unwrap_or(next).max(self.tick + 1));
         for due in self.sockets.iter().filter_map(|socket| socket.due) {
             next = next.min(due.max(self.tick + 1));
         }
@@ -69,7 +69,7 @@ impl Machine {
                 self.detect(port);
             }
         }
-        self.use_keys();
+        self.apply_planned_buttons();
         let at = Duration::from_micros(self.tick * TICK_US);
         self.trace.tick(self.tick, at, self.body.pose);
     }

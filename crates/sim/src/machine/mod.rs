@@ -3,23 +3,37 @@
 //! What a program does with the files is in `files`, how wires come and go in `plugs`, how time
 //! passes in `time`.
 
+mod descriptor;
+mod dev;
+mod files;
+mod panel;
+mod plugs;
+mod socket;
+mod svg;
+mod time;
+pub(crate) mod tree;
+
+pub use descriptor::Descriptor;
+pub use dev::DevDescriptor;
+
 use std::time::Duration;
 
 use crate::TICK_US;
+use crate::brick::panel::Panel;
+use crate::brick::port::{LegoPort, Port};
+use crate::brick::remote::{Remote, RemoteButton};
+use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
-use crate::drive::Body;
-use crate::front::{Depth, Front};
-use crate::geometry::Pose;
+use crate::machine::socket::{Plug, Socket};
+use crate::machine::tree::{Hardware, Tree};
+use crate::mechanics::Body;
+use crate::mechanics::shaft::Shaft;
 use crate::noise::Teeth;
-use crate::port::{LegoPort, Port};
-use crate::remote::{Button, Remote};
 use crate::robot::RobotSpec;
-use crate::scene::{ItemId, Scene};
-use crate::shaft::Shaft;
-use crate::socket::{Plug, Socket};
 use crate::trace::{Collision, Trace};
-use crate::tree::{Hardware, Tree};
-use crate::world::{Item, SpecError, WorldSpec};
+use crate::world::geometry::Pose;
+use crate::world::scene::Scene;
+use crate::world::{Item, ItemId, SpecError, WorldSpec};
 
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,18 +67,18 @@ pub struct Written {
 /// A brick with its robot in its world. `clone` is a snapshot.
 #[derive(Clone, Debug)]
 pub struct Machine {
-    pub(crate) options: Options,
-    pub(crate) now: Duration,
-    pub(crate) tick: u64,
-    pub(crate) tree: Tree,
-    pub(crate) sockets: Vec<Socket>,
-    pub(crate) shafts: [Shaft; 4],
-    pub(crate) battery: u64,
-    pub(crate) robot: RobotSpec,
-    pub(crate) body: Body,
-    pub(crate) scene: Scene,
-    pub(crate) front: Front,
-    pub(crate) trace: Trace,
+    options: Options,
+    now: Duration,
+    tick: u64,
+    tree: Tree,
+    sockets: Vec<Socket>,
+    shafts: [Shaft; 4],
+    battery: u64,
+    robot: RobotSpec,
+    body: Body,
+    scene: Scene,
+    panel: Panel,
+    trace: Trace,
 }
 
 impl Default for Machine {
@@ -123,7 +137,7 @@ impl Machine {
             robot: robot.clone(),
             body: Body::new(robot, world.start),
             scene,
-            front: Front::new(options.depth),
+            panel: Panel::new(options.depth),
             trace: Trace::new(),
         };
         machine.check_free(&world.start)?;
@@ -210,7 +224,7 @@ impl Machine {
     /// # Errors
     /// If there is no such channel, or these cannot be told from others: any single one can, and
     /// any two but the beacon's.
-    pub fn hold_buttons(&mut self, channel: u8, buttons: &[Button]) -> Result<(), SpecError> {
+    pub fn hold_buttons(&mut self, channel: u8, buttons: &[RemoteButton]) -> Result<(), SpecError> {
         let item = || format!("remote control on channel {channel}");
         let index = usize::from(channel).wrapping_sub(1);
         let Some(remote) = self.scene.remotes.get_mut(index) else {
@@ -240,7 +254,7 @@ impl Machine {
         &self.trace
     }
 
-    pub(crate) fn hit(&mut self, item: ItemId) {
+    fn hit(&mut self, item: ItemId) {
         self.trace.collision(Collision {
             at: Duration::from_micros(self.tick * TICK_US),
             item,

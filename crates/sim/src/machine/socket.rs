@@ -4,8 +4,8 @@
 //! 350 ms of the same reading (after 20 ms of settling) before it adds a device and 100 ms before
 //! it removes one; a serial sensor then introduces itself at 2400 baud, which takes about a second.
 
+use crate::brick::port::Port;
 use crate::motor::MotorKind;
-use crate::port::Port;
 use crate::sensor::{Link, SensorKind};
 use crate::ticks_from_ms;
 
@@ -52,11 +52,11 @@ impl Plug {
     }
 
     /// True if the brick cannot tell it from others of that kind.
-    fn is_unrecognised(self) -> bool {
+    fn is_unrecognized(self) -> bool {
         let Plug::Sensor(kind) = self else {
             return false;
         };
-        kind.link == Link::NxtAnalog { recognised: false }
+        kind.link == Link::NxtAnalog { recognized: false }
     }
 
     /// What `status` of the port calls it.
@@ -116,7 +116,7 @@ impl Socket {
             ("auto", Some(Plug::Motor(kind))) if kind.driver_name != "lego-ev3-m-motor" => {
                 named("lego-ev3-l-motor")
             }
-            ("auto", Some(plug)) if plug.is_unrecognised() => named(GENERIC),
+            ("auto", Some(plug)) if plug.is_unrecognized() => named(GENERIC),
             ("auto", plug) => plug,
             ("tacho-motor", _) => named("lego-ev3-l-motor"),
             ("ev3-uart", Some(Plug::Sensor(kind))) if kind.link == Link::Uart => {

@@ -1,8 +1,8 @@
-//! The parsers that ev3dev's drivers put between a written text and a number. They differ: see
-//! section 0.3 of the reference sheet. Here are A (strict), B (lenient), C (the same
-//! without a sign) and W (words).
+//! The parsers that ev3dev's drivers put between a written text and a number. They differ:
+//! `docs/ev3dev-sysfs.md`, 0.3. Here are A (strict), B (lenient), C (the same without a sign) and
+//! W (words).
 
-use crate::errno::Errno;
+use crate::files::errno::Errno;
 
 /// Takes away the one newline that `echo` adds.
 fn line(bytes: &[u8]) -> &[u8] {

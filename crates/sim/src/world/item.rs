@@ -1,11 +1,16 @@
-//! What stands and lies in a world, as plain data: the vocabulary of world files.
+//! What stands and lies in a world, as plain data.
 
-use crate::colour::Colour;
-use crate::geometry::Pose;
-use crate::port::Port;
+use crate::brick::port::Port;
+use crate::world::color::Color;
+use crate::world::geometry::Pose;
 
 /// A point in cm.
 pub type Point = [f64; 2];
+
+/// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
+/// and what is added later gets the next number; numbers are not used again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ItemId(pub u32);
 
 /// One thing in the world. Lengths in cm, headings in degrees clockwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +21,12 @@ pub enum Item {
         from: Point,
         /// The other end.
         to: Point,
-        /// How thick it is, centred on the line between the ends.
+        /// How thick it is, centerd on the line between the ends.
         thickness: f64,
     },
     /// A box.
     Box {
-        /// Centre and direction of its depth.
+        /// Center and direction of its depth.
         pose: Pose,
         /// Extent across its heading.
         width: f64,
@@ -30,17 +35,17 @@ pub enum Item {
     },
     /// A round thing.
     Circle {
-        /// Centre.
-        centre: Point,
+        /// Center.
+        center: Point,
         /// Radius.
         radius: f64,
     },
-    /// A coloured polygon on the floor. Later patches and lines cover earlier ones.
+    /// A colored polygon on the floor. Later patches and lines cover earlier ones.
     Patch {
         /// At least three corners, in order.
         corners: Vec<Point>,
-        /// Its colour.
-        colour: Colour,
+        /// Its color.
+        color: Color,
     },
     /// A line on the floor, with round ends and joints.
     Line {
@@ -48,14 +53,14 @@ pub enum Item {
         points: Vec<Point>,
         /// How wide it is.
         width: f64,
-        /// Its colour.
-        colour: Colour,
+        /// Its color.
+        color: Color,
     },
     /// A lamp, 30 cm above the floor.
     Lamp {
         /// Where it hangs.
         at: Point,
-        /// The percentage that a colour sensor in COL-AMBIENT reads when it looks at the lamp
+        /// The percentage that a color sensor in COL-AMBIENT reads when it looks at the lamp
         /// from 100 cm. It falls with the square of the distance: of 12 there is left about 100
         /// at 20 cm, 40 at 50 cm, 3 at 200 cm.
         intensity: f64,
@@ -86,10 +91,10 @@ impl Item {
         Item::Wall { from, to, thickness: 1.0 }
     }
 
-    /// A coloured rectangle on the floor from one corner to the opposite one.
+    /// A colored rectangle on the floor from one corner to the opposite one.
     #[must_use]
-    pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, colour: Colour) -> Item {
-        Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], colour }
+    pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, color: Color) -> Item {
+        Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], color }
     }
 
     /// The word for it in error messages.
@@ -121,8 +126,8 @@ impl Item {
                 (pose.is_finite(), NOT_FINITE),
                 (positive(*width) && positive(*depth), "needs a width and a depth above 0"),
             ]),
-            Item::Circle { centre, radius } => first_fault([
-                (finite(&[*centre]), NOT_FINITE),
+            Item::Circle { center, radius } => first_fault([
+                (finite(&[*center]), NOT_FINITE),
                 (positive(*radius), "needs a radius above 0"),
             ]),
             Item::Patch { corners, .. } => first_fault([
@@ -154,17 +159,13 @@ impl Item {
     }
 }
 
-/// Temperatures that there can be, in degrees Celsius.
-const ABSOLUTE_ZERO: f64 = -273.15;
-const HOTTEST: f64 = 1000.0;
-
-const NOT_FINITE: &str = "has a number that is not finite";
+pub(crate) const NOT_FINITE: &str = "has a number that is not finite";
 
 fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'static str> {
     checks.into_iter().find(|(fine, _)| !fine).map(|(_, reason)| reason)
 }
 
-fn finite(points: &[Point]) -> bool {
+pub(crate) fn finite(points: &[Point]) -> bool {
     points.iter().flatten().all(|number| number.is_finite())
 }
 
@@ -185,77 +186,5 @@ pub struct SpecError {
 impl SpecError {
     pub(crate) fn new(item: impl Into<String>, reason: impl Into<String>) -> Self {
         SpecError { item: item.into(), reason: reason.into() }
-    }
-}
-
-/// A rectangle with walls around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Lower left corner.
-    pub low: Point,
-    /// Upper right corner.
-    pub high: Point,
-}
-
-/// A world.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WorldSpec {
-    /// Everything in it.
-    pub items: Vec<Item>,
-    /// Walls all around, if it ends anywhere.
-    pub bounds: Option<Bounds>,
-    /// Colour of the floor where nothing lies on it.
-    pub floor: Colour,
-    /// Light that comes from everywhere, in the per cent of COL-AMBIENT.
-    pub ambient: f64,
-    /// Of the air and everything else, in degrees Celsius.
-    pub temperature: f64,
-    /// How loud it is, in per cent of what an NXT sound sensor can tell.
-    pub loudness: f64,
-    /// Where the robot starts.
-    pub start: Pose,
-}
-
-impl Default for WorldSpec {
-    /// An endless white floor, a little light, a silent room's 21.5 degrees, and nothing else.
-    fn default() -> Self {
-        WorldSpec {
-            items: Vec::new(),
-            bounds: None,
-            floor: Colour::WHITE,
-            ambient: 2.0,
-            temperature: 21.5,
-            loudness: 0.0,
-            start: Pose::default(),
-        }
-    }
-}
-
-impl WorldSpec {
-    /// Checks everything in it, and that the bounds have an inside with the start in it.
-    ///
-    /// # Errors
-    /// Names the first offending item.
-    pub fn validate(&self) -> Result<(), SpecError> {
-        self.items.iter().try_for_each(Item::validate)?;
-        if !(self.ambient.is_finite() && self.ambient >= 0.0) {
-            return Err(SpecError::new("ambient", "must be 0 or more"));
-        }
-        if !(ABSOLUTE_ZERO..=HOTTEST).contains(&self.temperature) {
-            return Err(SpecError::new("temperature", "must be from -273.15 to 1000"));
-        }
-        if !(0.0..=100.0).contains(&self.loudness) {
-            return Err(SpecError::new("loudness", "must be from 0 to 100"));
-        }
-        if !self.start.is_finite() {
-            return Err(SpecError::new("start", NOT_FINITE));
-        }
-        if let Some(Bounds { low, high }) = self.bounds {
-            let inside = finite(&[low, high]) && low[0] < high[0] && low[1] < high[1];
-            if !inside {
-                return Err(SpecError::new("bounds", "must have an inside"));
-            }
-        }
-        Ok(())
     }
 }

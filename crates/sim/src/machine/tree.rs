@@ -4,14 +4,14 @@
 //! used again, and the row of the attribute in its class's table; so nothing has to be stored, and
 //! a node of a device that is gone stays gone when another comes to the same port.
 
-use crate::attr::{Access, Effect, Files};
+use crate::brick::port::LegoPort;
 use crate::brick::{Battery, Board, Framebuffer, Led};
-use crate::dc::DcMotor;
-use crate::errno::Errno;
+use crate::files::attr::{Access, Effect, Files};
+use crate::files::errno::Errno;
 use crate::motor::Tacho;
-use crate::port::LegoPort;
+use crate::motor::dc::DcMotor;
+use crate::motor::servo::Servo;
 use crate::sensor::Sensor;
-use crate::servo::Servo;
 
 /// A file or directory: its inode number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -7,7 +7,7 @@
 use std::fmt::Display;
 use std::time::Duration;
 
-use crate::errno::Errno;
+use crate::files::errno::Errno;
 
 /// What may be done with an attribute. Sysfs refuses anything else at `open`, even for root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,5 +186,5 @@ pub(crate) fn uevent(driver: &str, address: &str) -> Result<Vec<u8>, Errno> {
 /// The action words of `uevent`.
 pub(crate) fn write_uevent(bytes: &[u8]) -> Result<Effect, Errno> {
     let actions = ["add", "remove", "change", "move", "online", "offline", "bind", "unbind"];
-    crate::text::word(bytes, actions.into_iter()).map(|_| Effect::Done)
+    crate::files::text::word(bytes, actions.into_iter()).map(|_| Effect::Done)
 }

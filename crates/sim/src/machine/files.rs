@@ -3,17 +3,17 @@
 use std::time::Duration;
 
 use crate::JIFFY_TICKS;
-use crate::attr::{Access, Effect};
-use crate::descriptor::Descriptor;
-use crate::errno::Errno;
-use crate::geometry::Pose;
+use crate::brick::port::Port;
+use crate::files::attr::{Access, Effect};
+use crate::files::errno::Errno;
+use crate::machine::Descriptor;
+use crate::machine::tree::{Entry, Hardware, NodeId, Stat, Tree};
 use crate::machine::{Machine, Written};
 use crate::noise::{Noise, Source};
-use crate::port::Port;
 use crate::sense::View;
 use crate::sensor::{Reading, Sensor};
 use crate::trace::Action;
-use crate::tree::{Entry, Hardware, NodeId, Stat, Tree};
+use crate::world::geometry::Pose;
 
 /// Where a sensor sits on a port for which the robot names none.
 const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);

@@ -6,7 +6,7 @@ pub(crate) const CHANNELS: usize = 4;
 
 /// A button that is held down. The beacon's stays down until it is pressed again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Button {
+pub enum RemoteButton {
     /// Upper left.
     RedUp,
     /// Lower left.
@@ -24,28 +24,28 @@ pub enum Button {
 pub(crate) struct Remote(u8);
 
 /// In the order of the codes of the mode `IR-REMOTE`.
-const CODES: [&[Button]; 12] = [
+const CODES: [&[RemoteButton]; 12] = [
     &[],
-    &[Button::RedUp],
-    &[Button::RedDown],
-    &[Button::BlueUp],
-    &[Button::BlueDown],
-    &[Button::RedUp, Button::BlueUp],
-    &[Button::RedUp, Button::BlueDown],
-    &[Button::RedDown, Button::BlueUp],
-    &[Button::RedDown, Button::BlueDown],
-    &[Button::Beacon],
-    &[Button::RedUp, Button::RedDown],
-    &[Button::BlueUp, Button::BlueDown],
+    &[RemoteButton::RedUp],
+    &[RemoteButton::RedDown],
+    &[RemoteButton::BlueUp],
+    &[RemoteButton::BlueDown],
+    &[RemoteButton::RedUp, RemoteButton::BlueUp],
+    &[RemoteButton::RedUp, RemoteButton::BlueDown],
+    &[RemoteButton::RedDown, RemoteButton::BlueUp],
+    &[RemoteButton::RedDown, RemoteButton::BlueDown],
+    &[RemoteButton::Beacon],
+    &[RemoteButton::RedUp, RemoteButton::RedDown],
+    &[RemoteButton::BlueUp, RemoteButton::BlueDown],
 ];
 /// What `IR-REM-A` shows with nothing pressed, what else its bits are, and which is whose.
 const IDLE_BITS: i32 = 384;
 const BASE_BITS: i32 = 256;
-const BITS: [(Button, i32); 4] = [
-    (Button::RedUp, 1 << 4),
-    (Button::RedDown, 1 << 5),
-    (Button::BlueUp, 1 << 6),
-    (Button::BlueDown, 1 << 7),
+const BITS: [(RemoteButton, i32); 4] = [
+    (RemoteButton::RedUp, 1 << 4),
+    (RemoteButton::RedDown, 1 << 5),
+    (RemoteButton::BlueUp, 1 << 6),
+    (RemoteButton::BlueDown, 1 << 7),
 ];
 
 impl Remote {
@@ -53,8 +53,8 @@ impl Remote {
     pub(crate) const BEACON: Remote = Remote(9);
 
     /// These buttons, in any order; `None` if no sensor could tell them.
-    pub(crate) fn holding(buttons: &[Button]) -> Option<Remote> {
-        let is_it = |held: &&[Button]| {
+    pub(crate) fn holding(buttons: &[RemoteButton]) -> Option<Remote> {
+        let is_it = |held: &&[RemoteButton]| {
             held.len() == buttons.len() && held.iter().all(|button| buttons.contains(button))
         };
         let code = CODES.iter().position(is_it)?;
@@ -83,15 +83,18 @@ mod tests {
 
     #[test]
     fn buttons_have_the_codes_of_the_sheet() {
-        let code = |buttons: &[Button]| Remote::holding(buttons).map(Remote::code);
+        let code = |buttons: &[RemoteButton]| Remote::holding(buttons).map(Remote::code);
         assert_eq!(code(&[]), Some(0));
-        assert_eq!(code(&[Button::BlueDown, Button::RedUp]), Some(6));
-        assert_eq!(code(&[Button::Beacon]), Some(9));
-        assert_eq!(code(&[Button::BlueUp, Button::BlueDown]), Some(11));
-        assert_eq!(code(&[Button::RedUp, Button::RedUp]), None);
-        assert_eq!(code(&[Button::RedUp, Button::BlueUp, Button::BlueDown]), None);
-        assert_eq!(code(&[Button::RedUp, Button::Beacon]), None);
-        assert_eq!(Remote::holding(&[Button::BlueUp]).unwrap().bits(), 256 + 64);
+        assert_eq!(code(&[RemoteButton::BlueDown, RemoteButton::RedUp]), Some(6));
+        assert_eq!(code(&[RemoteButton::Beacon]), Some(9));
+        assert_eq!(code(&[RemoteButton::BlueUp, RemoteButton::BlueDown]), Some(11));
+        assert_eq!(code(&[RemoteButton::RedUp, RemoteButton::RedUp]), None);
+        assert_eq!(
+            code(&[RemoteButton::RedUp, RemoteButton::BlueUp, RemoteButton::BlueDown]),
+            None
+        );
+        assert_eq!(code(&[RemoteButton::RedUp, RemoteButton::Beacon]), None);
+        assert_eq!(Remote::holding(&[RemoteButton::BlueUp]).unwrap().bits(), 256 + 64);
         assert_eq!(Remote::NONE.bits(), 384);
     }
 }

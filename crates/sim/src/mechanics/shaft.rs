@@ -1,7 +1,7 @@
 //! A motor's output shaft: where it is, how fast it turns, what its motor does to it.
 
 use crate::TICK_SECONDS;
-use crate::drive::Load;
+use crate::mechanics::Load;
 use crate::motor::{Bridge, Encoder, MOTOR_KINDS, MotorKind, RATED_VOLTS};
 use crate::noise::Teeth;
 

@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use crate::brick::Led;
-use crate::dc::DcMotor;
-use crate::errno::Errno;
+use crate::brick::port::Port;
+use crate::files::errno::Errno;
 use crate::machine::Machine;
+use crate::machine::socket::Plug;
+use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
-use crate::port::Port;
+use crate::motor::dc::DcMotor;
+use crate::motor::servo::{self, Servo};
 use crate::sensor::Sensor;
-use crate::servo::{self, Servo};
-use crate::socket::Plug;
-use crate::tree::Hardware;
 use crate::world::SpecError;
 use crate::{TICK_US, ticks_from_ms};
 

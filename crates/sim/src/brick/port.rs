@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::attr::{Attr, Effect, Table, text, write_uevent};
-use crate::errno::Errno;
-use crate::text::word;
+use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::word;
 
 /// A socket: four inputs, four outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

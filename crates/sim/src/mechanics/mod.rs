@@ -6,10 +6,12 @@
 //! and not more (friction at most its torque, an obstacle only pushes). So a robot at a wall
 //! stops its own motors, and a motor too weak for its friction does not creep.
 
-use crate::geometry::{Pose, Vec2, sin_cos};
-use crate::obstacle::Contact;
+pub(crate) mod shaft;
+
 use crate::robot::{RobotSpec, Wheel};
-use crate::scene::Scene;
+use crate::world::geometry::{Pose, Vec2, sin_cos};
+use crate::world::obstacle::Contact;
+use crate::world::scene::Scene;
 use crate::{ItemId, TICK_SECONDS};
 
 /// The hull keeps this far from obstacles, in cm, so that it never quite touches them.
