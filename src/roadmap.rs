@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/roadmap.pl`: ways between obstacles.
-use crate::call::{Call, unify_atom};
-use crate::error::{wrong_because, wrong_value};
+use crate::glue::call::Call;
+use crate::glue::error::{wrong_because, wrong_value};
+use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
     Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan, svg,
 };

@@ -1,5 +1,5 @@
 //! The simulated brick's keys, speaker and screen as a [`Dev`].
-use crate::simulated::{Simulation, error};
+use crate::sim::files::{Simulation, error};
 use ev3_driver::Dev;
 use ev3_driver::dev::{Speaker, Stream};
 use ev3_driver::error::Access;

@@ -1,9 +1,11 @@
 //! One call of a native predicate: its arguments, its answers.
-use crate::error::raise;
-use crate::state;
-use crate::words::atom_text;
+use crate::glue::error::{Origin, raise};
+use crate::glue::interned::atom_text;
+use crate::glue::state;
+use crate::glue::terms::unify_value;
 use ev3_driver::{Class, Dev, Device, Devices, Value};
 use std::borrow::Cow;
+use std::ops::Deref;
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -14,16 +16,20 @@ pub(crate) type Text = Cow<'static, str>;
 /// Devices that are still to be answered.
 pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
 
-/// The call under way of a public predicate, by its name and arity.
-pub(crate) struct Call<'a, C: QueryableContextType> {
-    pub(crate) context: &'a Context<'a, C>,
-    pub(crate) name: &'static str,
-    pub(crate) arity: u64,
+/// The call under way of a public predicate: the origin of errors, and access to the devices.
+pub(crate) struct Call<'a, C: QueryableContextType>(Origin<'a, C>);
+
+impl<'a, C: QueryableContextType> Deref for Call<'a, C> {
+    type Target = Origin<'a, C>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
 }
 
 impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn of(context: &'a Context<'a, C>, name: &'static str, arity: u64) -> Self {
-        Self { context, name, arity }
+        Self(Origin { context, name, arity })
     }
 
     /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
@@ -64,7 +70,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             return Ok(Text::Owned(integer.to_string()));
         }
         if term.is_integer() {
-            return crate::error::too_long(self);
+            return crate::glue::error::too_long(self);
         }
         if term.term_type() == TermType::Float {
             return Ok(Text::Owned(term.get::<f64>()?.to_string()));
@@ -86,7 +92,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn integer(&self, term: &Term) -> PrologResult<i64> {
         match attempt_opt(self.integer_of(term))? {
             Some(integer) => Ok(integer),
-            None if term.is_integer() => crate::error::too_long(self),
+            None if term.is_integer() => crate::glue::error::too_long(self),
             None => self.wrong_type("integer", term),
         }
     }
@@ -104,7 +110,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn time(&self, term: &Term) -> PrologResult<Duration> {
         match Duration::try_from_secs_f64(self.float(term)?) {
             Ok(time) => Ok(time),
-            Err(_) => crate::error::wrong_value(self, "seconds", term),
+            Err(_) => crate::glue::error::wrong_value(self, "seconds", term),
         }
     }
 
@@ -145,7 +151,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn points(&self, term: &Term<'a>) -> PrologResult<Vec<[f64; 2]>> {
         let point = |term: &Term<'a>| match &*self.list(term)? {
             [x, y] => Ok([self.float(x)?, self.float(y)?]),
-            _ => crate::error::wrong_value(self, "point", term),
+            _ => crate::glue::error::wrong_value(self, "point", term),
         };
         self.list(term)?.iter().map(point).collect()
     }
@@ -168,7 +174,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// What the driver answered; its error as an exception.
     pub(crate) fn check<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
-        result.or_else(|error| raise(self, &error))
+        result.or_else(|error| raise(self, &error, &state::devices()))
     }
 
     /// What the driver found; a failure if it found nothing.
@@ -217,7 +223,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     fn wrong_type<T>(&self, expected: &str, term: &Term) -> PrologResult<T> {
-        crate::error::wrong_type(self, expected, term)
+        crate::glue::error::wrong_type(self, expected, term)
     }
 
     /// An integer, not a float that is whole.
@@ -225,18 +231,4 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     fn integer_of(&self, term: &Term) -> PrologResult<i64> {
         if term.is_integer() { term.get() } else { Err(PrologError::Failure) }
     }
-}
-
-/// Unifies with a number or an atom.
-pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
-    match value {
-        Value::Integer(integer) => term.unify(*integer),
-        Value::Float(float) => term.unify(*float),
-        Value::Text(text) => unify_atom(term, text),
-    }
-}
-
-/// Unifies with an atom.
-pub(crate) fn unify_atom(term: &Term, text: &str) -> PrologResult<()> {
-    term.unify(atomable(text))
 }

@@ -16,28 +16,38 @@
 //! | anything else | `system_error(Words)` |
 //!
 //! Access is `read` or `write`.
-use crate::call::{Call, unify_atom};
-use crate::state::devices;
+use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::error::{Access, Error};
-use ev3_driver::{Class, Errno, Value};
+use ev3_driver::{Class, Devices, Errno, Value};
 use std::error::Error as _;
 use std::path::Path;
 use swipl::prelude::*;
 
-/// Raises a driver's error.
-pub(crate) fn raise<T, C: QueryableContextType>(call: &Call<C>, error: &Error) -> PrologResult<T> {
+/// Where errors come from: the public predicate that was called, by its name and arity.
+pub(crate) struct Origin<'a, C: QueryableContextType> {
+    pub(crate) context: &'a Context<'a, C>,
+    pub(crate) name: &'static str,
+    pub(crate) arity: u64,
+}
+
+/// Raises a driver's error. Its message lists the devices if one of them is missing.
+pub(crate) fn raise<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    error: &Error,
+    devices: &Devices,
+) -> PrologResult<T> {
     if matches!(error, Error::Interrupted) {
-        // Whoever interrupted has raised an exception already.
+        // The signal handler has raised an exception already.
         return Err(PrologError::Exception);
     }
     let context = call.context;
-    let formal = formal(context, error)?;
-    throw(call, &formal, &message(error))
+    let formal = formal(context, error, devices)?;
+    throw(call, &formal, &message(error, devices))
 }
 
 /// Raises `instantiation_error` for a variable, else `type_error`.
 pub(crate) fn wrong_type<T, C: QueryableContextType>(
-    call: &Call<C>,
+    call: &Origin<C>,
     expected: &str,
     term: &Term,
 ) -> PrologResult<T> {
@@ -52,7 +62,7 @@ pub(crate) fn wrong_type<T, C: QueryableContextType>(
 
 /// Raises `domain_error(Domain, Term)`.
 pub(crate) fn wrong_value<T, C: QueryableContextType>(
-    call: &Call<C>,
+    call: &Origin<C>,
     domain: &str,
     term: &Term,
 ) -> PrologResult<T> {
@@ -61,7 +71,7 @@ pub(crate) fn wrong_value<T, C: QueryableContextType>(
 
 /// Raises `domain_error(Domain, Term)`, with the reason as the message.
 pub(crate) fn wrong_because<T, C: QueryableContextType>(
-    call: &Call<C>,
+    call: &Origin<C>,
     domain: &str,
     term: &Term,
     reason: &str,
@@ -74,7 +84,7 @@ pub(crate) fn wrong_because<T, C: QueryableContextType>(
 /// Raises `existence_error(Kind, Name)`, with the reason as the message.
 #[cfg(feature = "sim")]
 pub(crate) fn no_such<T, C: QueryableContextType>(
-    call: &Call<C>,
+    call: &Origin<C>,
     kind: &str,
     name: &str,
     reason: &str,
@@ -85,7 +95,7 @@ pub(crate) fn no_such<T, C: QueryableContextType>(
 }
 
 /// Raises the error for an integer of more than 64 bits.
-pub(crate) fn too_long<T, C: QueryableContextType>(call: &Call<C>) -> PrologResult<T> {
+pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologResult<T> {
     let context = call.context;
     let formal = term! {context: representation_error(int64_t)}?;
     throw(call, &formal, "")
@@ -94,7 +104,7 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Call<C>) -> PrologResu
 /// Raises `error(Formal, context(Name/Arity, Message))`; an empty message
 /// stays unbound.
 fn throw<T, C: QueryableContextType>(
-    call: &Call<C>,
+    call: &Origin<C>,
     formal: &Term,
     message: &str,
 ) -> PrologResult<T> {
@@ -115,6 +125,7 @@ fn throw<T, C: QueryableContextType>(
 fn formal<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
     error: &Error,
+    devices: &Devices,
 ) -> PrologResult<Term<'a>> {
     let attribute = error.path().map(file_name).unwrap_or_default();
     let path = error.path().map(Path::to_string_lossy).unwrap_or_default();
@@ -147,7 +158,7 @@ fn formal<'a, C: QueryableContextType>(
         }
         Error::Write { text, .. } if matches!(error.errno(), Some(Errno::INVAL | Errno::RANGE)) => {
             let value = context.new_term_ref();
-            crate::call::unify_value(&value, &Value::parse(text.clone()))?;
+            unify_value(&value, &Value::parse(text.clone()))?;
             term! {context: domain_error(#attribute, #&value)}
         }
         error => match error.errno() {
@@ -162,31 +173,30 @@ fn formal<'a, C: QueryableContextType>(
                 term! {context: permission_error(#atomable(access), unsupported_attribute, #path)}
             }
             Some(Errno::NODEV | Errno::NXIO) => {
-                let device = error.path().map(device_of).unwrap_or_default();
+                let device = error.path().map(|path| device_of(path, devices)).unwrap_or_default();
                 let (class, port) = (atomable(device.0), atomable(device.1));
                 term! {context: existence_error(#class, #port)}
             }
             Some(Errno::MFILE | Errno::NFILE) => term! {context: resource_error(max_files)},
             Some(Errno::NOMEM) => term! {context: resource_error(no_memory)},
-            _ => term! {context: system_error(#atomable(message(error)))},
+            _ => term! {context: system_error(#atomable(message(error, devices)))},
         },
     }
 }
 
 /// What went wrong where, the kernel's words, and for a device that is gone
 /// what is connected.
-fn message(error: &Error) -> String {
+fn message(error: &Error, devices: &Devices) -> String {
     let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
     // That a picture is missing has nothing to do with devices.
-    let is_device = |path: &Path| path.starts_with(devices().tree().root());
+    let is_device = |path: &Path| path.starts_with(devices.tree().root());
     let is_gone = error.is_gone() && error.path().is_none_or(is_device);
-    let connected = if is_gone { connected() } else { String::new() };
+    let connected = if is_gone { connected(devices) } else { String::new() };
     format!("{error}{source}{connected}")
 }
 
 /// The motors and sensors that are plugged in, but for servos: there are many.
-fn connected() -> String {
-    let devices = devices();
+fn connected(devices: &Devices) -> String {
     let all = [Class::TachoMotor, Class::DcMotor, Class::Sensor].map(|class| devices.all(class));
     let names: Vec<String> = all
         .iter()
@@ -203,8 +213,7 @@ fn connected() -> String {
 
 /// The class and port of the device that an attribute file belongs to, or the
 /// file itself where that is unknown.
-fn device_of(path: &Path) -> (String, String) {
-    let devices = devices();
+fn device_of(path: &Path, devices: &Devices) -> (String, String) {
     let owner = Class::ALL.into_iter().find_map(|class| {
         let listed = devices.all(class).ok()?;
         let device = listed.iter().find(|device| path.starts_with(device.path()))?;

@@ -1,6 +1,6 @@
 //! In the place of `mount.rs` where the library is built without FUSE.
-use crate::call::Call;
-use crate::error::no_such;
+use crate::glue::call::Call;
+use crate::glue::error::no_such;
 use ev3_sim::Shared;
 use std::sync::Arc;
 use swipl::prelude::*;

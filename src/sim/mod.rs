@@ -1,11 +1,20 @@
 //! `prolog/ev3dev/sim.pl`, `sim_hand.pl`, `sim_time.pl`, `sim_views.pl`: the simulator.
-use crate::call::{Call, unify_atom};
-use crate::error::{no_such, wrong_because, wrong_value};
-use crate::mount;
-use crate::simulated::{Clock, SimulatedFiles, Simulation};
-use crate::simulated_dev::SimulatedDev;
-use crate::spec::{self, Fact, add_to_robot, add_to_world, buttons, channel_of, named};
-use crate::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
+mod buttons;
+mod dev;
+mod files;
+#[cfg(feature = "fuse")]
+mod mount;
+#[cfg(not(feature = "fuse"))]
+#[path = "no_mount.rs"]
+mod mount;
+
+use self::dev::SimulatedDev;
+use self::files::{Clock, SimulatedFiles, Simulation};
+use crate::facts::{self, Fact, add_to_robot, add_to_world, channel_of, named, remote_buttons};
+use crate::glue::call::Call;
+use crate::glue::error::{no_such, wrong_because, wrong_value};
+use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
+use crate::glue::terms::unify_atom;
 use ev3_driver::Devices;
 use ev3_sim::{Action, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
 use std::path::PathBuf;
@@ -15,6 +24,7 @@ use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
+    buttons::register();
     register_sim_check();
     register_sim_start();
     register_sim_stop();
@@ -63,7 +73,7 @@ predicates! {
     #[module("ev3dev_sim")]
     #[name("sim_check_")]
     semidet fn sim_check(context, term) {
-        spec::fact(&Call::of(context, "sim_start", 2), term).map(drop)
+        facts::fact(&Call::of(context, "sim_start", 2), term).map(drop)
     }
 
     /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise, +ScreenBits)
@@ -72,7 +82,7 @@ predicates! {
     semidet fn sim_start(context, world, robot, clock, seed, noise, screen) {
         let call = Call::of(context, "sim_start", 2);
         let facts = |term: &Term<'a>| -> PrologResult<Vec<Fact>> {
-            call.list(term)?.iter().map(|term| spec::fact(&call, term)).collect()
+            call.list(term)?.iter().map(|term| facts::fact(&call, term)).collect()
         };
         let (world, robot) = (world_of(facts(world)?), robot_of(facts(robot)?, noise.get_ex()?));
         let seed = u64::from_ne_bytes(call.integer(seed)?.to_ne_bytes());
@@ -118,7 +128,7 @@ predicates! {
     #[name("sim_place_")]
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
-        let pose = spec::pose(&call, [x, y, heading])?;
+        let pose = facts::pose(&call, [x, y, heading])?;
         let placed = simulation()?.machine().place(pose);
         possible(&call, placed)
     }
@@ -128,7 +138,7 @@ predicates! {
     #[name("sim_add_")]
     semidet fn sim_add(context, term, id) {
         let call = Call::of(context, "sim_add", 1);
-        let Fact::Item(item) = spec::fact(&call, term)? else {
+        let Fact::Item(item) = facts::fact(&call, term)? else {
             return wrong_value(&call, "world_item", term);
         };
         let added = simulation()?.machine().add_item(item);
@@ -232,7 +242,7 @@ predicates! {
     #[name("sim_remote_")]
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
-        let (channel, held) = (channel_of(&call, channel)?, buttons(&call, list)?);
+        let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
         match simulation()?.machine().hold_buttons(channel, &held) {
             Ok(()) => Ok(()),
             Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),

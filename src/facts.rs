@@ -1,6 +1,6 @@
 //! From facts to worlds and robots: the vocabulary of their files.
-use crate::call::Call;
-use crate::error::wrong_because;
+use crate::glue::call::Call;
+use crate::glue::error::wrong_because;
 use ev3_sim::{
     Bounds, Color, Hull, Item, MotorMount, Noise, Port, Pose, RemoteButton, RobotSpec, SensorMount,
     SpecError, Wheel, WorldSpec,
@@ -227,7 +227,7 @@ pub(crate) fn channel_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -
 }
 
 /// A list of buttons of a remote control.
-pub(crate) fn buttons<'a, C: QueryableContextType>(
+pub(crate) fn remote_buttons<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Vec<RemoteButton>> {

@@ -1,8 +1,8 @@
 //! The simulated tree as real files, through FUSE.
-use crate::call::Call;
-use crate::error::{no_such, wrong_because};
-use crate::keys::close_sources;
-use crate::state::{dev, devices, use_default_dev, use_default_files};
+use crate::buttons::close_sources;
+use crate::glue::call::Call;
+use crate::glue::error::{no_such, wrong_because};
+use crate::glue::state::{dev, devices, use_default_dev, use_default_files};
 use ev3_driver::Devices;
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
