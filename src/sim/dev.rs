@@ -1,9 +1,9 @@
 //! The simulated brick's keys, speaker and screen as a [`Dev`].
-use crate::sim::files::{Simulation, error};
+use crate::sim::files::error;
 use ev3_driver::Dev;
 use ev3_driver::dev::{Speaker, Stream};
 use ev3_driver::error::Access;
-use ev3_sim::DevDescriptor;
+use ev3_sim::{DevDescriptor, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -9,14 +9,17 @@ mod mount;
 mod mount;
 
 use self::dev::SimulatedDev;
-use self::files::{Clock, SimulatedFiles, Simulation};
+use self::files::SimulatedFiles;
 use crate::facts::{self, Fact, add_to_robot, add_to_world, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
 use crate::glue::terms::unify_atom;
 use ev3_driver::Devices;
-use ev3_sim::{Action, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
+use ev3_sim::{
+    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
+    WorldSpec,
+};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;

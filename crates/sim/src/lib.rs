@@ -2,7 +2,7 @@
 //!
 //! [`Machine`] owns everything: a file tree shaped like `/sys/class` of ev3dev-stretch, the
 //! drivers behind the files, motors with inertia and friction, a robot with two driven wheels, and
-//! a flat world with walls, boxes, colored floors, lamps and infrared beacons. It has no clock: time passes only in
+//! a flat world with walls, boxes, colored floors, lamps and infrared beacons. Time passes only in
 //! [`Machine::step`], in ticks of 2 ms, which is the period of the kernel's motor loop. The same
 //! seed and the same calls give the same bytes on every machine, however time is sliced: all
 //! arithmetic is integer or IEEE `f64`, and sines and cosines come from the `libm` crate.
@@ -27,9 +27,9 @@
 //!
 //! # Waiting
 //!
-//! Nothing here waits; an adapter with a clock does. In real time it steps by the wall time that
-//! has passed, before each access or from a thread ([`Shared::step`] wakes who waits). With a
-//! virtual clock, a program that waits for a file lets time jump:
+//! A [`Machine`] has no clock of its own; a [`Simulation`] gives it one, by the wall or virtual.
+//! An adapter may also step the machine itself. Here a program that waits for a file lets time
+//! jump:
 //!
 //! ```
 //! # use ev3_sim::{Access, Descriptor, Machine};
@@ -67,10 +67,12 @@
 //! - `mechanics`: shafts, wheels and the body;
 //! - `sense`: what the sensors notice of the world;
 //! - `machine`: all of these as one value, its file tree, and time;
+//! - `shared.rs`, `clock.rs`: a machine that several threads use, and how time passes for it;
 //! - `fuse`: the tree as real files.
 #![forbid(unsafe_code)]
 
 mod brick;
+mod clock;
 mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
@@ -89,6 +91,7 @@ pub use brick::panel::{Button, UnknownButton};
 pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;
 pub use brick::screen::Depth;
+pub use clock::{Act, Clock, Simulation};
 pub use files::attr::Access;
 pub use files::errno::Errno;
 #[cfg(feature = "fuse")]

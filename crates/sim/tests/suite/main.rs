@@ -3,6 +3,7 @@
 mod attributes;
 mod avoid;
 mod braitenberg;
+mod clock;
 mod dc_motors;
 mod desk;
 mod encoders;
