@@ -1,111 +1,53 @@
-//! From facts to worlds and robots: the vocabulary of their files.
+//! From terms to the facts of worlds and robots, for the simulator and for
+//! roadmaps.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
+use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
-    Bounds, Color, Hull, Item, MotorMount, Noise, Port, Pose, RemoteButton, RobotSpec, SensorMount,
-    SpecError, Wheel, WorldSpec,
+    Bounds, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError, Wheel, WorldSpec,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
 
-/// A fact of a world or robot file.
-pub(crate) enum Fact {
-    Bounds(Bounds),
-    Floor(Color),
-    Ambient(f64),
-    Temperature(f64),
-    Loudness(f64),
-    Start(Pose),
-    Item(Item),
-    /// A whole world, drawn.
-    Map(WorldSpec),
-    Wheel(Side, Wheel),
-    Axle(f64),
-    Hull(Hull),
-    Mass(f64),
-    Motor(MotorMount),
-    Sensor(SensorMount),
-    Noise(Port, Noise),
-    EncoderNoise(Port, f64),
-}
-
-/// Which wheel.
-#[derive(Clone, Copy)]
-pub(crate) enum Side {
-    Left,
-    Right,
-}
-
-/// Adds what a fact says to a world. A robot's facts say nothing of it.
-pub(crate) fn add_to_world(world: &mut WorldSpec, fact: Fact) {
-    match fact {
-        Fact::Bounds(bounds) => world.bounds = Some(bounds),
-        Fact::Floor(color) => world.floor = color,
-        Fact::Ambient(percent) => world.ambient = percent,
-        Fact::Temperature(celsius) => world.temperature = celsius,
-        Fact::Loudness(percent) => world.loudness = percent,
-        Fact::Start(pose) => world.start = pose,
-        Fact::Item(item) => world.items.push(item),
-        Fact::Map(drawn) => {
-            world.items.extend(drawn.items);
-            world.start = drawn.start;
-        }
-        _ => {}
-    }
-}
-
-/// Adds what a fact says to a robot.
-pub(crate) fn add_to_robot(robot: &mut RobotSpec, fact: Fact) {
-    match fact {
-        Fact::Wheel(Side::Left, wheel) => robot.left = wheel,
-        Fact::Wheel(Side::Right, wheel) => robot.right = wheel,
-        Fact::Axle(length) => robot.axle = length,
-        Fact::Hull(hull) => robot.hull = hull,
-        Fact::Mass(mass) => robot.mass = mass,
-        Fact::Motor(motor) => robot.motors.push(motor),
-        Fact::Sensor(sensor) => robot.sensors.push(sensor),
-        Fact::Noise(port, noise) => {
-            for motor in robot.motors.iter_mut().filter(|motor| motor.port == port) {
-                motor.noise = noise;
-            }
-            for sensor in robot.sensors.iter_mut().filter(|sensor| sensor.port == port) {
-                sensor.noise = noise;
-            }
-        }
-        Fact::EncoderNoise(port, sigma) => {
-            for motor in robot.motors.iter_mut().filter(|motor| motor.port == port) {
-                motor.encoder_noise = sigma;
-            }
-        }
-        _ => {}
-    }
-}
-
-/// Reads a fact and checks what can be checked of it alone.
+/// Reads a fact of a world or a robot, and checks it alone. `None` if there is
+/// no such fact.
 pub(crate) fn fact<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
+    subject: Subject,
     term: &Term<'a>,
-) -> PrologResult<Fact> {
-    let unknown = || wrong_because(call, "world_or_robot_fact", term, "");
+) -> PrologResult<Option<Fact>> {
     let Some((name, arguments)) = call.compound(term)? else {
-        return unknown();
+        return Ok(None);
     };
-    let Some(read) = read(call, &name, &arguments)? else {
-        return unknown();
+    if !subject.has(&name, arguments.len()) {
+        return Ok(None);
+    }
+    let Some(fact) = read(call, &name, &arguments)? else {
+        return Ok(None);
     };
-    let checked = match read {
-        Ok(Fact::Item(item)) => item.validate().map(|()| Fact::Item(item)),
-        read => read,
-    };
+    match &fact {
+        Fact::Item(item) => impossible(call, term, item.validate())?,
+        Fact::Bounds(bounds) => impossible(call, term, bounds.validate())?,
+        _ => {}
+    }
+    Ok(Some(fact))
+}
+
+/// Raises what is impossible about a fact.
+fn impossible<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+    checked: Result<(), SpecError>,
+) -> PrologResult<()> {
     checked.or_else(|error| wrong_because(call, "possible_geometry", term, &error.reason))
 }
 
-/// The vocabulary. `None` for a fact that is not in it.
+/// The fact with this name. `None` if its arguments do not fit.
 fn read<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     name: &str,
     arguments: &[Term<'a>],
-) -> PrologResult<Option<Result<Fact, SpecError>>> {
+) -> PrologResult<Option<Fact>> {
     let number = |term: &Term| call.float(term);
     let fact = match (name, arguments) {
         ("bounds", [x1, y1, x2, y2]) => Fact::Bounds(Bounds {
@@ -159,17 +101,12 @@ fn read<'a, C: QueryableContextType>(
         ("temperature", [celsius]) => Fact::Temperature(number(celsius)?),
         ("loudness", [percent]) => Fact::Loudness(number(percent)?),
         ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
-        ("map", [size, rows]) => {
-            let rows = call.list(rows)?;
-            let rows = rows.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-            let drawn = WorldSpec::from_map(&rows.join("\n"), number(size)?);
-            return Ok(Some(drawn.map(Fact::Map)));
-        }
+        ("map", [size, rows]) => Fact::Map(drawn(call, size, rows)?),
         ("left_wheel", [port, diameter, options @ ..]) => {
-            Fact::Wheel(Side::Left, wheel(call, port, diameter, options)?)
+            Fact::LeftWheel(wheel(call, port, diameter, options)?)
         }
         ("right_wheel", [port, diameter, options @ ..]) => {
-            Fact::Wheel(Side::Right, wheel(call, port, diameter, options)?)
+            Fact::RightWheel(wheel(call, port, diameter, options)?)
         }
         ("axle", [length]) => Fact::Axle(number(length)?),
         ("hull", [hull]) => match self::hull(call, hull)? {
@@ -198,7 +135,21 @@ fn read<'a, C: QueryableContextType>(
         }
         _ => return Ok(None),
     };
-    Ok(Some(Ok(fact)))
+    Ok(Some(fact))
+}
+
+/// A world that is drawn.
+fn drawn<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    size: &Term<'a>,
+    rows: &Term<'a>,
+) -> PrologResult<WorldSpec> {
+    let rows = call.list(rows)?;
+    let texts = rows.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
+    WorldSpec::from_rows(&texts, call.float(size)?).or_else(|error| match *error.parts {
+        [Part::MapRow(row)] => wrong_because(call, "map_row", &rows[row], &error.to_string()),
+        _ => wrong_because(call, "possible_geometry", size, &error.to_string()),
+    })
 }
 
 /// A pose from three numbers: cm, cm, degrees.
@@ -227,10 +178,12 @@ pub(crate) fn channel_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -
 }
 
 /// A list of buttons of a remote control.
+#[cfg(feature = "sim")]
 pub(crate) fn remote_buttons<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Vec<RemoteButton>> {
+) -> PrologResult<Vec<ev3_sim::RemoteButton>> {
+    use ev3_sim::RemoteButton;
     let button = |term: &Term<'a>| match &*call.text(term)? {
         "red_up" => Ok(RemoteButton::RedUp),
         "red_down" => Ok(RemoteButton::RedDown),

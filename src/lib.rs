@@ -13,7 +13,6 @@ mod buttons;
 mod dc_motors;
 mod drive;
 mod driver;
-#[cfg(feature = "sim")]
 mod facts;
 mod files;
 mod glue;

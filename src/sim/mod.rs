@@ -10,12 +10,13 @@ mod mount;
 
 use self::dev::SimulatedDev;
 use self::files::SimulatedFiles;
-use crate::facts::{self, Fact, add_to_robot, add_to_world, channel_of, named, remote_buttons};
+use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
 use crate::glue::terms::unify_atom;
 use ev3_driver::Devices;
+use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
     WorldSpec,
@@ -72,27 +73,37 @@ struct Snapshot {
 }
 
 predicates! {
-    /// sim_check_(+Fact)
+    /// sim_check_(+Subject, +Fact): subject is `world` or `robot`.
     #[module("ev3dev_sim")]
     #[name("sim_check_")]
-    semidet fn sim_check(context, term) {
-        facts::fact(&Call::of(context, "sim_start", 2), term).map(drop)
+    semidet fn sim_check(context, subject, term) {
+        let call = Call::of(context, "sim_start", 2);
+        known_fact(&call, subject_of(&call, subject)?, term).map(drop)
     }
 
-    /// sim_start_(+WorldFacts, +RobotFacts, +Clock, +Seed, +Noise, +ScreenBits)
+    /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
+    /// fault is `none`, or fault(Subject, Index, Why) for the fact that is to blame, counted
+    /// from 1, or 0 if one is missing.
     #[module("ev3dev_sim")]
     #[name("sim_start_")]
-    semidet fn sim_start(context, world, robot, clock, seed, noise, screen) {
+    semidet fn sim_start(context, world, robot, options, fault) {
         let call = Call::of(context, "sim_start", 2);
-        let facts = |term: &Term<'a>| -> PrologResult<Vec<Fact>> {
-            call.list(term)?.iter().map(|term| facts::fact(&call, term)).collect()
-        };
-        let (world, robot) = (world_of(facts(world)?), robot_of(facts(robot)?, noise.get_ex()?));
-        let seed = u64::from_ne_bytes(call.integer(seed)?.to_ne_bytes());
-        let depth = if call.integer(screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
+        let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
+        let [clock, seed, noise, screen] = call.arguments(options)?;
+        let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
+        let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
         let options = Options { seed, depth, ..Options::default() };
-        let machine = possible(&call, Machine::new(&world, &robot, options))?;
-        start(&call, machine, clock_of(&call, clock)?)
+        match built(&world, &robot, noise.get_ex()?, options) {
+            Ok(machine) => {
+                start(&call, machine, clock_of(&call, &clock)?)?;
+                unify_atom(fault, "none")
+            }
+            Err((subject, index, error)) => {
+                let index = index.map_or(0, |index| index as u64 + 1);
+                let (subject, why) = (atomable(subject), atomable(error.to_string()));
+                fault.unify(&term! {context: fault(#subject, #index, #why)}?)
+            }
+        }
     }
 
     /// sim_stop_
@@ -141,8 +152,10 @@ predicates! {
     #[name("sim_add_")]
     semidet fn sim_add(context, term, id) {
         let call = Call::of(context, "sim_add", 1);
-        let Fact::Item(item) = facts::fact(&call, term)? else {
-            return wrong_value(&call, "world_item", term);
+        let item = match facts::fact(&call, Subject::World, term)? {
+            Some(Fact::Item(item)) => item,
+            Some(_) => return wrong_value(&call, "world_item", term),
+            None => return wrong_value(&call, "world_or_robot_fact", term),
         };
         let added = simulation()?.machine().add_item(item);
         id.unify(i64::from(possible(&call, added)?.0))
@@ -405,25 +418,49 @@ fn start<C: QueryableContextType>(
     call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
-fn world_of(facts: Vec<Fact>) -> WorldSpec {
-    let mut world = WorldSpec::default();
-    for fact in facts {
-        add_to_world(&mut world, fact);
+/// `world` or `robot`.
+fn subject_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
+    match &*call.text(term)? {
+        "world" => Ok(Subject::World),
+        "robot" => Ok(Subject::Robot),
+        _ => wrong_value(call, "subject", term),
     }
-    world
 }
 
-/// The robot of these facts; without any, the default one.
-fn robot_of(facts: Vec<Fact>, noise: bool) -> RobotSpec {
-    let mut robot = RobotSpec::default();
-    if !facts.is_empty() {
-        robot.motors.clear();
-        robot.sensors.clear();
-        for fact in facts {
-            add_to_robot(&mut robot, fact);
-        }
+/// A fact of the vocabulary, checked alone.
+fn known_fact<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    subject: Subject,
+    term: &Term<'a>,
+) -> PrologResult<Fact> {
+    if let Some(fact) = facts::fact(call, subject, term)? {
+        return Ok(fact);
     }
-    if noise { robot.with_typical_noise() } else { robot }
+    let (domain, kind) = match subject {
+        Subject::World => ("world_fact", "world"),
+        Subject::Robot => ("robot_fact", "robot"),
+    };
+    let names: Vec<_> = subject.vocabulary().iter().map(|(name, _)| *name).collect();
+    wrong_because(call, domain, term, &format!("a {kind} has: {}", names.join(", ")))
+}
+
+fn facts_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    subject: Subject,
+    list: &Term<'a>,
+) -> PrologResult<Vec<Fact>> {
+    call.map_list(list, |term| known_fact(call, subject, &term))
+}
+
+/// What is impossible: in which list of facts, at which place if one is to blame.
+type Fault = (&'static str, Option<usize>, SpecError);
+
+fn built(world: &[Fact], robot: &[Fact], noise: bool, options: Options) -> Result<Machine, Fault> {
+    let in_robot = |error: SpecError| ("robot", culprit(robot, &error), error);
+    let spec = RobotSpec::from_facts(robot).map_err(in_robot)?;
+    let spec = if noise { spec.with_typical_noise() } else { spec };
+    let in_world = |error: SpecError| ("world", culprit(world, &error), error);
+    Machine::new(&WorldSpec::from_facts(world), &spec, options).map_err(in_world)
 }
 
 /// `realtime`, `scaled(Factor)` or `virtual`.

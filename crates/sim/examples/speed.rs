@@ -2,11 +2,13 @@
 //!
 //! `cargo run --release -p ev3-sim --example speed [-- SECONDS]`
 
+#[path = "../tests/suite/robots.rs"]
+mod robots;
+
+use robots::default_robot;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{
-    Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, RobotSpec, WorldSpec,
-};
+use ev3_sim::{Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, WorldSpec};
 
 const POLL: Duration = Duration::from_millis(10);
 
@@ -42,7 +44,7 @@ fn main() {
         ..WorldSpec::default()
     };
     let mut machine =
-        Machine::new(&world, &RobotSpec::default(), Options::default()).expect("a possible world");
+        Machine::new(&world, &default_robot(), Options::default()).expect("a possible world");
     let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
     let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
     let mut eyes = file(&machine, "lego-sensor/sensor0/value0");

@@ -33,7 +33,7 @@ use crate::robot::RobotSpec;
 use crate::trace::{Collision, Trace};
 use crate::world::geometry::Pose;
 use crate::world::scene::Scene;
-use crate::world::{Item, ItemId, SpecError, WorldSpec};
+use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
 
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,17 +79,6 @@ pub struct Machine {
     scene: Scene,
     panel: Panel,
     trace: Trace,
-}
-
-impl Default for Machine {
-    /// The default robot on an endless floor, without noise.
-    ///
-    /// # Panics
-    /// Never: the default world and robot are valid.
-    fn default() -> Self {
-        Machine::new(&WorldSpec::default(), &RobotSpec::default(), Options::default())
-            .expect("the default world and robot are valid")
-    }
 }
 
 impl Machine {
@@ -186,9 +175,14 @@ impl Machine {
             return Ok(());
         };
         let items = self.scene.items();
-        let item = items.iter().find(|(other, _)| *other == id);
-        let name = item.map_or_else(|| "bounds".to_owned(), |(_, item)| format!("{item:?}"));
-        Err(SpecError::new(format!("robot at {}, {}", pose.x, pose.y), format!("is inside {name}")))
+        let index = items.iter().position(|(other, _)| *other == id);
+        let (name, part) = match index {
+            Some(index) => (items[index].1.to_string(), Part::Item(index)),
+            None => ("the walls of the bounds".to_owned(), Part::Bounds),
+        };
+        let item = format!("robot at {}, {}", pose.x, pose.y);
+        let error = SpecError::new(item, format!("is inside {name}"));
+        Err(error.in_part(Part::Start).in_part(part))
     }
 
     /// Everything in the world, with the numbers under which it can be removed.
@@ -202,7 +196,7 @@ impl Machine {
     /// # Errors
     /// If the item is impossible, or the robot is where it should stand.
     pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
-        let name = format!("{item:?}");
+        let name = item.to_string();
         let id = self.scene.add(item)?;
         if self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
             self.scene.remove(id);

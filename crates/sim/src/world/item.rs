@@ -1,5 +1,7 @@
 //! What stands and lies in a world, as plain data.
 
+use std::fmt;
+
 use crate::brick::port::Port;
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
@@ -153,8 +155,44 @@ impl Item {
             ]),
         };
         match fault {
-            Some(reason) => Err(SpecError::new(format!("{} {self:?}", self.kind()), reason)),
+            Some(reason) => Err(SpecError::new(self.to_string(), reason)),
             None => Ok(()),
+        }
+    }
+}
+
+/// As the fact that describes it in a world file; of long lists of points only the first.
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
+                write!(f, "wall({x1}, {y1}, {x2}, {y2}, {thickness})")
+            }
+            Item::Box { pose: Pose { x, y, heading }, width, depth } => {
+                write!(f, "box({x}, {y}, {width}, {depth}, {heading})")
+            }
+            Item::Circle { center: [x, y], radius } => write!(f, "circle({x}, {y}, {radius})"),
+            Item::Patch { corners, color } => write!(f, "patch({color}, {})", Points(corners)),
+            Item::Line { points, width, color } => {
+                write!(f, "line({color}, {width}, {})", Points(points))
+            }
+            Item::Lamp { at: [x, y], intensity } => write!(f, "lamp({x}, {y}, {intensity})"),
+            Item::Bulb { at: [x, y], intensity, port } => {
+                write!(f, "lamp({x}, {y}, {intensity}, {port})")
+            }
+            Item::Beacon { at: [x, y], channel } => write!(f, "beacon({x}, {y}, {channel})"),
+        }
+    }
+}
+
+struct Points<'a>(&'a [Point]);
+
+impl fmt::Display for Points<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => f.write_str("[]"),
+            [[x, y]] => write!(f, "[[{x}, {y}]]"),
+            [[x, y], ..] => write!(f, "[[{x}, {y}]|...]"),
         }
     }
 }
@@ -173,18 +211,61 @@ fn positive(number: f64) -> bool {
     number.is_finite() && number > 0.0
 }
 
-/// What is impossible in a world or a robot.
+/// A part of a world or a robot, as its file's facts name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// An item, by its place in [`WorldSpec::items`](crate::WorldSpec::items).
+    Item(usize),
+    /// The bounds.
+    Bounds,
+    /// The light from everywhere.
+    Ambient,
+    /// The temperature.
+    Temperature,
+    /// The loudness.
+    Loudness,
+    /// Where the robot starts.
+    Start,
+    /// A row of a drawn world, counted from 0.
+    MapRow(usize),
+    /// The left wheel.
+    LeftWheel,
+    /// The right wheel.
+    RightWheel,
+    /// The axle.
+    Axle,
+    /// The outline.
+    Hull,
+    /// The mass.
+    Mass,
+    /// A motor, by its place in [`RobotSpec::motors`](crate::RobotSpec::motors).
+    Motor(usize),
+    /// The errors of the encoder of the motor at a port.
+    EncoderNoise(Port),
+    /// A sensor, by its place in [`RobotSpec::sensors`](crate::RobotSpec::sensors).
+    Sensor(usize),
+}
+
+/// Something impossible in a world or a robot.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{item}: {reason}")]
+#[error("{item} {reason}")]
 pub struct SpecError {
-    /// The offending item, by kind and content.
+    /// The offending item, as a message names it.
     pub item: String,
     /// What is wrong with it.
     pub reason: String,
+    /// The parts that may be to blame, the likeliest first.
+    pub parts: Vec<Part>,
 }
 
 impl SpecError {
     pub(crate) fn new(item: impl Into<String>, reason: impl Into<String>) -> Self {
-        SpecError { item: item.into(), reason: reason.into() }
+        SpecError { item: item.into(), reason: reason.into(), parts: Vec::new() }
+    }
+
+    /// The same error, with one more part that may be to blame.
+    pub(crate) fn in_part(mut self, part: Part) -> Self {
+        self.parts.push(part);
+        self
     }
 }

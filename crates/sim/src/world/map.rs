@@ -10,7 +10,7 @@
 
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
-use crate::world::{Item, Point, SpecError, WorldSpec};
+use crate::world::{Item, Part, Point, SpecError, WorldSpec};
 
 const FLOORS: [(char, &str); 7] = [
     ('k', "black"),
@@ -31,11 +31,20 @@ impl WorldSpec {
     /// # Errors
     /// An unknown character, a second start, or a cell without size, by row and column from 1.
     pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
+        let rows: Vec<&str> = map.trim_matches('\n').lines().collect();
+        WorldSpec::from_rows(&rows, cell)
+    }
+
+    /// As [`from_map`](Self::from_map), with a text for each row.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn from_rows(rows: &[impl AsRef<str>], cell: f64) -> Result<WorldSpec, SpecError> {
         if !(cell.is_finite() && cell > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
         }
         let rows: Vec<Vec<char>> =
-            map.trim_matches('\n').lines().map(|line| line.trim_end().chars().collect()).collect();
+            rows.iter().map(|line| line.as_ref().trim_end().chars().collect()).collect();
         let mut world = WorldSpec::default();
         let mut started = false;
         let height = rows.len();
@@ -50,7 +59,8 @@ impl WorldSpec {
                     other => {
                         if let Some(heading) = start_heading(other) {
                             if std::mem::replace(&mut started, true) {
-                                return Err(SpecError::new(place(), "is a second start"));
+                                return Err(SpecError::new(place(), "is a second start")
+                                    .in_part(Part::MapRow(row)));
                             }
                             world.start = Pose::new(center[0], center[1], heading);
                         } else if let Some(color) = floor_color(other) {
@@ -59,7 +69,7 @@ impl WorldSpec {
                             world.items.push(Item::rectangle(low, high, color));
                         } else {
                             let reason = format!("has an unknown character: {other:?}");
-                            return Err(SpecError::new(place(), reason));
+                            return Err(SpecError::new(place(), reason).in_part(Part::MapRow(row)));
                         }
                     }
                 }
@@ -150,7 +160,7 @@ mod tests {
     #[test]
     fn errors_name_row_and_column() {
         let error = WorldSpec::from_map("###\n#X#", 20.0).unwrap_err();
-        assert_eq!(error.to_string(), "map row 2 column 2: has an unknown character: 'X'");
+        assert_eq!(error.to_string(), "map row 2 column 2 has an unknown character: 'X'");
         assert!(WorldSpec::from_map("SS", 20.0).is_err());
         assert!(WorldSpec::from_map("S", 0.0).is_err());
     }

@@ -11,5 +11,5 @@ pub(crate) mod scene;
 mod spec;
 
 pub use hull::Hull;
-pub use item::{Item, ItemId, Point, SpecError};
+pub use item::{Item, ItemId, Part, Point, SpecError};
 pub use spec::{Bounds, WorldSpec};

@@ -2,7 +2,7 @@
 
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
-use crate::world::item::{Item, NOT_FINITE, Point, SpecError, finite};
+use crate::world::item::{Item, NOT_FINITE, Part, Point, SpecError, finite};
 
 /// Temperatures that there can be, in degrees Celsius.
 const ABSOLUTE_ZERO: f64 = -273.15;
@@ -15,6 +15,20 @@ pub struct Bounds {
     pub low: Point,
     /// Upper right corner.
     pub high: Point,
+}
+
+impl Bounds {
+    /// Checks the corners.
+    ///
+    /// # Errors
+    /// If the rectangle has no inside.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let Bounds { low, high } = *self;
+        if finite(&[low, high]) && low[0] < high[0] && low[1] < high[1] {
+            return Ok(());
+        }
+        Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
+    }
 }
 
 /// A world.
@@ -57,24 +71,24 @@ impl WorldSpec {
     /// # Errors
     /// Names the first offending item.
     pub fn validate(&self) -> Result<(), SpecError> {
-        self.items.iter().try_for_each(Item::validate)?;
+        for (index, item) in self.items.iter().enumerate() {
+            item.validate().map_err(|error| error.in_part(Part::Item(index)))?;
+        }
         if !(self.ambient.is_finite() && self.ambient >= 0.0) {
-            return Err(SpecError::new("ambient", "must be 0 or more"));
+            return Err(SpecError::new("ambient", "must be 0 or more").in_part(Part::Ambient));
         }
         if !(ABSOLUTE_ZERO..=HOTTEST).contains(&self.temperature) {
-            return Err(SpecError::new("temperature", "must be from -273.15 to 1000"));
+            return Err(SpecError::new("temperature", "must be from -273.15 to 1000")
+                .in_part(Part::Temperature));
         }
         if !(0.0..=100.0).contains(&self.loudness) {
-            return Err(SpecError::new("loudness", "must be from 0 to 100"));
+            return Err(SpecError::new("loudness", "must be from 0 to 100").in_part(Part::Loudness));
         }
         if !self.start.is_finite() {
-            return Err(SpecError::new("start", NOT_FINITE));
+            return Err(SpecError::new("start", NOT_FINITE).in_part(Part::Start));
         }
-        if let Some(Bounds { low, high }) = self.bounds {
-            let inside = finite(&[low, high]) && low[0] < high[0] && low[1] < high[1];
-            if !inside {
-                return Err(SpecError::new("bounds", "must have an inside"));
-            }
+        if let Some(bounds) = self.bounds {
+            bounds.validate()?;
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! A brick on a desk, in the words of a shell.
 
+use crate::robots::default_robot;
 use std::fmt::Display;
 use std::time::Duration;
 
@@ -32,7 +33,7 @@ pub(crate) struct Desk(pub(crate) Machine);
 impl Desk {
     /// The default robot on an endless floor.
     pub(crate) fn new() -> Desk {
-        Desk::with(&WorldSpec::default(), &RobotSpec::default())
+        Desk::with(&WorldSpec::default(), &default_robot())
     }
 
     pub(crate) fn with(world: &WorldSpec, robot: &RobotSpec) -> Desk {

@@ -15,6 +15,7 @@ mod motors;
 mod panel;
 mod plugs;
 mod properties;
+mod robots;
 mod sensors;
 mod servos;
 mod world;

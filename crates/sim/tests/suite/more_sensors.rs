@@ -1,8 +1,9 @@
 //! Sensors of the NXT and of other makers, beacons and remote controls.
 
+use crate::robots::{default_robot, touch_robot};
 use std::time::Duration;
 
-use ev3_sim::{Errno, Item, Machine, Options, Pose, RemoteButton, RobotSpec, WorldSpec};
+use ev3_sim::{Errno, Item, Machine, Options, Pose, RemoteButton, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
@@ -15,7 +16,7 @@ fn desk(driver: &str, items: Vec<Item>) -> Desk {
 }
 
 fn desk_in(driver: &str, world: &WorldSpec) -> Desk {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     driver.clone_into(&mut robot.sensors[3].driver);
     let mut desk = Desk::with(world, &robot);
     if desk.get("lego-port/port3/status") == "nxt-analog" && driver != "lego-nxt-light" {
@@ -419,13 +420,13 @@ fn impossible_worlds_are_refused() {
         WorldSpec { loudness: 101.0, ..WorldSpec::default() },
     ];
     for world in impossible {
-        assert!(Machine::new(&world, &RobotSpec::default(), Options::default()).is_err());
+        assert!(Machine::new(&world, &default_robot(), Options::default()).is_err());
     }
 }
 
 #[test]
 fn a_pressed_nxt_touch_sensor_wakes_who_waits() {
-    let mut robot = RobotSpec::with_touch();
+    let mut robot = touch_robot();
     "lego-nxt-touch".clone_into(&mut robot.sensors[3].driver);
     let world = WorldSpec {
         items: vec![Item::wall([-100.0, 30.0], [100.0, 30.0])],
@@ -449,7 +450,7 @@ fn a_pressed_nxt_touch_sensor_wakes_who_waits() {
 #[test]
 fn sensors_of_the_nxt_have_errors_if_they_are_asked_for() {
     for (driver, mode) in [("lego-nxt-us", "US-DIST-CM"), ("ht-nxt-compass", "COMPASS")] {
-        let mut robot = RobotSpec::default();
+        let mut robot = default_robot();
         driver.clone_into(&mut robot.sensors[3].driver);
         let wall = vec![Item::wall([-100.0, 100.5], [100.0, 100.5])];
         let world = WorldSpec { items: wall, ..WorldSpec::default() };

@@ -1,8 +1,9 @@
 //! Keys, speaker and screen, through the device files.
 
+use crate::robots::{default_machine, default_robot};
 use std::time::Duration;
 
-use ev3_sim::{Action, Button, Depth, DevDescriptor, Errno, Machine, Options, RobotSpec};
+use ev3_sim::{Action, Button, Depth, DevDescriptor, Errno, Machine, Options};
 
 use crate::desk::furnished;
 
@@ -44,7 +45,7 @@ fn read_number(size: u32, number: u32) -> u32 {
 
 #[test]
 fn a_reader_gets_what_happens_after_it_opened_the_device() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     machine.press(Button::Up);
     let mut file = DevDescriptor::open(&machine, KEYS).unwrap();
     assert!(!file.is_ready(&machine));
@@ -60,7 +61,7 @@ fn a_reader_gets_what_happens_after_it_opened_the_device() {
 
 #[test]
 fn readers_have_queues_of_their_own_which_are_no_longer_than_the_kernels() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     let mut slow = DevDescriptor::open(&machine, "input/event1").unwrap();
     for _ in 0..100 {
         machine.press(Button::Enter);
@@ -80,7 +81,7 @@ fn readers_have_queues_of_their_own_which_are_no_longer_than_the_kernels() {
 
 #[test]
 fn a_record_holds_its_time_and_does_not_fit_less_room() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     let mut file = DevDescriptor::open(&machine, KEYS).unwrap();
     machine.step(Duration::from_millis(3250));
     machine.press(Button::Left);
@@ -94,7 +95,7 @@ fn a_record_holds_its_time_and_does_not_fit_less_room() {
 #[test]
 fn planned_keys_come_at_their_time_however_time_is_sliced() {
     for slice in [1, 7, 1000] {
-        let mut machine = Machine::default();
+        let mut machine = default_machine();
         machine.plan_button(Button::Down, true, Duration::from_millis(301));
         machine.plan_button(Button::Down, false, Duration::from_millis(500));
         assert_eq!(machine.next_button(), Some(Duration::from_millis(301)));
@@ -113,14 +114,14 @@ fn planned_keys_come_at_their_time_however_time_is_sliced() {
 
 #[test]
 fn a_virtual_clock_finds_a_planned_key() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     machine.plan_button(Button::Enter, true, Duration::from_millis(13));
     assert_eq!(machine.next_event(), Duration::from_millis(14), "on the grid of ticks");
 }
 
 #[test]
 fn the_state_of_keys_is_asked_as_the_kernel_is() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     let file = DevDescriptor::open(&machine, KEYS).unwrap();
     let state = |machine: &Machine, room| file.ioctl(machine, read_number(room, 0x18)).unwrap();
     assert_eq!(state(&machine, 96), (96, vec![0; 96]));
@@ -140,7 +141,7 @@ fn the_state_of_keys_is_asked_as_the_kernel_is() {
 
 #[test]
 fn tones_fit_the_speaker_and_are_recorded() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     let file = DevDescriptor::open(&machine, SOUND).unwrap();
     for (asked, heard) in [(440, 440), (50, 100), (20_000, 10_000), (0, 0)] {
         assert_eq!(file.write(&mut machine, 0, &event(0x12, 2, asked)), Ok(EVENT));
@@ -155,7 +156,7 @@ fn tones_fit_the_speaker_and_are_recorded() {
 
 #[test]
 fn speech_takes_its_time_and_is_recorded() {
-    let mut machine = Machine::default();
+    let mut machine = default_machine();
     assert!(machine.say("hello") > Duration::from_millis(200));
     machine.play("bark.wav");
     machine.set_volume(150);
@@ -170,7 +171,7 @@ fn the_screen_is_so_many_bytes() {
         [(Depth::One, "1\n", "24\n", 3072), (Depth::ThirtyTwo, "32\n", "712\n", 91136)]
     {
         let options = Options { depth, ..Options::default() };
-        let mut machine = Machine::new(&furnished(), &RobotSpec::default(), options).unwrap();
+        let mut machine = Machine::new(&furnished(), &default_robot(), options).unwrap();
         assert_eq!(machine.read_path("graphics/fb0/bits_per_pixel").unwrap(), bits);
         assert_eq!(machine.read_path("graphics/fb0/stride").unwrap(), stride);
         assert_eq!(machine.read_path("graphics/fb0/virtual_size").unwrap(), "178,128\n");
@@ -190,7 +191,7 @@ fn the_screen_is_so_many_bytes() {
 
 #[test]
 fn the_directory_is_the_bricks() {
-    let machine = Machine::default();
+    let machine = default_machine();
     let names = |node| -> Vec<String> {
         machine.dev_read_dir(node).unwrap().into_iter().map(|entry| entry.name).collect()
     };

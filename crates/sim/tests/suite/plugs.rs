@@ -1,12 +1,13 @@
 //! Wires pulled and put in, and the modes of ports.
 
-use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, RobotSpec, WorldSpec};
+use crate::robots::default_robot;
+use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
 fn instant() -> Desk {
     let options = Options { instant: true, ..Options::default() };
-    Desk(Machine::new(&WorldSpec::default(), &RobotSpec::default(), options).unwrap())
+    Desk(Machine::new(&WorldSpec::default(), &default_robot(), options).unwrap())
 }
 
 #[test]
