@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/battery.pl`: the battery.
-use crate::call::{Call, unify_value};
-use crate::error::wrong_value;
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_value;
 use ev3_driver::{Value, battery};
 use swipl::prelude::*;
 

@@ -1,5 +1,6 @@
 //! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
-use crate::call::{Call, unify_atom};
+use crate::glue::call::Call;
+use crate::glue::terms::unify_atom;
 use crate::motors::move_options;
 use ev3_driver::dc;
 use swipl::prelude::*;

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/odometry.pl`, `drive_moves.pl`, `calibrate.pl`: curves, odometry, going to places.
-use crate::call::{Call, unify_atom};
-use crate::error::wrong_value;
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_atom;
 use crate::motors::stop_action;
 use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
 use ev3_driver::odometry::{Pose, Wheels, wrapped};

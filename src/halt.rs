@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/halt.pl`: what happens when a program ends.
-use crate::call::Call;
-use crate::state::devices;
+use crate::glue::call::Call;
+use crate::glue::state::devices;
 use ev3_driver::motor;
 use swipl::prelude::*;
 

@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/lights.pl`: lights.
-use crate::call::{Call, unify_atom};
 use crate::driver::unify_port;
-use crate::error::wrong_value;
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_atom;
 use ev3_driver::light::{self, Colour, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;

@@ -1,7 +1,8 @@
-//! `prolog/ev3dev/motors.pl`: motors.
-use crate::call::{Call, unify_atom};
-use crate::driver::class_of;
-use crate::error::wrong_value;
+//! `prolog/ev3dev/motors.pl`, `motor_moves.pl`, `motor_settings.pl`: motors.
+use crate::driver::{class_of, unify_port};
+use crate::glue::call::{Call, ListedDevices};
+use crate::glue::error::wrong_value;
+use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
 use ev3_driver::wait;
 use ev3_driver::{Class, Device};
@@ -20,6 +21,9 @@ pub(crate) fn register() {
     register_motor_reset();
     register_motor_wait();
     register_motor_wait_flag();
+    register_motor_run_direct();
+    register_motor_position();
+    register_motor_set_position();
 }
 
 predicates! {
@@ -139,6 +143,49 @@ predicates! {
         let motor = call.found(devices.find(Class::TachoMotor, &port))?;
         let interrupted = &mut call.interrupted();
         call.check(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+    }
+
+    /// motor_run_direct_(+Class, +Port, +Percent)
+    #[module("ev3dev_native")]
+    #[name("motor_run_direct_")]
+    semidet fn motor_run_direct(context, class, port, percent) {
+        let call = Call::of(context, "motor_run_direct", 2);
+        let class = class_of(context, class)?;
+        let (port, percent) = (call.text(port)?, call.float(percent)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let runs = motor::run_direct(&devices, class, &port, percent, interrupted);
+        into_prolog_result(call.check(runs)?)
+    }
+
+    /// motor_position_(?Port, -Position)
+    #[module("ev3dev_native")]
+    #[name("motor_position_")]
+    nondet fn motor_position<ListedDevices>(context, port, position) {
+        setup => {
+            let call = Call::of(context, "motor_position", 2);
+            call.listed(Class::TachoMotor, port)
+        },
+        call(motors) => {
+            let call = Call::of(context, "motor_position", 2);
+            let devices = &call.devices()?;
+            let read = |motor: &Arc<Device>| call.found(devices.read(motor, motor::position));
+            call.next(motors, read, |motor, read| {
+                unify_value(position, read)?;
+                unify_port(port, motor.port())
+            })
+        }
+    }
+
+    /// motor_set_position_(+Port, +Position)
+    #[module("ev3dev_native")]
+    #[name("motor_set_position_")]
+    semidet fn motor_set_position(context, port, position) {
+        let call = Call::of(context, "motor_position", 2);
+        let (port, position) = (call.text(port)?, call.float(position)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = |motor: &Arc<Device>| motor::set_position(motor, position);
+        let set = devices.with_patience(Class::TachoMotor, &port, interrupted, set);
+        into_prolog_result(call.found(set)?)
     }
 }
 

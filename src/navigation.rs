@@ -1,5 +1,5 @@
 //! `prolog/ev3dev/navigation.pl`: driving through a room that is not wholly known.
-use crate::call::Call;
+use crate::glue::call::Call;
 use crate::roadmap::{map_of, no_way, options_of, point, point_term, points_term};
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/ports.pl`: ports.
-use crate::call::{Call, ListedDevices, unify_atom};
 use crate::driver::unify_port;
+use crate::glue::call::{Call, ListedDevices};
+use crate::glue::terms::unify_atom;
 use ev3_driver::lego_port;
 use swipl::prelude::*;
 

@@ -1,5 +1,6 @@
 //! `prolog/ev3dev/robot.pl`: what takes more than motors.
-use crate::call::{Call, unify_atom};
+use crate::glue::call::Call;
+use crate::glue::terms::unify_atom;
 use ev3_driver::Class;
 use ev3_driver::motor::Speed;
 use ev3_driver::turn::{self, Ended, Turn};

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/screen.pl`: the screen.
-use crate::call::Call;
-use crate::error::wrong_value;
-use crate::state::{devices, frame};
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::state::{devices, frame};
 use ev3_driver::frame::{Align, Font, Letters, Shade, Shape, Style};
 use ev3_driver::picture::Picture;
 use ev3_driver::{frame, picture, screen};

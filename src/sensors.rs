@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
-use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
-use crate::error::wrong_value;
+use crate::glue::call::{Call, Text};
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_value;
 use ev3_driver::{Class, Device, Devices, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;

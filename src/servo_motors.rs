@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/servo_motors.pl`: RC servos.
-use crate::call::{Call, ListedDevices};
 use crate::driver::unify_port;
+use crate::glue::call::{Call, ListedDevices};
 use ev3_driver::{Class, Device, servo};
 use std::sync::Arc;
 use swipl::prelude::*;

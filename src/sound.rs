@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
-use crate::call::Call;
-use crate::state::{dev, sound};
+use crate::glue::call::Call;
+use crate::glue::state::{dev, sound};
 use ev3_driver::sound::{self, Tone};
 use std::path::Path;
 use std::time::Duration;

@@ -1,13 +1,17 @@
 //! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
 //! each with the seconds one call took.
+#[path = "../../../crates/sim/tests/suite/robots.rs"]
+mod robots;
+
 use ev3_driver::error::Access;
 use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Way, run_forever, run_to};
 use ev3_driver::tree::{Entry, Files, Node, Tree};
 use ev3_driver::wait::Reason;
 use ev3_driver::{Devices, Error};
-use ev3_sim::{Machine, Mount, Shared};
+use ev3_sim::{Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
+use robots::default_machine;
 use std::fs::File;
 use std::io::{self, BufRead, Write};
 use std::os::unix::fs::FileExt;
@@ -202,7 +206,7 @@ fn gap(root: &Path, count: u32) -> f64 {
 /// for it, through FUSE and with the real clock: median and worst of `count`.
 fn latency(count: u32) -> [f64; 2] {
     let directory = tempfile::tempdir().expect("a directory");
-    let shared = Arc::new(Shared::new(Machine::default()));
+    let shared = Arc::new(Shared::new(default_machine()));
     let mount = Mount::new(Arc::clone(&shared), directory.path()).expect("FUSE");
     let stopped = Arc::new(Mutex::new(Instant::now()));
     let is_over = Arc::new(AtomicBool::new(false));

@@ -2,7 +2,8 @@
 use crate::geometry::{Point, Vec2, angle, cross, direction, distance, length, point, vec2};
 use crate::map::Map;
 use crate::path::{Leg, Path};
-use crate::plan::{NoWay, Options, plan};
+use crate::plan::{NoWay, plan};
+use crate::problem::Options;
 use crate::views::{FAR, Views};
 
 /// What was heard from afar is vague: where it leaves no way, only that counts

@@ -20,7 +20,7 @@ pub enum Leg {
         /// Where it ends.
         to: Point,
         /// The middle of the circle.
-        centre: Point,
+        center: Point,
         /// In cm.
         radius: f64,
         /// By how much the heading changes: degrees, clockwise positive.
@@ -30,8 +30,8 @@ pub enum Leg {
 
 impl From<Arc> for Leg {
     fn from(arc: Arc) -> Leg {
-        let Arc { from, to, centre, radius, sweep } = arc;
-        Leg::Arc { from, to, centre, radius, angle: -sweep.to_degrees() }
+        let Arc { from, to, center, radius, sweep } = arc;
+        Leg::Arc { from, to, center, radius, angle: -sweep.to_degrees() }
     }
 }
 
@@ -42,8 +42,8 @@ impl Leg {
 
     fn arc(&self) -> Option<Arc> {
         match *self {
-            Leg::Arc { from, to, centre, radius, angle } => {
-                Some(Arc { from, to, centre, radius, sweep: -angle.to_radians() })
+            Leg::Arc { from, to, center, radius, angle } => {
+                Some(Arc { from, to, center, radius, sweep: -angle.to_radians() })
             }
             Leg::Line { .. } => None,
         }
@@ -93,9 +93,9 @@ impl Leg {
     pub(crate) fn until(&self, way: f64) -> Leg {
         match *self {
             Leg::Line { from, .. } => Leg::Line { from, to: self.at(way) },
-            Leg::Arc { from, centre, radius, angle, .. } => {
+            Leg::Arc { from, center, radius, angle, .. } => {
                 let share = (way / self.length()).clamp(0.0, 1.0);
-                Leg::Arc { from, to: self.at(way), centre, radius, angle: angle * share }
+                Leg::Arc { from, to: self.at(way), center, radius, angle: angle * share }
             }
         }
     }

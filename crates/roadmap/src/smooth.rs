@@ -95,6 +95,6 @@ fn rounding(corner: [Point; 3], turn: f64, radius: f64) -> Arc {
     let (along, on) = (unit(at - before), unit(after - at));
     let cut = radius * libm::tan(turn.abs() / 2.0);
     let from = at - along * cut;
-    let centre = from + left_of(along) * (radius * turn.signum());
-    Arc { from: point(from), to: point(at + on * cut), centre: point(centre), radius, sweep: turn }
+    let center = from + left_of(along) * (radius * turn.signum());
+    Arc { from: point(from), to: point(at + on * cut), center: point(center), radius, sweep: turn }
 }

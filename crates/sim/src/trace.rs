@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use crate::geometry::Pose;
-use crate::scene::ItemId;
+use crate::world::ItemId;
+use crate::world::geometry::Pose;
 
 const PATH_POINTS: usize = 2048;
 const EVENTS: usize = 4096;

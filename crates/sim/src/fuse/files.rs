@@ -13,11 +13,11 @@ use fuser::{
 
 use super::open::{Open, locked};
 use super::served::Served;
-use crate::attr::Access;
-use crate::errno::Errno;
+use crate::files::attr::Access;
+use crate::files::errno::Errno;
 use crate::machine::Machine;
+use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::shared::Shared;
-use crate::tree::{FileKind, NodeId, Stat};
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;

@@ -20,8 +20,8 @@ use std::time::Duration;
 
 use fuser::{BackgroundSession, Config, MountOption, Session};
 
-use crate::descriptor::Descriptor;
-use crate::dev::DevDescriptor;
+use crate::machine::Descriptor;
+use crate::machine::DevDescriptor;
 use crate::shared::Shared;
 use files::Files;
 use open::Open;

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 
 use super::served::Served;
-use crate::errno::Errno;
+use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::shared::Shared;
 

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use fuser::PollEvents;
 
-use crate::attr::Access;
-use crate::descriptor::Descriptor;
-use crate::dev::DevDescriptor;
-use crate::errno::Errno;
+use crate::files::attr::Access;
+use crate::files::errno::Errno;
+use crate::machine::Descriptor;
+use crate::machine::DevDescriptor;
+use crate::machine::tree::{Entry, NodeId, Stat};
 use crate::machine::{Machine, Written};
-use crate::tree::{Entry, NodeId, Stat};
 
 /// An open file, and the tree that it is in.
 pub(super) trait Served: Debug + Send + Sized + 'static {

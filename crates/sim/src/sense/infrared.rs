@@ -1,9 +1,9 @@
 //! What infrared sensors see of beacons, and hear of remote controls.
 
 use super::{View, whole};
-use crate::geometry::length;
-use crate::remote::{CHANNELS, Remote};
+use crate::brick::remote::{CHANNELS, Remote};
 use crate::sensor::Reading;
+use crate::world::geometry::length;
 
 /// A beacon is seen from this far, in cm: there an EV3 sensor says 100 %.
 const BEACON_FAR: f64 = 200.0;

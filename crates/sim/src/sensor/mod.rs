@@ -17,9 +17,9 @@ pub(crate) use kind::{Mode, Parts, Sense};
 
 use std::time::Duration;
 
-use crate::attr::Effect;
-use crate::errno::Errno;
-use crate::port::Port;
+use crate::brick::port::Port;
+use crate::files::attr::Effect;
+use crate::files::errno::Errno;
 use crate::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
 
 /// From a mode message to the first data of the new mode.
