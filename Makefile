@@ -9,7 +9,8 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-old check-dist check-brick check-versions \
+.PHONY: all setup build check check-rust check-prolog check-clients check-all check-old check-dist \
+        check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench dist demo install clean distclean realclean
 
 all: build
@@ -32,7 +33,15 @@ place:
 	@cp -f "$${CARGO_TARGET_DIR:-target}/release/libev3dev.so" "$(LIBRARY).new"
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
+# In minutes
 check: build check-rust check-prolog check-clients
+
+# What takes an hour: all that is below, too. docs/checked.md says when it last
+# passed.
+check-all: lint check
+	$(MAKE) dist
+	$(MAKE) -j2 check-brick check-dist check-versions check-brick-prolog
+	@tools/checked.sh
 
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
@@ -70,7 +79,20 @@ check-dist:
 check-brick: dist
 	@tools/versions.sh armel
 
-# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3
+# On an emulated EV3: the library alone, every predicate, an example
+check-brick-smoke:
+	@tools/smoke.sh
+
+# SWI-Prolog 9 for the brick, with the pack in it: dist/brick-prolog-<version>.tgz
+brick-prolog: dist
+	@tools/brick-prolog.sh --with-pack
+
+# On an emulated EV3 that has nothing else
+check-brick-prolog: brick-prolog
+	@tools/check-brick-prolog.sh
+
+# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3,
+# SWIPL_101=<swipl> a built 10.1
 check-versions: dist
 	@tools/versions.sh
 
