@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/battery.pl`: the battery.
 use crate::call::{Call, unify_value};
 use crate::error::wrong_value;
-use ev3_driver::{Value, battery};
+use ev3_driver::Value;
+use ev3_driver::brick::battery;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
 use crate::call::{Call, unify_atom};
 use crate::motors::move_options;
-use ev3_driver::dc;
+use ev3_driver::motor::dc;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -2,10 +2,10 @@
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use crate::motors::stop_action;
+use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
+use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
-use ev3_driver::odometry::{Pose, Wheels, wrapped};
-use ev3_driver::steering::Leg;
-use ev3_driver::wait::{Reason, sleep};
+use ev3_driver::motor::wait::{Reason, sleep};
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;

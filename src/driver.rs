@@ -2,8 +2,8 @@
 use crate::call::{Call, Text, unify_atom, unify_value};
 use crate::error::wrong_value;
 use crate::state::{devices, use_files};
+use ev3_driver::device::registry::Detected;
 use ev3_driver::device::{read_value, write_file};
-use ev3_driver::devices::Detected;
 use ev3_driver::{Class, Device, Devices, attributes};
 use std::path::Path;
 use std::sync::Arc;
@@ -157,7 +157,7 @@ impl Bound {
     fn admits(&self, device: &Detected) -> bool {
         let admits = |bound: &Option<Text>, text: &str| bound.as_deref().is_none_or(|b| b == text);
         let port = self.port.as_deref();
-        port.is_none_or(|port| ev3_driver::port::names(port, &device.port))
+        port.is_none_or(|port| ev3_driver::port_name::names(port, &device.port))
             && admits(&self.kind, &device.driver)
             && admits(&self.path, &device.path.to_string_lossy())
     }

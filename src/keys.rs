@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/keys.pl`: the keys of the brick.
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
-use ev3_driver::keys::{self, Event, Events, Key};
+use ev3_driver::brick::buttons::{self as keys, Event, Events, Key};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use swipl::prelude::*;
 

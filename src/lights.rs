@@ -2,7 +2,7 @@
 use crate::call::{Call, unify_atom};
 use crate::driver::unify_port;
 use crate::error::wrong_value;
-use ev3_driver::light::{self, Colour, Light};
+use ev3_driver::brick::light::{self, Colour, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;
 

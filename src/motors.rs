@@ -2,8 +2,8 @@
 use crate::call::{Call, unify_atom};
 use crate::driver::class_of;
 use crate::error::wrong_value;
+use ev3_driver::motor::wait;
 use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
-use ev3_driver::wait;
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use std::time::Duration;

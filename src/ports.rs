@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/ports.pl`: ports.
 use crate::call::{Call, ListedDevices, unify_atom};
 use crate::driver::unify_port;
-use ev3_driver::lego_port;
+use ev3_driver::brick::port as lego_port;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -1,8 +1,8 @@
 //! `prolog/ev3dev/robot.pl`: what takes more than motors.
 use crate::call::{Call, unify_atom};
 use ev3_driver::Class;
+use ev3_driver::drive::turn::{self, Ended, Turn};
 use ev3_driver::motor::Speed;
-use ev3_driver::turn::{self, Ended, Turn};
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/servo_motors.pl`: RC servos.
 use crate::call::{Call, ListedDevices};
 use crate::driver::unify_port;
-use ev3_driver::{Class, Device, servo};
+use ev3_driver::motor::servo;
+use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use swipl::prelude::*;
 

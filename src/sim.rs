@@ -208,7 +208,7 @@ predicates! {
             return wrong_value(&call, "seconds", seconds);
         };
         let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
-        call.check(ev3_driver::wait::sleep(&files, time, &mut call.interrupted()))
+        call.check(ev3_driver::motor::wait::sleep(&files, time, &mut call.interrupted()))
     }
 
     /// sim_hold_
@@ -435,7 +435,7 @@ fn clock_of<'a, C: QueryableContextType>(
 /// A port, in either spelling.
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
     let text = call.text(term)?;
-    match ev3_driver::port::socket(&text).parse() {
+    match ev3_driver::port_name::socket(&text).parse() {
         Ok(port) => Ok(port),
         Err(_) => named(call, "port", term),
     }

@@ -11,7 +11,7 @@
 //! makes time pass, at that very moment and, on the virtual clock, in no time:
 //! a loop that controls motors does the same in each run.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Files, Node, Repeated, Tree};
+use ev3_driver::sysfs::{Entry, Files, Node, Repeated, Tree};
 use ev3_sim::{Errno, Machine, NodeId, Shared};
 use std::collections::{HashMap, HashSet};
 use std::io;

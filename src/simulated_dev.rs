@@ -1,7 +1,7 @@
 //! The simulated brick's keys, speaker and screen as a [`Dev`].
 use crate::simulated::{Simulation, error};
 use ev3_driver::Dev;
-use ev3_driver::dev::{Speaker, Stream};
+use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_sim::DevDescriptor;
 use std::io;

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
 use crate::call::Call;
 use crate::state::{dev, sound};
-use ev3_driver::sound::{self, Tone};
+use ev3_driver::brick::sound::{self, Tone};
 use std::path::Path;
 use std::time::Duration;
 use swipl::prelude::*;

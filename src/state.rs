@@ -1,6 +1,6 @@
 //! The tree in use, one for the whole process.
-use ev3_driver::frame::Frame;
-use ev3_driver::sound::Sound;
+use ev3_driver::brick::screen::frame::Frame;
+use ev3_driver::brick::sound::Sound;
 use ev3_driver::{Dev, DevFiles, Devices, Files, Tree, motor};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};

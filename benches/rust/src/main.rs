@@ -2,8 +2,8 @@
 //! each with the seconds one call took.
 use ev3_driver::error::Access;
 use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Way, run_forever, run_to};
-use ev3_driver::tree::{Entry, Files, Node, Tree};
-use ev3_driver::wait::Reason;
+use ev3_driver::sysfs::{Entry, Files, Node, Tree};
+use ev3_driver::motor::wait::Reason;
 use ev3_driver::{Devices, Error};
 use ev3_sim::{Machine, Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};

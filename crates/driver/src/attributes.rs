@@ -5,7 +5,7 @@
 //! written only when it differs and then needs time to settle.
 use crate::Interrupted;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
 use crate::error::Result;
 use crate::value::Value;
 use crate::{motor, sensor};

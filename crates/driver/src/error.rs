@@ -1,5 +1,5 @@
 //! What can go wrong, with the file it went wrong at.
-use crate::devices::Class;
+use crate::device::registry::Class;
 use rustix::io::Errno;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -10,16 +10,15 @@
 //!
 //! From the bottom up:
 //!
-//! * [`tree`]: where the files are: the kernel's, any directory shaped like
-//!   it, or something that only behaves so. It also owns the clock.
-//! * [`device`]: one device, its kept descriptors and its constants.
-//! * [`devices`]: which devices there are, by class and port.
-//! * [`dev`]: the device files below `/dev`; [`keys`], [`sound`] and
-//!   [`screen`] work on them, with a [`frame`] to draw on and a [`picture`] for files.
-//! * [`attributes`], [`motor`], [`dc`], [`servo`], [`wait`], [`sensor`],
-//!   [`turn`], [`light`], [`battery`], [`lego_port`]: what robots do.
-//! * [`odometry`], [`path`], [`steering`]: where a robot is and how it gets
-//!   elsewhere, without any device; [`drive`]: the same with its devices.
+//! * [`sysfs`]: where the attribute files are: the kernel's, any directory
+//!   shaped like it, or something that only behaves so. It also owns the clock.
+//! * [`devfs`]: the device files below `/dev`.
+//! * [`device`]: one device, its kept descriptors and its constants; which
+//!   devices there are, by class and port ([`device::registry`]).
+//! * [`motor`], [`sensor`], [`attributes`]: running motors and waiting for them,
+//!   reading sensors, any attribute by its name.
+//! * [`brick`]: lights, battery, buttons, sound, screen and ports.
+//! * [`drive`]: where a robot is and how it gets elsewhere.
 //!
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
@@ -30,43 +29,24 @@
 #![forbid(unsafe_code)]
 
 pub mod attributes;
-pub mod battery;
-mod bin_data;
-pub mod dc;
-pub mod dev;
+pub mod brick;
+pub mod devfs;
 pub mod device;
-pub mod devices;
 pub mod drive;
 pub mod error;
-pub mod frame;
 mod held;
-pub mod keys;
-pub mod lego_port;
-pub mod light;
-mod list;
 pub mod motor;
-pub mod odometry;
-pub mod path;
-mod patience;
-pub mod picture;
-pub mod port;
-mod programs;
-pub mod screen;
+pub mod port_name;
 pub mod sensor;
-pub mod servo;
-pub mod sound;
-pub mod steering;
-pub mod tree;
-pub mod turn;
+pub mod sysfs;
 pub mod value;
-pub mod wait;
 
-pub use dev::{Dev, DevFiles};
+pub use devfs::{Dev, DevFiles};
 pub use device::Device;
-pub use devices::{Class, Devices};
+pub use device::registry::{Class, Devices};
 pub use error::{Error, Result};
 pub use rustix::io::Errno;
-pub use tree::{Files, Tree};
+pub use sysfs::{Files, Tree};
 pub use value::Value;
 
 /// Asked at least every 20 ms while something waits; `true` abandons the wait

@@ -2,31 +2,35 @@
 //!
 //! One place does both, at a fixed period of 20 ms while the wheels turn or a
 //! motion is under way: it reads wheels and gyro, moves the estimate on
-//! ([`odometry`](crate::odometry)), and tells the motors what the motion wants
-//! next ([`steering`](crate::steering)). The tree calls it
-//! ([`Tree::every`](crate::tree::Tree::every)): where there are real files by a
+//! ([`odometry`]), and tells the motors what the motion wants
+//! next ([`steering`]). The tree calls it
+//! ([`Tree::every`](crate::sysfs::Tree::every)): where there are real files by a
 //! thread of its own, which ends when the robot has come to rest. Whoever asks
 //! for the pose meanwhile gets it as it is now, and does that step himself.
 //!
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
 //! (`tacho_motor_class.c`). The end of a motion is a position that is gone to.
-mod found;
-mod motion;
+mod control;
+mod devices;
+pub mod odometry;
+pub mod path;
+pub mod steering;
+pub mod turn;
 
 use crate::Interrupted;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
+use crate::drive::odometry::{Estimate, Pose, Wheels};
+use crate::drive::steering::Leg;
 use crate::error::{Error, Result};
 use crate::held::{self, Held};
+use crate::motor::wait::{Reason, sleep};
 use crate::motor::{self, StopAction};
-use crate::odometry::{Estimate, Pose, Wheels};
 use crate::sensor;
-use crate::steering::Leg;
-use crate::wait::{Reason, sleep};
-use found::{Found, GYRO_MODE, angle, counts};
-use motion::Job;
-pub use motion::Status;
+use control::Job;
+pub use control::Status;
+use devices::{Found, GYRO_MODE, angle, counts};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
 
@@ -330,7 +334,7 @@ impl Drive {
             return write();
         };
         let mut inner = self.lock();
-        if !inner.robot.ports.iter().any(|port| crate::port::short(port) == motor.port()) {
+        if !inner.robot.ports.iter().any(|port| crate::port_name::short(port) == motor.port()) {
             drop(inner);
             return write();
         }
@@ -470,7 +474,7 @@ impl Inner {
 
     /// The motor that is missing.
     fn absent(&self) -> Error {
-        let port = crate::port::short(&self.robot.ports[0]).to_owned();
+        let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
         Error::Gone { class: Class::TachoMotor, port }
     }
 

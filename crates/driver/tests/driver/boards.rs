@@ -1,7 +1,8 @@
 //! What is built into the boards: lights, batteries, ports.
 use crate::files::PlainTree;
-use ev3_driver::light::{self, Colour};
-use ev3_driver::{Class, Devices, Error, battery, lego_port};
+use ev3_driver::brick::light::{self, Colour};
+use ev3_driver::brick::{battery, port as lego_port};
+use ev3_driver::{Class, Devices, Error};
 use std::fs;
 use std::path::Path;
 

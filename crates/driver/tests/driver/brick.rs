@@ -6,7 +6,7 @@
 //! same each time. What a test wants to go wrong is a public field, set before
 //! or, by [`Brick::at`], at a certain time.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Node};
+use ev3_driver::sysfs::{Entry, Node};
 use ev3_driver::{Device, Devices, Errno, Tree};
 use std::collections::VecDeque;
 use std::io;
@@ -774,7 +774,7 @@ impl Node for BrickNode {
             }
             (address, written)
         };
-        let port = ev3_driver::port::short(&address);
+        let port = ev3_driver::port_name::short(&address);
         let line = format!("{port} {} {text}", self.attribute);
         if written.is_ok() {
             world.written.push(line);

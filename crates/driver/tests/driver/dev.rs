@@ -1,12 +1,13 @@
 //! Keys, speaker and screen over plain files and pipes.
 
-use ev3_driver::dev::{Dev, Stream};
+use ev3_driver::brick::buttons::{self as keys, Event, Events, Key};
+use ev3_driver::brick::screen;
+use ev3_driver::brick::screen::frame::{Frame, Shade, Shape, Style};
+use ev3_driver::brick::screen::picture::{Picture, to_png};
+use ev3_driver::brick::sound::{Sound, Tone};
+use ev3_driver::devfs::{Dev, Stream};
 use ev3_driver::error::{Access, Error};
-use ev3_driver::frame::{Frame, Shade, Shape, Style};
-use ev3_driver::keys::{self, Event, Events, Key};
-use ev3_driver::picture::{Picture, to_png};
-use ev3_driver::sound::{Sound, Tone};
-use ev3_driver::{DevFiles, Errno, Files, screen};
+use ev3_driver::{DevFiles, Errno, Files};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Which devices there are.
 use crate::files::PlainTree;
-use ev3_driver::devices::LISTING_AGE;
+use ev3_driver::device::registry::LISTING_AGE;
 use ev3_driver::{Class, Devices, Errno, Error, Files};
 use std::fs;
 use std::sync::Arc;

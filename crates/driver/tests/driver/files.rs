@@ -1,6 +1,6 @@
 //! Trees of plain files in temporary directories, and what is asked of them.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Files, Node};
+use ev3_driver::sysfs::{Entry, Files, Node};
 use ev3_driver::{Class, Devices, Tree};
 use std::fs;
 use std::io;

@@ -1,11 +1,11 @@
 //! Commands, moves of several motors at once, and what stops them.
 use crate::brick::{Brick, motors, ms};
-use ev3_driver::devices::Class;
+use ev3_driver::device::registry::Class;
+use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
     Move, MoveOptions, Run, Speed, StopAction, Way, command, reset, run_forever, run_to, stop,
     stop_all, stop_started,
 };
-use ev3_driver::wait::{Reason, wait_for};
 use ev3_driver::{Errno, Error, attributes};
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,11 +1,12 @@
 //! Moves for a time, to a position and without regulation; motors that are new.
 use crate::brick::{Brick, ms};
 use crate::files::PlainTree;
+use ev3_driver::motor::wait::Reason;
 use ev3_driver::motor::{
     Move, MoveOptions, Run, Speed, Way, position, run_direct, run_forever, run_to, set_position,
 };
-use ev3_driver::wait::Reason;
-use ev3_driver::{Class, Errno, Error, Value, dc, servo};
+use ev3_driver::motor::{dc, servo};
+use ev3_driver::{Class, Errno, Error, Value};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;

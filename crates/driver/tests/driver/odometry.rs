@@ -1,5 +1,5 @@
 //! Where a robot is, from what its wheels and its gyro tell.
-use ev3_driver::odometry::{Estimate, Pose, Wheels, wrapped};
+use ev3_driver::drive::odometry::{Estimate, Pose, Wheels, wrapped};
 use proptest::prelude::*;
 
 const WHEELS: Wheels =

@@ -1,7 +1,7 @@
 //! Turning by the gyro: how close, how long, and what when it goes wrong.
 use crate::brick::{Brick, ms};
+use ev3_driver::drive::turn::{Ended, Turn, WITHIN, by_gyro};
 use ev3_driver::motor::{self, Run, Speed, StopAction, run_forever};
-use ev3_driver::turn::{Ended, Turn, WITHIN, by_gyro};
 use ev3_driver::{Class, Error};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

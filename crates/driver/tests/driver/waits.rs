@@ -1,9 +1,9 @@
 //! Waiting, and why a wait ends.
 use crate::brick::{Brick, motors, ms};
+use ev3_driver::motor::wait::{Reason, sleep, wait_for, wait_for_flag};
 use ev3_driver::motor::{
     Move, MoveOptions, Run, Speed, StopAction, Way, command, run_forever, run_to, stop,
 };
-use ev3_driver::wait::{Reason, sleep, wait_for, wait_for_flag};
 use ev3_driver::{Devices, Error};
 use std::sync::Arc;
 use std::time::Duration;

@@ -6,12 +6,12 @@
 //! make a new device, even where nothing changes; so they are done only where
 //! something does, and the device is waited for.
 use crate::Interrupted;
+use crate::brick::light;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
+use crate::device::retry::RETRY_EVERY;
 use crate::error::{Error, Result};
-use crate::light;
-use crate::patience::RETRY_EVERY;
-use crate::wait::sleep;
+use crate::motor::wait::sleep;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -49,9 +49,9 @@ pub fn devices_at(devices: &Devices, port: Option<&str>) -> Result<Vec<Arc<Devic
     for class in ON_PORTS {
         all.extend(devices.all(class)?.iter().cloned());
     }
-    let port = port.map(crate::port::short);
+    let port = port.map(crate::port_name::short);
     all.retain(|device| port.is_none_or(|port| device.port() == port));
-    all.sort_unstable_by(|a, b| crate::port::order(a.port(), b.port()));
+    all.sort_unstable_by(|a, b| crate::port_name::order(a.port(), b.port()));
     Ok(all)
 }
 

@@ -5,11 +5,14 @@
 //! grey. ev3dev before 4.14.34 shows black and white only: one bit for a pixel,
 //! 1 is black, the least significant bit is on the left. Since then there are
 //! 32 bits for a pixel, XRGB.
-use crate::dev::{Dev, Stream, open};
+pub mod frame;
+pub mod picture;
+
+use crate::brick::screen::frame::{Frame, HEIGHT, WIDTH};
+use crate::devfs::{Dev, Stream, open};
 use crate::device::read_file;
 use crate::error::{Access, Error, Result};
-use crate::frame::{Frame, HEIGHT, WIDTH};
-use crate::tree::Tree;
+use crate::sysfs::Tree;
 use std::path::{Path, PathBuf};
 
 /// Copies a frame to the screen; `None` where there is none of the EV3's.

@@ -2,7 +2,7 @@
 //!
 //! It has the size of the screen and 256 shades of grey; those that programs
 //! draw with are the four that the EV3's panel has.
-use crate::picture::Picture;
+use crate::brick::screen::picture::Picture;
 use embedded_graphics::mono_font::iso_8859_1::{FONT_5X8, FONT_6X10, FONT_7X13, FONT_10X20};
 use embedded_graphics::mono_font::{MonoFont, MonoTextStyle, MonoTextStyleBuilder};
 use embedded_graphics::pixelcolor::Gray8;

@@ -1,10 +1,14 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
-use crate::devices::{Class, Detected};
+mod list;
+pub mod registry;
+pub(crate) mod retry;
+
+use crate::device::list::List;
+use crate::device::registry::{Class, Detected};
 use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
-use crate::list::List;
 use crate::motor::Motion;
-use crate::tree::{Entry, Node, Tree};
+use crate::sysfs::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
 use rustix::io::Errno;
 use std::path::{Path, PathBuf};
@@ -98,7 +102,7 @@ impl Device {
         };
         Ok(Self {
             class,
-            port: crate::port::short(&address).into(),
+            port: crate::port_name::short(&address).into(),
             driver: driver.into(),
             path,
             entry,

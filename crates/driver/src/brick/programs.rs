@@ -1,6 +1,6 @@
 //! Other programs, as those that speak and play.
 use crate::Interrupted;
-use crate::dev::{Dev, until};
+use crate::devfs::{Dev, until};
 use crate::error::{Error, Result};
 use nix::sys::signal::Signal;
 use std::ffi::OsStr;
@@ -162,7 +162,7 @@ impl Programs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dev::DevFiles;
+    use crate::devfs::DevFiles;
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 

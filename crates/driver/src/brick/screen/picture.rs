@@ -1,6 +1,6 @@
 //! Pictures in files: PNG and PBM are read, PNG is written.
+use crate::brick::screen::luma;
 use crate::error::{Access, Error, Result};
-use crate::screen::luma;
 use std::path::Path;
 
 /// No picture for this screen is wider or higher.

@@ -2,18 +2,18 @@
 //!
 //! Such a device gets a share of the battery's voltage, its *duty*, and nobody
 //! knows what it makes of it. The kernel does not detect one: an output port has
-//! to be put into the mode `dc-motor` ([`lego_port`](crate::lego_port)).
+//! to be put into the mode `dc-motor` ([`lego_port`](crate::brick::port)).
 //!
 //! Each change of the duty is a ramp with steps of 100 ms, even one without
 //! length, and a change that comes while a step is due waits for it
 //! (`dc_motor_class.c`). So what is told such a motor within 100 ms of the last
 //! command or change happens up to 100 ms late.
 use crate::Interrupted;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
+use crate::device::retry::patiently;
 use crate::error::Result;
+use crate::motor::wait::Reason;
 use crate::motor::{self, End, MoveOptions, Ramps};
-use crate::patience::patiently;
-use crate::wait::Reason;
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -11,13 +11,13 @@
 //! only as long as it is the trigger. A trigger must go before a brightness
 //! stays.
 use crate::Interrupted;
+use crate::device::registry::{Class, Devices};
+use crate::device::retry::{RETRY_EVERY, patiently};
 use crate::device::{Device, read_file, write_file};
-use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
-use crate::patience::{RETRY_EVERY, patiently};
-use crate::port;
+use crate::motor::wait::sleep;
+use crate::port_name;
 use crate::value::integer;
-use crate::wait::sleep;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -112,9 +112,10 @@ pub(crate) fn is_light(name: &str) -> bool {
 
 /// The LED on a port.
 pub(crate) fn on_port(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
-    let port = port::short(port);
+    let port = port_name::short(port);
     let is_it = |led: &&Arc<Device>| {
-        parts(led.port()).is_some_and(|(owner, hue)| hue == Hue::Any && port::short(owner) == port)
+        parts(led.port())
+            .is_some_and(|(owner, hue)| hue == Hue::Any && port_name::short(owner) == port)
     };
     Ok(devices.all(Class::Led)?.iter().find(is_it).cloned())
 }
@@ -136,7 +137,7 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
         if let Some((_, light)) = owners.iter_mut().find(|(known, _)| known == owner) {
             light.leds.push(led);
         } else {
-            let name = port::short(owner).to_owned();
+            let name = port_name::short(owner).to_owned();
             owners.push((owner.to_owned(), Light { name, leds: vec![led] }));
         }
     }
@@ -145,9 +146,9 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
     // The PiStorms has its bank B on the left.
     let is_b_first = |owner: &str| owner.ends_with(":BB");
     sides.sort_unstable_by(|(a, _), (b, _)| {
-        is_b_first(b).cmp(&is_b_first(a)).then_with(|| port::order(a, b))
+        is_b_first(b).cmp(&is_b_first(a)).then_with(|| port_name::order(a, b))
     });
-    lights.sort_unstable_by(|(_, a), (_, b)| port::order(&a.name, &b.name));
+    lights.sort_unstable_by(|(_, a), (_, b)| port_name::order(&a.name, &b.name));
     let sides = sides.into_iter().zip(["left", "right"]);
     let sides = sides.map(|((_, light), side)| Light { name: side.to_owned(), ..light });
     Ok(sides.chain(lights.into_iter().map(|(_, light)| light)).collect())
@@ -171,7 +172,7 @@ impl Light {
     /// Whether that is its name, a port in either spelling.
     #[must_use]
     pub fn is_called(&self, name: &str) -> bool {
-        self.name == port::short(name)
+        self.name == port_name::short(name)
     }
 
     /// The colour it shows now. Of one that blinks that may be any moment's.

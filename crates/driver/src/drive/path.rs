@@ -2,7 +2,7 @@
 //!
 //! A path is seen in the direction of travel: a robot that backs along it has
 //! its own heading turned by half a turn.
-use crate::odometry::Pose;
+use crate::drive::odometry::Pose;
 
 /// Rounder than this, in 1/cm, a path is a line.
 const STRAIGHT: f64 = 1e-6;
@@ -102,7 +102,7 @@ pub fn rounded(points: &[[f64; 2]], radius: f64) -> Vec<Vec<Segment>> {
         };
         let before = points[index - 1];
         let heading = direction(before, corner);
-        let turn = crate::odometry::wrapped(direction(corner, next) - heading);
+        let turn = crate::drive::odometry::wrapped(direction(corner, next) - heading);
         let half = (turn.to_radians() / 2.0).abs();
         let is_last = index + 2 == points.len();
         let share = |is_end: bool| if is_end { 1.0 } else { 0.5 };

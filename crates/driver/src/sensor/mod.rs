@@ -4,14 +4,15 @@
 //! restarts the measurement, even where nothing changes (and resets a gyro's
 //! angle), so it is written only when it differs. After a real change the first
 //! values are still those of the old mode: they are waited out, once.
+mod bin_data;
+
 use crate::Interrupted;
-use crate::bin_data;
+use crate::device::registry::{Class, Devices};
+use crate::device::retry::{Patience, RETRY_EVERY};
 use crate::device::{Device, Use};
-use crate::devices::{Class, Devices};
 use crate::error::{Error, Result};
-use crate::patience::{Patience, RETRY_EVERY};
+use crate::motor::wait::sleep;
 use crate::value::Value;
-use crate::wait::sleep;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;

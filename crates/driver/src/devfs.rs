@@ -7,7 +7,7 @@
 //! it within the process by implementing [`Dev`] and [`Stream`].
 use crate::Interrupted;
 use crate::error::{Access, Error, Result};
-use crate::tree::is_generated;
+use crate::sysfs::is_generated;
 use input_linux::EvdevHandle;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;

@@ -7,13 +7,17 @@
 //! each function here writes the set-points that its command depends on first.
 //! Several motors get all their set-points first and then their commands one
 //! right after the other.
+pub mod dc;
+pub mod servo;
+pub mod wait;
+
 use crate::Interrupted;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
+use crate::device::retry::patiently;
 use crate::error::{Error, Result};
-use crate::patience::patiently;
+use crate::motor::wait::{Reason, TOLERANCE, has, wait_for};
 use crate::value::Value;
-use crate::wait::{Reason, TOLERANCE, has, wait_for};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -353,7 +357,7 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
         // Those that were started are known: nothing needs to be opened for them.
         for motor in devices.known(class).iter().filter(|motor| motor.motion().is_some()) {
             result = result.and(match class {
-                Class::ServoMotor => crate::servo::float_somehow(motor),
+                Class::ServoMotor => crate::motor::servo::float_somehow(motor),
                 _ => stop_somehow(motor, StopAction::Brake),
             });
         }

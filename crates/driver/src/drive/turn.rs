@@ -8,13 +8,13 @@
 //! another thread has told a motor something.
 use crate::Interrupted;
 use crate::device::Device;
-use crate::devices::Devices;
+use crate::device::registry::Devices;
+use crate::device::retry::patiently;
 use crate::error::{Error, Result};
+use crate::motor::wait::sleep;
 use crate::motor::{self, End, Speed, StopAction, find_all, prepare};
-use crate::patience::patiently;
 use crate::sensor;
 use crate::value::Value;
-use crate::wait::sleep;
 use std::sync::Arc;
 use std::time::Duration;
 

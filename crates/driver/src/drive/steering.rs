@@ -14,8 +14,8 @@
 //!
 //! The motors' own regulator takes some 50 ms to follow; with these gains the
 //! loop around it has no overshoot worth mentioning.
-use crate::odometry::{Pose, Wheels, wrapped};
-use crate::path::{Segment, direction, rounded};
+use crate::drive::odometry::{Pose, Wheels, wrapped};
+use crate::drive::path::{Segment, direction, rounded};
 use std::collections::VecDeque;
 
 /// Rate of turn for each radian off the heading, per second.

@@ -6,13 +6,13 @@
 //! when a port is asked for that it does not have, and when a device answers as
 //! an unplugged one does. Devices that are still there keep their descriptors.
 use crate::Interrupted;
+use crate::device::retry::patiently;
 use crate::device::{Device, Watch, identity};
 use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
 use crate::held::Held;
-use crate::patience::patiently;
-use crate::port;
-use crate::tree::Tree;
+use crate::port_name;
+use crate::sysfs::Tree;
 use rustix::io::Errno;
 use std::collections::HashMap;
 use std::fmt;
@@ -75,8 +75,8 @@ impl Class {
     /// any computer has lights and batteries of its own.
     fn admits(self, name: &str) -> bool {
         match self {
-            Self::Led => crate::light::is_light(name),
-            Self::Battery => crate::battery::is_battery(name),
+            Self::Led => crate::brick::light::is_light(name),
+            Self::Battery => crate::brick::battery::is_battery(name),
             _ => true,
         }
     }
@@ -159,7 +159,7 @@ impl Devices {
     /// # Errors
     /// As [`all`](Self::all).
     pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
-        let port = port::short(port);
+        let port = port_name::short(port);
         let mut listing = self.listing(class);
         let is_fresh = self.is_fresh(&listing);
         if !is_fresh || !listing.by_port.contains_key(port) {
@@ -277,7 +277,7 @@ impl Devices {
         for path in paths {
             match identity(&*self.tree, &path) {
                 Ok((address, driver)) => {
-                    let port = port::short(&address).to_owned();
+                    let port = port_name::short(&address).to_owned();
                     detected.push(Detected { port, driver, path });
                 }
                 Err(error) if is_exhaustion(&error) => return Err(error),
@@ -285,7 +285,7 @@ impl Devices {
             }
         }
         detected.sort_unstable_by(|a, b| {
-            port::order(&a.port, &b.port).then_with(|| a.path.cmp(&b.path))
+            port_name::order(&a.port, &b.port).then_with(|| a.path.cmp(&b.path))
         });
         Ok(detected)
     }
@@ -356,7 +356,7 @@ impl Devices {
         let key = |device: &Device| (device.port().to_owned(), device.entry().name.clone());
         devices.sort_unstable_by(|a, b| {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
-            port::order(&a_port, &b_port).then_with(|| port::order(&a_name, &b_name))
+            port_name::order(&a_port, &b_port).then_with(|| port_name::order(&a_name, &b_name))
         });
         // A port has one device of a class. Where two directories say they are
         // at it, the one with the lower number is about to vanish.
@@ -365,7 +365,7 @@ impl Devices {
         devices.reverse();
         // By its socket, too, if nothing else is there; of two, the first.
         let in_socket = devices.iter().rev();
-        let in_socket = in_socket.map(|device| (port::socket(device.port()), device));
+        let in_socket = in_socket.map(|device| (port_name::socket(device.port()), device));
         let at_port = devices.iter().map(|device| (device.port(), device));
         let all = in_socket.chain(at_port);
         listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();

@@ -5,8 +5,8 @@
 //! makes of the lengths of pulses that the controller sends it.
 use crate::device::Device;
 use crate::error::Result;
+use crate::motor::wait::has;
 use crate::motor::{End, start};
-use crate::wait::has;
 
 /// Sends a servo to a position from -100 to 100 percent, where it stays. `false`
 /// if the position is beyond that; then nothing has moved.

@@ -1,11 +1,11 @@
 //! A motion under way: how it begins, what the wheels are told, how it ends.
-use super::found::Found;
+use super::devices::Found;
 use super::{Course, DriveOptions, Inner, PERIOD};
 use crate::device::Device;
+use crate::drive::steering::{Limits, Order, Steering};
 use crate::error::{Error, Result};
+use crate::motor::wait::Reason;
 use crate::motor::{self, End, Ramps, Speed, StopAction};
-use crate::steering::{Limits, Order, Steering};
-use crate::wait::Reason;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 

@@ -7,10 +7,10 @@
 //! position and speed predict it looks every [`SHORT_SLICE`].
 use crate::Interrupted;
 use crate::device::Device;
-use crate::devices::Devices;
+use crate::device::registry::Devices;
 use crate::error::{Error, Result};
 use crate::motor::{End, Motion};
-use crate::tree::Node;
+use crate::sysfs::Node;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;

@@ -5,9 +5,9 @@
 //! for writing answers EACCES, as one of a file that can only be read always
 //! does. The two are told apart by a file that can certainly be written.
 use crate::Interrupted;
-use crate::devices::Devices;
+use crate::device::registry::Devices;
 use crate::error::{Error, Result};
-use crate::wait::sleep;
+use crate::motor::wait::sleep;
 use rustix::io::Errno;
 use std::time::Duration;
 

@@ -1,7 +1,7 @@
 //! The devices of a robot, and what they show.
 use super::Robot;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
 use crate::error::Result;
 use crate::motor::find_all;
 use crate::sensor;

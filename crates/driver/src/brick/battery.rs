@@ -4,7 +4,7 @@
 //! while motors draw current, and hardly changes in the middle of the
 //! discharge.
 use crate::device::Device;
-use crate::devices::{Class, Devices};
+use crate::device::registry::{Class, Devices};
 use crate::error::Result;
 use rustix::io::Errno;
 use std::sync::Arc;
