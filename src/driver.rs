@@ -2,7 +2,7 @@
 use crate::call::{Call, Text, unify_atom, unify_value};
 use crate::error::wrong_value;
 use crate::state::{devices, use_files};
-use ev3_driver::device::registry::Detected;
+use ev3_driver::class::Detected;
 use ev3_driver::device::{read_value, write_file};
 use ev3_driver::{Class, Device, Devices, attributes};
 use std::path::Path;

@@ -3,10 +3,10 @@
 //! Most are read and written as they are. A few mean more: a motor's `command`
 //! starts something that must be stopped at the end, a sensor's `mode` is
 //! written only when it differs and then needs time to settle.
-use crate::Interrupted;
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
-use crate::error::Result;
+use crate::device::registry::Devices;
+use crate::error::{Interrupted, Result};
 use crate::value::Value;
 use crate::{motor, sensor};
 

@@ -5,8 +5,7 @@
 //! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
 //! a named pipe or a file stands for each device. A simulator may stand in for
 //! it within the process by implementing [`Dev`] and [`Stream`].
-use crate::Interrupted;
-use crate::error::{Access, Error, Result};
+use crate::error::{Access, Error, Interrupted, Result};
 use crate::sysfs::is_generated;
 use input_linux::EvdevHandle;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};

@@ -1,11 +1,15 @@
 //! What can go wrong, with the file it went wrong at.
-use crate::device::registry::Class;
+use crate::class::Class;
 use rustix::io::Errno;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Result of this crate's functions.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// Asked at least every 20 ms while something waits; `true` abandons the wait
+/// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
+pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;
 
 /// What was to be done with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

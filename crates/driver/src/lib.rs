@@ -30,6 +30,7 @@
 
 pub mod attributes;
 pub mod brick;
+pub mod class;
 pub mod devfs;
 pub mod device;
 pub mod drive;
@@ -41,14 +42,11 @@ pub mod sensor;
 pub mod sysfs;
 pub mod value;
 
+pub use class::Class;
 pub use devfs::{Dev, DevFiles};
 pub use device::Device;
-pub use device::registry::{Class, Devices};
-pub use error::{Error, Result};
+pub use device::registry::Devices;
+pub use error::{Error, Interrupted, Result};
 pub use rustix::io::Errno;
 pub use sysfs::{Files, Tree};
 pub use value::Value;
-
-/// Asked at least every 20 ms while something waits; `true` abandons the wait
-/// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
-pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;

@@ -3,26 +3,12 @@
 //! Its voltage tells how full it is, roughly: it depends on the chemistry, falls
 //! while motors draw current, and hardly changes in the middle of the
 //! discharge.
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
+use crate::device::registry::Devices;
 use crate::error::Result;
 use rustix::io::Errno;
 use std::sync::Arc;
-
-/// What the boards call their batteries: the EV3 since ev3dev-stretch and on
-/// jessie, then other boards.
-const NAMES: [&str; 6] = [
-    "lego-ev3-battery",
-    "legoev3-battery",
-    "brickpi-battery",
-    "brickpi3-battery",
-    "pistorms-battery",
-    "evb-battery",
-];
-
-pub(crate) fn is_battery(name: &str) -> bool {
-    NAMES.contains(&name)
-}
 
 /// How a kind of battery discharges.
 struct Chemistry {

@@ -7,9 +7,8 @@
 //!
 //! A plain file may stand in for the device: it holds the events there were,
 //! and whoever waits gets those that are written behind them.
-use crate::Interrupted;
 use crate::devfs::{Dev, Stream, open_first, until};
-use crate::error::{Access, Error, Result};
+use crate::error::{Access, Error, Interrupted, Result};
 use input_linux::sys::input_event;
 use rustix::io::Errno;
 use std::collections::VecDeque;

@@ -10,20 +10,17 @@
 //! (`heartbeat`), or a timer, whose files `delay_on` and `delay_off` are there
 //! only as long as it is the trigger. A trigger must go before a brightness
 //! stays.
-use crate::Interrupted;
-use crate::device::registry::{Class, Devices};
+use crate::class::{Class, Hue, led_name};
+use crate::device::registry::Devices;
 use crate::device::retry::{RETRY_EVERY, patiently};
 use crate::device::{Device, read_file, write_file};
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::sleep;
 use crate::port_name;
 use crate::value::integer;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
-
-/// What an LED's name ends with: since ev3dev-stretch, and on jessie.
-const SUFFIXES: [&str; 2] = [":brick-status", ":ev3dev"];
 
 /// How long the timer's files may take to be there and to be open to us.
 const DELAYS_WITHIN: Duration = Duration::from_secs(1);
@@ -33,31 +30,6 @@ const NONE: &str = "none";
 
 /// The trigger that blinks.
 const TIMER: &str = "timer";
-
-/// An LED's own colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Hue {
-    Red,
-    Green,
-    Blue,
-    Amber,
-    /// That of whatever is plugged into a port.
-    Any,
-}
-
-impl Hue {
-    const ALL: [(&'static str, Self); 5] = [
-        ("red", Self::Red),
-        ("green", Self::Green),
-        ("blue", Self::Blue),
-        ("amber", Self::Amber),
-        ("", Self::Any),
-    ];
-
-    fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|(word, _)| *word == name).map(|(_, hue)| hue)
-    }
-}
 
 /// The colour a light shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,22 +71,11 @@ pub struct Light {
     leds: Vec<(Hue, Arc<Device>)>,
 }
 
-/// The parts of an LED's name: whose it is and its colour.
-fn parts(name: &str) -> Option<(&str, Hue)> {
-    let rest = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix))?;
-    let (owner, hue) = rest.rsplit_once(':')?;
-    (!owner.is_empty()).then_some((owner, Hue::named(hue)?))
-}
-
-pub(crate) fn is_light(name: &str) -> bool {
-    parts(name).is_some()
-}
-
 /// The LED on a port.
 pub(crate) fn on_port(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
     let port = port_name::short(port);
     let is_it = |led: &&Arc<Device>| {
-        parts(led.port())
+        led_name(led.port())
             .is_some_and(|(owner, hue)| hue == Hue::Any && port_name::short(owner) == port)
     };
     Ok(devices.all(Class::Led)?.iter().find(is_it).cloned())
@@ -131,7 +92,7 @@ pub fn lights(devices: &Devices) -> Result<Vec<Light>> {
 fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
     let mut owners: Vec<(String, Light)> = Vec::new();
     for led in devices.all(Class::Led)?.iter() {
-        let Some((owner, hue)) = parts(led.port()) else { continue };
+        let Some((owner, hue)) = led_name(led.port()) else { continue };
         led.check_present()?;
         let led = (hue, Arc::clone(led));
         if let Some((_, light)) = owners.iter_mut().find(|(known, _)| known == owner) {
@@ -400,28 +361,4 @@ fn trigger(led: &Device) -> Result<String> {
 /// A word without brackets around it.
 fn bare(word: &str) -> &str {
     word.strip_prefix('[').and_then(|word| word.strip_suffix(']')).unwrap_or(word)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_of_all_boards_have_an_owner_and_a_colour() {
-        for (name, expected) in [
-            ("led0:red:brick-status", Some(("led0", Hue::Red))),
-            ("ev3:left:green:ev3dev", Some(("ev3:left", Hue::Green))),
-            ("brickpi:led1:blue:ev3dev", Some(("brickpi:led1", Hue::Blue))),
-            ("led1:amber:brick-status", Some(("led1", Hue::Amber))),
-            ("pistorms:BB:blue:brick-status", Some(("pistorms:BB", Hue::Blue))),
-            ("ev3-ports:outD::brick-status", Some(("ev3-ports:outD", Hue::Any))),
-            ("outD::ev3dev", Some(("outD", Hue::Any))),
-            ("input3::capslock", None),
-            ("led0:pink:brick-status", None),
-            (":red:brick-status", None),
-            ("brick-status", None),
-        ] {
-            assert_eq!(parts(name), expected, "{name}");
-        }
-    }
 }

@@ -5,12 +5,12 @@
 //! and which of several types it is, the kernel believes whoever says it. Both
 //! make a new device, even where nothing changes; so they are done only where
 //! something does, and the device is waited for.
-use crate::Interrupted;
 use crate::brick::light;
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
+use crate::device::registry::Devices;
 use crate::device::retry::RETRY_EVERY;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::sleep;
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,7 +1,6 @@
 //! Other programs, as those that speak and play.
-use crate::Interrupted;
 use crate::devfs::{Dev, until};
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use nix::sys::signal::Signal;
 use std::ffi::OsStr;
 use std::io::{self, Read};

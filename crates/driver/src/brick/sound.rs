@@ -7,11 +7,10 @@
 //!
 //! The kernel's driver (`legoev3_sound.c`) makes tones of 100 to 10000 Hz, and
 //! none while a recording plays.
-use crate::Interrupted;
 use crate::brick::buttons::EVENT_BYTES;
 use crate::brick::programs::{Program, Programs};
 use crate::devfs::{Dev, Speaker, Stream, open, open_first, until};
-use crate::error::{Access, Error, Result};
+use crate::error::{Access, Error, Interrupted, Result};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;

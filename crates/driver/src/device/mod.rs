@@ -3,8 +3,8 @@ mod list;
 pub mod registry;
 pub(crate) mod retry;
 
+use crate::class::{Class, Detected};
 use crate::device::list::List;
-use crate::device::registry::{Class, Detected};
 use crate::drive::Drive;
 use crate::error::{Access, Error, Result};
 use crate::motor::Motion;

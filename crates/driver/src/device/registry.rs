@@ -5,106 +5,22 @@
 //! listing is cached: it is made anew when it is older than [`LISTING_AGE`],
 //! when a port is asked for that it does not have, and when a device answers as
 //! an unplugged one does. Devices that are still there keep their descriptors.
-use crate::Interrupted;
+use crate::class::{Class, Detected};
 use crate::device::retry::patiently;
 use crate::device::{Device, Watch, identity};
 use crate::drive::Drive;
-use crate::error::{Access, Error, Result};
+use crate::error::{Access, Error, Interrupted, Result};
 use crate::held::Held;
 use crate::port_name;
 use crate::sysfs::Tree;
 use rustix::io::Errno;
 use std::collections::HashMap;
-use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
 pub const LISTING_AGE: Duration = Duration::from_millis(100);
-
-/// The kinds of devices that are plugged into ports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Class {
-    /// Motors with a rotation sensor, all that LEGO makes for EV3 and NXT.
-    TachoMotor,
-    /// Sensors.
-    Sensor,
-    /// RC servos on a controller.
-    ServoMotor,
-    /// Motors without rotation sensor.
-    DcMotor,
-    /// The ports themselves.
-    Port,
-    /// Lights: those of the brick, and those on ports.
-    Led,
-    /// The battery.
-    Battery,
-}
-
-impl Class {
-    /// All classes.
-    pub const ALL: [Self; 7] = [
-        Self::TachoMotor,
-        Self::Sensor,
-        Self::ServoMotor,
-        Self::DcMotor,
-        Self::Port,
-        Self::Led,
-        Self::Battery,
-    ];
-
-    /// The classes of motors.
-    pub const MOTORS: [Self; 3] = [Self::TachoMotor, Self::DcMotor, Self::ServoMotor];
-
-    /// The class's directory below the tree's root.
-    #[must_use]
-    pub fn directory(self) -> &'static str {
-        match self {
-            Self::TachoMotor => "tacho-motor",
-            Self::Sensor => "lego-sensor",
-            Self::ServoMotor => "servo-motor",
-            Self::DcMotor => "dc-motor",
-            Self::Port => "lego-port",
-            Self::Led => "leds",
-            Self::Battery => "power_supply",
-        }
-    }
-
-    /// Whether an entry of the class's directory may be a device of ev3dev's:
-    /// any computer has lights and batteries of its own.
-    fn admits(self, name: &str) -> bool {
-        match self {
-            Self::Led => crate::brick::light::is_light(name),
-            Self::Battery => crate::brick::battery::is_battery(name),
-            _ => true,
-        }
-    }
-}
-
-impl fmt::Display for Class {
-    /// The noun that error terms use.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::TachoMotor | Self::ServoMotor | Self::DcMotor => "motor",
-            Self::Sensor => "sensor",
-            Self::Port => "port",
-            Self::Led => "led",
-            Self::Battery => "battery",
-        })
-    }
-}
-
-/// A device found by a pattern, not necessarily of a known class.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Detected {
-    /// Its port, by the short name.
-    pub port: String,
-    /// Its type.
-    pub driver: String,
-    /// Its directory.
-    pub path: PathBuf,
-}
 
 /// The devices in a tree.
 pub struct Devices {

@@ -4,9 +4,8 @@
 //! users of the robot, asynchronously, up to a second later. Until then an open
 //! for writing answers EACCES, as one of a file that can only be read always
 //! does. The two are told apart by a file that can certainly be written.
-use crate::Interrupted;
 use crate::device::registry::Devices;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::sleep;
 use rustix::io::Errno;
 use std::time::Duration;

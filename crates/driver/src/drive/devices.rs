@@ -1,7 +1,8 @@
 //! The devices of a robot, and what they show.
 use super::Robot;
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
+use crate::device::registry::Devices;
 use crate::error::Result;
 use crate::motor::find_all;
 use crate::sensor;

@@ -18,12 +18,12 @@ pub mod path;
 pub mod steering;
 pub mod turn;
 
-use crate::Interrupted;
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
+use crate::device::registry::Devices;
 use crate::drive::odometry::{Estimate, Pose, Wheels};
 use crate::drive::steering::Leg;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor::wait::{Reason, sleep};
 use crate::motor::{self, StopAction};

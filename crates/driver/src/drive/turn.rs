@@ -6,11 +6,10 @@
 //! crawl and a bounded number of times. So a turn ends within [`WITHIN`], or
 //! tells why it does not; it never swings for ever. It is given up as soon as
 //! another thread has told a motor something.
-use crate::Interrupted;
 use crate::device::Device;
 use crate::device::registry::Devices;
 use crate::device::retry::patiently;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::sleep;
 use crate::motor::{self, End, Speed, StopAction, find_all, prepare};
 use crate::sensor;

@@ -8,10 +8,10 @@
 //! length, and a change that comes while a step is due waits for it
 //! (`dc_motor_class.c`). So what is told such a motor within 100 ms of the last
 //! command or change happens up to 100 ms late.
-use crate::Interrupted;
-use crate::device::registry::{Class, Devices};
+use crate::class::Class;
+use crate::device::registry::Devices;
 use crate::device::retry::patiently;
-use crate::error::Result;
+use crate::error::{Interrupted, Result};
 use crate::motor::wait::Reason;
 use crate::motor::{self, End, MoveOptions, Ramps};
 use std::sync::Arc;

@@ -11,11 +11,11 @@ pub mod dc;
 pub mod servo;
 pub mod wait;
 
-use crate::Interrupted;
+use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::{Class, Devices};
+use crate::device::registry::Devices;
 use crate::device::retry::patiently;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::{Reason, TOLERANCE, has, wait_for};
 use crate::value::Value;
 use rustix::io::Errno;

@@ -5,10 +5,9 @@
 //! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
 //! but never for longer than [`SLICE`], then looks again; towards the end that
 //! position and speed predict it looks every [`SHORT_SLICE`].
-use crate::Interrupted;
 use crate::device::Device;
 use crate::device::registry::Devices;
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::{End, Motion};
 use crate::sysfs::Node;
 use rustix::io::Errno;

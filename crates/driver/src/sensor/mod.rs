@@ -6,11 +6,11 @@
 //! values are still those of the old mode: they are waited out, once.
 mod bin_data;
 
-use crate::Interrupted;
-use crate::device::registry::{Class, Devices};
+use crate::class::Class;
+use crate::device::registry::Devices;
 use crate::device::retry::{Patience, RETRY_EVERY};
 use crate::device::{Device, Use};
-use crate::error::{Error, Result};
+use crate::error::{Error, Interrupted, Result};
 use crate::motor::wait::sleep;
 use crate::value::Value;
 use rustix::io::Errno;

@@ -1,6 +1,6 @@
 //! Commands, moves of several motors at once, and what stops them.
 use crate::brick::{Brick, motors, ms};
-use ev3_driver::device::registry::Class;
+use ev3_driver::Class;
 use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
     Move, MoveOptions, Run, Speed, StopAction, Way, command, reset, run_forever, run_to, stop,

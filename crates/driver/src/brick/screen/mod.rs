@@ -9,6 +9,7 @@ pub mod frame;
 pub mod picture;
 
 use crate::brick::screen::frame::{Frame, HEIGHT, WIDTH};
+use crate::brick::screen::picture::luma;
 use crate::devfs::{Dev, Stream, open};
 use crate::device::read_file;
 use crate::error::{Access, Error, Result};
@@ -179,10 +180,4 @@ impl Layout {
         });
         shades.collect()
     }
-}
-
-/// How bright a colour is (ITU-R BT.601).
-#[expect(clippy::cast_possible_truncation, reason = "a mean of bytes")]
-pub(crate) fn luma([red, green, blue]: [u8; 3]) -> u8 {
-    ((299 * u32::from(red) + 587 * u32::from(green) + 114 * u32::from(blue)) / 1000) as u8
 }

@@ -1,5 +1,4 @@
 //! Pictures in files: PNG and PBM are read, PNG is written.
-use crate::brick::screen::luma;
 use crate::error::{Access, Error, Result};
 use std::path::Path;
 
@@ -55,6 +54,12 @@ fn png(bytes: &[u8]) -> std::result::Result<Picture, String> {
         _ => None,
     };
     Ok(Picture { width, shades: image.pixels().chunks_exact(4).map(shade).collect() })
+}
+
+/// How bright a color is (ITU-R BT.601).
+#[expect(clippy::cast_possible_truncation, reason = "a mean of bytes")]
+pub(super) fn luma([red, green, blue]: [u8; 3]) -> u8 {
+    ((299 * u32::from(red) + 587 * u32::from(green) + 114 * u32::from(blue)) / 1000) as u8
 }
 
 fn checked_size(width: u32, height: u32) -> std::result::Result<u32, String> {
