@@ -2,6 +2,7 @@
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
 use crate::motors::stop_action;
+use crate::state;
 use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
@@ -28,8 +29,7 @@ predicates! {
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
-        let (devices, robot) = (call.devices()?, robot_of(&call, robot)?);
-        into_prolog_result(call.check(Drive::of(&devices, &robot).start(&devices))?)
+        into_prolog_result(call.check(robots_drive(&call, robot)?.start())?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
@@ -37,8 +37,8 @@ predicates! {
     #[name("pose_")]
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let pose = call.found(drive.pose(&devices))?;
+        let drive = drive_of(&call, robot, use_gyro)?;
+        let pose = call.found(drive.pose())?;
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -49,9 +49,9 @@ predicates! {
     #[name("set_pose_")]
     semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "set_pose", 3);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
+        let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
-        into_prolog_result(call.check(drive.set_pose(&devices, pose))?)
+        into_prolog_result(call.check(drive.set_pose(pose))?)
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
@@ -59,8 +59,8 @@ predicates! {
     #[name("pose_uncertainty_")]
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let covariance = call.found(drive.uncertainty(&devices))?;
+        let drive = drive_of(&call, robot, use_gyro)?;
+        let covariance = call.found(drive.uncertainty())?;
         let lists = covariance.map(|row| floats(&call, &row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
@@ -78,15 +78,14 @@ predicates! {
     #[name("drive_")]
     semidet fn drive(context, robot, course, options, reason) {
         let call = Call::of(context, "go_to", 4);
-        let (devices, course) = (call.devices()?, course_of(&call, course)?);
-        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
+        let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
         let (options, wait, timeout) = options_of(&call, options)?;
         let interrupted = &mut call.interrupted();
-        let begun = call.found(drive.begin(&devices, &course, &options, interrupted))?;
+        let begun = call.found(drive.begin(&course, &options, interrupted))?;
         if !wait {
             return unify_atom(reason, Reason::Reached.word());
         }
-        let ended = drive.wait(&devices, &begun, timeout, interrupted);
+        let ended = drive.wait(&begun, timeout, interrupted);
         unify_atom(reason, call.check(ended)?.word())
     }
 
@@ -95,9 +94,8 @@ predicates! {
     #[name("drive_wait_")]
     semidet fn drive_wait(context, robot, timeout, reason) {
         let call = Call::of(context, "drive_wait", 2);
-        let (devices, timeout) = (call.devices()?, call.seconds(timeout)?);
-        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
-        let ended = drive.wait_last(&devices, timeout, &mut call.interrupted());
+        let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
+        let ended = drive.wait_last(timeout, &mut call.interrupted());
         unify_atom(reason, call.check(ended)?.word())
     }
 
@@ -134,11 +132,19 @@ fn drive_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     robot: &Term<'a>,
     use_gyro: &Term<'a>,
-) -> PrologResult<(Arc<ev3_driver::Devices>, Arc<Drive>)> {
-    let devices = call.devices()?;
-    let drive = Drive::of(&devices, &robot_of(call, robot)?);
+) -> PrologResult<Arc<Drive>> {
+    let drive = robots_drive(call, robot)?;
     drive.use_gyro(use_gyro.get_ex()?);
-    Ok((devices, drive))
+    Ok(drive)
+}
+
+/// The drive of a robot in the tree in use. Until one is chosen, Prolog is asked to.
+fn robots_drive<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    robot: &Term<'a>,
+) -> PrologResult<Arc<Drive>> {
+    call.devices()?;
+    Ok(state::drive(&robot_of(call, robot)?))
 }
 
 /// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)`, `change` with

@@ -79,7 +79,7 @@ pub fn write(
     devices.with_patience(class, port, interrupted, |device| match name {
         "command" if Class::MOTORS.contains(&class) => motor::command(device, text),
         "position" if class == Class::TachoMotor => {
-            device.recount(&mut || device.write(name, text))
+            device.without_counting(&mut || device.write(name, text))
         }
         _ => device.write(name, text),
     })

@@ -1,11 +1,12 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
 mod list;
+mod observer;
 pub mod registry;
 pub(crate) mod retry;
 
 use crate::class::{Class, Detected};
 use crate::device::list::List;
-use crate::drive::Drive;
+pub(crate) use crate::device::observer::{MotionObserver, Observer};
 use crate::error::{Access, Error, Result};
 use crate::motor::Motion;
 use crate::sysfs::{Entry, Node, Tree};
@@ -13,7 +14,7 @@ use crate::value::{Value, first_line, integer};
 use rustix::io::Errno;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
@@ -50,28 +51,12 @@ pub struct Device {
     constants: List<Constant>,
     /// What a motor was last told to do.
     motion: Mutex<Option<Motion>>,
-    /// Who wants to know of that.
-    watch: Arc<Watch>,
+    /// Learns of that.
+    observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
     /// When its values will have settled in that mode; zero once they have.
     settled_at: Mutex<Duration>,
-}
-
-/// The drive that is told what the motors of a tree are told, once there is one.
-#[derive(Default)]
-pub(crate) struct Watch(OnceLock<Weak<Drive>>);
-
-impl Watch {
-    /// There is one for each tree, and it stays.
-    pub(crate) fn set(&self, drive: Weak<Drive>) {
-        // It is set once, where the drive is made.
-        let _ = self.0.set(drive);
-    }
-
-    fn drive(&self) -> Option<Arc<Drive>> {
-        self.0.get().and_then(Weak::upgrade)
-    }
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -86,7 +71,7 @@ impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(
         tree: &Arc<dyn Tree>,
-        watch: &Arc<Watch>,
+        observer: &Arc<Observer>,
         class: Class,
         entry: Entry,
     ) -> Result<Self> {
@@ -113,7 +98,7 @@ impl Device {
             attributes: List::default(),
             constants: List::default(),
             motion: Mutex::default(),
-            watch: Arc::clone(watch),
+            observer: Arc::clone(observer),
             user: Mutex::default(),
             settled_at: Mutex::default(),
         })
@@ -209,17 +194,18 @@ impl Device {
         self.motion.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The motor was told to turn.
+    /// Reports that the motor was started.
     pub(crate) fn started(&self) {
-        if let Some(drive) = self.watch.drive() {
-            drive.started();
+        if let Some(observer) = self.observer.get() {
+            observer.motor_started();
         }
     }
 
-    /// Does what changes the motor's position without turning it.
-    pub(crate) fn recount(&self, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
-        match self.watch.drive() {
-            Some(drive) => drive.recount(self, write),
+    /// Does a write that changes the motor's count without turning the motor:
+    /// the odometry must not take it for a movement.
+    pub(crate) fn without_counting(&self, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        match self.observer.get() {
+            Some(observer) => observer.without_counting(self.port(), write),
             None => write(),
         }
     }

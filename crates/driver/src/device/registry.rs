@@ -7,8 +7,7 @@
 //! an unplugged one does. Devices that are still there keep their descriptors.
 use crate::class::{Class, Detected};
 use crate::device::retry::patiently;
-use crate::device::{Device, Watch, identity};
-use crate::drive::Drive;
+use crate::device::{Device, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Interrupted, Result};
 use crate::held::Held;
 use crate::port_name;
@@ -16,7 +15,7 @@ use crate::sysfs::Tree;
 use rustix::io::Errno;
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
@@ -26,8 +25,7 @@ pub const LISTING_AGE: Duration = Duration::from_millis(100);
 pub struct Devices {
     tree: Arc<dyn Tree>,
     listings: [Mutex<Listing>; Class::ALL.len()],
-    drive: OnceLock<Arc<Drive>>,
-    watch: Arc<Watch>,
+    observer: Arc<Observer>,
 }
 
 /// What a class directory held when it was last looked at.
@@ -43,7 +41,7 @@ impl Devices {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Tree>) -> Self {
-        Self { tree, listings: Default::default(), drive: OnceLock::new(), watch: Arc::default() }
+        Self { tree, listings: Default::default(), observer: Arc::default() }
     }
 
     /// The tree they are in.
@@ -206,18 +204,9 @@ impl Devices {
         Ok(detected)
     }
 
-    /// The drive of the robot in this tree, if there is one.
-    pub(crate) fn drive(&self) -> Option<&Arc<Drive>> {
-        self.drive.get()
-    }
-
-    /// The same, which is made if there is none yet.
-    pub(crate) fn drive_or(&self, make: impl FnOnce() -> Arc<Drive>) -> &Arc<Drive> {
-        self.drive.get_or_init(make)
-    }
-
-    pub(crate) fn watch(&self) -> &Watch {
-        &self.watch
+    /// Makes the motors report to an observer. A registry has one.
+    pub(crate) fn observe(&self, observer: Weak<dyn MotionObserver>) {
+        self.observer.set(observer);
     }
 
     fn listing(&self, class: Class) -> Held<'_, Listing> {
@@ -261,7 +250,7 @@ impl Devices {
         for entry in entries {
             match listing.devices.iter().find(|device| device.is_at(&entry)) {
                 Some(known) => devices.push(Arc::clone(known)),
-                None => match Device::detect(&self.tree, &self.watch, class, entry) {
+                None => match Device::detect(&self.tree, &self.observer, class, entry) {
                     Ok(device) => devices.push(Arc::new(device)),
                     Err(error) if is_exhaustion(&error) => return Err(error),
                     // Gone again, or not a device: looked at anew next time.

@@ -19,7 +19,7 @@ pub mod steering;
 pub mod turn;
 
 use crate::class::Class;
-use crate::device::Device;
+use crate::device::MotionObserver;
 use crate::device::registry::Devices;
 use crate::drive::odometry::{Estimate, Pose, Wheels};
 use crate::drive::steering::Leg;
@@ -88,11 +88,16 @@ pub struct DriveOptions {
 }
 
 /// Odometry and control of one robot.
+///
+/// Motors report to it when they are started. It belongs to whoever owns the
+/// registry, and a registry has one.
 pub struct Drive {
-    devices: Weak<Devices>,
+    this: Weak<Self>,
     /// Whether the tree calls us.
     is_called: Mutex<bool>,
     inner: Mutex<Inner>,
+    /// The last field, so that the motors' files are closed before it goes.
+    devices: Arc<Devices>,
 }
 
 struct Inner {
@@ -111,28 +116,9 @@ struct Inner {
 }
 
 impl Drive {
-    /// The drive of a robot; that of before, if it is the same robot.
-    pub fn of(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
-        let drive = devices.drive_or(|| {
-            let drive = Self::new(devices, robot);
-            devices.watch().set(Arc::downgrade(&drive));
-            drive
-        });
-        let mut inner = drive.lock();
-        if inner.robot != *robot {
-            inner.end_job(Ok(Reason::Stopped));
-            let pose = inner.pose();
-            inner.robot = robot.clone();
-            inner.found = None;
-            inner.goal = None;
-            inner.estimate.forget_wheels();
-            inner.place(pose);
-        }
-        drop(inner);
-        Arc::clone(drive)
-    }
-
-    fn new(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
+    /// The drive of a robot whose devices are in `devices`.
+    #[must_use]
+    pub fn new(devices: Arc<Devices>, robot: &Robot) -> Arc<Self> {
         let mut inner = Inner {
             robot: robot.clone(),
             found: None,
@@ -145,21 +131,41 @@ impl Drive {
             last: None,
         };
         inner.place(Pose::default());
-        Arc::new(Self {
-            devices: Arc::downgrade(devices),
+        let drive = Arc::new_cyclic(|this| Self {
+            this: Weak::clone(this),
             is_called: Mutex::default(),
             inner: Mutex::new(inner),
-        })
+            devices,
+        });
+        let this: Weak<Self> = Weak::clone(&drive.this);
+        drive.devices.observe(this);
+        drive
+    }
+
+    /// Makes it the drive of another robot, which is where this one is. Nothing
+    /// changes if it is the same robot.
+    pub fn set_robot(&self, robot: &Robot) {
+        let mut inner = self.lock();
+        if inner.robot == *robot {
+            return;
+        }
+        inner.end_job(Ok(Reason::Stopped));
+        let pose = inner.pose();
+        inner.robot = robot.clone();
+        inner.found = None;
+        inner.goal = None;
+        inner.estimate.forget_wheels();
+        inner.place(pose);
     }
 
     /// Starts counting, if the robot is there.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn start(&self, devices: &Devices) -> Result<bool> {
-        let is_there = self.look(devices)?.is_some();
+    pub fn start(&self) -> Result<bool> {
+        let is_there = self.look()?.is_some();
         if is_there {
-            self.be_called(devices);
+            self.be_called();
         }
         Ok(is_there)
     }
@@ -168,16 +174,16 @@ impl Drive {
     ///
     /// # Errors
     /// The kernel's.
-    pub fn pose(&self, devices: &Devices) -> Result<Option<Pose>> {
-        Ok(self.look(devices)?.map(|inner| inner.pose()))
+    pub fn pose(&self) -> Result<Option<Pose>> {
+        Ok(self.look()?.map(|inner| inner.pose()))
     }
 
     /// Says where the robot is.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn set_pose(&self, devices: &Devices, pose: Pose) -> Result<bool> {
-        let Some(mut inner) = self.look(devices)? else {
+    pub fn set_pose(&self, pose: Pose) -> Result<bool> {
+        let Some(mut inner) = self.look()? else {
             return Ok(false);
         };
         inner.goal = None;
@@ -189,15 +195,15 @@ impl Drive {
     ///
     /// # Errors
     /// The kernel's.
-    pub fn uncertainty(&self, devices: &Devices) -> Result<Option<[[f64; 3]; 3]>> {
-        Ok(self.look(devices)?.map(|inner| inner.estimate.uncertainty()))
+    pub fn uncertainty(&self) -> Result<Option<[[f64; 3]; 3]>> {
+        Ok(self.look()?.map(|inner| inner.estimate.uncertainty()))
     }
 
     /// What is known now; `None` where a motor is absent. Who looks all the time
     /// keeps the tree's calls from doing anything, and so does their work.
-    fn look(&self, devices: &Devices) -> Result<Option<Held<'_, Inner>>> {
+    fn look(&self) -> Result<Option<Held<'_, Inner>>> {
         let mut inner = self.lock();
-        let is_there = devices.afresh(|| inner.integrate(devices))?;
+        let is_there = self.devices.afresh(|| inner.integrate(&self.devices))?;
         if is_there {
             inner.catch_up();
         }
@@ -223,22 +229,21 @@ impl Drive {
     /// The kernel's; [`Error::Interrupted`].
     pub fn begin(
         &self,
-        devices: &Devices,
         course: &Course,
         options: &DriveOptions,
         interrupted: Interrupted,
     ) -> Result<Option<Arc<Status>>> {
         self.use_gyro(options.use_gyro);
-        let is_there = devices.afresh(|| self.lock().integrate(devices))?;
+        let is_there = self.devices.afresh(|| self.lock().integrate(&self.devices))?;
         if !is_there {
             return Ok(None);
         }
         let gyro = self.lock().found.as_ref().and_then(|found| found.gyro.clone());
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::set_mode(devices, &gyro, GYRO_MODE, interrupted)?;
+            sensor::set_mode(&self.devices, &gyro, GYRO_MODE, interrupted)?;
         }
         let mut inner = self.lock();
-        inner.integrate(devices)?;
+        inner.integrate(&self.devices)?;
         let begun = inner.begin(course, options)?;
         if begun.is_some() {
             let stepped = inner.control();
@@ -246,7 +251,7 @@ impl Drive {
         }
         drop(inner);
         if begun.is_some() {
-            self.be_called(devices);
+            self.be_called();
         }
         Ok(begun)
     }
@@ -258,12 +263,11 @@ impl Drive {
     /// [`Error::Interrupted`]. The motors are stopped before.
     pub fn wait(
         &self,
-        devices: &Devices,
         status: &Arc<Status>,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let ended = Self::watch(devices, status, timeout, interrupted);
+        let ended = self.await_outcome(status, timeout, interrupted);
         let mut inner = self.lock();
         inner.last.take_if(|last| Arc::ptr_eq(last, status));
         let is_mine = inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status));
@@ -278,16 +282,11 @@ impl Drive {
     ///
     /// # Errors
     /// As [`wait`](Self::wait).
-    pub fn wait_last(
-        &self,
-        devices: &Devices,
-        timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Reason> {
+    pub fn wait_last(&self, timeout: Option<Duration>, interrupted: Interrupted) -> Result<Reason> {
         let last = self.lock().last.clone();
         match last {
             Some(status) => {
-                let ended = Self::watch(devices, &status, timeout, interrupted);
+                let ended = self.await_outcome(&status, timeout, interrupted);
                 if !matches!(ended, Ok(Reason::Timeout) | Err(Error::Interrupted)) {
                     let mut inner = self.lock();
                     inner.last.take_if(|last| Arc::ptr_eq(last, &status));
@@ -298,79 +297,43 @@ impl Drive {
         }
     }
 
-    fn watch(
-        devices: &Devices,
+    fn await_outcome(
+        &self,
         status: &Status,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let deadline = timeout.map(|timeout| devices.tree().now().saturating_add(timeout));
+        let deadline = timeout.map(|timeout| self.devices.tree().now().saturating_add(timeout));
         loop {
             if let Some(ended) = status.ended() {
                 return ended;
             }
-            let left = deadline.map(|deadline| deadline.saturating_sub(devices.tree().now()));
+            let left = deadline.map(|deadline| deadline.saturating_sub(self.devices.tree().now()));
             if left.is_some_and(|left| left.is_zero()) {
                 return Ok(Reason::Timeout);
             }
-            sleep(devices, left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
+            sleep(&self.devices, left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
         }
-    }
-
-    /// A motor was started: if the robot is ours, its wheels may turn.
-    pub(crate) fn started(&self) {
-        if let Some(devices) = self.devices.upgrade() {
-            self.be_called(&devices);
-        }
-    }
-
-    /// Writes what changes a motor's count without turning it.
-    pub(crate) fn recount(
-        &self,
-        motor: &Device,
-        write: &mut dyn FnMut() -> Result<()>,
-    ) -> Result<()> {
-        let Some(devices) = self.devices.upgrade() else {
-            return write();
-        };
-        let mut inner = self.lock();
-        if !inner.robot.ports.iter().any(|port| crate::port_name::short(port) == motor.port()) {
-            drop(inner);
-            return write();
-        }
-        // What cannot be read now will be found out by whoever reads it next.
-        let _ = inner.integrate(&devices);
-        let written = write();
-        if let Some(found) = &mut inner.found {
-            if let Ok(counts) = counts(&found.motors) {
-                found.counts = counts;
-            }
-        }
-        inner.goal = None;
-        written
     }
 
     /// Makes the tree call us, unless it does.
-    fn be_called(&self, devices: &Devices) {
+    fn be_called(&self) {
         let mut is_called = self.is_called();
         if *is_called {
             return;
         }
-        let weak = Weak::clone(&self.devices);
-        let act = move || {
-            let devices = weak.upgrade()?;
-            devices.drive()?.called(&devices)
-        };
+        let this = Weak::clone(&self.this);
+        let act = move || this.upgrade()?.called();
         // Where no thread can be had, each look at the pose still does a step.
-        *is_called = devices.tree().every(PERIOD, Box::new(act)).is_ok();
+        *is_called = self.devices.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
     /// One period; answers when to come again.
-    fn called(&self, devices: &Devices) -> Option<Duration> {
+    fn called(&self) -> Option<Duration> {
         let Some(mut inner) = self.lock_soon() else {
             return Some(BUSY);
         };
-        let integrated = inner.integrate(devices);
+        let integrated = inner.integrate(&self.devices);
         let stepped = match integrated {
             Ok(true) => inner.control(),
             Ok(false) => Err(inner.absent()),
@@ -406,6 +369,31 @@ impl Drive {
                 Err(TryLockError::WouldBlock) => std::thread::sleep(PATIENCE / 1000),
             }
         }
+    }
+}
+
+impl MotionObserver for Drive {
+    /// The motor may be one of the robot's.
+    fn motor_started(&self) {
+        self.be_called();
+    }
+
+    fn without_counting(&self, port: &str, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        let mut inner = self.lock();
+        if !inner.robot.ports.iter().any(|ours| crate::port_name::short(ours) == port) {
+            drop(inner);
+            return write();
+        }
+        // An error shows again at the next reading.
+        let _ = inner.integrate(&self.devices);
+        let written = write();
+        if let Some(found) = &mut inner.found {
+            if let Ok(counts) = counts(&found.motors) {
+                found.counts = counts;
+            }
+        }
+        inner.goal = None;
+        written
     }
 }
 

@@ -210,7 +210,7 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
 /// Writes a command, and remembers what it started: `None` if it stops.
 pub(crate) fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
     if word == "reset" {
-        return motor.recount(&mut || start_as(motor, word, end));
+        return motor.without_counting(&mut || start_as(motor, word, end));
     }
     start_as(motor, word, end)?;
     if end.is_some() {
