@@ -3,7 +3,7 @@ use crate::call::{Call, unify_atom};
 use crate::driver::class_of;
 use crate::error::wrong_value;
 use ev3_driver::motor::wait;
-use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
+use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use std::time::Duration;
@@ -75,7 +75,7 @@ predicates! {
             Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
         };
         let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, way: *way });
+        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = motor::run_to(&devices, &moves, &options, interrupted);
@@ -141,11 +141,11 @@ predicates! {
 }
 
 /// How far a move goes, by the name of its term.
-fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Way> {
+fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Extent> {
     match &*turn.get::<Functor>()?.name_string() {
-        "to" => Ok(Way::To(call.float(way)?)),
-        "for" => Ok(Way::For(call.time(way)?)),
-        "move" => Ok(Way::By(call.float(way)?)),
+        "to" => Ok(Extent::To(call.float(way)?)),
+        "for" => Ok(Extent::For(call.time(way)?)),
+        "move" => Ok(Extent::By(call.float(way)?)),
         _ => wrong_value(call, "motor_move", turn),
     }
 }

@@ -1,7 +1,7 @@
 //! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
 //! each with the seconds one call took.
 use ev3_driver::error::Access;
-use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Way, run_forever, run_to};
+use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Extent, run_forever, run_to};
 use ev3_driver::sysfs::{Entry, Files, Node, Tree};
 use ev3_driver::motor::wait::Reason;
 use ev3_driver::{Devices, Error};
@@ -214,7 +214,7 @@ fn latency(count: u32) -> [f64; 2] {
     let mut seconds: Vec<f64> = (0..count)
         .map(|number| {
             let degrees = 60.0 + f64::from(number % 10) * 10.0;
-            let turn = Move { port: "outA", speed: Speed::Percent(40.0), way: Way::By(degrees) };
+            let turn = Move { port: "outA", speed: Speed::Percent(40.0), extent: Extent::By(degrees) };
             let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut || false);
             assert_eq!(ended.expect("a motor"), Some(Reason::Reached));
             stopped.lock().expect("no panic").elapsed().as_secs_f64()

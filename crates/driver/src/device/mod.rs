@@ -1,14 +1,15 @@
 //! One device: its attributes as kept descriptors, and what is known of it.
 mod list;
+pub(crate) mod motion;
 mod observer;
 pub mod registry;
 pub(crate) mod retry;
 
 use crate::class::{Class, Detected};
 use crate::device::list::List;
+use crate::device::motion::MotorRun;
 pub(crate) use crate::device::observer::{MotionObserver, Observer};
 use crate::error::{Access, Error, Result};
-use crate::motor::Motion;
 use crate::sysfs::{Entry, Node, Tree};
 use crate::value::{Value, first_line, integer};
 use rustix::io::Errno;
@@ -50,7 +51,7 @@ pub struct Device {
     attributes: List<Attribute>,
     constants: List<Constant>,
     /// What a motor was last told to do.
-    motion: Mutex<Option<Motion>>,
+    run: Mutex<Option<MotorRun>>,
     /// Learns of that.
     observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
@@ -97,7 +98,7 @@ impl Device {
             tree: Arc::clone(tree),
             attributes: List::default(),
             constants: List::default(),
-            motion: Mutex::default(),
+            run: Mutex::default(),
             observer: Arc::clone(observer),
             user: Mutex::default(),
             settled_at: Mutex::default(),
@@ -190,8 +191,8 @@ impl Device {
     }
 
     /// What the motor was last told to do.
-    pub(crate) fn motion(&self) -> MutexGuard<'_, Option<Motion>> {
-        self.motion.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
+        self.run.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Reports that the motor was started.

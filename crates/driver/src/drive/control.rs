@@ -2,10 +2,12 @@
 use super::devices::Found;
 use super::{Course, DriveOptions, Inner, PERIOD};
 use crate::device::Device;
+use crate::device::motion::End;
 use crate::drive::steering::{Limits, Order, Steering};
 use crate::error::{Error, Result};
+use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
-use crate::motor::{self, End, Ramps, Speed, StopAction};
+use crate::motor::{self, Ramps, Speed, StopAction};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -34,7 +36,7 @@ const LANDED_SOMEHOW: u64 = 5;
 
 /// A motion under way.
 pub(super) struct Job {
-    id: u32,
+    claim: Claim,
     motors: Vec<Arc<Device>>,
     steering: Steering,
     stop_action: StopAction,
@@ -157,7 +159,7 @@ impl Inner {
         }
         // Its ramps are put back first.
         drop(before);
-        let id = motor::new_owner();
+        let claim = Claim::new();
         let status = Arc::new(Status::default());
         let Some(found) = &self.found else {
             return Ok(status);
@@ -171,12 +173,12 @@ impl Inner {
         for motor in &found.motors {
             ramps.set(motor, &options)?;
             motor.write("stop_action", StopAction::Hold.word())?;
-            motor::own(motor, id);
+            claim.take(motor);
         }
         self.last = Some(Arc::clone(&status));
         self.goal = None;
         self.job = Some(Job {
-            id,
+            claim,
             motors: found.motors.clone(),
             steering,
             stop_action,
@@ -257,7 +259,7 @@ impl Inner {
         if !(is_reached && action == StopAction::Hold) {
             for motor in &job.motors {
                 // One that is gone has nothing to stop.
-                let _ = motor::stop_owned(motor, action, job.id);
+                let _ = job.claim.stop(motor, action);
             }
         }
         job.status.end(result);
@@ -305,7 +307,7 @@ impl Job {
             motor.write_number("speed_sp", speed)?;
         }
         for motor in &found.motors {
-            if !motor::start_owned(motor, "run-forever", End::Never, self.id)? {
+            if !self.claim.start(motor, "run-forever", End::Never)? {
                 return Ok(Some(Reason::Stopped));
             }
         }
@@ -323,7 +325,7 @@ impl Job {
         }
         for (side, motor) in found.motors.iter().enumerate() {
             let end = End::Position { from: found.counts[side], target: targets[side] };
-            if !motor::start_owned(motor, "run-to-abs-pos", end, self.id)? {
+            if !self.claim.start(motor, "run-to-abs-pos", end)? {
                 return Ok(Some(Reason::Stopped));
             }
         }
@@ -354,7 +356,7 @@ impl Job {
 
     /// Whether somebody else has told a motor something.
     fn is_foreign(&self, found: &Found) -> bool {
-        found.motors.iter().any(|motor| !motor::is_owned(motor, self.id))
+        found.motors.iter().any(|motor| !self.claim.holds(motor))
     }
 }
 

@@ -7,11 +7,13 @@
 //! tells why it does not; it never swings for ever. It is given up as soon as
 //! another thread has told a motor something.
 use crate::device::Device;
+use crate::device::motion::End;
 use crate::device::registry::Devices;
 use crate::device::retry::patiently;
 use crate::error::{Error, Interrupted, Result};
+use crate::motor::claim::Claim;
 use crate::motor::wait::sleep;
-use crate::motor::{self, End, Speed, StopAction, find_all, prepare};
+use crate::motor::{Speed, StopAction, find_all, prepare};
 use crate::sensor;
 use crate::value::Value;
 use std::sync::Arc;
@@ -122,12 +124,12 @@ pub fn by_gyro(
         signs: turn.signs,
         per_degree,
         fastest,
-        owner: motor::new_owner(),
+        claim: Claim::new(),
         running: None,
     };
     control.take_motors();
     let ended = control.turn_to(start, start + turn.degrees, interrupted);
-    let stopped = motor::stop_all_owned(&motors, StopAction::Brake, control.owner);
+    let stopped = control.claim.stop_all(&motors, StopAction::Brake);
     let ended = ended.and_then(|ended| stopped.map(|()| ended));
     ended.map(Some).map_err(|error| control.named(error))
 }
@@ -176,8 +178,8 @@ struct Control<'a> {
     per_degree: f64,
     /// The fastest speed of a wheel, in counts per second.
     fastest: f64,
-    /// Whose motion it is, as the motors know it.
-    owner: u32,
+    /// The turn's claim to the motors.
+    claim: Claim,
     /// What the left wheel was last told to do.
     running: Option<i64>,
 }
@@ -185,7 +187,7 @@ struct Control<'a> {
 impl Control<'_> {
     fn take_motors(&self) {
         for motor in self.motors {
-            motor::own(motor, self.owner);
+            self.claim.take(motor);
             motor.started();
         }
     }
@@ -273,9 +275,9 @@ impl Control<'_> {
         }
         for motor in self.motors {
             let is_ours = if counts == 0 {
-                motor::brake_owned(motor, self.owner)?
+                self.claim.brake(motor)?
             } else {
-                motor::start_owned(motor, "run-forever", End::Never, self.owner)?
+                self.claim.start(motor, "run-forever", End::Never)?
             };
             if !is_ours {
                 return Ok(false);
@@ -294,7 +296,7 @@ impl Control<'_> {
                 return Err(device.gone());
             }
         }
-        Ok(self.motors.iter().all(|motor| motor::is_owned(motor, self.owner)))
+        Ok(self.motors.iter().all(|motor| self.claim.holds(motor)))
     }
 
     /// The robot's angle. While it turns there is no time to wait for a gyro

@@ -9,11 +9,12 @@
 //! (`dc_motor_class.c`). So what is told such a motor within 100 ms of the last
 //! command or change happens up to 100 ms late.
 use crate::class::Class;
+use crate::device::motion::End;
 use crate::device::registry::Devices;
 use crate::device::retry::patiently;
 use crate::error::{Interrupted, Result};
 use crate::motor::wait::Reason;
-use crate::motor::{self, End, MoveOptions, Ramps};
+use crate::motor::{self, MoveOptions, Ramps};
 use std::sync::Arc;
 use std::time::Duration;
 

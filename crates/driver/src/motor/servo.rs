@@ -4,9 +4,11 @@
 //! float. Its positions go from -100 to 100 percent of its way, which is what it
 //! makes of the lengths of pulses that the controller sends it.
 use crate::device::Device;
+use crate::device::motion::End;
 use crate::error::Result;
+use crate::motor::command::start;
+use crate::motor::plan::duty;
 use crate::motor::wait::has;
-use crate::motor::{End, start};
 
 /// Sends a servo to a position from -100 to 100 percent, where it stays. `false`
 /// if the position is beyond that; then nothing has moved.
@@ -14,7 +16,7 @@ use crate::motor::{End, start};
 /// # Errors
 /// The kernel's.
 pub fn set_position(servo: &Device, percent: f64) -> Result<bool> {
-    let Some(percent) = crate::motor::duty(percent) else {
+    let Some(percent) = duty(percent) else {
         return Ok(false);
     };
     servo.write_number("position_sp", percent)?;
@@ -44,9 +46,4 @@ pub fn position(servo: &Device) -> Result<Option<i64>> {
 /// The kernel's.
 pub fn float(servo: &Device) -> Result<()> {
     start(servo, "float", None)
-}
-
-/// Lets a servo float, and is content if it is gone.
-pub(crate) fn float_somehow(servo: &Device) -> Result<()> {
-    float(servo).or_else(|error| if error.is_stale() { Ok(()) } else { Err(error) })
 }

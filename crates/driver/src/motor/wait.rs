@@ -6,9 +6,9 @@
 //! but never for longer than [`SLICE`], then looks again; towards the end that
 //! position and speed predict it looks every [`SHORT_SLICE`].
 use crate::device::Device;
+use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Devices;
 use crate::error::{Error, Interrupted, Result};
-use crate::motor::{End, Motion};
 use crate::sysfs::Node;
 use rustix::io::Errno;
 use std::sync::Arc;
@@ -211,7 +211,7 @@ struct Watch<'a> {
     motor: &'a Device,
     /// What it was told to do when the wait began. If it is told something
     /// else since, it does not get there.
-    motion: Option<Motion>,
+    run: Option<MotorRun>,
     has_run: bool,
     is_done: bool,
     /// Whether the last look found nothing running.
@@ -235,7 +235,7 @@ impl<'a> Watch<'a> {
     fn new(motor: &'a Device) -> Self {
         Self {
             motor,
-            motion: *motor.motion(),
+            run: *motor.run(),
             has_run: false,
             is_done: false,
             was_quiet: false,
@@ -292,7 +292,7 @@ impl<'a> Watch<'a> {
 
     /// Whether a motor that does not run has run already, rather than not yet.
     fn is_over(&self, now: Duration) -> Result<bool> {
-        let started = self.motion.map(|motion| motion.started);
+        let started = self.run.map(|run| run.started);
         let is_late = started.is_none_or(|started| now.saturating_sub(started) >= GRACE);
         Ok(is_late || self.has_run || self.is_at_end(now)?)
     }
@@ -300,17 +300,17 @@ impl<'a> Watch<'a> {
     /// Whether the motor is where its motion was to end, or beyond that, as a
     /// motor that coasts; or whether it has run for its time.
     fn is_at_end(&self, now: Duration) -> Result<bool> {
-        let Some(motion) = self.motion else {
+        let Some(run) = self.run else {
             return Ok(true);
         };
-        Ok(match motion.end {
+        Ok(match run.end {
             End::Position { from, target } => {
                 let position = self.motor.number("position")?;
                 let is_beyond =
                     if target >= from { position >= target } else { position <= target };
                 is_beyond || target.abs_diff(position) <= TOLERANCE
             }
-            End::Time(time) => now.saturating_add(TICK) >= motion.started.saturating_add(time),
+            End::Time(time) => now.saturating_add(TICK) >= run.started.saturating_add(time),
             End::Never => false,
         })
     }
@@ -328,7 +328,7 @@ impl<'a> Watch<'a> {
 
     /// Whether the position has been the same for too long under way.
     fn is_stuck(&mut self, now: Duration) -> Result<bool> {
-        if !matches!(self.motion, Some(Motion { end: End::Position { .. }, .. })) {
+        if !matches!(self.run, Some(MotorRun { end: End::Position { .. }, .. })) {
             return Ok(false);
         }
         let position = self.motor.number("position")?;
@@ -347,7 +347,7 @@ impl<'a> Watch<'a> {
     /// How long to sleep before the next look: until shortly before the end
     /// that can be predicted.
     fn slice(&self, now: Duration) -> Result<Duration> {
-        let left = match self.motion.map(|motion| (motion.started, motion.end)) {
+        let left = match self.run.map(|run| (run.started, run.end)) {
             Some((_, End::Position { target, .. })) => {
                 let position = self.motor.number("position")?;
                 let speed = match self.motor.number("speed") {

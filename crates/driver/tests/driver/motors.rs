@@ -3,7 +3,7 @@ use crate::brick::{Brick, motors, ms};
 use ev3_driver::Class;
 use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, Way, command, reset, run_forever, run_to, stop,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_to, stop,
     stop_all, stop_started,
 };
 use ev3_driver::{Errno, Error, attributes};
@@ -15,7 +15,7 @@ fn run(port: &str, percent: f64) -> Run<'_> {
 }
 
 fn turn(port: &str, percent: f64, degrees: f64) -> Move<'_> {
-    Move { port, speed: Speed::Percent(percent), way: Way::By(degrees) }
+    Move { port, speed: Speed::Percent(percent), extent: Extent::By(degrees) }
 }
 
 fn position(brick: &Brick, port: &str) -> i64 {

@@ -2,7 +2,7 @@
 use crate::brick::{Brick, motors, ms};
 use ev3_driver::motor::wait::{Reason, sleep, wait_for, wait_for_flag};
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, Way, command, run_forever, run_to, stop,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
 };
 use ev3_driver::{Devices, Error};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use std::time::Duration;
 fn start(devices: &Devices, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
     let moves: Vec<_> =
-        ports.iter().map(|port| Move { port, speed, way: Way::By(degrees) }).collect();
+        ports.iter().map(|port| Move { port, speed, extent: Extent::By(degrees) }).collect();
     let options = MoveOptions { wait: false, ..MoveOptions::default() };
     run_to(devices, &moves, &options, &mut || false).unwrap().unwrap();
 }
@@ -98,7 +98,7 @@ fn a_slow_motor_takes_longer_to_break_away_and_is_not_blocked() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").sticks_for = ms(400);
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), extent: Extent::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Reached));
 }
@@ -108,7 +108,7 @@ fn a_slow_motor_that_is_blocked_is_noticed() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").is_blocked = true;
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), extent: Extent::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Stalled));
     assert!(brick.now() < ms(700), "{:?}", brick.now());
