@@ -6,7 +6,8 @@ use crate::state;
 use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
-use ev3_driver::motor::wait::{Reason, sleep};
+use ev3_driver::motor::wait::Reason;
+use ev3_driver::sysfs::sleep;
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -105,7 +106,7 @@ predicates! {
     semidet fn drive_pause(context, seconds) {
         let call = Call::of(context, "calibrate", 3);
         let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
-        call.check(sleep(&devices, seconds, &mut call.interrupted()))
+        call.check(sleep(devices.tree(), seconds, &mut call.interrupted()))
     }
 }
 

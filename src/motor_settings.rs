@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/motor_settings.pl`: what a motor is set to.
 use crate::call::{Call, ListedDevices, unify_value};
 use crate::driver::unify_port;
+use ev3_driver::device::retry;
 use ev3_driver::{Class, Device, motor};
 use std::sync::Arc;
 use swipl::prelude::*;
@@ -39,7 +40,7 @@ predicates! {
         let (port, position) = (call.text(port)?, call.float(position)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);
-        let set = devices.with_patience(Class::TachoMotor, &port, interrupted, set);
+        let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
         into_prolog_result(call.found(set)?)
     }
 }

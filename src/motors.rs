@@ -2,6 +2,7 @@
 use crate::call::{Call, unify_atom};
 use crate::driver::class_of;
 use crate::error::wrong_value;
+use ev3_driver::device::retry;
 use ev3_driver::motor::wait;
 use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
 use ev3_driver::{Class, Device};
@@ -91,7 +92,7 @@ predicates! {
         let (port, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
-        call.found(devices.with_patience(class, &port, interrupted, stop))
+        call.found(retry::with(&devices, class, &port, interrupted, stop))
     }
 
     /// stop_all_motors
@@ -111,7 +112,7 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
-        call.found(devices.with_patience(Class::TachoMotor, &port, interrupted, reset))
+        call.found(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/servo_motors.pl`: RC servos.
 use crate::call::{Call, ListedDevices};
 use crate::driver::unify_port;
+use ev3_driver::device::retry;
 use ev3_driver::motor::servo;
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
@@ -43,7 +44,7 @@ predicates! {
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
-        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
+        let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
         into_prolog_result(call.found(set)?)
     }
 
@@ -54,6 +55,6 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
-        call.found(devices.with_patience(Class::ServoMotor, &port, interrupted, float))
+        call.found(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
     }
 }

@@ -208,7 +208,7 @@ predicates! {
             return wrong_value(&call, "seconds", seconds);
         };
         let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
-        call.check(ev3_driver::motor::wait::sleep(&files, time, &mut call.interrupted()))
+        call.check(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 
     /// sim_hold_

@@ -6,6 +6,7 @@
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Devices;
+use crate::device::retry;
 use crate::error::{Interrupted, Result};
 use crate::value::Value;
 use crate::{motor, sensor};
@@ -76,7 +77,7 @@ pub fn write(
             None => Ok(None),
         };
     }
-    devices.with_patience(class, port, interrupted, |device| match name {
+    retry::with(devices, class, port, interrupted, |device| match name {
         "command" if Class::MOTORS.contains(&class) => motor::command(device, text),
         "position" if class == Class::TachoMotor => {
             device.without_counting(&mut || device.write(name, text))

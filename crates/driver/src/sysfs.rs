@@ -3,7 +3,7 @@
 //! [`Files`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
 //! or any directory shaped like it. A simulator may stand in for it within
 //! the process by implementing [`Tree`] and [`Node`].
-use crate::error::{Access, Error, Result};
+use crate::error::{Access, Error, Interrupted, Result};
 use nix::sys::signal::{SigSet, SigmaskHow};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
@@ -14,6 +14,9 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::os::unix::fs::{DirEntryExt, FileExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// The longest sleep before asking the caller whether to go on.
+pub(crate) const SLICE: Duration = Duration::from_millis(20);
 
 /// An entry of a class directory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,6 +88,25 @@ pub trait Tree: Send + Sync {
 
 /// What is done again and again; answers when to do it next.
 pub type Repeated = Box<dyn FnMut() -> Option<Duration> + Send>;
+
+/// Sleeps by the tree's clock, interruptibly.
+///
+/// # Errors
+/// [`Error::Interrupted`].
+pub fn sleep(tree: &dyn Tree, time: Duration, interrupted: Interrupted) -> Result<()> {
+    let end = tree.now().saturating_add(time);
+    loop {
+        let left = end.saturating_sub(tree.now());
+        if left.is_zero() {
+            return Ok(());
+        }
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+        // After a pause that failed, too, the clock says how much is left.
+        let _ = tree.pause(&[], left.min(SLICE));
+    }
+}
 
 /// An open attribute file.
 pub trait Node: Send + Sync {

@@ -12,10 +12,9 @@
 //! stays.
 use crate::class::{Class, Hue, led_name};
 use crate::device::registry::Devices;
-use crate::device::retry::{RETRY_EVERY, patiently};
+use crate::device::retry::{until_some, while_permissions_settle};
 use crate::device::{Device, read_file, write_file};
 use crate::error::{Error, Interrupted, Result};
-use crate::motor::wait::sleep;
 use crate::port_name;
 use crate::value::integer;
 use rustix::io::Errno;
@@ -246,7 +245,7 @@ pub fn set_colour(
     colour: &Colour,
     interrupted: Interrupted,
 ) -> Result<Option<bool>> {
-    patiently(devices, interrupted, || {
+    while_permissions_settle(devices, interrupted, || {
         let Some(light) = find(devices, name)? else { return Ok(None) };
         let Some(mix) = light.mix(colour) else { return Ok(Some(false)) };
         for (led, _) in &mix {
@@ -273,7 +272,7 @@ pub fn set_trigger(
     word: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    patiently(devices, interrupted, || match find(devices, name)? {
+    while_permissions_settle(devices, interrupted, || match find(devices, name)? {
         Some(light) => {
             light.shining()?.iter().try_for_each(|led| led.write("trigger", word)).map(Some)
         }
@@ -292,19 +291,20 @@ pub fn blink(
     [on, off]: [i64; 2],
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    let blinking = patiently(devices, &mut *interrupted, || match find(devices, name)? {
-        Some(light) => {
-            let leds = light.shining()?;
-            for led in &leds {
-                // Anew it would forget the colour, and make its files anew.
-                if trigger(led)? != TIMER {
-                    led.write("trigger", TIMER)?;
+    let blinking =
+        while_permissions_settle(devices, &mut *interrupted, || match find(devices, name)? {
+            Some(light) => {
+                let leds = light.shining()?;
+                for led in &leds {
+                    // Anew it would forget the colour, and make its files anew.
+                    if trigger(led)? != TIMER {
+                        led.write("trigger", TIMER)?;
+                    }
                 }
+                Ok(Some(leds))
             }
-            Ok(Some(leds))
-        }
-        None => Ok(None),
-    })?;
+            None => Ok(None),
+        })?;
     let Some(leds) = blinking else { return Ok(None) };
     for (file, milliseconds) in [("delay_on", on), ("delay_off", off)] {
         for led in &leds {
@@ -325,17 +325,17 @@ fn set_delay(
 ) -> Result<()> {
     let latest = devices.tree().now().saturating_add(DELAYS_WITHIN);
     let path = led.path().join(file);
-    loop {
-        let error = match write_file(devices.tree(), &path, &milliseconds.to_string()) {
-            Ok(()) => return Ok(()),
-            Err(error) => error,
-        };
-        let is_early = matches!(error.errno(), Some(Errno::NOENT | Errno::ACCESS));
-        if !is_early || devices.tree().now() >= latest {
-            return Err(error);
+    until_some(devices.tree(), interrupted, |_| {
+        match write_file(devices.tree(), &path, &milliseconds.to_string()) {
+            Err(error) if is_early(&error) && devices.tree().now() < latest => Ok(None),
+            written => written.map(Some),
         }
-        sleep(devices, RETRY_EVERY, &mut *interrupted)?;
-    }
+    })
+}
+
+/// Whether the timer's files may not be there yet, or not open to us.
+fn is_early(error: &Error) -> bool {
+    matches!(error.errno(), Some(Errno::NOENT | Errno::ACCESS))
 }
 
 fn delay(led: &Device, file: &'static str) -> Result<i64> {

@@ -9,9 +9,9 @@ use crate::brick::light;
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Devices;
-use crate::device::retry::RETRY_EVERY;
+use crate::device::retry;
+use crate::device::retry::until_some;
 use crate::error::{Error, Interrupted, Result};
-use crate::motor::wait::sleep;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -77,7 +77,7 @@ pub fn set_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<bool>> {
-    let written = devices.with_patience(Class::Port, port, &mut *interrupted, |port| {
+    let written = retry::with(devices, Class::Port, port, &mut *interrupted, |port| {
         if !port.with_word("mode", |present| present == mode)? {
             port.write("mode", mode)?;
             devices.forget_listings();
@@ -111,7 +111,7 @@ pub fn set_device(
     // On I2C an address follows.
     let driver = name.split(' ').next().unwrap_or(name);
     let is_it = |device: &Arc<Device>| device.driver() == driver;
-    let written = devices.with_patience(Class::Port, port, &mut *interrupted, |lego_port| {
+    let written = retry::with(devices, Class::Port, port, &mut *interrupted, |lego_port| {
         // An unknown name would take away the motor that is there.
         let is_output =
             lego_port.driver().ends_with("output-port") || lego_port.driver().ends_with("out-port");
@@ -142,13 +142,10 @@ fn wait_for(
     interrupted: Interrupted,
 ) -> Result<bool> {
     let latest = devices.tree().now().saturating_add(APPEARS_WITHIN);
-    loop {
-        if find()?.is_some_and(|device| device.is_open_to_us()) {
-            return Ok(true);
+    until_some(devices.tree(), interrupted, |_| {
+        if find()?.is_some_and(|device| device.is_writable()) {
+            return Ok(Some(true));
         }
-        if devices.tree().now() >= latest {
-            return Ok(false);
-        }
-        sleep(devices, RETRY_EVERY, &mut *interrupted)?;
-    }
+        Ok((devices.tree().now() >= latest).then_some(false))
+    })
 }

@@ -3,7 +3,7 @@ mod list;
 pub(crate) mod motion;
 mod observer;
 pub mod registry;
-pub(crate) mod retry;
+pub mod retry;
 
 use crate::class::{Class, Detected};
 use crate::device::list::List;
@@ -363,7 +363,7 @@ impl Device {
     /// Whether udev has opened its files to us: it takes up to a second after
     /// a device appears. The file that tells is one that any device of the
     /// class lets be written.
-    pub(crate) fn is_open_to_us(&self) -> bool {
+    pub(crate) fn is_writable(&self) -> bool {
         let file = match self.class {
             Class::TachoMotor | Class::DcMotor | Class::ServoMotor => "command",
             Class::Sensor | Class::Port => "mode",

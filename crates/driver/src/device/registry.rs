@@ -6,9 +6,8 @@
 //! when a port is asked for that it does not have, and when a device answers as
 //! an unplugged one does. Devices that are still there keep their descriptors.
 use crate::class::{Class, Detected};
-use crate::device::retry::patiently;
 use crate::device::{Device, MotionObserver, Observer, identity};
-use crate::error::{Access, Error, Interrupted, Result};
+use crate::error::{Access, Error, Result};
 use crate::held::Held;
 use crate::port_name;
 use crate::sysfs::Tree;
@@ -94,21 +93,6 @@ impl Devices {
     pub fn has(&self, device: &Device) -> Result<bool> {
         let present = self.find(device.class(), device.port())?;
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
-    }
-
-    /// Does something with the device at a port, as [`with`](Self::with), and
-    /// has patience with a device whose files are not yet open to us.
-    ///
-    /// # Errors
-    /// As `act`, or as [`all`](Self::all); [`Error::Interrupted`].
-    pub fn with_patience<T>(
-        &self,
-        class: Class,
-        port: &str,
-        interrupted: Interrupted,
-        mut act: impl FnMut(&Arc<Device>) -> Result<T>,
-    ) -> Result<Option<T>> {
-        patiently(self, interrupted, || self.with(class, port, &mut act))
     }
 
     /// Does something with the device at a port; `None` where there is none.

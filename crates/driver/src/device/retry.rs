@@ -1,56 +1,90 @@
-//! Having patience with a device that has just been plugged in.
+//! Trying again while a device is getting ready.
 //!
 //! The kernel makes a device's files for root alone; udev opens them to the
-//! users of the robot, asynchronously, up to a second later. Until then an open
-//! for writing answers EACCES, as one of a file that can only be read always
-//! does. The two are told apart by a file that can certainly be written.
+//! users of the robot, asynchronously, up to a second later
+//! (docs/ev3dev-sysfs.md, 0.1). Until then an open for writing answers EACCES, as
+//! it always does for a file that can only be read. A file that any device of
+//! the class lets be written tells the two apart.
+use crate::class::Class;
+use crate::device::Device;
 use crate::device::registry::Devices;
 use crate::error::{Error, Interrupted, Result};
-use crate::motor::wait::sleep;
+use crate::sysfs::{Tree, sleep};
 use rustix::io::Errno;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How long udev may take to open a new device's files to us.
 const PERMISSIONS_WITHIN: Duration = Duration::from_secs(1);
 
 /// The pause between two tries.
-pub(crate) const RETRY_EVERY: Duration = Duration::from_millis(20);
+const RETRY_EVERY: Duration = Duration::from_millis(20);
 
-/// How often to try again what is refused by a device that udev has opened: it
-/// opens the files one after the other.
+/// How often to retry when a device that udev has opened refuses: udev opens the
+/// files one after the other.
 const LAST_TRIES: u32 = 1;
 
-/// Does something with devices, again and again while one of them is so new
-/// that its files are not yet open to us. What `act` does before it opens the
-/// last of its files must bear repeating.
+/// Calls `attempt` every 20 ms until it answers something. `None` means "not
+/// yet": the attempt decides which errors and states are worth another try, and
+/// for how long.
+///
+/// # Errors
+/// As `attempt`; [`Error::Interrupted`].
+pub(crate) fn until_some<T>(
+    tree: &dyn Tree,
+    interrupted: Interrupted,
+    mut attempt: impl FnMut(Interrupted) -> Result<Option<T>>,
+) -> Result<T> {
+    loop {
+        if let Some(result) = attempt(&mut *interrupted)? {
+            return Ok(result);
+        }
+        sleep(tree, RETRY_EVERY, &mut *interrupted)?;
+    }
+}
+
+/// Does something with devices, and repeats it while one of them is so new
+/// that udev has not opened its files yet. It must be harmless to repeat what
+/// `act` does before it opens the last of its files.
 ///
 /// # Errors
 /// As `act`; [`Error::Interrupted`].
-pub(crate) fn patiently<T>(
+pub(crate) fn while_permissions_settle<T>(
     devices: &Devices,
     interrupted: Interrupted,
     mut act: impl FnMut() -> Result<T>,
 ) -> Result<T> {
-    let mut patience = Patience::default();
-    loop {
-        match devices.afresh(&mut act) {
-            Err(error) if patience.lasts(devices, &error) => {
-                sleep(devices, RETRY_EVERY, interrupted)?;
-            }
-            result => return result,
-        }
-    }
+    let mut retry = Retry::default();
+    until_some(devices.tree(), interrupted, |_| match devices.afresh(&mut act) {
+        Err(error) if retry.is_worthwhile(devices, &error) => Ok(None),
+        result => result.map(Some),
+    })
 }
 
-/// What is left of the patience with a new device.
+/// Does something with the device at a port, as [`Devices::with`] does, and
+/// waits while udev has not opened the device's files yet.
+///
+/// # Errors
+/// As `act`, or as [`Devices::all`]; [`Error::Interrupted`].
+pub fn with<T>(
+    devices: &Devices,
+    class: Class,
+    port: &str,
+    interrupted: Interrupted,
+    mut act: impl FnMut(&Arc<Device>) -> Result<T>,
+) -> Result<Option<T>> {
+    while_permissions_settle(devices, interrupted, || devices.with(class, port, &mut act))
+}
+
+/// Decides how often to retry with a device that refuses access.
 #[derive(Default)]
-pub(crate) struct Patience {
+pub(crate) struct Retry {
     tries: u32,
 }
 
-impl Patience {
-    /// Whether to try again after this error, in a moment.
-    pub(crate) fn lasts(&mut self, devices: &Devices, error: &Error) -> bool {
+impl Retry {
+    /// Whether to retry after this error, in a moment.
+    pub(crate) fn is_worthwhile(&mut self, devices: &Devices, error: &Error) -> bool {
         if error.errno() != Some(Errno::ACCESS) {
             return false;
         }
@@ -60,7 +94,7 @@ impl Patience {
         if devices.tree().now() >= device.first_seen().saturating_add(PERMISSIONS_WITHIN) {
             return false;
         }
-        if device.is_open_to_us() {
+        if device.is_writable() {
             self.tries += 1;
         }
         self.tries <= LAST_TRIES

@@ -25,9 +25,10 @@ use crate::drive::odometry::{Estimate, Pose, Wheels};
 use crate::drive::steering::Leg;
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
-use crate::motor::wait::{Reason, sleep};
+use crate::motor::wait::Reason;
 use crate::motor::{self, StopAction};
 use crate::sensor;
+use crate::sysfs::sleep;
 use control::Job;
 pub use control::Status;
 use devices::{Found, GYRO_MODE, angle, counts};
@@ -312,7 +313,7 @@ impl Drive {
             if left.is_some_and(|left| left.is_zero()) {
                 return Ok(Reason::Timeout);
             }
-            sleep(&self.devices, left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
+            sleep(self.devices.tree(), left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
         }
     }
 

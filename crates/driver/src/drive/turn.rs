@@ -9,12 +9,12 @@
 use crate::device::Device;
 use crate::device::motion::End;
 use crate::device::registry::Devices;
-use crate::device::retry::patiently;
+use crate::device::retry::while_permissions_settle;
 use crate::error::{Error, Interrupted, Result};
 use crate::motor::claim::Claim;
-use crate::motor::wait::sleep;
 use crate::motor::{Speed, StopAction, find_all, prepare};
 use crate::sensor;
+use crate::sysfs::sleep;
 use crate::value::Value;
 use std::sync::Arc;
 use std::time::Duration;
@@ -103,7 +103,7 @@ pub fn by_gyro(
         return Ok(None);
     }
     let ports = [turn.left.as_str(), turn.right.as_str()];
-    let motors = patiently(devices, &mut *interrupted, || {
+    let motors = while_permissions_settle(devices, &mut *interrupted, || {
         let motors = find_all(devices, ports)?;
         motors.iter().try_for_each(|motors| prepare(motors)).map(|()| motors)
     })?;
@@ -290,7 +290,7 @@ impl Control<'_> {
     /// Lets the robot turn on for a moment. `false` if a motor is no longer ours
     /// after that.
     fn pass(&self, interrupted: Interrupted) -> Result<bool> {
-        sleep(self.devices, PERIOD, interrupted)?;
+        sleep(self.devices.tree(), PERIOD, interrupted)?;
         for device in self.motors.iter().chain([self.gyro]) {
             if !self.devices.has(device)? {
                 return Err(device.gone());

@@ -11,7 +11,8 @@
 use crate::class::Class;
 use crate::device::motion::End;
 use crate::device::registry::Devices;
-use crate::device::retry::patiently;
+use crate::device::retry;
+use crate::device::retry::while_permissions_settle;
 use crate::error::{Interrupted, Result};
 use crate::motor::wait::Reason;
 use crate::motor::{self, MoveOptions, Ramps};
@@ -35,7 +36,7 @@ pub fn run_forever(
     let Some(duty) = motor::duty(percent) else {
         return Ok(false);
     };
-    let run = devices.with_patience(Class::DcMotor, port, interrupted, |motor| {
+    let run = retry::with(devices, Class::DcMotor, port, interrupted, |motor| {
         motor.write_number("duty_cycle_sp", duty)?;
         motor::start(motor, "run-forever", Some(End::Never))
     })?;
@@ -72,7 +73,7 @@ pub fn run_timed(
             Ok(Arc::clone(motor))
         })
     };
-    match patiently(devices, &mut *interrupted, start)? {
+    match while_permissions_settle(devices, &mut *interrupted, start)? {
         Some(motor) => motor::finish(devices, &[motor], options, interrupted).map(Some),
         None => Ok(None),
     }

@@ -18,7 +18,8 @@ use crate::class::Class;
 use crate::device::Device;
 use crate::device::motion::End;
 use crate::device::registry::Devices;
-use crate::device::retry::patiently;
+use crate::device::retry;
+use crate::device::retry::while_permissions_settle;
 use crate::error::{Error, Interrupted, Result};
 pub use command::{StopAction, command, reset, stop, stop_all};
 use command::{best_effort, start_all, stop_best_effort};
@@ -94,7 +95,7 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
 /// The kernel's. A motor that goes away while the others start stops them.
 /// [`Error::Twice`]; [`Interrupted`](Error::Interrupted).
 pub fn run_forever(devices: &Devices, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
-    patiently(devices, interrupted, || run_forever_once(devices, runs))
+    while_permissions_settle(devices, interrupted, || run_forever_once(devices, runs))
 }
 
 fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
@@ -140,7 +141,7 @@ pub fn run_direct(
         motor.write_number("duty_cycle_sp", duty)?;
         start(motor, "run-direct", Some(End::Never))
     };
-    Ok(devices.with_patience(class, port, interrupted, run)?.is_some())
+    Ok(retry::with(devices, class, port, interrupted, run)?.is_some())
 }
 
 /// Turns motors, all at once. `None` if one is absent, or the move
@@ -161,7 +162,7 @@ pub fn run_to(
     interrupted: Interrupted,
 ) -> Result<Option<Reason>> {
     let start = || start_moves(devices, moves, options);
-    match patiently(devices, &mut *interrupted, start)? {
+    match while_permissions_settle(devices, &mut *interrupted, start)? {
         Some(motors) => finish(devices, &motors, options, interrupted).map(Some),
         None => Ok(None),
     }

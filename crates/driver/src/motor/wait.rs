@@ -9,13 +9,10 @@ use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Devices;
 use crate::error::{Error, Interrupted, Result};
-use crate::sysfs::Node;
+use crate::sysfs::{Node, SLICE};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
-
-/// The longest sleep between two looks.
-const SLICE: Duration = Duration::from_millis(20);
 
 /// The sleep between two looks when the end is near.
 const SHORT_SLICE: Duration = Duration::from_millis(2);
@@ -147,19 +144,6 @@ pub fn wait_for_flag(
         Err(error) if error.is_gone() => Err(motor.gone()),
         waited => waited.map(drop),
     }
-}
-
-/// Sleeps, interruptibly.
-///
-/// # Errors
-/// [`Error::Interrupted`].
-pub fn sleep(devices: &Devices, time: Duration, interrupted: Interrupted) -> Result<()> {
-    let end = devices.tree().now().saturating_add(time);
-    until(devices, &[], None, interrupted, |now| {
-        let left = end.saturating_sub(now);
-        Ok((!left.is_zero()).then_some(left))
-    })
-    .map(drop)
 }
 
 /// Calls `look` until it answers `None`. What else it answers is how long to

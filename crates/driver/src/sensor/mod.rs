@@ -8,10 +8,10 @@ mod bin_data;
 
 use crate::class::Class;
 use crate::device::registry::Devices;
-use crate::device::retry::{Patience, RETRY_EVERY};
+use crate::device::retry::{Retry, until_some};
 use crate::device::{Device, Use};
 use crate::error::{Error, Interrupted, Result};
-use crate::motor::wait::sleep;
+use crate::sysfs::sleep;
 use crate::value::Value;
 use rustix::io::Errno;
 use std::sync::Arc;
@@ -66,7 +66,7 @@ pub fn read_all<const N: usize>(
     indices: [usize; N],
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
-    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
         let using = in_use(devices, sensor, interrupted)?;
         sensor.check_present()?;
         ensure_settled(devices, sensor, mode, interrupted)?;
@@ -92,7 +92,7 @@ pub fn read_several(
     count: Option<usize>,
     interrupted: Interrupted,
 ) -> Result<Option<Vec<Value>>> {
-    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
         let using = in_use(devices, sensor, interrupted)?;
         sensor.check_present()?;
         ensure_settled(devices, sensor, Some(mode), interrupted)?;
@@ -143,7 +143,7 @@ pub fn set_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
         let _using = in_use(devices, sensor, interrupted)?;
         ensure_settled(devices, sensor, Some(mode), interrupted)
     })
@@ -160,7 +160,7 @@ pub fn restart(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    patiently(devices, sensor, interrupted, |sensor, interrupted| {
+    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
         let _using = in_use(devices, sensor, interrupted)?;
         write_mode(sensor, mode)?;
         settle(devices, sensor, interrupted).map(drop)
@@ -250,7 +250,7 @@ fn settle(devices: &Devices, sensor: &Device, interrupted: Interrupted) -> Resul
     if settled_at.is_zero() {
         return Ok(false);
     }
-    sleep(devices, settled_at.saturating_sub(devices.tree().now()), interrupted)?;
+    sleep(devices.tree(), settled_at.saturating_sub(devices.tree().now()), interrupted)?;
     *sensor.settled_at() = Duration::ZERO;
     Ok(true)
 }
@@ -261,54 +261,78 @@ fn in_use<'a>(devices: &Devices, sensor: &'a Device, interrupted: Interrupted) -
     loop {
         match sensor.try_use() {
             Some(guard) => return Ok(guard),
-            None => sleep(devices, Duration::from_millis(1), interrupted)?,
+            None => sleep(devices.tree(), Duration::from_millis(1), interrupted)?,
         }
     }
 }
 
-/// Does something with a sensor, again and again while the sensor is getting
-/// into contact, or udev has not yet opened its files to us.
-fn patiently<T>(
+/// Does something with a sensor, and repeats it while the sensor is getting into
+/// contact, or udev has not opened its files yet. `None` where the sensor is
+/// gone.
+fn while_it_connects<T>(
     devices: &Devices,
     sensor: &Arc<Device>,
     interrupted: Interrupted,
     mut act: impl FnMut(&Arc<Device>, Interrupted) -> Result<T>,
 ) -> Result<Option<T>> {
-    let mut replaced = None;
-    let mut first_try = None;
-    let mut new = Patience::default();
-    loop {
-        let sensor = replaced.as_ref().unwrap_or(sensor);
-        let error = match act(sensor, interrupted) {
-            Ok(value) => return Ok(Some(value)),
-            Err(error) => error,
-        };
-        let now = devices.tree().now();
-        let patience = match error.errno() {
-            Some(Errno::NODEV | Errno::NOENT) => match present(devices, sensor)? {
-                None => return Ok(None),
-                Some(other) if !Arc::ptr_eq(&other, sensor) => {
-                    replaced = Some(other);
-                    continue;
+    let mut sensor = Arc::clone(sensor);
+    let mut connecting = Connecting::default();
+    until_some(devices.tree(), interrupted, |interrupted| {
+        loop {
+            let error = match act(&sensor, &mut *interrupted) {
+                Ok(value) => return Ok(Some(Some(value))),
+                Err(error) => error,
+            };
+            // Before the listing: reading it may take its time.
+            let now = devices.tree().now();
+            if error.is_stale() {
+                match present(devices, &sensor)? {
+                    None => return Ok(Some(None)),
+                    Some(other) if !Arc::ptr_eq(&other, &sensor) => {
+                        sensor = other;
+                        continue;
+                    }
+                    Some(_) if error.errno() == Some(Errno::NOENT) => return Err(error),
+                    Some(_) => {}
                 }
-                Some(_) if error.errno() == Some(Errno::NOENT) => return Err(error),
-                Some(_) => *first_try.get_or_insert(now) + RETRY_FOR,
-            },
-            // It introduces itself anew.
-            Some(Errno::NXIO | Errno::BUSY | Errno::TIMEDOUT) => {
-                *first_try.get_or_insert(now) + RETRY_FOR
             }
-            // Then it has no mode, and knows none.
-            Some(Errno::INVAL) if sensor.with_word("mode", str::is_empty).unwrap_or(false) => {
-                *first_try.get_or_insert(now) + RETRY_FOR
-            }
-            _ if new.lasts(devices, &error) => Duration::MAX,
-            _ => return Err(error),
-        };
-        if now >= patience {
-            return Err(error);
+            return if connecting.may_last(devices, &sensor, &error, now) {
+                Ok(None)
+            } else {
+                Err(error)
+            };
         }
-        sleep(devices, RETRY_EVERY, interrupted)?;
+    })
+}
+
+/// How long a sensor has been out of contact.
+#[derive(Default)]
+struct Connecting {
+    since: Option<Duration>,
+    permissions: Retry,
+}
+
+impl Connecting {
+    /// Whether an error at this time is one that passes while a sensor gets into
+    /// contact.
+    fn may_last(
+        &mut self,
+        devices: &Devices,
+        sensor: &Device,
+        error: &Error,
+        now: Duration,
+    ) -> bool {
+        let is_out_of_contact = match error.errno() {
+            Some(Errno::NODEV | Errno::NXIO | Errno::BUSY | Errno::TIMEDOUT) => true,
+            // A sensor that introduces itself has no mode yet, and knows none.
+            Some(Errno::INVAL) => sensor.with_word("mode", str::is_empty).unwrap_or(false),
+            _ => false,
+        };
+        if is_out_of_contact {
+            now < *self.since.get_or_insert(now) + RETRY_FOR
+        } else {
+            self.permissions.is_worthwhile(devices, error)
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! Waiting, and why a wait ends.
 use crate::brick::{Brick, motors, ms};
-use ev3_driver::motor::wait::{Reason, sleep, wait_for, wait_for_flag};
+use ev3_driver::motor::wait::{Reason, wait_for, wait_for_flag};
 use ev3_driver::motor::{
     Extent, Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
 };
+use ev3_driver::sysfs::sleep;
 use ev3_driver::{Devices, Error};
 use std::sync::Arc;
 use std::time::Duration;
@@ -274,7 +275,7 @@ fn absurd_times_are_long_and_no_more() {
     let all = motors(&devices, &["outA"]);
     let reason = wait_for(&devices, &all, Some(Duration::MAX), &mut brick.attentive()).unwrap();
     assert_eq!(reason, Reason::Reached);
-    let slept = sleep(&devices, Duration::MAX, &mut brick.interrupting(ms(100)));
+    let slept = sleep(devices.tree(), Duration::MAX, &mut brick.interrupting(ms(100)));
     assert!(matches!(slept, Err(Error::Interrupted)));
 }
 
@@ -284,7 +285,7 @@ fn a_sleep_lasts_as_long_as_asked_and_asks_as_often_as_a_wait() {
     let devices = brick.devices();
     for time in [ms(0), ms(1), ms(7), ms(20), ms(333)] {
         let started = brick.now();
-        sleep(&devices, time, &mut brick.attentive()).unwrap();
+        sleep(devices.tree(), time, &mut brick.attentive()).unwrap();
         assert_eq!(brick.since(started), time);
     }
 }
