@@ -1,90 +1,178 @@
-//! A motion under way: how it begins, what the wheels are told, how it ends.
-use super::devices::Found;
-use super::{Course, DriveOptions, Inner, PERIOD};
-use crate::device::Device;
-use crate::device::motion::End;
-use crate::drive::steering::{Limits, Order, Steering};
+//! Odometry and control of one robot, one period at a time.
+use crate::class::Class;
+use crate::device::registry::Devices;
+use crate::drive::devices::{Found, Robot, angle, counts};
+use crate::drive::motion::{Job, LONGEST_LOOK, Landed, PERIOD, Status};
+use crate::drive::odometry::{Estimate, Pose};
+use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::error::{Error, Result};
 use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
 use crate::motor::{self, Ramps, Speed, StopAction};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
-/// How long a wheel that is to turn may stand still.
-const STUCK_FOR: Duration = Duration::from_millis(1500);
+/// How long the wheels must stand still to be at rest.
+const AT_REST: Duration = Duration::from_secs(1);
 
-/// At most so much of the time between two looks counts as standing still: what
-/// nobody looked at may have moved, and a look that was held up between reading
-/// a wheel and the clock tells an old count at a new time.
-const LONGEST_LOOK: Duration = Duration::from_millis(100);
+/// The period while they are, in which the gyro's drift is measured.
+const REST_PERIOD: Duration = Duration::from_millis(100);
 
-/// Less movement than this, in counts, is standing still.
-const STUCK_WITHIN: u64 = 2;
+/// How long that takes at most; then nothing is done until a motor is started.
+const MEASURED: Duration = Duration::from_secs(30);
 
-/// Speed of the wheels on their last counts, per second.
-const LANDING_SPEED: i64 = 100;
-
-/// How long the wheels may take for their last counts.
-const LANDING_TAKES: Duration = Duration::from_millis(800);
-
-/// How far from its target a wheel may land, in counts.
-const LANDED_WITHIN: u64 = 1;
-
-/// The same if it takes too long.
-const LANDED_SOMEHOW: u64 = 5;
-
-/// A motion under way.
-pub(super) struct Job {
-    claim: Claim,
-    motors: Vec<Arc<Device>>,
-    steering: Steering,
-    stop_action: StopAction,
-    /// When its last period was done.
-    controlled: Duration,
-    /// When the steering was last asked.
-    steered: Duration,
-    /// What the wheels were last told, in counts per second.
-    speeds: Option<[i64; 2]>,
-    landing: Option<Landing>,
-    /// Counts, and how long each wheel has stood there.
-    stuck: [(i64, Duration); 2],
-    pub(super) status: Arc<Status>,
-    /// Put back when the motion ends.
-    _ramps: Ramps,
+/// What to do.
+#[derive(Clone, Debug)]
+pub enum Course {
+    /// One part after the other. The second says whether rear first.
+    Legs(Vec<Leg>, bool),
+    /// On and on: speed in cm/s, rate of turn in degrees a second.
+    Cruise(f64, f64),
+    /// The same for the motion under way, unless somebody has ended it.
+    Change(f64, f64),
+    /// On and on: the speed of each wheel as a share of that of the faster one.
+    Wheels([f64; 2]),
 }
 
-/// The wheels go to their last counts.
-struct Landing {
-    targets: [i64; 2],
-    took: Duration,
-    before: [i64; 2],
-    /// How long they have stood there.
-    stood: Duration,
+/// How to do it.
+#[derive(Clone, Copy, Debug)]
+pub struct DriveOptions {
+    /// Of the faster wheel, in percent of what it can. Not for a cruise.
+    pub percent: f64,
+    /// In cm/s².
+    pub acceleration: f64,
+    /// What the wheels do at the end.
+    pub stop_action: StopAction,
+    /// Whether the gyro, if there is one, tells the heading.
+    pub use_gyro: bool,
 }
 
-/// How a motion ended, once it has.
-#[derive(Default)]
-pub struct Status(Mutex<Option<Result<Reason>>>);
+/// All that is known of a robot and its motion.
+pub(super) struct Inner {
+    pub(super) robot: Robot,
+    pub(super) found: Option<Found>,
+    pub(super) use_gyro: bool,
+    /// When the estimate was last moved on.
+    pub(super) now: Duration,
+    /// When the wheels last turned.
+    pub(super) moved: Duration,
+    pub(super) estimate: Estimate,
+    /// Where the motion before was to end.
+    pub(super) goal: Option<Pose>,
+    pub(super) job: Option<Job>,
+    pub(super) last: Option<Arc<Status>>,
+}
 
-impl Status {
-    fn stopped() -> Arc<Self> {
-        Arc::new(Self(Mutex::new(Some(Ok(Reason::Stopped)))))
-    }
-
-    fn end(&self, result: Result<Reason>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
-    }
-
-    /// What it ended with; an error for the first who asks.
-    pub(super) fn ended(&self) -> Option<Result<Reason>> {
-        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let after = match status.as_ref()? {
-            Ok(reason) => *reason,
-            Err(error) if error.is_gone() => Reason::Unplugged,
-            Err(_) => Reason::Stopped,
+impl Inner {
+    /// A robot at the origin.
+    pub(super) fn new(robot: &Robot) -> Self {
+        let mut inner = Self {
+            robot: robot.clone(),
+            found: None,
+            use_gyro: true,
+            now: Duration::ZERO,
+            moved: Duration::ZERO,
+            estimate: Estimate::default(),
+            goal: None,
+            job: None,
+            last: None,
         };
-        status.replace(Ok(after))
+        inner.place(Pose::default());
+        inner
+    }
+
+    /// Ends the motion of this robot, and goes on with another one at its pose.
+    pub(super) fn set_robot(&mut self, robot: &Robot) {
+        self.end_job(Ok(Reason::Stopped));
+        let pose = self.pose();
+        self.robot = robot.clone();
+        self.found = None;
+        self.goal = None;
+        self.estimate.forget_wheels();
+        self.place(pose);
+    }
+
+    /// The pose of the point that programs mean.
+    pub(super) fn pose(&self) -> Pose {
+        self.estimate.pose().ahead(-self.robot.wheels.offset)
+    }
+
+    pub(super) fn place(&mut self, pose: Pose) {
+        self.estimate.place(pose.ahead(self.robot.wheels.offset));
+    }
+
+    /// Moves the estimate on to now. `false` where a motor is absent.
+    pub(super) fn integrate(&mut self, devices: &Devices) -> Result<bool> {
+        let before = self.now;
+        if self.found.as_ref().is_some_and(|found| !found.is_there()) {
+            self.found = None;
+        }
+        let is_new = self.found.is_none();
+        if is_new {
+            self.found = Found::look(devices, &self.robot)?;
+            self.estimate.lose_gyro();
+        }
+        let Some(found) = &mut self.found else {
+            return Ok(false);
+        };
+        let read = counts(&found.motors);
+        let now = devices.tree().now();
+        let counts = match read {
+            Ok(counts) => counts,
+            Err(error) => {
+                self.found = None;
+                return Err(error);
+            }
+        };
+        self.now = now;
+        if now < before {
+            // A simulation that was put back to an earlier moment.
+            found.counts = counts;
+            self.end_job(Ok(Reason::Stopped));
+            return Ok(true);
+        }
+        let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
+        let ways = found.ways(counts, seconds);
+        found.counts = counts;
+        if ways != [0.0, 0.0] || is_new {
+            self.moved = now;
+        }
+        self.estimate.roll(&self.robot.wheels, ways, seconds);
+        match found.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
+            Some(Ok(Some(angle))) => self.estimate.see(angle),
+            Some(Ok(None)) => self.estimate.lose_gyro(),
+            Some(Err(error)) => {
+                self.estimate.lose_gyro();
+                let gone =
+                    found.gyro.take_if(|gyro| error.is_gone() || gyro.check_present().is_err());
+                if let (Some(gyro), true) = (gone, self.job.is_some()) {
+                    return Err(gyro.gone());
+                }
+            }
+            None => {}
+        }
+        Ok(true)
+    }
+
+    /// The motor that is missing.
+    pub(super) fn absent(&self) -> Error {
+        let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
+        Error::Gone { class: Class::TachoMotor, port }
+    }
+
+    /// When to look again; `None` if there is nothing to do until a motor is
+    /// started.
+    pub(super) fn next_call(&self) -> Option<Duration> {
+        if self.job.is_some() {
+            return Some(PERIOD);
+        }
+        let found = self.found.as_ref()?;
+        let rests = self.now.saturating_sub(self.moved);
+        if rests < AT_REST || found.motors.iter().any(|motor| motor::runs_on(motor)) {
+            Some(PERIOD)
+        } else {
+            (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
+        }
     }
 }
 
@@ -276,148 +364,6 @@ impl Inner {
         {
             Some(gone) => gone.gone(),
             None => error,
-        }
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a motor's speed or a short way")]
-fn whole(counts: f64) -> i64 {
-    counts.round() as i64
-}
-
-impl Job {
-    /// Tells the wheels their speeds in cm/s. So much time has passed since they
-    /// were last looked at.
-    fn roll(&mut self, found: &Found, ways: [f64; 2], passed: Duration) -> Result<Option<Reason>> {
-        let wanted = found.in_counts(ways);
-        // Too fast for one is too fast for both: the curve stays the same.
-        let most = wanted[0].abs().max(wanted[1].abs());
-        let share = if most > found.fastest { found.fastest / most } else { 1.0 };
-        let speeds = wanted.map(|speed| whole(speed * share));
-        if self.is_stuck(found, speeds, passed) {
-            return Ok(Some(Reason::Stalled));
-        }
-        if self.is_foreign(found) {
-            return Ok(Some(Reason::Stopped));
-        }
-        if self.speeds == Some(speeds) {
-            return Ok(None);
-        }
-        for (motor, speed) in found.motors.iter().zip(speeds) {
-            motor.write_number("speed_sp", speed)?;
-        }
-        for motor in &found.motors {
-            if !self.claim.start(motor, "run-forever", End::Never)? {
-                return Ok(Some(Reason::Stopped));
-            }
-        }
-        self.speeds = Some(speeds);
-        Ok(None)
-    }
-
-    /// Makes the wheels roll by the last few counts.
-    fn land(&mut self, found: &Found, ways: [f64; 2]) -> Result<Option<Reason>> {
-        let by = found.in_counts(ways).map(whole);
-        let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
-        for (motor, target) in found.motors.iter().zip(targets) {
-            motor.write_number("position_sp", target)?;
-            motor.write_number("speed_sp", LANDING_SPEED)?;
-        }
-        for (side, motor) in found.motors.iter().enumerate() {
-            let end = End::Position { from: found.counts[side], target: targets[side] };
-            if !self.claim.start(motor, "run-to-abs-pos", end)? {
-                return Ok(Some(Reason::Stopped));
-            }
-        }
-        self.speeds = None;
-        self.landing = Some(Landing {
-            targets,
-            took: Duration::ZERO,
-            before: found.counts,
-            stood: Duration::ZERO,
-        });
-        Ok(None)
-    }
-
-    /// Whether a wheel that is to turn does not.
-    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], passed: Duration) -> bool {
-        let mut is_stuck = false;
-        for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
-            let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
-            if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *stood) = (found.counts[side], Duration::ZERO);
-            } else {
-                *stood += passed;
-            }
-            is_stuck |= *stood >= STUCK_FOR;
-        }
-        is_stuck
-    }
-
-    /// Whether somebody else has told a motor something.
-    fn is_foreign(&self, found: &Found) -> bool {
-        found.motors.iter().any(|motor| !self.claim.holds(motor))
-    }
-}
-
-enum Landed {
-    NotYet,
-    There,
-    Never,
-}
-
-impl Landing {
-    fn look(&mut self, counts: [i64; 2], passed: Duration) -> Landed {
-        let off = |side: usize| counts[side].abs_diff(self.targets[side]);
-        let farthest = off(0).max(off(1));
-        let stood = std::mem::replace(&mut self.before, counts) == counts;
-        self.stood = if stood { self.stood + passed } else { Duration::ZERO };
-        // Two looks may follow each other at once.
-        let stands = self.stood >= PERIOD / 2;
-        self.took += passed;
-        if farthest <= LANDED_WITHIN && stands && self.took >= PERIOD * 2 {
-            Landed::There
-        } else if self.took < LANDING_TAKES || !stands {
-            Landed::NotYet
-        } else if farthest <= LANDED_SOMEHOW {
-            Landed::There
-        } else {
-            Landed::Never
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn landing() -> Landing {
-        Landing { targets: [100, 100], took: Duration::ZERO, before: [0, 0], stood: Duration::ZERO }
-    }
-
-    #[test]
-    fn wheels_that_stand_on_their_counts_are_there() {
-        let mut landing = landing();
-        assert!(matches!(landing.look([100, 99], PERIOD), Landed::NotYet));
-        assert!(matches!(landing.look([100, 99], PERIOD), Landed::There));
-    }
-
-    #[test]
-    fn wheels_that_stand_elsewhere_never_get_there() {
-        let mut landing = landing();
-        let looks = (0..50).map(|_| landing.look([50, 50], PERIOD));
-        let before = looks.take_while(|landed| matches!(landed, Landed::NotYet)).count();
-        assert_eq!(before, 39, "in 800 ms");
-        assert!(matches!(landing.look([50, 50], PERIOD), Landed::Never));
-    }
-
-    #[test]
-    fn wheels_that_turn_do_not_stand_because_two_looks_follow_each_other() {
-        let mut landing = landing();
-        for count in 0..90 {
-            assert!(matches!(landing.look([count, count], PERIOD), Landed::NotYet));
-            let at_once = landing.look([count, count], PERIOD / 20);
-            assert!(matches!(at_once, Landed::NotYet), "at {count}");
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The devices of a robot, and what they show.
-use super::Robot;
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Devices;
+use crate::drive::odometry::Wheels;
 use crate::error::Result;
 use crate::motor::find_all;
 use crate::sensor;
@@ -18,6 +18,15 @@ pub(super) const GYRO_MODE: &str = "GYRO-ANG";
 
 /// The type of a gyro.
 const GYRO: &str = "lego-ev3-gyro";
+
+/// A robot: where its motors are, and how it is built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    /// Ports of the left and the right motor.
+    pub ports: [String; 2],
+    /// Its wheels.
+    pub wheels: Wheels,
+}
 
 /// The robot's devices as they are plugged in now.
 pub(super) struct Found {

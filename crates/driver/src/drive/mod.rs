@@ -13,80 +13,33 @@
 //! (`tacho_motor_class.c`). The end of a motion is a position that is gone to.
 mod control;
 mod devices;
+mod motion;
 pub mod odometry;
 pub mod path;
 pub mod steering;
 pub mod turn;
 
-use crate::class::Class;
 use crate::device::MotionObserver;
 use crate::device::registry::Devices;
-use crate::drive::odometry::{Estimate, Pose, Wheels};
-use crate::drive::steering::Leg;
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor::wait::Reason;
-use crate::motor::{self, StopAction};
 use crate::sensor;
 use crate::sysfs::sleep;
-use control::Job;
-pub use control::Status;
-use devices::{Found, GYRO_MODE, angle, counts};
+use control::Inner;
+pub use control::{Course, DriveOptions};
+pub use devices::Robot;
+use devices::{GYRO_MODE, counts};
+pub use motion::{PERIOD, Status};
+use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
-
-/// The period of the control.
-pub const PERIOD: Duration = Duration::from_millis(20);
 
 /// When to come again if the estimate is in use.
 const BUSY: Duration = Duration::from_millis(1);
 
 /// How long, by the wall, to wait for another thread that uses it.
 const PATIENCE: Duration = Duration::from_millis(50);
-
-/// How long the wheels must stand still to be at rest.
-const AT_REST: Duration = Duration::from_secs(1);
-
-/// The period while they are, in which the gyro's drift is measured.
-const REST_PERIOD: Duration = Duration::from_millis(100);
-
-/// How long that takes at most; then nothing is done until a motor is started.
-const MEASURED: Duration = Duration::from_secs(30);
-
-/// A robot: where its motors are, and how it is built.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Robot {
-    /// Ports of the left and the right motor.
-    pub ports: [String; 2],
-    /// Its wheels.
-    pub wheels: Wheels,
-}
-
-/// What to do.
-#[derive(Clone, Debug)]
-pub enum Course {
-    /// One part after the other. The second says whether rear first.
-    Legs(Vec<Leg>, bool),
-    /// On and on: speed in cm/s, rate of turn in degrees a second.
-    Cruise(f64, f64),
-    /// The same for the motion under way, unless somebody has ended it.
-    Change(f64, f64),
-    /// On and on: the speed of each wheel as a share of that of the faster one.
-    Wheels([f64; 2]),
-}
-
-/// How to do it.
-#[derive(Clone, Copy, Debug)]
-pub struct DriveOptions {
-    /// Of the faster wheel, in percent of what it can. Not for a cruise.
-    pub percent: f64,
-    /// In cm/s².
-    pub acceleration: f64,
-    /// What the wheels do at the end.
-    pub stop_action: StopAction,
-    /// Whether the gyro, if there is one, tells the heading.
-    pub use_gyro: bool,
-}
 
 /// Odometry and control of one robot.
 ///
@@ -101,41 +54,14 @@ pub struct Drive {
     devices: Arc<Devices>,
 }
 
-struct Inner {
-    robot: Robot,
-    found: Option<Found>,
-    use_gyro: bool,
-    /// When the estimate was last moved on.
-    now: Duration,
-    /// When the wheels last turned.
-    moved: Duration,
-    estimate: Estimate,
-    /// Where the motion before was to end.
-    goal: Option<Pose>,
-    job: Option<Job>,
-    last: Option<Arc<Status>>,
-}
-
 impl Drive {
     /// The drive of a robot whose devices are in `devices`.
     #[must_use]
     pub fn new(devices: Arc<Devices>, robot: &Robot) -> Arc<Self> {
-        let mut inner = Inner {
-            robot: robot.clone(),
-            found: None,
-            use_gyro: true,
-            now: Duration::ZERO,
-            moved: Duration::ZERO,
-            estimate: Estimate::default(),
-            goal: None,
-            job: None,
-            last: None,
-        };
-        inner.place(Pose::default());
         let drive = Arc::new_cyclic(|this| Self {
             this: Weak::clone(this),
             is_called: Mutex::default(),
-            inner: Mutex::new(inner),
+            inner: Mutex::new(Inner::new(robot)),
             devices,
         });
         let this: Weak<Self> = Weak::clone(&drive.this);
@@ -150,13 +76,7 @@ impl Drive {
         if inner.robot == *robot {
             return;
         }
-        inner.end_job(Ok(Reason::Stopped));
-        let pose = inner.pose();
-        inner.robot = robot.clone();
-        inner.found = None;
-        inner.goal = None;
-        inner.estimate.forget_wheels();
-        inner.place(pose);
+        inner.set_robot(robot);
     }
 
     /// Starts counting, if the robot is there.
@@ -395,90 +315,5 @@ impl MotionObserver for Drive {
         }
         inner.goal = None;
         written
-    }
-}
-
-impl Inner {
-    /// The pose of the point that programs mean.
-    fn pose(&self) -> Pose {
-        self.estimate.pose().ahead(-self.robot.wheels.offset)
-    }
-
-    fn place(&mut self, pose: Pose) {
-        self.estimate.place(pose.ahead(self.robot.wheels.offset));
-    }
-
-    /// Moves the estimate on to now. `false` where a motor is absent.
-    fn integrate(&mut self, devices: &Devices) -> Result<bool> {
-        let before = self.now;
-        if self.found.as_ref().is_some_and(|found| !found.is_there()) {
-            self.found = None;
-        }
-        let is_new = self.found.is_none();
-        if is_new {
-            self.found = Found::look(devices, &self.robot)?;
-            self.estimate.lose_gyro();
-        }
-        let Some(found) = &mut self.found else {
-            return Ok(false);
-        };
-        let read = counts(&found.motors);
-        let now = devices.tree().now();
-        let counts = match read {
-            Ok(counts) => counts,
-            Err(error) => {
-                self.found = None;
-                return Err(error);
-            }
-        };
-        self.now = now;
-        if now < before {
-            // A simulation that was put back to an earlier moment.
-            found.counts = counts;
-            self.end_job(Ok(Reason::Stopped));
-            return Ok(true);
-        }
-        let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
-        let ways = found.ways(counts, seconds);
-        found.counts = counts;
-        if ways != [0.0, 0.0] || is_new {
-            self.moved = now;
-        }
-        self.estimate.roll(&self.robot.wheels, ways, seconds);
-        match found.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
-            Some(Ok(Some(angle))) => self.estimate.see(angle),
-            Some(Ok(None)) => self.estimate.lose_gyro(),
-            Some(Err(error)) => {
-                self.estimate.lose_gyro();
-                let gone =
-                    found.gyro.take_if(|gyro| error.is_gone() || gyro.check_present().is_err());
-                if let (Some(gyro), true) = (gone, self.job.is_some()) {
-                    return Err(gyro.gone());
-                }
-            }
-            None => {}
-        }
-        Ok(true)
-    }
-
-    /// The motor that is missing.
-    fn absent(&self) -> Error {
-        let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
-        Error::Gone { class: Class::TachoMotor, port }
-    }
-
-    /// When to look again; `None` if there is nothing to do until a motor is
-    /// started.
-    fn next_call(&self) -> Option<Duration> {
-        if self.job.is_some() {
-            return Some(PERIOD);
-        }
-        let found = self.found.as_ref()?;
-        let rests = self.now.saturating_sub(self.moved);
-        if rests < AT_REST || found.motors.iter().any(|motor| motor::runs_on(motor)) {
-            Some(PERIOD)
-        } else {
-            (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
-        }
     }
 }

@@ -1,0 +1,238 @@
+//! A motion under way: what the wheels are told, and how it ends.
+use crate::device::Device;
+use crate::device::motion::End;
+use crate::drive::devices::Found;
+use crate::drive::steering::Steering;
+use crate::error::Result;
+use crate::motor::claim::Claim;
+use crate::motor::wait::Reason;
+use crate::motor::{Ramps, StopAction};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// The period of the control.
+pub const PERIOD: Duration = Duration::from_millis(20);
+
+/// How long a wheel that is to turn may stand still.
+const STUCK_FOR: Duration = Duration::from_millis(1500);
+
+/// At most so much of the time between two looks counts as standing still: what
+/// nobody looked at may have moved, and a look that was held up between reading
+/// a wheel and the clock tells an old count at a new time.
+pub(super) const LONGEST_LOOK: Duration = Duration::from_millis(100);
+
+/// Less movement than this, in counts, is standing still.
+const STUCK_WITHIN: u64 = 2;
+
+/// Speed of the wheels on their last counts, per second.
+const LANDING_SPEED: i64 = 100;
+
+/// How long the wheels may take for their last counts.
+const LANDING_TAKES: Duration = Duration::from_millis(800);
+
+/// How far from its target a wheel may land, in counts.
+const LANDED_WITHIN: u64 = 1;
+
+/// The same if it takes too long.
+const LANDED_SOMEHOW: u64 = 5;
+
+/// A motion under way.
+pub(super) struct Job {
+    pub(super) claim: Claim,
+    pub(super) motors: Vec<Arc<Device>>,
+    pub(super) steering: Steering,
+    pub(super) stop_action: StopAction,
+    /// When its last period was done.
+    pub(super) controlled: Duration,
+    /// When the steering was last asked.
+    pub(super) steered: Duration,
+    /// What the wheels were last told, in counts per second.
+    pub(super) speeds: Option<[i64; 2]>,
+    pub(super) landing: Option<Landing>,
+    /// Counts, and how long each wheel has stood there.
+    pub(super) stuck: [(i64, Duration); 2],
+    pub(super) status: Arc<Status>,
+    /// Put back when the motion ends.
+    pub(super) _ramps: Ramps,
+}
+
+/// The wheels go to their last counts.
+pub(super) struct Landing {
+    pub(super) targets: [i64; 2],
+    pub(super) took: Duration,
+    pub(super) before: [i64; 2],
+    /// How long they have stood there.
+    pub(super) stood: Duration,
+}
+
+/// How a motion ended, once it has.
+#[derive(Default)]
+pub struct Status(Mutex<Option<Result<Reason>>>);
+
+impl Status {
+    pub(super) fn stopped() -> Arc<Self> {
+        Arc::new(Self(Mutex::new(Some(Ok(Reason::Stopped)))))
+    }
+
+    pub(super) fn end(&self, result: Result<Reason>) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
+    }
+
+    /// What it ended with; an error for the first who asks.
+    pub(super) fn ended(&self) -> Option<Result<Reason>> {
+        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let after = match status.as_ref()? {
+            Ok(reason) => *reason,
+            Err(error) if error.is_gone() => Reason::Unplugged,
+            Err(_) => Reason::Stopped,
+        };
+        status.replace(Ok(after))
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a motor's speed or a short way")]
+fn whole(counts: f64) -> i64 {
+    counts.round() as i64
+}
+
+impl Job {
+    /// Tells the wheels their speeds in cm/s. So much time has passed since they
+    /// were last looked at.
+    pub(super) fn roll(
+        &mut self,
+        found: &Found,
+        ways: [f64; 2],
+        passed: Duration,
+    ) -> Result<Option<Reason>> {
+        let wanted = found.in_counts(ways);
+        // Too fast for one is too fast for both: the curve stays the same.
+        let most = wanted[0].abs().max(wanted[1].abs());
+        let share = if most > found.fastest { found.fastest / most } else { 1.0 };
+        let speeds = wanted.map(|speed| whole(speed * share));
+        if self.is_stuck(found, speeds, passed) {
+            return Ok(Some(Reason::Stalled));
+        }
+        if self.is_foreign(found) {
+            return Ok(Some(Reason::Stopped));
+        }
+        if self.speeds == Some(speeds) {
+            return Ok(None);
+        }
+        for (motor, speed) in found.motors.iter().zip(speeds) {
+            motor.write_number("speed_sp", speed)?;
+        }
+        for motor in &found.motors {
+            if !self.claim.start(motor, "run-forever", End::Never)? {
+                return Ok(Some(Reason::Stopped));
+            }
+        }
+        self.speeds = Some(speeds);
+        Ok(None)
+    }
+
+    /// Makes the wheels roll by the last few counts.
+    pub(super) fn land(&mut self, found: &Found, ways: [f64; 2]) -> Result<Option<Reason>> {
+        let by = found.in_counts(ways).map(whole);
+        let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
+        for (motor, target) in found.motors.iter().zip(targets) {
+            motor.write_number("position_sp", target)?;
+            motor.write_number("speed_sp", LANDING_SPEED)?;
+        }
+        for (side, motor) in found.motors.iter().enumerate() {
+            let end = End::Position { from: found.counts[side], target: targets[side] };
+            if !self.claim.start(motor, "run-to-abs-pos", end)? {
+                return Ok(Some(Reason::Stopped));
+            }
+        }
+        self.speeds = None;
+        self.landing = Some(Landing {
+            targets,
+            took: Duration::ZERO,
+            before: found.counts,
+            stood: Duration::ZERO,
+        });
+        Ok(None)
+    }
+
+    /// Whether a wheel that is to turn does not.
+    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], passed: Duration) -> bool {
+        let mut is_stuck = false;
+        for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
+            let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
+            if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
+                (*count, *stood) = (found.counts[side], Duration::ZERO);
+            } else {
+                *stood += passed;
+            }
+            is_stuck |= *stood >= STUCK_FOR;
+        }
+        is_stuck
+    }
+
+    /// Whether somebody else has told a motor something.
+    pub(super) fn is_foreign(&self, found: &Found) -> bool {
+        found.motors.iter().any(|motor| !self.claim.holds(motor))
+    }
+}
+
+pub(super) enum Landed {
+    NotYet,
+    There,
+    Never,
+}
+
+impl Landing {
+    pub(super) fn look(&mut self, counts: [i64; 2], passed: Duration) -> Landed {
+        let off = |side: usize| counts[side].abs_diff(self.targets[side]);
+        let farthest = off(0).max(off(1));
+        let stood = std::mem::replace(&mut self.before, counts) == counts;
+        self.stood = if stood { self.stood + passed } else { Duration::ZERO };
+        // Two looks may follow each other at once.
+        let stands = self.stood >= PERIOD / 2;
+        self.took += passed;
+        if farthest <= LANDED_WITHIN && stands && self.took >= PERIOD * 2 {
+            Landed::There
+        } else if self.took < LANDING_TAKES || !stands {
+            Landed::NotYet
+        } else if farthest <= LANDED_SOMEHOW {
+            Landed::There
+        } else {
+            Landed::Never
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn landing() -> Landing {
+        Landing { targets: [100, 100], took: Duration::ZERO, before: [0, 0], stood: Duration::ZERO }
+    }
+
+    #[test]
+    fn wheels_that_stand_on_their_counts_are_there() {
+        let mut landing = landing();
+        assert!(matches!(landing.look([100, 99], PERIOD), Landed::NotYet));
+        assert!(matches!(landing.look([100, 99], PERIOD), Landed::There));
+    }
+
+    #[test]
+    fn wheels_that_stand_elsewhere_never_get_there() {
+        let mut landing = landing();
+        let looks = (0..50).map(|_| landing.look([50, 50], PERIOD));
+        let before = looks.take_while(|landed| matches!(landed, Landed::NotYet)).count();
+        assert_eq!(before, 39, "in 800 ms");
+        assert!(matches!(landing.look([50, 50], PERIOD), Landed::Never));
+    }
+
+    #[test]
+    fn wheels_that_turn_do_not_stand_because_two_looks_follow_each_other() {
+        let mut landing = landing();
+        for count in 0..90 {
+            assert!(matches!(landing.look([count, count], PERIOD), Landed::NotYet));
+            let at_once = landing.look([count, count], PERIOD / 20);
+            assert!(matches!(at_once, Landed::NotYet), "at {count}");
+        }
+    }
+}
