@@ -2,7 +2,7 @@
 use crate::error::raise;
 use crate::state;
 use crate::words::atom_text;
-use ev3_driver::{Class, Dev, Device, Devices, Value};
+use ev3_driver::{Class, Devfs, Device, Registry, Value};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Duration;
@@ -27,7 +27,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
-    pub(crate) fn devices(&self) -> PrologResult<Arc<Devices>> {
+    pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
         if !state::is_chosen() {
             self.context.call_once(pred!("ev3dev_sysfs:choose_tree/0"), [])?;
             state::chosen();
@@ -37,7 +37,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// The device files in use. Until these or the tree are chosen, Prolog is
     /// asked to.
-    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Dev>> {
+    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
         if !state::is_dev_chosen() {
             self.devices()?;
         }

@@ -5,7 +5,7 @@ use crate::motors::stop_action;
 use crate::state;
 use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
 use ev3_driver::drive::steering::Leg;
-use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
+use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
 use ev3_driver::motor::wait::Reason;
 use ev3_driver::sysfs::sleep;
 use std::sync::Arc;
@@ -153,17 +153,17 @@ fn robots_drive<'a, C: QueryableContextType>(
 fn course_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Course> {
+) -> PrologResult<Command> {
     let [first, second] = call.arguments(term)?;
     let name = term.get::<Functor>()?.name_string();
     Ok(match &*name {
-        "cruise" => Course::Cruise(call.float(&first)?, call.float(&second)?),
-        "change" => Course::Change(call.float(&first)?, call.float(&second)?),
-        "wheels" => Course::Wheels([call.float(&first)?, call.float(&second)?]),
+        "cruise" => Command::Cruise(call.float(&first)?, call.float(&second)?),
+        "change" => Command::Change(call.float(&first)?, call.float(&second)?),
+        "wheels" => Command::Wheels([call.float(&first)?, call.float(&second)?]),
         _ => {
             let legs = call.list(&first)?;
             let legs = legs.iter().map(|leg| leg_of(call, leg)).collect::<PrologResult<_>>()?;
-            Course::Legs(legs, second.get_ex()?)
+            Command::Legs(legs, second.get_ex()?)
         }
     })
 }

@@ -4,7 +4,7 @@ use crate::error::wrong_value;
 use crate::state::{devices, use_files};
 use ev3_driver::class::Detected;
 use ev3_driver::device::{read_value, write_file};
-use ev3_driver::{Class, Device, Devices, attributes};
+use ev3_driver::{Class, Device, Registry, attributes};
 use std::path::Path;
 use std::sync::Arc;
 use std::vec::IntoIter;
@@ -165,14 +165,14 @@ impl Bound {
 
 /// Devices whose attribute is still to be read.
 struct AttributeReads {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     found: IntoIter<Arc<Device>>,
     name: Text,
 }
 
 /// The devices of a class: all, or the one at a port.
 fn listed(
-    devices: &Devices,
+    devices: &Registry,
     class: Class,
     port: Option<&str>,
 ) -> ev3_driver::Result<Vec<Arc<Device>>> {

@@ -124,7 +124,7 @@ fn formal<'a, C: QueryableContextType>(
         _ => "read",
     };
     match error {
-        Error::Gone { class, port } => {
+        Error::Unplugged { class, port } => {
             let (class, port) = (atomable(class.to_string()), atomable(port.as_str()));
             term! {context: existence_error(#class, #port)}
         }
@@ -136,10 +136,10 @@ fn formal<'a, C: QueryableContextType>(
         Error::NoValue { index, .. } => {
             term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
         }
-        Error::Twice { port } => {
+        Error::DuplicatePort { port } => {
             term! {context: domain_error(distinct_ports, #atomable(port.as_str()))}
         }
-        Error::NoSuchDevice { name } => {
+        Error::UnknownMotorType { name } => {
             term! {context: domain_error(motor_type, #atomable(name.as_str()))}
         }
         Error::Pattern { pattern, .. } => {
@@ -179,7 +179,7 @@ fn message(error: &Error) -> String {
     let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
     // That a picture is missing has nothing to do with devices.
     let is_device = |path: &Path| path.starts_with(devices().tree().root());
-    let is_gone = error.is_gone() && error.path().is_none_or(is_device);
+    let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
     let connected = if is_gone { connected() } else { String::new() };
     format!("{error}{source}{connected}")
 }

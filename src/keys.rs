@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/keys.pl`: the keys of the brick.
 use crate::call::{Call, unify_atom};
 use crate::error::wrong_value;
-use ev3_driver::brick::buttons::{self as keys, Event, Events, Key};
+use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use swipl::prelude::*;
 
@@ -52,7 +52,7 @@ predicates! {
         keys.unify(words.as_slice())
     }
 
-    /// button_wait_(?Key, ?Event, +Timeout)
+    /// button_wait_(?Button, ?Event, +Timeout)
     #[module("ev3dev_keys")]
     #[name("button_wait_")]
     semidet fn button_wait(context, key, event, timeout) {
@@ -60,7 +60,7 @@ predicates! {
         let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
         let timeout = call.seconds(timeout)?;
         let events = call.found(Events::from_now(call.dev()?))?;
-        let next = events.next_such(wanted, is_press, timeout, &mut call.interrupted());
+        let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
         unify_event(key, event, call.found(next)?)
     }
 
@@ -76,7 +76,7 @@ predicates! {
         source.unify(opened)
     }
 
-    /// button_event_(+Source, +Index, -Key, -Event)
+    /// button_event_(+Source, +Index, -Button, -Event)
     #[module("ev3dev_keys")]
     #[name("button_event_")]
     semidet fn button_event(context, source, index, key, event) {
@@ -90,16 +90,16 @@ predicates! {
 }
 
 fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
-    unify_atom(key, read.key.word())?;
+    unify_atom(key, read.button.word())?;
     unify_atom(event, if read.is_press { "pressed" } else { "released" })
 }
 
 /// A key by its name, or any.
-fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Key>> {
+fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
     let Some(word) = call.text_if_bound(term)? else {
         return Ok(None);
     };
-    Key::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
+    Button::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
 }
 
 /// `pressed` or `released`, or any.

@@ -2,7 +2,7 @@
 use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
 use crate::error::wrong_value;
-use ev3_driver::{Class, Device, Devices, sensor};
+use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -98,7 +98,7 @@ predicates! {
 
 /// Sensors that are still to be read.
 struct Readings {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     sensors: IntoIter<Arc<Device>>,
     mode: Text,
     /// Which value, or how many.
@@ -109,7 +109,7 @@ struct Readings {
 /// are named, all that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
-    devices: &Devices,
+    devices: &Registry,
     port: &Term,
     types: &[Text],
     mode: &str,

@@ -6,7 +6,7 @@ use crate::simulated::{Clock, SimulatedFiles, Simulation};
 use crate::simulated_dev::SimulatedDev;
 use crate::spec::{self, Fact, add_to_robot, add_to_world, buttons, channel_of, named};
 use crate::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
-use ev3_driver::Devices;
+use ev3_driver::Registry;
 use ev3_sim::{Action, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -207,7 +207,7 @@ predicates! {
         let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
         call.check(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 

@@ -1,4 +1,4 @@
-//! The simulated brick as a [`Tree`]: the driver works on it as on files.
+//! The simulated brick as a [`Sysfs`]: the driver works on it as on files.
 //!
 //! This is also where simulated time passes. With a *wall clock* a thread steps
 //! the machine every 2 ms, by as much as has passed times a factor. With the
@@ -7,11 +7,11 @@
 //! each access to a file, so that a program that polls a sensor in a loop gets
 //! somewhere, too.
 //!
-//! What is to be done at a fixed period ([`Tree::every`]) is done by whoever
+//! What is to be done at a fixed period ([`Sysfs::every`]) is done by whoever
 //! makes time pass, at that very moment and, on the virtual clock, in no time:
 //! a loop that controls motors does the same in each run.
 use ev3_driver::error::Access;
-use ev3_driver::sysfs::{Entry, Files, Node, Repeated, Tree};
+use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
 use ev3_sim::{Errno, Machine, NodeId, Shared};
 use std::collections::{HashMap, HashSet};
 use std::io;
@@ -379,12 +379,12 @@ pub(crate) struct SimulatedFiles {
     simulation: Arc<Simulation>,
     root: PathBuf,
     /// Files that are not ev3dev's.
-    others: Files,
+    others: SysfsDir,
 }
 
 impl SimulatedFiles {
     pub(crate) fn new(simulation: Arc<Simulation>) -> Self {
-        Self { simulation, root: ROOT.into(), others: Files::new("/") }
+        Self { simulation, root: ROOT.into(), others: SysfsDir::new("/") }
     }
 
     /// The path below the root, if it is there.
@@ -401,7 +401,7 @@ impl SimulatedFiles {
     }
 }
 
-impl Tree for SimulatedFiles {
+impl Sysfs for SimulatedFiles {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -410,7 +410,7 @@ impl Tree for SimulatedFiles {
         self.list_below(self.below(directory).ok_or(io::ErrorKind::NotFound)?)
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let Some(below) = self.below(path) else {
             return self.others.open(path, access);
         };
@@ -440,7 +440,7 @@ impl Tree for SimulatedFiles {
         self.simulation.machine().now()
     }
 
-    fn pause(&self, _nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         self.simulation.pause(timeout);
         Ok(())
     }
@@ -459,7 +459,7 @@ struct SimulatedFile {
     node: NodeId,
 }
 
-impl Node for SimulatedFile {
+impl AttributeFile for SimulatedFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let text = self.simulation.read(|machine| machine.read(self.node));
         let text = text.map_err(error)?;

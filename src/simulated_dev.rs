@@ -1,6 +1,6 @@
-//! The simulated brick's keys, speaker and screen as a [`Dev`].
+//! The simulated brick's keys, speaker and screen as a [`Devfs`].
 use crate::simulated::{Simulation, error};
-use ev3_driver::Dev;
+use ev3_driver::Devfs;
 use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_sim::DevDescriptor;
@@ -31,7 +31,7 @@ impl SimulatedDev {
     }
 }
 
-impl Dev for SimulatedDev {
+impl Devfs for SimulatedDev {
     fn root(&self) -> &Path {
         &self.root
     }

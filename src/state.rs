@@ -2,7 +2,7 @@
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
-use ev3_driver::{Dev, DevFiles, Devices, Files, Tree, motor};
+use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use std::path::PathBuf;
 use std::sync::{
     Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
@@ -25,7 +25,7 @@ struct InUse {
     tree: InTree,
     /// Whether it is settled which tree is in use.
     is_tree_chosen: bool,
-    dev: Arc<dyn Dev>,
+    dev: Arc<dyn Devfs>,
     /// Whether it is settled which device files are in use.
     is_dev_chosen: bool,
 }
@@ -35,12 +35,12 @@ struct InTree {
     /// The robot's drive, with its odometry. Made when first asked for. The first
     /// field, as it uses the devices.
     drive: OnceLock<Arc<Drive>>,
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
 }
 
 impl InTree {
-    fn new(tree: Arc<dyn Tree>) -> Self {
-        Self { drive: OnceLock::new(), devices: Arc::new(Devices::new(tree)) }
+    fn new(tree: Arc<dyn Sysfs>) -> Self {
+        Self { drive: OnceLock::new(), devices: Arc::new(Registry::new(tree)) }
     }
 }
 
@@ -62,9 +62,9 @@ const KERNEL_DEV: &str = "/dev";
 
 static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
     files: RwLock::new(InUse {
-        tree: InTree::new(Arc::new(Files::new(KERNEL))),
+        tree: InTree::new(Arc::new(SysfsDir::new(KERNEL))),
         is_tree_chosen: false,
-        dev: Arc::new(DevFiles::new(KERNEL_DEV)),
+        dev: Arc::new(DevfsDir::new(KERNEL_DEV)),
         is_dev_chosen: false,
     }),
     sound: Sound::default(),
@@ -72,7 +72,7 @@ static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
 });
 
 /// The devices of the tree in use.
-pub(crate) fn devices() -> Arc<Devices> {
+pub(crate) fn devices() -> Arc<Registry> {
     Arc::clone(&BRICK.files().tree.devices)
 }
 
@@ -100,7 +100,7 @@ pub(crate) fn chosen() {
 
 /// Uses another tree from now on. Motors that were started in the tree in use
 /// so far are stopped: nobody would find them there any more.
-pub(crate) fn use_tree(tree: Arc<dyn Tree>) -> ev3_driver::Result<()> {
+pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();
@@ -112,7 +112,7 @@ pub(crate) fn use_tree(tree: Arc<dyn Tree>) -> ev3_driver::Result<()> {
 
 /// Uses the tree of files below a directory from now on.
 pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
-    use_tree(Arc::new(Files::new(root)))
+    use_tree(Arc::new(SysfsDir::new(root)))
 }
 
 /// Uses the kernel's own tree from now on.
@@ -122,7 +122,7 @@ pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
 }
 
 /// The device files in use.
-pub(crate) fn dev() -> Arc<dyn Dev> {
+pub(crate) fn dev() -> Arc<dyn Devfs> {
     Arc::clone(&BRICK.files().dev)
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn is_dev_chosen() -> bool {
 }
 
 /// Uses other device files from now on.
-pub(crate) fn use_dev(dev: Arc<dyn Dev>) {
+pub(crate) fn use_dev(dev: Arc<dyn Devfs>) {
     let _before = {
         let mut files = BRICK.change_files();
         files.is_dev_chosen = true;
@@ -142,7 +142,7 @@ pub(crate) fn use_dev(dev: Arc<dyn Dev>) {
 
 /// Uses the device files below a directory from now on.
 pub(crate) fn use_dev_files(root: impl Into<PathBuf>) {
-    use_dev(Arc::new(DevFiles::new(root)));
+    use_dev(Arc::new(DevfsDir::new(root)));
 }
 
 /// Uses the kernel's own device files from now on.

@@ -2,9 +2,9 @@
 //! each with the seconds one call took.
 use ev3_driver::error::Access;
 use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Extent, run_forever, run_to};
-use ev3_driver::sysfs::{Entry, Files, Node, Tree};
+use ev3_driver::sysfs::{Entry, SysfsDir, AttributeFile, Sysfs};
 use ev3_driver::motor::wait::Reason;
-use ev3_driver::{Devices, Error};
+use ev3_driver::{Registry, Error};
 use ev3_sim::{Machine, Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
@@ -181,8 +181,8 @@ fn others(case: &str) -> Case {
 /// median of `count` starts.
 fn gap(root: &Path, count: u32) -> f64 {
     let commands = Arc::new(Mutex::new(Vec::new()));
-    let tree = Stamping { files: Files::new(root), commands: Arc::clone(&commands) };
-    let devices = Devices::new(Arc::new(tree));
+    let tree = Stamping { files: SysfsDir::new(root), commands: Arc::clone(&commands) };
+    let devices = Registry::new(Arc::new(tree));
     let runs = [("outB", 20.0), ("outC", 20.0)]
         .map(|(port, percent)| Run { port, speed: Speed::Percent(percent) });
     let mut gaps: Vec<f64> = (0..=count)
@@ -210,7 +210,7 @@ fn latency(count: u32) -> [f64; 2] {
         let (shared, stopped, is_over) = (shared, Arc::clone(&stopped), Arc::clone(&is_over));
         move || step(&shared, &stopped, &is_over)
     });
-    let devices = Devices::new(Arc::new(Files::new(directory.path())));
+    let devices = Registry::new(Arc::new(SysfsDir::new(directory.path())));
     let mut seconds: Vec<f64> = (0..count)
         .map(|number| {
             let degrees = 60.0 + f64::from(number % 10) * 10.0;
@@ -250,11 +250,11 @@ fn step(shared: &Shared, stopped: &Mutex<Instant>, is_over: &AtomicBool) {
 
 /// Files that note when a command is about to be written.
 struct Stamping {
-    files: Files,
+    files: SysfsDir,
     commands: Arc<Mutex<Vec<Instant>>>,
 }
 
-impl Tree for Stamping {
+impl Sysfs for Stamping {
     fn root(&self) -> &Path {
         self.files.root()
     }
@@ -263,7 +263,7 @@ impl Tree for Stamping {
         self.files.list(directory)
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let node = self.files.open(path, access)?;
         if !path.ends_with("command") {
             return Ok(node);
@@ -279,17 +279,17 @@ impl Tree for Stamping {
         self.files.now()
     }
 
-    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         self.files.pause(nodes, timeout)
     }
 }
 
 struct StampingNode {
-    node: Box<dyn Node>,
+    node: Box<dyn AttributeFile>,
     commands: Arc<Mutex<Vec<Instant>>>,
 }
 
-impl Node for StampingNode {
+impl AttributeFile for StampingNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.node.read(buffer)
     }

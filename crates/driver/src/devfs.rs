@@ -1,10 +1,10 @@
 //! Where the device files are: the brick's keys, its speaker and its screen.
 //!
 //! They are no attributes of text: events are read and written in the kernel's
-//! binary layout, the screen is so many bytes. [`DevFiles`] is a directory of
+//! binary layout, the screen is so many bytes. [`DevfsDir`] is a directory of
 //! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
 //! a named pipe or a file stands for each device. A simulator may stand in for
-//! it within the process by implementing [`Dev`] and [`Stream`].
+//! it within the process by implementing [`Devfs`] and [`Stream`].
 use crate::error::{Access, Error, Interrupted, Result};
 use crate::sysfs::is_generated;
 use input_linux::EvdevHandle;
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 const SLICE: Duration = Duration::from_millis(20);
 
 /// A directory of device files.
-pub trait Dev: Send + Sync {
+pub trait Devfs: Send + Sync {
     /// The path under which programs see it: `/dev`.
     fn root(&self) -> &Path;
 
@@ -105,12 +105,12 @@ pub trait Speaker: Send + Sync {
 
 /// A directory of real files.
 #[derive(Debug)]
-pub struct DevFiles {
+pub struct DevfsDir {
     root: PathBuf,
     started: Instant,
 }
 
-impl DevFiles {
+impl DevfsDir {
     /// The devices below `root`, which need not exist.
     #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
@@ -118,7 +118,7 @@ impl DevFiles {
     }
 }
 
-impl Dev for DevFiles {
+impl Devfs for DevfsDir {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -201,7 +201,11 @@ impl Stream for DevFile {
 }
 
 /// Opens a device by its path below the root; `None` if there is none.
-pub(crate) fn open(dev: &dyn Dev, path: &Path, access: Access) -> Result<Option<Box<dyn Stream>>> {
+pub(crate) fn open(
+    dev: &dyn Devfs,
+    path: &Path,
+    access: Access,
+) -> Result<Option<Box<dyn Stream>>> {
     match dev.open(path, access) {
         Ok(stream) => Ok(Some(stream)),
         Err(error)
@@ -218,7 +222,7 @@ pub(crate) fn open(dev: &dyn Dev, path: &Path, access: Access) -> Result<Option<
 
 /// Opens the first of these devices that there is, and tells its path.
 pub(crate) fn open_first(
-    dev: &dyn Dev,
+    dev: &dyn Devfs,
     names: &[&str],
     access: Access,
 ) -> Result<Option<(Box<dyn Stream>, PathBuf)>> {
@@ -234,7 +238,7 @@ pub(crate) fn open_first(
 /// Waits for so long at most, or until `look` has found something. Looks again
 /// whenever there may be something to read.
 pub(crate) fn until<T>(
-    dev: &dyn Dev,
+    dev: &dyn Devfs,
     stream: Option<&dyn Stream>,
     timeout: Option<Duration>,
     interrupted: Interrupted,

@@ -66,7 +66,7 @@ pub enum Error {
     },
     /// A device was unplugged while it was in use.
     #[error("the {class} at {port} was unplugged")]
-    Gone {
+    Unplugged {
         /// The kind of device.
         class: Class,
         /// Where it was.
@@ -84,13 +84,13 @@ pub enum Error {
     },
     /// Several things that are done at once are to be done by one device.
     #[error("{port} is named twice")]
-    Twice {
+    DuplicatePort {
         /// The port that is named twice.
         port: String,
     },
     /// A port is to be told that a device is plugged in which it cannot have.
     #[error("no port for motors has a {name:?}")]
-    NoSuchDevice {
+    UnknownMotorType {
         /// The name of the device.
         name: String,
     },
@@ -154,8 +154,8 @@ impl Error {
 
     /// Whether a device went away: it answers so, or was found to be missing.
     #[must_use]
-    pub fn is_gone(&self) -> bool {
-        self.is_stale() || matches!(self, Self::Gone { .. })
+    pub fn is_unplugged(&self) -> bool {
+        self.is_stale() || matches!(self, Self::Unplugged { .. })
     }
 
     /// The file it went wrong at.

@@ -1,7 +1,7 @@
 //! Locks under which files are read.
 //!
 //! On a clock that passes as files are read, what is to be done at a fixed
-//! period ([`Tree::every`](crate::sysfs::Tree::every)) is done in the middle of
+//! period ([`Sysfs::every`](crate::sysfs::Sysfs::every)) is done in the middle of
 //! a read. What that needs may then be locked by this very thread, which must
 //! not wait for itself, or by another one, for which it must wait: otherwise
 //! time would run away from a thread that has just lost its processor.

@@ -23,7 +23,7 @@
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
 //!
-//! Nothing here but [`Tree::every`] over real files starts a thread; nothing
+//! Nothing here but [`Sysfs::every`] over real files starts a thread; nothing
 //! prints, or waits without asking its caller
 //! every few milliseconds whether to go on ([`Interrupted`]).
 #![forbid(unsafe_code)]
@@ -43,10 +43,10 @@ pub mod sysfs;
 pub mod value;
 
 pub use class::Class;
-pub use devfs::{Dev, DevFiles};
+pub use devfs::{Devfs, DevfsDir};
 pub use device::Device;
-pub use device::registry::Devices;
+pub use device::registry::Registry;
 pub use error::{Error, Interrupted, Result};
 pub use rustix::io::Errno;
-pub use sysfs::{Files, Tree};
+pub use sysfs::{Sysfs, SysfsDir};
 pub use value::Value;

@@ -1,8 +1,8 @@
 //! Where the attribute files are, and whose clock runs there.
 //!
-//! [`Files`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
+//! [`SysfsDir`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
 //! or any directory shaped like it. A simulator may stand in for it within
-//! the process by implementing [`Tree`] and [`Node`].
+//! the process by implementing [`Sysfs`] and [`AttributeFile`].
 use crate::error::{Access, Error, Interrupted, Result};
 use nix::sys::signal::{SigSet, SigmaskHow};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -29,7 +29,7 @@ pub struct Entry {
 }
 
 /// A tree of attribute files.
-pub trait Tree: Send + Sync {
+pub trait Sysfs: Send + Sync {
     /// The path under which programs see the tree: `/sys/class`.
     fn root(&self) -> &Path;
 
@@ -43,7 +43,7 @@ pub trait Tree: Send + Sync {
     ///
     /// # Errors
     /// The kernel's, as EACCES where the attribute cannot be accessed so.
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>>;
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>>;
 
     /// The paths that match a shell pattern (`*`, `?`, `[...]`, `**`), sorted.
     /// A pattern below `/sys/class` matches in this tree.
@@ -61,7 +61,7 @@ pub trait Tree: Send + Sync {
     ///
     /// # Errors
     /// The kernel's, as ENOMEM.
-    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()>;
+    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()>;
 
     /// Calls `act` after `period`, by the tree's clock, and from then on each
     /// time after what it answers, until that is `None`. By default a thread
@@ -93,7 +93,7 @@ pub type Repeated = Box<dyn FnMut() -> Option<Duration> + Send>;
 ///
 /// # Errors
 /// [`Error::Interrupted`].
-pub fn sleep(tree: &dyn Tree, time: Duration, interrupted: Interrupted) -> Result<()> {
+pub fn sleep(tree: &dyn Sysfs, time: Duration, interrupted: Interrupted) -> Result<()> {
     let end = tree.now().saturating_add(time);
     loop {
         let left = end.saturating_sub(tree.now());
@@ -109,7 +109,7 @@ pub fn sleep(tree: &dyn Tree, time: Duration, interrupted: Interrupted) -> Resul
 }
 
 /// An open attribute file.
-pub trait Node: Send + Sync {
+pub trait AttributeFile: Send + Sync {
     /// Reads the whole text, generated anew.
     ///
     /// # Errors
@@ -144,12 +144,12 @@ pub trait Node: Send + Sync {
 
 /// A tree of real files.
 #[derive(Debug)]
-pub struct Files {
+pub struct SysfsDir {
     root: PathBuf,
     started: Instant,
 }
 
-impl Files {
+impl SysfsDir {
     /// The tree below `root`, which need not exist.
     #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
@@ -157,7 +157,7 @@ impl Files {
     }
 }
 
-impl Tree for Files {
+impl Sysfs for SysfsDir {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -175,7 +175,7 @@ impl Tree for Files {
             .collect()
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let file = OpenOptions::new()
             .read(access == Access::Read)
             .write(access == Access::Write)
@@ -184,7 +184,7 @@ impl Tree for Files {
             .open(path)?;
         // Devices and pipes are no stores of bytes either.
         let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
-        Ok(Box::new(FileNode { file, is_plain }))
+        Ok(Box::new(OpenFile { file, is_plain }))
     }
 
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>> {
@@ -205,7 +205,7 @@ impl Tree for Files {
         self.started.elapsed()
     }
 
-    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         let mut descriptors: Vec<PollFd> = nodes
             .iter()
             .filter_map(|node| node.descriptor())
@@ -231,12 +231,12 @@ pub(crate) fn is_generated(file: &File) -> io::Result<bool> {
 }
 
 /// An attribute as an open file, read and written at offset 0.
-struct FileNode {
+struct OpenFile {
     file: File,
     is_plain: bool,
 }
 
-impl Node for FileNode {
+impl AttributeFile for OpenFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.file.read_at(buffer, 0)
     }

@@ -5,7 +5,7 @@
 //! discharge.
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::error::Result;
 use rustix::io::Errno;
 use std::sync::Arc;
@@ -66,8 +66,8 @@ const CHEMISTRIES: [Chemistry; 3] = [
 ///
 /// # Errors
 /// The kernel's.
-pub fn battery(devices: &Devices) -> Result<Option<Arc<Device>>> {
-    Ok(devices.all(Class::Battery)?.first().cloned())
+pub fn battery(registry: &Registry) -> Result<Option<Arc<Device>>> {
+    Ok(registry.all(Class::Battery)?.first().cloned())
 }
 
 /// The voltage, in volts.

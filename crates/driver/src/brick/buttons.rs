@@ -1,13 +1,13 @@
-//! The keys on the brick.
+//! The buttons on the brick.
 //!
 //! The kernel's gpio-keys driver shows them as an event device below
-//! `/dev/input`. Whoever opens it may ask which keys are down, and reads from
+//! `/dev/input`. Whoever opens it may ask which buttons are down, and reads from
 //! then on an event for each that is pressed or released. Each reader has a
 //! queue of its own.
 //!
 //! A plain file may stand in for the device: it holds the events there were,
 //! and whoever waits gets those that are written behind them.
-use crate::devfs::{Dev, Stream, open_first, until};
+use crate::devfs::{Devfs, Stream, open_first, until};
 use crate::error::{Access, Error, Interrupted, Result};
 use input_linux::sys::input_event;
 use rustix::io::Errno;
@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Where the keys of the boards are: EV3 with ev3dev-stretch and with jessie,
-/// EVB, `PiStorms`, whose only key is enter.
+/// Where the buttons of the boards are: EV3 with ev3dev-stretch and with jessie,
+/// EVB, `PiStorms`, whose only button is enter.
 const DEVICES: [&str; 4] = [
     "input/by-path/platform-gpio_keys-event",
     "input/by-path/platform-gpio-keys.0-event",
@@ -29,15 +29,15 @@ const DEVICES: [&str; 4] = [
 /// From linux/input-event-codes.h.
 const EV_KEY: u16 = 1;
 
-/// Codes of keys are below 768.
+/// Codes of buttons are below 768.
 const STATE_BYTES: usize = 96;
 
 /// An event of the kernel: a time of two words, then type, code and value.
 pub(crate) const EVENT_BYTES: usize = size_of::<input_event>();
 
-/// A key of the brick.
+/// A button of the brick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
+pub enum Button {
     /// The upper one.
     Up,
     /// The lower one.
@@ -52,7 +52,7 @@ pub enum Key {
     Back,
 }
 
-impl Key {
+impl Button {
     /// All of them.
     pub const ALL: [Self; 6] =
         [Self::Up, Self::Down, Self::Left, Self::Right, Self::Enter, Self::Back];
@@ -70,10 +70,10 @@ impl Key {
         }
     }
 
-    /// The key of that name.
+    /// The button of that name.
     #[must_use]
     pub fn named(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|key| key.word() == word)
+        Self::ALL.into_iter().find(|button| button.word() == word)
     }
 
     /// The kernel's code, from linux/input-event-codes.h.
@@ -91,30 +91,32 @@ impl Key {
     }
 
     fn coded(code: u16) -> Option<Self> {
-        Self::ALL.into_iter().find(|key| key.code() == code)
+        Self::ALL.into_iter().find(|button| button.code() == code)
     }
 }
 
-/// What was done to a key.
+/// What was done to a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
     /// Which.
-    pub key: Key,
+    pub button: Button,
     /// Pressed, else released.
     pub is_press: bool,
 }
 
-/// The keys that are down now; `None` where there are no keys.
+/// The buttons that are down now; `None` where there are no buttons.
 ///
 /// # Errors
 /// The kernel's, as EACCES for who is not in the group `input`.
-pub fn pressed(dev: &dyn Dev) -> Result<Option<Vec<Key>>> {
+pub fn pressed(dev: &dyn Devfs) -> Result<Option<Vec<Button>>> {
     let Some((stream, path)) = open_first(dev, &DEVICES, Access::Read)? else {
         return Ok(None);
     };
     let mut bits = [0; STATE_BYTES];
     match stream.key_state(&mut bits) {
-        Ok(()) => Ok(Some(Key::ALL.into_iter().filter(|key| is_set(&bits, *key)).collect())),
+        Ok(()) => {
+            Ok(Some(Button::ALL.into_iter().filter(|button| is_set(&bits, *button)).collect()))
+        }
         // An emulated processor has no words for what the file does not know.
         Err(error) if matches!(Errno::from_io_error(&error), Some(Errno::NOTTY | Errno::NOSYS)) => {
             pressed_in(&*stream, &path).map(Some)
@@ -123,39 +125,39 @@ pub fn pressed(dev: &dyn Dev) -> Result<Option<Vec<Key>>> {
     }
 }
 
-fn is_set(bits: &[u8], key: Key) -> bool {
-    let (byte, bit) = (usize::from(key.code() / 8), key.code() % 8);
+fn is_set(bits: &[u8], button: Button) -> bool {
+    let (byte, bit) = (usize::from(button.code() / 8), button.code() % 8);
     bits.get(byte).is_some_and(|byte| byte & (1 << bit) != 0)
 }
 
-/// The keys that are down after all events in a file.
-fn pressed_in(stream: &dyn Stream, path: &Path) -> Result<Vec<Key>> {
+/// The buttons that are down after all events in a file.
+fn pressed_in(stream: &dyn Stream, path: &Path) -> Result<Vec<Button>> {
     let mut queue = Queue::default();
     while queue.fill(stream, path)? {}
     let mut down = Vec::new();
     for event in queue.events {
-        down.retain(|key| *key != event.key);
+        down.retain(|button| *button != event.button);
         if event.is_press {
-            down.push(event.key);
+            down.push(event.button);
         }
     }
-    Ok(Key::ALL.into_iter().filter(|key| down.contains(key)).collect())
+    Ok(Button::ALL.into_iter().filter(|button| down.contains(button)).collect())
 }
 
-/// What is done to the keys from a moment on.
+/// What is done to the buttons from a moment on.
 pub struct Events {
-    dev: Arc<dyn Dev>,
+    dev: Arc<dyn Devfs>,
     stream: Box<dyn Stream>,
     path: PathBuf,
     queue: Mutex<Queue>,
 }
 
 impl Events {
-    /// Those from now on; `None` where there are no keys.
+    /// Those from now on; `None` where there are no buttons.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn from_now(dev: Arc<dyn Dev>) -> Result<Option<Self>> {
+    pub fn from_now(dev: Arc<dyn Devfs>) -> Result<Option<Self>> {
         let Some((stream, path)) = open_first(&*dev, &DEVICES, Access::Read)? else {
             return Ok(None);
         };
@@ -175,19 +177,19 @@ impl Events {
         self.wait(timeout, interrupted, |queue| queue.events.pop_front())
     }
 
-    /// Waits for the next event of that key, or any, and of that kind, or any.
+    /// Waits for the next event of that button, or any, and of that kind, or any.
     ///
     /// # Errors
     /// As [`next`](Self::next).
-    pub fn next_such(
+    pub fn next_matching(
         &self,
-        key: Option<Key>,
+        button: Option<Button>,
         is_press: Option<bool>,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Option<Event>> {
         let is_it = |event: &Event| {
-            key.is_none_or(|key| key == event.key)
+            button.is_none_or(|button| button == event.button)
                 && is_press.is_none_or(|is_press| is_press == event.is_press)
         };
         self.wait(timeout, interrupted, |queue| {
@@ -249,7 +251,7 @@ impl Queue {
     }
 }
 
-/// The event in a record; `None` if it is not one of our keys' pressed or
+/// The event in a record; `None` if it is not one of our buttons' pressed or
 /// released, as one that repeats is not.
 fn event(record: &[u8]) -> Option<Event> {
     let (_, payload) = record.split_last_chunk::<8>()?;
@@ -259,6 +261,6 @@ fn event(record: &[u8]) -> Option<Event> {
         1 => true,
         _ => return None,
     };
-    let key = Key::coded(u16::from_ne_bytes([c0, c1]))?;
-    (u16::from_ne_bytes([t0, t1]) == EV_KEY).then_some(Event { key, is_press })
+    let button = Button::coded(u16::from_ne_bytes([c0, c1]))?;
+    (u16::from_ne_bytes([t0, t1]) == EV_KEY).then_some(Event { button, is_press })
 }

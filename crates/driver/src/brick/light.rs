@@ -4,14 +4,14 @@
 //! and a green LED, which the kernel shows as two devices. They are called
 //! `led0:red:brick-status` or, on jessie, `ev3:left:red:ev3dev`. Other boards have
 //! other LEDs, or none; and an output port in the mode `led` is one without a
-//! colour, `ev3-ports:outA::brick-status`.
+//! color, `ev3-ports:outA::brick-status`.
 //!
 //! Who switches an LED is its *trigger*: nobody (`none`), a program that runs
 //! (`heartbeat`), or a timer, whose files `delay_on` and `delay_off` are there
 //! only as long as it is the trigger. A trigger must go before a brightness
 //! stays.
 use crate::class::{Class, Hue, led_name};
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry::{until_some, while_permissions_settle};
 use crate::device::{Device, read_file, write_file};
 use crate::error::{Error, Interrupted, Result};
@@ -30,9 +30,9 @@ const NONE: &str = "none";
 /// The trigger that blinks.
 const TIMER: &str = "timer";
 
-/// The colour a light shows.
+/// The color a light shows.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Colour {
+pub enum Color {
     /// `off`, `on`, `red`, `green`, `blue`, `amber`, `orange`, `yellow`.
     Named(&'static str),
     /// A light with one LED, in percent.
@@ -41,9 +41,9 @@ pub enum Colour {
     Levels(Vec<i64>),
 }
 
-/// What to mix colours of, in percent. Of several ways to make one, a light uses
+/// What to mix colors of, in percent. Of several ways to make one, a light uses
 /// the first that its LEDs allow.
-const COLOURS: [(&str, &[(Hue, i64)]); 9] = [
+const COLORS: [(&str, &[(Hue, i64)]); 9] = [
     ("off", &[]),
     ("red", &[(Hue::Red, 100)]),
     ("green", &[(Hue::Green, 100)]),
@@ -55,11 +55,11 @@ const COLOURS: [(&str, &[(Hue, i64)]); 9] = [
     ("on", &[(Hue::Any, 100)]),
 ];
 
-impl Colour {
-    /// The colour of that name.
+impl Color {
+    /// The color of that name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        COLOURS.iter().find(|(word, _)| *word == name).map(|(word, _)| Self::Named(word))
+        COLORS.iter().find(|(word, _)| *word == name).map(|(word, _)| Self::Named(word))
     }
 }
 
@@ -71,26 +71,26 @@ pub struct Light {
 }
 
 /// The LED on a port.
-pub(crate) fn on_port(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
+pub(crate) fn on_port(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
     let port = port_name::short(port);
     let is_it = |led: &&Arc<Device>| {
         led_name(led.port())
             .is_some_and(|(owner, hue)| hue == Hue::Any && port_name::short(owner) == port)
     };
-    Ok(devices.all(Class::Led)?.iter().find(is_it).cloned())
+    Ok(registry.all(Class::Led)?.iter().find(is_it).cloned())
 }
 
 /// All lights: left, right, then those on ports in the order of ports.
 ///
 /// # Errors
 /// The kernel's.
-pub fn lights(devices: &Devices) -> Result<Vec<Light>> {
-    devices.afresh(|| present_lights(devices))
+pub fn lights(registry: &Registry) -> Result<Vec<Light>> {
+    registry.retry_after_relisting(|| present_lights(registry))
 }
 
-fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
+fn present_lights(registry: &Registry) -> Result<Vec<Light>> {
     let mut owners: Vec<(String, Light)> = Vec::new();
-    for led in devices.all(Class::Led)?.iter() {
+    for led in registry.all(Class::Led)?.iter() {
         let Some((owner, hue)) = led_name(led.port()) else { continue };
         led.check_present()?;
         let led = (hue, Arc::clone(led));
@@ -118,8 +118,8 @@ fn present_lights(devices: &Devices) -> Result<Vec<Light>> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn find(devices: &Devices, name: &str) -> Result<Option<Light>> {
-    Ok(lights(devices)?.into_iter().find(|light| light.is_called(name)))
+pub fn find(registry: &Registry, name: &str) -> Result<Option<Light>> {
+    Ok(lights(registry)?.into_iter().find(|light| light.is_called(name)))
 }
 
 impl Light {
@@ -135,28 +135,28 @@ impl Light {
         self.name == port_name::short(name)
     }
 
-    /// The colour it shows now. Of one that blinks that may be any moment's.
+    /// The color it shows now. Of one that blinks that may be any moment's.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn colour(&self) -> Result<Colour> {
+    pub fn color(&self) -> Result<Color> {
         let mut levels = Vec::new();
         for (hue, led) in &self.leds {
             levels.push((*hue, level(led)?));
         }
         levels.sort_unstable();
         let shining: Vec<_> = levels.iter().copied().filter(|(_, level)| *level > 0).collect();
-        let named = COLOURS.iter().find(|(_, mix)| *mix == shining);
+        let named = COLORS.iter().find(|(_, mix)| *mix == shining);
         Ok(match (named, &*levels) {
-            (Some((name, _)), _) => Colour::Named(name),
-            (None, [(_, level)]) => Colour::Level(*level),
-            _ => Colour::Levels(levels.into_iter().map(|(_, level)| level).collect()),
+            (Some((name, _)), _) => Color::Named(name),
+            (None, [(_, level)]) => Color::Level(*level),
+            _ => Color::Levels(levels.into_iter().map(|(_, level)| level).collect()),
         })
     }
 
-    /// What each LED has to show for a colour, or `None` where the light cannot
+    /// What each LED has to show for a color, or `None` where the light cannot
     /// show it.
-    fn mix(&self, colour: &Colour) -> Option<Vec<(&Arc<Device>, i64)>> {
+    fn mix(&self, color: &Color) -> Option<Vec<(&Arc<Device>, i64)>> {
         let hues = [Hue::Red, Hue::Green, Hue::Blue];
         let with = |mix: &[(Hue, i64)]| {
             let has = |hue| self.leds.iter().any(|led| led.0 == hue);
@@ -164,16 +164,16 @@ impl Light {
             let level = |hue| mix.iter().find(|part| part.0 == hue).map_or(0, |part| part.1);
             is_possible.then(|| self.leds.iter().map(|(hue, led)| (led, level(*hue))).collect())
         };
-        match colour {
-            Colour::Named("on") => self.mix(&Colour::Level(100)),
-            Colour::Named(name) => {
-                COLOURS.iter().filter(|(word, _)| word == name).find_map(|(_, mix)| with(mix))
+        match color {
+            Color::Named("on") => self.mix(&Color::Level(100)),
+            Color::Named(name) => {
+                COLORS.iter().filter(|(word, _)| word == name).find_map(|(_, mix)| with(mix))
             }
-            Colour::Level(level) => match &*self.leds {
+            Color::Level(level) => match &*self.leds {
                 [(hue, _)] => with(&[(*hue, *level)]),
                 _ => None,
             },
-            Colour::Levels(levels) => {
+            Color::Levels(levels) => {
                 let mix: Vec<_> = hues.into_iter().zip(levels.iter().copied()).collect();
                 with(&mix)
             }
@@ -204,7 +204,7 @@ impl Light {
         Ok(text.split_ascii_whitespace().map(|word| bare(word).to_owned()).collect())
     }
 
-    /// The LEDs that make its colour: those that shine or are switched; all of a
+    /// The LEDs that make its color: those that shine or are switched; all of a
     /// light that is off.
     fn shining(&self) -> Result<Vec<Arc<Device>>> {
         let mut shining = Vec::new();
@@ -234,20 +234,20 @@ impl Light {
     }
 }
 
-/// Makes a light show a colour. What switches it no longer does. `None` where
+/// Makes a light show a color. What switches it no longer does. `None` where
 /// there is no such light, `false` if it cannot show that.
 ///
 /// # Errors
 /// The kernel's; [`Error::Interrupted`].
-pub fn set_colour(
-    devices: &Devices,
+pub fn set_color(
+    registry: &Registry,
     name: &str,
-    colour: &Colour,
+    color: &Color,
     interrupted: Interrupted,
 ) -> Result<Option<bool>> {
-    while_permissions_settle(devices, interrupted, || {
-        let Some(light) = find(devices, name)? else { return Ok(None) };
-        let Some(mix) = light.mix(colour) else { return Ok(Some(false)) };
+    while_permissions_settle(registry, interrupted, || {
+        let Some(light) = find(registry, name)? else { return Ok(None) };
+        let Some(mix) = light.mix(color) else { return Ok(Some(false)) };
         for (led, _) in &mix {
             if trigger(led)? != NONE {
                 led.write("trigger", NONE)?;
@@ -261,18 +261,18 @@ pub fn set_colour(
     })
 }
 
-/// Lets something else switch a light, in the colour it shows. `None` where
+/// Lets something else switch a light, in the color it shows. `None` where
 /// there is no such light.
 ///
 /// # Errors
 /// The kernel's, as EINVAL for a trigger it does not know; [`Error::Interrupted`].
 pub fn set_trigger(
-    devices: &Devices,
+    registry: &Registry,
     name: &str,
     word: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    while_permissions_settle(devices, interrupted, || match find(devices, name)? {
+    while_permissions_settle(registry, interrupted, || match find(registry, name)? {
         Some(light) => {
             light.shining()?.iter().try_for_each(|led| led.write("trigger", word)).map(Some)
         }
@@ -280,23 +280,23 @@ pub fn set_trigger(
     })
 }
 
-/// Makes a light blink, in the colour it shows, on and off for so many
+/// Makes a light blink, in the color it shows, on and off for so many
 /// milliseconds. `None` where there is no such light.
 ///
 /// # Errors
 /// As [`set_trigger`].
 pub fn blink(
-    devices: &Devices,
+    registry: &Registry,
     name: &str,
     [on, off]: [i64; 2],
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     let blinking =
-        while_permissions_settle(devices, &mut *interrupted, || match find(devices, name)? {
+        while_permissions_settle(registry, &mut *interrupted, || match find(registry, name)? {
             Some(light) => {
                 let leds = light.shining()?;
                 for led in &leds {
-                    // Anew it would forget the colour, and make its files anew.
+                    // Anew it would forget the color, and make its files anew.
                     if trigger(led)? != TIMER {
                         led.write("trigger", TIMER)?;
                     }
@@ -308,7 +308,7 @@ pub fn blink(
     let Some(leds) = blinking else { return Ok(None) };
     for (file, milliseconds) in [("delay_on", on), ("delay_off", off)] {
         for led in &leds {
-            set_delay(devices, led, file, milliseconds, &mut *interrupted)?;
+            set_delay(registry, led, file, milliseconds, &mut *interrupted)?;
         }
     }
     Ok(Some(()))
@@ -317,17 +317,17 @@ pub fn blink(
 /// Writes a file of the timer's, which appears in its own time. It is another
 /// file each time that the timer becomes the trigger, so it is not kept open.
 fn set_delay(
-    devices: &Devices,
+    registry: &Registry,
     led: &Device,
     file: &str,
     milliseconds: i64,
     interrupted: Interrupted,
 ) -> Result<()> {
-    let latest = devices.tree().now().saturating_add(DELAYS_WITHIN);
+    let latest = registry.tree().now().saturating_add(DELAYS_WITHIN);
     let path = led.path().join(file);
-    until_some(devices.tree(), interrupted, |_| {
-        match write_file(devices.tree(), &path, &milliseconds.to_string()) {
-            Err(error) if is_early(&error) && devices.tree().now() < latest => Ok(None),
+    until_some(registry.tree(), interrupted, |_| {
+        match write_file(registry.tree(), &path, &milliseconds.to_string()) {
+            Err(error) if is_early(&error) && registry.tree().now() < latest => Ok(None),
             written => written.map(Some),
         }
     })

@@ -8,7 +8,7 @@
 use crate::brick::light;
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry;
 use crate::device::retry::until_some;
 use crate::error::{Error, Interrupted, Result};
@@ -44,10 +44,10 @@ fn made_by(mode: &str) -> Option<Class> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn devices_at(devices: &Devices, port: Option<&str>) -> Result<Vec<Arc<Device>>> {
+pub fn devices_at(registry: &Registry, port: Option<&str>) -> Result<Vec<Arc<Device>>> {
     let mut all = Vec::new();
     for class in ON_PORTS {
-        all.extend(devices.all(class)?.iter().cloned());
+        all.extend(registry.all(class)?.iter().cloned());
     }
     let port = port.map(crate::port_name::short);
     all.retain(|device| port.is_none_or(|port| device.port() == port));
@@ -55,9 +55,9 @@ pub fn devices_at(devices: &Devices, port: Option<&str>) -> Result<Vec<Arc<Devic
     Ok(all)
 }
 
-fn device_at(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
+fn device_at(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
     for class in ON_PORTS {
-        if let Some(device) = devices.find(class, port)? {
+        if let Some(device) = registry.find(class, port)? {
             return Ok(Some(device));
         }
     }
@@ -72,15 +72,15 @@ fn device_at(devices: &Devices, port: &str) -> Result<Option<Arc<Device>>> {
 /// The kernel's, as EINVAL for a mode the port does not have;
 /// [`Error::Interrupted`].
 pub fn set_mode(
-    devices: &Devices,
+    registry: &Registry,
     port: &str,
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<bool>> {
-    let written = retry::with(devices, Class::Port, port, &mut *interrupted, |port| {
+    let written = retry::with(registry, Class::Port, port, &mut *interrupted, |port| {
         if !port.with_word("mode", |present| present == mode)? {
             port.write("mode", mode)?;
-            devices.forget_listings();
+            registry.forget_listings();
         }
         Ok(())
     })?;
@@ -89,10 +89,10 @@ pub fn set_mode(
     }
     let Some(class) = made_by(mode) else { return Ok(Some(true)) };
     let find = || match class {
-        Class::Led => light::on_port(devices, port),
-        class => devices.find(class, port),
+        Class::Led => light::on_port(registry, port),
+        class => registry.find(class, port),
     };
-    wait_for(devices, find, interrupted).map(Some)
+    wait_for(registry, find, interrupted).map(Some)
 }
 
 /// Tells a port which device is plugged in, if another one is there, and waits
@@ -100,10 +100,10 @@ pub fn set_mode(
 /// port, `false` if the device does not appear.
 ///
 /// # Errors
-/// [`Error::NoSuchDevice`] for a type that no output port has; the kernel's, as
+/// [`Error::UnknownMotorType`] for a type that no output port has; the kernel's, as
 /// EOPNOTSUPP where the port cannot be told; [`Error::Interrupted`].
 pub fn set_device(
-    devices: &Devices,
+    registry: &Registry,
     port: &str,
     name: &str,
     interrupted: Interrupted,
@@ -111,24 +111,24 @@ pub fn set_device(
     // On I2C an address follows.
     let driver = name.split(' ').next().unwrap_or(name);
     let is_it = |device: &Arc<Device>| device.driver() == driver;
-    let written = retry::with(devices, Class::Port, port, &mut *interrupted, |lego_port| {
+    let written = retry::with(registry, Class::Port, port, &mut *interrupted, |lego_port| {
         // An unknown name would take away the motor that is there.
         let is_output =
             lego_port.driver().ends_with("output-port") || lego_port.driver().ends_with("out-port");
         if driver.is_empty() || is_output && !MOTOR_TYPES.contains(&driver) {
-            return Err(Error::NoSuchDevice { name: name.to_owned() });
+            return Err(Error::UnknownMotorType { name: name.to_owned() });
         }
-        if !device_at(devices, port)?.as_ref().is_some_and(is_it) {
+        if !device_at(registry, port)?.as_ref().is_some_and(is_it) {
             lego_port.write("set_device", name)?;
-            devices.forget_listings();
+            registry.forget_listings();
         }
         Ok(())
     })?;
     if written.is_none() {
         return Ok(None);
     }
-    let find = || Ok(device_at(devices, port)?.filter(is_it));
-    wait_for(devices, find, interrupted).map(Some)
+    let find = || Ok(device_at(registry, port)?.filter(is_it));
+    wait_for(registry, find, interrupted).map(Some)
 }
 
 /// Waits until any device, or one of a certain type, is at a port and can be
@@ -137,15 +137,15 @@ pub fn set_device(
 /// # Errors
 /// The kernel's; [`Error::Interrupted`].
 fn wait_for(
-    devices: &Devices,
+    registry: &Registry,
     find: impl Fn() -> Result<Option<Arc<Device>>>,
     interrupted: Interrupted,
 ) -> Result<bool> {
-    let latest = devices.tree().now().saturating_add(APPEARS_WITHIN);
-    until_some(devices.tree(), interrupted, |_| {
+    let latest = registry.tree().now().saturating_add(APPEARS_WITHIN);
+    until_some(registry.tree(), interrupted, |_| {
         if find()?.is_some_and(|device| device.is_writable()) {
             return Ok(Some(true));
         }
-        Ok((devices.tree().now() >= latest).then_some(false))
+        Ok((registry.tree().now() >= latest).then_some(false))
     })
 }

@@ -1,5 +1,5 @@
 //! Other programs, as those that speak and play.
-use crate::devfs::{Dev, until};
+use crate::devfs::{Devfs, until};
 use crate::error::{Error, Interrupted, Result};
 use nix::sys::signal::Signal;
 use std::ffi::OsStr;
@@ -118,7 +118,7 @@ impl Programs {
     /// left, they have.
     pub(crate) fn run<const N: usize>(
         &self,
-        dev: &dyn Dev,
+        dev: &dyn Devfs,
         start: impl FnOnce() -> Result<[Started; N]>,
         interrupted: Interrupted,
     ) -> Result<()> {
@@ -161,7 +161,7 @@ impl Programs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::devfs::DevFiles;
+    use crate::devfs::DevfsDir;
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
@@ -185,7 +185,7 @@ mod tests {
                 is_ended.recv().unwrap();
                 Ok([started])
             };
-            programs.run(&DevFiles::new("/dev"), start, &mut || false).unwrap();
+            programs.run(&DevfsDir::new("/dev"), start, &mut || false).unwrap();
         });
         assert!(begun.elapsed() < Duration::from_secs(60), "it ran to its end");
     }

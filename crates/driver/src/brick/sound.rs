@@ -9,7 +9,7 @@
 //! none while a recording plays.
 use crate::brick::buttons::EVENT_BYTES;
 use crate::brick::programs::{Program, Programs};
-use crate::devfs::{Dev, Speaker, Stream, open, open_first, until};
+use crate::devfs::{Devfs, Speaker, Stream, open, open_first, until};
 use crate::error::{Access, Error, Interrupted, Result};
 use std::ffi::OsStr;
 use std::fs::File;
@@ -65,7 +65,7 @@ impl Sound {
     /// [`Error::Interrupted`].
     pub fn play_tones(
         &self,
-        dev: &dyn Dev,
+        dev: &dyn Devfs,
         tones: &[Tone],
         interrupted: Interrupted,
     ) -> Result<Option<()>> {
@@ -91,7 +91,7 @@ impl Sound {
     /// Waits; `true` if the sounds were stopped meanwhile.
     fn pause(
         &self,
-        dev: &dyn Dev,
+        dev: &dyn Devfs,
         time: Duration,
         stops: u32,
         interrupted: Interrupted,
@@ -107,7 +107,7 @@ impl Sound {
     /// # Errors
     /// [`Error::NoProgram`] without espeak or aplay, [`Error::Program`];
     /// [`Error::Interrupted`].
-    pub fn say(&self, dev: &dyn Dev, text: &str, interrupted: Interrupted) -> Result<()> {
+    pub fn say(&self, dev: &dyn Devfs, text: &str, interrupted: Interrupted) -> Result<()> {
         if let Some(speaker) = dev.speaker() {
             return self.let_speak(dev, speaker, || speaker.say(text), interrupted);
         }
@@ -126,7 +126,7 @@ impl Sound {
     /// # Errors
     /// As [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no
     /// WAV file.
-    pub fn play(&self, dev: &dyn Dev, path: &Path, interrupted: Interrupted) -> Result<()> {
+    pub fn play(&self, dev: &dyn Devfs, path: &Path, interrupted: Interrupted) -> Result<()> {
         let lasts = length_of(path)?;
         if let Some(speaker) = dev.speaker() {
             let start = || {
@@ -145,7 +145,7 @@ impl Sound {
     /// `start` tells for how long it speaks.
     fn let_speak(
         &self,
-        dev: &dyn Dev,
+        dev: &dyn Devfs,
         speaker: &dyn Speaker,
         start: impl FnOnce() -> Duration,
         interrupted: Interrupted,
@@ -163,7 +163,7 @@ impl Sound {
     ///
     /// # Errors
     /// The kernel's.
-    pub fn stop(&self, dev: &dyn Dev) -> Result<()> {
+    pub fn stop(&self, dev: &dyn Devfs) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
         self.programs.end();
         // Whoever made the tone may go on only once it is over.
@@ -186,7 +186,7 @@ impl Sound {
 ///
 /// # Errors
 /// [`Error::NoProgram`] without amixer.
-pub fn volume(dev: &dyn Dev) -> Result<Option<u8>> {
+pub fn volume(dev: &dyn Devfs) -> Result<Option<u8>> {
     if let Some(speaker) = dev.speaker() {
         return Ok(Some(speaker.volume()));
     }
@@ -197,7 +197,7 @@ pub fn volume(dev: &dyn Dev) -> Result<Option<u8>> {
 ///
 /// # Errors
 /// [`Error::NoProgram`] without amixer, [`Error::Program`].
-pub fn set_volume(dev: &dyn Dev, percent: u8) -> Result<Option<()>> {
+pub fn set_volume(dev: &dyn Devfs, percent: u8) -> Result<Option<()>> {
     if let Some(speaker) = dev.speaker() {
         speaker.set_volume(percent);
         return Ok(Some(()));

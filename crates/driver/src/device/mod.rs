@@ -10,7 +10,7 @@ use crate::device::list::List;
 use crate::device::motion::MotorRun;
 pub(crate) use crate::device::observer::{MotionObserver, Observer};
 use crate::error::{Access, Error, Result};
-use crate::sysfs::{Entry, Node, Tree};
+use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{Value, first_line, integer};
 use rustix::io::Errno;
 use std::path::{Path, PathBuf};
@@ -43,11 +43,11 @@ pub struct Device {
     path: PathBuf,
     entry: Entry,
     /// A file that tells whether it is still there.
-    presence: Box<dyn Node>,
+    presence: Box<dyn AttributeFile>,
     /// When it was last found to be there, in microseconds, wrapping around.
     present_at_us: AtomicU32,
     first_seen: Duration,
-    tree: Arc<dyn Tree>,
+    tree: Arc<dyn Sysfs>,
     attributes: List<Attribute>,
     constants: List<Constant>,
     /// What a motor was last told to do.
@@ -71,7 +71,7 @@ struct Constant {
 impl Device {
     /// Reads who is at `directory/entry`.
     pub(crate) fn detect(
-        tree: &Arc<dyn Tree>,
+        tree: &Arc<dyn Sysfs>,
         observer: &Arc<Observer>,
         class: Class,
         entry: Entry,
@@ -132,7 +132,7 @@ impl Device {
 
     /// The tree it is in, whose clock it lives by.
     #[must_use]
-    pub fn tree(&self) -> &dyn Tree {
+    pub fn tree(&self) -> &dyn Sysfs {
         &*self.tree
     }
 
@@ -147,8 +147,8 @@ impl Device {
     }
 
     /// The error that says that it was unplugged.
-    pub(crate) fn gone(&self) -> Error {
-        Error::Gone { class: self.class, port: self.port().to_owned() }
+    pub(crate) fn unplugged(&self) -> Error {
+        Error::Unplugged { class: self.class, port: self.port().to_owned() }
     }
 
     pub(crate) fn entry(&self) -> &Entry {
@@ -168,7 +168,7 @@ impl Device {
     }
 
     /// Fails as a read of an unplugged device does, where the reads themselves
-    /// do not notice (see [`Node::check_present`]). What was found is believed
+    /// do not notice (see [`AttributeFile::check_present`]). What was found is believed
     /// for [`PRESENT_FOR_US`].
     ///
     /// # Errors
@@ -396,7 +396,11 @@ impl Drop for Use<'_> {
 }
 
 /// A device that is known by its name, if it has a certain file.
-fn named(tree: &dyn Tree, path: &Path, name: &str) -> Result<(Box<dyn Node>, String, String)> {
+fn named(
+    tree: &dyn Sysfs,
+    path: &Path,
+    name: &str,
+) -> Result<(Box<dyn AttributeFile>, String, String)> {
     Ok((open(tree, path, Access::Read)?, name.to_owned(), name.to_owned()))
 }
 
@@ -404,13 +408,13 @@ fn named(tree: &dyn Tree, path: &Path, name: &str) -> Result<(Box<dyn Node>, Str
 ///
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where there is no address.
-pub fn identity(tree: &dyn Tree, path: &Path) -> Result<(String, String)> {
+pub fn identity(tree: &dyn Sysfs, path: &Path) -> Result<(String, String)> {
     let (_, address) = address_of(tree, path)?;
     Ok((address, read_file(tree, &path.join("driver_name"))?))
 }
 
 /// Reads the `address` of the device at a path; also the open file.
-fn address_of(tree: &dyn Tree, path: &Path) -> Result<(Box<dyn Node>, String)> {
+fn address_of(tree: &dyn Sysfs, path: &Path) -> Result<(Box<dyn AttributeFile>, String)> {
     let path = path.join("address");
     let node = open(tree, &path, Access::Read)?;
     let mut buffer = [0; SHORT];
@@ -425,7 +429,7 @@ fn address_of(tree: &dyn Tree, path: &Path) -> Result<(Box<dyn Node>, String)> {
 ///
 /// # Errors
 /// As [`Device::text`].
-pub fn read_file(tree: &dyn Tree, path: &Path) -> Result<String> {
+pub fn read_file(tree: &dyn Sysfs, path: &Path) -> Result<String> {
     let node = open(tree, path, Access::Read)?;
     let mut buffer = [0; PAGE + 1];
     text_of(path, read_node(&*node, path, &mut buffer)?)
@@ -435,7 +439,7 @@ pub fn read_file(tree: &dyn Tree, path: &Path) -> Result<String> {
 ///
 /// # Errors
 /// As [`Device::write`].
-pub fn write_file(tree: &dyn Tree, path: &Path, text: &str) -> Result<()> {
+pub fn write_file(tree: &dyn Sysfs, path: &Path, text: &str) -> Result<()> {
     let node = open(tree, path, Access::Write)?;
     write_line(&*node, path, text)
 }
@@ -444,7 +448,7 @@ pub fn write_file(tree: &dyn Tree, path: &Path, text: &str) -> Result<()> {
 ///
 /// # Errors
 /// As [`read_file`].
-pub fn read_value(tree: &dyn Tree, path: &Path) -> Result<Value> {
+pub fn read_value(tree: &dyn Sysfs, path: &Path) -> Result<Value> {
     read_file(tree, path).map(Value::parse)
 }
 
@@ -452,8 +456,8 @@ pub fn read_value(tree: &dyn Tree, path: &Path) -> Result<Value> {
 pub(crate) struct Attribute {
     name: Box<str>,
     path: PathBuf,
-    reader: OnceLock<Box<dyn Node>>,
-    writer: OnceLock<Box<dyn Node>>,
+    reader: OnceLock<Box<dyn AttributeFile>>,
+    writer: OnceLock<Box<dyn AttributeFile>>,
     /// Keeps readers of a plain file from seeing half of a write.
     whole: RwLock<()>,
 }
@@ -470,12 +474,12 @@ impl Attribute {
     }
 
     /// The descriptor for reading, opened when first asked for.
-    pub(crate) fn reader(&self, tree: &dyn Tree) -> Result<&dyn Node> {
+    pub(crate) fn reader(&self, tree: &dyn Sysfs) -> Result<&dyn AttributeFile> {
         kept(&self.reader, tree, &self.path, Access::Read)
     }
 
     /// Reads the text, which must fit into the buffer with room to spare.
-    fn read<'a>(&self, tree: &dyn Tree, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+    fn read<'a>(&self, tree: &dyn Sysfs, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
         let node = self.reader(tree)?;
         let whole = node.is_plain().then(|| self.whole.read());
         let bytes = read_node(node, &self.path, buffer)?;
@@ -484,13 +488,13 @@ impl Attribute {
     }
 
     /// Whether the file only stores what is written to it.
-    pub(crate) fn is_plain(&self, tree: &dyn Tree) -> Result<bool> {
+    pub(crate) fn is_plain(&self, tree: &dyn Sysfs) -> Result<bool> {
         Ok(self.reader(tree)?.is_plain())
     }
 
     /// Reads a plain file that is found empty: another program may be about
     /// to write it, which empties it first.
-    fn read_written<'a>(&self, tree: &dyn Tree, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+    fn read_written<'a>(&self, tree: &dyn Sysfs, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
         for _ in 0..WRITTEN_WITHIN_MS {
             // Whether or not it slept, the next read tells.
             let _ = tree.pause(&[], Duration::from_millis(1));
@@ -502,11 +506,11 @@ impl Attribute {
     }
 
     /// The descriptor for writing, opened when first asked for.
-    fn writer(&self, tree: &dyn Tree) -> Result<&dyn Node> {
+    fn writer(&self, tree: &dyn Sysfs) -> Result<&dyn AttributeFile> {
         kept(&self.writer, tree, &self.path, Access::Write)
     }
 
-    fn write(&self, tree: &dyn Tree, text: &str) -> Result<()> {
+    fn write(&self, tree: &dyn Sysfs, text: &str) -> Result<()> {
         let node = self.writer(tree)?;
         let _whole = node.is_plain().then(|| self.whole.write());
         write_line(node, &self.path, text)
@@ -519,11 +523,11 @@ impl Attribute {
 
 /// Opens a file once, and only remembers success.
 fn kept<'a>(
-    cell: &'a OnceLock<Box<dyn Node>>,
-    tree: &dyn Tree,
+    cell: &'a OnceLock<Box<dyn AttributeFile>>,
+    tree: &dyn Sysfs,
     path: &Path,
     access: Access,
-) -> Result<&'a dyn Node> {
+) -> Result<&'a dyn AttributeFile> {
     if let Some(node) = cell.get() {
         return Ok(&**node);
     }
@@ -531,12 +535,12 @@ fn kept<'a>(
     Ok(&**cell.get_or_init(|| node))
 }
 
-fn open(tree: &dyn Tree, path: &Path, access: Access) -> Result<Box<dyn Node>> {
+fn open(tree: &dyn Sysfs, path: &Path, access: Access) -> Result<Box<dyn AttributeFile>> {
     tree.open(path, access).map_err(|source| Error::Open { path: path.to_owned(), access, source })
 }
 
 /// Writes a text and a newline in one go: one write is one call of the driver.
-fn write_line(node: &dyn Node, path: &Path, text: &str) -> Result<()> {
+fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
     let mut line = [b'\n'; SHORT];
     let written = match line.split_at_mut_checked(text.len()) {
         Some((start, [_, ..])) => {
@@ -550,7 +554,7 @@ fn write_line(node: &dyn Node, path: &Path, text: &str) -> Result<()> {
 
 /// Reads all there is. More than fits cannot be an attribute's text: rather
 /// than cut it, say so.
-fn read_node<'a>(node: &dyn Node, path: &Path, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
+fn read_node<'a>(node: &dyn AttributeFile, path: &Path, buffer: &'a mut [u8]) -> Result<&'a [u8]> {
     let length =
         node.read(buffer).map_err(|source| Error::Read { path: path.to_owned(), source })?;
     match buffer.get(..length) {

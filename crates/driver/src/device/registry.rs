@@ -10,7 +10,7 @@ use crate::device::{Device, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
 use crate::held::Held;
 use crate::port_name;
-use crate::sysfs::Tree;
+use crate::sysfs::Sysfs;
 use rustix::io::Errno;
 use std::collections::HashMap;
 use std::path::Path;
@@ -21,8 +21,8 @@ use std::time::Duration;
 pub const LISTING_AGE: Duration = Duration::from_millis(100);
 
 /// The devices in a tree.
-pub struct Devices {
-    tree: Arc<dyn Tree>,
+pub struct Registry {
+    tree: Arc<dyn Sysfs>,
     listings: [Mutex<Listing>; Class::ALL.len()],
     observer: Arc<Observer>,
 }
@@ -36,16 +36,16 @@ struct Listing {
     by_port: HashMap<String, Arc<Device>>,
 }
 
-impl Devices {
+impl Registry {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
-    pub fn new(tree: Arc<dyn Tree>) -> Self {
+    pub fn new(tree: Arc<dyn Sysfs>) -> Self {
         Self { tree, listings: Default::default(), observer: Arc::default() }
     }
 
     /// The tree they are in.
     #[must_use]
-    pub fn tree(&self) -> &dyn Tree {
+    pub fn tree(&self) -> &dyn Sysfs {
         &*self.tree
     }
 
@@ -105,7 +105,7 @@ impl Devices {
         port: &str,
         mut act: impl FnMut(&Arc<Device>) -> Result<T>,
     ) -> Result<Option<T>> {
-        self.afresh(|| match self.find(class, port)? {
+        self.retry_after_relisting(|| match self.find(class, port)? {
             Some(device) => {
                 device.check_present()?;
                 act(&device).map(Some)
@@ -139,7 +139,7 @@ impl Devices {
     ///
     /// # Errors
     /// As `act`.
-    pub(crate) fn afresh<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
+    pub(crate) fn retry_after_relisting<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
         match act() {
             Err(error) if error.is_stale() => {
                 self.forget_listings();

@@ -7,9 +7,9 @@
 //! the class lets be written tells the two apart.
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::error::{Error, Interrupted, Result};
-use crate::sysfs::{Tree, sleep};
+use crate::sysfs::{Sysfs, sleep};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -31,7 +31,7 @@ const LAST_TRIES: u32 = 1;
 /// # Errors
 /// As `attempt`; [`Error::Interrupted`].
 pub(crate) fn until_some<T>(
-    tree: &dyn Tree,
+    tree: &dyn Sysfs,
     interrupted: Interrupted,
     mut attempt: impl FnMut(Interrupted) -> Result<Option<T>>,
 ) -> Result<T> {
@@ -50,30 +50,30 @@ pub(crate) fn until_some<T>(
 /// # Errors
 /// As `act`; [`Error::Interrupted`].
 pub(crate) fn while_permissions_settle<T>(
-    devices: &Devices,
+    registry: &Registry,
     interrupted: Interrupted,
     mut act: impl FnMut() -> Result<T>,
 ) -> Result<T> {
     let mut retry = Retry::default();
-    until_some(devices.tree(), interrupted, |_| match devices.afresh(&mut act) {
-        Err(error) if retry.is_worthwhile(devices, &error) => Ok(None),
+    until_some(registry.tree(), interrupted, |_| match registry.retry_after_relisting(&mut act) {
+        Err(error) if retry.is_worthwhile(registry, &error) => Ok(None),
         result => result.map(Some),
     })
 }
 
-/// Does something with the device at a port, as [`Devices::with`] does, and
+/// Does something with the device at a port, as [`Registry::with`] does, and
 /// waits while udev has not opened the device's files yet.
 ///
 /// # Errors
-/// As `act`, or as [`Devices::all`]; [`Error::Interrupted`].
+/// As `act`, or as [`Registry::all`]; [`Error::Interrupted`].
 pub fn with<T>(
-    devices: &Devices,
+    registry: &Registry,
     class: Class,
     port: &str,
     interrupted: Interrupted,
     mut act: impl FnMut(&Arc<Device>) -> Result<T>,
 ) -> Result<Option<T>> {
-    while_permissions_settle(devices, interrupted, || devices.with(class, port, &mut act))
+    while_permissions_settle(registry, interrupted, || registry.with(class, port, &mut act))
 }
 
 /// Decides how often to retry with a device that refuses access.
@@ -84,14 +84,14 @@ pub(crate) struct Retry {
 
 impl Retry {
     /// Whether to retry after this error, in a moment.
-    pub(crate) fn is_worthwhile(&mut self, devices: &Devices, error: &Error) -> bool {
+    pub(crate) fn is_worthwhile(&mut self, registry: &Registry, error: &Error) -> bool {
         if error.errno() != Some(Errno::ACCESS) {
             return false;
         }
-        let Some(device) = error.path().and_then(|path| devices.owner(path)) else {
+        let Some(device) = error.path().and_then(|path| registry.owner(path)) else {
             return false;
         };
-        if devices.tree().now() >= device.first_seen().saturating_add(PERMISSIONS_WITHIN) {
+        if registry.tree().now() >= device.first_seen().saturating_add(PERMISSIONS_WITHIN) {
             return false;
         }
         if device.is_writable() {

@@ -1,8 +1,8 @@
 //! Odometry and control of one robot, one period at a time.
 use crate::class::Class;
-use crate::device::registry::Devices;
-use crate::drive::devices::{Found, Robot, angle, counts};
-use crate::drive::motion::{Job, LONGEST_LOOK, Landed, PERIOD, Status};
+use crate::device::registry::Registry;
+use crate::drive::devices::{DriveDevices, Robot, angle, counts};
+use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD};
 use crate::drive::odometry::{Estimate, Pose};
 use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::error::{Error, Result};
@@ -23,7 +23,7 @@ const MEASURED: Duration = Duration::from_secs(30);
 
 /// What to do.
 #[derive(Clone, Debug)]
-pub enum Course {
+pub enum Command {
     /// One part after the other. The second says whether rear first.
     Legs(Vec<Leg>, bool),
     /// On and on: speed in cm/s, rate of turn in degrees a second.
@@ -50,7 +50,7 @@ pub struct DriveOptions {
 /// All that is known of a robot and its motion.
 pub(super) struct Inner {
     pub(super) robot: Robot,
-    pub(super) found: Option<Found>,
+    pub(super) devices: Option<DriveDevices>,
     pub(super) use_gyro: bool,
     /// When the estimate was last moved on.
     pub(super) now: Duration,
@@ -59,8 +59,8 @@ pub(super) struct Inner {
     pub(super) estimate: Estimate,
     /// Where the motion before was to end.
     pub(super) goal: Option<Pose>,
-    pub(super) job: Option<Job>,
-    pub(super) last: Option<Arc<Status>>,
+    pub(super) active: Option<ActiveMotion>,
+    pub(super) last: Option<Arc<Outcome>>,
 }
 
 impl Inner {
@@ -68,28 +68,28 @@ impl Inner {
     pub(super) fn new(robot: &Robot) -> Self {
         let mut inner = Self {
             robot: robot.clone(),
-            found: None,
+            devices: None,
             use_gyro: true,
             now: Duration::ZERO,
             moved: Duration::ZERO,
             estimate: Estimate::default(),
             goal: None,
-            job: None,
+            active: None,
             last: None,
         };
-        inner.place(Pose::default());
+        inner.set_pose(Pose::default());
         inner
     }
 
     /// Ends the motion of this robot, and goes on with another one at its pose.
     pub(super) fn set_robot(&mut self, robot: &Robot) {
-        self.end_job(Ok(Reason::Stopped));
+        self.end_motion(Ok(Reason::Stopped));
         let pose = self.pose();
         self.robot = robot.clone();
-        self.found = None;
+        self.devices = None;
         self.goal = None;
         self.estimate.forget_wheels();
-        self.place(pose);
+        self.set_pose(pose);
     }
 
     /// The pose of the point that programs mean.
@@ -97,56 +97,57 @@ impl Inner {
         self.estimate.pose().ahead(-self.robot.wheels.offset)
     }
 
-    pub(super) fn place(&mut self, pose: Pose) {
-        self.estimate.place(pose.ahead(self.robot.wheels.offset));
+    pub(super) fn set_pose(&mut self, pose: Pose) {
+        self.estimate.set_pose(pose.ahead(self.robot.wheels.offset));
     }
 
     /// Moves the estimate on to now. `false` where a motor is absent.
-    pub(super) fn integrate(&mut self, devices: &Devices) -> Result<bool> {
+    pub(super) fn integrate(&mut self, registry: &Registry) -> Result<bool> {
         let before = self.now;
-        if self.found.as_ref().is_some_and(|found| !found.is_there()) {
-            self.found = None;
+        if self.devices.as_ref().is_some_and(|devices| !devices.is_there()) {
+            self.devices = None;
         }
-        let is_new = self.found.is_none();
+        let is_new = self.devices.is_none();
         if is_new {
-            self.found = Found::look(devices, &self.robot)?;
-            self.estimate.lose_gyro();
+            self.devices = DriveDevices::find(registry, &self.robot)?;
+            self.estimate.gyro_lost();
         }
-        let Some(found) = &mut self.found else {
+        let Some(devices) = &mut self.devices else {
             return Ok(false);
         };
-        let read = counts(&found.motors);
-        let now = devices.tree().now();
+        let read = counts(&devices.motors);
+        let now = registry.tree().now();
         let counts = match read {
             Ok(counts) => counts,
             Err(error) => {
-                self.found = None;
+                self.devices = None;
                 return Err(error);
             }
         };
         self.now = now;
         if now < before {
             // A simulation that was put back to an earlier moment.
-            found.counts = counts;
-            self.end_job(Ok(Reason::Stopped));
+            devices.counts = counts;
+            self.end_motion(Ok(Reason::Stopped));
             return Ok(true);
         }
         let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
-        let ways = found.ways(counts, seconds);
-        found.counts = counts;
+        let ways = devices.ways(counts, seconds);
+        devices.counts = counts;
         if ways != [0.0, 0.0] || is_new {
             self.moved = now;
         }
-        self.estimate.roll(&self.robot.wheels, ways, seconds);
-        match found.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
-            Some(Ok(Some(angle))) => self.estimate.see(angle),
-            Some(Ok(None)) => self.estimate.lose_gyro(),
+        self.estimate.predict(&self.robot.wheels, ways, seconds);
+        match devices.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
+            Some(Ok(Some(angle))) => self.estimate.observe_gyro(angle),
+            Some(Ok(None)) => self.estimate.gyro_lost(),
             Some(Err(error)) => {
-                self.estimate.lose_gyro();
-                let gone =
-                    found.gyro.take_if(|gyro| error.is_gone() || gyro.check_present().is_err());
-                if let (Some(gyro), true) = (gone, self.job.is_some()) {
-                    return Err(gyro.gone());
+                self.estimate.gyro_lost();
+                let gone = devices
+                    .gyro
+                    .take_if(|gyro| error.is_unplugged() || gyro.check_present().is_err());
+                if let (Some(gyro), true) = (gone, self.active.is_some()) {
+                    return Err(gyro.unplugged());
                 }
             }
             None => {}
@@ -157,21 +158,21 @@ impl Inner {
     /// The motor that is missing.
     pub(super) fn absent(&self) -> Error {
         let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
-        Error::Gone { class: Class::TachoMotor, port }
+        Error::Unplugged { class: Class::TachoMotor, port }
     }
 
     /// When to look again; `None` if there is nothing to do until a motor is
     /// started.
     pub(super) fn next_call(&self) -> Option<Duration> {
-        if self.job.is_some() {
+        if self.active.is_some() {
             return Some(PERIOD);
         }
-        let found = self.found.as_ref()?;
+        let devices = self.devices.as_ref()?;
         let rests = self.now.saturating_sub(self.moved);
-        if rests < AT_REST || found.motors.iter().any(|motor| motor::runs_on(motor)) {
+        if rests < AT_REST || devices.motors.iter().any(|motor| motor::runs_on(motor)) {
             Some(PERIOD)
         } else {
-            (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
+            (devices.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
         }
     }
 }
@@ -179,17 +180,17 @@ impl Inner {
 impl Inner {
     pub(super) fn begin(
         &mut self,
-        course: &Course,
+        command: &Command,
         options: &DriveOptions,
-    ) -> Result<Option<Arc<Status>>> {
-        let Some(found) = &self.found else {
+    ) -> Result<Option<Arc<Outcome>>> {
+        let Some(devices) = &self.devices else {
             return Ok(None);
         };
         let wheels = self.robot.wheels;
         let slowest =
-            found.cm_per_count.iter().fold(f64::INFINITY, |least, way| way.abs().min(least));
-        let fastest = found.fastest * slowest;
-        let percent = found
+            devices.cm_per_count.iter().fold(f64::INFINITY, |least, way| way.abs().min(least));
+        let fastest = devices.fastest * slowest;
+        let percent = devices
             .motors
             .iter()
             .map(|motor| Speed::Percent(options.percent).in_counts(motor))
@@ -200,12 +201,12 @@ impl Inner {
         let speed = left.abs().min(right.abs());
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let limits = Limits { speed: speed as f64 * slowest, acceleration: options.acceleration };
-        let steering = match course {
-            Course::Wheels(shares) => {
+        let steering = match command {
+            Command::Wheels(shares) => {
                 let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
                 Steering::cruise(wheels, limits, way, turn.to_degrees())
             }
-            Course::Cruise(speed, rate) | Course::Change(speed, rate) => {
+            Command::Cruise(speed, rate) | Command::Change(speed, rate) => {
                 let ways = wheels.ways(*speed, rate.to_radians());
                 let is_possible = ways.iter().all(|way| way.abs() <= fastest * 1.000_001);
                 if !is_possible {
@@ -213,7 +214,7 @@ impl Inner {
                 }
                 Steering::cruise(wheels, limits, *speed, *rate)
             }
-            Course::Legs(legs, is_backwards) => {
+            Command::Legs(legs, is_backwards) => {
                 if speed == 0 {
                     return Ok(None);
                 }
@@ -221,7 +222,7 @@ impl Inner {
                 Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
             }
         };
-        if let Course::Change(..) = course {
+        if let Command::Change(..) = command {
             return Ok(Some(self.change(steering)));
         }
         self.install(steering, options.stop_action).map(Some)
@@ -229,28 +230,28 @@ impl Inner {
 
     /// Makes the motion under way another one. What has ended stays so: it is
     /// the end of that which is told.
-    fn change(&mut self, mut steering: Steering) -> Arc<Status> {
-        if let Some(job) = &mut self.job {
-            steering.take_over(&job.steering);
-            job.steering = steering;
-            job.landing = None;
+    fn change(&mut self, mut steering: Steering) -> Arc<Outcome> {
+        if let Some(active) = &mut self.active {
+            steering.take_over(&active.steering);
+            active.steering = steering;
+            active.landing = None;
         }
-        Arc::clone(self.last.get_or_insert_with(Status::stopped))
+        Arc::clone(self.last.get_or_insert_with(Outcome::stopped))
     }
 
     /// Puts a motion in the place of the one under way.
-    fn install(&mut self, mut steering: Steering, stop_action: StopAction) -> Result<Arc<Status>> {
-        let before = self.job.take();
+    fn install(&mut self, mut steering: Steering, stop_action: StopAction) -> Result<Arc<Outcome>> {
+        let before = self.active.take();
         if let Some(before) = &before {
             steering.take_over(&before.steering);
-            before.status.end(Ok(Reason::Stopped));
+            before.outcome.end(Ok(Reason::Stopped));
         }
         // Its ramps are put back first.
         drop(before);
         let claim = Claim::new();
-        let status = Arc::new(Status::default());
-        let Some(found) = &self.found else {
-            return Ok(status);
+        let outcome = Arc::new(Outcome::default());
+        let Some(devices) = &self.devices else {
+            return Ok(outcome);
         };
         let options = motor::MoveOptions {
             ramp_up_ms: Some(0),
@@ -258,65 +259,65 @@ impl Inner {
             ..motor::MoveOptions::default()
         };
         let mut ramps = Ramps::default();
-        for motor in &found.motors {
+        for motor in &devices.motors {
             ramps.set(motor, &options)?;
             motor.write("stop_action", StopAction::Hold.word())?;
             claim.take(motor);
         }
-        self.last = Some(Arc::clone(&status));
+        self.last = Some(Arc::clone(&outcome));
         self.goal = None;
-        self.job = Some(Job {
+        self.active = Some(ActiveMotion {
             claim,
-            motors: found.motors.clone(),
+            motors: devices.motors.clone(),
             steering,
             stop_action,
             controlled: self.now,
             steered: self.now.saturating_sub(PERIOD),
             speeds: None,
             landing: None,
-            stuck: found.counts.map(|count| (count, Duration::ZERO)),
-            status: Arc::clone(&status),
+            stuck: devices.counts.map(|count| (count, Duration::ZERO)),
+            outcome: Arc::clone(&outcome),
             _ramps: ramps,
         });
-        Ok(status)
+        Ok(outcome)
     }
 
     /// One period of the motion under way; `Some` when it has ended.
     pub(super) fn control(&mut self) -> Result<Option<Reason>> {
-        let (Some(job), Some(found)) = (&mut self.job, &self.found) else {
+        let (Some(active), Some(devices)) = (&mut self.active, &self.devices) else {
             return Ok(None);
         };
-        let passed = self.now.saturating_sub(job.controlled).min(LONGEST_LOOK);
-        job.controlled = self.now;
+        let passed = self.now.saturating_sub(active.controlled).min(LONGEST_LOOK);
+        active.controlled = self.now;
         let pose = self.estimate.pose();
-        let order = match &mut job.landing {
-            Some(landing) => match landing.look(found.counts, passed) {
-                Landed::NotYet => return Ok(job.is_foreign(found).then_some(Reason::Stopped)),
+        let order = match &mut active.landing {
+            Some(landing) => match landing.look(devices.counts, passed) {
+                Landed::NotYet => return Ok(active.is_foreign(devices).then_some(Reason::Stopped)),
                 Landed::Never => return Ok(Some(Reason::Stalled)),
                 Landed::There => {
-                    job.landing = None;
-                    job.stuck = found.counts.map(|count| (count, Duration::ZERO));
-                    job.steering.landed(pose)
+                    active.landing = None;
+                    active.stuck = devices.counts.map(|count| (count, Duration::ZERO));
+                    active.steering.landed(pose)
                 }
             },
             None => None,
         };
-        let seconds = self.now.saturating_sub(job.steered).as_secs_f64().clamp(0.001, 0.1);
-        job.steered = self.now;
+        let seconds = self.now.saturating_sub(active.steered).as_secs_f64().clamp(0.001, 0.1);
+        active.steered = self.now;
         let order = match order {
             Some(order) => order,
-            None => job.steering.step(pose, seconds),
+            None => active.steering.step(pose, seconds),
         };
         match order {
             Order::Arrived => Ok(Some(Reason::Reached)),
-            Order::Roll(ways) => job.roll(found, ways, passed),
-            Order::Land(ways) => job.land(found, ways),
+            Order::Roll(ways) => active.roll(devices, ways, passed),
+            Order::Land(ways) => active.land(devices, ways),
         }
     }
 
     /// Does a period of the motion under way, if a whole one was left out.
     pub(super) fn catch_up(&mut self) {
-        let missed = self.job.as_ref().map(|job| self.now.saturating_sub(job.controlled));
+        let missed = self.active.as_ref().map(|active| self.now.saturating_sub(active.controlled));
         if missed.is_some_and(|missed| missed >= PERIOD * 2) {
             let stepped = self.control();
             self.conclude(stepped);
@@ -327,30 +328,30 @@ impl Inner {
     pub(super) fn conclude(&mut self, stepped: Result<Option<Reason>>) {
         match stepped {
             Ok(None) => {}
-            Ok(Some(reason)) => self.end_job(Ok(reason)),
+            Ok(Some(reason)) => self.end_motion(Ok(reason)),
             Err(error) => {
                 let error = self.named(error);
-                self.end_job(Err(error));
+                self.end_motion(Err(error));
             }
         }
     }
 
-    pub(super) fn end_job(&mut self, result: Result<Reason>) {
-        let Some(job) = self.job.take() else {
+    pub(super) fn end_motion(&mut self, result: Result<Reason>) {
+        let Some(active) = self.active.take() else {
             return;
         };
         let is_reached = matches!(result, Ok(Reason::Reached));
         if is_reached {
-            self.goal = job.steering.goal();
+            self.goal = active.steering.goal();
         }
-        let action = if is_reached { job.stop_action } else { StopAction::Brake };
+        let action = if is_reached { active.stop_action } else { StopAction::Brake };
         if !(is_reached && action == StopAction::Hold) {
-            for motor in &job.motors {
+            for motor in &active.motors {
                 // One that is gone has nothing to stop.
-                let _ = job.claim.stop(motor, action);
+                let _ = active.claim.stop(motor, action);
             }
         }
-        job.status.end(result);
+        active.outcome.end(result);
     }
 
     /// The error with the device that is gone, where one is.
@@ -358,11 +359,10 @@ impl Inner {
         if !error.is_stale() {
             return error;
         }
-        let devices = self.job.as_ref().map(|job| job.motors.iter());
+        let motors = self.active.as_ref().map(|active| active.motors.iter());
         let path = error.path();
-        match devices.into_iter().flatten().find(|d| path.is_some_and(|p| p.starts_with(d.path())))
-        {
-            Some(gone) => gone.gone(),
+        match motors.into_iter().flatten().find(|d| path.is_some_and(|p| p.starts_with(d.path()))) {
+            Some(gone) => gone.unplugged(),
             None => error,
         }
     }

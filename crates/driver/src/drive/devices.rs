@@ -1,7 +1,7 @@
 //! The devices of a robot, and what they show.
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::drive::odometry::Wheels;
 use crate::error::Result;
 use crate::motor::find_all;
@@ -29,7 +29,7 @@ pub struct Robot {
 }
 
 /// The robot's devices as they are plugged in now.
-pub(super) struct Found {
+pub(super) struct DriveDevices {
     pub(super) motors: Vec<Arc<Device>>,
     pub(super) gyro: Option<Arc<Device>>,
     pub(super) counts: [i64; 2],
@@ -38,10 +38,10 @@ pub(super) struct Found {
     pub(super) fastest: f64,
 }
 
-impl Found {
+impl DriveDevices {
     /// The robot's devices; `None` where a motor is absent.
-    pub(super) fn look(devices: &Devices, robot: &Robot) -> Result<Option<Self>> {
-        let Some(motors) = find_all(devices, robot.ports.iter().map(String::as_str))? else {
+    pub(super) fn find(registry: &Registry, robot: &Robot) -> Result<Option<Self>> {
+        let Some(motors) = find_all(registry, robot.ports.iter().map(String::as_str))? else {
             return Ok(None);
         };
         let [left, right] = &*motors else {
@@ -55,7 +55,7 @@ impl Found {
         let cm_per_count = [way(0, left)?, way(1, right)?];
         let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
         let counts = counts(&motors)?;
-        let sensors = devices.all(Class::Sensor)?;
+        let sensors = registry.all(Class::Sensor)?;
         let gyro = sensors.iter().find(|sensor| sensor.driver() == GYRO).cloned();
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let fastest = fastest as f64;

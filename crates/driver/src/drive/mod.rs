@@ -1,10 +1,10 @@
-//! A robot on two wheels that knows where it is and is kept on its course.
+//! A robot on two wheels that knows where it is and is kept on its command.
 //!
 //! One place does both, at a fixed period of 20 ms while the wheels turn or a
 //! motion is under way: it reads wheels and gyro, moves the estimate on
 //! ([`odometry`]), and tells the motors what the motion wants
 //! next ([`steering`]). The tree calls it
-//! ([`Tree::every`](crate::sysfs::Tree::every)): where there are real files by a
+//! ([`Sysfs::every`](crate::sysfs::Sysfs::every)): where there are real files by a
 //! thread of its own, which ends when the robot has come to rest. Whoever asks
 //! for the pose meanwhile gets it as it is now, and does that step himself.
 //!
@@ -20,17 +20,17 @@ pub mod steering;
 pub mod turn;
 
 use crate::device::MotionObserver;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor::wait::Reason;
 use crate::sensor;
 use crate::sysfs::sleep;
 use control::Inner;
-pub use control::{Course, DriveOptions};
+pub use control::{Command, DriveOptions};
 pub use devices::Robot;
 use devices::{GYRO_MODE, counts};
-pub use motion::{PERIOD, Status};
+pub use motion::{Outcome, PERIOD};
 use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
@@ -51,21 +51,21 @@ pub struct Drive {
     is_called: Mutex<bool>,
     inner: Mutex<Inner>,
     /// The last field, so that the motors' files are closed before it goes.
-    devices: Arc<Devices>,
+    registry: Arc<Registry>,
 }
 
 impl Drive {
     /// The drive of a robot whose devices are in `devices`.
     #[must_use]
-    pub fn new(devices: Arc<Devices>, robot: &Robot) -> Arc<Self> {
+    pub fn new(registry: Arc<Registry>, robot: &Robot) -> Arc<Self> {
         let drive = Arc::new_cyclic(|this| Self {
             this: Weak::clone(this),
             is_called: Mutex::default(),
             inner: Mutex::new(Inner::new(robot)),
-            devices,
+            registry,
         });
         let this: Weak<Self> = Weak::clone(&drive.this);
-        drive.devices.observe(this);
+        drive.registry.observe(this);
         drive
     }
 
@@ -108,7 +108,7 @@ impl Drive {
             return Ok(false);
         };
         inner.goal = None;
-        inner.place(pose);
+        inner.set_pose(pose);
         Ok(true)
     }
 
@@ -124,7 +124,7 @@ impl Drive {
     /// keeps the tree's calls from doing anything, and so does their work.
     fn look(&self) -> Result<Option<Held<'_, Inner>>> {
         let mut inner = self.lock();
-        let is_there = self.devices.afresh(|| inner.integrate(&self.devices))?;
+        let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
         if is_there {
             inner.catch_up();
         }
@@ -136,7 +136,7 @@ impl Drive {
         let mut inner = self.lock();
         if inner.use_gyro != use_gyro {
             inner.use_gyro = use_gyro;
-            inner.estimate.lose_gyro();
+            inner.estimate.gyro_lost();
             if !use_gyro {
                 inner.estimate.forget_wheels();
             }
@@ -150,22 +150,23 @@ impl Drive {
     /// The kernel's; [`Error::Interrupted`].
     pub fn begin(
         &self,
-        course: &Course,
+        command: &Command,
         options: &DriveOptions,
         interrupted: Interrupted,
-    ) -> Result<Option<Arc<Status>>> {
+    ) -> Result<Option<Arc<Outcome>>> {
         self.use_gyro(options.use_gyro);
-        let is_there = self.devices.afresh(|| self.lock().integrate(&self.devices))?;
+        let is_there =
+            self.registry.retry_after_relisting(|| self.lock().integrate(&self.registry))?;
         if !is_there {
             return Ok(None);
         }
-        let gyro = self.lock().found.as_ref().and_then(|found| found.gyro.clone());
+        let gyro = self.lock().devices.as_ref().and_then(|devices| devices.gyro.clone());
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::set_mode(&self.devices, &gyro, GYRO_MODE, interrupted)?;
+            sensor::set_mode(&self.registry, &gyro, GYRO_MODE, interrupted)?;
         }
         let mut inner = self.lock();
-        inner.integrate(&self.devices)?;
-        let begun = inner.begin(course, options)?;
+        inner.integrate(&self.registry)?;
+        let begun = inner.begin(command, options)?;
         if begun.is_some() {
             let stepped = inner.control();
             inner.conclude(stepped);
@@ -180,20 +181,21 @@ impl Drive {
     /// Waits for the end of a motion.
     ///
     /// # Errors
-    /// [`Error::Gone`] if a motor or the gyro was unplugged; the kernel's;
+    /// [`Error::Unplugged`] if a motor or the gyro was unplugged; the kernel's;
     /// [`Error::Interrupted`]. The motors are stopped before.
     pub fn wait(
         &self,
-        status: &Arc<Status>,
+        outcome: &Arc<Outcome>,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let ended = self.await_outcome(status, timeout, interrupted);
+        let ended = self.await_outcome(outcome, timeout, interrupted);
         let mut inner = self.lock();
-        inner.last.take_if(|last| Arc::ptr_eq(last, status));
-        let is_mine = inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status));
+        inner.last.take_if(|last| Arc::ptr_eq(last, outcome));
+        let is_mine =
+            inner.active.as_ref().is_some_and(|active| Arc::ptr_eq(&active.outcome, outcome));
         if is_mine && matches!(ended, Ok(Reason::Timeout) | Err(_)) {
-            inner.end_job(Ok(Reason::Stopped));
+            inner.end_motion(Ok(Reason::Stopped));
         }
         ended
     }
@@ -206,11 +208,11 @@ impl Drive {
     pub fn wait_last(&self, timeout: Option<Duration>, interrupted: Interrupted) -> Result<Reason> {
         let last = self.lock().last.clone();
         match last {
-            Some(status) => {
-                let ended = self.await_outcome(&status, timeout, interrupted);
+            Some(outcome) => {
+                let ended = self.await_outcome(&outcome, timeout, interrupted);
                 if !matches!(ended, Ok(Reason::Timeout) | Err(Error::Interrupted)) {
                     let mut inner = self.lock();
-                    inner.last.take_if(|last| Arc::ptr_eq(last, &status));
+                    inner.last.take_if(|last| Arc::ptr_eq(last, &outcome));
                 }
                 ended
             }
@@ -220,20 +222,20 @@ impl Drive {
 
     fn await_outcome(
         &self,
-        status: &Status,
+        outcome: &Outcome,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let deadline = timeout.map(|timeout| self.devices.tree().now().saturating_add(timeout));
+        let deadline = timeout.map(|timeout| self.registry.tree().now().saturating_add(timeout));
         loop {
-            if let Some(ended) = status.ended() {
+            if let Some(ended) = outcome.ended() {
                 return ended;
             }
-            let left = deadline.map(|deadline| deadline.saturating_sub(self.devices.tree().now()));
+            let left = deadline.map(|deadline| deadline.saturating_sub(self.registry.tree().now()));
             if left.is_some_and(|left| left.is_zero()) {
                 return Ok(Reason::Timeout);
             }
-            sleep(self.devices.tree(), left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
+            sleep(self.registry.tree(), left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
         }
     }
 
@@ -246,7 +248,7 @@ impl Drive {
         let this = Weak::clone(&self.this);
         let act = move || this.upgrade()?.called();
         // Where no thread can be had, each look at the pose still does a step.
-        *is_called = self.devices.tree().every(PERIOD, Box::new(act)).is_ok();
+        *is_called = self.registry.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
     /// One period; answers when to come again.
@@ -254,7 +256,7 @@ impl Drive {
         let Some(mut inner) = self.lock_soon() else {
             return Some(BUSY);
         };
-        let integrated = inner.integrate(&self.devices);
+        let integrated = inner.integrate(&self.registry);
         let stepped = match integrated {
             Ok(true) => inner.control(),
             Ok(false) => Err(inner.absent()),
@@ -306,11 +308,11 @@ impl MotionObserver for Drive {
             return write();
         }
         // An error shows again at the next reading.
-        let _ = inner.integrate(&self.devices);
+        let _ = inner.integrate(&self.registry);
         let written = write();
-        if let Some(found) = &mut inner.found {
-            if let Ok(counts) = counts(&found.motors) {
-                found.counts = counts;
+        if let Some(devices) = &mut inner.devices {
+            if let Ok(counts) = counts(&devices.motors) {
+                devices.counts = counts;
             }
         }
         inner.goal = None;

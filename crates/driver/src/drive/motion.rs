@@ -1,7 +1,7 @@
 //! A motion under way: what the wheels are told, and how it ends.
 use crate::device::Device;
 use crate::device::motion::End;
-use crate::drive::devices::Found;
+use crate::drive::devices::DriveDevices;
 use crate::drive::steering::Steering;
 use crate::error::Result;
 use crate::motor::claim::Claim;
@@ -37,7 +37,7 @@ const LANDED_WITHIN: u64 = 1;
 const LANDED_SOMEHOW: u64 = 5;
 
 /// A motion under way.
-pub(super) struct Job {
+pub(super) struct ActiveMotion {
     pub(super) claim: Claim,
     pub(super) motors: Vec<Arc<Device>>,
     pub(super) steering: Steering,
@@ -51,7 +51,7 @@ pub(super) struct Job {
     pub(super) landing: Option<Landing>,
     /// Counts, and how long each wheel has stood there.
     pub(super) stuck: [(i64, Duration); 2],
-    pub(super) status: Arc<Status>,
+    pub(super) outcome: Arc<Outcome>,
     /// Put back when the motion ends.
     pub(super) _ramps: Ramps,
 }
@@ -67,9 +67,9 @@ pub(super) struct Landing {
 
 /// How a motion ended, once it has.
 #[derive(Default)]
-pub struct Status(Mutex<Option<Result<Reason>>>);
+pub struct Outcome(Mutex<Option<Result<Reason>>>);
 
-impl Status {
+impl Outcome {
     pub(super) fn stopped() -> Arc<Self> {
         Arc::new(Self(Mutex::new(Some(Ok(Reason::Stopped)))))
     }
@@ -80,13 +80,13 @@ impl Status {
 
     /// What it ended with; an error for the first who asks.
     pub(super) fn ended(&self) -> Option<Result<Reason>> {
-        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let after = match status.as_ref()? {
+        let mut outcome = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let after = match outcome.as_ref()? {
             Ok(reason) => *reason,
-            Err(error) if error.is_gone() => Reason::Unplugged,
+            Err(error) if error.is_unplugged() => Reason::Unplugged,
             Err(_) => Reason::Stopped,
         };
-        status.replace(Ok(after))
+        outcome.replace(Ok(after))
     }
 }
 
@@ -95,33 +95,33 @@ fn whole(counts: f64) -> i64 {
     counts.round() as i64
 }
 
-impl Job {
+impl ActiveMotion {
     /// Tells the wheels their speeds in cm/s. So much time has passed since they
     /// were last looked at.
     pub(super) fn roll(
         &mut self,
-        found: &Found,
+        devices: &DriveDevices,
         ways: [f64; 2],
         passed: Duration,
     ) -> Result<Option<Reason>> {
-        let wanted = found.in_counts(ways);
+        let wanted = devices.in_counts(ways);
         // Too fast for one is too fast for both: the curve stays the same.
         let most = wanted[0].abs().max(wanted[1].abs());
-        let share = if most > found.fastest { found.fastest / most } else { 1.0 };
+        let share = if most > devices.fastest { devices.fastest / most } else { 1.0 };
         let speeds = wanted.map(|speed| whole(speed * share));
-        if self.is_stuck(found, speeds, passed) {
+        if self.is_stuck(devices, speeds, passed) {
             return Ok(Some(Reason::Stalled));
         }
-        if self.is_foreign(found) {
+        if self.is_foreign(devices) {
             return Ok(Some(Reason::Stopped));
         }
         if self.speeds == Some(speeds) {
             return Ok(None);
         }
-        for (motor, speed) in found.motors.iter().zip(speeds) {
+        for (motor, speed) in devices.motors.iter().zip(speeds) {
             motor.write_number("speed_sp", speed)?;
         }
-        for motor in &found.motors {
+        for motor in &devices.motors {
             if !self.claim.start(motor, "run-forever", End::Never)? {
                 return Ok(Some(Reason::Stopped));
             }
@@ -131,15 +131,19 @@ impl Job {
     }
 
     /// Makes the wheels roll by the last few counts.
-    pub(super) fn land(&mut self, found: &Found, ways: [f64; 2]) -> Result<Option<Reason>> {
-        let by = found.in_counts(ways).map(whole);
-        let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
-        for (motor, target) in found.motors.iter().zip(targets) {
+    pub(super) fn land(
+        &mut self,
+        devices: &DriveDevices,
+        ways: [f64; 2],
+    ) -> Result<Option<Reason>> {
+        let by = devices.in_counts(ways).map(whole);
+        let targets = [devices.counts[0] + by[0], devices.counts[1] + by[1]];
+        for (motor, target) in devices.motors.iter().zip(targets) {
             motor.write_number("position_sp", target)?;
             motor.write_number("speed_sp", LANDING_SPEED)?;
         }
-        for (side, motor) in found.motors.iter().enumerate() {
-            let end = End::Position { from: found.counts[side], target: targets[side] };
+        for (side, motor) in devices.motors.iter().enumerate() {
+            let end = End::Position { from: devices.counts[side], target: targets[side] };
             if !self.claim.start(motor, "run-to-abs-pos", end)? {
                 return Ok(Some(Reason::Stopped));
             }
@@ -148,19 +152,19 @@ impl Job {
         self.landing = Some(Landing {
             targets,
             took: Duration::ZERO,
-            before: found.counts,
+            before: devices.counts,
             stood: Duration::ZERO,
         });
         Ok(None)
     }
 
     /// Whether a wheel that is to turn does not.
-    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], passed: Duration) -> bool {
+    fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
         for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
-            let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
+            let is_still = devices.counts[side].abs_diff(*count) < STUCK_WITHIN;
             if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *stood) = (found.counts[side], Duration::ZERO);
+                (*count, *stood) = (devices.counts[side], Duration::ZERO);
             } else {
                 *stood += passed;
             }
@@ -170,8 +174,8 @@ impl Job {
     }
 
     /// Whether somebody else has told a motor something.
-    pub(super) fn is_foreign(&self, found: &Found) -> bool {
-        found.motors.iter().any(|motor| !self.claim.holds(motor))
+    pub(super) fn is_foreign(&self, devices: &DriveDevices) -> bool {
+        devices.motors.iter().any(|motor| !self.claim.holds(motor))
     }
 }
 

@@ -208,32 +208,32 @@ impl Estimate {
         estimate.covariance[RATE][RATE] = DRIFT * DRIFT;
         estimate.begin_rest();
         estimate.forget_wheels();
-        estimate.place(pose);
+        estimate.set_pose(pose);
         estimate
     }
 
     /// The robot is there now. What is known of wheels and gyro stays.
-    pub fn place(&mut self, pose: Pose) {
+    pub fn set_pose(&mut self, pose: Pose) {
         let turned = pose.heading.to_radians() - self.state[HEADING];
         self.state[X] = pose.x;
         self.state[Y] = pose.y;
         self.state[HEADING] = pose.heading.to_radians();
         self.state[ZERO] -= turned;
-        self.is_certain([X, Y, HEADING]);
+        self.reset_certainty([X, Y, HEADING]);
     }
 
     /// What the gyro has told of wheels and axle holds no longer: these are
     /// others, or shall do without it.
     pub fn forget_wheels(&mut self) {
         let errors = [LEFT, RIGHT, AXLE];
-        self.is_certain(errors);
+        self.reset_certainty(errors);
         for (error, deviation) in errors.into_iter().zip([WHEEL, WHEEL, AXLE_LENGTH]) {
             self.state[error] = 0.0;
             self.covariance[error][error] = deviation * deviation;
         }
     }
 
-    fn is_certain(&mut self, states: [usize; 3]) {
+    fn reset_certainty(&mut self, states: [usize; 3]) {
         for known in states {
             for other in 0..STATES {
                 self.covariance[known][other] = 0.0;
@@ -263,7 +263,7 @@ impl Estimate {
     }
 
     /// The wheels have rolled `ways` cm within `seconds`.
-    pub fn roll(&mut self, wheels: &Wheels, ways: [f64; 2], seconds: f64) {
+    pub fn predict(&mut self, wheels: &Wheels, ways: [f64; 2], seconds: f64) {
         self.state[ZERO] += self.state[RATE] * seconds;
         self.drift_on(seconds);
         self.unread[0] += seconds;
@@ -289,7 +289,7 @@ impl Estimate {
         // How the new place depends on the old heading, and on each error by
         // how much way and turn depend on it.
         let (dx, dy) = (chord * cos, -chord * sin);
-        self.mix(&[(X, HEADING, dx), (Y, HEADING, dy)]);
+        self.propagate(&[(X, HEADING, dx), (Y, HEADING, dy)]);
         let per_axle = stretch / wheels.axle;
         for (error, of_way, of_turn) in [
             (LEFT, left / 2.0, left * per_axle),
@@ -298,7 +298,7 @@ impl Estimate {
         ] {
             let of_x = of_way * sin + of_turn * dx / 2.0;
             let of_y = of_way * cos + of_turn * dy / 2.0;
-            self.mix(&[(X, error, of_x), (Y, error, of_y), (HEADING, error, of_turn)]);
+            self.propagate(&[(X, error, of_x), (Y, error, of_y), (HEADING, error, of_turn)]);
         }
         // What a step adds: along the way, and to the turn, which shifts the
         // place by half of it.
@@ -308,13 +308,13 @@ impl Estimate {
         let turned = HEADING_VARIANCE * rolled / 2.0
             + TURN_VARIANCE * turn.abs()
             + 2.0 * start / (wheels.axle * wheels.axle);
-        self.add([sin, cos, 0.0], along);
-        self.add([dx / 2.0, dy / 2.0, 1.0], turned);
+        self.inflate([sin, cos, 0.0], along);
+        self.inflate([dx / 2.0, dy / 2.0, 1.0], turned);
         self.covariance[AXLE][AXLE] += AXLE_CHANGE * turn.abs();
     }
 
     /// The gyro shows `angle` degrees.
-    pub fn see(&mut self, angle: f64) {
+    pub fn observe_gyro(&mut self, angle: f64) {
         let angle = angle * DEGREE;
         let off = angle - self.state[HEADING] - self.state[ZERO];
         if !self.has_zero || off.abs() > JUMP + WILD_DRIFT * self.unread[0] {
@@ -332,14 +332,14 @@ impl Estimate {
         let error = GYRO_ERROR * GYRO_ERROR + late * late;
         let total = row[HEADING] + row[ZERO] + error;
         let (shift, narrowed) = within(off, total.sqrt());
-        self.learn(row, shift / total, (1.0 - narrowed) / total);
+        self.update(row, shift / total, (1.0 - narrowed) / total);
         self.suspect_drift(way == 0.0 && turn == 0.0, shift / total.sqrt());
     }
 
     /// Something is measured that depends on the states by `row` of the
     /// covariance: it shifts them and makes them more certain by so much for
     /// each of it.
-    fn learn(&mut self, row: [f64; STATES], shift: f64, certainty: f64) {
+    fn update(&mut self, row: [f64; STATES], shift: f64, certainty: f64) {
         for (state, weight) in self.state.iter_mut().zip(row) {
             *state += weight * shift;
         }
@@ -352,7 +352,7 @@ impl Estimate {
 
     /// The gyro is not to be relied on until it is seen again: it is in another
     /// mode, or gone.
-    pub fn lose_gyro(&mut self) {
+    pub fn gyro_lost(&mut self) {
         self.has_zero = false;
     }
 
@@ -398,19 +398,19 @@ impl Estimate {
         let total = self.covariance[RATE][RATE] - 1.0 / certainty;
         if certainty > 0.0 && total < 0.0 {
             let row = std::array::from_fn(|i| self.covariance[i][RATE]);
-            self.learn(row, (drift - self.state[RATE]) / total, 1.0 / total);
+            self.update(row, (drift - self.state[RATE]) / total, 1.0 / total);
         }
     }
 
     fn drift_on(&mut self, seconds: f64) {
-        self.mix(&[(ZERO, RATE, seconds)]);
+        self.propagate(&[(ZERO, RATE, seconds)]);
         let drift = &mut self.covariance[RATE][RATE];
         *drift += DRIFT_CHANGE * seconds;
     }
 
     /// Covariance after `to += factor * from` in the state; no `from` may be a
     /// `to`.
-    fn mix(&mut self, changes: &[(usize, usize, f64)]) {
+    fn propagate(&mut self, changes: &[(usize, usize, f64)]) {
         for &(to, from, factor) in changes {
             for other in 0..STATES {
                 self.covariance[to][other] += factor * self.covariance[from][other];
@@ -424,7 +424,7 @@ impl Estimate {
     }
 
     /// Adds an error of that variance in a direction of the pose.
-    fn add(&mut self, direction: [f64; 3], variance: f64) {
+    fn inflate(&mut self, direction: [f64; 3], variance: f64) {
         for (line, a) in self.covariance.iter_mut().zip(direction) {
             for (value, b) in line.iter_mut().zip(direction) {
                 *value += a * b * variance;

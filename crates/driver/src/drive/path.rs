@@ -65,7 +65,7 @@ impl Segment {
             return Place { along: ahead, aside: right };
         }
         let radius = 1.0 / self.curvature;
-        // The centre is `radius` to the right of the start.
+        // The center is `radius` to the right of the start.
         let side = radius.signum();
         let angle = ahead.atan2((radius - right) * side);
         let along = angle * radius.abs();

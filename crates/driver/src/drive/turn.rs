@@ -8,7 +8,7 @@
 //! another thread has told a motor something.
 use crate::device::Device;
 use crate::device::motion::End;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
 use crate::error::{Error, Interrupted, Result};
 use crate::motor::claim::Claim;
@@ -90,11 +90,11 @@ pub enum Ended {
 /// Its zero does not matter: the gyro is read at the start, and not reset.
 ///
 /// # Errors
-/// The kernel's; [`Error::Gone`] when a device is unplugged under way;
+/// The kernel's; [`Error::Unplugged`] when a device is unplugged under way;
 /// [`Error::Interrupted`]. Both motors are stopped before, unless they obey
 /// another thread by then.
 pub fn by_gyro(
-    devices: &Devices,
+    registry: &Registry,
     gyro: &Arc<Device>,
     turn: &Turn,
     interrupted: Interrupted,
@@ -103,8 +103,8 @@ pub fn by_gyro(
         return Ok(None);
     }
     let ports = [turn.left.as_str(), turn.right.as_str()];
-    let motors = while_permissions_settle(devices, &mut *interrupted, || {
-        let motors = find_all(devices, ports)?;
+    let motors = while_permissions_settle(registry, &mut *interrupted, || {
+        let motors = find_all(registry, ports)?;
         motors.iter().try_for_each(|motors| prepare(motors)).map(|()| motors)
     })?;
     let Some(motors) = motors else {
@@ -113,12 +113,12 @@ pub fn by_gyro(
     let Some(fastest) = fastest(&motors, turn.speed)? else {
         return Ok(None);
     };
-    let Some(start) = angle(devices, gyro, interrupted)? else {
+    let Some(start) = angle(registry, gyro, interrupted)? else {
         return Ok(None);
     };
     let per_degree = counts_per_degree(&motors)? * turn.gearing;
     let mut control = Control {
-        devices,
+        registry,
         gyro,
         motors: &motors,
         signs: turn.signs,
@@ -136,8 +136,8 @@ pub fn by_gyro(
 
 /// The robot's angle in degrees once the gyro can tell it; `None` where the
 /// gyro is gone.
-fn angle(devices: &Devices, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<Option<f64>> {
-    Ok(sensor::read(devices, gyro, Some(MODE), 0, interrupted)?.as_ref().map(degrees))
+fn angle(registry: &Registry, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<Option<f64>> {
+    Ok(sensor::read(registry, gyro, Some(MODE), 0, interrupted)?.as_ref().map(degrees))
 }
 
 fn degrees(angle: &Value) -> f64 {
@@ -170,7 +170,7 @@ fn counts_per_degree(motors: &[Arc<Device>]) -> Result<f64> {
 }
 
 struct Control<'a> {
-    devices: &'a Devices,
+    registry: &'a Registry,
     gyro: &'a Arc<Device>,
     motors: &'a [Arc<Device>],
     signs: [i64; 2],
@@ -290,10 +290,10 @@ impl Control<'_> {
     /// Lets the robot turn on for a moment. `false` if a motor is no longer ours
     /// after that.
     fn pass(&self, interrupted: Interrupted) -> Result<bool> {
-        sleep(self.devices.tree(), PERIOD, interrupted)?;
+        sleep(self.registry.tree(), PERIOD, interrupted)?;
         for device in self.motors.iter().chain([self.gyro]) {
-            if !self.devices.has(device)? {
-                return Err(device.gone());
+            if !self.registry.has(device)? {
+                return Err(device.unplugged());
             }
         }
         Ok(self.motors.iter().all(|motor| self.claim.holds(motor)))
@@ -310,12 +310,12 @@ impl Control<'_> {
         let mut devices = self.motors.iter().chain([self.gyro]);
         let path = error.path().filter(|_| error.is_stale());
         match path.and_then(|path| devices.find(|device| path.starts_with(device.path()))) {
-            Some(gone) => gone.gone(),
+            Some(gone) => gone.unplugged(),
             None => error,
         }
     }
 
     fn now(&self) -> Duration {
-        self.devices.tree().now()
+        self.registry.tree().now()
     }
 }

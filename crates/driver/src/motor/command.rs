@@ -160,7 +160,7 @@ pub(super) fn start_all(
     motors.iter().try_for_each(|motor| {
         start(motor).map_err(|error| {
             let _ = stop_all(motors, StopAction::Brake);
-            if error.is_gone() { motor.gone() } else { error }
+            if error.is_unplugged() { motor.unplugged() } else { error }
         })
     })
 }

@@ -10,7 +10,7 @@
 //! command or change happens up to 100 ms late.
 use crate::class::Class;
 use crate::device::motion::End;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry;
 use crate::device::retry::while_permissions_settle;
 use crate::error::{Interrupted, Result};
@@ -28,7 +28,7 @@ const LONGEST_MS: i32 = 60_000;
 /// # Errors
 /// The kernel's; [`Interrupted`](crate::Error::Interrupted).
 pub fn run_forever(
-    devices: &Devices,
+    registry: &Registry,
     port: &str,
     percent: f64,
     interrupted: Interrupted,
@@ -36,7 +36,7 @@ pub fn run_forever(
     let Some(duty) = motor::duty(percent) else {
         return Ok(false);
     };
-    let run = retry::with(devices, Class::DcMotor, port, interrupted, |motor| {
+    let run = retry::with(registry, Class::DcMotor, port, interrupted, |motor| {
         motor.write_number("duty_cycle_sp", duty)?;
         motor::start(motor, "run-forever", Some(End::Never))
     })?;
@@ -50,7 +50,7 @@ pub fn run_forever(
 /// # Errors
 /// As [`motor::run_to`].
 pub fn run_timed(
-    devices: &Devices,
+    registry: &Registry,
     port: &str,
     percent: f64,
     time: Duration,
@@ -63,7 +63,7 @@ pub fn run_timed(
         return Ok(None);
     };
     let start = || {
-        devices.with(Class::DcMotor, port, |motor| {
+        registry.with(Class::DcMotor, port, |motor| {
             motor.write_number("duty_cycle_sp", duty)?;
             motor.write_number("time_sp", milliseconds)?;
             motor.write("stop_action", options.stop_action.word())?;
@@ -73,8 +73,8 @@ pub fn run_timed(
             Ok(Arc::clone(motor))
         })
     };
-    match while_permissions_settle(devices, &mut *interrupted, start)? {
-        Some(motor) => motor::finish(devices, &[motor], options, interrupted).map(Some),
+    match while_permissions_settle(registry, &mut *interrupted, start)? {
+        Some(motor) => motor::finish(registry, &[motor], options, interrupted).map(Some),
         None => Ok(None),
     }
 }

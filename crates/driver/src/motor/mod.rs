@@ -17,7 +17,7 @@ pub mod wait;
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::motion::End;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry;
 use crate::device::retry::while_permissions_settle;
 use crate::error::{Error, Interrupted, Result};
@@ -74,11 +74,11 @@ impl Default for MoveOptions {
 ///
 /// # Errors
 /// The first that occurred.
-pub fn stop_started(devices: &Devices) -> Result<()> {
+pub fn stop_started(registry: &Registry) -> Result<()> {
     let mut result = Ok(());
     for class in Class::MOTORS {
         // Those that were started are known: nothing needs to be opened for them.
-        for motor in devices.known(class).iter().filter(|motor| motor.run().is_some()) {
+        for motor in registry.known(class).iter().filter(|motor| motor.run().is_some()) {
             result = result.and(match class {
                 Class::ServoMotor => best_effort(start(motor, "float", None)),
                 _ => stop_best_effort(motor, StopAction::Brake),
@@ -93,13 +93,13 @@ pub fn stop_started(devices: &Devices) -> Result<()> {
 ///
 /// # Errors
 /// The kernel's. A motor that goes away while the others start stops them.
-/// [`Error::Twice`]; [`Interrupted`](Error::Interrupted).
-pub fn run_forever(devices: &Devices, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
-    while_permissions_settle(devices, interrupted, || run_forever_once(devices, runs))
+/// [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
+pub fn run_forever(registry: &Registry, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
+    while_permissions_settle(registry, interrupted, || run_forever_once(registry, runs))
 }
 
-fn run_forever_once(devices: &Devices, runs: &[Run]) -> Result<bool> {
-    let Some(motors) = find_each(devices, runs.iter().map(|run| run.port))? else {
+fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<bool> {
+    let Some(motors) = find_each(registry, runs.iter().map(|run| run.port))? else {
         return Ok(false);
     };
     let speed = |(motor, run): (&Arc<Device>, &Run)| run.speed.in_counts(motor);
@@ -128,7 +128,7 @@ pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i6
 /// # Errors
 /// The kernel's, as EINVAL of a motor that cannot; [`Error::Interrupted`].
 pub fn run_direct(
-    devices: &Devices,
+    registry: &Registry,
     class: Class,
     port: &str,
     percent: f64,
@@ -141,7 +141,7 @@ pub fn run_direct(
         motor.write_number("duty_cycle_sp", duty)?;
         start(motor, "run-direct", Some(End::Never))
     };
-    Ok(retry::with(devices, class, port, interrupted, run)?.is_some())
+    Ok(retry::with(registry, class, port, interrupted, run)?.is_some())
 }
 
 /// Turns motors, all at once. `None` if one is absent, or the move
@@ -152,18 +152,18 @@ pub fn run_direct(
 /// motors are started. A move that does not reach its end is stopped.
 ///
 /// # Errors
-/// The kernel's; [`Gone`](crate::Error::Gone) if one is unplugged under way;
+/// The kernel's; [`Unplugged`](crate::Error::Unplugged) if one is unplugged under way;
 /// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait.
-/// The motors are stopped before. [`Error::Twice`].
+/// The motors are stopped before. [`Error::DuplicatePort`].
 pub fn run_to(
-    devices: &Devices,
+    registry: &Registry,
     moves: &[Move],
     options: &MoveOptions,
     interrupted: Interrupted,
 ) -> Result<Option<Reason>> {
-    let start = || start_moves(devices, moves, options);
-    match while_permissions_settle(devices, &mut *interrupted, start)? {
-        Some(motors) => finish(devices, &motors, options, interrupted).map(Some),
+    let start = || start_moves(registry, moves, options);
+    match while_permissions_settle(registry, &mut *interrupted, start)? {
+        Some(motors) => finish(registry, &motors, options, interrupted).map(Some),
         None => Ok(None),
     }
 }
@@ -171,7 +171,7 @@ pub fn run_to(
 /// Waits, if that is asked for, until motors that were started are done. Those
 /// that do not get there are stopped.
 pub(crate) fn finish(
-    devices: &Devices,
+    registry: &Registry,
     motors: &[Arc<Device>],
     options: &MoveOptions,
     interrupted: Interrupted,
@@ -179,25 +179,25 @@ pub(crate) fn finish(
     if !options.wait {
         return Ok(Reason::Reached);
     }
-    let result = wait_for(devices, motors, options.timeout, interrupted);
+    let result = wait_for(registry, motors, options.timeout, interrupted);
     if !matches!(result, Ok(Reason::Reached)) {
         // Whatever ended it: nothing may go on turning. That a motor cannot be
         // stopped, because it is gone, is no news to who gets this result.
         let _ = stop_all(motors, StopAction::Brake);
     }
-    match (result?, motors.iter().find(|motor| !devices.has(motor).unwrap_or(false))) {
-        (Reason::Unplugged, Some(gone)) => Err(gone.gone()),
+    match (result?, motors.iter().find(|motor| !registry.has(motor).unwrap_or(false))) {
+        (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
         (reason, _) => Ok(reason),
     }
 }
 
 /// Starts the motors of a move; `None` if one is absent or cannot make it.
 fn start_moves(
-    devices: &Devices,
+    registry: &Registry,
     moves: &[Move],
     options: &MoveOptions,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    let Some(motors) = find_each(devices, moves.iter().map(|one| one.port))? else {
+    let Some(motors) = find_each(registry, moves.iter().map(|one| one.port))? else {
         return Ok(None);
     };
     let mut plans = Vec::with_capacity(moves.len());
@@ -272,13 +272,13 @@ impl Drop for Ramps {
 /// The tacho motors at these ports, each of them another, or `None` if one is
 /// absent.
 fn find_each<'a>(
-    devices: &Devices,
+    registry: &Registry,
     ports: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    let found = find_all(devices, ports)?;
+    let found = find_all(registry, ports)?;
     for (index, motor) in found.iter().flatten().enumerate() {
         if found.iter().flatten().take(index).any(|other| Arc::ptr_eq(other, motor)) {
-            return Err(Error::Twice { port: motor.port().to_owned() });
+            return Err(Error::DuplicatePort { port: motor.port().to_owned() });
         }
     }
     Ok(found)
@@ -289,10 +289,10 @@ fn find_each<'a>(
 /// # Errors
 /// The kernel's, as ENODEV for one that was just unplugged.
 pub fn find_all<'a>(
-    devices: &Devices,
+    registry: &Registry,
     ports: impl IntoIterator<Item = &'a str>,
 ) -> Result<Option<Vec<Arc<Device>>>> {
-    let find = |port| match devices.find(Class::TachoMotor, port)? {
+    let find = |port| match registry.find(Class::TachoMotor, port)? {
         Some(motor) => motor.check_present().map(|()| Some(motor)),
         None => Ok(None),
     };

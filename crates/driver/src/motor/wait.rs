@@ -7,9 +7,9 @@
 //! position and speed predict it looks every [`SHORT_SLICE`].
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::error::{Error, Interrupted, Result};
-use crate::sysfs::{Node, SLICE};
+use crate::sysfs::{AttributeFile, SLICE};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -79,24 +79,24 @@ impl Reason {
 /// # Errors
 /// The kernel's; [`Error::Interrupted`].
 pub fn wait_for(
-    devices: &Devices,
+    registry: &Registry,
     motors: &[Arc<Device>],
     timeout: Option<Duration>,
     interrupted: Interrupted,
 ) -> Result<Reason> {
-    let mut watches: Vec<Watch> = motors.iter().map(|motor| Watch::new(motor)).collect();
+    let mut all: Vec<Progress> = motors.iter().map(|motor| Progress::new(motor)).collect();
     let mut reason = Reason::Reached;
-    let waited = until(devices, motors, timeout, interrupted, |now| {
+    let waited = until(registry, motors, timeout, interrupted, |now| {
         let mut nearest = None;
-        for watch in watches.iter_mut().filter(|watch| !watch.is_done) {
-            match watch.look(now)? {
-                Look::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
-                Look::Blocked => {
+        for progress in all.iter_mut().filter(|progress| !progress.is_done) {
+            match progress.sample(now)? {
+                Sample::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
+                Sample::Blocked => {
                     reason = Reason::Stalled;
                     return Ok(None);
                 }
-                Look::Done(Reason::Reached) => {}
-                Look::Done(other) => reason = other,
+                Sample::Done(Reason::Reached) => {}
+                Sample::Done(other) => reason = other,
             }
         }
         Ok(nearest)
@@ -104,9 +104,9 @@ pub fn wait_for(
     match waited {
         Ok(true) => Ok(reason),
         Ok(false) => Ok(Reason::Timeout),
-        Err(error) if error.is_gone() => {
+        Err(error) if error.is_unplugged() => {
             // Whoever asks which motor it was need not wait for a new listing.
-            devices.forget_listings();
+            registry.forget_listings();
             Ok(Reason::Unplugged)
         }
         Err(error) => Err(error),
@@ -116,32 +116,32 @@ pub fn wait_for(
 /// Waits until a flag is among the motor's states, or no longer.
 ///
 /// # Errors
-/// [`Error::Gone`] when the motor is unplugged, the kernel's,
+/// [`Error::Unplugged`] when the motor is unplugged, the kernel's,
 /// [`Error::Interrupted`].
 pub fn wait_for_flag(
-    devices: &Devices,
+    registry: &Registry,
     motor: &Arc<Device>,
     flag: &str,
     present: bool,
     interrupted: Interrupted,
 ) -> Result<()> {
-    let mut watch = Watch::new(motor);
+    let mut progress = Progress::new(motor);
     let motors = std::slice::from_ref(motor);
-    let waited = until(devices, motors, None, interrupted, |now| {
+    let waited = until(registry, motors, None, interrupted, |now| {
         let is_there = motor.with_word("state", |state| has(state, flag))?;
-        if !is_there && !watch.is_confirmed()? {
+        if !is_there && !progress.is_confirmed()? {
             return Ok(Some(SHORT_SLICE));
         }
-        watch.has_run |= is_there && flag == "running";
+        progress.has_run |= is_there && flag == "running";
         // That nothing runs yet right after a command does not mean that
         // nothing runs any more.
-        if is_there == present && (present || flag != "running" || watch.is_over(now)?) {
+        if is_there == present && (present || flag != "running" || progress.is_over(now)?) {
             return Ok(None);
         }
-        Ok(Some(watch.slice(now)?))
+        Ok(Some(progress.slice(now)?))
     });
     match waited {
-        Err(error) if error.is_gone() => Err(motor.gone()),
+        Err(error) if error.is_unplugged() => Err(motor.unplugged()),
         waited => waited.map(drop),
     }
 }
@@ -149,13 +149,13 @@ pub fn wait_for_flag(
 /// Calls `look` until it answers `None`. What else it answers is how long to
 /// sleep at most before it is called again. `false` when the time is up.
 fn until(
-    devices: &Devices,
+    registry: &Registry,
     motors: &[Arc<Device>],
     timeout: Option<Duration>,
     interrupted: Interrupted,
     mut look: impl FnMut(Duration) -> Result<Option<Duration>>,
 ) -> Result<bool> {
-    let tree = devices.tree();
+    let tree = registry.tree();
     let deadline = timeout.map(|timeout| tree.now().saturating_add(timeout));
     let mut listen = true;
     loop {
@@ -171,7 +171,7 @@ fn until(
             return Ok(false);
         }
         let attributes: Vec<_> = motors.iter().map(|motor| motor.attribute("state")).collect();
-        let nodes: Vec<&dyn Node> = attributes
+        let nodes: Vec<&dyn AttributeFile> = attributes
             .iter()
             .filter(|_| listen)
             .filter_map(|attribute| attribute.reader(tree).ok())
@@ -183,15 +183,15 @@ fn until(
         // so that a descriptor that is always ready does not make us spin.
         listen = !listen || tree.now().saturating_sub(now) >= slice;
         for motor in motors {
-            if !devices.has(motor)? {
-                return Err(motor.gone());
+            if !registry.has(motor)? {
+                return Err(motor.unplugged());
             }
         }
     }
 }
 
 /// One motor under observation.
-struct Watch<'a> {
+struct Progress<'a> {
     motor: &'a Device,
     /// What it was told to do when the wait began. If it is told something
     /// else since, it does not get there.
@@ -206,7 +206,7 @@ struct Watch<'a> {
 }
 
 /// What an observation showed.
-enum Look {
+enum Sample {
     /// It runs; look again after this time.
     Runs(Duration),
     /// It runs, and does not move.
@@ -215,7 +215,7 @@ enum Look {
     Done(Reason),
 }
 
-impl<'a> Watch<'a> {
+impl<'a> Progress<'a> {
     fn new(motor: &'a Device) -> Self {
         Self {
             motor,
@@ -228,7 +228,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn look(&mut self, now: Duration) -> Result<Look> {
+    fn sample(&mut self, now: Duration) -> Result<Sample> {
         let (runs, holds, stalled) = self.motor.with_word("state", |state| {
             (has(state, "running"), has(state, "holding"), has(state, "stalled"))
         })?;
@@ -244,21 +244,21 @@ impl<'a> Watch<'a> {
                 None => false,
             };
             if lasts || self.is_stuck(now)? {
-                return Ok(Look::Blocked);
+                return Ok(Sample::Blocked);
             }
-            return Ok(Look::Runs(self.slice(now)?));
+            return Ok(Sample::Runs(self.slice(now)?));
         }
         if !self.is_confirmed()? {
-            return Ok(Look::Runs(SHORT_SLICE));
+            return Ok(Sample::Runs(SHORT_SLICE));
         }
         // Not even `holding` is believed at once: it may be that of the move
         // before.
         if !self.is_over(now)? {
-            return Ok(Look::Runs(self.slice(now)?));
+            return Ok(Sample::Runs(self.slice(now)?));
         }
         self.is_done = true;
         let is_there = self.is_at_end(now)? || !self.has_run && self.is_plain()?;
-        Ok(Look::Done(if is_there { Reason::Reached } else { Reason::Stopped }))
+        Ok(Sample::Done(if is_there { Reason::Reached } else { Reason::Stopped }))
     }
 
     /// Whether a missing flag can be believed. A plain file is empty for a

@@ -7,7 +7,7 @@
 mod bin_data;
 
 use crate::class::Class;
-use crate::device::registry::Devices;
+use crate::device::registry::Registry;
 use crate::device::retry::{Retry, until_some};
 use crate::device::{Device, Use};
 use crate::error::{Error, Interrupted, Result};
@@ -44,14 +44,14 @@ pub(crate) const VALUES: [&str; 8] =
 /// EINVAL for a mode the sensor does not have, and after two seconds of trying
 /// as ENXIO for a sensor that does not answer; [`Error::Interrupted`].
 pub fn read(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     mode: Option<&str>,
     index: usize,
     interrupted: Interrupted,
 ) -> Result<Option<Value>> {
     let [value] =
-        read_all(devices, sensor, mode, [index], interrupted)?.map_or([None], |all| all.map(Some));
+        read_all(registry, sensor, mode, [index], interrupted)?.map_or([None], |all| all.map(Some));
     Ok(value)
 }
 
@@ -60,16 +60,16 @@ pub fn read(
 /// # Errors
 /// As [`read`].
 pub fn read_all<const N: usize>(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     mode: Option<&str>,
     indices: [usize; N],
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
-    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
-        let using = in_use(devices, sensor, interrupted)?;
+    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
+        let using = in_use(registry, sensor, interrupted)?;
         sensor.check_present()?;
-        ensure_settled(devices, sensor, mode, interrupted)?;
+        ensure_settled(registry, sensor, mode, interrupted)?;
         let mut values = [const { Value::Integer(0) }; N];
         for (value, index) in values.iter_mut().zip(indices) {
             *value = read_value(sensor, mode, index)?;
@@ -86,16 +86,16 @@ pub fn read_all<const N: usize>(
 /// # Errors
 /// As [`read`].
 pub fn read_several(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     mode: &str,
     count: Option<usize>,
     interrupted: Interrupted,
 ) -> Result<Option<Vec<Value>>> {
-    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
-        let using = in_use(devices, sensor, interrupted)?;
+    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
+        let using = in_use(registry, sensor, interrupted)?;
         sensor.check_present()?;
-        ensure_settled(devices, sensor, Some(mode), interrupted)?;
+        ensure_settled(registry, sensor, Some(mode), interrupted)?;
         let values = values_in(sensor, mode, count)?;
         drop(using);
         Ok(values)
@@ -138,14 +138,14 @@ fn count_in(sensor: &Device, mode: &str) -> Result<usize> {
 /// # Errors
 /// As [`read`].
 pub fn set_mode(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
-        let _using = in_use(devices, sensor, interrupted)?;
-        ensure_settled(devices, sensor, Some(mode), interrupted)
+    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
+        let _using = in_use(registry, sensor, interrupted)?;
+        ensure_settled(registry, sensor, Some(mode), interrupted)
     })
 }
 
@@ -155,15 +155,15 @@ pub fn set_mode(
 /// # Errors
 /// As [`read`].
 pub fn restart(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    while_it_connects(devices, sensor, interrupted, |sensor, interrupted| {
-        let _using = in_use(devices, sensor, interrupted)?;
+    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
+        let _using = in_use(registry, sensor, interrupted)?;
         write_mode(sensor, mode)?;
-        settle(devices, sensor, interrupted).map(drop)
+        settle(registry, sensor, interrupted).map(drop)
     })
 }
 
@@ -209,16 +209,16 @@ pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
 
 /// Puts a sensor into a mode, if one is given, and waits for its values.
 fn ensure_settled(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Device,
     mode: Option<&str>,
     interrupted: Interrupted,
 ) -> Result<()> {
     ensure_mode(sensor, mode)?;
-    if settle(devices, sensor, interrupted)? {
+    if settle(registry, sensor, interrupted)? {
         // A signal that was handled meanwhile may have read it in another mode.
         ensure_mode(sensor, mode)?;
-        settle(devices, sensor, interrupted)?;
+        settle(registry, sensor, interrupted)?;
     }
     Ok(())
 }
@@ -245,23 +245,27 @@ fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
 
 /// Waits until the values are those of the mode; `false` if they were. Who is
 /// interrupted meanwhile leaves the rest of it to the next.
-fn settle(devices: &Devices, sensor: &Device, interrupted: Interrupted) -> Result<bool> {
+fn settle(registry: &Registry, sensor: &Device, interrupted: Interrupted) -> Result<bool> {
     let settled_at = *sensor.settled_at();
     if settled_at.is_zero() {
         return Ok(false);
     }
-    sleep(devices.tree(), settled_at.saturating_sub(devices.tree().now()), interrupted)?;
+    sleep(registry.tree(), settled_at.saturating_sub(registry.tree().now()), interrupted)?;
     *sensor.settled_at() = Duration::ZERO;
     Ok(true)
 }
 
 /// Waits for the sensor to be ours: another thread that wants it in another
 /// mode must not change it between our mode and our value.
-fn in_use<'a>(devices: &Devices, sensor: &'a Device, interrupted: Interrupted) -> Result<Use<'a>> {
+fn in_use<'a>(
+    registry: &Registry,
+    sensor: &'a Device,
+    interrupted: Interrupted,
+) -> Result<Use<'a>> {
     loop {
         match sensor.try_use() {
             Some(guard) => return Ok(guard),
-            None => sleep(devices.tree(), Duration::from_millis(1), interrupted)?,
+            None => sleep(registry.tree(), Duration::from_millis(1), interrupted)?,
         }
     }
 }
@@ -270,23 +274,23 @@ fn in_use<'a>(devices: &Devices, sensor: &'a Device, interrupted: Interrupted) -
 /// contact, or udev has not opened its files yet. `None` where the sensor is
 /// gone.
 fn while_it_connects<T>(
-    devices: &Devices,
+    registry: &Registry,
     sensor: &Arc<Device>,
     interrupted: Interrupted,
     mut act: impl FnMut(&Arc<Device>, Interrupted) -> Result<T>,
 ) -> Result<Option<T>> {
     let mut sensor = Arc::clone(sensor);
     let mut connecting = Connecting::default();
-    until_some(devices.tree(), interrupted, |interrupted| {
+    until_some(registry.tree(), interrupted, |interrupted| {
         loop {
             let error = match act(&sensor, &mut *interrupted) {
                 Ok(value) => return Ok(Some(Some(value))),
                 Err(error) => error,
             };
             // Before the listing: reading it may take its time.
-            let now = devices.tree().now();
+            let now = registry.tree().now();
             if error.is_stale() {
-                match present(devices, &sensor)? {
+                match present(registry, &sensor)? {
                     None => return Ok(Some(None)),
                     Some(other) if !Arc::ptr_eq(&other, &sensor) => {
                         sensor = other;
@@ -296,7 +300,7 @@ fn while_it_connects<T>(
                     Some(_) => {}
                 }
             }
-            return if connecting.may_last(devices, &sensor, &error, now) {
+            return if connecting.may_last(registry, &sensor, &error, now) {
                 Ok(None)
             } else {
                 Err(error)
@@ -317,7 +321,7 @@ impl Connecting {
     /// contact.
     fn may_last(
         &mut self,
-        devices: &Devices,
+        registry: &Registry,
         sensor: &Device,
         error: &Error,
         now: Duration,
@@ -331,15 +335,15 @@ impl Connecting {
         if is_out_of_contact {
             now < *self.since.get_or_insert(now) + RETRY_FOR
         } else {
-            self.permissions.is_worthwhile(devices, error)
+            self.permissions.is_worthwhile(registry, error)
         }
     }
 }
 
 /// The sensor of that type that is at the port now.
-fn present(devices: &Devices, sensor: &Device) -> Result<Option<Arc<Device>>> {
-    devices.forget_listings();
-    let present = devices.find(Class::Sensor, sensor.port())?;
+fn present(registry: &Registry, sensor: &Device) -> Result<Option<Arc<Device>>> {
+    registry.forget_listings();
+    let present = registry.find(Class::Sensor, sensor.port())?;
     Ok(present.filter(|present| present.driver() == sensor.driver()))
 }
 
@@ -348,8 +352,8 @@ fn present(devices: &Devices, sensor: &Device) -> Result<Option<Arc<Device>>> {
 ///
 /// # Errors
 /// The kernel's.
-pub fn at(devices: &Devices, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
-    let sensor = devices.find(Class::Sensor, port)?;
+pub fn at(registry: &Registry, port: &str, types: &[impl AsRef<str>]) -> Result<Vec<Arc<Device>>> {
+    let sensor = registry.find(Class::Sensor, port)?;
     let is_meant = |sensor: &Arc<Device>| {
         types.is_empty() || types.iter().any(|kind| kind.as_ref() == sensor.driver())
     };
@@ -361,11 +365,11 @@ pub fn at(devices: &Devices, port: &str, types: &[impl AsRef<str>]) -> Result<Ve
 /// # Errors
 /// The kernel's.
 pub fn with_mode(
-    devices: &Devices,
+    registry: &Registry,
     types: &[impl AsRef<str>],
     mode: &str,
 ) -> Result<Vec<Arc<Device>>> {
-    let all = devices.all(Class::Sensor)?;
+    let all = registry.all(Class::Sensor)?;
     let is_meant = |sensor: &&Arc<Device>| {
         if types.is_empty() {
             // A sensor that cannot tell its modes has none.

@@ -5,12 +5,12 @@ use ev3_driver::motor::{
     Extent, Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
 };
 use ev3_driver::sysfs::sleep;
-use ev3_driver::{Devices, Error};
+use ev3_driver::{Error, Registry};
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Starts a move of some motors at half speed.
-fn start(devices: &Devices, ports: &[&str], degrees: f64) {
+fn start(devices: &Registry, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
     let moves: Vec<_> =
         ports.iter().map(|port| Move { port, speed, extent: Extent::By(degrees) }).collect();
@@ -19,7 +19,7 @@ fn start(devices: &Devices, ports: &[&str], degrees: f64) {
 }
 
 /// Waits for some motors, with a time limit that a working wait does not need.
-fn wait(brick: &Arc<Brick>, devices: &Devices, ports: &[&str]) -> Reason {
+fn wait(brick: &Arc<Brick>, devices: &Registry, ports: &[&str]) -> Reason {
     let all = motors(devices, ports);
     wait_for(devices, &all, Some(Duration::from_secs(60)), &mut brick.attentive()).unwrap()
 }
@@ -347,5 +347,5 @@ fn a_flag_of_an_unplugged_motor_is_an_error_that_names_it() {
     let motor = &motors(&devices, &["outA"])[0];
     brick.at(ms(200), |world| world.motor("outA").is_unplugged = true);
     let error = wait_for_flag(&devices, motor, "stalled", true, &mut brick.attentive());
-    assert!(matches!(error, Err(Error::Gone { port, .. }) if port == "outA"));
+    assert!(matches!(error, Err(Error::Unplugged { port, .. }) if port == "outA"));
 }

@@ -1,6 +1,6 @@
 //! A picture to be drawn on: lines, circles, letters, other pictures.
 //!
-//! It has the size of the screen and 256 shades of grey; those that programs
+//! It has the size of the screen and 256 shades of gray; those that programs
 //! draw with are the four that the EV3's panel has.
 use crate::brick::screen::picture::Picture;
 use embedded_graphics::mono_font::iso_8859_1::{FONT_5X8, FONT_6X10, FONT_7X13, FONT_10X20};

@@ -2,7 +2,7 @@
 //!
 //! Programs draw on a [`Frame`], which [`show`] then copies to the framebuffer
 //! in one go, so that nobody sees half of it. The panel shows four shades of
-//! grey. ev3dev before 4.14.34 shows black and white only: one bit for a pixel,
+//! gray. ev3dev before 4.14.34 shows black and white only: one bit for a pixel,
 //! 1 is black, the least significant bit is on the left. Since then there are
 //! 32 bits for a pixel, XRGB.
 pub mod frame;
@@ -10,17 +10,17 @@ pub mod picture;
 
 use crate::brick::screen::frame::{Frame, HEIGHT, WIDTH};
 use crate::brick::screen::picture::luma;
-use crate::devfs::{Dev, Stream, open};
+use crate::devfs::{Devfs, Stream, open};
 use crate::device::read_file;
 use crate::error::{Access, Error, Result};
-use crate::sysfs::Tree;
+use crate::sysfs::Sysfs;
 use std::path::{Path, PathBuf};
 
 /// Copies a frame to the screen; `None` where there is none of the EV3's.
 ///
 /// # Errors
 /// The kernel's, as EACCES for who is not in the group `video`.
-pub fn show(tree: &dyn Tree, dev: &dyn Dev, frame: &Frame) -> Result<Option<()>> {
+pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<()>> {
     let path = path(dev);
     let Some(stream) = open(dev, &path, Access::Write)? else {
         return Ok(None);
@@ -46,7 +46,7 @@ pub fn show(tree: &dyn Tree, dev: &dyn Dev, frame: &Frame) -> Result<Option<()>>
 ///
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where it is cut short.
-pub fn seen(tree: &dyn Tree, dev: &dyn Dev) -> Result<Option<Vec<u8>>> {
+pub fn seen(tree: &dyn Sysfs, dev: &dyn Devfs) -> Result<Option<Vec<u8>>> {
     let path = path(dev);
     let Some(stream) = open(dev, &path, Access::Read)? else {
         return Ok(None);
@@ -66,7 +66,7 @@ pub fn seen(tree: &dyn Tree, dev: &dyn Dev) -> Result<Option<Vec<u8>>> {
     Ok(Some(layout.shades(&bytes)))
 }
 
-fn path(dev: &dyn Dev) -> PathBuf {
+fn path(dev: &dyn Devfs) -> PathBuf {
     dev.root().join("fb0")
 }
 
@@ -101,7 +101,7 @@ impl Layout {
 
     /// By what the kernel says of it; `None` if it says nothing, or that it is
     /// another screen than the EV3's.
-    fn told(tree: &dyn Tree) -> Option<Self> {
+    fn told(tree: &dyn Sysfs) -> Option<Self> {
         let told = |name: &str| {
             let path = tree.root().join("graphics/fb0").join(name);
             read_file(tree, &path).ok()
@@ -127,7 +127,7 @@ impl Layout {
     }
 
     /// That of an open screen. Where it is a file, that tells best.
-    fn of(tree: &dyn Tree, stream: &dyn Stream) -> Option<Self> {
+    fn of(tree: &dyn Sysfs, stream: &dyn Stream) -> Option<Self> {
         match stream.length() {
             Some(length) => Self::of_length(length),
             None => Self::told(tree),

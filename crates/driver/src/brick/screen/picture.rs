@@ -5,7 +5,7 @@ use std::path::Path;
 /// No picture for this screen is wider or higher.
 const MOST: u32 = 4096;
 
-/// A picture: shades of grey, some of which may be missing.
+/// A picture: shades of gray, some of which may be missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     width: u32,
@@ -14,7 +14,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG or a PBM file. Colours become shades of grey; what is more
+    /// Reads a PNG or a PBM file. Colors become shades of gray; what is more
     /// than half transparent is left out.
     ///
     /// # Errors
