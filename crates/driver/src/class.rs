@@ -85,7 +85,7 @@ pub struct Detected {
     pub path: PathBuf,
 }
 
-/// What the boards call their batteries: the EV3 since ev3dev-stretch and on
+/// The names of the boards' batteries: the EV3 since ev3dev-stretch and on
 /// jessie, then other boards (docs/ev3dev-sysfs.md, 8.5).
 const BATTERIES: [&str; 6] = [
     "lego-ev3-battery",
@@ -96,7 +96,7 @@ const BATTERIES: [&str; 6] = [
     "evb-battery",
 ];
 
-/// What an LED's name ends with: since ev3dev-stretch, and on jessie
+/// The endings of LED names: since ev3dev-stretch, and on jessie
 /// (docs/ev3dev-sysfs.md, 8.1).
 const LED_SUFFIXES: [&str; 2] = [":brick-status", ":ev3dev"];
 

@@ -1,7 +1,7 @@
 //! Where the device files are: the brick's keys, its speaker and its screen.
 //!
 //! They are no attributes of text: events are read and written in the kernel's
-//! binary layout, the screen is so many bytes. [`DevfsDir`] is a directory of
+//! binary layout, the screen is an array of bytes. [`DevfsDir`] is a directory of
 //! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
 //! a named pipe or a file stands for each device. A simulator may stand in for
 //! it within the process by implementing [`Devfs`] and [`Stream`].
@@ -18,7 +18,7 @@ use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The longest sleep between two looks whether to go on.
+/// The longest sleep before asking the caller whether to go on.
 const SLICE: Duration = Duration::from_millis(20);
 
 /// A directory of device files.
@@ -70,7 +70,7 @@ pub trait Stream: Send + Sync {
     /// The kernel's.
     fn skip(&self) -> io::Result<()>;
 
-    /// Which keys are down, a bit for each code, as EVIOCGKEY tells.
+    /// Which keys are down, a bit for each code, as EVIOCGKEY reports.
     ///
     /// # Errors
     /// ENOTTY where the file is no such device.
@@ -85,7 +85,7 @@ pub trait Stream: Send + Sync {
     }
 }
 
-/// What says and plays by itself.
+/// A speaker that needs no programs to speak and to play.
 pub trait Speaker: Send + Sync {
     /// Says a text; how long that takes.
     fn say(&self, text: &str) -> Duration;
@@ -178,8 +178,8 @@ impl Stream for DevFile {
     }
 
     fn skip(&self) -> io::Result<()> {
-        // Whoever opens a device gets what happens from then on; a plain file
-        // holds what happened before, too.
+        // A device delivers the events after it was opened; a plain file holds the
+        // earlier ones, too.
         if self.is_plain {
             (&self.file).seek(SeekFrom::End(0))?;
         }
@@ -220,7 +220,7 @@ pub(crate) fn open(
     }
 }
 
-/// Opens the first of these devices that there is, and tells its path.
+/// Opens the first of these devices that exists; also its path.
 pub(crate) fn open_first(
     dev: &dyn Devfs,
     names: &[&str],
@@ -235,8 +235,8 @@ pub(crate) fn open_first(
     Ok(None)
 }
 
-/// Waits for so long at most, or until `look` has found something. Looks again
-/// whenever there may be something to read.
+/// Calls `look` until it finds something or the time is up, and whenever there may
+/// be something to read.
 pub(crate) fn until<T>(
     dev: &dyn Devfs,
     stream: Option<&dyn Stream>,

@@ -1,4 +1,4 @@
-//! What can go wrong, with the file it went wrong at.
+//! Errors, each with the file or the device that it is about.
 use crate::class::Class;
 use rustix::io::Errno;
 use std::io;
@@ -11,7 +11,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 /// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
 pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;
 
-/// What was to be done with a file.
+/// The kind of access to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
     /// Read it, or list it.
@@ -31,7 +31,7 @@ pub enum Error {
     Open {
         /// The file.
         path: PathBuf,
-        /// What it was to be opened for.
+        /// The access that was asked for.
         access: Access,
         /// The kernel's answer.
         source: io::Error,
@@ -49,19 +49,19 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What was written.
+        /// The text that was to be written.
         text: String,
         /// The kernel's answer.
         source: io::Error,
     },
-    /// A file does not hold what belongs there.
+    /// The content of a file is malformed.
     #[error("{} holds {text:?}, which is not {expected}", .path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// What it holds, shortened.
+        /// Its content, shortened.
         text: String,
-        /// What belongs there.
+        /// The expected content.
         expected: &'static str,
     },
     /// A device was unplugged while it was in use.
@@ -79,22 +79,22 @@ pub enum Error {
         port: String,
         /// Its present mode.
         mode: String,
-        /// The value that was asked for.
+        /// The index that was asked for.
         index: usize,
     },
-    /// Several things that are done at once are to be done by one device.
+    /// Two moves that start together name the same port.
     #[error("{port} is named twice")]
     DuplicatePort {
         /// The port that is named twice.
         port: String,
     },
-    /// A port is to be told that a device is plugged in which it cannot have.
+    /// The port cannot have a motor of that type.
     #[error("no port for motors has a {name:?}")]
     UnknownMotorType {
         /// The name of the device.
         name: String,
     },
-    /// A pattern that is none.
+    /// The pattern is malformed.
     #[error("{pattern:?} is no file name pattern")]
     Pattern {
         /// The pattern.
@@ -102,14 +102,14 @@ pub enum Error {
         /// Why not.
         source: glob::PatternError,
     },
-    /// A file of pictures or sounds that is none.
+    /// The file is not a picture or a recording of that format.
     #[error("{} cannot be read as {format}: {reason}", .path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// What it should be: `png`.
+        /// The expected format: `png`.
         format: &'static str,
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
     /// A program that is needed is not installed.
@@ -125,7 +125,7 @@ pub enum Error {
     Program {
         /// The program.
         program: &'static str,
-        /// What it complained of.
+        /// Its message.
         message: String,
     },
     /// The caller abandoned a wait.
@@ -152,7 +152,7 @@ impl Error {
         matches!(self.errno(), Some(Errno::NODEV | Errno::NOENT))
     }
 
-    /// Whether a device went away: it answers so, or was found to be missing.
+    /// Whether a device was unplugged: it answers so, or was found to be missing.
     #[must_use]
     pub fn is_unplugged(&self) -> bool {
         self.is_stale() || matches!(self, Self::Unplugged { .. })

@@ -8,7 +8,7 @@
 //! one read or write: run several motors at once, wait until they are done,
 //! read a sensor in a given mode, turn a robot by its gyro.
 //!
-//! From the bottom up:
+//! From the bottom up (`tools/layers.txt` says who may import whom):
 //!
 //! * [`sysfs`]: where the attribute files are: the kernel's, any directory
 //!   shaped like it, or something that only behaves so. It also owns the clock.

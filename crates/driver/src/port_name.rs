@@ -16,8 +16,8 @@ pub fn short(address: &str) -> &str {
 }
 
 /// The socket that a port is in: `in1` for the sensor at address 1 of the I2C
-/// bus there, `in1:i2c1`. What sits on a multiplexer, as `in1:i2c80:mux1`, is in
-/// no socket.
+/// bus there, `in1:i2c1`. A sensor on a multiplexer, as `in1:i2c80:mux1`, is in no
+/// socket.
 #[must_use]
 pub fn socket(port: &str) -> &str {
     let is_address = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
@@ -27,8 +27,8 @@ pub fn socket(port: &str) -> &str {
     }
 }
 
-/// Whether a device at `address` is meant by `port`: its address in either
-/// spelling, or the socket it is in.
+/// Whether `port` names the device at `address`: by its address in either
+/// spelling, or by the socket it is in.
 #[must_use]
 pub fn names(port: &str, address: &str) -> bool {
     let (port, address) = (short(port), short(address));

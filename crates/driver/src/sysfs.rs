@@ -86,7 +86,7 @@ pub trait Sysfs: Send + Sync {
     }
 }
 
-/// What is done again and again; answers when to do it next.
+/// A periodic callback; returns the time to its next call.
 pub type Repeated = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// Sleeps by the tree's clock, interruptibly.
@@ -110,7 +110,7 @@ pub fn sleep(tree: &dyn Sysfs, time: Duration, interrupted: Interrupted) -> Resu
 
 /// An open attribute file.
 pub trait AttributeFile: Send + Sync {
-    /// Reads the whole text, generated anew.
+    /// Reads the whole text, as the driver generates it now.
     ///
     /// # Errors
     /// The driver's, as ENODEV once the device is unplugged.
@@ -122,7 +122,7 @@ pub trait AttributeFile: Send + Sync {
     /// The driver's, as EINVAL for a value it does not accept.
     fn write(&self, text: &[u8]) -> io::Result<()>;
 
-    /// What poll(2) can wait on.
+    /// The descriptor that poll(2) can wait on.
     fn descriptor(&self) -> Option<BorrowedFd<'_>> {
         None
     }
@@ -213,7 +213,7 @@ impl Sysfs for SysfsDir {
             .collect();
         let timeout = Timespec::try_from(timeout).map_err(io::Error::other)?;
         match poll(&mut descriptors, Some(&timeout)) {
-            // A signal: the caller looks what it wants of us.
+            // A signal: the caller handles it.
             Ok(_) | Err(Errno::INTR) => Ok(()),
             Err(errno) => Err(errno.into()),
         }

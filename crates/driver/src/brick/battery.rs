@@ -15,7 +15,7 @@ struct Chemistry {
     /// As `technology` has it.
     name: &'static str,
     cells: f64,
-    /// Volts of a cell, and what is left then in percent, upwards.
+    /// Volts of a cell, and the remaining charge in percent, upwards.
     curve: &'static [(f64, f64)],
 }
 
@@ -45,7 +45,7 @@ const CHEMISTRIES: [Chemistry; 3] = [
         cells: 6.0,
         curve: &[(1.0, 0.0), (1.1, 6.0), (1.15, 13.0), (1.2, 35.0), (1.25, 70.0), (1.35, 100.0)],
     },
-    // What the brick takes for unknown are AA cells, as Energizer's E91.
+    // AA cells, as Energizer's E91; the brick calls them unknown.
     Chemistry {
         name: "Unknown",
         cells: 6.0,
@@ -96,8 +96,8 @@ pub fn chemistry(battery: &Device) -> Result<Option<String>> {
     if_there(battery.text("technology"))
 }
 
-/// What is left, in percent, by the voltage and the chemistry; `None` where that
-/// is not known.
+/// The remaining charge in percent, by the voltage and the chemistry; `None` where
+/// the chemistry is not known.
 ///
 /// # Errors
 /// The kernel's.
@@ -108,7 +108,7 @@ pub fn percent(battery: &Device) -> Result<Option<i64>> {
     Ok(Some(left(known.curve, volts(battery)? / known.cells)))
 }
 
-/// What the curve says is left at this voltage of a cell.
+/// The remaining charge at this voltage of a cell, by the curve.
 #[expect(clippy::cast_possible_truncation, reason = "a percentage")]
 fn left(curve: &[(f64, f64)], volts: f64) -> i64 {
     let above = curve.iter().position(|(at, _)| *at >= volts);

@@ -1,12 +1,12 @@
 //! The buttons on the brick.
 //!
 //! The kernel's gpio-keys driver shows them as an event device below
-//! `/dev/input`. Whoever opens it may ask which buttons are down, and reads from
-//! then on an event for each that is pressed or released. Each reader has a
-//! queue of its own.
+//! `/dev/input`. A reader may ask which buttons are down, and gets an event for
+//! each button that is pressed or released after it opened the device. Each
+//! reader has a queue of its own.
 //!
-//! A plain file may stand in for the device: it holds the events there were,
-//! and whoever waits gets those that are written behind them.
+//! A plain file may stand in for the device: it holds the earlier events, and a
+//! reader that waits gets those that are appended.
 use crate::devfs::{Devfs, Stream, open_first, until};
 use crate::error::{Access, Error, Interrupted, Result};
 use input_linux::sys::input_event;
@@ -95,7 +95,7 @@ impl Button {
     }
 }
 
-/// What was done to a button.
+/// A button was pressed or released.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
     /// Which.
@@ -107,7 +107,7 @@ pub struct Event {
 /// The buttons that are down now; `None` where there are no buttons.
 ///
 /// # Errors
-/// The kernel's, as EACCES for who is not in the group `input`.
+/// The kernel's, as EACCES for a user who is not in the group `input`.
 pub fn pressed(dev: &dyn Devfs) -> Result<Option<Vec<Button>>> {
     let Some((stream, path)) = open_first(dev, &DEVICES, Access::Read)? else {
         return Ok(None);
@@ -144,7 +144,7 @@ fn pressed_in(stream: &dyn Stream, path: &Path) -> Result<Vec<Button>> {
     Ok(Button::ALL.into_iter().filter(|button| down.contains(button)).collect())
 }
 
-/// What is done to the buttons from a moment on.
+/// The events of the buttons from a moment on.
 pub struct Events {
     dev: Arc<dyn Devfs>,
     stream: Box<dyn Stream>,

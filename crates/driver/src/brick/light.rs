@@ -6,10 +6,10 @@
 //! other LEDs, or none; and an output port in the mode `led` is one without a
 //! color, `ev3-ports:outA::brick-status`.
 //!
-//! Who switches an LED is its *trigger*: nobody (`none`), a program that runs
-//! (`heartbeat`), or a timer, whose files `delay_on` and `delay_off` are there
-//! only as long as it is the trigger. A trigger must go before a brightness
-//! stays.
+//! The *trigger* of an LED switches it: nothing (`none`), `heartbeat`, which
+//! brickrun sets while a program runs, or a timer, whose files `delay_on` and
+//! `delay_off` exist only as long as it is the trigger. A brightness stays only
+//! without a trigger (docs/ev3dev-sysfs.md, 8.1).
 use crate::class::{Class, Hue, led_name};
 use crate::device::registry::Registry;
 use crate::device::retry::{until_some, while_permissions_settle};
@@ -41,8 +41,8 @@ pub enum Color {
     Levels(Vec<i64>),
 }
 
-/// What to mix colors of, in percent. Of several ways to make one, a light uses
-/// the first that its LEDs allow.
+/// The mixture of each color, in percent. If there are several, a light uses the
+/// first one that its LEDs allow.
 const COLORS: [(&str, &[(Hue, i64)]); 9] = [
     ("off", &[]),
     ("red", &[(Hue::Red, 100)]),
@@ -154,8 +154,8 @@ impl Light {
         })
     }
 
-    /// What each LED has to show for a color, or `None` where the light cannot
-    /// show it.
+    /// The brightness of each LED for a color, or `None` where the light cannot show
+    /// it.
     fn mix(&self, color: &Color) -> Option<Vec<(&Arc<Device>, i64)>> {
         let hues = [Hue::Red, Hue::Green, Hue::Blue];
         let with = |mix: &[(Hue, i64)]| {
@@ -180,7 +180,7 @@ impl Light {
         }
     }
 
-    /// What switches it: its trigger, `none` if nothing does.
+    /// Its trigger, `none` if nothing switches it.
     ///
     /// # Errors
     /// The kernel's.
@@ -234,8 +234,8 @@ impl Light {
     }
 }
 
-/// Makes a light show a color. What switches it no longer does. `None` where
-/// there is no such light, `false` if it cannot show that.
+/// Makes a light show a color, and removes its trigger. `None` where there is no
+/// such light, `false` if it cannot show that.
 ///
 /// # Errors
 /// The kernel's; [`Error::Interrupted`].
@@ -280,7 +280,7 @@ pub fn set_trigger(
     })
 }
 
-/// Makes a light blink, in the color it shows, on and off for so many
+/// Makes a light blink, in the color it shows: `on` and `off` are in
 /// milliseconds. `None` where there is no such light.
 ///
 /// # Errors
@@ -296,7 +296,8 @@ pub fn blink(
             Some(light) => {
                 let leds = light.shining()?;
                 for led in &leds {
-                    // Anew it would forget the color, and make its files anew.
+                    // Writing the same trigger again would reset the color and
+                    // recreate the timer's files.
                     if trigger(led)? != TIMER {
                         led.write("trigger", TIMER)?;
                     }

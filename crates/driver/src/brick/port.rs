@@ -1,10 +1,10 @@
 //! Ports themselves: class `lego-port`.
 //!
-//! Most devices are detected when they are plugged in. What is not, a motor
-//! without rotation sensor for one, appears when its port is put into a *mode*;
-//! and which of several types it is, the kernel believes whoever says it. Both
-//! make a new device, even where nothing changes; so they are done only where
-//! something does, and the device is waited for.
+//! Most devices are detected when they are plugged in. The others, as a motor
+//! without rotation sensor, appear when their port is put into a *mode*; and a
+//! program may tell the kernel which of several types is plugged in. Both make a
+//! new device, even where nothing changes. So these functions write only where
+//! something changes, and wait for the device.
 use crate::brick::light;
 use crate::class::Class;
 use crate::device::Device;

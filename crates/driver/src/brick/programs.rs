@@ -1,4 +1,4 @@
-//! Other programs, as those that speak and play.
+//! Other programs: those that speak and play.
 use crate::devfs::{Devfs, until};
 use crate::error::{Error, Interrupted, Result};
 use nix::sys::signal::Signal;
@@ -28,7 +28,7 @@ impl Program {
     pub(crate) const AMIXER: Self = Self { name: "amixer", package: "alsa-utils" };
     pub(crate) const ESPEAK: Self = Self { name: "espeak", package: "espeak" };
 
-    /// Starts it. What it complains of can be read later.
+    /// Starts it. Its messages can be read later.
     pub(crate) fn start(
         self,
         arguments: &[&OsStr],
@@ -41,7 +41,7 @@ impl Program {
         Ok(Started { program: self, child })
     }
 
-    /// Runs it to its end; what it printed.
+    /// Runs it to its end; returns its output.
     pub(crate) fn output(self, arguments: &[&str]) -> Result<String> {
         let arguments: Vec<&OsStr> = arguments.iter().map(OsStr::new).collect();
         let mut started = self.start(&arguments, Stdio::null(), Stdio::piped())?;
@@ -78,19 +78,19 @@ pub(crate) struct Started {
 }
 
 impl Started {
-    /// What it prints, as the input of another one.
+    /// Its output, as the input of another program.
     pub(crate) fn printed(&mut self) -> Stdio {
         self.child.stdout.take().map_or_else(Stdio::null, Stdio::from)
     }
 
-    /// What it complained of.
+    /// Its error message.
     fn complaint(&mut self, status: ExitStatus) -> Error {
         if status.code() == Some(NOT_FOUND) {
             return self.program.missing();
         }
         let mut message = String::new();
         if let Some(errors) = &mut self.child.stderr {
-            // Half of it is better than none.
+            // A part of the message is better than nothing.
             let _ = errors.read_to_string(&mut message);
         }
         self.program.failed(&message)
@@ -131,8 +131,8 @@ impl Programs {
         over.map(drop)
     }
 
-    /// Whether all have ended. Where several did not end well, the first one
-    /// tells why, but for those that only lost the one they wrote to.
+    /// Whether all have ended. If several failed, the error is that of the first one
+    /// that did not just lose the reader of its output.
     fn are_over(&self, number: u32) -> Result<Option<()>> {
         let mut running = self.running();
         let mut failed = Vec::new();

@@ -44,11 +44,11 @@ pub struct Tone {
     pub lasts: Duration,
 }
 
-/// Everything that sounds.
+/// The sounds of this program.
 #[derive(Debug, Default)]
 pub struct Sound {
-    /// How often [`stop`](Self::stop) was called. Who makes sounds ends when
-    /// it changes.
+    /// The number of calls of [`stop`](Self::stop). A thread that makes sounds ends
+    /// when it changes.
     stops: AtomicU32,
     /// The tone generators that are on.
     on: Mutex<Vec<PathBuf>>,
@@ -58,10 +58,10 @@ pub struct Sound {
 
 impl Sound {
     /// Plays tones one after the other, and waits until they are over; `None`
-    /// where there is no speaker. However it is left, silence follows.
+    /// where there is no speaker. Silence follows however this ends.
     ///
     /// # Errors
-    /// The kernel's, as EACCES for who is not in the group `input`;
+    /// The kernel's, as EACCES for a user who is not in the group `input`;
     /// [`Error::Interrupted`].
     pub fn play_tones(
         &self,
@@ -142,7 +142,7 @@ impl Sound {
         self.programs.run(dev, start, interrupted)
     }
 
-    /// `start` tells for how long it speaks.
+    /// `start` returns how long it speaks.
     fn let_speak(
         &self,
         dev: &dyn Devfs,
@@ -166,7 +166,7 @@ impl Sound {
     pub fn stop(&self, dev: &dyn Devfs) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
         self.programs.end();
-        // Whoever made the tone may go on only once it is over.
+        // The thread that made the tone goes on only once the tone is over.
         let mut on = self.on();
         while let Some(path) = on.pop() {
             if let Some(stream) = open(dev, &path, Access::Write)? {
@@ -209,7 +209,7 @@ pub fn set_volume(dev: &dyn Devfs, percent: u8) -> Result<Option<()>> {
     Ok((!controls.is_empty()).then_some(()))
 }
 
-/// The controls that there are, and what they are set to.
+/// The controls that exist, and their settings in percent.
 fn controls() -> Result<Vec<(&'static str, u8)>> {
     let text = match Program::AMIXER.output(&["scontents"]) {
         Ok(text) => text,
@@ -254,7 +254,7 @@ impl Generator<'_> {
 
 impl Drop for Generator<'_> {
     fn drop(&mut self) {
-        // On an error's way out: that one is told.
+        // After an error: the first error is the one reported.
         let _ = self.set(0);
     }
 }

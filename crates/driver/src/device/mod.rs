@@ -1,4 +1,4 @@
-//! One device: its attributes as kept descriptors, and what is known of it.
+//! One device: its attributes as kept descriptors, and its constants.
 mod list;
 pub(crate) mod motion;
 mod observer;
@@ -42,7 +42,7 @@ pub struct Device {
     driver: Box<str>,
     path: PathBuf,
     entry: Entry,
-    /// A file that tells whether it is still there.
+    /// A file that exists as long as the device does.
     presence: Box<dyn AttributeFile>,
     /// When it was last found to be there, in microseconds, wrapping around.
     present_at_us: AtomicU32,
@@ -50,9 +50,9 @@ pub struct Device {
     tree: Arc<dyn Sysfs>,
     attributes: List<Attribute>,
     constants: List<Constant>,
-    /// What a motor was last told to do.
+    /// The last command to a motor.
     run: Mutex<Option<MotorRun>>,
-    /// Learns of that.
+    /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
@@ -69,7 +69,7 @@ struct Constant {
 }
 
 impl Device {
-    /// Reads who is at `directory/entry`.
+    /// Reads which device an entry of a class directory is.
     pub(crate) fn detect(
         tree: &Arc<dyn Sysfs>,
         observer: &Arc<Observer>,
@@ -78,7 +78,7 @@ impl Device {
     ) -> Result<Self> {
         let path = tree.root().join(class.directory()).join(&entry.name);
         let (presence, address, driver) = match class {
-            // These have no address: their directories' names tell who they are.
+            // These have no address: their directories are named after them.
             Class::Led => named(&**tree, &path.join("brightness"), &entry.name)?,
             Class::Battery => named(&**tree, &path.join("voltage_now"), &entry.name)?,
             _ => {
@@ -136,7 +136,7 @@ impl Device {
         &*self.tree
     }
 
-    /// What programs see of it.
+    /// Its description for programs.
     #[must_use]
     pub fn detected(&self) -> Detected {
         Detected {
@@ -168,7 +168,7 @@ impl Device {
     }
 
     /// Fails as a read of an unplugged device does, where the reads themselves
-    /// do not notice (see [`AttributeFile::check_present`]). What was found is believed
+    /// do not notice (see [`AttributeFile::check_present`]). The result is trusted
     /// for [`PRESENT_FOR_US`].
     ///
     /// # Errors
@@ -190,7 +190,7 @@ impl Device {
         Ok(())
     }
 
-    /// What the motor was last told to do.
+    /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -273,15 +273,14 @@ impl Device {
         Ok(value)
     }
 
-    /// What is known of the sensor in a mode, by
-    /// [`know_in`](Self::know_in).
+    /// A number that [`know_in`](Self::know_in) remembered for a mode.
     pub(crate) fn known_in(&self, name: &str, mode: &str) -> Option<i64> {
         let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
         self.constants.find(is_it).map(|constant| constant.value)
     }
 
-    /// Remembers a number that depends on nothing but the sensor's mode. What
-    /// is known already stays.
+    /// Remembers a number that depends on nothing but the sensor's mode. A number
+    /// that is known already stays.
     pub(crate) fn know_in(&self, name: &'static str, mode: &str, value: i64) {
         let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
         let make = || Constant { attribute: name, mode: mode.into(), value };
@@ -360,9 +359,9 @@ impl Device {
         self.entry.name.starts_with("linear")
     }
 
-    /// Whether udev has opened its files to us: it takes up to a second after
-    /// a device appears. The file that tells is one that any device of the
-    /// class lets be written.
+    /// Whether udev has made its files writable for this user, which takes up to a
+    /// second after a device appears (docs/ev3dev-sysfs.md, 0.1). This tries a file
+    /// that is writable on every device of the class.
     pub(crate) fn is_writable(&self) -> bool {
         let file = match self.class {
             Class::TachoMotor | Class::DcMotor | Class::ServoMotor => "command",

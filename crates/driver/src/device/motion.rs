@@ -1,13 +1,13 @@
-//! What a motor was last told to do: pure data that is kept with the device.
+//! The last command to a motor: pure data that is kept with the device.
 use std::num::NonZeroU32;
 use std::time::Duration;
 
-/// What a motor was last told to do, as far as a wait for its end can use it.
+/// The last command to a motor, as far as a wait for its end needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MotorRun {
-    /// When, by the tree's clock.
+    /// When it was started, by the tree's clock.
     pub(crate) started: Duration,
-    /// Whether by `run-to-rel-pos`.
+    /// Whether it was started by `run-to-rel-pos`.
     pub(crate) is_relative: bool,
     /// The coordinated motion that has claimed the motor.
     pub(crate) claim: Option<NonZeroU32>,

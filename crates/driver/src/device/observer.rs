@@ -1,4 +1,4 @@
-//! Who learns that a motor was started.
+//! The observer that learns that a motor was started.
 //!
 //! A drive keeps the odometry of a robot. It must know when a motor may turn a
 //! wheel, and when a write to `position` moves the count and not the wheel.

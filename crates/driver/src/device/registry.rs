@@ -2,9 +2,9 @@
 //!
 //! The kernel lists each class in a directory of its own, one entry a device,
 //! under numbers that follow the order of plugging in. Programs name ports. The
-//! listing is cached: it is made anew when it is older than [`LISTING_AGE`],
-//! when a port is asked for that it does not have, and when a device answers as
-//! an unplugged one does. Devices that are still there keep their descriptors.
+//! listing is cached. It is renewed when it is older than [`LISTING_AGE`], when a
+//! port is asked for that it does not have, and when a device answers as an
+//! unplugged one does. Devices that are still there keep their descriptors.
 use crate::class::{Class, Detected};
 use crate::device::{Device, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
@@ -27,7 +27,7 @@ pub struct Registry {
     observer: Arc<Observer>,
 }
 
-/// What a class directory held when it was last looked at.
+/// The devices in a class directory when it was last listed.
 #[derive(Default)]
 struct Listing {
     made: Option<Duration>,
@@ -77,8 +77,8 @@ impl Registry {
         let is_fresh = self.is_fresh(&listing);
         if !is_fresh || !listing.by_port.contains_key(port) {
             match self.list(class, &mut listing) {
-                // Without means to look, what is known is there: a robot can
-                // be stopped.
+                // If the class cannot be listed, trust the last listing: a robot
+                // can still be stopped.
                 Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
                 listed => listed?,
             }
@@ -114,8 +114,8 @@ impl Registry {
         })
     }
 
-    /// Reads something of a device, or of the one that has come in its place;
-    /// `None` where there is none any more.
+    /// Reads from a device, or from the one that has replaced it; `None` if the port
+    /// is empty now.
     ///
     /// # Errors
     /// As `read`, or as [`all`](Self::all).
@@ -133,9 +133,9 @@ impl Registry {
         }
     }
 
-    /// Does something again, with a new listing, if it met a device that
-    /// answers as an unplugged one does: plugged in again in the meantime, it
-    /// has another number.
+    /// Calls `act`, and once more with a new listing if it met a device that answers
+    /// as an unplugged one does: a device that was plugged in again has another
+    /// number.
     ///
     /// # Errors
     /// As `act`.
@@ -157,7 +157,7 @@ impl Registry {
         })
     }
 
-    /// Makes each class be listed anew when it is next asked for.
+    /// Makes each class be listed again when it is next asked for.
     pub fn forget_listings(&self) {
         for class in Class::ALL {
             self.listing(class).made = None;
@@ -237,7 +237,7 @@ impl Registry {
                 None => match Device::detect(&self.tree, &self.observer, class, entry) {
                     Ok(device) => devices.push(Arc::new(device)),
                     Err(error) if is_exhaustion(&error) => return Err(error),
-                    // Gone again, or not a device: looked at anew next time.
+                    // Unplugged again, or not a device: the next listing tries again.
                     Err(_) => {}
                 },
             }
@@ -263,7 +263,7 @@ impl Registry {
     }
 }
 
-/// Whether it is we who lack something, and not the device.
+/// Whether this process has run out of descriptors or memory.
 fn is_exhaustion(error: &Error) -> bool {
     matches!(error.errno(), Some(Errno::MFILE | Errno::NFILE | Errno::NOMEM))
 }

@@ -21,43 +21,43 @@ const REST_PERIOD: Duration = Duration::from_millis(100);
 /// How long that takes at most; then nothing is done until a motor is started.
 const MEASURED: Duration = Duration::from_secs(30);
 
-/// What to do.
+/// A command to the drive.
 #[derive(Clone, Debug)]
 pub enum Command {
     /// One part after the other. The second says whether rear first.
     Legs(Vec<Leg>, bool),
     /// On and on: speed in cm/s, rate of turn in degrees a second.
     Cruise(f64, f64),
-    /// The same for the motion under way, unless somebody has ended it.
+    /// The same for the motion under way, unless it has ended.
     Change(f64, f64),
     /// On and on: the speed of each wheel as a share of that of the faster one.
     Wheels([f64; 2]),
 }
 
-/// How to do it.
+/// How to carry out a command.
 #[derive(Clone, Copy, Debug)]
 pub struct DriveOptions {
     /// Of the faster wheel, in percent of what it can. Not for a cruise.
     pub percent: f64,
     /// In cm/s².
     pub acceleration: f64,
-    /// What the wheels do at the end.
+    /// The action of the motors at the end.
     pub stop_action: StopAction,
     /// Whether the gyro, if there is one, tells the heading.
     pub use_gyro: bool,
 }
 
-/// All that is known of a robot and its motion.
+/// The state of a robot and its motion.
 pub(super) struct Inner {
     pub(super) robot: Robot,
     pub(super) devices: Option<DriveDevices>,
     pub(super) use_gyro: bool,
-    /// When the estimate was last moved on.
+    /// The time of the last update of the estimate.
     pub(super) now: Duration,
     /// When the wheels last turned.
     pub(super) moved: Duration,
     pub(super) estimate: Estimate,
-    /// Where the motion before was to end.
+    /// The end of the previous motion.
     pub(super) goal: Option<Pose>,
     pub(super) active: Option<ActiveMotion>,
     pub(super) last: Option<Arc<Outcome>>,
@@ -92,7 +92,7 @@ impl Inner {
         self.set_pose(pose);
     }
 
-    /// The pose of the point that programs mean.
+    /// The pose of the robot's reference point.
     pub(super) fn pose(&self) -> Pose {
         self.estimate.pose().ahead(-self.robot.wheels.offset)
     }
@@ -101,7 +101,7 @@ impl Inner {
         self.estimate.set_pose(pose.ahead(self.robot.wheels.offset));
     }
 
-    /// Moves the estimate on to now. `false` where a motor is absent.
+    /// Updates the estimate to the present time. `false` where a motor is absent.
     pub(super) fn integrate(&mut self, registry: &Registry) -> Result<bool> {
         let before = self.now;
         if self.devices.as_ref().is_some_and(|devices| !devices.is_there()) {
@@ -161,8 +161,8 @@ impl Inner {
         Error::Unplugged { class: Class::TachoMotor, port }
     }
 
-    /// When to look again; `None` if there is nothing to do until a motor is
-    /// started.
+    /// The time to the next call; `None` if there is nothing to do until a motor
+    /// is started.
     pub(super) fn next_call(&self) -> Option<Duration> {
         if self.active.is_some() {
             return Some(PERIOD);
@@ -228,8 +228,8 @@ impl Inner {
         self.install(steering, options.stop_action).map(Some)
     }
 
-    /// Makes the motion under way another one. What has ended stays so: it is
-    /// the end of that which is told.
+    /// Changes the motion under way. A motion that has ended stays ended: the
+    /// outcome is that of the ended motion.
     fn change(&mut self, mut steering: Steering) -> Arc<Outcome> {
         if let Some(active) = &mut self.active {
             steering.take_over(&active.steering);

@@ -1,4 +1,4 @@
-//! The devices of a robot, and what they show.
+//! The devices of a robot, and their readings.
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Registry;
@@ -9,11 +9,11 @@ use crate::sensor;
 use crate::value::Value;
 use std::sync::Arc;
 
-/// Counts that a wheel may seem to turn beyond what it can: more means that the
-/// counter was written.
+/// Tolerance, in counts, beyond the fastest that a wheel can turn. A larger
+/// difference means that the counter was written.
 const MARGIN: f64 = 30.0;
 
-/// The gyro's mode in which it tells its angle.
+/// The gyro's mode in which it measures its angle.
 pub(super) const GYRO_MODE: &str = "GYRO-ANG";
 
 /// The type of a gyro.
@@ -67,8 +67,8 @@ impl DriveDevices {
         self.motors.iter().all(|motor| motor.check_present().is_ok())
     }
 
-    /// How far the wheels have rolled since the counts before. A counter that
-    /// was written elsewhere has not turned a wheel.
+    /// The distances that the wheels have rolled since the previous counts. A
+    /// write to a counter has not turned a wheel.
     #[expect(clippy::cast_precision_loss, reason = "a plausible difference is small")]
     pub(super) fn ways(&self, counts: [i64; 2], seconds: f64) -> [f64; 2] {
         let most = self.fastest * 1.5 * seconds + MARGIN;
@@ -78,7 +78,7 @@ impl DriveDevices {
         })
     }
 
-    /// Counts from a way in cm, or counts per second from a speed.
+    /// Counts from a distance in cm, or counts per second from a speed.
     pub(super) fn in_counts(&self, ways: [f64; 2]) -> [f64; 2] {
         [ways[0] / self.cm_per_count[0], ways[1] / self.cm_per_count[1]]
     }
@@ -93,7 +93,7 @@ pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
     Ok(counts)
 }
 
-/// What the gyro shows, in degrees; `None` if that is no angle.
+/// The gyro's angle in degrees; `None` if the gyro is in another mode.
 pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
     gyro.check_present()?;
     if !gyro.with_word("mode", |mode| mode == GYRO_MODE)? {

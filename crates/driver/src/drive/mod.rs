@@ -5,8 +5,8 @@
 //! ([`odometry`]), and tells the motors what the motion wants
 //! next ([`steering`]). The tree calls it
 //! ([`Sysfs::every`](crate::sysfs::Sysfs::every)): where there are real files by a
-//! thread of its own, which ends when the robot has come to rest. Whoever asks
-//! for the pose meanwhile gets it as it is now, and does that step himself.
+//! thread of its own, which ends when the robot has come to rest. A thread that
+//! asks for the pose meanwhile does that step itself, and gets the pose of now.
 //!
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
@@ -35,7 +35,7 @@ use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
 
-/// When to come again if the estimate is in use.
+/// The time to the next call if the estimate is in use.
 const BUSY: Duration = Duration::from_millis(1);
 
 /// How long, by the wall, to wait for another thread that uses it.
@@ -43,11 +43,11 @@ const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Odometry and control of one robot.
 ///
-/// Motors report to it when they are started. It belongs to whoever owns the
-/// registry, and a registry has one.
+/// Motors report to it when they are started. The owner of the registry owns the
+/// drive, and a registry has one.
 pub struct Drive {
     this: Weak<Self>,
-    /// Whether the tree calls us.
+    /// Whether the tree calls the drive periodically.
     is_called: Mutex<bool>,
     inner: Mutex<Inner>,
     /// The last field, so that the motors' files are closed before it goes.
@@ -120,8 +120,9 @@ impl Drive {
         Ok(self.look()?.map(|inner| inner.estimate.uncertainty()))
     }
 
-    /// What is known now; `None` where a motor is absent. Who looks all the time
-    /// keeps the tree's calls from doing anything, and so does their work.
+    /// Brings the estimate up to date; `None` where a motor is absent. A caller
+    /// that polls continuously starves the periodic callback, so this runs any
+    /// control period that was missed.
     fn look(&self) -> Result<Option<Held<'_, Inner>>> {
         let mut inner = self.lock();
         let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
@@ -239,7 +240,7 @@ impl Drive {
         }
     }
 
-    /// Makes the tree call us, unless it does.
+    /// Makes the tree call the drive periodically, unless it does already.
     fn be_called(&self) {
         let mut is_called = self.is_called();
         if *is_called {
@@ -247,11 +248,11 @@ impl Drive {
         }
         let this = Weak::clone(&self.this);
         let act = move || this.upgrade()?.called();
-        // Where no thread can be had, each look at the pose still does a step.
+        // Without a thread, each request for the pose still does a step.
         *is_called = self.registry.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
-    /// One period; answers when to come again.
+    /// Does one period; returns the time to the next call.
     fn called(&self) -> Option<Duration> {
         let Some(mut inner) = self.lock_soon() else {
             return Some(BUSY);
@@ -277,8 +278,9 @@ impl Drive {
         Held::lock(&self.inner)
     }
 
-    /// As [`lock`](Self::lock), for who comes in the middle of a read. `None` if
-    /// this thread holds what it may need, or another one does for long.
+    /// Like [`lock`](Self::lock), for a callback in the middle of a read. `None`
+    /// if this thread holds a lock that the callback may need, or if another
+    /// thread holds one for long.
     fn lock_soon(&self) -> Option<Held<'_, Inner>> {
         if held::by_this_thread() {
             return None;

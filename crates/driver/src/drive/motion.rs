@@ -1,4 +1,4 @@
-//! A motion under way: what the wheels are told, and how it ends.
+//! A motion under way: the commands to the wheels, and how it ends.
 use crate::device::Device;
 use crate::device::motion::End;
 use crate::drive::devices::DriveDevices;
@@ -16,9 +16,9 @@ pub const PERIOD: Duration = Duration::from_millis(20);
 /// How long a wheel that is to turn may stand still.
 const STUCK_FOR: Duration = Duration::from_millis(1500);
 
-/// At most so much of the time between two looks counts as standing still: what
-/// nobody looked at may have moved, and a look that was held up between reading
-/// a wheel and the clock tells an old count at a new time.
+/// Upper bound on the interval that counts towards a stall. After a longer gap we
+/// do not know whether the wheel moved, and a sample delayed between reading the
+/// encoder and the clock pairs an old count with a new time.
 pub(super) const LONGEST_LOOK: Duration = Duration::from_millis(100);
 
 /// Less movement than this, in counts, is standing still.
@@ -44,9 +44,9 @@ pub(super) struct ActiveMotion {
     pub(super) stop_action: StopAction,
     /// When its last period was done.
     pub(super) controlled: Duration,
-    /// When the steering was last asked.
+    /// When the steering last did a step.
     pub(super) steered: Duration,
-    /// What the wheels were last told, in counts per second.
+    /// The last commanded speeds, in counts per second.
     pub(super) speeds: Option<[i64; 2]>,
     pub(super) landing: Option<Landing>,
     /// Counts, and how long each wheel has stood there.
@@ -78,7 +78,7 @@ impl Outcome {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
     }
 
-    /// What it ended with; an error for the first who asks.
+    /// The result, once there is one. Only the first caller gets an error.
     pub(super) fn ended(&self) -> Option<Result<Reason>> {
         let mut outcome = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let after = match outcome.as_ref()? {
@@ -96,8 +96,8 @@ fn whole(counts: f64) -> i64 {
 }
 
 impl ActiveMotion {
-    /// Tells the wheels their speeds in cm/s. So much time has passed since they
-    /// were last looked at.
+    /// Commands the speeds of the wheels, in cm/s. `passed` is the time since the
+    /// last sample.
     pub(super) fn roll(
         &mut self,
         devices: &DriveDevices,
@@ -158,7 +158,7 @@ impl ActiveMotion {
         Ok(None)
     }
 
-    /// Whether a wheel that is to turn does not.
+    /// Whether a wheel that should turn stands still.
     fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
         for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
@@ -173,7 +173,7 @@ impl ActiveMotion {
         is_stuck
     }
 
-    /// Whether somebody else has told a motor something.
+    /// Whether another command has ended the claim to a motor.
     pub(super) fn is_foreign(&self, devices: &DriveDevices) -> bool {
         devices.motors.iter().any(|motor| !self.claim.holds(motor))
     }
@@ -191,7 +191,7 @@ impl Landing {
         let farthest = off(0).max(off(1));
         let stood = std::mem::replace(&mut self.before, counts) == counts;
         self.stood = if stood { self.stood + passed } else { Duration::ZERO };
-        // Two looks may follow each other at once.
+        // Two samples may follow each other at once.
         let stands = self.stood >= PERIOD / 2;
         self.took += passed;
         if farthest <= LANDED_WITHIN && stands && self.took >= PERIOD * 2 {

@@ -1,21 +1,21 @@
-//! Where a robot on two wheels is, from what its wheels and its gyro tell.
+//! The pose of a robot on two wheels, from its encoders and its gyro.
 //!
-//! Pure arithmetic: no devices, no clock. Between two looks both wheels are
-//! taken to turn evenly, so that the robot moves along an arc, and that arc is
+//! Pure arithmetic: no devices, no clock. Between two samples both wheels are
+//! assumed to turn evenly, so that the robot moves along an arc, and that arc is
 //! integrated exactly. An extended Kalman filter fuses this with the gyro. Its
-//! state is the pose, by what shares the wheels and the axle differ from what
-//! they are said to be, and zero and drift of the gyro; what the gyro finds out
-//! late about the heading so corrects the place, too.
+//! state is the pose, the relative errors of the given wheel diameters and axle
+//! length, and the gyro's zero and drift. A late gyro reading corrects the
+//! heading and, through the covariance, the position too.
 //!
-//! The errors of wheels and axle persist: a wheel that slips or a tyre that is
-//! wide makes each turn wrong by the same share. So over long turns it is the
-//! gyro that is right, and what it says is no drift.
+//! The errors of wheels and axle persist: a wheel that slips or a wide tire makes
+//! each turn wrong by the same share. So over long turns the gyro is right, and
+//! the difference is not drift.
 //!
-//! A gyro tells whole degrees. A reading is therefore not taken as a value with
-//! a bell-shaped error, but as an interval that the true value and a
-//! bell-shaped error lie in together: mean and variance of what is left of the
-//! expectation within that interval are the measurement. Readings that follow
-//! each other at rest show the same error; so one counts each 100 ms.
+//! A gyro reports whole degrees. A reading is therefore not treated as a value
+//! with a Gaussian error, but as an interval that contains the true value plus a
+//! Gaussian error: the measurement is the mean and variance of the predicted
+//! distribution truncated to that interval. Consecutive readings at rest share
+//! their error, so only one every 100 ms counts.
 
 /// Half of a gyro's resolution, in radians.
 const HALF_STEP: f64 = 0.5 * DEGREE;
@@ -47,15 +47,14 @@ const TURN_VARIANCE: f64 = 0.01 * DEGREE * DEGREE;
 /// of the encoder and play of the gears: a third of a degree of the motor.
 const START: f64 = 0.0175;
 
-/// The time after which a wheel that rolls does so anew, in seconds.
+/// The standstill, in seconds, after which a wheel counts as starting again.
 const STILL: f64 = 0.1;
 
-/// Standard deviation of the share that a wheel rolls more than its diameter
-/// says: one rolls 1 % more than the other.
+/// Standard deviation of the relative error of a wheel's diameter: one rolls 1 %
+/// more than the other.
 const WHEEL: f64 = 0.0075;
 
-/// The same of the share that the robot turns more than the axle says: nobody
-/// knows where wide tyres touch the floor.
+/// The same for the axle length: where a wide tire touches the floor is unknown.
 const AXLE_LENGTH: f64 = 0.03;
 
 /// How that may change, with the floor for one: variance for each radian.
@@ -68,16 +67,16 @@ const DRIFT: f64 = 0.03 * DEGREE;
 /// The same of one that did not, and shows so while the robot rests.
 const WILD_DRIFT: f64 = 2.0 * DEGREE;
 
-/// Readings at rest that are off by so many standard deviations in sum, for the
-/// root of their number, show so. Fewer come about by chance at some moment of a
-/// long run.
+/// The gyro drifts wildly if the sum of its errors at rest exceeds this, in
+/// standard deviations for the square root of the number of readings. A smaller
+/// limit would be exceeded by chance during a long run.
 const SUSPICIOUS: f64 = 4.0;
 
 /// How fast the drift may change: variance of the drift for each second.
 const DRIFT_CHANGE: f64 = (0.001 * DEGREE) * (0.001 * DEGREE);
 
 /// A reading that is farther off than this, in radians, comes from a gyro that
-/// started anew at another zero.
+/// restarted with another zero.
 const JUMP: f64 = 12.0 * DEGREE;
 
 /// A degree in radians.
@@ -87,17 +86,17 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const X: usize = 0;
 const Y: usize = 1;
 const HEADING: usize = 2;
-/// The share that each wheel rolls more than it is said to.
+/// The relative error of each wheel's diameter.
 const LEFT: usize = 3;
 const RIGHT: usize = 4;
-/// The share that the robot turns more than the ways of the wheels tell.
+/// The relative error of turns, from the axle length.
 const AXLE: usize = 5;
-/// What the gyro shows at heading 0.
+/// The gyro's reading at heading 0.
 const ZERO: usize = 6;
 const RATE: usize = 7;
 const STATES: usize = 8;
 
-/// A place in cm and a heading in degrees: 0 looks along y, clockwise is
+/// A position in cm and a heading in degrees: 0 looks along y, clockwise is
 /// positive, and full turns count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -127,7 +126,7 @@ impl Pose {
     }
 }
 
-/// What the robot is built like.
+/// The geometry of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wheels {
     /// Diameter of the left and the right wheel, in cm.
@@ -136,7 +135,7 @@ pub struct Wheels {
     pub inverted: [bool; 2],
     /// Distance between the middles of their treads, in cm.
     pub axle: f64,
-    /// How far the axle is ahead of the point whose pose is told, in cm.
+    /// The distance of the axle ahead of the robot's reference point, in cm.
     pub offset: f64,
 }
 
@@ -162,14 +161,13 @@ impl Wheels {
     }
 }
 
-/// What the gyro has shown since the robot came to rest.
+/// The gyro's readings since the robot came to rest.
 #[derive(Clone, Copy, Debug, Default)]
 struct Rest {
-    /// How far its readings were off in sum, in standard deviations, and how many
-    /// these were.
+    /// The sum of the errors, in standard deviations, and the number of readings.
     off: f64,
     count: f64,
-    /// The drift, and its variance, as they were before.
+    /// The drift and its variance before the rest.
     drift: f64,
     variance: f64,
 }
@@ -212,7 +210,7 @@ impl Estimate {
         estimate
     }
 
-    /// The robot is there now. What is known of wheels and gyro stays.
+    /// Sets the pose. The estimates for wheels and gyro stay.
     pub fn set_pose(&mut self, pose: Pose) {
         let turned = pose.heading.to_radians() - self.state[HEADING];
         self.state[X] = pose.x;
@@ -222,8 +220,8 @@ impl Estimate {
         self.reset_certainty([X, Y, HEADING]);
     }
 
-    /// What the gyro has told of wheels and axle holds no longer: these are
-    /// others, or shall do without it.
+    /// Resets the estimated errors of wheels and axle: the wheels are others, or
+    /// the gyro is no longer used.
     pub fn forget_wheels(&mut self) {
         let errors = [LEFT, RIGHT, AXLE];
         self.reset_certainty(errors);
@@ -262,7 +260,7 @@ impl Estimate {
         self.state[RATE].to_degrees()
     }
 
-    /// The wheels have rolled `ways` cm within `seconds`.
+    /// The prediction step: the wheels have rolled `ways` cm within `seconds`.
     pub fn predict(&mut self, wheels: &Wheels, ways: [f64; 2], seconds: f64) {
         self.state[ZERO] += self.state[RATE] * seconds;
         self.drift_on(seconds);
@@ -300,8 +298,8 @@ impl Estimate {
             let of_y = of_way * cos + of_turn * dy / 2.0;
             self.propagate(&[(X, error, of_x), (Y, error, of_y), (HEADING, error, of_turn)]);
         }
-        // What a step adds: along the way, and to the turn, which shifts the
-        // place by half of it.
+        // The noise of a step: along the path, and of the turn, half of which
+        // shifts the position.
         let rolled = left.abs() + right.abs();
         let start = if starts { START * START } else { 0.0 };
         let along = WHEEL_VARIANCE * rolled / 4.0 + start / 2.0;
@@ -313,7 +311,7 @@ impl Estimate {
         self.covariance[AXLE][AXLE] += AXLE_CHANGE * turn.abs();
     }
 
-    /// The gyro shows `angle` degrees.
+    /// The measurement step: the gyro shows `angle` degrees.
     pub fn observe_gyro(&mut self, angle: f64) {
         let angle = angle * DEGREE;
         let off = angle - self.state[HEADING] - self.state[ZERO];
@@ -336,9 +334,9 @@ impl Estimate {
         self.suspect_drift(way == 0.0 && turn == 0.0, shift / total.sqrt());
     }
 
-    /// Something is measured that depends on the states by `row` of the
-    /// covariance: it shifts them and makes them more certain by so much for
-    /// each of it.
+    /// Updates the state by a measurement whose covariance with the states is
+    /// `row`: each state shifts by `shift`, and the covariance shrinks by
+    /// `certainty`, for each unit of `row`.
     fn update(&mut self, row: [f64; STATES], shift: f64, certainty: f64) {
         for (state, weight) in self.state.iter_mut().zip(row) {
             *state += weight * shift;
@@ -350,13 +348,12 @@ impl Estimate {
         }
     }
 
-    /// The gyro is not to be relied on until it is seen again: it is in another
-    /// mode, or gone.
+    /// The gyro is in another mode or unplugged: its next reading sets a new zero.
     pub fn gyro_lost(&mut self) {
         self.has_zero = false;
     }
 
-    /// From now on the gyro's zero is what makes this angle right.
+    /// Sets the gyro's zero so that this angle agrees with the heading.
     fn zero_at(&mut self, angle: f64) {
         self.has_zero = true;
         self.state[ZERO] = angle - self.state[HEADING];
@@ -375,8 +372,8 @@ impl Estimate {
         self.rest = Rest { drift, variance, ..Rest::default() };
     }
 
-    /// A robot that stands does not turn. If the gyro's readings all are off to
-    /// one side meanwhile, it drifts more than was thought possible.
+    /// A robot at rest does not turn. If the gyro's errors all have the same sign
+    /// meanwhile, it drifts more than assumed.
     fn suspect_drift(&mut self, is_at_rest: bool, off: f64) {
         if !is_at_rest {
             self.begin_rest();
@@ -389,9 +386,8 @@ impl Estimate {
         }
     }
 
-    /// What was thought of the drift before the rest is taken back, as if it had
-    /// been measured with a negative variance. What is left is what the rest has
-    /// shown.
+    /// Removes the drift that was estimated before the rest, by an update with a
+    /// negative variance. The drift measured during the rest remains.
     fn doubt_drift(&mut self) {
         let Rest { drift, variance, .. } = self.rest;
         let certainty = 1.0 / variance - 1.0 / (WILD_DRIFT * WILD_DRIFT);
@@ -445,11 +441,11 @@ fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
-/// What is left of a bell curve around 0 within a gyro's step around `off`: the
-/// mean, and the variance as a share of that of the whole.
+/// A Gaussian around 0, truncated to a gyro's step around `off`: its mean, and its
+/// variance as a share of the untruncated one.
 fn within(off: f64, deviation: f64) -> (f64, f64) {
     let (low, high) = ((off - HALF_STEP) / deviation, (off + HALF_STEP) / deviation);
-    // Farther out the step holds too little to tell; its nearer end is it.
+    // Farther out the step contains too little probability: take its nearer end.
     if low > 3.0 {
         return (low * deviation, 0.0);
     }

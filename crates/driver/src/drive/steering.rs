@@ -1,9 +1,9 @@
 //! Steering along a motion: from where the robot is to how fast it should go
 //! and turn.
 //!
-//! Pure arithmetic, called once each period. What is controlled is the middle
-//! of the axle, by its way and its heading: a wheel that lags turns the robot,
-//! and the heading is what brings it back, so both wheels are kept together.
+//! Pure arithmetic, called once each period. The controlled quantities are the
+//! distance and the heading of the middle of the axle: a wheel that lags turns
+//! the robot, and correcting the heading brings the wheels back together.
 //!
 //! | gain | value | what it does |
 //! |---|---|---|
@@ -64,7 +64,7 @@ const GOAL_ALIGNED: f64 = 1.5;
 /// end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Leg {
-    /// Turn on the spot by so many degrees.
+    /// Turn on the spot by an angle in degrees.
     Turn(f64),
     /// Turn on the spot to a heading as it is, full turns included.
     Heading(f64),
@@ -74,7 +74,7 @@ pub enum Leg {
     Towards([f64; 2]),
     /// Go to a place with the middle of the axle.
     To([f64; 2]),
-    /// Go to a place with the point whose pose is told.
+    /// Go to a place with the robot's reference point.
     Reach([f64; 2]),
     /// An arc: its length in cm and its curvature in the direction of travel.
     Arc(f64, f64),
@@ -93,7 +93,7 @@ pub struct Limits {
     pub acceleration: f64,
 }
 
-/// What the wheels should do until the next period.
+/// The order to the wheels until the next period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
     /// Roll at these speeds, in cm/s.
@@ -104,7 +104,7 @@ pub enum Order {
     Arrived,
 }
 
-/// A motion under way.
+/// The control of a motion under way.
 #[derive(Clone, Debug)]
 pub struct Steering {
     wheels: Wheels,
@@ -238,7 +238,8 @@ impl Steering {
         }
     }
 
-    /// How far the axle is ahead of the point whose pose is told, on the way.
+    /// How far the axle is ahead of the robot's reference point, in the direction
+    /// of travel.
     fn lead(&self) -> f64 {
         if self.is_backwards { -self.wheels.offset } else { self.wheels.offset }
     }

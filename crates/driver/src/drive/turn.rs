@@ -4,8 +4,8 @@
 //! that is left, down to a slow crawl. At the target they brake; once the robot
 //! stands, the gyro says whether it overshot, and the rest is corrected, at a
 //! crawl and a bounded number of times. So a turn ends within [`WITHIN`], or
-//! tells why it does not; it never swings for ever. It is given up as soon as
-//! another thread has told a motor something.
+//! reports why it does not; it never swings forever. It is given up as soon as
+//! another thread has given a motor a command.
 use crate::device::Device;
 use crate::device::motion::End;
 use crate::device::registry::Registry;
@@ -22,7 +22,7 @@ use std::time::Duration;
 /// How close to the angle a turn ends, in degrees: the gyro's resolution.
 pub const WITHIN: f64 = 1.0;
 
-/// The gyro's mode in which it tells its angle.
+/// The gyro's mode in which it measures its angle.
 const MODE: &str = "GYRO-ANG";
 
 /// Time between two looks at the gyro.
@@ -79,7 +79,7 @@ pub enum Ended {
     Astray,
     /// Corrected as often as is sensible, and still off by this many degrees.
     Missed(f64),
-    /// Another thread stopped a motor, or told it something else.
+    /// Another thread stopped a motor, or gave it another command.
     Stopped,
 }
 
@@ -180,7 +180,7 @@ struct Control<'a> {
     fastest: f64,
     /// The turn's claim to the motors.
     claim: Claim,
-    /// What the left wheel was last told to do.
+    /// The last commanded speed of the left wheel.
     running: Option<i64>,
 }
 

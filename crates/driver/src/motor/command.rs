@@ -1,4 +1,4 @@
-//! Commands to one motor, and what is remembered of them.
+//! Commands to one motor, and the record of the last one.
 //!
 //! A command that starts a motor is recorded with the device: a wait must know
 //! where the motor is to end, and at the end of the program every motor that
@@ -10,7 +10,7 @@ use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What a motor does at the end of a move, or when it is stopped.
+/// The action of a motor at the end of a move, or when it is stopped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StopAction {
     /// Rolls out freely.
@@ -93,7 +93,8 @@ fn run(motor: &Device, word: &str, end: End) -> MotorRun {
     MotorRun { started: motor.tree().now(), is_relative, claim: None, end }
 }
 
-/// Whether a motor was told to run and not to stop by itself.
+/// Whether the last command to a motor makes it run until it is stopped, or for a
+/// time.
 pub(crate) fn runs_on(motor: &Device) -> bool {
     let end = motor.run().map(|run| run.end);
     matches!(end, Some(End::Never | End::Time(_)))

@@ -1,13 +1,13 @@
 //! Motors without a rotation sensor, and lamps: class `dc-motor`.
 //!
-//! Such a device gets a share of the battery's voltage, its *duty*, and nobody
-//! knows what it makes of it. The kernel does not detect one: an output port has
-//! to be put into the mode `dc-motor` ([`lego_port`](crate::brick::port)).
+//! Such a device gets a share of the battery's voltage, its *duty*, and reports
+//! nothing back. The kernel does not detect one: an output port has to be put
+//! into the mode `dc-motor` ([`lego_port`](crate::brick::port)).
 //!
 //! Each change of the duty is a ramp with steps of 100 ms, even one without
 //! length, and a change that comes while a step is due waits for it
-//! (`dc_motor_class.c`). So what is told such a motor within 100 ms of the last
-//! command or change happens up to 100 ms late.
+//! (`dc_motor_class.c`). So a command within 100 ms of the last command or change
+//! takes effect up to 100 ms late.
 use crate::class::Class;
 use crate::device::motion::End;
 use crate::device::registry::Registry;

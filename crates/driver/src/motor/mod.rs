@@ -1,6 +1,6 @@
 //! Motors: set-points, commands, moves of several motors at once.
 //!
-//! A motor is told what to do in two steps. Set-points (`speed_sp`,
+//! A command to a motor takes two steps. Set-points (`speed_sp`,
 //! `position_sp`, `stop_action`, `ramp_up_sp` ...) are stored; the next
 //! `command` copies them all and starts. Nothing that is written to a
 //! set-point changes a motion under way (kernel, `tacho_motor_class.c`). So
@@ -43,7 +43,7 @@ pub struct Run<'a> {
 /// How a move is made and ended.
 #[derive(Clone, Copy, Debug)]
 pub struct MoveOptions {
-    /// What the motors do once they are there.
+    /// The action of the motors once they are there.
     pub stop_action: StopAction,
     /// Milliseconds for speeding up from 0 to `max_speed`.
     pub ramp_up_ms: Option<i64>,
@@ -77,7 +77,7 @@ impl Default for MoveOptions {
 pub fn stop_started(registry: &Registry) -> Result<()> {
     let mut result = Ok(());
     for class in Class::MOTORS {
-        // Those that were started are known: nothing needs to be opened for them.
+        // Motors that were started are listed already: nothing needs to be opened.
         for motor in registry.known(class).iter().filter(|motor| motor.run().is_some()) {
             result = result.and(match class {
                 Class::ServoMotor => best_effort(start(motor, "float", None)),
@@ -181,8 +181,8 @@ pub(crate) fn finish(
     }
     let result = wait_for(registry, motors, options.timeout, interrupted);
     if !matches!(result, Ok(Reason::Reached)) {
-        // Whatever ended it: nothing may go on turning. That a motor cannot be
-        // stopped, because it is gone, is no news to who gets this result.
+        // No motor may keep turning, however the wait ended. The result already says
+        // that a motor was unplugged, so the error of stopping it is ignored.
         let _ = stop_all(motors, StopAction::Brake);
     }
     match (result?, motors.iter().find(|motor| !registry.has(motor).unwrap_or(false))) {
@@ -233,8 +233,8 @@ fn start_moves(
 /// Since ev3dev-stretch one that comes right after another counts from where
 /// that was to end, even if the position was written meanwhile or the motor
 /// turned by hand (`tacho_motor_class.c`); on jessie it does not. Any other
-/// command in between makes them agree. What an earlier program told the motor
-/// is not known, so that it may need one, too.
+/// command in between makes them agree. The last command of an earlier program is
+/// unknown, so the first relative move may need one, too.
 fn count_from_here(motor: &Device) -> Result<()> {
     let may_follow_relative = motor.run().is_none_or(|run| run.is_relative);
     if may_follow_relative { motor.write("command", "stop") } else { Ok(()) }
@@ -261,8 +261,7 @@ impl Ramps {
 
 impl Drop for Ramps {
     fn drop(&mut self) {
-        // In reverse. What cannot be put back belongs to a motor that was
-        // unplugged.
+        // In reverse order. Errors are ignored: the motor was unplugged.
         for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
             let _ = motor.write_number(attribute, milliseconds);
         }

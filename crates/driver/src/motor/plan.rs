@@ -148,8 +148,8 @@ pub(crate) fn milliseconds(time: Duration, longest: i32) -> Option<i64> {
     (milliseconds <= i64::from(longest)).then_some(milliseconds)
 }
 
-/// Where a move begins: where the motor is, or where it is held, so that many
-/// moves one after the other do not add up what each is off.
+/// The start of a move: the motor's position, or the position where it is held, so
+/// that the errors of consecutive moves do not add up.
 fn base(motor: &Device, position: i64) -> Result<i64> {
     let target = motor.run().and_then(MotorRun::target);
     let is_near = |target: &i64| target.abs_diff(position) <= TOLERANCE;
@@ -179,8 +179,8 @@ pub fn position(motor: &Device) -> Result<Value> {
     Ok(if is_unit { Value::Integer(counts) } else { Value::Float(counts as f64 / per_unit) })
 }
 
-/// Says what a motor's present position, in the units of [`position`], is
-/// called from now on. `false` if that is beyond what the kernel counts.
+/// Sets the position of a motor, in the units of [`position`], without turning it.
+/// `false` if that is beyond what the kernel counts.
 ///
 /// # Errors
 /// The kernel's.

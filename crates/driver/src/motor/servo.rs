@@ -1,8 +1,8 @@
 //! RC servos on a controller: class `servo-motor`.
 //!
 //! A servo turns its shaft to a position and keeps it there, until it is let
-//! float. Its positions go from -100 to 100 percent of its way, which is what it
-//! makes of the lengths of pulses that the controller sends it.
+//! float. Its positions go from -100 to 100 percent of its travel; the controller
+//! sends them as pulses of different lengths.
 use crate::device::Device;
 use crate::device::motion::End;
 use crate::error::Result;

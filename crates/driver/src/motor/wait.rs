@@ -3,8 +3,8 @@
 //! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
 //! a state that comes and goes between two announcements never. Other boards
 //! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
-//! but never for longer than [`SLICE`], then looks again; towards the end that
-//! position and speed predict it looks every [`SHORT_SLICE`].
+//! but never for longer than [`SLICE`], then samples again; towards the end that
+//! position and speed predict it samples every [`SHORT_SLICE`].
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Registry;
@@ -14,7 +14,7 @@ use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The sleep between two looks when the end is near.
+/// The time between two samples when the end is near.
 const SHORT_SLICE: Duration = Duration::from_millis(2);
 
 /// How long after a command `running` may still be missing: controllers on
@@ -24,10 +24,10 @@ const GRACE: Duration = Duration::from_millis(100);
 /// How long `stalled` must last to be believed: some boards flag each start.
 const STALLED_FOR: Duration = Duration::from_millis(100);
 
-/// How many counts a motor may be behind its regulated speed before it must
-/// have moved. The EV3 adds 3 % of its force for each of them (`Ki` 60 every
+/// Position error, in counts, at which the regulator's torque must have overcome
+/// static friction. The EV3 adds 3 % of its torque for each count (`Ki` 60 every
 /// 2 ms), and a motor with a wheel needs some 10 % to break away: a slow one
-/// stands for longer than [`STALLED_FOR`] at each start.
+/// stands still for longer than [`STALLED_FOR`] at each start.
 const BEHIND: u64 = 8;
 
 /// How long a position may stay the same under way to one where the board
@@ -56,7 +56,7 @@ pub enum Reason {
     Timeout,
     /// A motor is no longer plugged in.
     Unplugged,
-    /// A motor was stopped by somebody else before it got there.
+    /// Another command stopped a motor before it got there.
     Stopped,
 }
 
@@ -105,7 +105,7 @@ pub fn wait_for(
         Ok(true) => Ok(reason),
         Ok(false) => Ok(Reason::Timeout),
         Err(error) if error.is_unplugged() => {
-            // Whoever asks which motor it was need not wait for a new listing.
+            // The caller may ask which motor it was: list again at once.
             registry.forget_listings();
             Ok(Reason::Unplugged)
         }
@@ -146,8 +146,8 @@ pub fn wait_for_flag(
     }
 }
 
-/// Calls `look` until it answers `None`. What else it answers is how long to
-/// sleep at most before it is called again. `false` when the time is up.
+/// Calls `look` until it returns `None`. Otherwise it returns the longest time to
+/// sleep before the next call. `false` when the time is up.
 fn until(
     registry: &Registry,
     motors: &[Arc<Device>],
@@ -177,7 +177,7 @@ fn until(
             .filter_map(|attribute| attribute.reader(tree).ok())
             .collect();
         let slice = slice.min(left).min(SLICE);
-        // A wake-up that the tree cannot deliver shows at the next look.
+        // After a pause that failed, too, the next sample shows the state.
         let _ = tree.pause(&nodes, slice);
         // Woken early, and perhaps for nothing: sleep through the next slice,
         // so that a descriptor that is always ready does not make us spin.
@@ -193,21 +193,21 @@ fn until(
 /// One motor under observation.
 struct Progress<'a> {
     motor: &'a Device,
-    /// What it was told to do when the wait began. If it is told something
-    /// else since, it does not get there.
+    /// The command under way when the wait began. If the motor gets another one, it
+    /// does not reach the end of this one.
     run: Option<MotorRun>,
     has_run: bool,
     is_done: bool,
-    /// Whether the last look found nothing running.
+    /// Whether the last sample found nothing running.
     was_quiet: bool,
     stalled_since: Option<Duration>,
     /// A position, and since when it has been that.
     stuck: Option<(i64, Duration)>,
 }
 
-/// What an observation showed.
+/// The result of one sample.
 enum Sample {
-    /// It runs; look again after this time.
+    /// It runs; take the next sample after this time.
     Runs(Duration),
     /// It runs, and does not move.
     Blocked,
@@ -262,7 +262,7 @@ impl<'a> Progress<'a> {
     }
 
     /// Whether a missing flag can be believed. A plain file is empty for a
-    /// moment while another program writes it: that takes a second look.
+    /// moment while another program writes it: that takes a second sample.
     fn is_confirmed(&mut self) -> Result<bool> {
         let was_quiet = std::mem::replace(&mut self.was_quiet, true);
         Ok(was_quiet || !self.is_plain()?)
@@ -328,14 +328,13 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// How long to sleep before the next look: until shortly before the end
-    /// that can be predicted.
+    /// The time to the next sample: until shortly before the predicted end.
     fn slice(&self, now: Duration) -> Result<Duration> {
         let left = match self.run.map(|run| (run.started, run.end)) {
             Some((_, End::Position { target, .. })) => {
                 let position = self.motor.number("position")?;
                 let speed = match self.motor.number("speed") {
-                    // Controllers on I2C do not tell it.
+                    // Controllers on I2C do not measure it.
                     Err(error) if error.errno() == Some(Errno::OPNOTSUPP) => 0,
                     speed => speed?.unsigned_abs(),
                 };

@@ -2,14 +2,14 @@
 //!
 //! `bin_data` holds what the sensor sent, 32 bytes in the format that
 //! `bin_data_format` names. The files `value<N>` show the same numbers, or
-//! numbers that the kernel scales; to which range is not told anywhere. So only
-//! the modes are read this way of which the drivers' tables say that nothing is
-//! scaled, and only if they have more than one value.
+//! numbers that the kernel scales, to a range that no file shows. So this reads
+//! only the modes that the drivers' tables do not scale, and only if they have
+//! more than one value.
 use crate::device::Device;
 use crate::error::Result;
 use rustix::io::Errno;
 
-/// What `bin_data` has, whatever the mode.
+/// The bytes in `bin_data`, in every mode.
 const LENGTH: usize = 32;
 
 /// Modes with several values that are shown as they are: `ev3_uart_sensor_defs.c`
@@ -89,9 +89,8 @@ impl Format {
     }
 }
 
-/// A float with so many decimals as the integer that the kernel makes of it:
-/// cut off, but for two thirds of the last digit and more. `None` for what has
-/// no such integer.
+/// The integer that the kernel makes of a float with `decimals` decimals: rounded
+/// up from two thirds of the last digit on, else down. `None` beyond 32 bits.
 fn fixed_point(float: f32, decimals: i64) -> Option<i64> {
     let scaled = f64::from(float.abs()) * 10f64.powi(i32::try_from(decimals).ok()?);
     let (whole, rest) = (scaled.trunc(), scaled.fract());
@@ -104,9 +103,8 @@ fn fixed_point(float: f32, decimals: i64) -> Option<i64> {
     Some(if float < 0.0 { -magnitude } else { magnitude })
 }
 
-/// The values 0 to `N` - 1 of a sensor that is in that mode, as the files
-/// `value<N>` have them. `None` where these have to be read themselves: they
-/// always were before in this mode, so it has values.
+/// The first `count` values of a sensor that is in that mode, as the files
+/// `value<N>` show them. `None` where those files must be read.
 ///
 /// # Errors
 /// The kernel's.
@@ -139,8 +137,9 @@ pub(crate) fn values<const N: usize>(
     Ok(Some(values))
 }
 
-/// Learns how many values, and in which format, a mode has whose values have just been read one by one.
-/// A plain file has nothing behind it that would keep it in step with them.
+/// Remembers the number of values and their format in a mode whose values have
+/// just been read one by one. In a tree of plain files nothing keeps `bin_data` in
+/// step with the values, so it is not used there.
 pub(crate) fn learn(sensor: &Device, mode: &str) -> Result<()> {
     if !is_unscaled(sensor, mode) || sensor.is_plain("mode")? {
         return Ok(());

@@ -3,7 +3,8 @@
 //! A sensor measures one thing at a time, named by its `mode`. Writing `mode`
 //! restarts the measurement, even where nothing changes (and resets a gyro's
 //! angle), so it is written only when it differs. After a real change the first
-//! values are still those of the old mode: they are waited out, once.
+//! values are still those of the old mode: the first read waits until they have
+//! settled.
 mod bin_data;
 
 use crate::class::Class;
@@ -29,7 +30,7 @@ const SETTLING_INFRARED: Duration = Duration::from_millis(1100);
 const SETTLING_ON_BUS: Duration = Duration::from_millis(50);
 
 /// How long a sensor may take to answer again after losing contact: it is
-/// noticed after 0.7 s and the sensor introduces itself anew in about 1 s.
+/// noticed after 0.7 s, and the sensor introduces itself again in about 1 s.
 const RETRY_FOR: Duration = Duration::from_secs(2);
 
 /// The files of the values; a sensor has at most eight.
@@ -79,9 +80,9 @@ pub fn read_all<const N: usize>(
     })
 }
 
-/// Reads the first values of a sensor in a mode, as [`read`] does: so many, or
-/// all that the mode has, at most eight. They are of one moment where the
-/// sensor allows it, see the module `bin_data`.
+/// Reads the first `count` values of a sensor in a mode, or all that the mode has,
+/// at most eight, as [`read`] does. They are of one moment where the sensor allows
+/// it, see the module `bin_data`.
 ///
 /// # Errors
 /// As [`read`].
@@ -243,8 +244,8 @@ fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
     Ok(())
 }
 
-/// Waits until the values are those of the mode; `false` if they were. Who is
-/// interrupted meanwhile leaves the rest of it to the next.
+/// Waits until the values are those of the mode; `false` if they were already. If
+/// the wait is interrupted, the next caller waits for the rest.
 fn settle(registry: &Registry, sensor: &Device, interrupted: Interrupted) -> Result<bool> {
     let settled_at = *sensor.settled_at();
     if settled_at.is_zero() {
@@ -255,8 +256,8 @@ fn settle(registry: &Registry, sensor: &Device, interrupted: Interrupted) -> Res
     Ok(true)
 }
 
-/// Waits for the sensor to be ours: another thread that wants it in another
-/// mode must not change it between our mode and our value.
+/// Waits for the right to change the sensor's mode: another thread must not change
+/// it between our write of the mode and our read of the value.
 fn in_use<'a>(
     registry: &Registry,
     sensor: &'a Device,

@@ -60,8 +60,8 @@ impl Shade {
     }
 }
 
-/// Something to draw, in pixels from the upper left corner. What is outside
-/// of the screen is not seen.
+/// Something to draw, in pixels from the upper left corner. Pixels outside of the
+/// screen are not drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// One pixel.
@@ -275,13 +275,13 @@ impl DrawTarget for Frame {
         area: &Rectangle,
         color: Gray8,
     ) -> std::result::Result<(), Infallible> {
-        // What is seen of it only: areas may be much larger than the screen.
+        // Only the visible part: areas may be much larger than the screen.
         let seen = area.intersection(&self.bounding_box());
         self.draw_iter(seen.points().map(|at| Pixel(at, color)))
     }
 }
 
-/// A frame on which each pixel is a square of so many.
+/// A frame on which each pixel is a square of `scale` pixels.
 struct Scaled<'a> {
     frame: &'a mut Frame,
     origin: [i32; 2],

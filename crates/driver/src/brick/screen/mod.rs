@@ -16,10 +16,10 @@ use crate::error::{Access, Error, Result};
 use crate::sysfs::Sysfs;
 use std::path::{Path, PathBuf};
 
-/// Copies a frame to the screen; `None` where there is none of the EV3's.
+/// Copies a frame to the screen; `None` where there is no screen of the EV3's.
 ///
 /// # Errors
-/// The kernel's, as EACCES for who is not in the group `video`.
+/// The kernel's, as EACCES for a user who is not in the group `video`.
 pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<()>> {
     let path = path(dev);
     let Some(stream) = open(dev, &path, Access::Write)? else {
@@ -41,8 +41,8 @@ pub fn show(tree: &dyn Sysfs, dev: &dyn Devfs, frame: &Frame) -> Result<Option<(
     Ok(Some(()))
 }
 
-/// What is on the screen, from whomever: shades line by line, 0 is black.
-/// `None` where there is none of the EV3's.
+/// The picture on the screen, whichever program drew it: shades line by line, 0
+/// is black. `None` where there is no screen of the EV3's.
 ///
 /// # Errors
 /// The kernel's; [`Error::Malformed`] where it is cut short.
@@ -84,7 +84,7 @@ const MOST: usize = 4096;
 /// How the framebuffer is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Layout {
-    /// One bit for a pixel, so many bytes for a line.
+    /// One bit for a pixel, `line` bytes for a line.
     Bits { line: usize },
     /// Four bytes for a pixel: blue, green, red, nothing.
     Xrgb { line: usize },
@@ -99,8 +99,8 @@ impl Layout {
         line * HEIGHT as usize
     }
 
-    /// By what the kernel says of it; `None` if it says nothing, or that it is
-    /// another screen than the EV3's.
+    /// The layout by the attributes of the framebuffer; `None` if there are none, or
+    /// if the screen is not the EV3's.
     fn told(tree: &dyn Sysfs) -> Option<Self> {
         let told = |name: &str| {
             let path = tree.root().join("graphics/fb0").join(name);
@@ -121,12 +121,12 @@ impl Layout {
         (least as usize..=MOST).contains(&line).then_some(layout)
     }
 
-    /// By how many bytes there are.
+    /// The layout by the number of bytes.
     fn of_length(length: u64) -> Option<Self> {
         [Self::BITS, Self::XRGB].into_iter().find(|layout| layout.length() as u64 == length)
     }
 
-    /// That of an open screen. Where it is a file, that tells best.
+    /// The layout of an open screen. For a file, its length decides.
     fn of(tree: &dyn Sysfs, stream: &dyn Stream) -> Option<Self> {
         match stream.length() {
             Some(length) => Self::of_length(length),
@@ -157,7 +157,7 @@ impl Layout {
         bytes
     }
 
-    /// The way back.
+    /// Shades, line by line, from the bytes of the screen.
     fn shades(self, bytes: &[u8]) -> Vec<u8> {
         let (Self::Bits { line } | Self::Xrgb { line }) = self;
         let shades = bytes.chunks_exact(line.max(1)).flat_map(|bytes| {
