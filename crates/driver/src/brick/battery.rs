@@ -1,6 +1,6 @@
 //! The battery: class `power_supply`.
 //!
-//! Its voltage tells how full it is, roughly: it depends on the chemistry, falls
+//! Its voltage shows roughly how full it is: it depends on the chemistry, falls
 //! while motors draw current, and hardly changes in the middle of the
 //! discharge.
 use crate::class::Class;
@@ -62,7 +62,7 @@ const CHEMISTRIES: [Chemistry; 3] = [
     },
 ];
 
-/// The battery; `None` where the board has none, or does not tell.
+/// The battery; `None` where the board has none, or does not show it.
 ///
 /// # Errors
 /// The kernel's.
@@ -88,7 +88,7 @@ pub fn amperes(battery: &Device) -> Result<Option<f64>> {
 }
 
 /// The chemistry by the kernel's word: `Li-ion`, `NiMH`, or `Unknown`, which are
-/// AA cells. `None` on boards that do not tell.
+/// AA cells. `None` on boards that do not report it.
 ///
 /// # Errors
 /// The kernel's.

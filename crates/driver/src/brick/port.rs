@@ -23,13 +23,13 @@ pub const APPEARS_WITHIN: Duration = Duration::from_secs(4);
 /// The classes of devices that are on ports.
 const ON_PORTS: [Class; 4] = [Class::TachoMotor, Class::DcMotor, Class::ServoMotor, Class::Sensor];
 
-/// The types of tacho motors that an output port can be told it has
+/// The types of tacho motors that can be set on an output port
 /// (`ev3_motor_defs.c`).
 const MOTOR_TYPES: [&str; 5] =
     ["lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor", "act-l12-ev3-50", "act-l12-ev3-100"];
 
 /// The class of the device that a mode of a port makes, whatever is plugged in.
-/// In other modes it depends, on what is detected or what the port is told.
+/// In other modes it depends on the detected device, or on the one that was set.
 fn made_by(mode: &str) -> Option<Class> {
     match mode {
         "tacho-motor" => Some(Class::TachoMotor),
@@ -101,7 +101,7 @@ pub fn set_mode(
 ///
 /// # Errors
 /// [`Error::UnknownMotorType`] for a type that no output port has; the kernel's, as
-/// EOPNOTSUPP where the port cannot be told; [`Error::Interrupted`].
+/// EOPNOTSUPP where the port has no device to set; [`Error::Interrupted`].
 pub fn set_device(
     registry: &Registry,
     port: &str,

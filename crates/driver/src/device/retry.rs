@@ -4,7 +4,7 @@
 //! users of the robot, asynchronously, up to a second later
 //! (docs/ev3dev-sysfs.md, 0.1). Until then an open for writing answers EACCES, as
 //! it always does for a file that can only be read. A file that any device of
-//! the class lets be written tells the two apart.
+//! the class lets be written distinguishes the two.
 use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Registry;

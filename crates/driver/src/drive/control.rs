@@ -43,7 +43,7 @@ pub struct DriveOptions {
     pub acceleration: f64,
     /// The action of the motors at the end.
     pub stop_action: StopAction,
-    /// Whether the gyro, if there is one, tells the heading.
+    /// Whether the gyro, if there is one, measures the heading.
     pub use_gyro: bool,
 }
 
@@ -175,9 +175,8 @@ impl Inner {
             (devices.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
         }
     }
-}
 
-impl Inner {
+    /// Begins a motion, or changes the one under way. `None` if that is impossible.
     pub(super) fn begin(
         &mut self,
         command: &Command,

@@ -1,16 +1,15 @@
-//! A robot on two wheels that knows where it is and is kept on its command.
+//! A robot on two wheels that knows where it is and is kept on its course.
 //!
 //! One place does both, at a fixed period of 20 ms while the wheels turn or a
-//! motion is under way: it reads wheels and gyro, moves the estimate on
-//! ([`odometry`]), and tells the motors what the motion wants
-//! next ([`steering`]). The tree calls it
-//! ([`Sysfs::every`](crate::sysfs::Sysfs::every)): where there are real files by a
-//! thread of its own, which ends when the robot has come to rest. A thread that
+//! motion is under way: it reads wheels and gyro, updates the estimate
+//! ([`odometry`]), and commands the motors ([`steering`]). The tree calls it
+//! ([`Sysfs::every`](crate::sysfs::Sysfs::every)); over real files a thread does,
+//! which ends when the robot has come to rest. A thread that
 //! asks for the pose meanwhile does that step itself, and gets the pose of now.
 //!
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
-//! (`tacho_motor_class.c`). The end of a motion is a position that is gone to.
+//! (`tacho_motor_class.c`). The wheels end a motion at a position.
 mod control;
 mod devices;
 mod motion;
@@ -55,7 +54,7 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// The drive of a robot whose devices are in `devices`.
+    /// The drive of a robot whose devices are in `registry`. A registry has one drive.
     #[must_use]
     pub fn new(registry: Arc<Registry>, robot: &Robot) -> Arc<Self> {
         let drive = Arc::new_cyclic(|this| Self {
@@ -69,8 +68,8 @@ impl Drive {
         drive
     }
 
-    /// Makes it the drive of another robot, which is where this one is. Nothing
-    /// changes if it is the same robot.
+    /// Changes the robot, and keeps the pose. Nothing happens if it is the same
+    /// robot.
     pub fn set_robot(&self, robot: &Robot) {
         let mut inner = self.lock();
         if inner.robot == *robot {
@@ -99,7 +98,7 @@ impl Drive {
         Ok(self.look()?.map(|inner| inner.pose()))
     }
 
-    /// Says where the robot is.
+    /// Sets the pose of the robot; `false` where a motor is absent.
     ///
     /// # Errors
     /// The kernel's.
@@ -132,7 +131,7 @@ impl Drive {
         Ok(is_there.then_some(inner))
     }
 
-    /// Whether the gyro, if there is one, tells the heading.
+    /// Whether the gyro, if there is one, measures the heading.
     pub fn use_gyro(&self, use_gyro: bool) {
         let mut inner = self.lock();
         if inner.use_gyro != use_gyro {

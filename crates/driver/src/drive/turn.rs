@@ -134,7 +134,7 @@ pub fn by_gyro(
     ended.map(Some).map_err(|error| control.named(error))
 }
 
-/// The robot's angle in degrees once the gyro can tell it; `None` where the
+/// The robot's angle in degrees once the gyro can measure it; `None` where the
 /// gyro is gone.
 fn angle(registry: &Registry, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<Option<f64>> {
     Ok(sensor::read(registry, gyro, Some(MODE), 0, interrupted)?.as_ref().map(degrees))

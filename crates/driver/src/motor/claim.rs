@@ -25,7 +25,7 @@ impl Claim {
         Self(NonZeroU32::new(next).unwrap_or(NonZeroU32::MIN))
     }
 
-    /// Claims a motor, whatever it was told to do before.
+    /// Claims a motor, whatever its last command was.
     pub(crate) fn take(self, motor: &Device) {
         *motor.run() = Some(self.run(motor, End::Never));
     }

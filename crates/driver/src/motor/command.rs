@@ -61,7 +61,8 @@ pub fn command(motor: &Device, word: &str) -> Result<()> {
     start(motor, word, end)
 }
 
-/// Writes a command, and remembers what it started: `None` if it stops.
+/// Writes a command, and records the end of the run that it starts; `None` for a
+/// command that stops.
 pub(crate) fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
     if word == "reset" {
         return motor.without_counting(&mut || start_as(motor, word, end));
@@ -111,12 +112,13 @@ pub fn stop(motor: &Device, action: StopAction) -> Result<()> {
     stopped.and(chosen)
 }
 
-/// Stops a motor as [`stop`] does, and is content if it stops without having
-/// that action, or is gone.
+/// Stops a motor as [`stop`] does, and succeeds also if the motor does not have the
+/// action and just stops, or was unplugged.
 pub(super) fn stop_best_effort(motor: &Device, action: StopAction) -> Result<()> {
     best_effort(stop(motor, action))
 }
 
+/// Takes a stop as successful if the motor has no such action, or was unplugged.
 pub(crate) fn best_effort(stopped: Result<()>) -> Result<()> {
     let is_at_rest = |error: &Error| {
         let is_action = error.path().is_some_and(|path| path.ends_with("stop_action"));
@@ -125,8 +127,8 @@ pub(crate) fn best_effort(stopped: Result<()>) -> Result<()> {
     stopped.or_else(|error| if is_at_rest(&error) { Ok(()) } else { Err(error) })
 }
 
-/// Stops all of these motors, even where one of them fails. One that is gone
-/// has nothing to stop, and one that does not have that action just stops.
+/// Stops all of these motors, even where one of them fails. An unplugged
+/// motor counts as stopped, and one that does not have the action just stops.
 ///
 /// # Errors
 /// The first that occurred.
@@ -147,8 +149,7 @@ pub fn reset(motor: &Device) -> Result<()> {
     start(motor, "reset", None)
 }
 
-/// Finds out, before anything is written to any of them, whether the motors'
-/// files are open to us.
+/// Opens the motors' files for writing, before anything is written to one of them.
 pub(crate) fn prepare(motors: &[Arc<Device>]) -> Result<()> {
     motors.iter().try_for_each(|motor| motor.prepare("command"))
 }

@@ -373,7 +373,7 @@ pub fn with_mode(
     let all = registry.all(Class::Sensor)?;
     let is_meant = |sensor: &&Arc<Device>| {
         if types.is_empty() {
-            // A sensor that cannot tell its modes has none.
+            // A sensor whose modes cannot be read has none.
             sensor.text("modes").is_ok_and(|modes| modes.split(' ').any(|name| name == mode))
         } else {
             types.iter().any(|kind| kind.as_ref() == sensor.driver())
