@@ -56,6 +56,8 @@ check-clients: build
 lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	tools/layers.py --self-test
+	tools/layers.py
 	$(SWIPL) -g main -t 'halt(1)' tests/lint.pl
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh

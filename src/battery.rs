@@ -2,7 +2,8 @@
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_value;
-use ev3_driver::{Value, battery};
+use ev3_driver::Value;
+use ev3_driver::brick::battery;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

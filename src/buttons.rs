@@ -2,7 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;
-use ev3_driver::keys::{self, Event, Events, Key};
+use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use swipl::prelude::*;
 
@@ -61,7 +61,7 @@ predicates! {
         let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
         let timeout = call.seconds(timeout)?;
         let events = call.found(Events::from_now(call.dev()?))?;
-        let next = events.next_such(wanted, is_press, timeout, &mut call.interrupted());
+        let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
         unify_event(key, event, call.found(next)?)
     }
 
@@ -91,16 +91,16 @@ predicates! {
 }
 
 fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
-    unify_atom(key, read.key.word())?;
+    unify_atom(key, read.button.word())?;
     unify_atom(event, if read.is_press { "pressed" } else { "released" })
 }
 
 /// A key by its name, or any.
-fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Key>> {
+fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
     let Some(word) = call.text_if_bound(term)? else {
         return Ok(None);
     };
-    Key::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
+    Button::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
 }
 
 /// `pressed` or `released`, or any.

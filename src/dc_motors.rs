@@ -2,7 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::terms::unify_atom;
 use crate::motors::move_options;
-use ev3_driver::dc;
+use ev3_driver::motor::dc;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

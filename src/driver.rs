@@ -2,8 +2,8 @@
 use crate::glue::call::{Call, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
-use ev3_driver::devices::Detected;
-use ev3_driver::{Class, Device, Devices, attributes};
+use ev3_driver::class::Detected;
+use ev3_driver::{Class, Device, Registry, attributes};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -97,22 +97,22 @@ impl Bound {
     pub(crate) fn admits(&self, device: &Detected) -> bool {
         let admits = |bound: &Option<Text>, text: &str| bound.as_deref().is_none_or(|b| b == text);
         let port = self.port.as_deref();
-        port.is_none_or(|port| ev3_driver::port::names(port, &device.port))
+        port.is_none_or(|port| ev3_driver::port_name::names(port, &device.port))
             && admits(&self.kind, &device.driver)
             && admits(&self.path, &device.path.to_string_lossy())
     }
 }
 
-/// Devices whose attribute is still to be read.
+/// Registry whose attribute is still to be read.
 struct AttributeReads {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     found: IntoIter<Arc<Device>>,
     name: Text,
 }
 
 /// The devices of a class: all, or the one at a port.
 fn listed(
-    devices: &Devices,
+    devices: &Registry,
     class: Class,
     port: Option<&str>,
 ) -> ev3_driver::Result<Vec<Arc<Device>>> {

@@ -3,7 +3,7 @@ use crate::driver::unify_port;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;
-use ev3_driver::light::{self, Colour, Light};
+use ev3_driver::brick::light::{self, Color, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
@@ -42,14 +42,14 @@ predicates! {
         }
     }
 
-    /// led_set_colour_(+Light, +Colour)
+    /// led_set_colour_(+Light, +Color)
     #[module("ev3dev_native")]
     #[name("led_set_colour_")]
     semidet fn led_set_colour(context, name, colour) {
         let call = Call::of(context, "led", 2);
         let (name, colour) = (call.text(name)?, colour_of(&call, colour)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let set = light::set_colour(&devices, &name, &colour, interrupted);
+        let set = light::set_color(&devices, &name, &colour, interrupted);
         into_prolog_result(call.found(set)?)
     }
 
@@ -77,7 +77,7 @@ predicates! {
 /// What can be read of a light.
 enum Read {
     Nothing,
-    Colour(Colour),
+    Color(Color),
     Trigger(String),
     Triggers(Vec<String>),
     Delays(i64, i64),
@@ -85,7 +85,7 @@ enum Read {
 
 fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
     Ok(match what {
-        "colour" => Some(Read::Colour(light.colour()?)),
+        "colour" => Some(Read::Color(light.color()?)),
         "trigger" => Some(Read::Trigger(light.trigger()?)),
         "triggers" => Some(Read::Triggers(light.triggers()?)),
         "delays" => light.delays()?.map(|(on, off)| Read::Delays(on, off)),
@@ -96,9 +96,9 @@ fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
 fn unify_read(term: &Term, read: &Read) -> PrologResult<()> {
     match read {
         Read::Nothing => Ok(()),
-        Read::Colour(Colour::Named(name)) => unify_atom(term, name),
-        Read::Colour(Colour::Level(level)) => term.unify(*level),
-        Read::Colour(Colour::Levels(levels)) => unify_integers(term, "levels", levels),
+        Read::Color(Color::Named(name)) => unify_atom(term, name),
+        Read::Color(Color::Level(level)) => term.unify(*level),
+        Read::Color(Color::Levels(levels)) => unify_integers(term, "levels", levels),
         Read::Trigger(word) => unify_atom(term, word),
         Read::Triggers(words) => {
             let words: Vec<_> = words.iter().map(|word| atomable(word.as_str())).collect();
@@ -119,18 +119,18 @@ fn unify_integers(term: &Term, name: &str, integers: &[i64]) -> PrologResult<()>
 fn colour_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Colour> {
+) -> PrologResult<Color> {
     let percent = |term: &Term| Ok((0..=100).contains(&call.integer(term)?));
     let colour = if term.is_integer() {
-        percent(term)?.then_some(Colour::Level(call.integer(term)?))
+        percent(term)?.then_some(Color::Level(call.integer(term)?))
     } else if term.term_type() == TermType::CompoundTerm {
         let levels = call.context.compound_terms_vec(term)?;
         let are_percent = levels.iter().map(percent).collect::<PrologResult<Vec<bool>>>()?;
         let integers = levels.iter().map(|level| call.integer(level));
         let levels = integers.collect::<PrologResult<Vec<_>>>()?;
-        are_percent.into_iter().all(|is| is).then_some(Colour::Levels(levels))
+        are_percent.into_iter().all(|is| is).then_some(Color::Levels(levels))
     } else {
-        Colour::named(&call.text(term)?)
+        Color::named(&call.text(term)?)
     };
     colour.map_or_else(|| wrong_value(call, "led_color", term), Ok)
 }

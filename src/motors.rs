@@ -3,8 +3,9 @@ use crate::driver::{class_of, unify_port};
 use crate::glue::call::{Call, ListedDevices};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
-use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
-use ev3_driver::wait;
+use ev3_driver::device::retry;
+use ev3_driver::motor::wait;
+use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use std::time::Duration;
@@ -79,7 +80,7 @@ predicates! {
             Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
         };
         let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, way: *way });
+        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = motor::run_to(&devices, &moves, &options, interrupted);
@@ -95,7 +96,7 @@ predicates! {
         let (port, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
-        call.found(devices.with_patience(class, &port, interrupted, stop))
+        call.found(retry::with(&devices, class, &port, interrupted, stop))
     }
 
     /// stop_all_motors_
@@ -117,7 +118,7 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
-        call.found(devices.with_patience(Class::TachoMotor, &port, interrupted, reset))
+        call.found(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -184,17 +185,17 @@ predicates! {
         let (port, position) = (call.text(port)?, call.float(position)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);
-        let set = devices.with_patience(Class::TachoMotor, &port, interrupted, set);
+        let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
         into_prolog_result(call.found(set)?)
     }
 }
 
 /// How far a move goes, by the name of its term.
-fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Way> {
+fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Extent> {
     match &*turn.get::<Functor>()?.name_string() {
-        "to" => Ok(Way::To(call.float(way)?)),
-        "for" => Ok(Way::For(call.time(way)?)),
-        "move" => Ok(Way::By(call.float(way)?)),
+        "to" => Ok(Extent::To(call.float(way)?)),
+        "for" => Ok(Extent::For(call.time(way)?)),
+        "move" => Ok(Extent::By(call.float(way)?)),
         _ => wrong_value(call, "motor_move", turn),
     }
 }

@@ -2,7 +2,7 @@
 use crate::driver::unify_port;
 use crate::glue::call::{Call, ListedDevices};
 use crate::glue::terms::unify_atom;
-use ev3_driver::lego_port;
+use ev3_driver::brick::port as lego_port;
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -2,8 +2,8 @@
 use crate::glue::call::Call;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Class;
+use ev3_driver::drive::turn::{self, Ended, Turn};
 use ev3_driver::motor::Speed;
-use ev3_driver::turn::{self, Ended, Turn};
 use swipl::prelude::*;
 
 /// Registers the predicates below.

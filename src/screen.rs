@@ -2,9 +2,9 @@
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::state::{devices, frame};
-use ev3_driver::frame::{Align, Font, Letters, Shade, Shape, Style};
-use ev3_driver::picture::Picture;
-use ev3_driver::{frame, picture, screen};
+use ev3_driver::brick::screen::frame::{Align, Font, Letters, Shade, Shape, Style};
+use ev3_driver::brick::screen::picture::Picture;
+use ev3_driver::brick::screen::{self, frame, picture};
 use std::path::Path;
 use swipl::prelude::*;
 

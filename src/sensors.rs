@@ -3,7 +3,7 @@ use crate::driver::unify_port;
 use crate::glue::call::{Call, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_value;
-use ev3_driver::{Class, Device, Devices, sensor};
+use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -99,7 +99,7 @@ predicates! {
 
 /// Sensors that are still to be read.
 struct Readings {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     sensors: IntoIter<Arc<Device>>,
     mode: Text,
     /// Which value, or how many.
@@ -110,7 +110,7 @@ struct Readings {
 /// are named, all that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
-    devices: &Devices,
+    devices: &Registry,
     port: &Term,
     types: &[Text],
     mode: &str,

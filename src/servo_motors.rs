@@ -1,7 +1,9 @@
 //! `prolog/ev3dev/servo_motors.pl`: RC servos.
 use crate::driver::unify_port;
 use crate::glue::call::{Call, ListedDevices};
-use ev3_driver::{Class, Device, servo};
+use ev3_driver::device::retry;
+use ev3_driver::motor::servo;
+use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use swipl::prelude::*;
 
@@ -42,7 +44,7 @@ predicates! {
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
-        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
+        let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
         into_prolog_result(call.found(set)?)
     }
 
@@ -54,6 +56,6 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
-        call.found(devices.with_patience(Class::ServoMotor, &port, interrupted, float))
+        call.found(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
     }
 }

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
 use crate::glue::call::Call;
 use crate::glue::state::{dev, sound};
-use ev3_driver::sound::{self, Tone};
+use ev3_driver::brick::sound::{self, Tone};
 use std::path::Path;
 use std::time::Duration;
 use swipl::prelude::*;

@@ -3,7 +3,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
-use ev3_driver::{Class, Dev, Device, Devices, Value};
+use ev3_driver::{Class, Devfs, Device, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use swipl::prelude::*;
 /// The text of an atom or a string.
 pub(crate) type Text = Cow<'static, str>;
 
-/// Devices that are still to be answered.
+/// Registry that are still to be answered.
 pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
 
 /// The call under way of a public predicate: the origin of errors, and access to the devices.
@@ -33,7 +33,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
-    pub(crate) fn devices(&self) -> PrologResult<Arc<Devices>> {
+    pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
         if !state::is_chosen() {
             self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
@@ -43,7 +43,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// The device files in use. Until these or the tree are chosen, Prolog is
     /// asked to.
-    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Dev>> {
+    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
         if !state::is_dev_chosen() {
             self.devices()?;
         }

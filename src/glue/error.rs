@@ -18,7 +18,7 @@
 //! Access is `read` or `write`.
 use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::error::{Access, Error};
-use ev3_driver::{Class, Devices, Errno, Value};
+use ev3_driver::{Class, Errno, Registry, Value};
 use std::error::Error as _;
 use std::path::Path;
 use swipl::prelude::*;
@@ -34,7 +34,7 @@ pub(crate) struct Origin<'a, C: QueryableContextType> {
 pub(crate) fn raise<T, C: QueryableContextType>(
     call: &Origin<C>,
     error: &Error,
-    devices: &Devices,
+    devices: &Registry,
 ) -> PrologResult<T> {
     if matches!(error, Error::Interrupted) {
         // The signal handler has raised an exception already.
@@ -125,7 +125,7 @@ fn throw<T, C: QueryableContextType>(
 fn formal<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
     error: &Error,
-    devices: &Devices,
+    devices: &Registry,
 ) -> PrologResult<Term<'a>> {
     let attribute = error.path().map(file_name).unwrap_or_default();
     let path = error.path().map(Path::to_string_lossy).unwrap_or_default();
@@ -135,7 +135,7 @@ fn formal<'a, C: QueryableContextType>(
         _ => "read",
     };
     match error {
-        Error::Gone { class, port } => {
+        Error::Unplugged { class, port } => {
             let (class, port) = (atomable(class.to_string()), atomable(port.as_str()));
             term! {context: existence_error(#class, #port)}
         }
@@ -147,10 +147,10 @@ fn formal<'a, C: QueryableContextType>(
         Error::NoValue { index, .. } => {
             term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
         }
-        Error::Twice { port } => {
+        Error::DuplicatePort { port } => {
             term! {context: domain_error(distinct_ports, #atomable(port.as_str()))}
         }
-        Error::NoSuchDevice { name } => {
+        Error::UnknownMotorType { name } => {
             term! {context: domain_error(motor_type, #atomable(name.as_str()))}
         }
         Error::Pattern { pattern, .. } => {
@@ -186,17 +186,17 @@ fn formal<'a, C: QueryableContextType>(
 
 /// What went wrong where, the kernel's words, and for a device that is gone
 /// what is connected.
-fn message(error: &Error, devices: &Devices) -> String {
+fn message(error: &Error, devices: &Registry) -> String {
     let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
     // That a picture is missing has nothing to do with devices.
     let is_device = |path: &Path| path.starts_with(devices.tree().root());
-    let is_gone = error.is_gone() && error.path().is_none_or(is_device);
+    let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
     let connected = if is_gone { connected(devices) } else { String::new() };
     format!("{error}{source}{connected}")
 }
 
 /// The motors and sensors that are plugged in, but for servos: there are many.
-fn connected(devices: &Devices) -> String {
+fn connected(devices: &Registry) -> String {
     let all = [Class::TachoMotor, Class::DcMotor, Class::Sensor].map(|class| devices.all(class));
     let names: Vec<String> = all
         .iter()
@@ -213,7 +213,7 @@ fn connected(devices: &Devices) -> String {
 
 /// The class and port of the device that an attribute file belongs to, or the
 /// file itself where that is unknown.
-fn device_of(path: &Path, devices: &Devices) -> (String, String) {
+fn device_of(path: &Path, devices: &Registry) -> (String, String) {
     let owner = Class::ALL.into_iter().find_map(|class| {
         let listed = devices.all(class).ok()?;
         let device = listed.iter().find(|device| path.starts_with(device.path()))?;

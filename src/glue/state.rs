@@ -1,41 +1,118 @@
-//! The tree in use, one for the whole process.
-use ev3_driver::frame::Frame;
-use ev3_driver::sound::Sound;
-use ev3_driver::{Dev, DevFiles, Devices, Files, Tree, motor};
+//! The brick in use: the one value that holds the state of this process.
+use ev3_driver::brick::screen::frame::Frame;
+use ev3_driver::brick::sound::Sound;
+use ev3_driver::drive::{Drive, Robot};
+use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError, RwLock};
+use std::sync::{
+    Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
+    RwLockWriteGuard,
+};
+
+/// A brick: its attribute files, its device files, and what this process knows
+/// of both.
+struct Brick {
+    /// The files in use, which may be others later.
+    files: RwLock<InUse>,
+    /// The sounds that this program makes.
+    sound: Sound,
+    /// The picture that this program has drawn.
+    frame: Mutex<Frame>,
+}
+
+/// The files in use.
+struct InUse {
+    tree: InTree,
+    /// Whether it is settled which tree is in use.
+    is_tree_chosen: bool,
+    dev: Arc<dyn Devfs>,
+    /// Whether it is settled which device files are in use.
+    is_dev_chosen: bool,
+}
+
+/// The state that belongs to one tree, and is left behind with it.
+struct InTree {
+    /// The robot's drive, with its odometry. Made when first asked for. The first
+    /// field, as it uses the devices.
+    drive: OnceLock<Arc<Drive>>,
+    devices: Arc<Registry>,
+}
+
+impl InTree {
+    fn new(tree: Arc<dyn Sysfs>) -> Self {
+        Self { drive: OnceLock::new(), devices: Arc::new(Registry::new(tree)) }
+    }
+}
+
+impl Brick {
+    fn files(&self) -> RwLockReadGuard<'_, InUse> {
+        self.files.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change_files(&self) -> RwLockWriteGuard<'_, InUse> {
+        self.files.write().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where the kernel's own tree is.
+const KERNEL: &str = "/sys/class";
+
+/// Where the kernel's own device files are.
+const KERNEL_DEV: &str = "/dev";
+
+static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
+    files: RwLock::new(InUse {
+        tree: InTree::new(Arc::new(SysfsDir::new(KERNEL))),
+        is_tree_chosen: false,
+        dev: Arc::new(DevfsDir::new(KERNEL_DEV)),
+        is_dev_chosen: false,
+    }),
+    sound: Sound::default(),
+    frame: Mutex::default(),
+});
 
 /// The devices of the tree in use.
-pub(crate) fn devices() -> Arc<Devices> {
-    Arc::clone(&DEVICES.read().unwrap_or_else(PoisonError::into_inner))
+pub(crate) fn devices() -> Arc<Registry> {
+    Arc::clone(&BRICK.files().tree.devices)
+}
+
+/// The drive of a robot in the tree in use. There is one: for another robot it
+/// goes on from the pose it has.
+pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
+    let drive = {
+        let files = BRICK.files();
+        let InTree { drive, devices } = &files.tree;
+        Arc::clone(drive.get_or_init(|| Drive::new(Arc::clone(devices), robot)))
+    };
+    drive.set_robot(robot);
+    drive
 }
 
 /// Whether it is settled which tree is in use.
 pub(crate) fn is_chosen() -> bool {
-    CHOSEN.load(Ordering::Acquire)
+    BRICK.files().is_tree_chosen
 }
 
 /// The tree in use now is the one to use.
 pub(crate) fn chosen() {
-    CHOSEN.store(true, Ordering::Release);
+    BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. Motors that were started in the tree in use
 /// so far are stopped: nobody would find them there any more.
-pub(crate) fn use_tree(tree: Arc<dyn Tree>) -> ev3_driver::Result<()> {
-    let devices = Arc::new(Devices::new(tree));
+pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
+    let tree = InTree::new(tree);
     let before = {
-        let mut current = DEVICES.write().unwrap_or_else(PoisonError::into_inner);
-        std::mem::replace(&mut *current, devices)
+        let mut files = BRICK.change_files();
+        files.is_tree_chosen = true;
+        std::mem::replace(&mut files.tree, tree)
     };
-    chosen();
-    motor::stop_started(&before)
+    motor::stop_started(&before.devices)
 }
 
 /// Uses the tree of files below a directory from now on.
 pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
-    use_tree(Arc::new(Files::new(root)))
+    use_tree(Arc::new(SysfsDir::new(root)))
 }
 
 /// Uses the kernel's own tree from now on.
@@ -45,24 +122,27 @@ pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
 }
 
 /// The device files in use.
-pub(crate) fn dev() -> Arc<dyn Dev> {
-    Arc::clone(&DEV.read().unwrap_or_else(PoisonError::into_inner))
+pub(crate) fn dev() -> Arc<dyn Devfs> {
+    Arc::clone(&BRICK.files().dev)
 }
 
 /// Whether it is settled which device files are in use.
 pub(crate) fn is_dev_chosen() -> bool {
-    DEV_CHOSEN.load(Ordering::Acquire)
+    BRICK.files().is_dev_chosen
 }
 
 /// Uses other device files from now on.
-pub(crate) fn use_dev(dev: Arc<dyn Dev>) {
-    *DEV.write().unwrap_or_else(PoisonError::into_inner) = dev;
-    DEV_CHOSEN.store(true, Ordering::Release);
+pub(crate) fn use_dev(dev: Arc<dyn Devfs>) {
+    let _before = {
+        let mut files = BRICK.change_files();
+        files.is_dev_chosen = true;
+        std::mem::replace(&mut files.dev, dev)
+    };
 }
 
 /// Uses the device files below a directory from now on.
 pub(crate) fn use_dev_files(root: impl Into<PathBuf>) {
-    use_dev(Arc::new(DevFiles::new(root)));
+    use_dev(Arc::new(DevfsDir::new(root)));
 }
 
 /// Uses the kernel's own device files from now on.
@@ -71,30 +151,12 @@ pub(crate) fn use_default_dev() {
     use_dev_files(KERNEL_DEV);
 }
 
-/// What this program makes sound.
+/// The sounds that this program makes.
 pub(crate) fn sound() -> &'static Sound {
-    static SOUND: LazyLock<Sound> = LazyLock::new(Sound::default);
-    &SOUND
+    &BRICK.sound
 }
 
-/// What this program has drawn.
+/// The picture that this program has drawn.
 pub(crate) fn frame() -> MutexGuard<'static, Frame> {
-    static FRAME: LazyLock<Mutex<Frame>> = LazyLock::new(Mutex::default);
-    FRAME.lock().unwrap_or_else(PoisonError::into_inner)
+    BRICK.frame.lock().unwrap_or_else(PoisonError::into_inner)
 }
-
-static CHOSEN: AtomicBool = AtomicBool::new(false);
-
-/// Where the kernel's own tree is.
-const KERNEL: &str = "/sys/class";
-
-static DEV_CHOSEN: AtomicBool = AtomicBool::new(false);
-
-/// Where the kernel's own device files are.
-const KERNEL_DEV: &str = "/dev";
-
-static DEV: LazyLock<RwLock<Arc<dyn Dev>>> =
-    LazyLock::new(|| RwLock::new(Arc::new(DevFiles::new(KERNEL_DEV))));
-
-static DEVICES: LazyLock<RwLock<Arc<Devices>>> =
-    LazyLock::new(|| RwLock::new(Arc::new(Devices::new(Arc::new(Files::new(KERNEL))))));

@@ -1,7 +1,7 @@
 //! The simulated brick's keys, speaker and screen as a [`Dev`].
 use crate::sim::files::error;
-use ev3_driver::Dev;
-use ev3_driver::dev::{Speaker, Stream};
+use ev3_driver::Devfs;
+use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_sim::{DevDescriptor, Simulation};
 use std::io;
@@ -31,7 +31,7 @@ impl SimulatedDev {
     }
 }
 
-impl Dev for SimulatedDev {
+impl Devfs for SimulatedDev {
     fn root(&self) -> &Path {
         &self.root
     }

@@ -1,7 +1,7 @@
-//! The simulated brick's attribute files as a [`Tree`]: the driver works on it as
+//! The simulated brick's attribute files as a [`Sysfs`]: the driver works on it as
 //! on files. Time passes as [`ev3_sim::Simulation`] says.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Files, Node, Repeated, Tree};
+use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
 use ev3_sim::{Errno, NodeId, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,12 +16,12 @@ pub(crate) struct SimulatedFiles {
     simulation: Arc<Simulation>,
     root: PathBuf,
     /// Files that are not ev3dev's.
-    others: Files,
+    others: SysfsDir,
 }
 
 impl SimulatedFiles {
     pub(crate) fn new(simulation: Arc<Simulation>) -> Self {
-        Self { simulation, root: ROOT.into(), others: Files::new("/") }
+        Self { simulation, root: ROOT.into(), others: SysfsDir::new("/") }
     }
 
     /// The path below the root, if it is there.
@@ -38,7 +38,7 @@ impl SimulatedFiles {
     }
 }
 
-impl Tree for SimulatedFiles {
+impl Sysfs for SimulatedFiles {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -47,7 +47,7 @@ impl Tree for SimulatedFiles {
         self.list_below(self.below(directory).ok_or(io::ErrorKind::NotFound)?)
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let Some(below) = self.below(path) else {
             return self.others.open(path, access);
         };
@@ -77,7 +77,7 @@ impl Tree for SimulatedFiles {
         self.simulation.machine().now()
     }
 
-    fn pause(&self, _nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         self.simulation.pause(timeout);
         Ok(())
     }
@@ -94,7 +94,7 @@ struct SimulatedFile {
     node: NodeId,
 }
 
-impl Node for SimulatedFile {
+impl AttributeFile for SimulatedFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let text = self.simulation.read(|machine| machine.read(self.node));
         let text = text.map_err(error)?;

@@ -15,7 +15,7 @@ use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
 use crate::glue::terms::unify_atom;
-use ev3_driver::Devices;
+use ev3_driver::Registry;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
@@ -233,8 +233,8 @@ predicates! {
         let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let files = Devices::new(Arc::new(SimulatedFiles::new(simulation()?)));
-        call.check(ev3_driver::wait::sleep(&files, time, &mut call.interrupted()))
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        call.check(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 
     /// sim_hold_
@@ -485,7 +485,7 @@ fn clock_of<'a, C: QueryableContextType>(
 /// A port, in either spelling.
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
     let text = call.text(term)?;
-    match ev3_driver::port::socket(&text).parse() {
+    match ev3_driver::port_name::socket(&text).parse() {
         Ok(port) => Ok(port),
         Err(_) => named(call, "port", term),
     }

@@ -3,7 +3,7 @@ use crate::buttons::close_sources;
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because};
 use crate::glue::state::{dev, devices, use_default_dev, use_default_files};
-use ev3_driver::Devices;
+use ev3_driver::Registry;
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
 use std::path::Path;
@@ -81,7 +81,7 @@ fn let_go(mounted: &Mounted) -> ev3_driver::Result<()> {
 
 /// Another thread may be in the midst of a step with these devices, as the loop of
 /// a drive. One that goes on with them for long keeps the mount busy.
-fn wait_until_unused(devices: &Weak<Devices>) {
+fn wait_until_unused(devices: &Weak<Registry>) {
     let patience = Instant::now() + Duration::from_secs(1);
     while devices.strong_count() > 0 && Instant::now() < patience {
         std::thread::sleep(Duration::from_millis(1));
