@@ -30,7 +30,7 @@ predicates! {
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
         let (devices, robot) = (call.devices()?, robot_of(&call, robot)?);
-        into_prolog_result(call.check(Drive::of(&devices, &robot).start(&devices))?)
+        into_prolog_result(call.or_throw(Drive::of(&devices, &robot).start(&devices))?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
@@ -39,7 +39,7 @@ predicates! {
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
         let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let pose = call.found(drive.pose(&devices))?;
+        let pose = call.or_fail(drive.pose(&devices))?;
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -52,7 +52,7 @@ predicates! {
         let call = Call::of(context, "set_pose", 3);
         let (devices, drive) = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
-        into_prolog_result(call.check(drive.set_pose(&devices, pose))?)
+        into_prolog_result(call.or_throw(drive.set_pose(&devices, pose))?)
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
@@ -61,7 +61,7 @@ predicates! {
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
         let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let covariance = call.found(drive.uncertainty(&devices))?;
+        let covariance = call.or_fail(drive.uncertainty(&devices))?;
         let lists = covariance.map(|row| floats(&call, &row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
@@ -83,12 +83,12 @@ predicates! {
         let drive = Drive::of(&devices, &robot_of(&call, robot)?);
         let (options, wait, timeout) = options_of(&call, options)?;
         let interrupted = &mut call.interrupted();
-        let begun = call.found(drive.begin(&devices, &course, &options, interrupted))?;
+        let begun = call.or_fail(drive.begin(&devices, &course, &options, interrupted))?;
         if !wait {
             return unify_atom(reason, Reason::Reached.word());
         }
         let ended = drive.wait(&devices, &begun, timeout, interrupted);
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
@@ -99,7 +99,7 @@ predicates! {
         let (devices, timeout) = (call.devices()?, call.seconds(timeout)?);
         let drive = Drive::of(&devices, &robot_of(&call, robot)?);
         let ended = drive.wait_last(&devices, timeout, &mut call.interrupted());
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_pause_(+Seconds): waits by the clock of the tree.
@@ -108,7 +108,7 @@ predicates! {
     semidet fn drive_pause(context, seconds) {
         let call = Call::of(context, "calibrate", 3);
         let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
-        call.check(sleep(&devices, seconds, &mut call.interrupted()))
+        call.or_throw(sleep(&devices, seconds, &mut call.interrupted()))
     }
 }
 

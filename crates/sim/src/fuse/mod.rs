@@ -139,7 +139,7 @@ impl Mount {
         // nobody to wait for it.
         let (sender, ended) = channel();
         std::thread::Builder::new().name("ev3-sim-unmount".to_owned()).spawn(move || {
-            // Where nobody waits any more, it has been told that this may take long.
+            // If nothing receives this, the caller has already returned with a time-out.
             let _ = sender.send(session.umount_and_join());
         })?;
         match ended.recv_timeout(UNMOUNTED_WITHIN) {

@@ -72,7 +72,7 @@ pub(crate) enum Sense {
     FineAmbient,
     /// The voltage of a microphone in tenths of a per cent: high in silence.
     Silence,
-    /// In centimetres, or tenths of an inch; far less exact than the EV3's.
+    /// In centimeters, or tenths of an inch; far less exact than the EV3's.
     NxtDistance {
         inches: bool,
         single: bool,
