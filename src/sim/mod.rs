@@ -63,7 +63,7 @@ static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 /// Where the attributes and the device files are that were in use before.
 static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
-/// So much simulated time passes between two looks for signals.
+/// How much simulated time passes between two checks for signals.
 const STEP_SLICE: Duration = Duration::from_secs(1);
 
 /// A machine as it was.

@@ -12,7 +12,7 @@ const HEARD: [f64; 2] = [FAR, 40.0];
 /// The parts of the margin that are tried, one after the other. The least is
 /// for a robot that has come too near to something and is to get away.
 const MARGINS: [f64; 3] = [1.0, 0.7, 0.1];
-/// So much wider than the hull the way has to be free, in cm: a robot does not
+/// How much wider than the hull the way must be free, in cm: a robot does not
 /// keep to its way exactly.
 const BESIDE: f64 = 0.5;
 /// Legs whose directions differ by less, in radians, go on without a corner.
@@ -31,9 +31,9 @@ const AHEAD: f64 = 4.0;
 pub struct Step {
     /// The way up to its first corner.
     pub run: Path,
-    /// So many cm of that have been seen free.
+    /// How much of that has been seen free, in cm.
     pub safe: f64,
-    /// What has not been seen free there.
+    /// The first place there that has not been seen free.
     pub unseen: Option<Point>,
     /// How far it is to the goal from the end of the run, in cm.
     pub rest: f64,

@@ -147,9 +147,9 @@ impl Seen {
 /// How far a way can be gone safely.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Safe {
-    /// So many cm of it.
+    /// How much of the path, in cm.
     pub way: f64,
-    /// What has not been seen free there.
+    /// The first place there that has not been seen free.
     pub unseen: Option<Point>,
 }
 

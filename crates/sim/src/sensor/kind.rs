@@ -77,7 +77,7 @@ pub(crate) enum Sense {
         inches: bool,
         single: bool,
     },
-    /// So many to the degree Celsius or Fahrenheit.
+    /// Counts per degree Celsius or Fahrenheit.
     Temperature {
         per_degree: i32,
         fahrenheit: bool,
