@@ -33,8 +33,8 @@ fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
     SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Closes all sources: the file system that they are in goes away. Who reads
-/// on fails.
+/// Closes all sources: the file system that they are in goes away. Later
+/// reads fail.
 #[cfg(feature = "fuse")]
 pub(crate) fn close_sources() {
     for source in sources().drain(..).filter_map(|source| source.upgrade()) {
@@ -48,7 +48,7 @@ predicates! {
     #[name("buttons_")]
     semidet fn buttons(context, keys) {
         let call = Call::of(context, "button", 1);
-        let pressed = call.found(keys::pressed(&*call.dev()?))?;
+        let pressed = call.or_fail(keys::pressed(&*call.dev()?))?;
         let words: Vec<_> = pressed.into_iter().map(|key| atomable(key.word())).collect();
         keys.unify(words.as_slice())
     }
@@ -60,9 +60,9 @@ predicates! {
         let call = Call::of(context, "button_wait", 3);
         let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
         let timeout = call.seconds(timeout)?;
-        let events = call.found(Events::from_now(call.dev()?))?;
+        let events = call.or_fail(Events::from_now(call.dev()?))?;
         let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
-        unify_event(key, event, call.found(next)?)
+        unify_event(key, event, call.or_fail(next)?)
     }
 
     /// button_source_(-Source)
@@ -70,7 +70,7 @@ predicates! {
     #[name("button_source_")]
     semidet fn button_source(context, source) {
         let call = Call::of(context, "button_events", 1);
-        let events = call.found(Events::from_now(call.dev()?))?;
+        let events = call.or_fail(Events::from_now(call.dev()?))?;
         let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
         sources().retain(|source| source.strong_count() > 0);
         sources().push(Arc::downgrade(&opened));
@@ -86,7 +86,7 @@ predicates! {
         let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
         let events = source.events().clone().ok_or(PrologError::Failure)?;
         let read = events.nth(index, &mut call.interrupted());
-        unify_event(key, event, call.check(read)?)
+        unify_event(key, event, call.or_throw(read)?)
     }
 }
 

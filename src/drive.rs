@@ -31,7 +31,7 @@ predicates! {
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
-        into_prolog_result(call.check(robots_drive(&call, robot)?.start())?)
+        into_prolog_result(call.or_throw(robots_drive(&call, robot)?.start())?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
@@ -40,7 +40,7 @@ predicates! {
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
         let drive = drive_of(&call, robot, use_gyro)?;
-        let pose = call.found(drive.pose())?;
+        let pose = call.or_fail(drive.pose())?;
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -53,7 +53,7 @@ predicates! {
         let call = Call::of(context, "set_pose", 3);
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
-        into_prolog_result(call.check(drive.set_pose(pose))?)
+        into_prolog_result(call.or_throw(drive.set_pose(pose))?)
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
@@ -62,7 +62,7 @@ predicates! {
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
         let drive = drive_of(&call, robot, use_gyro)?;
-        let covariance = call.found(drive.uncertainty())?;
+        let covariance = call.or_fail(drive.uncertainty())?;
         let lists = covariance.map(|row| floats(&call, &row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
@@ -83,12 +83,12 @@ predicates! {
         let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
         let (options, wait, timeout) = options_of(&call, options)?;
         let interrupted = &mut call.interrupted();
-        let begun = call.found(drive.begin(&course, &options, interrupted))?;
+        let begun = call.or_fail(drive.begin(&course, &options, interrupted))?;
         if !wait {
             return unify_atom(reason, Reason::Reached.word());
         }
         let ended = drive.wait(&begun, timeout, interrupted);
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
@@ -98,7 +98,7 @@ predicates! {
         let call = Call::of(context, "drive_wait", 2);
         let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
         let ended = drive.wait_last(timeout, &mut call.interrupted());
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_pause_(+Seconds): waits by the clock of the tree.
@@ -107,7 +107,7 @@ predicates! {
     semidet fn drive_pause(context, seconds) {
         let call = Call::of(context, "calibrate", 3);
         let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
-        call.check(sleep(devices.tree(), seconds, &mut call.interrupted()))
+        call.or_throw(sleep(devices.tree(), seconds, &mut call.interrupted()))
     }
 }
 

@@ -26,7 +26,7 @@ predicates! {
             let call = Call::of(context, name, arity);
             let bound = Bound::of(&call, port, kind, path)?;
             let tree = call.devices()?;
-            let devices = call.check(listed(&tree, class, bound.port.as_deref()))?;
+            let devices = call.or_throw(listed(&tree, class, bound.port.as_deref()))?;
             let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
@@ -46,13 +46,13 @@ predicates! {
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
             let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
-            let found = call.check(listed(&devices, class, port.as_deref()))?.into_iter();
+            let found = call.or_throw(listed(&devices, class, port.as_deref()))?.into_iter();
             Ok(Some(AttributeReads { devices, found, name }))
         },
         call(reads) => {
             let call = Call::of(context, accessor(class_of(context, class)?), 3);
             let AttributeReads { devices, found, name } = reads;
-            let read = |device: &Arc<Device>| call.found(attributes::read(devices, device, name));
+            let read = |device: &Arc<Device>| call.or_fail(attributes::read(devices, device, name));
             call.next(found, read, |device, read| {
                 unify_value(value, read)?;
                 unify_port(port, device.port())
@@ -69,7 +69,7 @@ predicates! {
         let port = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(attributes::write(&devices, class, &port, &name, &text, interrupted))
+        call.or_fail(attributes::write(&devices, class, &port, &name, &text, interrupted))
     }
 }
 

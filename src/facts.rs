@@ -144,11 +144,16 @@ fn drawn<'a, C: QueryableContextType>(
     size: &Term<'a>,
     rows: &Term<'a>,
 ) -> PrologResult<WorldSpec> {
-    let rows = call.list(rows)?;
-    let texts = rows.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-    WorldSpec::from_rows(&texts, call.float(size)?).or_else(|error| match *error.parts {
-        [Part::MapRow(row)] => wrong_because(call, "map_row", &rows[row], &error.to_string()),
-        _ => wrong_because(call, "possible_geometry", size, &error.to_string()),
+    let list = call.list(rows)?;
+    let texts = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
+    WorldSpec::from_map(&texts.join("\n"), call.float(size)?).or_else(|error| {
+        let reason = error.to_string();
+        let [Part::MapRow(row)] = *error.parts else {
+            return wrong_because(call, "possible_geometry", size, &reason);
+        };
+        // Empty rows at the top are no part of the drawing.
+        let empty = texts.iter().take_while(|text| text.is_empty()).count();
+        wrong_because(call, "map_row", list.get(empty + row).unwrap_or(rows), &reason)
     })
 }
 

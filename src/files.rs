@@ -29,7 +29,7 @@ predicates! {
             let call = Call::of(context, "subsystem_detect", 4);
             let pattern = call.text(pattern)?;
             let bound = Bound::of(&call, port, kind, path)?;
-            let mut detected = call.check(call.devices()?.detect(&pattern))?;
+            let mut detected = call.or_throw(call.devices()?.detect(&pattern))?;
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
         },
@@ -45,7 +45,7 @@ predicates! {
     semidet fn file_read(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
-        let read = call.check(read_value(call.devices()?.tree(), Path::new(&*path)))?;
+        let read = call.or_throw(read_value(call.devices()?.tree(), Path::new(&*path)))?;
         unify_value(value, &read)
     }
 
@@ -55,7 +55,7 @@ predicates! {
     semidet fn file_write(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
-        call.check(write_file(call.devices()?.tree(), Path::new(&*path), &text))
+        call.or_throw(write_file(call.devices()?.tree(), Path::new(&*path), &text))
     }
 
     /// sysfs_(-Root)
@@ -74,7 +74,7 @@ predicates! {
         let used = use_files(&*root);
         #[cfg(feature = "sim")]
         crate::sim::end_unless_mounted();
-        call.check(used)
+        call.or_throw(used)
     }
 
     /// dev_(-Directory)

@@ -14,6 +14,6 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("stop_started_")]
     semidet fn stop_started(context) {
-        Call::of(context, "halt", 0).check(motor::stop_started(&devices()))
+        Call::of(context, "halt", 0).or_throw(motor::stop_started(&devices()))
     }
 }

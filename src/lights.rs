@@ -27,14 +27,14 @@ predicates! {
         setup => {
             let call = Call::of(context, "led", 2);
             let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
-            let mut lights = call.check(light::lights(&devices))?;
+            let mut lights = call.or_throw(light::lights(&devices))?;
             lights.retain(|light| name.as_deref().is_none_or(|name| light.is_called(name)));
             Ok(Some(lights.into_iter()))
         },
         call(lights) => {
             let call = Call::of(context, "led", 2);
             let what = call.text(what)?;
-            let read = |light: &Light| call.found(read(light, &what));
+            let read = |light: &Light| call.or_fail(read(light, &what));
             call.next(lights, read, |light, read| {
                 unify_read(value, read)?;
                 unify_port(name, light.name())
@@ -50,7 +50,7 @@ predicates! {
         let (name, colour) = (call.text(name)?, colour_of(&call, colour)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = light::set_color(&devices, &name, &colour, interrupted);
-        into_prolog_result(call.found(set)?)
+        into_prolog_result(call.or_fail(set)?)
     }
 
     /// led_set_trigger_(+Light, +Trigger)
@@ -60,7 +60,7 @@ predicates! {
         let call = Call::of(context, "led_trigger", 2);
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(light::set_trigger(&devices, &name, &trigger, interrupted))
+        call.or_fail(light::set_trigger(&devices, &name, &trigger, interrupted))
     }
 
     /// led_set_delays_(+Light, +On, +Off)
@@ -70,7 +70,7 @@ predicates! {
         let call = Call::of(context, "led_blink", 3);
         let (name, delays) = (call.text(name)?, [call.integer(on)?, call.integer(off)?]);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(light::blink(&devices, &name, delays, interrupted))
+        call.or_fail(light::blink(&devices, &name, delays, interrupted))
     }
 }
 

@@ -36,7 +36,7 @@ predicates! {
         let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
@@ -47,7 +47,7 @@ predicates! {
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// motors_run_(+Runs): a list of run(Port, Percent), started together.
@@ -63,7 +63,7 @@ predicates! {
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
         let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &runs, interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &runs, interrupted))?)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
@@ -84,7 +84,7 @@ predicates! {
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = motor::run_to(&devices, &moves, &options, interrupted);
-        unify_atom(reason, call.found(ended)?.word())
+        unify_atom(reason, call.or_fail(ended)?.word())
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
@@ -96,7 +96,7 @@ predicates! {
         let (port, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
-        call.found(retry::with(&devices, class, &port, interrupted, stop))
+        call.or_fail(retry::with(&devices, class, &port, interrupted, stop))
     }
 
     /// stop_all_motors_
@@ -105,9 +105,9 @@ predicates! {
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         let devices = call.devices()?;
-        let all = |class| call.check(devices.all(class));
+        let all = |class| call.or_throw(devices.all(class));
         let motors = [all(Class::TachoMotor)?, all(Class::DcMotor)?].concat();
-        call.check(motor::stop_all(&motors, StopAction::Brake))
+        call.or_throw(motor::stop_all(&motors, StopAction::Brake))
     }
 
     /// motor_reset_(+Port)
@@ -118,7 +118,7 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
-        call.found(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
+        call.or_fail(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -129,9 +129,9 @@ predicates! {
         let devices = call.devices()?;
         let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
         let timeout = call.seconds(timeout)?;
-        let motors = call.found(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
+        let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
         let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// motor_wait_flag_(+Port, +Flag, +Present)
@@ -141,9 +141,9 @@ predicates! {
         let call = Call::of(context, "motor_wait_while", 2);
         let devices = call.devices()?;
         let (port, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
-        let motor = call.found(devices.find(Class::TachoMotor, &port))?;
+        let motor = call.or_fail(devices.find(Class::TachoMotor, &port))?;
         let interrupted = &mut call.interrupted();
-        call.check(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+        call.or_throw(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
     }
 
     /// motor_run_direct_(+Class, +Port, +Percent)
@@ -155,7 +155,7 @@ predicates! {
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let runs = motor::run_direct(&devices, class, &port, percent, interrupted);
-        into_prolog_result(call.check(runs)?)
+        into_prolog_result(call.or_throw(runs)?)
     }
 
     /// motor_position_(?Port, -Position)
@@ -169,7 +169,7 @@ predicates! {
         call(motors) => {
             let call = Call::of(context, "motor_position", 2);
             let devices = &call.devices()?;
-            let read = |motor: &Arc<Device>| call.found(devices.read(motor, motor::position));
+            let read = |motor: &Arc<Device>| call.or_fail(devices.read(motor, motor::position));
             call.next(motors, read, |motor, read| {
                 unify_value(position, read)?;
                 unify_port(port, motor.port())
@@ -186,7 +186,7 @@ predicates! {
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);
         let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
-        into_prolog_result(call.found(set)?)
+        into_prolog_result(call.or_fail(set)?)
     }
 }
 

@@ -27,9 +27,9 @@ predicates! {
             degrees: call.float(degrees)?,
             gearing: call.float(&gearing)?,
         };
-        let gyro = call.found(devices.find(Class::Sensor, &call.text(gyro)?))?;
+        let gyro = call.or_fail(devices.find(Class::Sensor, &call.text(gyro)?))?;
         let turned = turn::by_gyro(&devices, &gyro, &turn, &mut call.interrupted());
-        unify_atom(ended, word(call.found(turned)?))
+        unify_atom(ended, word(call.or_fail(turned)?))
     }
 }
 

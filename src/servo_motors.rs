@@ -27,7 +27,7 @@ predicates! {
             let call = Call::of(context, "servo_motor_position", 2);
             let devices = &call.devices()?;
             let read = |servo: &Arc<Device>| {
-                call.found(devices.read(servo, servo::position).map(Option::flatten))
+                call.or_fail(devices.read(servo, servo::position).map(Option::flatten))
             };
             call.next(servos, read, |servo, read| {
                 percent.unify(*read)?;
@@ -45,7 +45,7 @@ predicates! {
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
         let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
-        into_prolog_result(call.found(set)?)
+        into_prolog_result(call.or_fail(set)?)
     }
 
     /// servo_motor_float_(+Port)
@@ -56,6 +56,6 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
-        call.found(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
+        call.or_fail(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
     }
 }

@@ -176,7 +176,7 @@ test(a_box_where_the_robot_starts_by_default) :-
     says(Message, 'FILE:2:0: '),
     says(Message, 'robot at 0, 0 is inside box(0, 0, 10, 10, 0)').
 test(two_starts_in_a_map) :-
-    complaint("map(20, [\"S#\", \"v.\"]).\n", [], Formal, Message),
+    complaint("map(20, [\"\", \"S#\", \"v.\", \"^.\"]).\n", [], Formal, Message),
     Formal == domain_error(map_row, "v."),
     says(Message, 'FILE:1:0: '),
     says(Message, 'second start').

@@ -118,7 +118,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// the one at a port that is bound.
     pub(crate) fn listed(&self, class: Class, port: &Term) -> PrologResult<Option<ListedDevices>> {
         let (port, devices) = (self.text_if_bound(port)?, self.devices()?);
-        let found = self.check(match port {
+        let found = self.or_throw(match port {
             Some(port) => devices.find(class, &port).map(|device| device.into_iter().collect()),
             None => devices.all(class).map(|all| all.to_vec()),
         })?;
@@ -173,13 +173,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// What the driver answered; its error as an exception.
-    pub(crate) fn check<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
+    pub(crate) fn or_throw<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
         result.or_else(|error| raise(self, &error, &state::devices()))
     }
 
     /// What the driver found; a failure if it found nothing.
-    pub(crate) fn found<T>(&self, result: ev3_driver::Result<Option<T>>) -> PrologResult<T> {
-        self.check(result)?.ok_or(PrologError::Failure)
+    pub(crate) fn or_fail<T>(&self, result: ev3_driver::Result<Option<T>>) -> PrologResult<T> {
+        self.or_throw(result)?.ok_or(PrologError::Failure)
     }
 
     /// Handles signals; `true` if that raised an exception.

@@ -12,8 +12,8 @@ use std::time::Duration;
 /// Where programs see them.
 const ROOT: &str = "/dev";
 
-/// The number of the ioctl that asks which keys are down, for so many bytes
-/// (linux/input.h).
+/// The number of the ioctl that reads which keys are down into a buffer of this
+/// many bytes (linux/input.h).
 fn eviocgkey(bytes: usize) -> u32 {
     let bytes = u32::try_from(bytes).unwrap_or(0) & 0x3fff;
     2 << 30 | bytes << 16 | u32::from(b'E') << 8 | 0x18

@@ -63,7 +63,7 @@ static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 /// Where the attributes and the device files are that were in use before.
 static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
-/// So much simulated time passes between two looks for signals.
+/// How much simulated time passes between two checks for signals.
 const STEP_SLICE: Duration = Duration::from_secs(1);
 
 /// A machine as it was.
@@ -117,7 +117,7 @@ predicates! {
         let before = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take();
         let [files, dev] = before.ok_or(PrologError::Failure)?;
         use_dev_files(dev);
-        call.check(use_files(files))
+        call.or_throw(use_files(files))
     }
 
     /// sim_active_
@@ -234,7 +234,7 @@ predicates! {
             return wrong_value(&call, "seconds", seconds);
         };
         let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
-        call.check(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
+        call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 
     /// sim_hold_
@@ -279,7 +279,7 @@ predicates! {
             simulation.step(slice);
             left -= slice;
             if interrupted() {
-                return call.check(Err(ev3_driver::Error::Interrupted));
+                return call.or_throw(Err(ev3_driver::Error::Interrupted));
             }
         }
         Ok(())
@@ -415,7 +415,7 @@ fn start<C: QueryableContextType>(
         *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(roots);
     }
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
-    call.check(use_tree(Arc::new(SimulatedFiles::new(simulation))))
+    call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
 /// `world` or `robot`.

@@ -58,7 +58,7 @@ fn mounted<C: QueryableContextType>(
 /// Unmounts; fails where nothing is mounted.
 pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
     let mounted = take().ok_or(PrologError::Failure)?;
-    call.check(let_go(&mounted))?;
+    call.or_throw(let_go(&mounted))?;
     if let Some(mount) = mounted.dev {
         gone(call, mount)?;
     }

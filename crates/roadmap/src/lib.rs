@@ -18,7 +18,7 @@
 //! stands, so that the robot may go there, and obstacles that the map lacks.
 //! [`Views::next_step`] plans with both, and says how far the robot may go.
 //!
-//! Lengths are in centimetres. X goes to the right and y up; headings are in
+//! Lengths are in centimeters. X goes to the right and y up; headings are in
 //! degrees, 0 along +y and clockwise positive. The same input gives the same
 //! bits on every machine.
 //!

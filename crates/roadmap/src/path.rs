@@ -71,7 +71,7 @@ impl Leg {
         self.arc().map_or_else(|| distance(self.start(), self.end()), |arc| arc.length())
     }
 
-    /// The point after so many cm.
+    /// The point after a distance in cm.
     #[must_use]
     pub fn at(&self, way: f64) -> Point {
         let share = if self.length() > 0.0 { (way / self.length()).clamp(0.0, 1.0) } else { 0.0 };
@@ -81,7 +81,7 @@ impl Leg {
         }
     }
 
-    /// The direction of going after so many cm.
+    /// The direction of motion after a distance in cm.
     pub(crate) fn direction_at(&self, way: f64) -> Vec2 {
         match self.arc() {
             Some(arc) => arc.direction_at((way / arc.length()).clamp(0.0, 1.0)),
@@ -89,7 +89,7 @@ impl Leg {
         }
     }
 
-    /// The first so many cm of it.
+    /// Its beginning, up to a distance in cm.
     pub(crate) fn until(&self, way: f64) -> Leg {
         match *self {
             Leg::Line { from, .. } => Leg::Line { from, to: self.at(way) },
@@ -141,7 +141,7 @@ impl Path {
         self.legs.iter().map(Leg::length).sum()
     }
 
-    /// The first so many cm of it.
+    /// Its beginning, up to a distance in cm.
     #[must_use]
     pub fn until(&self, mut way: f64) -> Path {
         let mut legs = Vec::new();

@@ -1,11 +1,11 @@
 //! RRT*: a tree that grows from the start towards points drawn at random, and
-//! is joined anew where that shortens a way.
+//! is rewired where that shortens a way.
 use crate::geometry::{Point, distance, point, vec2};
 use crate::map::Map;
 use crate::problem::{SLACK, Sought};
 use crate::search::Searched;
 
-/// One of so many draws is the goal itself.
+/// One in this many draws is the goal itself.
 const GOAL_EVERY: u32 = 16;
 
 struct Tree<'a> {

@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// Room around everything, in cm.
 const MARGIN: f64 = 10.0;
 
-/// An SVG picture, one unit a centimetre, y up: the obstacles, each with what
+/// An SVG picture, one unit a centimeter, y up: the obstacles, each with what
 /// must be kept free around it, the lines of the roadmap that were looked at,
 /// and the way.
 #[must_use]

@@ -90,7 +90,7 @@ proptest! {
             let far = corner[0].hypot(corner[1]);
             prop_assert!(gap(*corner, pillar) < 6.0 + 0.15 * far, "{corner:?}");
         }
-        // A map that has it is not told anew.
+        // An obstacle of the map is not reported again.
         let known = Map::new(vec![Obstacle::circle(pillar.0, pillar.1).unwrap()], None).unwrap();
         prop_assert!(views.obstacles(&known).is_empty());
     }

@@ -51,7 +51,7 @@ impl Subject {
         }
     }
 
-    /// Whether a fact with this name and so many arguments is in the vocabulary.
+    /// Whether a fact with this name and number of arguments is in the vocabulary.
     #[must_use]
     pub fn has(self, name: &str, arity: usize) -> bool {
         self.vocabulary().iter().any(|(other, arities)| *other == name && arities.contains(&arity))

@@ -136,7 +136,7 @@ const JIFFY_TICKS: u64 = 5;
 /// The motor class looks at its flags every 50 ms.
 const NOTIFY_TICKS: u64 = 25;
 
-/// So many ticks are at least this long. Nothing is negative here.
+/// The number of ticks that take at least this long. No time is negative here.
 fn ticks_from_ms(ms: i32) -> u64 {
     u64::from(ms.unsigned_abs()).div_ceil(TICK_MS)
 }

@@ -31,7 +31,7 @@ pub enum Action {
     Written,
     /// It read the text: recorded for the values of sensors.
     Read,
-    /// It made a tone of so many Hz; 0 is silence.
+    /// It made a tone. The text is its pitch in Hz; 0 is silence.
     Tone,
     /// It said the text.
     Said,

@@ -178,7 +178,7 @@ missing.
 % Lights
 
 %!  led_(?Light, +What, -Value) is nondet.
-%!  led_set_colour_(+Light, +Colour) is semidet.
+%!  led_set_colour_(+Light, +Color) is semidet.
 %!  led_set_delays_(+Light, +On, +Off) is semidet.
 %!  led_set_trigger_(+Light, +Trigger) is semidet.
 %

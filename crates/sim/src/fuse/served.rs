@@ -14,13 +14,13 @@ use crate::machine::{Machine, Written};
 
 /// An open file, and the tree that it is in.
 pub(super) trait Served: Debug + Send + Sized + 'static {
-    /// What poll(2) reports in any case.
+    /// The events that poll(2) always reports.
     const ALWAYS: PollEvents;
 
-    /// What it also reports when there is something to tell.
+    /// The events that it reports in addition when there is news.
     const READY: PollEvents;
 
-    /// What making a directory, removing and renaming are refused with.
+    /// The error of making a directory, removing and renaming.
     const REFUSAL: Errno;
 
     /// Kind, permission bits and size of a node.

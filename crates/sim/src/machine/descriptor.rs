@@ -35,8 +35,8 @@ impl Descriptor {
         self.node
     }
 
-    /// Reads from an offset. At offset 0 the driver is asked anew; elsewhere the rest of the last
-    /// text is given, 0 bytes at its end.
+    /// Reads from an offset. At offset 0 the driver makes a new text. Elsewhere this gives the
+    /// rest of the last one, 0 bytes at its end.
     ///
     /// # Errors
     /// ENODEV after an unplug; what the driver answers.

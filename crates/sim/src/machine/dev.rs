@@ -94,8 +94,8 @@ impl Machine {
         entries(directory)?.map(entry).collect()
     }
 
-    /// Kind, permission bits and size of a node below `/dev`. The screen is so many bytes; event
-    /// devices have none.
+    /// Kind, permission bits and size of a node below `/dev`. Only the screen
+    /// has a size.
     ///
     /// # Errors
     /// ENOENT if there is no such node.

@@ -77,8 +77,8 @@ impl Machine {
         self.tree.may_open(node, access, self.tick)
     }
 
-    /// Reads an attribute: its driver is called and makes the text anew. Which part of it a
-    /// `pread` gets is the business of a [`Descriptor`].
+    /// Reads an attribute: its driver is called and makes a new text. A [`Descriptor`] decides
+    /// which part of it a `pread` gets.
     ///
     /// # Errors
     /// ENODEV if its device is gone; EACCES if it cannot be read; what the driver answers.

@@ -60,7 +60,7 @@ pub struct Written {
     /// Bytes taken: all of them.
     pub length: usize,
     /// The real call returns only after this time. There is no clock here to wait for, so an
-    /// adapter that has one lets so much time pass before it returns to its caller.
+    /// adapter that has one lets this time pass before it returns to its caller.
     pub blocks: Duration,
 }
 
@@ -236,7 +236,8 @@ impl Machine {
     }
 
     /// Goes back to a snapshot. What is plugged in from now on gets numbers that no device has had
-    /// in the meantime, either: who still knows that one would take the new one for it.
+    /// in the meantime, either: a program that still knows that device would mistake the new one for
+    /// it.
     pub fn restore(&mut self, snapshot: Machine) {
         let before = std::mem::replace(self, snapshot);
         self.tree.count_on_from(&before.tree);

@@ -49,7 +49,7 @@ fn list(points: impl Iterator<Item = Point>) -> String {
 }
 
 impl Machine {
-    /// An SVG picture, one unit a centimetre, y up.
+    /// An SVG picture, one unit a centimeter, y up.
     #[must_use]
     pub fn svg(&self) -> String {
         let pose = self.pose();

@@ -21,7 +21,7 @@ impl Machine {
         self.now
     }
 
-    /// Lets exactly so much time pass.
+    /// Lets exactly this much time pass.
     pub fn step(&mut self, dt: Duration) {
         self.now += dt;
         let ticks = self.now.as_micros() / u128::from(TICK_US);

@@ -27,8 +27,8 @@ const WHITE_NUMBER: i32 = 17;
 const PALE_NUMBER: f64 = 11.0;
 /// A light sensor of the row from the next, in cm.
 const ROW_STEP: f64 = 0.9;
-/// Of a row, as the line leader sees it: below so many per cent is the line, and how far its
-/// average may be from the middle.
+/// How the line leader sees a row: the line is below this percentage, and its average may be this
+/// far from the middle.
 const LINE_BELOW: f64 = 50.0;
 const ROW_MIDDLE: f64 = 45.0;
 const ROW_HALF: f64 = 35.0;

@@ -12,7 +12,7 @@ const SEEK_HALF_ANGLE: f64 = 60.0;
 const SEEK_HEADING: f64 = 25.0;
 /// No beacon.
 const SEEK_NOTHING: i32 = -128;
-/// `HiTechnic`'s sensor tells directions in steps of so many degrees; 5 is ahead.
+/// `HiTechnic`'s sensor reports directions in steps of this many degrees; 5 is ahead.
 const DIRECTION_STEP: f64 = 30.0;
 const DIRECTION_AHEAD: f64 = 5.0;
 const DIRECTIONS: std::ops::RangeInclusive<f64> = 1.0..=9.0;

@@ -8,7 +8,7 @@ use crate::sensor::{Axle, Reading, Sense};
 use crate::world::geometry::{Pose, Vec2, direction, length};
 use crate::world::scene::Scene;
 
-/// The ultrasonic cone: this far to each side, in degrees, in so many rays.
+/// The ultrasonic cone: how far it goes to each side, in degrees, and its number of rays.
 const SONAR_HALF_ANGLE: f64 = 15.0;
 const SONAR_RAYS: u32 = 13;
 /// Nearer than this the sensor cannot measure, farther it hears nothing, in cm.
@@ -37,7 +37,7 @@ const NXT_SONAR_NOTHING: f64 = 255.0;
 const TIME_OF_FLIGHT_FAR: f64 = 200.0;
 /// How far `HiTechnic`'s proximity detector sees its own light come back, in cm.
 const REFLECTOR_FAR: f64 = 25.0;
-/// `HiTechnic`'s accelerometer counts so many to the g, by its data sheet.
+/// `HiTechnic`'s accelerometer counts this many to the g, by its data sheet.
 const COUNTS_PER_G: i32 = 200;
 
 /// A look at the world through one sensor.
@@ -163,8 +163,8 @@ impl View<'_> {
     fn nxt_distance(&mut self, inches: bool) -> i32 {
         let distance = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR);
         let heard = self.noise.disturb(distance.unwrap_or(NXT_SONAR_NOTHING));
-        let centimetres = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
-        if inches { centimetres * 1000 / 255 } else { centimetres }
+        let centimeters = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
+        if inches { centimeters * 1000 / 255 } else { centimeters }
     }
 
     fn percent(&mut self, measure: impl Fn(&Self) -> f64) -> i32 {

@@ -72,12 +72,12 @@ pub(crate) enum Sense {
     FineAmbient,
     /// The voltage of a microphone in tenths of a per cent: high in silence.
     Silence,
-    /// In centimetres, or tenths of an inch; far less exact than the EV3's.
+    /// In centimeters, or tenths of an inch; far less exact than the EV3's.
     NxtDistance {
         inches: bool,
         single: bool,
     },
-    /// So many to the degree Celsius or Fahrenheit.
+    /// Counts per degree Celsius or Fahrenheit.
     Temperature {
         per_degree: i32,
         fahrenheit: bool,

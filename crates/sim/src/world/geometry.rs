@@ -9,7 +9,7 @@ pub(crate) type Vec2 = Vector<f64>;
 /// A frame of reference in the world.
 pub(crate) type Frame = Isometry<f64>;
 
-/// Where something is and which way it looks: centimetres and degrees.
+/// Where something is and which way it looks: centimeters and degrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
     /// To the right, in cm.

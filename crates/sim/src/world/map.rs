@@ -31,20 +31,11 @@ impl WorldSpec {
     /// # Errors
     /// An unknown character, a second start, or a cell without size, by row and column from 1.
     pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
-        let rows: Vec<&str> = map.trim_matches('\n').lines().collect();
-        WorldSpec::from_rows(&rows, cell)
-    }
-
-    /// As [`from_map`](Self::from_map), with a text for each row.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn from_rows(rows: &[impl AsRef<str>], cell: f64) -> Result<WorldSpec, SpecError> {
         if !(cell.is_finite() && cell > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
         }
         let rows: Vec<Vec<char>> =
-            rows.iter().map(|line| line.as_ref().trim_end().chars().collect()).collect();
+            map.trim_matches('\n').lines().map(|line| line.trim_end().chars().collect()).collect();
         let mut world = WorldSpec::default();
         let mut started = false;
         let height = rows.len();

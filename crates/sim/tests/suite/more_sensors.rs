@@ -175,7 +175,7 @@ fn without_polling_a_new_mode_shows_what_it_showed_last() {
 }
 
 #[test]
-fn the_nxt_sonar_counts_centimetres() {
+fn the_nxt_sonar_counts_centimeters() {
     let mut desk = desk("lego-nxt-us", vec![Item::wall([-100.0, 80.7], [100.0, 80.7])]);
     assert_eq!(values(&mut desk, "US-DIST-CM"), [80]);
     assert_eq!(values(&mut desk, "US-DIST-IN"), [80 * 1000 / 255]);

@@ -48,10 +48,12 @@ drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
     findall(X, member(_-[X, _], Drawn), Xs),
     max_list([0|Xs], X2).
 
+%   Starts and Rows are from below; the second start from above is one too many.
 only_start([], _, none).
 only_start([Start], _, Start) :-
     !.
-only_start([state([_, Y], _)|_], Rows, _) :-
+only_start(Starts, Rows, _) :-
+    reverse(Starts, [_, state([_, Y], _)|_]),
     nth0(Y, Rows, Row),
     domain_error(map_row, Row).
 
