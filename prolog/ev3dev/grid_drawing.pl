@@ -52,8 +52,8 @@ drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
 only_start([], _, none).
 only_start([Start], _, Start) :-
     !.
-only_start(Starts, Rows, _) :-
-    reverse(Starts, [_, state([_, Y], _)|_]),
+only_start([Start|Starts], Rows, _) :-
+    reverse([Start|Starts], [_, state([_, Y], _)|_]),
     nth0(Y, Rows, Row),
     domain_error(map_row, Row).
 
