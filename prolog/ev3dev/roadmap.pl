@@ -43,9 +43,10 @@ roadmap is made is the option method(Method):
 ## Maps {#roadmap-maps}
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
-or a file. Lengths are in centimetres, x to the right and y up. A Map may have
-all facts of a world. Only those count that stop a robot, bounds(X1, Y1, X2, Y2), wall/4,5,
-box/4,5, circle/3 and map/2; a list may also hold
+or a file. Lengths are in centimetres, x to the right and y up. All facts of a
+world may be in a Map. Only those count that stop a robot,
+bounds(X1, Y1, X2, Y2), wall/4,5, box/4,5, circle/3 and map/2; a list may also
+hold
 
   - polygon(Corners)
     At least three corners, each `X-Y` or `[X, Y]`, in either order. It may be

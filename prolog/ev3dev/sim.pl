@@ -82,8 +82,7 @@ of
     lower left corner of the last row at 0, 0. `#` is a wall, `O` a pillar,
     `.` or a space floor, `L` a lamp, `^`, `>`, `v` or `<` the start and its
     heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w` and `n`
-    are black, blue, green,
-    yellow, red, white and brown floor.
+    are black, blue, green, yellow, red, white and brown floor.
 
 Shipped are `room` with walls and boxes, `lights` with a lamp, `line` with a
 track, `grid` with boxes in cells of 20 cm, and `maze`.
