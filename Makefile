@@ -10,7 +10,7 @@ TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
 .PHONY: all setup build check check-rust check-prolog check-clients check-old check-dist check-brick check-versions \
-        lint bench dist demo install clean distclean realclean
+        lint bench doc dist demo install clean distclean realclean
 
 all: build
 
@@ -58,8 +58,13 @@ bench: build
 check-old: build
 	@$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 
+# HTML pages about all predicates, worlds, robots and planners: doc/index.html
+doc: build
+	@rm -rf doc
+	@$(SWIPL) -g main -t 'halt(1)' tools/doc.pl doc
+
 # The binary pack, for machines that cannot build: dist/ev3dev-<version>.tgz
-dist:
+dist: doc
 	@tools/dist.sh
 
 # A second one made elsewhere has the same bytes
@@ -83,7 +88,7 @@ clean:
 	$(CARGO) clean
 
 distclean: clean
-	rm -rf lib dist
+	rm -rf lib dist doc
 
 # The toolchain for other machines, too: 1.3 GB to fetch again
 realclean: distclean
