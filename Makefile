@@ -9,7 +9,8 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-old check-dist check-brick check-versions \
+.PHONY: all setup build check check-rust check-prolog check-clients check-all check-old check-dist \
+        check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench doc dist demo install clean distclean realclean
 
 all: build
@@ -32,7 +33,15 @@ place:
 	@cp -f "$${CARGO_TARGET_DIR:-target}/release/libev3dev.so" "$(LIBRARY).new"
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
+# In minutes
 check: build check-rust check-prolog check-clients
+
+# What takes an hour: all that is below, too. docs/checked.md says when it last
+# passed.
+check-all: lint check
+	$(MAKE) dist
+	$(MAKE) -j2 check-brick check-dist check-versions check-brick-prolog
+	@tools/checked.sh
 
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
@@ -47,6 +56,8 @@ check-clients: build
 lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	tools/layers.py --self-test
+	tools/layers.py
 	$(SWIPL) -g main -t 'halt(1)' tests/lint.pl
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh
@@ -68,14 +79,27 @@ dist: doc
 	@tools/dist.sh
 
 # A second one made elsewhere has the same bytes
-check-dist:
+check-dist: dist
 	@tools/check-dist.sh
 
 # On an emulated EV3: installs the binary pack, then the suite
 check-brick: dist
 	@tools/versions.sh armel
 
-# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3
+# On an emulated EV3: the library alone, every predicate, an example
+check-brick-smoke:
+	@tools/smoke.sh
+
+# SWI-Prolog 9 for the brick, with the pack in it: dist/brick-prolog-<version>.tgz
+brick-prolog: dist
+	@tools/brick-prolog.sh --with-pack
+
+# On an emulated EV3 that has nothing else
+check-brick-prolog: brick-prolog
+	@tools/check-brick-prolog.sh
+
+# In the SWI-Prologs of three Debians; SWIPL_723=<swipl> adds a built 7.2.3,
+# SWIPL_101=<swipl> a built 10.1
 check-versions: dist
 	@tools/versions.sh
 

@@ -1,7 +1,9 @@
 //! `prolog/ev3dev/battery.pl`: the battery.
-use crate::call::{Call, unify_value};
-use crate::error::wrong_value;
-use ev3_driver::{Value, battery};
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_value;
+use ev3_driver::Value;
+use ev3_driver::brick::battery;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -16,7 +18,7 @@ predicates! {
     semidet fn battery(context, key, value) {
         let call = Call::of(context, "battery", 2);
         let (name, devices) = (call.text(key)?, call.devices()?);
-        let battery = &call.found(battery::battery(&devices))?;
+        let battery = &call.or_fail(battery::battery(&devices))?;
         let read = match &*name {
             "voltage" => battery::volts(battery).map(|volts| Some(Value::Float(volts))),
             "current" => battery::amperes(battery).map(|read| read.map(Value::Float)),
@@ -24,6 +26,6 @@ predicates! {
             "type" => battery::chemistry(battery).map(|read| read.map(Value::Text)),
             _ => return wrong_value(&call, "battery_key", key),
         };
-        unify_value(value, &call.found(read)?)
+        unify_value(value, &call.or_fail(read)?)
     }
 }

@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
-use crate::call::{Call, unify_atom};
+use crate::glue::call::Call;
+use crate::glue::terms::unify_atom;
 use crate::motors::move_options;
-use ev3_driver::dc;
+use ev3_driver::motor::dc;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -18,7 +19,7 @@ predicates! {
         let call = Call::of(context, "dc_motor_run", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        into_prolog_result(call.check(dc::run_forever(&devices, &port, percent, interrupted))?)
+        into_prolog_result(call.or_throw(dc::run_forever(&devices, &port, percent, interrupted))?)
     }
 
     /// dc_motor_run_timed_(+Port, +Percent, +Seconds, +Options, -Reason): options
@@ -31,6 +32,6 @@ predicates! {
         let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = dc::run_timed(&devices, &port, percent, time, &options, interrupted);
-        unify_atom(reason, call.found(ended)?.word())
+        unify_atom(reason, call.or_fail(ended)?.word())
     }
 }

@@ -1,11 +1,14 @@
 //! `prolog/ev3dev/odometry.pl`, `drive_moves.pl`, `calibrate.pl`: curves, odometry, going to places.
-use crate::call::{Call, unify_atom};
-use crate::error::wrong_value;
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::state;
+use crate::glue::terms::unify_atom;
 use crate::motors::stop_action;
-use ev3_driver::drive::{Course, Drive, DriveOptions, Robot};
-use ev3_driver::odometry::{Pose, Wheels, wrapped};
-use ev3_driver::steering::Leg;
-use ev3_driver::wait::{Reason, sleep};
+use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
+use ev3_driver::drive::steering::Leg;
+use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
+use ev3_driver::motor::wait::Reason;
+use ev3_driver::sysfs::sleep;
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -28,8 +31,7 @@ predicates! {
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
         let call = Call::of(context, "set_robot", 4);
-        let (devices, robot) = (call.devices()?, robot_of(&call, robot)?);
-        into_prolog_result(call.check(Drive::of(&devices, &robot).start(&devices))?)
+        into_prolog_result(call.or_throw(robots_drive(&call, robot)?.start())?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
@@ -37,8 +39,8 @@ predicates! {
     #[name("pose_")]
     semidet fn pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let pose = call.found(drive.pose(&devices))?;
+        let drive = drive_of(&call, robot, use_gyro)?;
+        let pose = call.or_fail(drive.pose())?;
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -49,9 +51,9 @@ predicates! {
     #[name("set_pose_")]
     semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "set_pose", 3);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
+        let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
-        into_prolog_result(call.check(drive.set_pose(&devices, pose))?)
+        into_prolog_result(call.or_throw(drive.set_pose(pose))?)
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
@@ -59,8 +61,8 @@ predicates! {
     #[name("pose_uncertainty_")]
     semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
-        let (devices, drive) = drive_of(&call, robot, use_gyro)?;
-        let covariance = call.found(drive.uncertainty(&devices))?;
+        let drive = drive_of(&call, robot, use_gyro)?;
+        let covariance = call.or_fail(drive.uncertainty())?;
         let lists = covariance.map(|row| floats(&call, &row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
@@ -78,16 +80,15 @@ predicates! {
     #[name("drive_")]
     semidet fn drive(context, robot, course, options, reason) {
         let call = Call::of(context, "go_to", 4);
-        let (devices, course) = (call.devices()?, course_of(&call, course)?);
-        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
+        let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
         let (options, wait, timeout) = options_of(&call, options)?;
         let interrupted = &mut call.interrupted();
-        let begun = call.found(drive.begin(&devices, &course, &options, interrupted))?;
+        let begun = call.or_fail(drive.begin(&course, &options, interrupted))?;
         if !wait {
             return unify_atom(reason, Reason::Reached.word());
         }
-        let ended = drive.wait(&devices, &begun, timeout, interrupted);
-        unify_atom(reason, call.check(ended)?.word())
+        let ended = drive.wait(&begun, timeout, interrupted);
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
@@ -95,10 +96,9 @@ predicates! {
     #[name("drive_wait_")]
     semidet fn drive_wait(context, robot, timeout, reason) {
         let call = Call::of(context, "drive_wait", 2);
-        let (devices, timeout) = (call.devices()?, call.seconds(timeout)?);
-        let drive = Drive::of(&devices, &robot_of(&call, robot)?);
-        let ended = drive.wait_last(&devices, timeout, &mut call.interrupted());
-        unify_atom(reason, call.check(ended)?.word())
+        let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
+        let ended = drive.wait_last(timeout, &mut call.interrupted());
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_pause_(+Seconds): waits by the clock of the tree.
@@ -107,7 +107,7 @@ predicates! {
     semidet fn drive_pause(context, seconds) {
         let call = Call::of(context, "calibrate", 3);
         let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
-        call.check(sleep(&devices, seconds, &mut call.interrupted()))
+        call.or_throw(sleep(devices.tree(), seconds, &mut call.interrupted()))
     }
 }
 
@@ -134,11 +134,19 @@ fn drive_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     robot: &Term<'a>,
     use_gyro: &Term<'a>,
-) -> PrologResult<(Arc<ev3_driver::Devices>, Arc<Drive>)> {
-    let devices = call.devices()?;
-    let drive = Drive::of(&devices, &robot_of(call, robot)?);
+) -> PrologResult<Arc<Drive>> {
+    let drive = robots_drive(call, robot)?;
     drive.use_gyro(use_gyro.get_ex()?);
-    Ok((devices, drive))
+    Ok(drive)
+}
+
+/// The drive of a robot in the tree in use. Until one is chosen, Prolog is asked to.
+fn robots_drive<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    robot: &Term<'a>,
+) -> PrologResult<Arc<Drive>> {
+    call.devices()?;
+    Ok(state::drive(&robot_of(call, robot)?))
 }
 
 /// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)`, `change` with
@@ -146,17 +154,17 @@ fn drive_of<'a, C: QueryableContextType>(
 fn course_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Course> {
+) -> PrologResult<Command> {
     let [first, second] = call.arguments(term)?;
     let name = term.get::<Functor>()?.name_string();
     Ok(match &*name {
-        "cruise" => Course::Cruise(call.float(&first)?, call.float(&second)?),
-        "change" => Course::Change(call.float(&first)?, call.float(&second)?),
-        "wheels" => Course::Wheels([call.float(&first)?, call.float(&second)?]),
+        "cruise" => Command::Cruise(call.float(&first)?, call.float(&second)?),
+        "change" => Command::Change(call.float(&first)?, call.float(&second)?),
+        "wheels" => Command::Wheels([call.float(&first)?, call.float(&second)?]),
         _ => {
             let legs = call.list(&first)?;
             let legs = legs.iter().map(|leg| leg_of(call, leg)).collect::<PrologResult<_>>()?;
-            Course::Legs(legs, second.get_ex()?)
+            Command::Legs(legs, second.get_ex()?)
         }
     })
 }

@@ -1,46 +1,21 @@
-//! `prolog/ev3dev/driver.pl`, `sysfs.pl`: devices, their attributes, files.
-use crate::call::{Call, Text, unify_atom, unify_value};
-use crate::error::wrong_value;
-use crate::state::{devices, use_files};
-use ev3_driver::device::{read_value, write_file};
-use ev3_driver::devices::Detected;
-use ev3_driver::{Class, Device, Devices, attributes};
-use std::path::Path;
+//! `prolog/ev3dev/driver.pl`: devices and their attributes.
+use crate::glue::call::{Call, Text};
+use crate::glue::error::wrong_value;
+use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::class::Detected;
+use ev3_driver::{Class, Device, Registry, attributes};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
-    register_subsystem_detect();
-    register_file_read();
-    register_file_write();
     register_device();
     register_attribute();
     register_attribute_write();
-    register_sysfs();
-    register_sysfs_use();
 }
 
 predicates! {
-    /// subsystem_detect_(?Port, ?Type, ?Path, +Pattern)
-    #[module("ev3dev_native")]
-    #[name("subsystem_detect_")]
-    nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
-        setup => {
-            let call = Call::of(context, "subsystem_detect", 4);
-            let pattern = call.text(pattern)?;
-            let bound = Bound::of(&call, port, kind, path)?;
-            let mut detected = call.check(call.devices()?.detect(&pattern))?;
-            detected.retain(|device| bound.admits(device));
-            Ok(Some(detected.into_iter()))
-        },
-        call(detected) => {
-            Call::of(context, "subsystem_detect", 4)
-                .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
-        }
-    }
-
     /// device_(+Class, ?Port, ?Type, ?Path): `device_` for `tacho_motor/3` and its like.
     #[module("ev3dev_native")]
     #[name("device_")]
@@ -51,7 +26,7 @@ predicates! {
             let call = Call::of(context, name, arity);
             let bound = Bound::of(&call, port, kind, path)?;
             let tree = call.devices()?;
-            let devices = call.check(listed(&tree, class, bound.port.as_deref()))?;
+            let devices = call.or_throw(listed(&tree, class, bound.port.as_deref()))?;
             let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
             detected.retain(|device| bound.admits(device));
             Ok(Some(detected.into_iter()))
@@ -71,13 +46,13 @@ predicates! {
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
             let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
-            let found = call.check(listed(&devices, class, port.as_deref()))?.into_iter();
+            let found = call.or_throw(listed(&devices, class, port.as_deref()))?.into_iter();
             Ok(Some(AttributeReads { devices, found, name }))
         },
         call(reads) => {
             let call = Call::of(context, accessor(class_of(context, class)?), 3);
             let AttributeReads { devices, found, name } = reads;
-            let read = |device: &Arc<Device>| call.found(attributes::read(devices, device, name));
+            let read = |device: &Arc<Device>| call.or_fail(attributes::read(devices, device, name));
             call.next(found, read, |device, read| {
                 unify_value(value, read)?;
                 unify_port(port, device.port())
@@ -94,57 +69,19 @@ predicates! {
         let port = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(attributes::write(&devices, class, &port, &name, &text, interrupted))
-    }
-
-    /// file_read_(+File, -Value)
-    #[module("ev3dev_native")]
-    #[name("file_read_")]
-    semidet fn file_read(context, file, value) {
-        let call = Call::of(context, "file_read", 2);
-        let path = call.text(file)?;
-        let read = call.check(read_value(call.devices()?.tree(), Path::new(&*path)))?;
-        unify_value(value, &read)
-    }
-
-    /// file_write_(+File, +Value)
-    #[module("ev3dev_native")]
-    #[name("file_write_")]
-    semidet fn file_write(context, file, value) {
-        let call = Call::of(context, "file_write", 2);
-        let (path, text) = (call.text(file)?, call.value(value)?);
-        call.check(write_file(call.devices()?.tree(), Path::new(&*path), &text))
-    }
-
-    /// sysfs_(-Root)
-    #[module("ev3dev_native")]
-    #[name("sysfs_")]
-    semidet fn sysfs(_context, root) {
-        unify_atom(root, &devices().tree().root().to_string_lossy())
-    }
-
-    /// sysfs_use_(+Root): a directory that exists.
-    #[module("ev3dev_native")]
-    #[name("sysfs_use_")]
-    semidet fn sysfs_use(context, root) {
-        let call = Call::of(context, "ev3_sysfs", 1);
-        let root = call.text(root)?;
-        let used = use_files(&*root);
-        #[cfg(feature = "sim")]
-        crate::sim::end_unless_mounted();
-        call.check(used)
+        call.or_fail(attributes::write(&devices, class, &port, &name, &text, interrupted))
     }
 }
 
 /// What a call knows of the device it asks for.
-struct Bound {
+pub(crate) struct Bound {
     port: Option<Text>,
     kind: Option<Text>,
     path: Option<Text>,
 }
 
 impl Bound {
-    fn of<C: QueryableContextType>(
+    pub(crate) fn of<C: QueryableContextType>(
         call: &Call<C>,
         port: &Term,
         kind: &Term,
@@ -157,25 +94,25 @@ impl Bound {
         })
     }
 
-    fn admits(&self, device: &Detected) -> bool {
+    pub(crate) fn admits(&self, device: &Detected) -> bool {
         let admits = |bound: &Option<Text>, text: &str| bound.as_deref().is_none_or(|b| b == text);
         let port = self.port.as_deref();
-        port.is_none_or(|port| ev3_driver::port::names(port, &device.port))
+        port.is_none_or(|port| ev3_driver::port_name::names(port, &device.port))
             && admits(&self.kind, &device.driver)
             && admits(&self.path, &device.path.to_string_lossy())
     }
 }
 
-/// Devices whose attribute is still to be read.
+/// Registry whose attribute is still to be read.
 struct AttributeReads {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     found: IntoIter<Arc<Device>>,
     name: Text,
 }
 
 /// The devices of a class: all, or the one at a port.
 fn listed(
-    devices: &Devices,
+    devices: &Registry,
     class: Class,
     port: Option<&str>,
 ) -> ev3_driver::Result<Vec<Arc<Device>>> {
@@ -185,7 +122,12 @@ fn listed(
     })
 }
 
-fn unify_device(device: &Detected, port: &Term, kind: &Term, path: &Term) -> PrologResult<()> {
+pub(crate) fn unify_device(
+    device: &Detected,
+    port: &Term,
+    kind: &Term,
+    path: &Term,
+) -> PrologResult<()> {
     unify_port(port, &device.port)?;
     if kind.is_var() {
         unify_atom(kind, &device.driver)?;

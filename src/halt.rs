@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/halt.pl`: what happens when a program ends.
-use crate::call::Call;
-use crate::state::devices;
+use crate::glue::call::Call;
+use crate::glue::state::devices;
 use ev3_driver::motor;
 use swipl::prelude::*;
 
@@ -14,6 +14,6 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("stop_started_")]
     semidet fn stop_started(context) {
-        Call::of(context, "halt", 0).check(motor::stop_started(&devices()))
+        Call::of(context, "halt", 0).or_throw(motor::stop_started(&devices()))
     }
 }

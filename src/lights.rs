@@ -1,8 +1,9 @@
 //! `prolog/ev3dev/lights.pl`: lights.
-use crate::call::{Call, unify_atom};
 use crate::driver::unify_port;
-use crate::error::wrong_value;
-use ev3_driver::light::{self, Colour, Light};
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_atom;
+use ev3_driver::brick::light::{self, Color, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
@@ -26,14 +27,14 @@ predicates! {
         setup => {
             let call = Call::of(context, "led", 2);
             let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
-            let mut lights = call.check(light::lights(&devices))?;
+            let mut lights = call.or_throw(light::lights(&devices))?;
             lights.retain(|light| name.as_deref().is_none_or(|name| light.is_called(name)));
             Ok(Some(lights.into_iter()))
         },
         call(lights) => {
             let call = Call::of(context, "led", 2);
             let what = call.text(what)?;
-            let read = |light: &Light| call.found(read(light, &what));
+            let read = |light: &Light| call.or_fail(read(light, &what));
             call.next(lights, read, |light, read| {
                 unify_read(value, read)?;
                 unify_port(name, light.name())
@@ -41,15 +42,15 @@ predicates! {
         }
     }
 
-    /// led_set_colour_(+Light, +Colour)
+    /// led_set_colour_(+Light, +Color)
     #[module("ev3dev_native")]
     #[name("led_set_colour_")]
     semidet fn led_set_colour(context, name, colour) {
         let call = Call::of(context, "led", 2);
         let (name, colour) = (call.text(name)?, colour_of(&call, colour)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let set = light::set_colour(&devices, &name, &colour, interrupted);
-        into_prolog_result(call.found(set)?)
+        let set = light::set_color(&devices, &name, &colour, interrupted);
+        into_prolog_result(call.or_fail(set)?)
     }
 
     /// led_set_trigger_(+Light, +Trigger)
@@ -59,7 +60,7 @@ predicates! {
         let call = Call::of(context, "led_trigger", 2);
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(light::set_trigger(&devices, &name, &trigger, interrupted))
+        call.or_fail(light::set_trigger(&devices, &name, &trigger, interrupted))
     }
 
     /// led_set_delays_(+Light, +On, +Off)
@@ -69,14 +70,14 @@ predicates! {
         let call = Call::of(context, "led_blink", 3);
         let (name, delays) = (call.text(name)?, [call.integer(on)?, call.integer(off)?]);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.found(light::blink(&devices, &name, delays, interrupted))
+        call.or_fail(light::blink(&devices, &name, delays, interrupted))
     }
 }
 
 /// What can be read of a light.
 enum Read {
     Nothing,
-    Colour(Colour),
+    Color(Color),
     Trigger(String),
     Triggers(Vec<String>),
     Delays(i64, i64),
@@ -84,7 +85,7 @@ enum Read {
 
 fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
     Ok(match what {
-        "colour" => Some(Read::Colour(light.colour()?)),
+        "colour" => Some(Read::Color(light.color()?)),
         "trigger" => Some(Read::Trigger(light.trigger()?)),
         "triggers" => Some(Read::Triggers(light.triggers()?)),
         "delays" => light.delays()?.map(|(on, off)| Read::Delays(on, off)),
@@ -95,9 +96,9 @@ fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
 fn unify_read(term: &Term, read: &Read) -> PrologResult<()> {
     match read {
         Read::Nothing => Ok(()),
-        Read::Colour(Colour::Named(name)) => unify_atom(term, name),
-        Read::Colour(Colour::Level(level)) => term.unify(*level),
-        Read::Colour(Colour::Levels(levels)) => unify_integers(term, "levels", levels),
+        Read::Color(Color::Named(name)) => unify_atom(term, name),
+        Read::Color(Color::Level(level)) => term.unify(*level),
+        Read::Color(Color::Levels(levels)) => unify_integers(term, "levels", levels),
         Read::Trigger(word) => unify_atom(term, word),
         Read::Triggers(words) => {
             let words: Vec<_> = words.iter().map(|word| atomable(word.as_str())).collect();
@@ -118,18 +119,18 @@ fn unify_integers(term: &Term, name: &str, integers: &[i64]) -> PrologResult<()>
 fn colour_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
-) -> PrologResult<Colour> {
+) -> PrologResult<Color> {
     let percent = |term: &Term| Ok((0..=100).contains(&call.integer(term)?));
     let colour = if term.is_integer() {
-        percent(term)?.then_some(Colour::Level(call.integer(term)?))
+        percent(term)?.then_some(Color::Level(call.integer(term)?))
     } else if term.term_type() == TermType::CompoundTerm {
         let levels = call.context.compound_terms_vec(term)?;
         let are_percent = levels.iter().map(percent).collect::<PrologResult<Vec<bool>>>()?;
         let integers = levels.iter().map(|level| call.integer(level));
         let levels = integers.collect::<PrologResult<Vec<_>>>()?;
-        are_percent.into_iter().all(|is| is).then_some(Colour::Levels(levels))
+        are_percent.into_iter().all(|is| is).then_some(Color::Levels(levels))
     } else {
-        Colour::named(&call.text(term)?)
+        Color::named(&call.text(term)?)
     };
     colour.map_or_else(|| wrong_value(call, "led_color", term), Ok)
 }

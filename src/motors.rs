@@ -1,9 +1,11 @@
-//! `prolog/ev3dev/motors.pl`: motors.
-use crate::call::{Call, unify_atom};
-use crate::driver::class_of;
-use crate::error::wrong_value;
-use ev3_driver::motor::{self, Move, MoveOptions, Run, Speed, StopAction, Way};
-use ev3_driver::wait;
+//! `prolog/ev3dev/motors.pl`, `motor_moves.pl`, `motor_settings.pl`: motors.
+use crate::driver::{class_of, unify_port};
+use crate::glue::call::{Call, ListedDevices};
+use crate::glue::error::wrong_value;
+use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::device::retry;
+use ev3_driver::motor::wait;
+use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,6 +22,9 @@ pub(crate) fn register() {
     register_motor_reset();
     register_motor_wait();
     register_motor_wait_flag();
+    register_motor_run_direct();
+    register_motor_position();
+    register_motor_set_position();
 }
 
 predicates! {
@@ -31,7 +36,7 @@ predicates! {
         let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
@@ -42,7 +47,7 @@ predicates! {
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &[run], interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
     /// motors_run_(+Runs): a list of run(Port, Percent), started together.
@@ -58,7 +63,7 @@ predicates! {
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
         let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices()?);
         let interrupted = &mut call.interrupted();
-        into_prolog_result(call.check(motor::run_forever(&devices, &runs, interrupted))?)
+        into_prolog_result(call.or_throw(motor::run_forever(&devices, &runs, interrupted))?)
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
@@ -75,11 +80,11 @@ predicates! {
             Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
         };
         let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, way: *way });
+        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
         let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let ended = motor::run_to(&devices, &moves, &options, interrupted);
-        unify_atom(reason, call.found(ended)?.word())
+        unify_atom(reason, call.or_fail(ended)?.word())
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
@@ -91,7 +96,7 @@ predicates! {
         let (port, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
-        call.found(devices.with_patience(class, &port, interrupted, stop))
+        call.or_fail(retry::with(&devices, class, &port, interrupted, stop))
     }
 
     /// stop_all_motors_
@@ -100,9 +105,9 @@ predicates! {
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         let devices = call.devices()?;
-        let all = |class| call.check(devices.all(class));
+        let all = |class| call.or_throw(devices.all(class));
         let motors = [all(Class::TachoMotor)?, all(Class::DcMotor)?].concat();
-        call.check(motor::stop_all(&motors, StopAction::Brake))
+        call.or_throw(motor::stop_all(&motors, StopAction::Brake))
     }
 
     /// motor_reset_(+Port)
@@ -113,7 +118,7 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
-        call.found(devices.with_patience(Class::TachoMotor, &port, interrupted, reset))
+        call.or_fail(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -124,9 +129,9 @@ predicates! {
         let devices = call.devices()?;
         let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
         let timeout = call.seconds(timeout)?;
-        let motors = call.found(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
+        let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
         let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
-        unify_atom(reason, call.check(ended)?.word())
+        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// motor_wait_flag_(+Port, +Flag, +Present)
@@ -136,18 +141,61 @@ predicates! {
         let call = Call::of(context, "motor_wait_while", 2);
         let devices = call.devices()?;
         let (port, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
-        let motor = call.found(devices.find(Class::TachoMotor, &port))?;
+        let motor = call.or_fail(devices.find(Class::TachoMotor, &port))?;
         let interrupted = &mut call.interrupted();
-        call.check(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+        call.or_throw(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+    }
+
+    /// motor_run_direct_(+Class, +Port, +Percent)
+    #[module("ev3dev_native")]
+    #[name("motor_run_direct_")]
+    semidet fn motor_run_direct(context, class, port, percent) {
+        let call = Call::of(context, "motor_run_direct", 2);
+        let class = class_of(context, class)?;
+        let (port, percent) = (call.text(port)?, call.float(percent)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let runs = motor::run_direct(&devices, class, &port, percent, interrupted);
+        into_prolog_result(call.or_throw(runs)?)
+    }
+
+    /// motor_position_(?Port, -Position)
+    #[module("ev3dev_native")]
+    #[name("motor_position_")]
+    nondet fn motor_position<ListedDevices>(context, port, position) {
+        setup => {
+            let call = Call::of(context, "motor_position", 2);
+            call.listed(Class::TachoMotor, port)
+        },
+        call(motors) => {
+            let call = Call::of(context, "motor_position", 2);
+            let devices = &call.devices()?;
+            let read = |motor: &Arc<Device>| call.or_fail(devices.read(motor, motor::position));
+            call.next(motors, read, |motor, read| {
+                unify_value(position, read)?;
+                unify_port(port, motor.port())
+            })
+        }
+    }
+
+    /// motor_set_position_(+Port, +Position)
+    #[module("ev3dev_native")]
+    #[name("motor_set_position_")]
+    semidet fn motor_set_position(context, port, position) {
+        let call = Call::of(context, "motor_position", 2);
+        let (port, position) = (call.text(port)?, call.float(position)?);
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let set = |motor: &Arc<Device>| motor::set_position(motor, position);
+        let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
+        into_prolog_result(call.or_fail(set)?)
     }
 }
 
 /// How far a move goes, by the name of its term.
-fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Way> {
+fn way<C: QueryableContextType>(call: &Call<C>, turn: &Term, way: &Term) -> PrologResult<Extent> {
     match &*turn.get::<Functor>()?.name_string() {
-        "to" => Ok(Way::To(call.float(way)?)),
-        "for" => Ok(Way::For(call.time(way)?)),
-        "move" => Ok(Way::By(call.float(way)?)),
+        "to" => Ok(Extent::To(call.float(way)?)),
+        "for" => Ok(Extent::For(call.time(way)?)),
+        "move" => Ok(Extent::By(call.float(way)?)),
         _ => wrong_value(call, "motor_move", turn),
     }
 }

@@ -1,5 +1,5 @@
 //! `prolog/ev3dev/navigation.pl`: driving through a room that is not wholly known.
-use crate::call::Call;
+use crate::glue::call::Call;
 use crate::roadmap::{map_of, no_way, options_of, point, point_term, points_term};
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -24,7 +24,7 @@ struct SeenSoFar {
 
 /// A way to be followed.
 #[arc_blob("ev3_way", defaults)]
-struct Way {
+struct PathBlob {
     path: Path,
 }
 
@@ -106,7 +106,7 @@ predicates! {
         let call = Call::of(context, "navigate_to", 3);
         let [x, y, heading] = call.arguments(pose)?;
         let (at, heading) = ([call.float(&x)?, call.float(&y)?], call.float(&heading)?);
-        let way: Arc<Way> = way.get_ex()?;
+        let way: Arc<PathBlob> = way.get_ex()?;
         let (now, degrees) = way.path.steer(at, heading, call.float(before)?);
         gone.unify(now)?;
         turn.unify(degrees)
@@ -130,6 +130,6 @@ fn step_term<'a, C: QueryableContextType>(
     let Step { run, safe, rest, .. } = step;
     let (heading, length) = (run.heading(), run.length());
     let way = context.new_term_ref();
-    way.unify(Arc::new(Way { path: run }))?;
+    way.unify(Arc::new(PathBlob { path: run }))?;
     term! {context: step(#heading, #length, #safe, #&unseen, #rest, #&way)}
 }

@@ -1,7 +1,8 @@
 //! `prolog/ev3dev/ports.pl`: ports.
-use crate::call::{Call, ListedDevices, unify_atom};
 use crate::driver::unify_port;
-use ev3_driver::lego_port;
+use crate::glue::call::{Call, ListedDevices};
+use crate::glue::terms::unify_atom;
+use ev3_driver::brick::port as lego_port;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -20,7 +21,7 @@ predicates! {
         let (port, mode) = (call.text(port)?, call.text(mode)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = lego_port::set_mode(&devices, &port, &mode, interrupted);
-        into_prolog_result(call.found(set)?)
+        into_prolog_result(call.or_fail(set)?)
     }
 
     /// port_device_(?Port, -Type)
@@ -30,7 +31,7 @@ predicates! {
         setup => {
             let call = Call::of(context, "port_device", 2);
             let (bound, devices) = (call.text_if_bound(port)?, call.devices()?);
-            let found = call.check(lego_port::devices_at(&devices, bound.as_deref()))?;
+            let found = call.or_throw(lego_port::devices_at(&devices, bound.as_deref()))?;
             Ok(Some(found.into_iter()))
         },
         call(found) => {
@@ -49,6 +50,6 @@ predicates! {
         let (port, name) = (call.text(port)?, call.text(name)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = lego_port::set_device(&devices, &port, &name, interrupted);
-        into_prolog_result(call.found(set)?)
+        into_prolog_result(call.or_fail(set)?)
     }
 }

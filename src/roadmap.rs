@@ -1,9 +1,13 @@
 //! `prolog/ev3dev/roadmap.pl`: ways between obstacles.
-use crate::call::{Call, unify_atom};
-use crate::error::{wrong_because, wrong_value};
+use crate::facts;
+use crate::glue::call::Call;
+use crate::glue::error::{wrong_because, wrong_value};
+use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Found, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, plan, svg,
+    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan, svg,
 };
+use ev3_sim::Item;
+use ev3_sim::facts::{Fact, Subject};
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -19,7 +23,7 @@ predicates! {
     #[name("roadmap_")]
     semidet fn roadmap(context, facts, start, goal, options, way) {
         let call = Call::of(context, "roadmap_path", 5);
-        match found(&call, [facts, start, goal, options])?.1 {
+        match solve(&call, [facts, start, goal, options])?.1 {
             Ok(found) => way.unify(&way_term(&call, &found.path)?),
             Err(why) => no_way(&call, way, why),
         }
@@ -31,17 +35,17 @@ predicates! {
     semidet fn roadmap_svg(context, facts, start, goal, options, text) {
         let call = Call::of(context, "roadmap_svg", 5);
         let keep = options_of(&call, options)?.keep;
-        let (map, found) = found(&call, [facts, start, goal, options])?;
+        let (map, found) = solve(&call, [facts, start, goal, options])?;
         let Ok(found) = found else { return Err(PrologError::Failure) };
         unify_atom(text, &svg(&map, &found, keep))
     }
 }
 
 /// The map, and the way that was found on it.
-fn found<'a, C: QueryableContextType>(
+fn solve<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     [facts, start, goal, options]: [&Term<'a>; 4],
-) -> PrologResult<(Map, Result<Found, NoWay>)> {
+) -> PrologResult<(Map, Result<Solution, NoWay>)> {
     let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
     let found = plan(&map, point(call, start)?, point(call, goal)?, &options);
     Ok((map, found))
@@ -67,120 +71,72 @@ pub(crate) fn options_of<C: QueryableContextType>(
     })
 }
 
-/// The map of a list of facts.
+/// The map of a list of facts: those of a world, of which only obstacles count, and
+/// polygons.
 pub(crate) fn map_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     facts: &Term<'a>,
 ) -> PrologResult<Map> {
     let mut map = Map::default();
-    for fact in call.list(facts)? {
-        let Some(read) = read(call, &fact)? else {
-            return wrong_value(call, "roadmap_fact", &fact);
+    for term in call.list(facts)? {
+        let added = if let Some(polygon) = polygon(call, &term)? {
+            polygon.map(|obstacle| map.add(obstacle))
+        } else if let Some(fact) = facts::fact(call, Subject::World, &term)? {
+            add(&mut map, fact)
+        } else {
+            return wrong_value(call, "roadmap_fact", &term);
         };
-        let added = read.and_then(|read| add(&mut map, read));
         added
-            .or_else(|fault| wrong_because(call, "possible_geometry", &fact, &fault.to_string()))?;
+            .or_else(|fault| wrong_because(call, "possible_geometry", &term, &fault.to_string()))?;
     }
     Ok(map)
 }
 
-/// What a fact says.
-enum Fact {
-    Obstacles(Vec<Obstacle>),
-    Bounds(Bounds),
+/// `polygon(Corners)`, which only a roadmap has.
+fn polygon<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Option<Result<Obstacle, Fault>>> {
+    let Some((name, arguments)) = call.compound(term)? else {
+        return Ok(None);
+    };
+    let ("polygon", [corners]) = (&*name, &*arguments) else {
+        return Ok(None);
+    };
+    let corners = call.list(corners)?.iter().map(|at| point(call, at)).collect::<PrologResult<_>>();
+    Ok(Some(Obstacle::polygon(corners?)))
 }
 
 fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {
-    match fact {
-        Fact::Bounds(bounds) => *map = Map::new(map.obstacles().to_vec(), Some(bounds))?,
-        Fact::Obstacles(obstacles) => {
-            for obstacle in obstacles {
-                map.add(obstacle);
-            }
+    let items = match fact {
+        Fact::Bounds(ev3_sim::Bounds { low, high }) => {
+            *map = Map::new(map.obstacles().to_vec(), Some(Bounds { low, high }))?;
+            return Ok(());
         }
+        Fact::Item(item) => vec![item],
+        Fact::Map(drawn) => drawn.items,
+        _ => return Ok(()),
+    };
+    for obstacle in items.iter().filter_map(obstacle) {
+        map.add(obstacle?);
     }
     Ok(())
 }
 
-/// The vocabulary: that of worlds, and polygons. `None` for a fact that is not
-/// in it.
-fn read<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Option<Result<Fact, Fault>>> {
-    let Some((name, arguments)) = call.compound(term)? else {
-        return Ok(None);
-    };
-    if let ("polygon", [corners]) = (&*name, &*arguments) {
-        let corners = call.list(corners)?;
-        let corners: PrologResult<Vec<_>> = corners.iter().map(|at| point(call, at)).collect();
-        return Ok(Some(Obstacle::polygon(corners?).map(|one| Fact::Obstacles(vec![one]))));
-    }
-    if let ("map", [size, rows]) = (&*name, &*arguments) {
-        return drawn(call, size, rows);
-    }
-    let numbers =
-        || arguments.iter().map(|term| call.float(term)).collect::<PrologResult<Vec<_>>>();
-    let obstacle = match (&*name, arguments.len()) {
-        ("floor" | "ambient", 1) | ("patch", 2) | ("line" | "lamp" | "start", 3) => {
-            return Ok(Some(Ok(Fact::Obstacles(Vec::new()))));
-        }
-        ("bounds", 4) | ("wall" | "box", 4 | 5) | ("circle", 3) => match (&*name, &*numbers()?) {
-            ("bounds", &[x1, y1, x2, y2]) => {
-                return Ok(Some(Ok(Fact::Bounds(Bounds { low: [x1, y1], high: [x2, y2] }))));
-            }
-            ("wall", &[x1, y1, x2, y2]) => Obstacle::wall([x1, y1], [x2, y2], 1.0),
-            ("wall", &[x1, y1, x2, y2, thickness]) => Obstacle::wall([x1, y1], [x2, y2], thickness),
-            ("box", &[x, y, width, depth]) => Obstacle::rectangle([x, y], width, depth, 0.0),
-            ("box", &[x, y, width, depth, heading]) => {
-                Obstacle::rectangle([x, y], width, depth, heading)
-            }
-            ("circle", &[x, y, radius]) => Obstacle::circle([x, y], radius),
-            _ => return Ok(None),
-        },
-        _ => return Ok(None),
-    };
-    Ok(Some(obstacle.map(|one| Fact::Obstacles(vec![one]))))
-}
-
-/// What a drawn world has: only the simulator can read one.
-#[cfg(feature = "sim")]
-fn drawn<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    size: &Term<'a>,
-    rows: &Term<'a>,
-) -> PrologResult<Option<Result<Fact, Fault>>> {
-    use ev3_sim::{Item, WorldSpec};
-    let list = call.list(rows)?;
-    let lines = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-    let world = match WorldSpec::from_map(&lines.join("\n"), call.float(size)?) {
-        Ok(world) => world,
-        Err(error) => return wrong_because(call, "possible_geometry", rows, &error.to_string()),
-    };
-    let solid = |item: &Item| match *item {
+/// The solid form of an item, if it has one.
+fn obstacle(item: &Item) -> Option<Result<Obstacle, Fault>> {
+    match *item {
         Item::Wall { from, to, thickness } => Some(Obstacle::wall(from, to, thickness)),
         Item::Box { pose, width, depth } => {
             Some(Obstacle::rectangle([pose.x, pose.y], width, depth, pose.heading))
         }
-        Item::Circle { centre, radius } => Some(Obstacle::circle(centre, radius)),
+        Item::Circle { center, radius } => Some(Obstacle::circle(center, radius)),
         Item::Patch { .. }
         | Item::Line { .. }
         | Item::Lamp { .. }
         | Item::Bulb { .. }
         | Item::Beacon { .. } => None,
-    };
-    let solids: Result<Vec<_>, Fault> = world.items.iter().filter_map(solid).collect();
-    Ok(Some(solids.map(Fact::Obstacles)))
-}
-
-#[cfg(not(feature = "sim"))]
-#[expect(clippy::unnecessary_wraps, reason = "as its twin")]
-fn drawn<'a, C: QueryableContextType>(
-    _: &Call<'a, C>,
-    _: &Term<'a>,
-    _: &Term<'a>,
-) -> PrologResult<Option<Result<Fact, Fault>>> {
-    Ok(None)
+    }
 }
 
 /// `X-Y` or `[X, Y]`.

@@ -1,8 +1,9 @@
 //! `prolog/ev3dev/robot.pl`: what takes more than motors.
-use crate::call::{Call, unify_atom};
+use crate::glue::call::Call;
+use crate::glue::terms::unify_atom;
 use ev3_driver::Class;
+use ev3_driver::drive::turn::{self, Ended, Turn};
 use ev3_driver::motor::Speed;
-use ev3_driver::turn::{self, Ended, Turn};
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -26,9 +27,9 @@ predicates! {
             degrees: call.float(degrees)?,
             gearing: call.float(&gearing)?,
         };
-        let gyro = call.found(devices.find(Class::Sensor, &call.text(gyro)?))?;
+        let gyro = call.or_fail(devices.find(Class::Sensor, &call.text(gyro)?))?;
         let turned = turn::by_gyro(&devices, &gyro, &turn, &mut call.interrupted());
-        unify_atom(ended, word(call.found(turned)?))
+        unify_atom(ended, word(call.or_fail(turned)?))
     }
 }
 

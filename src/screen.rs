@@ -1,10 +1,10 @@
 //! `prolog/ev3dev/screen.pl`: the screen.
-use crate::call::Call;
-use crate::error::wrong_value;
-use crate::state::{devices, frame};
-use ev3_driver::frame::{Align, Font, Letters, Shade, Shape, Style};
-use ev3_driver::picture::Picture;
-use ev3_driver::{frame, picture, screen};
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::state::{devices, frame};
+use ev3_driver::brick::screen::frame::{Align, Font, Letters, Shade, Shape, Style};
+use ev3_driver::brick::screen::picture::Picture;
+use ev3_driver::brick::screen::{self, frame, picture};
 use std::path::Path;
 use swipl::prelude::*;
 
@@ -60,7 +60,7 @@ predicates! {
     semidet fn screen_image(context, x, y, file) {
         let call = Call::of(context, "screen_image", 3);
         let at = point(&call, [x, y])?;
-        let picture = call.check(Picture::read(Path::new(&*call.text(file)?)))?;
+        let picture = call.or_throw(Picture::read(Path::new(&*call.text(file)?)))?;
         frame().place(at, &picture);
         Ok(())
     }
@@ -71,7 +71,7 @@ predicates! {
     semidet fn screen_show(context) {
         let call = Call::of(context, "screen_show", 0);
         let dev = call.dev()?;
-        call.found(screen::show(devices().tree(), &*dev, &frame()))
+        call.or_fail(screen::show(devices().tree(), &*dev, &frame()))
     }
 
     /// screen_png_(+File)
@@ -80,8 +80,8 @@ predicates! {
     semidet fn screen_png(context, file) {
         let call = Call::of(context, "screen_png", 1);
         let (file, dev) = (call.text(file)?, call.dev()?);
-        let seen = call.found(screen::seen(devices().tree(), &*dev))?;
-        call.check(picture::write_png(Path::new(&*file), frame::WIDTH, frame::HEIGHT, &seen))
+        let seen = call.or_fail(screen::seen(devices().tree(), &*dev))?;
+        call.or_throw(picture::write_png(Path::new(&*file), frame::WIDTH, frame::HEIGHT, &seen))
     }
 }
 

@@ -1,8 +1,9 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
-use crate::call::{Call, Text, unify_value};
 use crate::driver::unify_port;
-use crate::error::wrong_value;
-use ev3_driver::{Class, Device, Devices, sensor};
+use crate::glue::call::{Call, Text};
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_value;
+use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -33,7 +34,7 @@ predicates! {
             let Readings { devices, sensors, mode, index } = readings;
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                call.found(sensor::read(devices, device, Some(mode), *index, interrupted))
+                call.or_fail(sensor::read(devices, device, Some(mode), *index, interrupted))
             };
             call.next(sensors, read, |device, read| {
                 unify_value(value, read)?;
@@ -62,7 +63,7 @@ predicates! {
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
                 let read = sensor::read_several(devices, device, mode, count, interrupted);
-                call.terms(&call.found(read)?)
+                call.terms(&call.or_fail(read)?)
             };
             call.next(sensors, read, |device, read| {
                 values.unify(read.as_slice())?;
@@ -78,10 +79,10 @@ predicates! {
         let call = Call::of(context, "gyro_reset", 1);
         let (port, types, mode) = (call.text(port)?, types_of(&call, types)?, call.text(mode)?);
         let devices = call.devices()?;
-        let device = call.found(devices.find(Class::Sensor, &port))?;
+        let device = call.or_fail(devices.find(Class::Sensor, &port))?;
         into_prolog_result(types.iter().any(|kind| kind == device.driver()))?;
         let interrupted = &mut call.interrupted();
-        call.found(sensor::restart(&devices, &device, &mode, interrupted))
+        call.or_fail(sensor::restart(&devices, &device, &mode, interrupted))
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
@@ -92,13 +93,13 @@ predicates! {
         let (port, raw) = (call.text(port)?, call.integer(raw)?);
         let devices = call.devices()?;
         let scaled = devices.with(Class::Sensor, &port, |device| sensor::scale(device, raw));
-        unify_value(value, &call.found(scaled)?)
+        unify_value(value, &call.or_fail(scaled)?)
     }
 }
 
 /// Sensors that are still to be read.
 struct Readings {
-    devices: Arc<Devices>,
+    devices: Arc<Registry>,
     sensors: IntoIter<Arc<Device>>,
     mode: Text,
     /// Which value, or how many.
@@ -109,7 +110,7 @@ struct Readings {
 /// are named, all that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
-    devices: &Devices,
+    devices: &Registry,
     port: &Term,
     types: &[Text],
     mode: &str,
@@ -118,7 +119,7 @@ fn sensors<C: QueryableContextType>(
         Some(port) => sensor::at(devices, &port, types),
         None => sensor::with_mode(devices, types, mode),
     };
-    call.check(found)
+    call.or_throw(found)
 }
 
 /// A list of types; the empty list admits all.

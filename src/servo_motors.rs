@@ -1,7 +1,9 @@
 //! `prolog/ev3dev/servo_motors.pl`: RC servos.
-use crate::call::{Call, ListedDevices};
 use crate::driver::unify_port;
-use ev3_driver::{Class, Device, servo};
+use crate::glue::call::{Call, ListedDevices};
+use ev3_driver::device::retry;
+use ev3_driver::motor::servo;
+use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use swipl::prelude::*;
 
@@ -25,7 +27,7 @@ predicates! {
             let call = Call::of(context, "servo_motor_position", 2);
             let devices = &call.devices()?;
             let read = |servo: &Arc<Device>| {
-                call.found(devices.read(servo, servo::position).map(Option::flatten))
+                call.or_fail(devices.read(servo, servo::position).map(Option::flatten))
             };
             call.next(servos, read, |servo, read| {
                 percent.unify(*read)?;
@@ -42,8 +44,8 @@ predicates! {
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
-        let set = devices.with_patience(Class::ServoMotor, &port, interrupted, set);
-        into_prolog_result(call.found(set)?)
+        let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
+        into_prolog_result(call.or_fail(set)?)
     }
 
     /// servo_motor_float_(+Port)
@@ -54,6 +56,6 @@ predicates! {
         let port = call.text(port)?;
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
-        call.found(devices.with_patience(Class::ServoMotor, &port, interrupted, float))
+        call.or_fail(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
     }
 }

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
-use crate::call::Call;
-use crate::state::{dev, sound};
-use ev3_driver::sound::{self, Tone};
+use crate::glue::call::Call;
+use crate::glue::state::{dev, sound};
+use ev3_driver::brick::sound::{self, Tone};
 use std::path::Path;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -25,7 +25,7 @@ predicates! {
         let tones = call.list(tones)?;
         let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
         let dev = call.dev()?;
-        call.found(sound().play_tones(&*dev, &tones, &mut call.interrupted()))
+        call.or_fail(sound().play_tones(&*dev, &tones, &mut call.interrupted()))
     }
 
     /// say_(+Text)
@@ -34,7 +34,7 @@ predicates! {
     semidet fn say(context, text) {
         let call = Call::of(context, "say", 1);
         let (text, dev) = (call.text(text)?, call.dev()?);
-        call.check(sound().say(&*dev, &text, &mut call.interrupted()))
+        call.or_throw(sound().say(&*dev, &text, &mut call.interrupted()))
     }
 
     /// play_(+File)
@@ -43,7 +43,7 @@ predicates! {
     semidet fn play(context, file) {
         let call = Call::of(context, "play", 1);
         let (file, dev) = (call.text(file)?, call.dev()?);
-        call.check(sound().play(&*dev, Path::new(&*file), &mut call.interrupted()))
+        call.or_throw(sound().play(&*dev, Path::new(&*file), &mut call.interrupted()))
     }
 
     /// volume_(-Percent)
@@ -51,7 +51,7 @@ predicates! {
     #[name("volume_")]
     semidet fn volume(context, percent) {
         let call = Call::of(context, "volume", 1);
-        percent.unify(i64::from(call.found(sound::volume(&*call.dev()?))?))
+        percent.unify(i64::from(call.or_fail(sound::volume(&*call.dev()?))?))
     }
 
     /// volume_set_(+Percent): from 0 to 100.
@@ -60,7 +60,7 @@ predicates! {
     semidet fn volume_set(context, percent) {
         let call = Call::of(context, "volume", 1);
         let percent = u8::try_from(call.integer(percent)?).map_err(|_| PrologError::Failure)?;
-        call.found(sound::set_volume(&*call.dev()?, percent))
+        call.or_fail(sound::set_volume(&*call.dev()?, percent))
     }
 
     /// sound_stop_
@@ -68,7 +68,7 @@ predicates! {
     #[name("sound_stop_")]
     semidet fn sound_stop(context) {
         // Without choosing a tree: what sounds has done so.
-        Call::of(context, "sound_stop", 0).check(sound().stop(&*dev()))
+        Call::of(context, "sound_stop", 0).or_throw(sound().stop(&*dev()))
     }
 }
 

@@ -7,81 +7,81 @@
 # plain files, the simulator within the process, and its mount where FUSE can
 # be had. TREES names others, as in TREES="plain simulator". The rest runs once.
 #
-# SWIPL names another Prolog. A leftover choice point or any other warning
-# fails the run, and so does a file that takes five minutes.
+# SWIPL names another Prolog, JOBS how many files run at once (default: one for
+# each processor). A leftover choice point or any other warning fails the run,
+# and so does a file that takes five minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 # shellcheck source=tests/about_devices.sh
 source tests/about_devices.sh
 
-swipl=${SWIPL:-swipl}
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-failed_files=0
+export SWIPL=${SWIPL:-swipl}
+logs=$(mktemp -d)
+trap 'rm -rf "$logs"' EXIT
 
 main() {
-    local files=("$@") several=() once=() file tree
+    local files=("$@") file tree tests
     [ $# -gt 0 ] || files=(tests/test_*.pl)
     for file in "${files[@]}"; do
-        if is_about_devices "$file"; then several+=("$file"); else once+=("$file"); fi
-    done
-    local -a lines=()
-    if [ ${#once[@]} -gt 0 ]; then
-        run_all plain "${once[@]}"
-        lines+=("$(summary 'once')")
+        if is_about_devices "$file"; then
+            for tree in ${TREES:-plain simulator mount}; do
+                [ "$tree" = mount ] && ! can_mount || echo "$tree" "$file"
+            done
+        else
+            echo plain "$file"
+        fi
+    done >"$logs/all"
+    # The long ones first, so that nothing is left to wait for at the end
+    longest_first <"$logs/all" |
+        xargs -P "${JOBS:-$(nproc)}" -L 1 "$0" --one "$logs" || true
+    tests=$(sed -nE 's/^tally [a-z]+: ([0-9]+) tests, ([0-9]+) left out$/\1 \2/p' "$logs"/*.log |
+        awk '{ run += $1; out += $2 } END { print run " tests, " out+0 " left out" }')
+    can_mount || echo "the mount: skipped, there is no FUSE here"
+    sed 's/^/FAILED: /' "$logs/failed" 2>/dev/null || true
+    echo "of the files over several trees: $tests, as said above"
+    echo "$(lines "$logs/passed") passed, $(lines "$logs/failed") failed"
+    [ "$(lines "$logs/passed")" = "$(lines "$logs/all")" ]
+}
+
+# one TREE FILE: its output when it is over
+one() {
+    local log
+    log=$logs/$1-$(basename "$2" .pl).log
+    if EV3DEV_TEST_TREE=$1 timeout 300 "$SWIPL" --on-warning=status --on-error=status \
+        -g run_tests -t halt "$2" </dev/null >"$log" 2>&1; then
+        echo "$1 $2" >>"$logs/passed"
+    else
+        echo "$1 $2" >>"$logs/failed"
     fi
-    if [ ${#several[@]} -gt 0 ]; then
-        for tree in ${TREES:-plain simulator mount}; do
-            if [ "$tree" = mount ] && ! can_mount; then
-                lines+=("mount: skipped, there is no FUSE here")
-                continue
-            fi
-            echo "== over the tree: $tree"
-            run_all "$tree" "${several[@]}"
-            lines+=("$(summary "$tree")")
-        done
-    fi
-    printf '%s\n' "${lines[@]}"
-    [ "$failed_files" = 0 ]
+    printf '== %s %s\n%s\n' "$1" "$2" "$(cat "$log")"
 }
 
 can_mount() {
-    "$swipl" -g '(can_mount->halt(0);halt(1))' tests/simulation.pl </dev/null
-}
-
-# run_all TREE FILE...
-run_all() {
-    local tree=$1 file
-    shift
-    passed=0 failed=0 run=0 left=0
-    for file; do
-        echo "$file"
-        if EV3DEV_TEST_TREE=$tree timeout 300 "$swipl" --on-warning=status --on-error=status \
-            -g run_tests -t halt "$file" </dev/null 2>&1 | tee "$log"; then
-            passed=$((passed + 1))
+    [ -e "$logs/mounts" ] || {
+        if "$SWIPL" -g '(can_mount->halt(0);halt(1))' tests/simulation.pl </dev/null; then
+            echo yes
         else
-            failed=$((failed + 1))
-            echo "FAILED: $file" >&2
-        fi
-        count_tests
-    done
-    failed_files=$((failed_files + failed))
+            echo no
+        fi >"$logs/mounts"
+    }
+    [ "$(<"$logs/mounts")" = yes ]
 }
 
-# From what tests/tally.pl prints at the end of a file, if it does
-count_tests() {
-    local numbers
-    numbers=$(sed -nE 's/^tally [a-z]+: ([0-9]+) tests, ([0-9]+) left out$/\1 \2/p' "$log")
-    [ -n "$numbers" ] || return 0
-    run=$((run + ${numbers% *}))
-    left=$((left + ${numbers#* }))
+longest_first() {
+    awk '/test_(planners|roadmap|drive|bad_input|robot|ports|nxt_sensors|dc_motors)/ { print; next }
+         { rest = rest $0 "\n" } END { printf "%s", rest }'
 }
 
-summary() {
-    local tests=
-    [ "$1" = once ] || tests="; $run tests, $left left out as said above"
-    echo "$1: $passed files passed, $failed failed$tests"
+lines() {
+    if [ -e "$1" ]; then wc -l <"$1"; else echo 0; fi
 }
 
-main "$@"
+if [ "${1:-}" = --one ]; then
+    trap - EXIT
+    rm -r "$logs"
+    logs=$2
+    one "$3" "$4"
+else
+    main "$@"
+fi

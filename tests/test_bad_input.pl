@@ -296,7 +296,7 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
             Missing).
 
 % These wait for as long as one likes, or write files of any name: see
-% test_keys.pl, test_sound.pl and test_screen.pl.
+% test_buttons.pl, test_sound.pl and test_screen.pl.
 called_elsewhere(button_wait/2).
 called_elsewhere(tone/2).
 called_elsewhere(tones/1).

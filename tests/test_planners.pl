@@ -584,6 +584,11 @@ test(rows_are_text, error(domain_error(map_row, f(x)), _)) :-
     grid_map([rows([f(x)])], _).
 test(rows_have_known_characters, error(domain_error(map_row, "..?"), _)) :-
     grid_map([rows(["..?"])], _).
+test(a_map_has_one_start, error(domain_error(map_row, "v."), _)) :-
+    grid_map([rows(["S#", "v.", "^."])], _).
+test(a_start_may_be_an_s) :-
+    grid_map([rows([".#", "S."])], Map),
+    nonvar(Map).
 test(cells_are_pairs, error(domain_error(grid_cell, [1,2,3]), _)) :-
     grid_map([obstacles([[1,2,3]])], _).
 test(cells_are_bound, error(instantiation_error, _)) :-

@@ -18,6 +18,37 @@
 
 :- begin_tests(roadmap).
 
+%   A fact of each kind that a world may have, away from the way.
+world_fact(bounds(-500, -500, 500, 500)).
+world_fact(wall(200, 0, 200, 50)).
+world_fact(wall(200, 0, 200, 50, 2)).
+world_fact(box(50, 50, 10, 10)).
+world_fact(box(50, 50, 10, 10, 45)).
+world_fact(circle(200, 200, 5)).
+world_fact(floor(yellow)).
+world_fact(patch(blue, [[0, 0], [9, 0], [9, 9]])).
+world_fact(line('#102030', 2, [[0, 0], [100, 100]])).
+world_fact(lamp(1, 1, 12)).
+world_fact(lamp(1, 1, 12, outD)).
+world_fact(beacon(1, 1, 1)).
+world_fact(ambient(3)).
+world_fact(temperature(20)).
+world_fact(loudness(3)).
+world_fact(start(0, 0, 0)).
+world_fact(map(20, ["#.S.L"])).
+
+test(each_fact_of_the_simulators_vocabulary_is_accepted,
+     [ forall(world_fact(Fact)) ]) :-
+    roadmap_path([Fact], 0-150, 100-150, Points),
+    Points = [_, _|_].
+test(what_stops_no_robot_changes_no_path) :-
+    Box = box(50, 50, 10, 10),
+    roadmap_path([Box], 0-0, 100-100, Points),
+    forall(member(Fact, [ beacon(1, 1, 1), temperature(20), loudness(3),
+                          lamp(1, 1, 12, outD) ]),
+           ( roadmap_path([Fact, Box], 0-0, 100-100, Points1),
+             same_way(Points, Points1) )).
+
 square([polygon([40-40, 60-40, 60-60, 40-60])]).
 
 same_way([], []).
@@ -125,12 +156,15 @@ impossible(wall(5, 5, 5, 5)).
 impossible(circle(0, 0, -1)).
 impossible(bounds(10, 0, 0, 10)).
 impossible(circle(X, 0, 1)) :- evaluated(inf, X).
-impossible(map(20, ["#?#"])).
 
 test(impossible, [ forall(impossible(Fact)),
                    error(domain_error(possible_geometry, _)) ]) :-
     roadmap_path([Fact], 100-100, 200-200, _).
 
+test(a_drawing_with_an_unknown_character, error(domain_error(map_row, "#?#"))) :-
+    roadmap_path([map(20, ["#?#"])], 100-100, 200-200, _).
+test(a_drawing_with_two_starts, error(domain_error(map_row, "^.S"))) :-
+    roadmap_path([map(20, ["^.S"])], 100-100, 200-200, _).
 test(a_fact_without_arguments, error(domain_error(roadmap_fact, room))) :-
     roadmap_path([room], 0-0, 10-10, _).
 test(unknown_fact, error(domain_error(roadmap_fact, pond(1, 2)))) :-

@@ -170,6 +170,16 @@ test(start_inside_something) :-
     Formal = domain_error(possible_geometry, _),
     says(Message, 'FILE:2:0: '),
     says(Message, 'is inside ').
+test(a_box_where_the_robot_starts_by_default) :-
+    complaint("floor(red).\nbox(0, 0, 10, 10).\n", [], Formal, Message),
+    Formal == domain_error(possible_geometry, box(0, 0, 10, 10)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'robot at 0, 0 is inside box(0, 0, 10, 10, 0)').
+test(two_starts_in_a_map) :-
+    complaint("map(20, [\"\", \"S#\", \"v.\", \"^.\"]).\n", [], Formal, Message),
+    Formal == domain_error(map_row, "v."),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'second start').
 test(wrong_type) :-
     complaint("wall(0, 0, ten, 1).\n", [], Formal, Message),
     Formal == type_error(number, ten),
@@ -180,7 +190,7 @@ test(no_such_colour) :-
     says(Message, 'FILE:1:0: ').
 test(unknown_character_in_a_map) :-
     complaint("map(20, [\"##\", \"#X\"]).\n", [], Formal, Message),
-    Formal = domain_error(possible_geometry, map(_, _)),
+    Formal = domain_error(map_row, "#X"),
     says(Message, 'FILE:1:0: '),
     says(Message, 'unknown character').
 test(variable) :-
@@ -217,6 +227,16 @@ test(axle_without_length) :-
     robot_complaint("mass(1).\naxle(-1).\n", Formal, Message),
     Formal = domain_error(possible_geometry, _),
     says(Message, 'FILE:2:0: ').
+test(a_robot_without_parts, error(domain_error(possible_geometry, []), context(_, Why))) :-
+    catch(sim_start([], [robot([])]), error(Formal, context(Where, Why)), true),
+    says(Why, 'robot has no left_wheel, no right_wheel, no axle'),
+    throw(error(Formal, context(Where, Why))).
+test(a_robot_file_without_a_hull) :-
+    robot_complaint("left_wheel(outB, 5).\nright_wheel(outC, 5).\naxle(9).\nmass(1).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE: '),
+    says(Message, 'robot has no hull').
 test(unknown_motor) :-
     robot_complaint("mass(1).\nmotor(outA, steam).\n", Formal, Message),
     Formal = domain_error(possible_geometry, _),
@@ -291,7 +311,7 @@ test(add_something_unheard_of, error(domain_error(_, unicorn(0, 50)), _)) :-
     with_sim([], sim_add(unicorn(0, 50))).
 test(add_an_atom, error(domain_error(world_or_robot_fact, unicorn), _)) :-
     with_sim([], sim_add(unicorn)).
-test(a_hull_without_size, error(domain_error(world_or_robot_fact, hull(circle)), _)) :-
+test(a_hull_without_size, error(domain_error(robot_fact, hull(circle)), _)) :-
     with_sim([], [robot([hull(circle)])], true).
 test(add_no_thing, error(domain_error(world_item, start(0, 0, 0)), _)) :-
     with_sim([], sim_add(start(0, 0, 0))).

@@ -45,8 +45,8 @@ roadmap is made is the option method(Method):
 ## Maps {#roadmap-maps}
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
-or a file. Lengths are in centimetres, x to the right and y up. Of a world's
-facts those count that stop a robot, bounds(X1, Y1, X2, Y2), wall/4,5,
+or a file. Lengths are in centimetres, x to the right and y up. A Map may have
+all facts of a world. Only those count that stop a robot, bounds(X1, Y1, X2, Y2), wall/4,5,
 box/4,5, circle/3 and map/2; a list may also hold
 
   - polygon(Corners)
@@ -88,6 +88,7 @@ expressions.
 %
 %   @error existence_error(world, Map)
 %   @error domain_error(roadmap_fact, Fact) if a map has no such facts
+%   @error domain_error(map_row, Row) for a row of map/2
 %   @error domain_error(possible_geometry, Fact) for a polygon with less than
 %          three corners, or one that crosses itself, and the like
 %   @error domain_error(point, Point)

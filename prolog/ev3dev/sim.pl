@@ -7,18 +7,17 @@
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/2
               ]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [nth1/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(driver, []).
 :- use_module(private/arguments, [must_be_options/3]).
 :- use_module(private/facts,
-              [fact_location/3, located_facts/3, throw_located/3]).
+              [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- reexport(sim_time).
 :- reexport(sim_views).
-:- use_module(private/native, [sim_active_/0, sim_start_/6, sim_stop_/0]).
+:- use_module(private/native, [sim_active_/0, sim_start_/4, sim_stop_/0]).
 
 /** <module> A simulated robot in a simulated world
 
@@ -85,7 +84,7 @@ of
     A world that is drawn: strings or atoms, a character for each cell, the
     lower left corner of the last row at 0, 0. `#` is a wall, `O` a pillar,
     `.` or a space floor, `L` a lamp, `^`, `>`, `v` or `<` the start and its
-    heading; `k`, `b`, `g`, `y`, `r`, `w` and `n` are black, blue, green,
+    heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w` and `n` are black, blue, green,
     yellow, red, white and brown floor.
 
 Shipped are `room` with walls and boxes, `lights` with a lamp, `line` with a
@@ -109,6 +108,7 @@ A robot is a file of facts, too:
     The outline, around the middle of the axle; the middle of a rectangle is
     Offset ahead of it.
   - mass(Kilograms)
+    A robot has each of these: two wheels, axle, hull and mass.
   - motor(Port, Type)
     A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'`, `'lego-nxt-motor'`,
     or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
@@ -189,13 +189,16 @@ use devices. The same program with the same seed does the same each time.
 %
 %   If it cannot be started, nothing changes. What is wrong with a file is
 %   thrown as `error(Formal, fact(Location, Message))`, which is printed with
-%   file and line; Location is `file(File, Line, LinePosition, CharNo)`.
+%   file and line; Location is `file(File, Line, LinePosition, CharNo)`, or
+%   `file(File)` if a fact is missing.
 %
 %   @error existence_error(world, World)
 %   @error existence_error(robot, Robot)
 %   @error domain_error(world_fact, Fact) if a world has no such facts
 %   @error domain_error(robot_fact, Fact) if a robot has no such facts
-%   @error domain_error(possible_geometry, Item)
+%   @error domain_error(possible_geometry, Fact)
+%   @error domain_error(possible_geometry, Robot) if the robot lacks a part
+%   @error domain_error(map_row, Row) for an unknown character or a second start
 %   @error domain_error(clock, Clock)
 %   @error domain_error(sim_option, Option) for an option that is none
 %   @error domain_error(screen_bits, Bits)
@@ -220,10 +223,10 @@ sim_start(World, Options) :-
     located_facts(robot, Robot, LocatedRobot),
     pairs_keys(LocatedWorld, WorldFacts),
     pairs_keys(LocatedRobot, RobotFacts),
-    append(LocatedWorld, LocatedRobot, Located),
-    catch(sim_start_(WorldFacts, RobotFacts, Clock, Seed, Noise, Bits),
-          error(domain_error(possible_geometry, Item), context(_, Why)),
-          throw_impossible(Item, Why, Located)),
+    sim_start_(WorldFacts, RobotFacts, options(Clock, Seed, Noise, Bits),
+               Fault),
+    must_be_faultless(Fault, world(World, LocatedWorld),
+                      robot(Robot, LocatedRobot)),
     set_added_facts([]).
 
 must_be_built :-
@@ -252,9 +255,21 @@ must_be_screen(Bits) :-
     ;   domain_error(screen_bits, Bits)
     ).
 
-throw_impossible(Item, Why, Located) :-
-    fact_location(Item, Located, Location),
-    throw_located(domain_error(possible_geometry, Item), Location, Why).
+%   A fault names a fact by its place, or 0 if one is missing.
+must_be_faultless(none, _, _) :-
+    !.
+must_be_faultless(fault(world, Index, Why), world(World, Located), _) :-
+    throw_fault(world, World, Located, Index, Why).
+must_be_faultless(fault(robot, Index, Why), _, robot(Robot, Located)) :-
+    throw_fault(robot, Robot, Located, Index, Why).
+
+throw_fault(_, _, Located, Index, Why) :-
+    nth1(Index, Located, Fact-Location),
+    !,
+    throw_located(domain_error(possible_geometry, Fact), Location, Why).
+throw_fault(Kind, Source, _, _, Why) :-
+    source_location(Kind, Source, Location),
+    throw_located(domain_error(possible_geometry, Source), Location, Why).
 
 %!  sim_stop is semidet.
 %

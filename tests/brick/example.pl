@@ -1,8 +1,15 @@
 /*  An example of the installed pack drives in the installed simulator.
 
         swipl -g main -t 'halt(1)' tests/brick/example.pl
+
+    EV3DEV_PACK names the pack's folder, as for smoke.pl.
 */
 
+:- (   getenv('EV3DEV_PACK', Pack)
+   ->  atom_concat(Pack, '/prolog', Folder),
+       asserta(user:file_search_path(library, Folder))
+   ;   true
+   ).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- module_property(ev3dev, file(File)),

@@ -1,13 +1,17 @@
 //! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
 //! each with the seconds one call took.
+#[path = "../../../crates/sim/tests/suite/robots.rs"]
+mod robots;
+
 use ev3_driver::error::Access;
-use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Way, run_forever, run_to};
-use ev3_driver::tree::{Entry, Files, Node, Tree};
-use ev3_driver::wait::Reason;
-use ev3_driver::{Devices, Error};
-use ev3_sim::{Machine, Mount, Shared};
+use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Extent, run_forever, run_to};
+use ev3_driver::sysfs::{AttributeFile, Entry, Sysfs, SysfsDir};
+use ev3_driver::motor::wait::Reason;
+use ev3_driver::{Registry, Error};
+use ev3_sim::{Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};
+use robots::default_machine;
 use std::fs::File;
 use std::io::{self, BufRead, Write};
 use std::os::unix::fs::FileExt;
@@ -115,7 +119,7 @@ fn ensure(sensor: &impl Sensor, mode: &str) {
     }
 }
 
-/// The same by ev3dev-lang-rust. Devices are found once.
+/// The same by ev3dev-lang-rust. Registry are found once.
 fn others(case: &str) -> Case {
     let motor = |port| LargeMotor::get(port).expect("a motor");
     match case {
@@ -181,8 +185,8 @@ fn others(case: &str) -> Case {
 /// median of `count` starts.
 fn gap(root: &Path, count: u32) -> f64 {
     let commands = Arc::new(Mutex::new(Vec::new()));
-    let tree = Stamping { files: Files::new(root), commands: Arc::clone(&commands) };
-    let devices = Devices::new(Arc::new(tree));
+    let tree = Stamping { files: SysfsDir::new(root), commands: Arc::clone(&commands) };
+    let devices = Registry::new(Arc::new(tree));
     let runs = [("outB", 20.0), ("outC", 20.0)]
         .map(|(port, percent)| Run { port, speed: Speed::Percent(percent) });
     let mut gaps: Vec<f64> = (0..=count)
@@ -202,7 +206,7 @@ fn gap(root: &Path, count: u32) -> f64 {
 /// for it, through FUSE and with the real clock: median and worst of `count`.
 fn latency(count: u32) -> [f64; 2] {
     let directory = tempfile::tempdir().expect("a directory");
-    let shared = Arc::new(Shared::new(Machine::default()));
+    let shared = Arc::new(Shared::new(default_machine()));
     let mount = Mount::new(Arc::clone(&shared), directory.path()).expect("FUSE");
     let stopped = Arc::new(Mutex::new(Instant::now()));
     let is_over = Arc::new(AtomicBool::new(false));
@@ -210,11 +214,11 @@ fn latency(count: u32) -> [f64; 2] {
         let (shared, stopped, is_over) = (shared, Arc::clone(&stopped), Arc::clone(&is_over));
         move || step(&shared, &stopped, &is_over)
     });
-    let devices = Devices::new(Arc::new(Files::new(directory.path())));
+    let devices = Registry::new(Arc::new(SysfsDir::new(directory.path())));
     let mut seconds: Vec<f64> = (0..count)
         .map(|number| {
             let degrees = 60.0 + f64::from(number % 10) * 10.0;
-            let turn = Move { port: "outA", speed: Speed::Percent(40.0), way: Way::By(degrees) };
+            let turn = Move { port: "outA", speed: Speed::Percent(40.0), extent: Extent::By(degrees) };
             let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut || false);
             assert_eq!(ended.expect("a motor"), Some(Reason::Reached));
             stopped.lock().expect("no panic").elapsed().as_secs_f64()
@@ -248,13 +252,13 @@ fn step(shared: &Shared, stopped: &Mutex<Instant>, is_over: &AtomicBool) {
     }
 }
 
-/// Files that note when a command is about to be written.
+/// SysfsDir that note when a command is about to be written.
 struct Stamping {
-    files: Files,
+    files: SysfsDir,
     commands: Arc<Mutex<Vec<Instant>>>,
 }
 
-impl Tree for Stamping {
+impl Sysfs for Stamping {
     fn root(&self) -> &Path {
         self.files.root()
     }
@@ -263,7 +267,7 @@ impl Tree for Stamping {
         self.files.list(directory)
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let node = self.files.open(path, access)?;
         if !path.ends_with("command") {
             return Ok(node);
@@ -279,17 +283,17 @@ impl Tree for Stamping {
         self.files.now()
     }
 
-    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         self.files.pause(nodes, timeout)
     }
 }
 
 struct StampingNode {
-    node: Box<dyn Node>,
+    node: Box<dyn AttributeFile>,
     commands: Arc<Mutex<Vec<Instant>>>,
 }
 
-impl Node for StampingNode {
+impl AttributeFile for StampingNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.node.read(buffer)
     }

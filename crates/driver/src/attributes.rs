@@ -3,10 +3,11 @@
 //! Most are read and written as they are. A few mean more: a motor's `command`
 //! starts something that must be stopped at the end, a sensor's `mode` is
 //! written only when it differs and then needs time to settle.
-use crate::Interrupted;
+use crate::class::Class;
 use crate::device::Device;
-use crate::devices::{Class, Devices};
-use crate::error::Result;
+use crate::device::registry::Registry;
+use crate::device::retry;
+use crate::error::{Interrupted, Result};
 use crate::value::Value;
 use crate::{motor, sensor};
 
@@ -44,8 +45,8 @@ const INTEGERS: [&str; 25] = [
 /// # Errors
 /// The kernel's, as EACCES for an attribute that can only be written;
 /// [`Error::Malformed`](crate::Error::Malformed).
-pub fn read(devices: &Devices, device: &Device, name: &str) -> Result<Option<Value>> {
-    devices.read(device, |device| value(device, name))
+pub fn read(registry: &Registry, device: &Device, name: &str) -> Result<Option<Value>> {
+    registry.read(device, |device| value(device, name))
 }
 
 fn value(device: &Device, name: &str) -> Result<Value> {
@@ -63,7 +64,7 @@ fn value(device: &Device, name: &str) -> Result<Value> {
 /// The kernel's, as EINVAL for a value that is not accepted, EACCES for an
 /// attribute that can only be read; [`Error::Interrupted`](crate::Error).
 pub fn write(
-    devices: &Devices,
+    registry: &Registry,
     class: Class,
     port: &str,
     name: &str,
@@ -71,15 +72,15 @@ pub fn write(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     if (class, name) == (Class::Sensor, "mode") {
-        return match devices.find(class, port)? {
-            Some(sensor) => sensor::set_mode(devices, &sensor, text, interrupted),
+        return match registry.find(class, port)? {
+            Some(sensor) => sensor::set_mode(registry, &sensor, text, interrupted),
             None => Ok(None),
         };
     }
-    devices.with_patience(class, port, interrupted, |device| match name {
+    retry::with(registry, class, port, interrupted, |device| match name {
         "command" if Class::MOTORS.contains(&class) => motor::command(device, text),
         "position" if class == Class::TachoMotor => {
-            device.recount(&mut || device.write(name, text))
+            device.without_counting(&mut || device.write(name, text))
         }
         _ => device.write(name, text),
     })

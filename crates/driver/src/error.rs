@@ -1,5 +1,5 @@
-//! What can go wrong, with the file it went wrong at.
-use crate::devices::Class;
+//! Errors, each with the file or the device that it is about.
+use crate::class::Class;
 use rustix::io::Errno;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,11 @@ use std::path::{Path, PathBuf};
 /// Result of this crate's functions.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What was to be done with a file.
+/// Asked at least every 20 ms while something waits; `true` abandons the wait
+/// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
+pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;
+
+/// The kind of access to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
     /// Read it, or list it.
@@ -27,7 +31,7 @@ pub enum Error {
     Open {
         /// The file.
         path: PathBuf,
-        /// What it was to be opened for.
+        /// The access that was asked for.
         access: Access,
         /// The kernel's answer.
         source: io::Error,
@@ -45,24 +49,24 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What was written.
+        /// The text that was to be written.
         text: String,
         /// The kernel's answer.
         source: io::Error,
     },
-    /// A file does not hold what belongs there.
+    /// The content of a file is malformed.
     #[error("{} holds {text:?}, which is not {expected}", .path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// What it holds, shortened.
+        /// Its content, shortened.
         text: String,
-        /// What belongs there.
+        /// The expected content.
         expected: &'static str,
     },
     /// A device was unplugged while it was in use.
     #[error("the {class} at {port} was unplugged")]
-    Gone {
+    Unplugged {
         /// The kind of device.
         class: Class,
         /// Where it was.
@@ -75,22 +79,22 @@ pub enum Error {
         port: String,
         /// Its present mode.
         mode: String,
-        /// The value that was asked for.
+        /// The index that was asked for.
         index: usize,
     },
-    /// Several things that are done at once are to be done by one device.
+    /// Two moves that start together name the same port.
     #[error("{port} is named twice")]
-    Twice {
+    DuplicatePort {
         /// The port that is named twice.
         port: String,
     },
-    /// A port is to be told that a device is plugged in which it cannot have.
+    /// The port cannot have a motor of that type.
     #[error("no port for motors has a {name:?}")]
-    NoSuchDevice {
+    UnknownMotorType {
         /// The name of the device.
         name: String,
     },
-    /// A pattern that is none.
+    /// The pattern is malformed.
     #[error("{pattern:?} is no file name pattern")]
     Pattern {
         /// The pattern.
@@ -98,14 +102,14 @@ pub enum Error {
         /// Why not.
         source: glob::PatternError,
     },
-    /// A file of pictures or sounds that is none.
+    /// The file is not a picture or a recording of that format.
     #[error("{} cannot be read as {format}: {reason}", .path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// What it should be: `png`.
+        /// The expected format: `png`.
         format: &'static str,
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
     /// A program that is needed is not installed.
@@ -121,7 +125,7 @@ pub enum Error {
     Program {
         /// The program.
         program: &'static str,
-        /// What it complained of.
+        /// Its message.
         message: String,
     },
     /// The caller abandoned a wait.
@@ -148,10 +152,10 @@ impl Error {
         matches!(self.errno(), Some(Errno::NODEV | Errno::NOENT))
     }
 
-    /// Whether a device went away: it answers so, or was found to be missing.
+    /// Whether a device was unplugged: it answers so, or was found to be missing.
     #[must_use]
-    pub fn is_gone(&self) -> bool {
-        self.is_stale() || matches!(self, Self::Gone { .. })
+    pub fn is_unplugged(&self) -> bool {
+        self.is_stale() || matches!(self, Self::Unplugged { .. })
     }
 
     /// The file it went wrong at.

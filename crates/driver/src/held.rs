@@ -1,20 +1,20 @@
 //! Locks under which files are read.
 //!
-//! On a clock that passes as files are read, what is to be done at a fixed
-//! period ([`Tree::every`](crate::tree::Tree::every)) is done in the middle of
-//! a read. What that needs may then be locked by this very thread, which must
-//! not wait for itself, or by another one, for which it must wait: otherwise
-//! time would run away from a thread that has just lost its processor.
+//! On the virtual clock, reading a file advances time, and advancing time runs the
+//! periodic callbacks ([`Sysfs::every`](crate::sysfs::Sysfs::every)) inside that
+//! read. A callback must therefore not take a lock that its own thread already
+//! holds. If another thread holds it, the callback must wait, or simulated time
+//! would run ahead of a thread that was merely descheduled.
 use std::cell::Cell;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 thread_local! {
-    /// How many of them this thread holds.
+    /// The number of these locks that this thread holds.
     static COUNT: Cell<usize> = const { Cell::new(0) };
 }
 
-/// What is behind such a lock, for as long as this lives.
+/// The guard of such a lock.
 pub(crate) struct Held<'a, T>(MutexGuard<'a, T>);
 
 impl<'a, T> Held<'a, T> {

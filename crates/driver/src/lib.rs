@@ -8,67 +8,45 @@
 //! one read or write: run several motors at once, wait until they are done,
 //! read a sensor in a given mode, turn a robot by its gyro.
 //!
-//! From the bottom up:
+//! From the bottom up (`tools/layers.txt` says who may import whom):
 //!
-//! * [`tree`]: where the files are: the kernel's, any directory shaped like
-//!   it, or something that only behaves so. It also owns the clock.
-//! * [`device`]: one device, its kept descriptors and its constants.
-//! * [`devices`]: which devices there are, by class and port.
-//! * [`dev`]: the device files below `/dev`; [`keys`], [`sound`] and
-//!   [`screen`] work on them, with a [`frame`] to draw on and a [`picture`] for files.
-//! * [`attributes`], [`motor`], [`dc`], [`servo`], [`wait`], [`sensor`],
-//!   [`turn`], [`light`], [`battery`], [`lego_port`]: what robots do.
-//! * [`odometry`], [`path`], [`steering`]: where a robot is and how it gets
-//!   elsewhere, without any device; [`drive`]: the same with its devices.
+//! * [`sysfs`]: where the attribute files are: the kernel's, any directory
+//!   shaped like it, or something that only behaves so. It also owns the clock.
+//! * [`devfs`]: the device files below `/dev`.
+//! * [`device`]: one device, its kept descriptors and its constants; which
+//!   devices there are, by class and port ([`device::registry`]).
+//! * [`motor`], [`sensor`], [`attributes`]: running motors and waiting for them,
+//!   reading sensors, any attribute by its name.
+//! * [`brick`]: lights, battery, buttons, sound, screen and ports.
+//! * [`drive`]: where a robot is and how it gets elsewhere.
 //!
 //! The facts about ev3dev's drivers in the comments were read out of the
 //! kernel drivers of `ev3dev/lego-linux-drivers` (stretch and later).
 //!
-//! Nothing here but [`Tree::every`] over real files starts a thread; nothing
+//! Nothing here but [`Sysfs::every`] over real files starts a thread; nothing
 //! prints, or waits without asking its caller
 //! every few milliseconds whether to go on ([`Interrupted`]).
 #![forbid(unsafe_code)]
 
 pub mod attributes;
-pub mod battery;
-mod bin_data;
-pub mod dc;
-pub mod dev;
+pub mod brick;
+pub mod class;
+pub mod devfs;
 pub mod device;
-pub mod devices;
 pub mod drive;
 pub mod error;
-pub mod frame;
 mod held;
-pub mod keys;
-pub mod lego_port;
-pub mod light;
-mod list;
 pub mod motor;
-pub mod odometry;
-pub mod path;
-mod patience;
-pub mod picture;
-pub mod port;
-mod programs;
-pub mod screen;
+pub mod port_name;
 pub mod sensor;
-pub mod servo;
-pub mod sound;
-pub mod steering;
-pub mod tree;
-pub mod turn;
+pub mod sysfs;
 pub mod value;
-pub mod wait;
 
-pub use dev::{Dev, DevFiles};
+pub use class::Class;
+pub use devfs::{Devfs, DevfsDir};
 pub use device::Device;
-pub use devices::{Class, Devices};
-pub use error::{Error, Result};
+pub use device::registry::Registry;
+pub use error::{Error, Interrupted, Result};
 pub use rustix::io::Errno;
-pub use tree::{Files, Tree};
+pub use sysfs::{Sysfs, SysfsDir};
 pub use value::Value;
-
-/// Asked at least every 20 ms while something waits; `true` abandons the wait
-/// with [`Error::Interrupted`]. Ctrl-C, time limits and signals come in here.
-pub type Interrupted<'a> = &'a mut dyn FnMut() -> bool;

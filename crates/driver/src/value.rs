@@ -1,6 +1,6 @@
 //! From an attribute's text to a value.
 
-/// What an attribute file holds.
+/// The content of an attribute file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A decimal integer of at most 64 bits.
@@ -40,8 +40,8 @@ impl Value {
     }
 }
 
-/// A decimal integer with an optional sign, and nothing else. `None` where the
-/// text is none, or has more than 64 bits.
+/// A decimal integer with an optional sign, and nothing else. `None` for any other
+/// text, and for more than 64 bits.
 #[must_use]
 pub fn integer(text: &[u8]) -> Option<i64> {
     let (negative, digits) = match text {

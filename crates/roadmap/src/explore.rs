@@ -2,16 +2,17 @@
 use crate::geometry::{Point, Vec2, angle, cross, direction, distance, length, point, vec2};
 use crate::map::Map;
 use crate::path::{Leg, Path};
-use crate::plan::{NoWay, Options, plan};
+use crate::plan::{NoWay, plan};
+use crate::problem::Options;
 use crate::views::{FAR, Views};
 
-/// What was heard from afar is vague: where it leaves no way, only that counts
-/// that was heard from nearer, in cm.
+/// Ranges of echoes that count, in cm, one after the other. Far echoes are vague,
+/// so if they leave no way, only near ones count.
 const HEARD: [f64; 2] = [FAR, 40.0];
 /// The parts of the margin that are tried, one after the other. The least is
 /// for a robot that has come too near to something and is to get away.
 const MARGINS: [f64; 3] = [1.0, 0.7, 0.1];
-/// So much wider than the hull the way has to be free, in cm: a robot does not
+/// How much wider than the hull the way must be free, in cm: a robot does not
 /// keep to its way exactly.
 const BESIDE: f64 = 0.5;
 /// Legs whose directions differ by less, in radians, go on without a corner.
@@ -30,18 +31,18 @@ const AHEAD: f64 = 4.0;
 pub struct Step {
     /// The way up to its first corner.
     pub run: Path,
-    /// So many cm of that have been seen free.
+    /// How much of that has been seen free, in cm.
     pub safe: f64,
-    /// What has not been seen free there.
+    /// The first place there that has not been seen free.
     pub unseen: Option<Point>,
     /// How far it is to the goal from the end of the run, in cm.
     pub rest: f64,
 }
 
 impl Views {
-    /// Plans anew with what a map knows and what has been seen. The distance
-    /// to keep is the hull's radius and a margin in cm, or a part of that
-    /// where there is no way with it.
+    /// Plans with the map and with what has been seen. The distance to keep is
+    /// the hull's radius and a margin in cm, or a part of that if no way is
+    /// wide enough.
     ///
     /// # Errors
     /// Says why there is no way.
@@ -147,7 +148,7 @@ impl Path {
         (way, curvature.to_degrees())
     }
 
-    /// The point after so many cm; past the end straight on.
+    /// The point after a distance in cm; past the end straight on.
     fn beyond(&self, way: f64) -> Vec2 {
         let mut left = way;
         for leg in self.legs() {

@@ -1,7 +1,7 @@
 //! Ways for a round robot among obstacles in the plane.
 //!
 //! A [`Map`] holds polygons, which may be concave, and circles. A way is found
-//! for the robot's centre, which keeps a distance from all of them: the
+//! for the robot's center, which keeps a distance from all of them: the
 //! robot's radius, and what it is to leave as a margin. [`plan`] does it in
 //! two steps:
 //!
@@ -18,7 +18,7 @@
 //! stands, so that the robot may go there, and obstacles that the map lacks.
 //! [`Views::next_step`] plans with both, and says how far the robot may go.
 //!
-//! Lengths are in centimetres. X goes to the right and y up; headings are in
+//! Lengths are in centimeters. X goes to the right and y up; headings are in
 //! degrees, 0 along +y and clockwise positive. The same input gives the same
 //! bits on every machine.
 //!
@@ -41,6 +41,7 @@ mod map;
 mod path;
 mod plan;
 mod prm;
+mod problem;
 mod rrt;
 mod search;
 mod smooth;
@@ -52,6 +53,7 @@ pub use explore::Step;
 pub use geometry::Point;
 pub use map::{Bounds, Fault, Map, Obstacle};
 pub use path::{Leg, Path};
-pub use plan::{Found, Method, NoWay, Options, plan};
+pub use plan::{NoWay, Solution, plan};
+pub use problem::{Method, Options};
 pub use svg::svg;
 pub use views::{Safe, View, Views};

@@ -18,7 +18,7 @@ pub(crate) enum Shape {
     /// Corners, counter-clockwise.
     Polygon(Vec<Point>),
     Circle {
-        centre: Point,
+        center: Point,
         radius: f64,
     },
 }
@@ -42,7 +42,7 @@ pub enum Fault {
     /// Not a number, or infinite.
     #[error("has a number that is not finite")]
     NotFinite,
-    /// Two edges meet that are not neighbours, or neighbours that lie on one another.
+    /// Two edges meet that are not neighbors, or neighbors that lie on one another.
     #[error("its edges cross or touch")]
     SelfIntersecting,
     /// A length of 0 or less.
@@ -106,10 +106,10 @@ impl Obstacle {
     ///
     /// # Errors
     /// If it has no size.
-    pub fn circle(centre: Point, radius: f64) -> Result<Obstacle, Fault> {
-        finite(&centre)?;
+    pub fn circle(center: Point, radius: f64) -> Result<Obstacle, Fault> {
+        finite(&center)?;
         positive(&[radius])?;
-        Ok(Obstacle(Shape::Circle { centre, radius }))
+        Ok(Obstacle(Shape::Circle { center, radius }))
     }
 
     /// The corners, counter-clockwise, of one that has some.
@@ -191,7 +191,7 @@ impl Map {
 
     fn circles(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.obstacles.iter().filter_map(|obstacle| match obstacle.0 {
-            Shape::Circle { centre, radius } => Some((centre, radius)),
+            Shape::Circle { center, radius } => Some((center, radius)),
             Shape::Polygon(_) => None,
         })
     }
@@ -206,7 +206,7 @@ impl Map {
         let to_edge = |edge: &Edge| edge.segment.distance_to_local_point(&parry(at), true);
         let to_edges = self.edges.iter().map(to_edge);
         let to_circles =
-            self.circles().map(|(centre, radius)| (distance(at, centre) - radius).max(0.0));
+            self.circles().map(|(center, radius)| (distance(at, center) - radius).max(0.0));
         to_edges.chain(to_circles).fold(f64::INFINITY, f64::min)
     }
 
@@ -219,7 +219,7 @@ impl Map {
             !apart(&area.extent, &[at, at], 0.0) && point_in_poly2d(&parry(at), &area.corners)
         };
         outside
-            || self.circles().any(|(centre, radius)| distance(at, centre) < radius)
+            || self.circles().any(|(center, radius)| distance(at, center) < radius)
             || self.areas.iter().any(is_around)
     }
 
@@ -230,7 +230,7 @@ impl Map {
             .iter()
             .filter(near)
             .all(|edge| edge.segment.distance_to_local_point(&parry(at), true) >= keep)
-            && self.circles().all(|(centre, radius)| distance(at, centre) - radius >= keep)
+            && self.circles().all(|(center, radius)| distance(at, center) - radius >= keep)
             && !self.covers(at)
     }
 
@@ -243,7 +243,7 @@ impl Map {
         let to_edge =
             |edge: &Edge| distance_segment_segment(&identity, &edge.segment, &line.segment);
         let to_point = |at| line.segment.distance_to_local_point(&parry(at), true);
-        self.circles().all(|(centre, radius)| to_point(centre) - radius >= keep)
+        self.circles().all(|(center, radius)| to_point(center) - radius >= keep)
             && self.edges.iter().filter(near).all(|edge| to_edge(edge) >= keep)
     }
 
@@ -252,7 +252,7 @@ impl Map {
     pub(crate) fn arc_clear(&self, arc: &Arc, keep: f64) -> bool {
         let reach = keep + arc.length();
         let near = |edge: &&Edge| !apart(&edge.extent, &[arc.from, arc.from], reach);
-        self.circles().all(|(centre, radius)| arc.distance_to(centre) - radius >= keep)
+        self.circles().all(|(center, radius)| arc.distance_to(center) - radius >= keep)
             && self
                 .edges
                 .iter()
@@ -285,7 +285,7 @@ fn doubled_area(corners: &[Point]) -> f64 {
     edges(corners).map(|[a, b]| cross(vec2(a) - origin, vec2(b) - origin)).sum()
 }
 
-/// True if edges meet only at the corners between neighbours.
+/// True if edges meet only at the corners between neighbors.
 fn is_simple(corners: &[Point]) -> bool {
     let edges: Vec<_> = edges(corners).collect();
     let last = edges.len() - 1;

@@ -20,7 +20,7 @@ pub enum Leg {
         /// Where it ends.
         to: Point,
         /// The middle of the circle.
-        centre: Point,
+        center: Point,
         /// In cm.
         radius: f64,
         /// By how much the heading changes: degrees, clockwise positive.
@@ -30,8 +30,8 @@ pub enum Leg {
 
 impl From<Arc> for Leg {
     fn from(arc: Arc) -> Leg {
-        let Arc { from, to, centre, radius, sweep } = arc;
-        Leg::Arc { from, to, centre, radius, angle: -sweep.to_degrees() }
+        let Arc { from, to, center, radius, sweep } = arc;
+        Leg::Arc { from, to, center, radius, angle: -sweep.to_degrees() }
     }
 }
 
@@ -42,8 +42,8 @@ impl Leg {
 
     fn arc(&self) -> Option<Arc> {
         match *self {
-            Leg::Arc { from, to, centre, radius, angle } => {
-                Some(Arc { from, to, centre, radius, sweep: -angle.to_radians() })
+            Leg::Arc { from, to, center, radius, angle } => {
+                Some(Arc { from, to, center, radius, sweep: -angle.to_radians() })
             }
             Leg::Line { .. } => None,
         }
@@ -71,7 +71,7 @@ impl Leg {
         self.arc().map_or_else(|| distance(self.start(), self.end()), |arc| arc.length())
     }
 
-    /// The point after so many cm.
+    /// The point after a distance in cm.
     #[must_use]
     pub fn at(&self, way: f64) -> Point {
         let share = if self.length() > 0.0 { (way / self.length()).clamp(0.0, 1.0) } else { 0.0 };
@@ -81,7 +81,7 @@ impl Leg {
         }
     }
 
-    /// The direction of going after so many cm.
+    /// The direction of motion after a distance in cm.
     pub(crate) fn direction_at(&self, way: f64) -> Vec2 {
         match self.arc() {
             Some(arc) => arc.direction_at((way / arc.length()).clamp(0.0, 1.0)),
@@ -89,13 +89,13 @@ impl Leg {
         }
     }
 
-    /// The first so many cm of it.
+    /// Its beginning, up to a distance in cm.
     pub(crate) fn until(&self, way: f64) -> Leg {
         match *self {
             Leg::Line { from, .. } => Leg::Line { from, to: self.at(way) },
-            Leg::Arc { from, centre, radius, angle, .. } => {
+            Leg::Arc { from, center, radius, angle, .. } => {
                 let share = (way / self.length()).clamp(0.0, 1.0);
-                Leg::Arc { from, to: self.at(way), centre, radius, angle: angle * share }
+                Leg::Arc { from, to: self.at(way), center, radius, angle: angle * share }
             }
         }
     }
@@ -141,7 +141,7 @@ impl Path {
         self.legs.iter().map(Leg::length).sum()
     }
 
-    /// The first so many cm of it.
+    /// Its beginning, up to a distance in cm.
     #[must_use]
     pub fn until(&self, mut way: f64) -> Path {
         let mut legs = Vec::new();

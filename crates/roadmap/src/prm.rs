@@ -1,9 +1,9 @@
 //! A probabilistic roadmap: points drawn at random, each joined with those
-//! next to it. As many neighbours as PRM* takes, so that with more points the
+//! next to it. As many neighbors as PRM* takes, so that with more points the
 //! way comes ever closer to the shortest.
 use crate::geometry::{Point, distance};
 use crate::map::Map;
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::{Searched, shortest};
 
 pub(crate) fn search(map: &Map, sought: &Sought) -> (Vec<Point>, Searched) {
@@ -15,10 +15,10 @@ pub(crate) fn search(map: &Map, sought: &Sought) -> (Vec<Point>, Searched) {
             points.push(at);
         }
     }
-    let neighbours = nearest(&points);
+    let neighbors = nearest(&points);
     let joined =
         |a: usize, b: usize| map.line_clear(points[a], points[b], sought.keep + SLACK / 2.0);
-    let searched = shortest(&points, |node| neighbours[node].iter().copied(), joined);
+    let searched = shortest(&points, |node| neighbors[node].iter().copied(), joined);
     (points, searched)
 }
 
@@ -29,7 +29,7 @@ fn nearest(points: &[Point]) -> Vec<Vec<usize>> {
     let most = 1.5 * std::f64::consts::E * libm::log(points.len() as f64);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
     let most = libm::ceil(most) as usize;
-    let mut neighbours = vec![Vec::new(); points.len()];
+    let mut neighbors = vec![Vec::new(); points.len()];
     for (node, at) in points.iter().enumerate() {
         let mut others: Vec<usize> = (0..points.len()).filter(|other| *other != node).collect();
         let nearer = |a: &usize, b: &usize| {
@@ -40,13 +40,13 @@ fn nearest(points: &[Point]) -> Vec<Vec<usize>> {
             others.truncate(most);
         }
         for other in others {
-            neighbours[node].push(other);
-            neighbours[other].push(node);
+            neighbors[node].push(other);
+            neighbors[other].push(node);
         }
     }
-    for list in &mut neighbours {
+    for list in &mut neighbors {
         list.sort_unstable();
         list.dedup();
     }
-    neighbours
+    neighbors
 }

@@ -1,11 +1,11 @@
 //! RRT*: a tree that grows from the start towards points drawn at random, and
-//! is joined anew where that shortens a way.
+//! is rewired where that shortens a way.
 use crate::geometry::{Point, distance, point, vec2};
 use crate::map::Map;
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::Searched;
 
-/// One of so many draws is the goal itself.
+/// One in this many draws is the goal itself.
 const GOAL_EVERY: u32 = 16;
 
 struct Tree<'a> {
@@ -65,8 +65,8 @@ impl Tree<'_> {
         nodes.min_by(nearer).map_or(0, |(node, _)| node)
     }
 
-    /// Adds a point by way of the neighbour that makes its way shortest, and
-    /// takes the neighbours' ways through it where that is shorter.
+    /// Adds a point by way of the neighbor that makes its way shortest, and
+    /// takes the neighbors' ways through it where that is shorter.
     fn add(&mut self, at: Point, nearest: usize, step: f64) -> usize {
         #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         let count = (self.points.len() + 1) as f64;

@@ -38,7 +38,7 @@ pub(crate) struct Searched {
 /// once in each direction, and only if a shorter way could go along it.
 pub(crate) fn shortest<I: IntoIterator<Item = usize>>(
     points: &[Point],
-    neighbours: impl Fn(usize) -> I,
+    neighbors: impl Fn(usize) -> I,
     joined: impl Fn(usize, usize) -> bool,
 ) -> Searched {
     let mut cost = vec![f64::INFINITY; points.len()];
@@ -55,7 +55,7 @@ pub(crate) fn shortest<I: IntoIterator<Item = usize>>(
         if node == 1 {
             break;
         }
-        for next in neighbours(node) {
+        for next in neighbors(node) {
             let through = cost[node] + distance(points[node], points[next]);
             if closed[next] || through >= cost[next] || !joined(node, next) {
                 continue;

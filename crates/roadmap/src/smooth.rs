@@ -4,9 +4,9 @@ use crate::geometry::{Point, angle, distance, left_of, point, unit, vec2};
 use crate::map::Map;
 use crate::path::{Leg, Path};
 
-/// Each line is cut into so many pieces, where a detour may be left.
+/// Number of pieces that each line is cut into. A detour may be left at each cut.
 const PIECES: u8 = 4;
-/// So often is the widest arc that fits halved down to.
+/// How often the radius is halved in the search for the widest arc that fits.
 const HALVINGS: u8 = 10;
 /// Corners of fewer radians are none.
 const STRAIGHT: f64 = 1e-6;
@@ -95,6 +95,6 @@ fn rounding(corner: [Point; 3], turn: f64, radius: f64) -> Arc {
     let (along, on) = (unit(at - before), unit(after - at));
     let cut = radius * libm::tan(turn.abs() / 2.0);
     let from = at - along * cut;
-    let centre = from + left_of(along) * (radius * turn.signum());
-    Arc { from: point(from), to: point(at + on * cut), centre: point(centre), radius, sweep: turn }
+    let center = from + left_of(along) * (radius * turn.signum());
+    Arc { from: point(from), to: point(at + on * cut), center: point(center), radius, sweep: turn }
 }

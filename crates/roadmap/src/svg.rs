@@ -2,17 +2,17 @@
 use crate::geometry::Point;
 use crate::map::{Map, Shape};
 use crate::path::Leg;
-use crate::plan::Found;
+use crate::plan::Solution;
 use std::fmt::Write;
 
 /// Room around everything, in cm.
 const MARGIN: f64 = 10.0;
 
-/// An SVG picture, one unit a centimetre, y up: the obstacles, each with what
+/// An SVG picture, one unit a centimeter, y up: the obstacles, each with what
 /// must be kept free around it, the lines of the roadmap that were looked at,
 /// and the way.
 #[must_use]
-pub fn svg(map: &Map, found: &Found, keep: f64) -> String {
+pub fn svg(map: &Map, found: &Solution, keep: f64) -> String {
     let ends = [found.raw[0], found.raw[found.raw.len() - 1]];
     let extent = map.extent(ends, 0.0);
     let [left, bottom] = extent.low.map(|n| n - MARGIN);
@@ -50,8 +50,8 @@ pub fn svg(map: &Map, found: &Found, keep: f64) -> String {
         ));
     }
     svg.way(found);
-    for ([x, y], colour) in ends.into_iter().zip(["#2a2", "#d33"]) {
-        svg.line(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"{colour}\"/>"));
+    for ([x, y], color) in ends.into_iter().zip(["#2a2", "#d33"]) {
+        svg.line(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2\" fill=\"{color}\"/>"));
     }
     svg.0.push_str("</g>\n</svg>\n");
     svg.0
@@ -71,14 +71,14 @@ impl Svg {
                 Shape::Polygon(corners) => {
                     self.line(format_args!("<polygon points=\"{}\" {style}/>", list(corners)));
                 }
-                Shape::Circle { centre: [x, y], radius } => self.line(format_args!(
+                Shape::Circle { center: [x, y], radius } => self.line(format_args!(
                     "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" {style}/>"
                 )),
             }
         }
     }
 
-    fn way(&mut self, found: &Found) {
+    fn way(&mut self, found: &Solution) {
         let mut d = format!("M {}", list(&found.raw[..1]));
         for leg in found.path.legs() {
             let to = list(&[leg.end()]);

@@ -129,7 +129,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// What another look tells of the places, or this one.
+    /// Updates the places with another look, or with this one.
     fn learn(&mut self, look: &Look, cos: f64) {
         self.places.retain_mut(|place| {
             if look.shows_free(place.at, cos) {
@@ -147,9 +147,9 @@ impl Seen {
 /// How far a way can be gone safely.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Safe {
-    /// So many cm of it.
+    /// How much of the path, in cm.
     pub way: f64,
-    /// What has not been seen free there.
+    /// The first place there that has not been seen free.
     pub unseen: Option<Point>,
 }
 
@@ -268,8 +268,8 @@ impl Views {
         self.trail.iter().rev().any(|place| distance(*place, at) < reach)
     }
 
-    /// How far a way can be gone so that the robot, with a margin of so many
-    /// cm, is only where nothing stands.
+    /// How far the robot can follow a path and stay, with a margin in cm, where
+    /// nothing stands.
     #[must_use]
     pub fn safe(&self, path: &Path, margin: f64) -> Safe {
         let mut safe = Safe { way: 0.0, unseen: None };
@@ -289,13 +289,13 @@ impl Views {
         safe
     }
 
-    /// What stands where that a map does not know.
+    /// The obstacles that have been seen and that the map lacks.
     #[must_use]
     pub fn obstacles(&mut self, known: &Map) -> Vec<Obstacle> {
         self.obstacles_within(FAR, known)
     }
 
-    /// What was heard from no farther than a distance, in cm, [`FAR`] at most.
+    /// The same, from echoes within a distance in cm, at most [`FAR`].
     pub(crate) fn obstacles_within(&mut self, far: f64, known: &Map) -> Vec<Obstacle> {
         self.sift();
         let mut squares: BTreeMap<[i64; 2], Vec<Point>> = BTreeMap::new();
@@ -332,7 +332,8 @@ impl Views {
         self.sifted = self.seen.len();
     }
 
-    /// Where a look's echo came from, if that is clear and not known.
+    /// The places that a look's echo may have come from, unless the map has an
+    /// obstacle there.
     fn echo(&self, seen: &Seen, known: &Map) -> Vec<Point> {
         if seen.places.iter().any(|place| !known.point_clear(place.at, KNOWN)) {
             return Vec::new();

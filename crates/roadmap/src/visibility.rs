@@ -7,7 +7,7 @@
 //! is too far out for a narrow place, 22.5 degrees make it 2 %.
 use crate::geometry::{Point, Vec2, angle, cross, left_of, point, rotated, unit, vec2};
 use crate::map::{Map, Obstacle, Shape};
-use crate::plan::{SLACK, Sought};
+use crate::problem::{SLACK, Sought};
 use crate::search::{Searched, shortest};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, TAU};
 
@@ -67,15 +67,15 @@ fn blown_up(obstacle: &Obstacle, radius: f64, apart: f64) -> Vec<Corner> {
                 })
                 .collect()
         }
-        Shape::Circle { centre, radius: own } => {
-            around_corner(vec2(*centre), Vec2::new(1.0, 0.0), TAU, own + radius, apart)
+        Shape::Circle { center, radius: own } => {
+            around_corner(vec2(*center), Vec2::new(1.0, 0.0), TAU, own + radius, apart)
         }
     }
 }
 
 /// Corners around an arc that begins in a direction and goes counter-clockwise
 /// by an angle; none if that is not positive.
-fn around_corner(centre: Vec2, first: Vec2, turn: f64, radius: f64, apart: f64) -> Vec<Corner> {
+fn around_corner(center: Vec2, first: Vec2, turn: f64, radius: f64, apart: f64) -> Vec<Corner> {
     if turn < 1e-9 {
         return Vec::new();
     }
@@ -89,7 +89,7 @@ fn around_corner(centre: Vec2, first: Vec2, turn: f64, radius: f64, apart: f64) 
         .map(|index| {
             let out = rotated(first, half * f64::from(2 * index + 1));
             let sides = [rotated(out, -half), rotated(out, half)].map(left_of);
-            Corner { at: point(centre + out * reach), sides: [-sides[0], sides[1]] }
+            Corner { at: point(center + out * reach), sides: [-sides[0], sides[1]] }
         })
         .collect()
 }

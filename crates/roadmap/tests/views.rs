@@ -5,8 +5,8 @@ use proptest::prelude::*;
 const HULL: f64 = 8.0;
 
 /// How far a ray goes before it meets a circle.
-fn cast(from: Point, to: Point, (centre, radius): (Point, f64)) -> Option<f64> {
-    let offset = [centre[0] - from[0], centre[1] - from[1]];
+fn cast(from: Point, to: Point, (center, radius): (Point, f64)) -> Option<f64> {
+    let offset = [center[0] - from[0], center[1] - from[1]];
     let along = offset[0] * to[0] + offset[1] * to[1];
     let square = offset[0].powi(2) + offset[1].powi(2) - along * along;
     let half = (radius * radius - square).max(0.0).sqrt();
@@ -29,8 +29,8 @@ fn look_around(views: &mut Views, pillars: &[(Point, f64)], robot: Point) {
     (0..120).for_each(|index| views.add(look(pillars, robot, f64::from(index) * 3.0)));
 }
 
-fn gap(at: Point, (centre, radius): (Point, f64)) -> f64 {
-    (at[0] - centre[0]).hypot(at[1] - centre[1]) - radius
+fn gap(at: Point, (center, radius): (Point, f64)) -> f64 {
+    (at[0] - center[0]).hypot(at[1] - center[1]) - radius
 }
 
 fn pillar() -> impl Strategy<Value = (Point, f64)> {
@@ -90,7 +90,7 @@ proptest! {
             let far = corner[0].hypot(corner[1]);
             prop_assert!(gap(*corner, pillar) < 6.0 + 0.15 * far, "{corner:?}");
         }
-        // A map that has it is not told anew.
+        // An obstacle of the map is not reported again.
         let known = Map::new(vec![Obstacle::circle(pillar.0, pillar.1).unwrap()], None).unwrap();
         prop_assert!(views.obstacles(&known).is_empty());
     }

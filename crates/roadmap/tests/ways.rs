@@ -5,7 +5,9 @@
     clippy::cast_sign_loss,
     reason = "small counts"
 )]
-use ev3_roadmap::{Bounds, Found, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, plan};
+use ev3_roadmap::{
+    Bounds, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan,
+};
 use proptest::prelude::*;
 
 const KEEP: f64 = 8.0;
@@ -22,7 +24,7 @@ impl Thing {
     fn obstacle(&self) -> Obstacle {
         match self {
             Thing::Polygon(corners) => Obstacle::polygon(corners.clone()).unwrap(),
-            Thing::Circle(centre, radius) => Obstacle::circle(*centre, *radius).unwrap(),
+            Thing::Circle(center, radius) => Obstacle::circle(*center, *radius).unwrap(),
         }
     }
 
@@ -117,7 +119,7 @@ fn directions(leg: &Leg) -> [Point; 2] {
 }
 
 fn is_sound(
-    found: &Found,
+    found: &Solution,
     start: Point,
     goal: Point,
     arc_radius: f64,
@@ -134,10 +136,10 @@ fn is_sound(
         prop_assert!(distance(before, after) < 1e-3, "a kink before or after an arc: {pair:?}");
     }
     for leg in found.path.legs() {
-        if let Leg::Arc { from, to, centre, radius, .. } = *leg {
+        if let Leg::Arc { from, to, center, radius, .. } = *leg {
             prop_assert!(radius >= arc_radius - 1e-9);
-            prop_assert!((distance(from, centre) - radius).abs() < 1e-6);
-            prop_assert!((distance(to, centre) - radius).abs() < 1e-6);
+            prop_assert!((distance(from, center) - radius).abs() < 1e-6);
+            prop_assert!((distance(to, center) - radius).abs() < 1e-6);
             prop_assert!(distance(leg.at(leg.length()), to) < 1e-6);
         }
     }
@@ -182,7 +184,7 @@ proptest! {
         let drawn = plan(&map, [x, y], [u, v], &Options { method, ..options });
         match (best, drawn) {
             (Ok(best), Ok(drawn)) => {
-                let length = |found: &Found| -> f64 {
+                let length = |found: &Solution| -> f64 {
                     found.raw.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
                 };
                 // Around the outside of its polygons it is longer by at most

@@ -3,13 +3,17 @@
 //!
 //! `cargo run -p ev3-sim --features fuse --example mount -- DIRECTORY COMMAND ARGUMENT...`
 
+#[path = "../tests/suite/robots.rs"]
+mod robots;
+
+use robots::default_machine;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Machine, Mount, Shared};
+use ev3_sim::{Mount, Shared};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1);
@@ -17,7 +21,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         return Err("usage: mount DIRECTORY COMMAND ARGUMENT...".into());
     };
     let directory = PathBuf::from(directory);
-    let shared = Arc::new(Shared::new(Machine::default()));
+    let shared = Arc::new(Shared::new(default_machine()));
     let mount = Mount::new(Arc::clone(&shared), &directory)?;
     let mut command = Command::new(program);
     let mut child = command.args(arguments).env("EV3DEV_SYSFS", &directory).spawn()?;

@@ -2,11 +2,13 @@
 //!
 //! `cargo run --release -p ev3-sim --example speed [-- SECONDS]`
 
+#[path = "../tests/suite/robots.rs"]
+mod robots;
+
+use robots::default_robot;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{
-    Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, RobotSpec, WorldSpec,
-};
+use ev3_sim::{Access, Bounds, Descriptor, Item, Machine, NodeId, Options, Pose, WorldSpec};
 
 const POLL: Duration = Duration::from_millis(10);
 
@@ -42,11 +44,11 @@ fn main() {
         ..WorldSpec::default()
     };
     let mut machine =
-        Machine::new(&world, &RobotSpec::default(), Options::default()).expect("a possible world");
+        Machine::new(&world, &default_robot(), Options::default()).expect("a possible world");
     let open = |machine: &Machine, path: &str, access| machine.open(path, access).expect(path);
     let file = |machine: &Machine, path| Descriptor::new(open(machine, path, Access::ReadOnly));
     let mut eyes = file(&machine, "lego-sensor/sensor0/value0");
-    let mut colour = file(&machine, "lego-sensor/sensor1/value0");
+    let mut color = file(&machine, "lego-sensor/sensor1/value0");
     let mut gyro = file(&machine, "lego-sensor/sensor3/value0");
     let mut state = file(&machine, "tacho-motor/motor1/state");
     let node = |machine: &Machine, path: &str| open(machine, path, Access::WriteOnly);
@@ -59,7 +61,7 @@ fn main() {
     let mut turning = true;
     while machine.now() < simulated {
         let near = number(&mut machine, &mut eyes) < 500;
-        number(&mut machine, &mut colour);
+        number(&mut machine, &mut color);
         number(&mut machine, &mut gyro);
         let mut text = [0; 64];
         state.pread(&mut machine, 0, &mut text).expect("the motor stays plugged in");

@@ -2,23 +2,42 @@
 //!
 //! [`Machine`] owns everything: a file tree shaped like `/sys/class` of ev3dev-stretch, the
 //! drivers behind the files, motors with inertia and friction, a robot with two driven wheels, and
-//! a flat world with walls, boxes, coloured floors, lamps and infrared beacons. It has no clock: time passes only in
+//! a flat world with walls, boxes, colored floors, lamps and infrared beacons. Time passes only in
 //! [`Machine::step`], in ticks of 2 ms, which is the period of the kernel's motor loop. The same
 //! seed and the same calls give the same bytes on every machine, however time is sliced: all
 //! arithmetic is integer or IEEE `f64`, and sines and cosines come from the `libm` crate.
 //!
 //! ```
 //! use std::time::Duration;
-//! use ev3_sim::{Access, Machine};
+//! use ev3_sim::facts::Fact;
+//! use ev3_sim::{Access, Hull, Machine, MotorMount, Noise, Options, Port, RobotSpec, Wheel};
+//! use ev3_sim::WorldSpec;
 //!
-//! let mut machine = Machine::default();
-//! machine.write_path("tacho-motor/motor1/speed_sp", "300").unwrap();
-//! machine.write_path("tacho-motor/motor1/command", "run-forever").unwrap();
+//! let wheel = |port| Wheel { port, diameter: 5.6, inverted: false, slip: 0.0 };
+//! let motor = |port| MotorMount {
+//!     port,
+//!     driver: "lego-ev3-l-motor".to_owned(),
+//!     noise: Noise::NONE,
+//!     encoder_noise: 0.0,
+//! };
+//! let robot = RobotSpec::from_facts(&[
+//!     Fact::LeftWheel(wheel(Port::OutB)),
+//!     Fact::RightWheel(wheel(Port::OutC)),
+//!     Fact::Axle(10.6),
+//!     Fact::Hull(Hull::Circle { radius: 8.0 }),
+//!     Fact::Mass(0.75),
+//!     Fact::Motor(motor(Port::OutB)),
+//!     Fact::Motor(motor(Port::OutC)),
+//! ])?;
+//! let mut machine = Machine::new(&WorldSpec::default(), &robot, Options::default())?;
+//! machine.write_path("tacho-motor/motor0/speed_sp", "300").unwrap();
+//! machine.write_path("tacho-motor/motor0/command", "run-forever").unwrap();
 //! machine.step(Duration::from_secs(1));
-//! assert_eq!(machine.read_path("tacho-motor/motor1/state").unwrap(), "running\n");
-//! let motor = machine.open("tacho-motor/motor1/position", Access::ReadOnly).unwrap();
+//! assert_eq!(machine.read_path("tacho-motor/motor0/state").unwrap(), "running\n");
+//! let motor = machine.open("tacho-motor/motor0/position", Access::ReadOnly).unwrap();
 //! let text = String::from_utf8(machine.read(motor).unwrap()).unwrap();
 //! assert!((250..300).contains(&text.trim().parse::<i32>().unwrap()), "{text}");
+//! # Ok::<(), ev3_sim::SpecError>(())
 //! ```
 //!
 //! A program's adapter (in the process, or FUSE) only translates; see [`Descriptor`] for what
@@ -27,16 +46,14 @@
 //!
 //! # Waiting
 //!
-//! Nothing here waits; an adapter with a clock does. In real time it steps by the wall time that
-//! has passed, before each access or from a thread ([`Shared::step`] wakes who waits). With a
-//! virtual clock, a program that waits for a file lets time jump:
+//! A [`Machine`] has no clock of its own; a [`Simulation`] gives it one, by the wall or virtual.
+//! An adapter may also step the machine itself. Here a program that waits for a file lets time
+//! jump:
 //!
-//! ```
+//! ```no_run
 //! # use ev3_sim::{Access, Descriptor, Machine};
-//! # let mut machine = Machine::default();
-//! # machine.write_path("tacho-motor/motor1/time_sp", "700").unwrap();
-//! # machine.write_path("tacho-motor/motor1/command", "run-timed").unwrap();
-//! let mut state = Descriptor::open(&machine, "tacho-motor/motor1/state", Access::ReadOnly)?;
+//! # fn wait(mut machine: Machine) -> Result<(), ev3_sim::Errno> {
+//! let mut state = Descriptor::open(&machine, "tacho-motor/motor0/state", Access::ReadOnly)?;
 //! let mut text = [0; 64];
 //! loop {
 //!     let length = state.pread(&mut machine, 0, &mut text)?;
@@ -47,8 +64,8 @@
 //!         machine.step(machine.next_event().saturating_sub(machine.now()));
 //!     }
 //! }
-//! assert_eq!(machine.now().as_millis(), 700);
-//! # Ok::<(), ev3_sim::Errno>(())
+//! # Ok(())
+//! # }
 //! ```
 //!
 //! A program that reads sensors in a loop and never waits would stop time; an adapter lets each
@@ -56,68 +73,59 @@
 //!
 //! # Where to read on
 //!
-//! How the hardware behaves is told where it is modelled: motors in `motor`, sensors in
-//! `sensor` and `sense`, mechanics in `drive`, the battery and lights in `brick`, keys, speaker and
-//! screen in `front`, and the device files in which programs find these in `dev`.
+//! Each folder's comments say how the hardware behaves that it models. Each imports only from those
+//! before it, and from `noise.rs`:
+//!
+//! - `files`: what attribute files have in common;
+//! - `brick`: ports, lights, battery, buttons, speaker and screen;
+//! - `world`: walls, boxes, floors and lamps, and how they stop rays and hulls;
+//! - `motor`, `sensor`: the kernel's drivers, and what is inside the devices;
+//! - `robot.rs`: what a robot is made of;
+//! - [`facts`]: the vocabulary of world and robot files;
+//! - `mechanics`: shafts, wheels and the body;
+//! - `sense`: what the sensors notice of the world;
+//! - `machine`: all of these as one value, its file tree, and time;
+//! - `shared.rs`, `clock.rs`: a machine that several threads use, and how time passes for it;
+//! - `fuse`: the tree as real files.
 #![forbid(unsafe_code)]
 
-mod attr;
 mod brick;
-mod colour;
-mod dc;
-mod descriptor;
-mod dev;
-mod drive;
-mod errno;
+mod clock;
+pub mod facts;
 mod files;
-mod front;
 #[cfg(feature = "fuse")]
 mod fuse;
-mod geometry;
 mod machine;
-mod map;
+mod mechanics;
 mod motor;
 mod noise;
-mod obstacle;
-mod plugs;
-mod port;
-mod remote;
 mod robot;
-mod scene;
 mod sense;
 mod sensor;
-mod servo;
-mod shaft;
 mod shared;
-mod socket;
-mod svg;
-mod text;
-mod time;
 mod trace;
-mod tree;
 mod world;
 
-pub use attr::Access;
-pub use colour::{Colour, UnknownColour};
-pub use descriptor::Descriptor;
-pub use dev::DevDescriptor;
-pub use errno::Errno;
-pub use front::{Depth, Key, UnknownKey};
+pub use brick::panel::{Button, UnknownButton};
+pub use brick::port::{Port, UnknownPort};
+pub use brick::remote::RemoteButton;
+pub use brick::screen::Depth;
+pub use clock::{Act, Clock, Simulation};
+pub use files::attr::Access;
+pub use files::errno::Errno;
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
-pub use geometry::Pose;
-pub use machine::{Machine, Options, Written};
+pub use machine::tree::{Entry, FileKind, NodeId, Stat};
+pub use machine::{Descriptor, DevDescriptor, Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
-pub use port::{Port, UnknownPort};
-pub use remote::Button;
-pub use robot::{Hull, MotorMount, RobotSpec, SensorMount, Wheel};
-pub use scene::ItemId;
+pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel};
 pub use sensor::{Link, SensorKind};
 pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
-pub use tree::{Entry, FileKind, NodeId, Stat};
-pub use world::{Bounds, Item, Point, SpecError, WorldSpec};
+pub use world::color::{Color, UnknownColor};
+pub use world::geometry::Pose;
+pub use world::{Bounds, Hull, Item, ItemId, Part, Point, SpecError, WorldSpec};
 
 /// One turn of the kernel's motor loop.
 const TICK_MS: u64 = 2;
@@ -128,7 +136,7 @@ const JIFFY_TICKS: u64 = 5;
 /// The motor class looks at its flags every 50 ms.
 const NOTIFY_TICKS: u64 = 25;
 
-/// So many ticks are at least this long. Nothing is negative here.
+/// The number of ticks that take at least this long. No time is negative here.
 fn ticks_from_ms(ms: i32) -> u64 {
     u64::from(ms.unsigned_abs()).div_ceil(TICK_MS)
 }

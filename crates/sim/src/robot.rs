@@ -1,11 +1,11 @@
 //! What the robot is made of, as plain data: the vocabulary of robot files.
 
-use crate::geometry::Pose;
+use crate::brick::port::Port;
 use crate::motor::MotorKind;
 use crate::noise::{Noise, TYPICAL_TEETH};
-use crate::port::Port;
 use crate::sensor::SensorKind;
-use crate::world::SpecError;
+use crate::world::geometry::Pose;
+use crate::world::{Hull, Part, SpecError};
 
 /// A driven wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,42 +42,11 @@ pub struct SensorMount {
     /// The driver's name, such as `lego-ev3-us`.
     pub driver: String,
     /// Where it sits, from the middle of the axle: x to the right, y ahead, in cm, and where it
-    /// looks. A colour sensor sees the floor below this point, and lamps in its direction; a touch
+    /// looks. A color sensor sees the floor below this point, and lamps in its direction; a touch
     /// sensor is an 8 cm wide bumper across its heading.
     pub pose: Pose,
     /// Its errors.
     pub noise: Noise,
-}
-
-/// The outline that walls and boxes stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hull {
-    /// A circle around the middle of the axle.
-    Circle {
-        /// Radius in cm.
-        radius: f64,
-    },
-    /// A rectangle.
-    Rectangle {
-        /// Extent from left to right, in cm.
-        width: f64,
-        /// Extent from back to front, in cm.
-        length: f64,
-        /// How far its centre lies ahead of the axle, in cm.
-        offset: f64,
-    },
-}
-
-impl Hull {
-    /// The largest distance of a point of it from the middle of the axle.
-    pub(crate) fn reach(&self) -> f64 {
-        match *self {
-            Hull::Circle { radius } => radius,
-            Hull::Rectangle { width, length, offset } => {
-                libm::hypot(width / 2.0, length / 2.0 + offset.abs())
-            }
-        }
-    }
 }
 
 /// A robot with two driven wheels.
@@ -99,68 +68,7 @@ pub struct RobotSpec {
     pub sensors: Vec<SensorMount>,
 }
 
-impl Default for RobotSpec {
-    /// The paper's vehicle: 5.6 cm wheels 10.6 cm apart on outB (left) and outC (right), a medium
-    /// motor on outA, ultrasonic ahead on in1, colour right on in2 and left on in3, gyro on in4.
-    fn default() -> Self {
-        let wheel = |port| Wheel { port, diameter: 5.6, inverted: false, slip: 0.0 };
-        let motor = |port, driver: &str| MotorMount {
-            port,
-            driver: driver.to_owned(),
-            noise: Noise::NONE,
-            encoder_noise: 0.0,
-        };
-        let sensor = |port, driver: &str, x, y, heading| SensorMount {
-            port,
-            driver: driver.to_owned(),
-            pose: Pose::new(x, y, heading),
-            noise: Noise::NONE,
-        };
-        RobotSpec {
-            left: wheel(Port::OutB),
-            right: wheel(Port::OutC),
-            axle: 10.6,
-            hull: Hull::Circle { radius: 8.0 },
-            mass: 0.75,
-            motors: vec![
-                motor(Port::OutA, "lego-ev3-m-motor"),
-                motor(Port::OutB, "lego-ev3-l-motor"),
-                motor(Port::OutC, "lego-ev3-l-motor"),
-            ],
-            sensors: vec![
-                sensor(Port::In1, "lego-ev3-us", 0.0, 7.0, 0.0),
-                sensor(Port::In2, "lego-ev3-color", 3.0, 6.5, 30.0),
-                sensor(Port::In3, "lego-ev3-color", -3.0, 6.5, -30.0),
-                sensor(Port::In4, "lego-ev3-gyro", 0.0, 0.0, 0.0),
-            ],
-        }
-    }
-}
-
 impl RobotSpec {
-    /// The default robot with a bumper on in4 in the place of the gyro.
-    #[must_use]
-    pub fn with_touch() -> RobotSpec {
-        let mut robot = RobotSpec::default();
-        for sensor in &mut robot.sensors {
-            if sensor.port == Port::In4 {
-                "lego-ev3-touch".clone_into(&mut sensor.driver);
-                sensor.pose = Pose::new(0.0, 8.0, 0.0);
-            }
-        }
-        robot
-    }
-
-    /// The default robot with its wheels' wires exchanged, right on outB and left on outC: so the
-    /// paper's Braitenberg vehicle 2 (right eye in2 to outB, left eye in3 to outC) shies away from
-    /// a lamp as it should.
-    #[must_use]
-    pub fn swapped() -> RobotSpec {
-        let mut robot = RobotSpec::default();
-        std::mem::swap(&mut robot.left.port, &mut robot.right.port);
-        robot
-    }
-
     /// Gives every device the errors that such a device might plausibly have.
     #[must_use]
     pub fn with_typical_noise(mut self) -> RobotSpec {
@@ -179,57 +87,134 @@ impl RobotSpec {
     /// # Errors
     /// Names the first offending part.
     pub fn validate(&self) -> Result<(), SpecError> {
+        let RobotSpec { left, right, axle, hull, mass, .. } = *self;
+        let parts = Chassis {
+            left: Some(left),
+            right: Some(right),
+            axle: Some(axle),
+            hull: Some(hull),
+            mass: Some(mass),
+        };
+        parts.validate()?;
+        validate_devices(&self.motors, &self.sensors)
+    }
+}
+
+/// The parts that each robot has once. `None` is a part that is still missing.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Chassis {
+    pub(crate) left: Option<Wheel>,
+    pub(crate) right: Option<Wheel>,
+    pub(crate) axle: Option<f64>,
+    pub(crate) hull: Option<Hull>,
+    pub(crate) mass: Option<f64>,
+}
+
+impl Chassis {
+    /// Checks the parts that are there.
+    pub(crate) fn validate(&self) -> Result<(), SpecError> {
+        let diameter = |wheel: Option<Wheel>| wheel.map(|wheel| wheel.diameter);
         let lengths = [
-            ("left wheel", self.left.diameter, "needs a diameter above 0"),
-            ("right wheel", self.right.diameter, "needs a diameter above 0"),
-            ("axle", self.axle, "needs a length above 0"),
-            ("mass", self.mass, "must be above 0"),
+            (Part::LeftWheel, "left wheel", diameter(self.left), "needs a diameter above 0"),
+            (Part::RightWheel, "right wheel", diameter(self.right), "needs a diameter above 0"),
+            (Part::Axle, "axle", self.axle, "needs a length above 0"),
+            (Part::Mass, "mass", self.mass, "must be above 0"),
         ];
-        for (name, number, reason) in lengths {
-            if !(number.is_finite() && number > 0.0) {
-                return Err(SpecError::new(name, reason));
+        for (part, name, number, reason) in lengths {
+            if number.is_some_and(|number| !(number.is_finite() && number > 0.0)) {
+                return Err(SpecError::new(name, reason).in_part(part));
             }
         }
-        for (name, wheel) in [("left wheel", self.left), ("right wheel", self.right)] {
+        let ports = [self.left, self.right].map(|wheel| wheel.map(|wheel| wheel.port));
+        let is_shared = ports[0].is_some() && ports[0] == ports[1];
+        let wheels = [
+            (Part::LeftWheel, "left wheel", self.left),
+            (Part::RightWheel, "right wheel", self.right),
+        ];
+        for (part, name, wheel) in wheels {
+            let Some(wheel) = wheel else { continue };
             if !(0.0..1.0).contains(&wheel.slip) {
-                return Err(SpecError::new(name, "needs a slip from 0 to below 1"));
+                let error = SpecError::new(name, "needs a slip from 0 to below 1");
+                return Err(error.in_part(part));
             }
-            if !wheel.port.is_output() || self.left.port == self.right.port {
-                return Err(SpecError::new(name, "needs an output port of its own"));
+            if !wheel.port.is_output() || is_shared {
+                let error = SpecError::new(name, "needs an output port of its own");
+                return Err(error.in_part(part));
             }
         }
-        let hull = self.hull.reach();
-        if !(hull.is_finite() && hull > 0.0) {
-            return Err(SpecError::new("hull", "needs an extent above 0"));
-        }
-        let mut used = Vec::new();
-        for MotorMount { port, driver, encoder_noise, .. } in &self.motors {
-            let item = || format!("motor {driver} on {port}");
-            if MotorKind::named(driver).is_none() {
-                return Err(SpecError::new(item(), "is of no known type"));
-            }
-            if !port.is_output() || used.contains(port) {
-                return Err(SpecError::new(item(), "needs an output port of its own"));
-            }
-            if !(encoder_noise.is_finite() && *encoder_noise >= 0.0) {
-                let item = format!("encoder noise on {port}");
-                return Err(SpecError::new(item, "must not be below 0"));
-            }
-            used.push(*port);
-        }
-        for SensorMount { port, driver, pose, .. } in &self.sensors {
-            let item = || format!("sensor {driver} on {port}");
-            if SensorKind::named(driver).is_none() {
-                return Err(SpecError::new(item(), "is of no known type"));
-            }
-            if port.is_output() || used.contains(port) {
-                return Err(SpecError::new(item(), "needs an input port of its own"));
-            }
-            if !pose.is_finite() {
-                return Err(SpecError::new(item(), "has a number that is not finite"));
-            }
-            used.push(*port);
+        let reach = self.hull.map(|hull| hull.reach());
+        if reach.is_some_and(|reach| !(reach.is_finite() && reach > 0.0)) {
+            return Err(SpecError::new("hull", "needs an extent above 0").in_part(Part::Hull));
         }
         Ok(())
     }
+
+    /// The robot with these parts, if none is missing.
+    pub(crate) fn complete(
+        self,
+        motors: Vec<MotorMount>,
+        sensors: Vec<SensorMount>,
+    ) -> Result<RobotSpec, SpecError> {
+        self.validate()?;
+        validate_devices(&motors, &sensors)?;
+        let Chassis { left: Some(left), right: Some(right), axle: Some(axle), .. } = self else {
+            return Err(self.missing());
+        };
+        let (Some(hull), Some(mass)) = (self.hull, self.mass) else {
+            return Err(self.missing());
+        };
+        Ok(RobotSpec { left, right, axle, hull, mass, motors, sensors })
+    }
+
+    fn missing(&self) -> SpecError {
+        let parts = [
+            ("left_wheel", self.left.is_none()),
+            ("right_wheel", self.right.is_none()),
+            ("axle", self.axle.is_none()),
+            ("hull", self.hull.is_none()),
+            ("mass", self.mass.is_none()),
+        ];
+        let missing: Vec<_> =
+            parts.iter().filter(|(_, is_missing)| *is_missing).map(|(name, _)| *name).collect();
+        SpecError::new("robot", format!("has no {}", missing.join(", no ")))
+    }
+}
+
+fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<(), SpecError> {
+    let mut used = Vec::new();
+    for (index, MotorMount { port, driver, encoder_noise, .. }) in motors.iter().enumerate() {
+        let fault = |reason: &str| {
+            Err(SpecError::new(format!("motor {driver} on {port}"), reason)
+                .in_part(Part::Motor(index)))
+        };
+        if MotorKind::named(driver).is_none() {
+            return fault("is of no known type");
+        }
+        if !port.is_output() || used.contains(port) {
+            return fault("needs an output port of its own");
+        }
+        if !(encoder_noise.is_finite() && *encoder_noise >= 0.0) {
+            let item = format!("encoder noise on {port}");
+            let error = SpecError::new(item, "must not be below 0");
+            return Err(error.in_part(Part::EncoderNoise(*port)).in_part(Part::Motor(index)));
+        }
+        used.push(*port);
+    }
+    for (index, SensorMount { port, driver, pose, .. }) in sensors.iter().enumerate() {
+        let fault = |reason: &str| {
+            Err(SpecError::new(format!("sensor {driver} on {port}"), reason)
+                .in_part(Part::Sensor(index)))
+        };
+        if SensorKind::named(driver).is_none() {
+            return fault("is of no known type");
+        }
+        if port.is_output() || used.contains(port) {
+            return fault("needs an input port of its own");
+        }
+        if !pose.is_finite() {
+            return fault("has a number that is not finite");
+        }
+        used.push(*port);
+    }
+    Ok(())
 }

@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use crate::machine::Machine;
 
-/// A machine behind a lock. Whoever has the clock calls [`Shared::step`], or steps under the lock
-/// and calls [`Shared::wake`]; whoever waits for something calls [`Shared::wait`] and looks again.
+/// A machine behind a lock. The thread with the clock calls [`Shared::step`], or steps under the
+/// lock and calls [`Shared::wake`]. A thread that waits for a change calls [`Shared::wait`] and
+/// checks again.
 #[derive(Debug)]
 pub struct Shared {
     machine: Mutex<Machine>,
@@ -26,18 +27,18 @@ impl Shared {
         self.machine.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets virtual time pass and wakes everybody who waits.
+    /// Lets virtual time pass and wakes all waiting threads.
     pub fn step(&self, dt: Duration) {
         self.lock().step(dt);
         self.wake();
     }
 
-    /// Wakes everybody who waits, to look again.
+    /// Wakes all waiting threads, to check again.
     pub fn wake(&self) {
         self.changed.notify_all();
     }
 
-    /// Gives the lock away until somebody calls [`Shared::wake`], for so much wall time at most.
+    /// Releases the lock until [`Shared::wake`] is called, for at most this wall time.
     pub fn wait<'a>(
         &self,
         guard: MutexGuard<'a, Machine>,

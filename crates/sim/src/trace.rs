@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use crate::geometry::Pose;
-use crate::scene::ItemId;
+use crate::world::ItemId;
+use crate::world::geometry::Pose;
 
 const PATH_POINTS: usize = 2048;
 const EVENTS: usize = 4096;
@@ -31,7 +31,7 @@ pub enum Action {
     Written,
     /// It read the text: recorded for the values of sensors.
     Read,
-    /// It made a tone of so many Hz; 0 is silence.
+    /// It made a tone. The text is its pitch in Hz; 0 is silence.
     Tone,
     /// It said the text.
     Said,

@@ -3,6 +3,10 @@
 //! `cargo test -p ev3-sim --features fuse --test fuse`. Where there is no FUSE, these tests say
 //! so and check nothing.
 
+#[path = "suite/robots.rs"]
+mod robots;
+
+use robots::{default_machine, default_robot};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::unix::fs::{FileExt, MetadataExt, OpenOptionsExt};
@@ -13,7 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Errno, Key, Machine, Mount, MountError, Port, RobotSpec, Shared, WorldSpec};
+use ev3_sim::{Button, Errno, Machine, Mount, MountError, Port, Shared, WorldSpec};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 /// A mounted brick with a clock.
@@ -31,7 +35,7 @@ impl Bench {
         let root = std::env::temp_dir().join(format!("ev3-sim-{}-{name}", std::process::id()));
         fs::create_dir_all(&root).unwrap();
         let machine =
-            Machine::new(&WorldSpec::default(), &RobotSpec::default(), ev3_sim::Options::default());
+            Machine::new(&WorldSpec::default(), &default_robot(), ev3_sim::Options::default());
         let shared = Arc::new(Shared::new(machine.unwrap()));
         let mount = match Mount::new(Arc::clone(&shared), &root) {
             Ok(mount) => mount,
@@ -129,11 +133,11 @@ fn errors_are_the_kernels() {
     assert_eq!(errno(bench.put(&motor("speed_sp"), "99999999999")), Some(Errno::ERANGE));
     assert_eq!(errno(bench.put(&motor("state"), "running")), Some(Errno::EACCES));
     assert_eq!(errno(bench.get(&motor("command"))), Some(Errno::EACCES));
-    assert_eq!(errno(bench.get(&motor("colour"))), Some(Errno::ENOENT));
+    assert_eq!(errno(bench.get(&motor("color"))), Some(Errno::ENOENT));
     assert_eq!(errno(bench.get("lego-sensor/sensor0/value1")), Some(Errno::ENXIO));
     assert_eq!(errno(bench.get("lego-sensor/sensor0/poll_ms")), Some(Errno::EOPNOTSUPP));
     assert_eq!(errno(fs::remove_file(bench.path(&motor("state")))), Some(Errno::EPERM));
-    assert_eq!(errno(bench.put(&motor("colour"), "red")), Some(Errno::EACCES));
+    assert_eq!(errno(bench.put(&motor("color"), "red")), Some(Errno::EACCES));
     assert_eq!(fs::metadata(bench.path(&motor("state"))).unwrap().mode() & 0o777, 0o444);
     let truncated =
         OpenOptions::new().write(true).truncate(true).open(bench.path(&motor("position")));
@@ -193,7 +197,7 @@ fn a_mode_write_blocks_for_its_time() {
 fn mounted_devices(name: &str) -> Option<(Mount, Arc<Shared>, PathBuf)> {
     let root = std::env::temp_dir().join(format!("ev3-sim-{}-{name}", std::process::id()));
     fs::create_dir_all(&root).unwrap();
-    let shared = Arc::new(Shared::new(Machine::default()));
+    let shared = Arc::new(Shared::new(default_machine()));
     match Mount::dev(Arc::clone(&shared), &root) {
         Ok(mount) => Some((mount, shared, root)),
         Err(error) => {
@@ -220,7 +224,7 @@ fn a_reader_of_keys_waits_for_one() {
         move || {
             // Longer than a reader waits before it is sent back once.
             std::thread::sleep(Duration::from_millis(300));
-            shared.lock().press(Key::Left);
+            shared.lock().press(Button::Left);
             shared.wake();
         }
     });
@@ -238,7 +242,7 @@ fn a_reader_of_keys_waits_for_one() {
         let shared = Arc::clone(&shared);
         move || {
             std::thread::sleep(Duration::from_millis(50));
-            shared.lock().release(Key::Left);
+            shared.lock().release(Button::Left);
             shared.wake();
         }
     });
@@ -273,7 +277,7 @@ fn the_screen_is_a_file_of_fixed_length() {
 
 #[test]
 fn a_missing_directory_is_named() {
-    let shared = Arc::new(Shared::new(Machine::default()));
+    let shared = Arc::new(Shared::new(default_machine()));
     let error = Mount::new(shared, Path::new("/no/such/place")).unwrap_err();
     let named = matches!(error, MountError::NoDirectory(_) | MountError::NoFuse);
     assert!(named, "{error}");

@@ -1,11 +1,11 @@
 :- module(ev3dev_facts,
           [ located_facts/3,            % +Kind, +Source, -Located
-            fact_location/3,            % +Item, +Located, -Location
+            source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
-:- use_module(errors, [existence_error/2, must_be/2]).
-:- use_module(library(lists), [last/2, member/2]).
-:- use_module(native, [sim_check_/1]).
+:- use_module(errors, [existence_error/2, must_be/2, throw_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(native, [sim_check_/2]).
 
 /** <module> Files of facts about worlds and robots
 
@@ -32,6 +32,24 @@ located_facts(Kind, Facts, Located) :-
     findall(Fact-none, member(Fact, Facts), Located),
     check_all(Located, Kind).
 located_facts(Kind, Source, Located) :-
+    source_file(Kind, Source, File),
+    setup_call_cleanup(
+        open(File, read, Stream, [encoding(utf8)]),
+        read_facts(Stream, Kind, File, Located),
+        close(Stream)).
+
+%!  source_location(+Kind, +Source, -Location) is det.
+%
+%   True if Location is that of a whole Source: `file(File)`, or `none` for a
+%   list of facts.
+
+source_location(_, Facts, none) :-
+    is_list(Facts),
+    !.
+source_location(Kind, Source, file(File)) :-
+    source_file(Kind, Source, File).
+
+source_file(Kind, Source, File) :-
     must_be(nonvar, Source),
     (   shipped(Kind, Source, File)
     ->  true
@@ -42,11 +60,7 @@ located_facts(Kind, Source, Located) :-
         exists_file(File)
     ->  true
     ;   existence_error(Kind, Source)
-    ),
-    setup_call_cleanup(
-        open(File, read, Stream, [encoding(utf8)]),
-        read_facts(Stream, Kind, File, Located),
-        close(Stream)).
+    ).
 
 shipped(Kind, Name, File) :-
     atomic(Name),
@@ -78,84 +92,9 @@ check_all([Fact-Location|Rest], Kind) :-
     check_all(Rest, Kind).
 
 check(Kind, Fact, Location) :-
-    must_be_of_kind(Kind, Fact, Location),
-    catch(sim_check_(Fact),
+    catch(sim_check_(Kind, Fact),
           error(Formal, context(_, Why)),
           throw_located(Formal, Location, Why)).
-
-must_be_of_kind(Kind, Fact, _) :-
-    callable(Fact),
-    functor(Fact, Name, Arity),
-    vocabulary(Kind, Name, Arities),
-    memberchk(Arity, Arities),
-    !.
-must_be_of_kind(Kind, Fact, Location) :-
-    findall(Name, vocabulary(Kind, Name, _), Names),
-    atomic_list_concat(Names, ', ', Known),
-    atomic_list_concat(['a ', Kind, ' has: ', Known], Why),
-    atom_concat(Kind, '_fact', Domain),
-    throw_located(domain_error(Domain, Fact), Location, Why).
-
-vocabulary(world, bounds,      [4]).
-vocabulary(world, wall,        [4, 5]).
-vocabulary(world, box,         [4, 5]).
-vocabulary(world, circle,      [3]).
-vocabulary(world, floor,       [1]).
-vocabulary(world, patch,       [2]).
-vocabulary(world, line,        [3]).
-vocabulary(world, lamp,        [3, 4]).
-vocabulary(world, beacon,      [3]).
-vocabulary(world, ambient,     [1]).
-vocabulary(world, temperature, [1]).
-vocabulary(world, loudness,    [1]).
-vocabulary(world, start,       [3]).
-vocabulary(world, map,         [2]).
-vocabulary(robot, left_wheel,  [2, 3]).
-vocabulary(robot, right_wheel, [2, 3]).
-vocabulary(robot, axle,        [1]).
-vocabulary(robot, hull,        [1]).
-vocabulary(robot, mass,        [1]).
-vocabulary(robot, motor,       [2]).
-vocabulary(robot, sensor,      [5]).
-vocabulary(robot, noise,       [3]).
-vocabulary(robot, encoder_noise, [2]).
-
-%!  fact_location(+Item, +Located, -Location) is det.
-%
-%   True if Location is that of the fact that the simulator means by Item, as
-%   in 'left wheel' or 'motor lego-ev3-l-motor on outB'; `none` if it is not
-%   known. Of several the last, which is one too many.
-
-fact_location(Item, Located, Location) :-
-    findall(Found,
-            ( member(Fact-Found, Located),
-              meant(Item, Fact)
-            ),
-            Locations),
-    (   last(Locations, Location)
-    ->  true
-    ;   Location = none
-    ).
-
-meant(Item, Fact) :-
-    said_of(Fact, Start),
-    sub_atom(Item, 0, _, _, Start).
-
-said_of(motor(Port, Type), Start) :-
-    !,
-    atomic_list_concat([motor, Type, on, Port], ' ', Start).
-said_of(sensor(Port, Type, _, _, _), Start) :-
-    !,
-    atomic_list_concat([sensor, Type, on, Port], ' ', Start).
-said_of(encoder_noise(Port, _), Start) :-
-    !,
-    atomic_list_concat(['encoder noise on', Port], ' ', Start).
-said_of(start(_, _, _), 'robot at ').
-said_of(map(_, _), 'robot at ').
-said_of(Fact, Start) :-
-    functor(Fact, Name, _),
-    atomic_list_concat(Words, '_', Name),
-    atomic_list_concat(Words, ' ', Start).
 
 %!  throw_located(+Formal, +Location, +Why)
 %
@@ -163,7 +102,7 @@ said_of(Fact, Start) :-
 
 throw_located(Formal, none, Why) :-
     !,
-    throw(error(Formal, context(ev3dev_sim:sim_start/2, Why))).
+    throw_error(Formal, sim_start/2, Why).
 throw_located(Formal, Location, Why) :-
     throw(error(Formal, fact(Location, Why))).
 
@@ -173,6 +112,8 @@ throw_located(Formal, Location, Why) :-
 
 prolog:message_location(fact(file(File, Line, LinePosition, _), _)) -->
     [ '~w:~d:~d: '-[File, Line, LinePosition] ].
+prolog:message_location(fact(file(File), _)) -->
+    [ '~w: '-[File] ].
 
 prolog:message_context(fact(_, Why)) -->
     (   { nonvar(Why),

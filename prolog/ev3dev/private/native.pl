@@ -2,13 +2,13 @@
           [ attribute_/4,
             attribute_write_/4,
             device_/4,
+            dev_/1,
+            dev_use_/1,
             file_read_/2,
             file_write_/2,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
-            dev_/1,
-            dev_use_/1,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
@@ -38,6 +38,8 @@
             button_source_/1,
             button_wait_/3,
             buttons_/1,
+            sim_key_/2,
+            sim_plan_key_/3,
             play_/1,
             say_/1,
             sound_stop_/0,
@@ -74,14 +76,12 @@
             views_step_/5,
             sim_active_/0,
             sim_add_/2,
-            sim_check_/1,
+            sim_check_/2,
             sim_collisions_/1,
             sim_hold_/0,
             sim_jam_/2,
-            sim_key_/2,
             sim_mount_/2,
             sim_place_/3,
-            sim_plan_key_/3,
             sim_plug_/2,
             sim_pose_/3,
             sim_release_/0,
@@ -90,7 +90,7 @@
             sim_restore_/1,
             sim_show_/3,
             sim_snapshot_/1,
-            sim_start_/6,
+            sim_start_/4,
             sim_step_/1,
             sim_stop_/0,
             sim_svg_/1,
@@ -119,20 +119,20 @@ missing.
 %!  attribute_(+Class, ?Port, +Attribute, ?Value) is nondet.
 %!  attribute_write_(+Class, +Port, +Attribute, +Value) is semidet.
 %!  device_(+Class, ?Port, ?Type, ?Path) is nondet.
+%
+%   `src/driver.rs`
+
+% Files
+
+%!  dev_(-Directory) is semidet.
+%!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
 %
-%   `src/driver.rs`
-
-% Device files
-
-%!  dev_(-Directory) is semidet.
-%!  dev_use_(+Directory) is semidet.
-%
-%   `src/dev.rs`
+%   `src/files.rs`
 
 % Motors
 
@@ -149,7 +149,7 @@ missing.
 %!  run_forever_(+Port, +CountsPerSecond) is semidet.
 %!  stop_all_motors_ is semidet.
 %
-%   `src/motor_moves.rs` and `src/motor_settings.rs` and `src/motors.rs`
+%   `src/motors.rs`
 
 % Motors without rotation sensor
 
@@ -178,7 +178,7 @@ missing.
 % Lights
 
 %!  led_(?Light, +What, -Value) is nondet.
-%!  led_set_colour_(+Light, +Colour) is semidet.
+%!  led_set_colour_(+Light, +Color) is semidet.
 %!  led_set_delays_(+Light, +On, +Off) is semidet.
 %!  led_set_trigger_(+Light, +Trigger) is semidet.
 %
@@ -190,8 +190,10 @@ missing.
 %!  button_source_(-Source) is semidet.
 %!  button_wait_(?Key, ?Event, +Timeout) is semidet.
 %!  buttons_(-Keys) is semidet.
+%!  sim_key_(+Button, +IsPress) is semidet.
+%!  sim_plan_key_(+Button, +After, +For) is semidet.
 %
-%   `src/keys.rs`
+%   `src/buttons.rs`
 
 % Sound
 
@@ -271,14 +273,12 @@ missing.
 
 %!  sim_active_ is semidet.
 %!  sim_add_(+Fact, -Id) is semidet.
-%!  sim_check_(+Fact) is semidet.
+%!  sim_check_(+Subject, +Fact) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
 %!  sim_hold_ is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
-%!  sim_key_(+Key, +IsPress) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.
 %!  sim_place_(+X, +Y, +Heading) is semidet.
-%!  sim_plan_key_(+Key, +After, +For) is semidet.
 %!  sim_plug_(+Port, +Type) is semidet.
 %!  sim_pose_(-X, -Y, -Heading) is semidet.
 %!  sim_release_ is semidet.
@@ -287,7 +287,7 @@ missing.
 %!  sim_restore_(+Snapshot) is semidet.
 %!  sim_show_(+Port, +Attribute, +Text) is semidet.
 %!  sim_snapshot_(-Snapshot) is semidet.
-%!  sim_start_(+World, +Robot, +Clock, +Seed, +Noise, +Bits) is semidet.
+%!  sim_start_(+World, +Robot, +Options, -Fault) is semidet.
 %!  sim_step_(+Seconds) is semidet.
 %!  sim_stop_ is semidet.
 %!  sim_svg_(-Text) is semidet.
@@ -298,7 +298,7 @@ missing.
 %!  sim_unshow_(+Port, +Attribute) is semidet.
 %!  sim_wait_(+Seconds) is semidet.
 %
-%   `src/sim.rs` and `src/sim_front.rs`
+%   `src/sim/mod.rs`
 
 % The end of the program
 

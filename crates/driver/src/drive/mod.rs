@@ -1,161 +1,91 @@
 //! A robot on two wheels that knows where it is and is kept on its course.
 //!
 //! One place does both, at a fixed period of 20 ms while the wheels turn or a
-//! motion is under way: it reads wheels and gyro, moves the estimate on
-//! ([`odometry`](crate::odometry)), and tells the motors what the motion wants
-//! next ([`steering`](crate::steering)). The tree calls it
-//! ([`Tree::every`](crate::tree::Tree::every)): where there are real files by a
-//! thread of its own, which ends when the robot has come to rest. Whoever asks
-//! for the pose meanwhile gets it as it is now, and does that step himself.
+//! motion is under way: it reads wheels and gyro, updates the estimate
+//! ([`odometry`]), and commands the motors ([`steering`]). The tree calls it
+//! ([`Sysfs::every`](crate::sysfs::Sysfs::every)); over real files a thread does,
+//! which ends when the robot has come to rest. A thread that
+//! asks for the pose meanwhile does that step itself, and gets the pose of now.
 //!
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
-//! (`tacho_motor_class.c`). The end of a motion is a position that is gone to.
-mod found;
+//! (`tacho_motor_class.c`). The wheels end a motion at a position.
+mod control;
+mod devices;
 mod motion;
+pub mod odometry;
+pub mod path;
+pub mod steering;
+pub mod turn;
 
-use crate::Interrupted;
-use crate::device::Device;
-use crate::devices::{Class, Devices};
-use crate::error::{Error, Result};
+use crate::device::MotionObserver;
+use crate::device::registry::Registry;
+use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
-use crate::motor::{self, StopAction};
-use crate::odometry::{Estimate, Pose, Wheels};
+use crate::motor::wait::Reason;
 use crate::sensor;
-use crate::steering::Leg;
-use crate::wait::{Reason, sleep};
-use found::{Found, GYRO_MODE, angle, counts};
-use motion::Job;
-pub use motion::Status;
+use crate::sysfs::sleep;
+use control::Inner;
+pub use control::{Command, DriveOptions};
+pub use devices::Robot;
+use devices::{GYRO_MODE, counts};
+pub use motion::{Outcome, PERIOD};
+use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
 
-/// The period of the control.
-pub const PERIOD: Duration = Duration::from_millis(20);
-
-/// When to come again if the estimate is in use.
+/// The time to the next call if the estimate is in use.
 const BUSY: Duration = Duration::from_millis(1);
 
 /// How long, by the wall, to wait for another thread that uses it.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// How long the wheels must stand still to be at rest.
-const AT_REST: Duration = Duration::from_secs(1);
-
-/// The period while they are, in which the gyro's drift is measured.
-const REST_PERIOD: Duration = Duration::from_millis(100);
-
-/// How long that takes at most; then nothing is done until a motor is started.
-const MEASURED: Duration = Duration::from_secs(30);
-
-/// A robot: where its motors are, and how it is built.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Robot {
-    /// Ports of the left and the right motor.
-    pub ports: [String; 2],
-    /// Its wheels.
-    pub wheels: Wheels,
-}
-
-/// What to do.
-#[derive(Clone, Debug)]
-pub enum Course {
-    /// One part after the other. The second says whether rear first.
-    Legs(Vec<Leg>, bool),
-    /// On and on: speed in cm/s, rate of turn in degrees a second.
-    Cruise(f64, f64),
-    /// The same for the motion under way, unless somebody has ended it.
-    Change(f64, f64),
-    /// On and on: the speed of each wheel as a share of that of the faster one.
-    Wheels([f64; 2]),
-}
-
-/// How to do it.
-#[derive(Clone, Copy, Debug)]
-pub struct DriveOptions {
-    /// Of the faster wheel, in percent of what it can. Not for a cruise.
-    pub percent: f64,
-    /// In cm/s².
-    pub acceleration: f64,
-    /// What the wheels do at the end.
-    pub stop_action: StopAction,
-    /// Whether the gyro, if there is one, tells the heading.
-    pub use_gyro: bool,
-}
-
 /// Odometry and control of one robot.
+///
+/// Motors report to it when they are started. The owner of the registry owns the
+/// drive, and a registry has one.
 pub struct Drive {
-    devices: Weak<Devices>,
-    /// Whether the tree calls us.
+    this: Weak<Self>,
+    /// Whether the tree calls the drive periodically.
     is_called: Mutex<bool>,
     inner: Mutex<Inner>,
-}
-
-struct Inner {
-    robot: Robot,
-    found: Option<Found>,
-    use_gyro: bool,
-    /// When the estimate was last moved on.
-    now: Duration,
-    /// When the wheels last turned.
-    moved: Duration,
-    estimate: Estimate,
-    /// Where the motion before was to end.
-    goal: Option<Pose>,
-    job: Option<Job>,
-    last: Option<Arc<Status>>,
+    /// The last field, so that the motors' files are closed before it goes.
+    registry: Arc<Registry>,
 }
 
 impl Drive {
-    /// The drive of a robot; that of before, if it is the same robot.
-    pub fn of(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
-        let drive = devices.drive_or(|| {
-            let drive = Self::new(devices, robot);
-            devices.watch().set(Arc::downgrade(&drive));
-            drive
+    /// The drive of a robot whose devices are in `registry`. A registry has one drive.
+    #[must_use]
+    pub fn new(registry: Arc<Registry>, robot: &Robot) -> Arc<Self> {
+        let drive = Arc::new_cyclic(|this| Self {
+            this: Weak::clone(this),
+            is_called: Mutex::default(),
+            inner: Mutex::new(Inner::new(robot)),
+            registry,
         });
-        let mut inner = drive.lock();
-        if inner.robot != *robot {
-            inner.end_job(Ok(Reason::Stopped));
-            let pose = inner.pose();
-            inner.robot = robot.clone();
-            inner.found = None;
-            inner.goal = None;
-            inner.estimate.forget_wheels();
-            inner.place(pose);
-        }
-        drop(inner);
-        Arc::clone(drive)
+        let this: Weak<Self> = Weak::clone(&drive.this);
+        drive.registry.observe(this);
+        drive
     }
 
-    fn new(devices: &Arc<Devices>, robot: &Robot) -> Arc<Self> {
-        let mut inner = Inner {
-            robot: robot.clone(),
-            found: None,
-            use_gyro: true,
-            now: Duration::ZERO,
-            moved: Duration::ZERO,
-            estimate: Estimate::default(),
-            goal: None,
-            job: None,
-            last: None,
-        };
-        inner.place(Pose::default());
-        Arc::new(Self {
-            devices: Arc::downgrade(devices),
-            is_called: Mutex::default(),
-            inner: Mutex::new(inner),
-        })
+    /// Changes the robot, and keeps the pose. Nothing happens if it is the same
+    /// robot.
+    pub fn set_robot(&self, robot: &Robot) {
+        let mut inner = self.lock();
+        if inner.robot == *robot {
+            return;
+        }
+        inner.set_robot(robot);
     }
 
     /// Starts counting, if the robot is there.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn start(&self, devices: &Devices) -> Result<bool> {
-        let is_there = self.look(devices)?.is_some();
+    pub fn start(&self) -> Result<bool> {
+        let is_there = self.look()?.is_some();
         if is_there {
-            self.be_called(devices);
+            self.be_called();
         }
         Ok(is_there)
     }
@@ -164,20 +94,20 @@ impl Drive {
     ///
     /// # Errors
     /// The kernel's.
-    pub fn pose(&self, devices: &Devices) -> Result<Option<Pose>> {
-        Ok(self.look(devices)?.map(|inner| inner.pose()))
+    pub fn pose(&self) -> Result<Option<Pose>> {
+        Ok(self.look()?.map(|inner| inner.pose()))
     }
 
-    /// Says where the robot is.
+    /// Sets the pose of the robot; `false` where a motor is absent.
     ///
     /// # Errors
     /// The kernel's.
-    pub fn set_pose(&self, devices: &Devices, pose: Pose) -> Result<bool> {
-        let Some(mut inner) = self.look(devices)? else {
+    pub fn set_pose(&self, pose: Pose) -> Result<bool> {
+        let Some(mut inner) = self.look()? else {
             return Ok(false);
         };
         inner.goal = None;
-        inner.place(pose);
+        inner.set_pose(pose);
         Ok(true)
     }
 
@@ -185,27 +115,28 @@ impl Drive {
     ///
     /// # Errors
     /// The kernel's.
-    pub fn uncertainty(&self, devices: &Devices) -> Result<Option<[[f64; 3]; 3]>> {
-        Ok(self.look(devices)?.map(|inner| inner.estimate.uncertainty()))
+    pub fn uncertainty(&self) -> Result<Option<[[f64; 3]; 3]>> {
+        Ok(self.look()?.map(|inner| inner.estimate.uncertainty()))
     }
 
-    /// What is known now; `None` where a motor is absent. Who looks all the time
-    /// keeps the tree's calls from doing anything, and so does their work.
-    fn look(&self, devices: &Devices) -> Result<Option<Held<'_, Inner>>> {
+    /// Brings the estimate up to date; `None` where a motor is absent. A caller
+    /// that polls continuously starves the periodic callback, so this runs any
+    /// control period that was missed.
+    fn look(&self) -> Result<Option<Held<'_, Inner>>> {
         let mut inner = self.lock();
-        let is_there = devices.afresh(|| inner.integrate(devices))?;
+        let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
         if is_there {
             inner.catch_up();
         }
         Ok(is_there.then_some(inner))
     }
 
-    /// Whether the gyro, if there is one, tells the heading.
+    /// Whether the gyro, if there is one, measures the heading.
     pub fn use_gyro(&self, use_gyro: bool) {
         let mut inner = self.lock();
         if inner.use_gyro != use_gyro {
             inner.use_gyro = use_gyro;
-            inner.estimate.lose_gyro();
+            inner.estimate.gyro_lost();
             if !use_gyro {
                 inner.estimate.forget_wheels();
             }
@@ -219,30 +150,30 @@ impl Drive {
     /// The kernel's; [`Error::Interrupted`].
     pub fn begin(
         &self,
-        devices: &Devices,
-        course: &Course,
+        command: &Command,
         options: &DriveOptions,
         interrupted: Interrupted,
-    ) -> Result<Option<Arc<Status>>> {
+    ) -> Result<Option<Arc<Outcome>>> {
         self.use_gyro(options.use_gyro);
-        let is_there = devices.afresh(|| self.lock().integrate(devices))?;
+        let is_there =
+            self.registry.retry_after_relisting(|| self.lock().integrate(&self.registry))?;
         if !is_there {
             return Ok(None);
         }
-        let gyro = self.lock().found.as_ref().and_then(|found| found.gyro.clone());
+        let gyro = self.lock().devices.as_ref().and_then(|devices| devices.gyro.clone());
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::set_mode(devices, &gyro, GYRO_MODE, interrupted)?;
+            sensor::set_mode(&self.registry, &gyro, GYRO_MODE, interrupted)?;
         }
         let mut inner = self.lock();
-        inner.integrate(devices)?;
-        let begun = inner.begin(course, options)?;
+        inner.integrate(&self.registry)?;
+        let begun = inner.begin(command, options)?;
         if begun.is_some() {
             let stepped = inner.control();
             inner.conclude(stepped);
         }
         drop(inner);
         if begun.is_some() {
-            self.be_called(devices);
+            self.be_called();
         }
         Ok(begun)
     }
@@ -250,21 +181,21 @@ impl Drive {
     /// Waits for the end of a motion.
     ///
     /// # Errors
-    /// [`Error::Gone`] if a motor or the gyro was unplugged; the kernel's;
+    /// [`Error::Unplugged`] if a motor or the gyro was unplugged; the kernel's;
     /// [`Error::Interrupted`]. The motors are stopped before.
     pub fn wait(
         &self,
-        devices: &Devices,
-        status: &Arc<Status>,
+        outcome: &Arc<Outcome>,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let ended = Self::watch(devices, status, timeout, interrupted);
+        let ended = self.await_outcome(outcome, timeout, interrupted);
         let mut inner = self.lock();
-        inner.last.take_if(|last| Arc::ptr_eq(last, status));
-        let is_mine = inner.job.as_ref().is_some_and(|job| Arc::ptr_eq(&job.status, status));
+        inner.last.take_if(|last| Arc::ptr_eq(last, outcome));
+        let is_mine =
+            inner.active.as_ref().is_some_and(|active| Arc::ptr_eq(&active.outcome, outcome));
         if is_mine && matches!(ended, Ok(Reason::Timeout) | Err(_)) {
-            inner.end_job(Ok(Reason::Stopped));
+            inner.end_motion(Ok(Reason::Stopped));
         }
         ended
     }
@@ -274,19 +205,14 @@ impl Drive {
     ///
     /// # Errors
     /// As [`wait`](Self::wait).
-    pub fn wait_last(
-        &self,
-        devices: &Devices,
-        timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Reason> {
+    pub fn wait_last(&self, timeout: Option<Duration>, interrupted: Interrupted) -> Result<Reason> {
         let last = self.lock().last.clone();
         match last {
-            Some(status) => {
-                let ended = Self::watch(devices, &status, timeout, interrupted);
+            Some(outcome) => {
+                let ended = self.await_outcome(&outcome, timeout, interrupted);
                 if !matches!(ended, Ok(Reason::Timeout) | Err(Error::Interrupted)) {
                     let mut inner = self.lock();
-                    inner.last.take_if(|last| Arc::ptr_eq(last, &status));
+                    inner.last.take_if(|last| Arc::ptr_eq(last, &outcome));
                 }
                 ended
             }
@@ -294,79 +220,43 @@ impl Drive {
         }
     }
 
-    fn watch(
-        devices: &Devices,
-        status: &Status,
+    fn await_outcome(
+        &self,
+        outcome: &Outcome,
         timeout: Option<Duration>,
         interrupted: Interrupted,
     ) -> Result<Reason> {
-        let deadline = timeout.map(|timeout| devices.tree().now().saturating_add(timeout));
+        let deadline = timeout.map(|timeout| self.registry.tree().now().saturating_add(timeout));
         loop {
-            if let Some(ended) = status.ended() {
+            if let Some(ended) = outcome.ended() {
                 return ended;
             }
-            let left = deadline.map(|deadline| deadline.saturating_sub(devices.tree().now()));
+            let left = deadline.map(|deadline| deadline.saturating_sub(self.registry.tree().now()));
             if left.is_some_and(|left| left.is_zero()) {
                 return Ok(Reason::Timeout);
             }
-            sleep(devices, left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
+            sleep(self.registry.tree(), left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
         }
     }
 
-    /// A motor was started: if the robot is ours, its wheels may turn.
-    pub(crate) fn started(&self) {
-        if let Some(devices) = self.devices.upgrade() {
-            self.be_called(&devices);
-        }
-    }
-
-    /// Writes what changes a motor's count without turning it.
-    pub(crate) fn recount(
-        &self,
-        motor: &Device,
-        write: &mut dyn FnMut() -> Result<()>,
-    ) -> Result<()> {
-        let Some(devices) = self.devices.upgrade() else {
-            return write();
-        };
-        let mut inner = self.lock();
-        if !inner.robot.ports.iter().any(|port| crate::port::short(port) == motor.port()) {
-            drop(inner);
-            return write();
-        }
-        // What cannot be read now will be found out by whoever reads it next.
-        let _ = inner.integrate(&devices);
-        let written = write();
-        if let Some(found) = &mut inner.found {
-            if let Ok(counts) = counts(&found.motors) {
-                found.counts = counts;
-            }
-        }
-        inner.goal = None;
-        written
-    }
-
-    /// Makes the tree call us, unless it does.
-    fn be_called(&self, devices: &Devices) {
+    /// Makes the tree call the drive periodically, unless it does already.
+    fn be_called(&self) {
         let mut is_called = self.is_called();
         if *is_called {
             return;
         }
-        let weak = Weak::clone(&self.devices);
-        let act = move || {
-            let devices = weak.upgrade()?;
-            devices.drive()?.called(&devices)
-        };
-        // Where no thread can be had, each look at the pose still does a step.
-        *is_called = devices.tree().every(PERIOD, Box::new(act)).is_ok();
+        let this = Weak::clone(&self.this);
+        let act = move || this.upgrade()?.called();
+        // Without a thread, each request for the pose still does a step.
+        *is_called = self.registry.tree().every(PERIOD, Box::new(act)).is_ok();
     }
 
-    /// One period; answers when to come again.
-    fn called(&self, devices: &Devices) -> Option<Duration> {
+    /// Does one period; returns the time to the next call.
+    fn called(&self) -> Option<Duration> {
         let Some(mut inner) = self.lock_soon() else {
             return Some(BUSY);
         };
-        let integrated = inner.integrate(devices);
+        let integrated = inner.integrate(&self.registry);
         let stepped = match integrated {
             Ok(true) => inner.control(),
             Ok(false) => Err(inner.absent()),
@@ -387,8 +277,9 @@ impl Drive {
         Held::lock(&self.inner)
     }
 
-    /// As [`lock`](Self::lock), for who comes in the middle of a read. `None` if
-    /// this thread holds what it may need, or another one does for long.
+    /// Like [`lock`](Self::lock), for a callback in the middle of a read. `None`
+    /// if this thread holds a lock that the callback may need, or if another
+    /// thread holds one for long.
     fn lock_soon(&self) -> Option<Held<'_, Inner>> {
         if held::by_this_thread() {
             return None;
@@ -405,87 +296,27 @@ impl Drive {
     }
 }
 
-impl Inner {
-    /// The pose of the point that programs mean.
-    fn pose(&self) -> Pose {
-        self.estimate.pose().ahead(-self.robot.wheels.offset)
+impl MotionObserver for Drive {
+    /// The motor may be one of the robot's.
+    fn motor_started(&self) {
+        self.be_called();
     }
 
-    fn place(&mut self, pose: Pose) {
-        self.estimate.place(pose.ahead(self.robot.wheels.offset));
-    }
-
-    /// Moves the estimate on to now. `false` where a motor is absent.
-    fn integrate(&mut self, devices: &Devices) -> Result<bool> {
-        let before = self.now;
-        if self.found.as_ref().is_some_and(|found| !found.is_there()) {
-            self.found = None;
+    fn without_counting(&self, port: &str, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        let mut inner = self.lock();
+        if !inner.robot.ports.iter().any(|ours| crate::port_name::short(ours) == port) {
+            drop(inner);
+            return write();
         }
-        let is_new = self.found.is_none();
-        if is_new {
-            self.found = Found::look(devices, &self.robot)?;
-            self.estimate.lose_gyro();
-        }
-        let Some(found) = &mut self.found else {
-            return Ok(false);
-        };
-        let read = counts(&found.motors);
-        let now = devices.tree().now();
-        let counts = match read {
-            Ok(counts) => counts,
-            Err(error) => {
-                self.found = None;
-                return Err(error);
+        // An error shows again at the next reading.
+        let _ = inner.integrate(&self.registry);
+        let written = write();
+        if let Some(devices) = &mut inner.devices {
+            if let Ok(counts) = counts(&devices.motors) {
+                devices.counts = counts;
             }
-        };
-        self.now = now;
-        if now < before {
-            // A simulation that was put back to an earlier moment.
-            found.counts = counts;
-            self.end_job(Ok(Reason::Stopped));
-            return Ok(true);
         }
-        let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
-        let ways = found.ways(counts, seconds);
-        found.counts = counts;
-        if ways != [0.0, 0.0] || is_new {
-            self.moved = now;
-        }
-        self.estimate.roll(&self.robot.wheels, ways, seconds);
-        match found.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
-            Some(Ok(Some(angle))) => self.estimate.see(angle),
-            Some(Ok(None)) => self.estimate.lose_gyro(),
-            Some(Err(error)) => {
-                self.estimate.lose_gyro();
-                let gone =
-                    found.gyro.take_if(|gyro| error.is_gone() || gyro.check_present().is_err());
-                if let (Some(gyro), true) = (gone, self.job.is_some()) {
-                    return Err(gyro.gone());
-                }
-            }
-            None => {}
-        }
-        Ok(true)
-    }
-
-    /// The motor that is missing.
-    fn absent(&self) -> Error {
-        let port = crate::port::short(&self.robot.ports[0]).to_owned();
-        Error::Gone { class: Class::TachoMotor, port }
-    }
-
-    /// When to look again; `None` if there is nothing to do until a motor is
-    /// started.
-    fn next_call(&self) -> Option<Duration> {
-        if self.job.is_some() {
-            return Some(PERIOD);
-        }
-        let found = self.found.as_ref()?;
-        let rests = self.now.saturating_sub(self.moved);
-        if rests < AT_REST || found.motors.iter().any(|motor| motor::runs_on(motor)) {
-            Some(PERIOD)
-        } else {
-            (found.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
-        }
+        inner.goal = None;
+        written
     }
 }

@@ -1,21 +1,25 @@
-//! A motion under way: how it begins, what the wheels are told, how it ends.
-use super::found::Found;
-use super::{Course, DriveOptions, Inner, PERIOD};
+//! A motion under way: the commands to the wheels, and how it ends.
 use crate::device::Device;
-use crate::error::{Error, Result};
-use crate::motor::{self, End, Ramps, Speed, StopAction};
-use crate::steering::{Limits, Order, Steering};
-use crate::wait::Reason;
+use crate::device::motion::End;
+use crate::drive::devices::DriveDevices;
+use crate::drive::steering::Steering;
+use crate::error::Result;
+use crate::motor::claim::Claim;
+use crate::motor::wait::Reason;
+use crate::motor::{Ramps, StopAction};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+
+/// The period of the control.
+pub const PERIOD: Duration = Duration::from_millis(20);
 
 /// How long a wheel that is to turn may stand still.
 const STUCK_FOR: Duration = Duration::from_millis(1500);
 
-/// At most so much of the time between two looks counts as standing still: what
-/// nobody looked at may have moved, and a look that was held up between reading
-/// a wheel and the clock tells an old count at a new time.
-const LONGEST_LOOK: Duration = Duration::from_millis(100);
+/// Upper bound on the interval that counts towards a stall. After a longer gap we
+/// do not know whether the wheel moved, and a sample delayed between reading the
+/// encoder and the clock pairs an old count with a new time.
+pub(super) const LONGEST_LOOK: Duration = Duration::from_millis(100);
 
 /// Less movement than this, in counts, is standing still.
 const STUCK_WITHIN: u64 = 2;
@@ -33,248 +37,56 @@ const LANDED_WITHIN: u64 = 1;
 const LANDED_SOMEHOW: u64 = 5;
 
 /// A motion under way.
-pub(super) struct Job {
-    id: u32,
-    motors: Vec<Arc<Device>>,
-    steering: Steering,
-    stop_action: StopAction,
+pub(super) struct ActiveMotion {
+    pub(super) claim: Claim,
+    pub(super) motors: Vec<Arc<Device>>,
+    pub(super) steering: Steering,
+    pub(super) stop_action: StopAction,
     /// When its last period was done.
-    controlled: Duration,
-    /// When the steering was last asked.
-    steered: Duration,
-    /// What the wheels were last told, in counts per second.
-    speeds: Option<[i64; 2]>,
-    landing: Option<Landing>,
+    pub(super) controlled: Duration,
+    /// When the steering last did a step.
+    pub(super) steered: Duration,
+    /// The last commanded speeds, in counts per second.
+    pub(super) speeds: Option<[i64; 2]>,
+    pub(super) landing: Option<Landing>,
     /// Counts, and how long each wheel has stood there.
-    stuck: [(i64, Duration); 2],
-    pub(super) status: Arc<Status>,
+    pub(super) stuck: [(i64, Duration); 2],
+    pub(super) outcome: Arc<Outcome>,
     /// Put back when the motion ends.
-    _ramps: Ramps,
+    pub(super) _ramps: Ramps,
 }
 
 /// The wheels go to their last counts.
-struct Landing {
-    targets: [i64; 2],
-    took: Duration,
-    before: [i64; 2],
+pub(super) struct Landing {
+    pub(super) targets: [i64; 2],
+    pub(super) took: Duration,
+    pub(super) before: [i64; 2],
     /// How long they have stood there.
-    stood: Duration,
+    pub(super) stood: Duration,
 }
 
 /// How a motion ended, once it has.
 #[derive(Default)]
-pub struct Status(Mutex<Option<Result<Reason>>>);
+pub struct Outcome(Mutex<Option<Result<Reason>>>);
 
-impl Status {
-    fn stopped() -> Arc<Self> {
+impl Outcome {
+    pub(super) fn stopped() -> Arc<Self> {
         Arc::new(Self(Mutex::new(Some(Ok(Reason::Stopped)))))
     }
 
-    fn end(&self, result: Result<Reason>) {
+    pub(super) fn end(&self, result: Result<Reason>) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
     }
 
-    /// What it ended with; an error for the first who asks.
+    /// The result, once there is one. Only the first caller gets an error.
     pub(super) fn ended(&self) -> Option<Result<Reason>> {
-        let mut status = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let after = match status.as_ref()? {
+        let mut outcome = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let after = match outcome.as_ref()? {
             Ok(reason) => *reason,
-            Err(error) if error.is_gone() => Reason::Unplugged,
+            Err(error) if error.is_unplugged() => Reason::Unplugged,
             Err(_) => Reason::Stopped,
         };
-        status.replace(Ok(after))
-    }
-}
-
-impl Inner {
-    pub(super) fn begin(
-        &mut self,
-        course: &Course,
-        options: &DriveOptions,
-    ) -> Result<Option<Arc<Status>>> {
-        let Some(found) = &self.found else {
-            return Ok(None);
-        };
-        let wheels = self.robot.wheels;
-        let slowest =
-            found.cm_per_count.iter().fold(f64::INFINITY, |least, way| way.abs().min(least));
-        let fastest = found.fastest * slowest;
-        let percent = found
-            .motors
-            .iter()
-            .map(|motor| Speed::Percent(options.percent).in_counts(motor))
-            .collect::<Result<Option<Vec<_>>>>()?;
-        let Some([left, right]) = percent.as_deref() else {
-            return Ok(None);
-        };
-        let speed = left.abs().min(right.abs());
-        #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
-        let limits = Limits { speed: speed as f64 * slowest, acceleration: options.acceleration };
-        let steering = match course {
-            Course::Wheels(shares) => {
-                let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
-                Steering::cruise(wheels, limits, way, turn.to_degrees())
-            }
-            Course::Cruise(speed, rate) | Course::Change(speed, rate) => {
-                let ways = wheels.ways(*speed, rate.to_radians());
-                let is_possible = ways.iter().all(|way| way.abs() <= fastest * 1.000_001);
-                if !is_possible {
-                    return Ok(None);
-                }
-                Steering::cruise(wheels, limits, *speed, *rate)
-            }
-            Course::Legs(legs, is_backwards) => {
-                if speed == 0 {
-                    return Ok(None);
-                }
-                let from = (self.estimate.pose(), self.goal);
-                Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
-            }
-        };
-        if let Course::Change(..) = course {
-            return Ok(Some(self.change(steering)));
-        }
-        self.install(steering, options.stop_action).map(Some)
-    }
-
-    /// Makes the motion under way another one. What has ended stays so: it is
-    /// the end of that which is told.
-    fn change(&mut self, mut steering: Steering) -> Arc<Status> {
-        if let Some(job) = &mut self.job {
-            steering.take_over(&job.steering);
-            job.steering = steering;
-            job.landing = None;
-        }
-        Arc::clone(self.last.get_or_insert_with(Status::stopped))
-    }
-
-    /// Puts a motion in the place of the one under way.
-    fn install(&mut self, mut steering: Steering, stop_action: StopAction) -> Result<Arc<Status>> {
-        let before = self.job.take();
-        if let Some(before) = &before {
-            steering.take_over(&before.steering);
-            before.status.end(Ok(Reason::Stopped));
-        }
-        // Its ramps are put back first.
-        drop(before);
-        let id = motor::new_owner();
-        let status = Arc::new(Status::default());
-        let Some(found) = &self.found else {
-            return Ok(status);
-        };
-        let options = motor::MoveOptions {
-            ramp_up_ms: Some(0),
-            ramp_down_ms: Some(0),
-            ..motor::MoveOptions::default()
-        };
-        let mut ramps = Ramps::default();
-        for motor in &found.motors {
-            ramps.set(motor, &options)?;
-            motor.write("stop_action", StopAction::Hold.word())?;
-            motor::own(motor, id);
-        }
-        self.last = Some(Arc::clone(&status));
-        self.goal = None;
-        self.job = Some(Job {
-            id,
-            motors: found.motors.clone(),
-            steering,
-            stop_action,
-            controlled: self.now,
-            steered: self.now.saturating_sub(PERIOD),
-            speeds: None,
-            landing: None,
-            stuck: found.counts.map(|count| (count, Duration::ZERO)),
-            status: Arc::clone(&status),
-            _ramps: ramps,
-        });
-        Ok(status)
-    }
-
-    /// One period of the motion under way; `Some` when it has ended.
-    pub(super) fn control(&mut self) -> Result<Option<Reason>> {
-        let (Some(job), Some(found)) = (&mut self.job, &self.found) else {
-            return Ok(None);
-        };
-        let passed = self.now.saturating_sub(job.controlled).min(LONGEST_LOOK);
-        job.controlled = self.now;
-        let pose = self.estimate.pose();
-        let order = match &mut job.landing {
-            Some(landing) => match landing.look(found.counts, passed) {
-                Landed::NotYet => return Ok(job.is_foreign(found).then_some(Reason::Stopped)),
-                Landed::Never => return Ok(Some(Reason::Stalled)),
-                Landed::There => {
-                    job.landing = None;
-                    job.stuck = found.counts.map(|count| (count, Duration::ZERO));
-                    job.steering.landed(pose)
-                }
-            },
-            None => None,
-        };
-        let seconds = self.now.saturating_sub(job.steered).as_secs_f64().clamp(0.001, 0.1);
-        job.steered = self.now;
-        let order = match order {
-            Some(order) => order,
-            None => job.steering.step(pose, seconds),
-        };
-        match order {
-            Order::Arrived => Ok(Some(Reason::Reached)),
-            Order::Roll(ways) => job.roll(found, ways, passed),
-            Order::Land(ways) => job.land(found, ways),
-        }
-    }
-
-    /// Does a period of the motion under way, if a whole one was left out.
-    pub(super) fn catch_up(&mut self) {
-        let missed = self.job.as_ref().map(|job| self.now.saturating_sub(job.controlled));
-        if missed.is_some_and(|missed| missed >= PERIOD * 2) {
-            let stepped = self.control();
-            self.conclude(stepped);
-        }
-    }
-
-    /// Ends the motion if its last period says so.
-    pub(super) fn conclude(&mut self, stepped: Result<Option<Reason>>) {
-        match stepped {
-            Ok(None) => {}
-            Ok(Some(reason)) => self.end_job(Ok(reason)),
-            Err(error) => {
-                let error = self.named(error);
-                self.end_job(Err(error));
-            }
-        }
-    }
-
-    pub(super) fn end_job(&mut self, result: Result<Reason>) {
-        let Some(job) = self.job.take() else {
-            return;
-        };
-        let is_reached = matches!(result, Ok(Reason::Reached));
-        if is_reached {
-            self.goal = job.steering.goal();
-        }
-        let action = if is_reached { job.stop_action } else { StopAction::Brake };
-        if !(is_reached && action == StopAction::Hold) {
-            for motor in &job.motors {
-                // One that is gone has nothing to stop.
-                let _ = motor::stop_owned(motor, action, job.id);
-            }
-        }
-        job.status.end(result);
-    }
-
-    /// The error with the device that is gone, where one is.
-    fn named(&self, error: Error) -> Error {
-        if !error.is_stale() {
-            return error;
-        }
-        let devices = self.job.as_ref().map(|job| job.motors.iter());
-        let path = error.path();
-        match devices.into_iter().flatten().find(|d| path.is_some_and(|p| p.starts_with(d.path())))
-        {
-            Some(gone) => gone.gone(),
-            None => error,
-        }
+        outcome.replace(Ok(after))
     }
 }
 
@@ -283,29 +95,34 @@ fn whole(counts: f64) -> i64 {
     counts.round() as i64
 }
 
-impl Job {
-    /// Tells the wheels their speeds in cm/s. So much time has passed since they
-    /// were last looked at.
-    fn roll(&mut self, found: &Found, ways: [f64; 2], passed: Duration) -> Result<Option<Reason>> {
-        let wanted = found.in_counts(ways);
+impl ActiveMotion {
+    /// Commands the speeds of the wheels, in cm/s. `passed` is the time since the
+    /// last sample.
+    pub(super) fn roll(
+        &mut self,
+        devices: &DriveDevices,
+        ways: [f64; 2],
+        passed: Duration,
+    ) -> Result<Option<Reason>> {
+        let wanted = devices.in_counts(ways);
         // Too fast for one is too fast for both: the curve stays the same.
         let most = wanted[0].abs().max(wanted[1].abs());
-        let share = if most > found.fastest { found.fastest / most } else { 1.0 };
+        let share = if most > devices.fastest { devices.fastest / most } else { 1.0 };
         let speeds = wanted.map(|speed| whole(speed * share));
-        if self.is_stuck(found, speeds, passed) {
+        if self.is_stuck(devices, speeds, passed) {
             return Ok(Some(Reason::Stalled));
         }
-        if self.is_foreign(found) {
+        if self.is_foreign(devices) {
             return Ok(Some(Reason::Stopped));
         }
         if self.speeds == Some(speeds) {
             return Ok(None);
         }
-        for (motor, speed) in found.motors.iter().zip(speeds) {
+        for (motor, speed) in devices.motors.iter().zip(speeds) {
             motor.write_number("speed_sp", speed)?;
         }
-        for motor in &found.motors {
-            if !motor::start_owned(motor, "run-forever", End::Never, self.id)? {
+        for motor in &devices.motors {
+            if !self.claim.start(motor, "run-forever", End::Never)? {
                 return Ok(Some(Reason::Stopped));
             }
         }
@@ -314,16 +131,20 @@ impl Job {
     }
 
     /// Makes the wheels roll by the last few counts.
-    fn land(&mut self, found: &Found, ways: [f64; 2]) -> Result<Option<Reason>> {
-        let by = found.in_counts(ways).map(whole);
-        let targets = [found.counts[0] + by[0], found.counts[1] + by[1]];
-        for (motor, target) in found.motors.iter().zip(targets) {
+    pub(super) fn land(
+        &mut self,
+        devices: &DriveDevices,
+        ways: [f64; 2],
+    ) -> Result<Option<Reason>> {
+        let by = devices.in_counts(ways).map(whole);
+        let targets = [devices.counts[0] + by[0], devices.counts[1] + by[1]];
+        for (motor, target) in devices.motors.iter().zip(targets) {
             motor.write_number("position_sp", target)?;
             motor.write_number("speed_sp", LANDING_SPEED)?;
         }
-        for (side, motor) in found.motors.iter().enumerate() {
-            let end = End::Position { from: found.counts[side], target: targets[side] };
-            if !motor::start_owned(motor, "run-to-abs-pos", end, self.id)? {
+        for (side, motor) in devices.motors.iter().enumerate() {
+            let end = End::Position { from: devices.counts[side], target: targets[side] };
+            if !self.claim.start(motor, "run-to-abs-pos", end)? {
                 return Ok(Some(Reason::Stopped));
             }
         }
@@ -331,19 +152,19 @@ impl Job {
         self.landing = Some(Landing {
             targets,
             took: Duration::ZERO,
-            before: found.counts,
+            before: devices.counts,
             stood: Duration::ZERO,
         });
         Ok(None)
     }
 
-    /// Whether a wheel that is to turn does not.
-    fn is_stuck(&mut self, found: &Found, speeds: [i64; 2], passed: Duration) -> bool {
+    /// Whether a wheel that should turn stands still.
+    fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
         for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
-            let is_still = found.counts[side].abs_diff(*count) < STUCK_WITHIN;
+            let is_still = devices.counts[side].abs_diff(*count) < STUCK_WITHIN;
             if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *stood) = (found.counts[side], Duration::ZERO);
+                (*count, *stood) = (devices.counts[side], Duration::ZERO);
             } else {
                 *stood += passed;
             }
@@ -352,25 +173,25 @@ impl Job {
         is_stuck
     }
 
-    /// Whether somebody else has told a motor something.
-    fn is_foreign(&self, found: &Found) -> bool {
-        found.motors.iter().any(|motor| !motor::is_owned(motor, self.id))
+    /// Whether another command has ended the claim to a motor.
+    pub(super) fn is_foreign(&self, devices: &DriveDevices) -> bool {
+        devices.motors.iter().any(|motor| !self.claim.holds(motor))
     }
 }
 
-enum Landed {
+pub(super) enum Landed {
     NotYet,
     There,
     Never,
 }
 
 impl Landing {
-    fn look(&mut self, counts: [i64; 2], passed: Duration) -> Landed {
+    pub(super) fn look(&mut self, counts: [i64; 2], passed: Duration) -> Landed {
         let off = |side: usize| counts[side].abs_diff(self.targets[side]);
         let farthest = off(0).max(off(1));
         let stood = std::mem::replace(&mut self.before, counts) == counts;
         self.stood = if stood { self.stood + passed } else { Duration::ZERO };
-        // Two looks may follow each other at once.
+        // Two samples may follow each other at once.
         let stands = self.stood >= PERIOD / 2;
         self.took += passed;
         if farthest <= LANDED_WITHIN && stands && self.took >= PERIOD * 2 {

@@ -2,7 +2,7 @@
 use crate::files::PlainTree;
 use ev3_driver::device::{read_file, read_value, write_file};
 use ev3_driver::error::Access;
-use ev3_driver::{Class, Device, Devices, Errno, Error, Files, Tree, Value, attributes};
+use ev3_driver::{Class, Device, Errno, Error, Registry, Sysfs, SysfsDir, Value, attributes};
 use std::error::Error as _;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-fn motor_with(attributes: &[(&str, &str)]) -> (PlainTree, Devices, Arc<Device>) {
+fn motor_with(attributes: &[(&str, &str)]) -> (PlainTree, Registry, Arc<Device>) {
     let tree = PlainTree::new();
     tree.plug(Class::TachoMotor, "motor0", "outA", attributes);
     let devices = tree.devices();
@@ -201,7 +201,7 @@ fn a_directory_or_a_pipe_in_the_place_of_an_attribute_is_an_error_and_does_not_b
 #[test]
 fn a_plain_file_announces_nothing() {
     let (tree, _, _) = motor_with(&[("state", "running")]);
-    let files = Files::new(tree.root());
+    let files = SysfsDir::new(tree.root());
     let state = files.open(&tree.root().join("tacho-motor/motor0/state"), Access::Read).unwrap();
     let started = Instant::now();
     files.pause(&[&*state], Duration::from_millis(5)).unwrap();
@@ -228,7 +228,7 @@ fn a_malformed_file_is_an_error_that_shows_its_text_and_has_no_errno() {
     let expected = format!("{} holds \"here\", which is not an integer", path.display());
     assert_eq!(error.to_string(), expected);
     assert_eq!((error.path(), error.errno()), (Some(&*path), None));
-    assert!(!error.is_stale() && !error.is_gone() && error.source().is_none());
+    assert!(!error.is_stale() && !error.is_unplugged() && error.source().is_none());
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! What is built into the boards: lights, batteries, ports.
 use crate::files::PlainTree;
-use ev3_driver::light::{self, Colour};
-use ev3_driver::{Class, Devices, Error, battery, lego_port};
+use ev3_driver::brick::light::{self, Color};
+use ev3_driver::brick::{battery, port as lego_port};
+use ev3_driver::{Class, Error, Registry};
 use std::fs;
 use std::path::Path;
 
 /// A tree with LEDs of these names.
-fn lights(names: &[&str]) -> (PlainTree, Devices) {
+fn lights(names: &[&str]) -> (PlainTree, Registry) {
     let tree = PlainTree::new();
     for name in names {
         let files =
@@ -17,7 +18,7 @@ fn lights(names: &[&str]) -> (PlainTree, Devices) {
     (tree, devices)
 }
 
-fn names(devices: &Devices) -> Vec<String> {
+fn names(devices: &Registry) -> Vec<String> {
     light::lights(devices).unwrap().iter().map(|light| light.name().to_owned()).collect()
 }
 
@@ -58,28 +59,28 @@ fn every_level_is_read_as_it_was_set() {
         }
         let devices = tree.devices();
         for level in 0..=100 {
-            let colour = Colour::Levels(vec![level, 3]);
-            let set = light::set_colour(&devices, "left", &colour, &mut || false).unwrap();
+            let color = Color::Levels(vec![level, 3]);
+            let set = light::set_color(&devices, "left", &color, &mut || false).unwrap();
             assert_eq!(set, Some(true));
             let light = light::find(&devices, "left").unwrap().unwrap();
-            assert_eq!(light.colour().unwrap(), colour);
+            assert_eq!(light.color().unwrap(), color);
         }
     }
-    assert_eq!(light::set_colour(&devices, "up", &Colour::Level(1), &mut || false).unwrap(), None);
+    assert_eq!(light::set_color(&devices, "up", &Color::Level(1), &mut || false).unwrap(), None);
 }
 
 #[test]
-fn a_colour_that_cannot_be_shown_is_refused_and_nothing_is_written() {
+fn a_color_that_cannot_be_shown_is_refused_and_nothing_is_written() {
     let (tree, devices) = lights(&["led1:blue:brick-status"]);
-    for colour in [Colour::Named("red"), Colour::Levels(vec![0, 1])] {
-        let set = light::set_colour(&devices, "left", &colour, &mut || false).unwrap();
-        assert_eq!(set, Some(false), "{colour:?}");
+    for color in [Color::Named("red"), Color::Levels(vec![0, 1])] {
+        let set = light::set_color(&devices, "left", &color, &mut || false).unwrap();
+        assert_eq!(set, Some(false), "{color:?}");
     }
     assert_eq!(text(&tree.root().join("leds/led1:blue:brick-status/brightness")), "0");
-    let set = |colour| light::set_colour(&devices, "left", &colour, &mut || false).unwrap();
-    assert_eq!(set(Colour::Named("blue")), Some(true));
+    let set = |color| light::set_color(&devices, "left", &color, &mut || false).unwrap();
+    assert_eq!(set(Color::Named("blue")), Some(true));
     assert_eq!(text(&tree.root().join("leds/led1:blue:brick-status/brightness")), "255");
-    assert_eq!(Colour::named("pink"), None);
+    assert_eq!(Color::named("pink"), None);
 }
 
 #[test]
@@ -101,7 +102,7 @@ fn a_file_that_a_board_does_not_have_is_an_answer_and_not_an_error() {
 }
 
 /// A port for motors with a motor in it.
-fn port() -> (PlainTree, Devices) {
+fn port() -> (PlainTree, Registry) {
     let tree = PlainTree::new();
     let files = [("mode", "auto"), ("set_device", "")];
     let port = tree.plug(Class::Port, "port4", "ev3-ports:outA", &files);
@@ -126,7 +127,7 @@ fn an_unknown_motor_is_refused_before_anything_is_written() {
     let (tree, devices) = port();
     for name in ["lego-xl-motor", "", "rcx-motor"] {
         let error = lego_port::set_device(&devices, "outA", name, &mut || false).unwrap_err();
-        assert!(matches!(error, Error::NoSuchDevice { .. }), "{error}");
+        assert!(matches!(error, Error::UnknownMotorType { .. }), "{error}");
     }
     assert_eq!(text(&tree.root().join("lego-port/port4/set_device")), "");
 }

@@ -1,13 +1,13 @@
 //! A kernel in the small: motors, sensors and a robot's heading behind
 //! attribute files that are nowhere but in memory.
 //!
-//! Its clock stands still but for [`Tree::pause`] and a little for each read
+//! Its clock stands still but for [`Sysfs::pause`] and a little for each read
 //! and write, so that what takes seconds on a robot takes none here, and is the
 //! same each time. What a test wants to go wrong is a public field, set before
 //! or, by [`Brick::at`], at a certain time.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Node};
-use ev3_driver::{Device, Devices, Errno, Tree};
+use ev3_driver::sysfs::{AttributeFile, Entry};
+use ev3_driver::{Device, Errno, Registry, Sysfs};
 use std::collections::VecDeque;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -571,8 +571,8 @@ impl Brick {
         Arc::new(Self(Arc::new(Mutex::new(world))))
     }
 
-    pub(crate) fn devices(self: &Arc<Self>) -> Devices {
-        Devices::new(Arc::<Self>::clone(self))
+    pub(crate) fn devices(self: &Arc<Self>) -> Registry {
+        Registry::new(Arc::<Self>::clone(self))
     }
 
     pub(crate) fn world(&self) -> MutexGuard<'_, World> {
@@ -630,7 +630,7 @@ impl Brick {
     }
 }
 
-impl Tree for Brick {
+impl Sysfs for Brick {
     fn root(&self) -> &Path {
         Path::new("/brick")
     }
@@ -652,7 +652,7 @@ impl Tree for Brick {
         })
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         let mut world = self.world();
         world.count();
         let parts: Vec<_> = path.strip_prefix("/brick").unwrap().iter().collect();
@@ -694,7 +694,7 @@ impl Tree for Brick {
         Self::now(self)
     }
 
-    fn pause(&self, nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         let mut world = self.world();
         world.pauses += 1;
         if nodes.is_empty() || !world.always_ready {
@@ -729,7 +729,7 @@ impl BrickNode {
     }
 }
 
-impl Node for BrickNode {
+impl AttributeFile for BrickNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
         world.count();
@@ -774,7 +774,7 @@ impl Node for BrickNode {
             }
             (address, written)
         };
-        let port = ev3_driver::port::short(&address);
+        let port = ev3_driver::port_name::short(&address);
         let line = format!("{port} {} {text}", self.attribute);
         if written.is_ok() {
             world.written.push(line);
@@ -785,6 +785,6 @@ impl Node for BrickNode {
 }
 
 /// The motors at these ports.
-pub(crate) fn motors(devices: &Devices, ports: &[&str]) -> Vec<Arc<Device>> {
+pub(crate) fn motors(devices: &Registry, ports: &[&str]) -> Vec<Arc<Device>> {
     ev3_driver::motor::find_all(devices, ports.iter().copied()).unwrap().unwrap()
 }

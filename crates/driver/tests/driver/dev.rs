@@ -1,12 +1,13 @@
 //! Keys, speaker and screen over plain files and pipes.
 
-use ev3_driver::dev::{Dev, Stream};
+use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
+use ev3_driver::brick::screen;
+use ev3_driver::brick::screen::frame::{Frame, Shade, Shape, Style};
+use ev3_driver::brick::screen::picture::{Picture, to_png};
+use ev3_driver::brick::sound::{Sound, Tone};
+use ev3_driver::devfs::{Devfs, Stream};
 use ev3_driver::error::{Access, Error};
-use ev3_driver::frame::{Frame, Shade, Shape, Style};
-use ev3_driver::keys::{self, Event, Events, Key};
-use ev3_driver::picture::{Picture, to_png};
-use ev3_driver::sound::{Sound, Tone};
-use ev3_driver::{DevFiles, Errno, Files, screen};
+use ev3_driver::{DevfsDir, Errno, SysfsDir};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -38,12 +39,12 @@ fn never() -> bool {
 #[test]
 fn keys_are_what_the_events_in_a_file_left_down() {
     let directory = directory();
-    let dev = DevFiles::new(directory.path());
+    let dev = DevfsDir::new(directory.path());
     assert!(keys::pressed(&dev).unwrap().is_none(), "no device");
     let file = directory.path().join(KEYS);
     let events = [record(1, 103, 1), record(1, 14, 1), record(1, 103, 0), record(1, 28, 1)];
     fs::write(&file, events.concat()).unwrap();
-    assert_eq!(keys::pressed(&dev).unwrap().unwrap(), [Key::Enter, Key::Back]);
+    assert_eq!(keys::pressed(&dev).unwrap().unwrap(), [Button::Enter, Button::Back]);
 }
 
 #[test]
@@ -51,7 +52,7 @@ fn an_event_may_come_in_pieces() {
     let directory = directory();
     let path = directory.path().join(KEYS);
     fs::write(&path, record(1, 103, 1)).unwrap();
-    let dev: Arc<dyn Dev> = Arc::new(DevFiles::new(directory.path()));
+    let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
     let events = Events::from_now(dev).unwrap().unwrap();
     let mut file = OpenOptions::new().append(true).open(&path).unwrap();
     let (first, second) = (record(1, 106, 1), record(1, 106, 0));
@@ -60,8 +61,8 @@ fn an_event_may_come_in_pieces() {
     file.write_all(&first[5..]).unwrap();
     file.write_all(&second).unwrap();
     let next = || events.next(Some(Duration::ZERO), &mut never).unwrap();
-    assert_eq!(next(), Some(Event { key: Key::Right, is_press: true }));
-    assert_eq!(next(), Some(Event { key: Key::Right, is_press: false }));
+    assert_eq!(next(), Some(Event { button: Button::Right, is_press: true }));
+    assert_eq!(next(), Some(Event { button: Button::Right, is_press: false }));
     assert_eq!(next(), None);
 }
 
@@ -69,7 +70,7 @@ fn an_event_may_come_in_pieces() {
 fn a_wait_for_a_key_asks_whether_to_go_on() {
     let directory = directory();
     fs::write(directory.path().join(KEYS), "").unwrap();
-    let dev: Arc<dyn Dev> = Arc::new(DevFiles::new(directory.path()));
+    let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
     let events = Events::from_now(dev).unwrap().unwrap();
     let mut asked = 0;
     let ended = events.next(None, &mut || {
@@ -83,7 +84,7 @@ fn a_wait_for_a_key_asks_whether_to_go_on() {
 fn a_directory_in_the_place_of_the_keys_is_an_error() {
     let directory = directory();
     fs::create_dir(directory.path().join(KEYS)).unwrap();
-    let error = keys::pressed(&DevFiles::new(directory.path())).unwrap_err();
+    let error = keys::pressed(&DevfsDir::new(directory.path())).unwrap_err();
     assert_eq!(error.errno(), Some(Errno::ISDIR), "{error}");
     assert_eq!(error.path(), Some(&*directory.path().join(KEYS)));
 }
@@ -92,7 +93,7 @@ fn a_directory_in_the_place_of_the_keys_is_an_error() {
 fn a_tone_ends_however_it_is_left() {
     let directory = directory();
     let path = directory.path().join(SOUND);
-    let dev = DevFiles::new(directory.path());
+    let dev = DevfsDir::new(directory.path());
     let sound = Sound::default();
     let tones = [Tone { hertz: 440, lasts: Duration::from_secs(1000) }];
     assert!(sound.play_tones(&dev, &tones, &mut || true).unwrap().is_none(), "no device");
@@ -112,7 +113,7 @@ struct Device {
 
 struct Endless;
 
-impl Dev for Device {
+impl Devfs for Device {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -157,7 +158,7 @@ impl Stream for Endless {
 fn a_screen_that_is_a_device_is_as_the_kernel_says() {
     let classes = tempfile::tempdir().unwrap();
     let folder = classes.path().join("graphics/fb0");
-    let (tree, dev) = (Files::new(classes.path()), Device { root: "/dev".into() });
+    let (tree, dev) = (SysfsDir::new(classes.path()), Device { root: "/dev".into() });
     let seen = || screen::seen(&tree, &dev).unwrap();
     assert!(seen().is_none(), "it says nothing");
     fs::create_dir_all(&folder).unwrap();

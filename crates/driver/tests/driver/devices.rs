@@ -1,15 +1,15 @@
 //! Which devices there are.
 use crate::files::PlainTree;
-use ev3_driver::devices::LISTING_AGE;
-use ev3_driver::{Class, Devices, Errno, Error, Files};
+use ev3_driver::device::registry::LISTING_AGE;
+use ev3_driver::{Class, Errno, Error, Registry, SysfsDir};
 use std::fs;
 use std::sync::Arc;
 
-fn ports(devices: &Devices, class: Class) -> Vec<String> {
+fn ports(devices: &Registry, class: Class) -> Vec<String> {
     devices.all(class).unwrap().iter().map(|device| device.port().to_owned()).collect()
 }
 
-fn name_at(devices: &Devices, port: &str) -> Option<String> {
+fn name_at(devices: &Registry, port: &str) -> Option<String> {
     let device = devices.find(Class::TachoMotor, port).unwrap()?;
     Some(device.path().file_name().unwrap().to_str().unwrap().to_owned())
 }
@@ -92,7 +92,7 @@ fn of_two_devices_at_one_port_the_later_one_is_meant() {
 #[test]
 fn there_are_no_devices_without_class_directory_or_root() {
     let tree = PlainTree::new();
-    let nowhere = Devices::new(Arc::new(Files::new(tree.root().join("no/such"))));
+    let nowhere = Registry::new(Arc::new(SysfsDir::new(tree.root().join("no/such"))));
     for devices in [tree.devices(), nowhere] {
         for class in Class::ALL {
             assert!(devices.all(class).unwrap().is_empty());
@@ -211,7 +211,7 @@ fn a_kept_device_answers_enodev_once_it_is_removed() {
     assert!(matches!(error, Error::Read { .. }));
     assert_eq!((error.errno(), error.is_stale()), (Some(Errno::NODEV), true));
     let error = motor.number("speed").unwrap_err();
-    assert_eq!((error.errno(), error.is_gone()), (Some(Errno::NOENT), true));
+    assert_eq!((error.errno(), error.is_unplugged()), (Some(Errno::NOENT), true));
 }
 
 #[test]

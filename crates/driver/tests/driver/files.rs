@@ -1,7 +1,7 @@
 //! Trees of plain files in temporary directories, and what is asked of them.
 use ev3_driver::error::Access;
-use ev3_driver::tree::{Entry, Files, Node};
-use ev3_driver::{Class, Devices, Tree};
+use ev3_driver::sysfs::{AttributeFile, Entry, SysfsDir};
+use ev3_driver::{Class, Registry, Sysfs};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -58,26 +58,26 @@ impl PlainTree {
         fs::remove_dir_all(self.root().join(class.directory()).join(name)).unwrap();
     }
 
-    pub(crate) fn devices(&self) -> Devices {
-        Devices::new(Arc::new(Files::new(self.root())))
+    pub(crate) fn devices(&self) -> Registry {
+        Registry::new(Arc::new(SysfsDir::new(self.root())))
     }
 
     /// The same files behind something that counts what is asked of them.
-    pub(crate) fn counted(&self) -> (Arc<Counted>, Devices) {
+    pub(crate) fn counted(&self) -> (Arc<Counted>, Registry) {
         let counted = Arc::new(Counted {
-            files: Files::new(self.root()),
+            files: SysfsDir::new(self.root()),
             now_ms: AtomicUsize::new(0),
             lists: AtomicUsize::new(0),
             opens: AtomicUsize::new(0),
             accesses: Arc::default(),
         });
-        (Arc::clone(&counted), Devices::new(counted))
+        (Arc::clone(&counted), Registry::new(counted))
     }
 }
 
-/// [`Files`], counted, with a clock that the test moves.
+/// [`SysfsDir`], counted, with a clock that the test moves.
 pub(crate) struct Counted {
-    files: Files,
+    files: SysfsDir,
     now_ms: AtomicUsize,
     lists: AtomicUsize,
     opens: AtomicUsize,
@@ -106,7 +106,7 @@ impl Counted {
     }
 }
 
-impl Tree for Counted {
+impl Sysfs for Counted {
     fn root(&self) -> &Path {
         self.files.root()
     }
@@ -119,7 +119,7 @@ impl Tree for Counted {
         Ok(entries.into_iter().map(|entry| Entry { inode: 1, ..entry }).collect())
     }
 
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Node>> {
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
         self.opens.fetch_add(1, Ordering::SeqCst);
         let node = self.files.open(path, access)?;
         Ok(Box::new(CountedNode { node, accesses: Arc::clone(&self.accesses) }))
@@ -133,18 +133,18 @@ impl Tree for Counted {
         Duration::from_millis(self.now_ms.load(Ordering::SeqCst) as u64)
     }
 
-    fn pause(&self, _nodes: &[&dyn Node], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         self.pass_ms(usize::try_from(timeout.as_millis()).unwrap().max(1));
         Ok(())
     }
 }
 
 struct CountedNode {
-    node: Box<dyn Node>,
+    node: Box<dyn AttributeFile>,
     accesses: Arc<[AtomicUsize; 2]>,
 }
 
-impl Node for CountedNode {
+impl AttributeFile for CountedNode {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.accesses[0].fetch_add(1, Ordering::SeqCst);
         self.node.read(buffer)

@@ -2,7 +2,7 @@
 use crate::brick::Brick;
 use ev3_driver::motor::Speed;
 use ev3_driver::value::{first_line, integer};
-use ev3_driver::{Class, Value, port};
+use ev3_driver::{Class, Value, port_name};
 use proptest::prelude::*;
 use std::cmp::Ordering;
 
@@ -65,25 +65,25 @@ proptest! {
 
     #[test]
     fn ports_are_totally_ordered(a in port_name(), b in port_name(), c in port_name()) {
-        prop_assert_eq!(port::order(&a, &b), port::order(&b, &a).reverse());
-        prop_assert_eq!(port::order(&a, &b) == Ordering::Equal, a == b);
+        prop_assert_eq!(port_name::order(&a, &b), port_name::order(&b, &a).reverse());
+        prop_assert_eq!(port_name::order(&a, &b) == Ordering::Equal, a == b);
         let mut sorted = [&*a, &*b, &*c];
-        sorted.sort_by(|a, b| port::order(a, b));
+        sorted.sort_by(|a, b| port_name::order(a, b));
         for (first, second) in [(0, 1), (1, 2), (0, 2)] {
-            prop_assert_ne!(port::order(sorted[first], sorted[second]), Ordering::Greater);
+            prop_assert_ne!(port_name::order(sorted[first], sorted[second]), Ordering::Greater);
         }
     }
 
     #[test]
     fn ports_with_numbers_are_in_the_order_of_their_numbers(a: u32, b: u32) {
-        prop_assert_eq!(port::order(&format!("S{a}"), &format!("S{b}")), a.cmp(&b));
+        prop_assert_eq!(port_name::order(&format!("S{a}"), &format!("S{b}")), a.cmp(&b));
     }
 
     #[test]
     fn a_short_name_has_none_shorter(name in port_name()) {
         for board in ["", "ev3-ports:", "evb-ports:"] {
             let long = format!("{board}{name}");
-            prop_assert_eq!(port::short(&long), &*name);
+            prop_assert_eq!(port_name::short(&long), &*name);
         }
     }
 

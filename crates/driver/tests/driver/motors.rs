@@ -1,11 +1,11 @@
 //! Commands, moves of several motors at once, and what stops them.
 use crate::brick::{Brick, motors, ms};
-use ev3_driver::devices::Class;
+use ev3_driver::Class;
+use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, Way, command, reset, run_forever, run_to, stop,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_to, stop,
     stop_all, stop_started,
 };
-use ev3_driver::wait::{Reason, wait_for};
 use ev3_driver::{Errno, Error, attributes};
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,7 +15,7 @@ fn run(port: &str, percent: f64) -> Run<'_> {
 }
 
 fn turn(port: &str, percent: f64, degrees: f64) -> Move<'_> {
-    Move { port, speed: Speed::Percent(percent), way: Way::By(degrees) }
+    Move { port, speed: Speed::Percent(percent), extent: Extent::By(degrees) }
 }
 
 fn position(brick: &Brick, port: &str) -> i64 {
@@ -275,7 +275,7 @@ fn a_motor_named_twice_is_refused_and_nothing_is_written() {
     assert_eq!(error.to_string(), "outA is named twice");
     let runs = [run("outB", 50.0), run("ev3-ports:outB", 20.0)];
     let error = run_forever(&devices, &runs, asked).unwrap_err();
-    assert!(matches!(error, Error::Twice { port } if port == "outB"));
+    assert!(matches!(error, Error::DuplicatePort { port } if port == "outB"));
     assert!(brick.take_written().is_empty());
 }
 
@@ -312,7 +312,7 @@ fn a_motor_that_vanishes_stops_the_others_and_is_named() {
         let options = MoveOptions::default();
         let error = run_to(&brick.devices(), &moves, &options, &mut brick.attentive()).unwrap_err();
         let message = error.to_string();
-        let Error::Gone { class: Class::TachoMotor, port } = error else { panic!("{error}") };
+        let Error::Unplugged { class: Class::TachoMotor, port } = error else { panic!("{error}") };
         assert_eq!(port, vanishing);
         assert_eq!(message, format!("the motor at {vanishing} was unplugged"));
         assert!(brick.world().motor(other).is_braking());
@@ -329,7 +329,7 @@ fn a_motor_that_is_replugged_within_a_move_is_gone_all_the_same() {
     let moves = [turn("outA", 50.0, 9000.0)];
     let options = MoveOptions::default();
     let error = run_to(&brick.devices(), &moves, &options, &mut brick.attentive()).unwrap_err();
-    assert!(matches!(error, Error::Gone { port, .. } if port == "outA"));
+    assert!(matches!(error, Error::Unplugged { port, .. } if port == "outA"));
 }
 
 #[test]

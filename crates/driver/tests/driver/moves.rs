@@ -1,24 +1,25 @@
 //! Moves for a time, to a position and without regulation; motors that are new.
 use crate::brick::{Brick, ms};
 use crate::files::PlainTree;
+use ev3_driver::motor::wait::Reason;
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, Way, position, run_direct, run_forever, run_to, set_position,
+    Extent, Move, MoveOptions, Run, Speed, position, run_direct, run_forever, run_to, set_position,
 };
-use ev3_driver::wait::Reason;
-use ev3_driver::{Class, Errno, Error, Value, dc, servo};
+use ev3_driver::motor::{dc, servo};
+use ev3_driver::{Class, Errno, Error, Value};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-fn go(port: &str, percent: f64, way: Way) -> Move<'_> {
-    Move { port, speed: Speed::Percent(percent), way }
+fn go(port: &str, percent: f64, extent: Extent) -> Move<'_> {
+    Move { port, speed: Speed::Percent(percent), extent }
 }
 
 #[test]
 fn a_timed_run_ends_with_its_time() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
-    let moves = [go("outA", -50.0, Way::For(ms(700)))];
+    let moves = [go("outA", -50.0, Extent::For(ms(700)))];
     let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Reached));
     assert!(brick.now() >= ms(690) && brick.now() < ms(760), "{:?}", brick.now());
@@ -30,7 +31,7 @@ fn a_timed_run_that_somebody_stops_is_stopped() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
     brick.at(ms(300), |world| world.motor("outA").be_stopped());
-    let moves = [go("outA", 50.0, Way::For(ms(700)))];
+    let moves = [go("outA", 50.0, Extent::For(ms(700)))];
     let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Stopped));
 }
@@ -40,7 +41,7 @@ fn an_absolute_move_goes_there_from_either_side() {
     let brick = Brick::new(&["outA"]);
     let devices = brick.devices();
     for (percent, angle) in [(50.0, 200.0), (50.0, -100.0), (-50.0, 30.0), (50.0, 30.0)] {
-        let moves = [go("outA", percent, Way::To(angle))];
+        let moves = [go("outA", percent, Extent::To(angle))];
         let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
         assert_eq!(ended.unwrap(), Some(Reason::Reached));
         brick.pass(ms(300));
@@ -55,12 +56,12 @@ fn an_impossible_move_writes_nothing() {
     let devices = brick.devices();
     let day = Duration::from_secs(86_400);
     for (percent, way) in [
-        (0.0, Way::For(ms(100))),
-        (101.0, Way::For(ms(100))),
-        (50.0, Way::For(30 * day)),
-        (50.0, Way::To(f64::NAN)),
-        (50.0, Way::To(3e9)),
-        (0.0, Way::To(90.0)),
+        (0.0, Extent::For(ms(100))),
+        (101.0, Extent::For(ms(100))),
+        (50.0, Extent::For(30 * day)),
+        (50.0, Extent::To(f64::NAN)),
+        (50.0, Extent::To(3e9)),
+        (0.0, Extent::To(90.0)),
     ] {
         let ended = run_to(
             &devices,
@@ -126,7 +127,7 @@ fn one_that_udev_never_opens_is_refused_after_a_second_and_nothing_moves() {
     let brick = Brick::new(&["outA", "outB"]);
     brick.world().motor("outB").closed_until = Duration::MAX;
     let devices = brick.devices();
-    let moves = [go("outA", 50.0, Way::By(90.0)), go("outB", 50.0, Way::By(90.0))];
+    let moves = [go("outA", 50.0, Extent::By(90.0)), go("outB", 50.0, Extent::By(90.0))];
     let ended = run_to(&devices, &moves, &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap_err().errno(), Some(Errno::ACCESS));
     assert!(brick.now() >= ms(1000) && brick.now() < ms(1100), "{:?}", brick.now());

@@ -1,5 +1,5 @@
 //! Where a robot is, from what its wheels and its gyro tell.
-use ev3_driver::odometry::{Estimate, Pose, Wheels, wrapped};
+use ev3_driver::drive::odometry::{Estimate, Pose, Wheels, wrapped};
 use proptest::prelude::*;
 
 const WHEELS: Wheels =
@@ -13,7 +13,7 @@ fn near(a: Pose, b: Pose, within: f64) -> bool {
 fn a_quarter_circle_to_the_right_ends_ahead_and_to_the_right() {
     let mut estimate = Estimate::default();
     let quarter = std::f64::consts::FRAC_PI_2;
-    estimate.roll(&WHEELS, [quarter * 25.3, quarter * 14.7], 1.0);
+    estimate.predict(&WHEELS, [quarter * 25.3, quarter * 14.7], 1.0);
     assert!(near(estimate.pose(), Pose { x: 20.0, y: 20.0, heading: 90.0 }, 1e-9));
 }
 
@@ -27,18 +27,18 @@ fn a_wheel_whose_motor_is_inverted_rolls_the_other_way() {
 #[test]
 fn what_the_gyro_shows_first_is_its_zero() {
     let mut estimate = Estimate::default();
-    estimate.see(123.0);
+    estimate.observe_gyro(123.0);
     assert!(near(estimate.pose(), Pose::default(), 1e-9));
 }
 
 #[test]
 fn readings_that_agree_change_little_and_those_that_do_not_turn_the_robot() {
     let mut estimate = Estimate::default();
-    estimate.see(0.0);
+    estimate.observe_gyro(0.0);
     for step in 0..50 {
         // The left wheel slips: the robot turns, and the wheels do not tell.
-        estimate.roll(&WHEELS, [1.0, 1.0], 0.05);
-        estimate.see((f64::from(step) / 5.0).round());
+        estimate.predict(&WHEELS, [1.0, 1.0], 0.05);
+        estimate.observe_gyro((f64::from(step) / 5.0).round());
     }
     let heading = estimate.pose().heading;
     assert!((heading - 10.0).abs() < 1.5, "{heading}");
@@ -47,11 +47,11 @@ fn readings_that_agree_change_little_and_those_that_do_not_turn_the_robot() {
 #[test]
 fn a_gyro_that_starts_anew_does_not_turn_the_robot() {
     let mut estimate = Estimate::default();
-    estimate.see(0.0);
-    estimate.roll(&WHEELS, [10.0, -10.0], 1.0);
+    estimate.observe_gyro(0.0);
+    estimate.predict(&WHEELS, [10.0, -10.0], 1.0);
     let turned = estimate.pose().heading;
-    estimate.see(turned.round());
-    estimate.see(0.0);
+    estimate.observe_gyro(turned.round());
+    estimate.observe_gyro(0.0);
     assert!((estimate.pose().heading - turned).abs() < 1.0);
 }
 
@@ -59,8 +59,8 @@ fn a_gyro_that_starts_anew_does_not_turn_the_robot() {
 fn drift_shows_at_rest() {
     let mut estimate = Estimate::default();
     for step in 0..100 {
-        estimate.roll(&WHEELS, [0.0, 0.0], 0.1);
-        estimate.see((f64::from(step) * 0.1 * -1.5).round());
+        estimate.predict(&WHEELS, [0.0, 0.0], 0.1);
+        estimate.observe_gyro((f64::from(step) * 0.1 * -1.5).round());
     }
     assert!((estimate.drift() + 1.5).abs() < 0.1, "{}", estimate.drift());
     assert!(estimate.pose().heading.abs() < 2.0, "{}", estimate.pose().heading);
@@ -69,9 +69,9 @@ fn drift_shows_at_rest() {
 #[test]
 fn a_place_that_is_known_is_certain() {
     let mut estimate = Estimate::default();
-    estimate.roll(&WHEELS, [100.0, 90.0], 5.0);
+    estimate.predict(&WHEELS, [100.0, 90.0], 5.0);
     assert!(estimate.uncertainty()[0][0] > 0.0);
-    estimate.place(Pose { x: 1.0, y: 2.0, heading: 3.0 });
+    estimate.set_pose(Pose { x: 1.0, y: 2.0, heading: 3.0 });
     assert_eq!(estimate.uncertainty(), [[0.0; 3]; 3]);
     assert!(near(estimate.pose(), Pose { x: 1.0, y: 2.0, heading: 3.0 }, 1e-9));
 }
@@ -104,7 +104,11 @@ impl Ride {
             let ways = WHEELS.ways(speed * Self::STEP, rate.to_radians() * Self::STEP);
             let [left, right, axle] = self.errors;
             let really = Wheels { axle: WHEELS.axle / (1.0 + axle), ..WHEELS };
-            self.truth.roll(&really, [ways[0] * (1.0 + left), ways[1] * (1.0 + right)], Self::STEP);
+            self.truth.predict(
+                &really,
+                [ways[0] * (1.0 + left), ways[1] * (1.0 + right)],
+                Self::STEP,
+            );
             // Both encoders and the gyro tell whole degrees.
             let per_degree = WHEELS.cm_per_count(0, 360.0);
             let told = std::array::from_fn(|side| {
@@ -113,10 +117,10 @@ impl Ride {
                 (self.angles[side].round() - before) * per_degree
             });
             self.seconds += Self::STEP;
-            self.estimate.roll(&WHEELS, told, Self::STEP);
+            self.estimate.predict(&WHEELS, told, Self::STEP);
             if let Some(drift) = self.drift {
                 let shown = self.truth.pose().heading + drift * self.seconds;
-                self.estimate.see(shown.round());
+                self.estimate.observe_gyro(shown.round());
             }
         }
     }
@@ -152,7 +156,7 @@ fn what_the_gyro_has_taught_stays_when_it_is_gone() {
     ride.go(0.0, 0.0, 10.0);
     ride.go(20.0, 0.0, 10.0);
     ride.go(0.0, 60.0, 12.0);
-    ride.estimate.lose_gyro();
+    ride.estimate.gyro_lost();
     ride.drift = None;
     let before = ride.off();
     ride.go(0.0, -60.0, 30.0);
@@ -165,12 +169,12 @@ fn what_the_gyro_has_taught_stays_when_it_is_gone() {
 fn other_wheels_are_not_the_ones_that_were_learned() {
     let mut ride = Ride::new([0.0, -0.03, 0.05], Some(0.02));
     ride.go(20.0, 60.0, 20.0);
-    ride.estimate.lose_gyro();
+    ride.estimate.gyro_lost();
     let before = ride.estimate.pose();
     ride.estimate.forget_wheels();
     assert!(near(ride.estimate.pose(), before, 1e-9));
     let half = std::f64::consts::PI * WHEELS.axle / 2.0;
-    ride.estimate.roll(&WHEELS, [half, -half], 1.0);
+    ride.estimate.predict(&WHEELS, [half, -half], 1.0);
     let turned = ride.estimate.pose().heading - before.heading;
     assert!((turned - 180.0).abs() < 1e-6, "{turned}");
 }
@@ -212,10 +216,10 @@ proptest! {
     #[test]
     fn arcs_may_be_cut(left in way(), right in way(), pieces in 1_u32..50) {
         let (mut whole, mut cut) = (Estimate::default(), Estimate::default());
-        whole.roll(&WHEELS, [left, right], 1.0);
+        whole.predict(&WHEELS, [left, right], 1.0);
         let share = 1.0 / f64::from(pieces);
         for _ in 0..pieces {
-            cut.roll(&WHEELS, [left * share, right * share], share);
+            cut.predict(&WHEELS, [left * share, right * share], share);
         }
         prop_assert!(near(whole.pose(), cut.pose(), 1e-6));
     }
@@ -225,10 +229,10 @@ proptest! {
     fn ways_back_undo(steps in prop::collection::vec((way(), way()), 1..20)) {
         let mut estimate = Estimate::default();
         for (left, right) in &steps {
-            estimate.roll(&WHEELS, [*left, *right], 0.1);
+            estimate.predict(&WHEELS, [*left, *right], 0.1);
         }
         for (left, right) in steps.iter().rev() {
-            estimate.roll(&WHEELS, [-left, -right], 0.1);
+            estimate.predict(&WHEELS, [-left, -right], 0.1);
         }
         prop_assert!(near(estimate.pose(), Pose::default(), 1e-6));
     }
@@ -241,9 +245,9 @@ proptest! {
     ) {
         let mut estimate = Estimate::default();
         for (count, ((left, right), off)) in (0_u32..).zip(steps) {
-            estimate.roll(&WHEELS, [left / 10.0, right / 10.0], 0.1);
+            estimate.predict(&WHEELS, [left / 10.0, right / 10.0], 0.1);
             let drifted = f64::from(count) * 0.1 * drift;
-            estimate.see((estimate.pose().heading + drifted + off).round());
+            estimate.observe_gyro((estimate.pose().heading + drifted + off).round());
             let p = estimate.uncertainty();
             for i in 0..3 {
                 prop_assert!(p[i][i] >= -1e-9);

@@ -1,7 +1,7 @@
 //! Paths of lines and arcs, and steering along them.
-use ev3_driver::odometry::{Pose, Wheels};
-use ev3_driver::path::{Segment, rounded};
-use ev3_driver::steering::{Leg, Limits, Order, Steering};
+use ev3_driver::drive::odometry::{Pose, Wheels};
+use ev3_driver::drive::path::{Segment, rounded};
+use ev3_driver::drive::steering::{Leg, Limits, Order, Steering};
 use proptest::prelude::*;
 
 const WHEELS: Wheels =

@@ -1,7 +1,7 @@
 //! Sensors: values in modes, and sensors that are not ready to give them.
 use crate::brick::{Brick, World, ms};
 use ev3_driver::sensor::{at, raw_value, read, read_all, restart, scale, set_mode, with_mode};
-use ev3_driver::{Class, Device, Devices, Errno, Error, Value, attributes};
+use ev3_driver::{Class, Device, Errno, Error, Registry, Value, attributes};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -22,14 +22,14 @@ fn brick() -> Arc<Brick> {
     brick
 }
 
-fn sensor(devices: &Devices, port: &str) -> Arc<Device> {
+fn sensor(devices: &Registry, port: &str) -> Arc<Device> {
     devices.find(Class::Sensor, port).unwrap().unwrap()
 }
 
 /// Reads a value, or says why not.
 fn value(
     brick: &Arc<Brick>,
-    devices: &Devices,
+    devices: &Registry,
     port: &str,
     mode: &str,
     index: usize,

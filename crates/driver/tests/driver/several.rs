@@ -1,7 +1,7 @@
 //! Several values at once, and sensors on the I2C bus.
 use crate::brick::{Brick, ms};
 use ev3_driver::sensor::{at, read_several, set_mode};
-use ev3_driver::{Class, Device, Devices, Errno, Error, Value};
+use ev3_driver::{Class, Device, Errno, Error, Registry, Value};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,11 +13,11 @@ const IMU: &[(&str, &[i64], i64)] = &[("GYRO", &[1, 2, 3], 1)];
 /// Accesses take this long.
 const ACCESS: Duration = Duration::from_micros(40);
 
-fn sensor(devices: &Devices, port: &str) -> Arc<Device> {
+fn sensor(devices: &Registry, port: &str) -> Arc<Device> {
     devices.find(Class::Sensor, port).unwrap().unwrap()
 }
 
-fn brick(driver: &'static str, modes: &[(&'static str, &[i64], i64)]) -> (Arc<Brick>, Devices) {
+fn brick(driver: &'static str, modes: &[(&'static str, &[i64], i64)]) -> (Arc<Brick>, Registry) {
     let brick = Brick::new(&[]);
     brick.world().plug_sensor("in1:i2c8", driver, modes).settling = ms(30);
     let devices = brick.devices();
@@ -27,7 +27,7 @@ fn brick(driver: &'static str, modes: &[(&'static str, &[i64], i64)]) -> (Arc<Br
 /// The values, and how many accesses it took to read them.
 fn read(
     brick: &Arc<Brick>,
-    devices: &Devices,
+    devices: &Registry,
     mode: &str,
     count: Option<usize>,
 ) -> (ev3_driver::Result<Option<Vec<Value>>>, u128) {

@@ -1,7 +1,7 @@
 //! Turning by the gyro: how close, how long, and what when it goes wrong.
 use crate::brick::{Brick, ms};
+use ev3_driver::drive::turn::{Ended, Turn, WITHIN, by_gyro};
 use ev3_driver::motor::{self, Run, Speed, StopAction, run_forever};
-use ev3_driver::turn::{Ended, Turn, WITHIN, by_gyro};
 use ev3_driver::{Class, Error};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -204,7 +204,7 @@ fn an_unplugged_gyro_is_gone_and_the_motors_brake() {
     let brick = robot(2.2);
     brick.at(ms(400), |world| world.sensor("in2").is_unplugged = true);
     let error = turned(&brick, &turn(40.0, 90.0, 2.2)).unwrap_err();
-    assert!(matches!(error, Error::Gone { class: Class::Sensor, port } if port == "in2"));
+    assert!(matches!(error, Error::Unplugged { class: Class::Sensor, port } if port == "in2"));
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn an_unplugged_motor_is_gone_and_the_other_brakes() {
         let brick = robot(2.2);
         brick.at(ms(400), move |world| world.motor(vanishing).is_unplugged = true);
         let error = turned(&brick, &turn(40.0, 90.0, 2.2)).unwrap_err();
-        let Error::Gone { class: Class::TachoMotor, port } = error else { panic!("{error}") };
+        let Error::Unplugged { class: Class::TachoMotor, port } = error else { panic!("{error}") };
         assert_eq!(port, vanishing);
     }
 }
@@ -227,7 +227,7 @@ fn a_motor_replugged_under_way_does_not_go_on_turning() {
         world.plug_motor("outB");
     });
     let error = turned(&brick, &turn(20.0, 360.0, 2.2)).unwrap_err();
-    assert!(matches!(error, Error::Gone { port, .. } if port == "outB"));
+    assert!(matches!(error, Error::Unplugged { port, .. } if port == "outB"));
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn a_robot_that_rolls_already_is_turned_and_stopped() {
 fn turned_while(
     brick: &Arc<Brick>,
     after: Duration,
-    other: impl Fn(&ev3_driver::Devices),
+    other: impl Fn(&ev3_driver::Registry),
 ) -> Option<Ended> {
     let devices = brick.devices();
     let gyro = devices.find(Class::Sensor, "in2").unwrap().unwrap();

@@ -1,24 +1,25 @@
 //! Waiting, and why a wait ends.
 use crate::brick::{Brick, motors, ms};
+use ev3_driver::motor::wait::{Reason, wait_for, wait_for_flag};
 use ev3_driver::motor::{
-    Move, MoveOptions, Run, Speed, StopAction, Way, command, run_forever, run_to, stop,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
 };
-use ev3_driver::wait::{Reason, sleep, wait_for, wait_for_flag};
-use ev3_driver::{Devices, Error};
+use ev3_driver::sysfs::sleep;
+use ev3_driver::{Error, Registry};
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Starts a move of some motors at half speed.
-fn start(devices: &Devices, ports: &[&str], degrees: f64) {
+fn start(devices: &Registry, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
     let moves: Vec<_> =
-        ports.iter().map(|port| Move { port, speed, way: Way::By(degrees) }).collect();
+        ports.iter().map(|port| Move { port, speed, extent: Extent::By(degrees) }).collect();
     let options = MoveOptions { wait: false, ..MoveOptions::default() };
     run_to(devices, &moves, &options, &mut || false).unwrap().unwrap();
 }
 
 /// Waits for some motors, with a time limit that a working wait does not need.
-fn wait(brick: &Arc<Brick>, devices: &Devices, ports: &[&str]) -> Reason {
+fn wait(brick: &Arc<Brick>, devices: &Registry, ports: &[&str]) -> Reason {
     let all = motors(devices, ports);
     wait_for(devices, &all, Some(Duration::from_secs(60)), &mut brick.attentive()).unwrap()
 }
@@ -98,7 +99,7 @@ fn a_slow_motor_takes_longer_to_break_away_and_is_not_blocked() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").sticks_for = ms(400);
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), extent: Extent::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Reached));
 }
@@ -108,7 +109,7 @@ fn a_slow_motor_that_is_blocked_is_noticed() {
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").is_blocked = true;
     let devices = brick.devices();
-    let turn = Move { port: "outA", speed: Speed::Percent(2.0), way: Way::By(20.0) };
+    let turn = Move { port: "outA", speed: Speed::Percent(2.0), extent: Extent::By(20.0) };
     let ended = run_to(&devices, &[turn], &MoveOptions::default(), &mut brick.attentive());
     assert_eq!(ended.unwrap(), Some(Reason::Stalled));
     assert!(brick.now() < ms(700), "{:?}", brick.now());
@@ -274,7 +275,7 @@ fn absurd_times_are_long_and_no_more() {
     let all = motors(&devices, &["outA"]);
     let reason = wait_for(&devices, &all, Some(Duration::MAX), &mut brick.attentive()).unwrap();
     assert_eq!(reason, Reason::Reached);
-    let slept = sleep(&devices, Duration::MAX, &mut brick.interrupting(ms(100)));
+    let slept = sleep(devices.tree(), Duration::MAX, &mut brick.interrupting(ms(100)));
     assert!(matches!(slept, Err(Error::Interrupted)));
 }
 
@@ -284,7 +285,7 @@ fn a_sleep_lasts_as_long_as_asked_and_asks_as_often_as_a_wait() {
     let devices = brick.devices();
     for time in [ms(0), ms(1), ms(7), ms(20), ms(333)] {
         let started = brick.now();
-        sleep(&devices, time, &mut brick.attentive()).unwrap();
+        sleep(devices.tree(), time, &mut brick.attentive()).unwrap();
         assert_eq!(brick.since(started), time);
     }
 }
@@ -346,5 +347,5 @@ fn a_flag_of_an_unplugged_motor_is_an_error_that_names_it() {
     let motor = &motors(&devices, &["outA"])[0];
     brick.at(ms(200), |world| world.motor("outA").is_unplugged = true);
     let error = wait_for_flag(&devices, motor, "stalled", true, &mut brick.attentive());
-    assert!(matches!(error, Err(Error::Gone { port, .. }) if port == "outA"));
+    assert!(matches!(error, Err(Error::Unplugged { port, .. }) if port == "outA"));
 }

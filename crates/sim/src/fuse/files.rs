@@ -13,11 +13,11 @@ use fuser::{
 
 use super::open::{Open, locked};
 use super::served::Served;
-use crate::attr::Access;
-use crate::errno::Errno;
+use crate::files::attr::Access;
+use crate::files::errno::Errno;
 use crate::machine::Machine;
+use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::shared::Shared;
-use crate::tree::{FileKind, NodeId, Stat};
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;
@@ -45,7 +45,7 @@ fn file_type(kind: FileKind) -> FileType {
     }
 }
 
-/// Whoever asks is shown as the owner: on the brick the group `ev3dev` does that.
+/// The caller is shown as the owner. On the brick the group `ev3dev` gives it access.
 fn attributes(stat: Stat, machine: &Machine, request: &Request) -> FileAttr {
     let time: SystemTime = UNIX_EPOCH + machine.now();
     FileAttr {
@@ -140,7 +140,7 @@ impl<F: Served> Filesystem for Files<F> {
         }
     }
 
-    // What neither tree lets a program do: they are the drivers'. A new file is always EACCES.
+    // Neither tree allows these: only drivers make files. Creating one is always EACCES.
 
     fn create(
         &self,

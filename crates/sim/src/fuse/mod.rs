@@ -16,18 +16,23 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use fuser::{BackgroundSession, Config, MountOption, Session};
+use rustix::io::Errno;
+use rustix::mount::{UnmountFlags, unmount};
 
-use crate::descriptor::Descriptor;
-use crate::dev::DevDescriptor;
+use crate::machine::Descriptor;
+use crate::machine::DevDescriptor;
 use crate::shared::Shared;
 use files::Files;
 use open::Open;
 use served::Served;
 
 const DEVICE: &str = "/dev/fuse";
+
+/// How long files may be busy that were closed.
+const FREE_WITHIN: Duration = Duration::from_secs(1);
 
 /// How long unmounting may take.
 const UNMOUNTED_WITHIN: Duration = Duration::from_secs(2);
@@ -138,15 +143,37 @@ impl Mount {
         // Without root the kernel lets it go only with the last open file: by then there may be
         // nobody to wait for it.
         let (sender, ended) = channel();
+        let path = self.path.clone();
         std::thread::Builder::new().name("ev3-sim-unmount".to_owned()).spawn(move || {
+            let is_unmounted = unmount_when_free(&path);
+            let ended = session.umount_and_join().or_else(|error| match error.raw_os_error() {
+                // Not mounted, says the kernel before the session has noticed.
+                Some(number) if is_unmounted && number == Errno::INVAL.raw_os_error() => Ok(()),
+                _ => Err(error),
+            });
             // Where nobody waits any more, it has been told that this may take long.
-            let _ = sender.send(session.umount_and_join());
+            let _ = sender.send(ended);
         })?;
         match ended.recv_timeout(UNMOUNTED_WITHIN) {
             // Unmounted, while the kernel was about to ask something.
             Ok(Err(error)) if error.kind() == io::ErrorKind::ConnectionAborted => Ok(()),
             Ok(ended) => ended,
             Err(_) => Err(io::ErrorKind::ResourceBusy.into()),
+        }
+    }
+}
+
+/// Unmounts as root. A file that was just closed is busy a little longer, on a machine with much to
+/// do for a long time. What goes wrong otherwise is left to the session, which tries again and
+/// without root asks `fusermount3`.
+fn unmount_when_free(path: &Path) -> bool {
+    let start = Instant::now();
+    loop {
+        match unmount(path, UnmountFlags::empty()) {
+            Err(Errno::BUSY) if start.elapsed() < FREE_WITHIN => {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            result => return result.is_ok(),
         }
     }
 }

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 
 use super::served::Served;
-use crate::errno::Errno;
+use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::shared::Shared;
 
@@ -40,7 +40,7 @@ pub(super) struct Open<F> {
 enum Blocked {
     /// Until there is something to read, or this wall time.
     Read { handle: u64, size: u32, until: Instant, reply: ReplyData },
-    /// Until this virtual time, or that wall time; so many bytes were taken.
+    /// Until this virtual time, or that wall time. `length` bytes were taken.
     Write { until: Duration, latest: Instant, length: u32, reply: ReplyWrite },
 }
 
@@ -152,7 +152,7 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Answers those who wait, whenever time has passed.
+/// Answers waiting calls whenever time has passed.
 pub(super) fn watch<F: Served>(
     shared: &Shared,
     open: &Mutex<Open<F>>,

@@ -5,22 +5,22 @@ use std::time::Duration;
 
 use fuser::PollEvents;
 
-use crate::attr::Access;
-use crate::descriptor::Descriptor;
-use crate::dev::DevDescriptor;
-use crate::errno::Errno;
+use crate::files::attr::Access;
+use crate::files::errno::Errno;
+use crate::machine::Descriptor;
+use crate::machine::DevDescriptor;
+use crate::machine::tree::{Entry, NodeId, Stat};
 use crate::machine::{Machine, Written};
-use crate::tree::{Entry, NodeId, Stat};
 
 /// An open file, and the tree that it is in.
 pub(super) trait Served: Debug + Send + Sized + 'static {
-    /// What poll(2) reports in any case.
+    /// The events that poll(2) always reports.
     const ALWAYS: PollEvents;
 
-    /// What it also reports when there is something to tell.
+    /// The events that it reports in addition when there is news.
     const READY: PollEvents;
 
-    /// What making a directory, removing and renaming are refused with.
+    /// The error of making a directory, removing and renaming.
     const REFUSAL: Errno;
 
     /// Kind, permission bits and size of a node.

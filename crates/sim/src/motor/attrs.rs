@@ -1,10 +1,10 @@
-//! The files of a tacho motor (section 2 of the reference sheet).
+//! The files of a tacho motor: `docs/ev3dev-sysfs.md`, 2.
 
 use super::kind::COUNT_PER_M;
 use super::{Command, StopAction, Tacho};
-use crate::attr::{Attr, Effect, Table, text, uevent, write_uevent};
-use crate::errno::Errno;
-use crate::text::{strict_int, strict_int_in, word};
+use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::{strict_int, strict_int_in, word};
 
 const POLARITIES: [&str; 2] = ["normal", "inversed"];
 const LONGEST_RAMP_MS: i32 = 60_000;

@@ -1,4 +1,4 @@
-//! What each command does, at once (section 3.3 of the reference sheet).
+//! What each command does, at once: `docs/ev3dev-sysfs.md`, 3.3.
 
 use super::{Command, Drive, Goal, Pid, Setpoints, StopAction, Tacho};
 use crate::ticks_from_ms;

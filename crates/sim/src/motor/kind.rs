@@ -31,8 +31,8 @@ pub struct MotorKind {
 /// `count_per_m` of the linear actuators.
 pub(crate) const COUNT_PER_M: i32 = 2000;
 
-/// An Actuonix L12 with a stroke of so many counts. Of its data sheet: its screw holds it when
-/// there is no voltage, it takes 0.46 A when it is blocked.
+/// An Actuonix L12 with a stroke of `travel` counts. By its data sheet, its screw holds it without
+/// voltage, and it takes 0.46 A when it is blocked.
 const fn linear(driver_name: &'static str, travel: i32) -> MotorKind {
     MotorKind {
         driver_name,

@@ -3,15 +3,17 @@
 //!
 //! Inside, positions and speeds have their physical sign; `polarity` flips the sign only at the
 //! files ([`attrs`]). Everything a program sets is first kept in `set` and copied, whole, into
-//! `active` when a command is written (section 2 of the reference sheet).
+//! `active` when a command is written (`docs/ev3dev-sysfs.md`, 2).
 
 mod attrs;
 mod command;
+pub(crate) mod dc;
 mod encoder;
 mod kind;
 mod pid;
 mod ramp;
 mod sample;
+pub(crate) mod servo;
 
 pub(crate) use encoder::Encoder;
 pub(crate) use kind::{Bridge, RATED_VOLTS};
@@ -20,7 +22,7 @@ use pid::Pid;
 use ramp::Ramp;
 
 use crate::JIFFY_TICKS;
-use crate::port::Port;
+use crate::brick::port::Port;
 
 /// A blocked motor shows `stalled` after more than 100 ms at speed 0.
 const STALL_TICKS: u32 = 50;

@@ -1,4 +1,4 @@
-//! Class ramps (section 3.5 of the reference sheet).
+//! Class ramps: `docs/ev3dev-sysfs.md`, 3.5.
 //!
 //! The speed setpoint walks from the present speed to the wanted one in steps of 100 ms. The
 //! first step comes at once, as if 50 ms had passed, the second 50 ms later. A change of sign is

@@ -1,14 +1,14 @@
 //! What sensors that are not LEGO's see of the floor.
 
 use super::{View, whole};
-use crate::geometry::Pose;
 use crate::sensor::{Parts, Reading};
+use crate::world::geometry::Pose;
 
-/// Below these a colour is black, or without colour, or pale; each from 0 to 1.
+/// Below these a color is black, or without color, or pale; each from 0 to 1.
 const DARK: f64 = 0.2;
 const GREY: f64 = 0.15;
 const PALE: f64 = 0.5;
-/// `HiTechnic`'s numbers: the first hue, in degrees, that is not any more that colour.
+/// `HiTechnic`'s numbers: the first hue, in degrees, that is not any more that color.
 const HUES: [(f64, i32); 11] = [
     (15.0, 8),
     (45.0, 7),
@@ -23,12 +23,12 @@ const HUES: [(f64, i32); 11] = [
     (360.0, 8),
 ];
 const WHITE_NUMBER: i32 = 17;
-/// The first of six pale colours.
+/// The first of six pale colors.
 const PALE_NUMBER: f64 = 11.0;
 /// A light sensor of the row from the next, in cm.
 const ROW_STEP: f64 = 0.9;
-/// Of a row, as the line leader sees it: below so many per cent is the line, and how far its
-/// average may be from the middle.
+/// How the line leader sees a row: the line is below this percentage, and its average may be this
+/// far from the middle.
 const LINE_BELOW: f64 = 50.0;
 const ROW_MIDDLE: f64 = 45.0;
 const ROW_HALF: f64 = 35.0;
@@ -40,7 +40,7 @@ impl View<'_> {
     }
 
     /// `HiTechnic`'s number, and perhaps the parts.
-    pub(super) fn colour_number(&mut self, parts: bool) -> Reading {
+    pub(super) fn color_number(&mut self, parts: bool) -> Reading {
         let seen = self.seen();
         let mut reading = [0; 8];
         reading[0] = number(seen.map(|part| part / 255.0));
@@ -73,8 +73,8 @@ impl View<'_> {
         std::array::from_fn(|_| {
             let below = self.pose.compose(&Pose::new(place, 0.0, 0.0)).point();
             place += ROW_STEP;
-            let colour = self.scene.colour_at(below);
-            let sum = [colour.red, colour.green, colour.blue].map(f64::from).iter().sum::<f64>();
+            let color = self.scene.color_at(below);
+            let sum = [color.red, color.green, color.blue].map(f64::from).iter().sum::<f64>();
             self.noise.disturb(sum / 7.05).clamp(0.0, 100.0)
         })
     }
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_have_hitechnics_numbers() {
+    fn colors_have_hitechnics_numbers() {
         let of = |red, green, blue| number([red, green, blue]);
         assert_eq!(of(0.05, 0.05, 0.05), 0);
         assert_eq!(of(0.9, 0.9, 0.9), 17);

@@ -1,9 +1,9 @@
 //! What infrared sensors see of beacons, and hear of remote controls.
 
 use super::{View, whole};
-use crate::geometry::length;
-use crate::remote::{CHANNELS, Remote};
+use crate::brick::remote::{CHANNELS, Remote};
 use crate::sensor::Reading;
+use crate::world::geometry::length;
 
 /// A beacon is seen from this far, in cm: there an EV3 sensor says 100 %.
 const BEACON_FAR: f64 = 200.0;
@@ -12,7 +12,7 @@ const SEEK_HALF_ANGLE: f64 = 60.0;
 const SEEK_HEADING: f64 = 25.0;
 /// No beacon.
 const SEEK_NOTHING: i32 = -128;
-/// `HiTechnic`'s sensor tells directions in steps of so many degrees; 5 is ahead.
+/// `HiTechnic`'s sensor reports directions in steps of this many degrees; 5 is ahead.
 const DIRECTION_STEP: f64 = 30.0;
 const DIRECTION_AHEAD: f64 = 5.0;
 const DIRECTIONS: std::ops::RangeInclusive<f64> = 1.0..=9.0;

@@ -3,12 +3,12 @@
 mod floor;
 mod infrared;
 
-use crate::geometry::{Pose, Vec2, direction, length};
 use crate::noise::Source;
-use crate::scene::Scene;
 use crate::sensor::{Axle, Reading, Sense};
+use crate::world::geometry::{Pose, Vec2, direction, length};
+use crate::world::scene::Scene;
 
-/// The ultrasonic cone: this far to each side, in degrees, in so many rays.
+/// The ultrasonic cone: how far it goes to each side, in degrees, and its number of rays.
 const SONAR_HALF_ANGLE: f64 = 15.0;
 const SONAR_RAYS: u32 = 13;
 /// Nearer than this the sensor cannot measure, farther it hears nothing, in cm.
@@ -18,7 +18,7 @@ const SONAR_FAR: f64 = 255.0;
 const INFRARED_HALF_ANGLE: f64 = 8.0;
 const INFRARED_RAYS: u32 = 5;
 const INFRARED_FAR: f64 = 70.0;
-/// The colour sensor's spot on the floor has this radius, in cm.
+/// The color sensor's spot on the floor has this radius, in cm.
 const SPOT: f64 = 0.4;
 /// How high lamps hang, in cm, and the distance at which their intensity is stated.
 const LAMP_HEIGHT: f64 = 30.0;
@@ -37,7 +37,7 @@ const NXT_SONAR_NOTHING: f64 = 255.0;
 const TIME_OF_FLIGHT_FAR: f64 = 200.0;
 /// How far `HiTechnic`'s proximity detector sees its own light come back, in cm.
 const REFLECTOR_FAR: f64 = 25.0;
-/// `HiTechnic`'s accelerometer counts so many to the g, by its data sheet.
+/// `HiTechnic`'s accelerometer counts this many to the g, by its data sheet.
 const COUNTS_PER_G: i32 = 200;
 
 /// A look at the world through one sensor.
@@ -63,7 +63,7 @@ impl View<'_> {
         match sense {
             Sense::Reflection => reading[0] = self.percent(View::reflection),
             Sense::Ambient => reading[0] = self.percent(View::light),
-            Sense::Colour => reading[0] = self.colour_code(),
+            Sense::Color => reading[0] = self.color_code(),
             Sense::ReflectionRaw => {
                 let dark = RAW_DARK - 3.0 * self.light();
                 let lit = dark - self.reflection() * 4.0;
@@ -103,7 +103,7 @@ impl View<'_> {
                 let heading = self.noise.disturb(self.pose.heading);
                 reading[0] = whole(heading).rem_euclid(360);
             }
-            Sense::ColourNumber { parts } => reading = self.colour_number(parts),
+            Sense::ColorNumber { parts } => reading = self.color_number(parts),
             Sense::Part(index) => reading[0] = self.part(index),
             Sense::Parts(kind) => reading = self.parts(kind),
             Sense::Direction { strengths, mean } => reading = self.directions(strengths, mean),
@@ -163,8 +163,8 @@ impl View<'_> {
     fn nxt_distance(&mut self, inches: bool) -> i32 {
         let distance = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR);
         let heard = self.noise.disturb(distance.unwrap_or(NXT_SONAR_NOTHING));
-        let centimetres = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
-        if inches { centimetres * 1000 / 255 } else { centimetres }
+        let centimeters = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
+        if inches { centimeters * 1000 / 255 } else { centimeters }
     }
 
     fn percent(&mut self, measure: impl Fn(&Self) -> f64) -> i32 {
@@ -178,10 +178,10 @@ impl View<'_> {
         let ring = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
         let diagonal = [(0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
         for (x, y) in ring.into_iter().chain(diagonal) {
-            let colour = self.scene.colour_at(self.pose.point() + Vec2::new(x, y) * SPOT);
-            sum[0] += f64::from(colour.red);
-            sum[1] += f64::from(colour.green);
-            sum[2] += f64::from(colour.blue);
+            let color = self.scene.color_at(self.pose.point() + Vec2::new(x, y) * SPOT);
+            sum[0] += f64::from(color.red);
+            sum[1] += f64::from(color.green);
+            sum[2] += f64::from(color.blue);
         }
         sum.map(|part| part / 9.0)
     }
@@ -191,7 +191,7 @@ impl View<'_> {
         self.spot()[0] / 2.55
     }
 
-    fn colour_code(&mut self) -> i32 {
+    fn color_code(&mut self) -> i32 {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -199,7 +199,7 @@ impl View<'_> {
         )]
         let [red, green, blue] =
             self.spot().map(|part| libm::round(self.noise.disturb(part)).clamp(0.0, 255.0) as u8);
-        crate::colour::Colour { red, green, blue }.code()
+        crate::world::color::Color { red, green, blue }.code()
     }
 
     /// Light from all around, and from each lamp that is not in a shadow: it falls with the

@@ -1,10 +1,10 @@
-//! The files of a sensor (section 5.1 of the reference sheet).
+//! The files of a sensor: `docs/ev3dev-sysfs.md`, 5.1.
 
 use super::Sensor;
 use super::bus::VERSION;
-use crate::attr::{Attr, Table, text, uevent, write_uevent};
-use crate::errno::Errno;
-use crate::text::{lenient_unsigned, word};
+use crate::files::attr::{Attr, Table, text, uevent, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::{lenient_unsigned, word};
 
 macro_rules! value {
     ($name:literal, $index:literal) => {

@@ -7,8 +7,8 @@
 use std::time::Duration;
 
 use super::{Link, Sensor, SensorKind};
-use crate::attr::Effect;
-use crate::errno::Errno;
+use crate::files::attr::Effect;
+use crate::files::errno::Errno;
 use crate::{TICK_MS, ticks_from_ms};
 
 /// What one message on the I2C bus takes, and what passes until the answer to the next is there.

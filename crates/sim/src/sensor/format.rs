@@ -1,5 +1,5 @@
-//! How values lie in `bin_data`, and how the class makes `value<N>` of them (section 5.1 of the
-//! reference sheet).
+//! How values lie in `bin_data`, and how the class makes `value<N>` of them:
+//! `docs/ev3dev-sysfs.md`, 5.1.
 
 /// How one value lies in `bin_data`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,11 +15,11 @@ pub enum Link {
     /// As a voltage on pin 6, sampled every 10 ms; a resistor tells the type.
     Analog,
     /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light
-    /// sensor from the others: `recognised`. The others come up as `nxt-analog` until the port is
+    /// sensor from the others: `recognized`. The others come up as `nxt-analog` until the port is
     /// told what it has.
     NxtAnalog {
         /// Whether the brick knows it when it is plugged in.
-        recognised: bool,
+        recognized: bool,
     },
     /// On the I2C bus at this address, polled by the kernel.
     I2c(u8),
@@ -33,7 +33,7 @@ impl Link {
     }
 }
 
-/// The colours of the floor that a sensor tells.
+/// The colors of the floor that a sensor tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Parts {
     /// 0 to 255 each.
@@ -49,7 +49,7 @@ pub(crate) enum Parts {
 pub(crate) enum Sense {
     Reflection,
     Ambient,
-    Colour,
+    Color,
     ReflectionRaw,
     Rgb,
     Distance {
@@ -72,12 +72,12 @@ pub(crate) enum Sense {
     FineAmbient,
     /// The voltage of a microphone in tenths of a per cent: high in silence.
     Silence,
-    /// In centimetres, or tenths of an inch; far less exact than the EV3's.
+    /// In centimeters, or tenths of an inch; far less exact than the EV3's.
     NxtDistance {
         inches: bool,
         single: bool,
     },
-    /// So many to the degree Celsius or Fahrenheit.
+    /// Counts per degree Celsius or Fahrenheit.
     Temperature {
         per_degree: i32,
         fahrenheit: bool,
@@ -85,7 +85,7 @@ pub(crate) enum Sense {
     /// Degrees from north, which is +y, clockwise.
     Compass,
     /// `HiTechnic`'s number from 0 (black) to 17 (white), and perhaps the parts behind it.
-    ColourNumber {
+    ColorNumber {
         parts: bool,
     },
     /// One part: 0 red, 1 green, 2 blue.
@@ -219,7 +219,7 @@ impl SensorKind {
     }
 
     const fn nxt_analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
-        let link = Link::NxtAnalog { recognised: false };
+        let link = Link::NxtAnalog { recognized: false };
         SensorKind { driver_name, link, settling_ms: 0, commands: &[], modes }
     }
 

@@ -17,9 +17,9 @@ pub(crate) use kind::{Mode, Parts, Sense};
 
 use std::time::Duration;
 
-use crate::attr::Effect;
-use crate::errno::Errno;
-use crate::port::Port;
+use crate::brick::port::Port;
+use crate::files::attr::Effect;
+use crate::files::errno::Errno;
 use crate::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
 
 /// From a mode message to the first data of the new mode.
@@ -129,7 +129,7 @@ impl Sensor {
         !self.out_of_contact() && self.now >= self.first_data_at
     }
 
-    /// Cuts the line for so many ticks: the sensor has to introduce itself again.
+    /// Cuts the line for a number of ticks. The sensor then has to introduce itself again.
     pub(crate) fn lose_contact(&mut self, ticks: u64) {
         self.pending = None;
         self.lost_until = self.now + ticks;
@@ -165,7 +165,7 @@ impl Sensor {
         }
     }
 
-    /// The first data of a mode have come. They may be stale; a gyro starts anew.
+    /// The first data of a mode have come. They may be stale. A gyro starts again from 0.
     fn enter(&mut self, mode: usize) {
         self.pending = None;
         if self.read_at.take().is_some() && !self.kind.is_gyro() {

@@ -42,7 +42,7 @@ const TACHO: &[Row] = &[
     ("uevent", 0o664, Ok("LEGO_DRIVER_NAME=lego-ev3-l-motor\nLEGO_ADDRESS=ev3-ports:outB")),
 ];
 
-const COLOUR: &[Row] = &[
+const COLOR: &[Row] = &[
     ("address", 0o444, Ok("ev3-ports:in2")),
     ("bin_data_format", 0o444, Ok("s8")),
     ("command", 0o220, WRITE_ONLY),
@@ -106,7 +106,7 @@ fn modes_and_texts_after_boot() {
     let mut desk = Desk::new();
     let classes: &[(&str, &[Row])] = &[
         ("tacho-motor/motor1", TACHO),
-        ("lego-sensor/sensor1", COLOUR),
+        ("lego-sensor/sensor1", COLOR),
         ("lego-port/port5", OUT_PORT),
         ("lego-port/port0", IN_PORT),
         ("leds/led0:green:brick-status", LED),
@@ -131,11 +131,11 @@ fn the_tables_above_are_complete() {
     let desk = Desk::new();
     let names = |rows: &[Row]| rows.iter().map(|row| row.0.to_owned()).collect::<Vec<_>>();
     assert_eq!(attributes(&desk, "tacho-motor/motor1"), names(TACHO));
-    let mut colour = names(COLOUR);
-    colour.retain(|name| !name.starts_with("value"));
-    colour.insert(1, "bin_data".to_owned());
-    colour.extend((0..8).map(|index| format!("value{index}")));
-    assert_eq!(attributes(&desk, "lego-sensor/sensor1"), colour);
+    let mut color = names(COLOR);
+    color.retain(|name| !name.starts_with("value"));
+    color.insert(1, "bin_data".to_owned());
+    color.extend((0..8).map(|index| format!("value{index}")));
+    assert_eq!(attributes(&desk, "lego-sensor/sensor1"), color);
 }
 
 /// The attributes below a directory, with their directories.

@@ -1,12 +1,12 @@
 //! The paper's obstacle avoidance in a room with walls and boxes.
 
-use ev3_sim::RobotSpec;
+use crate::robots::default_robot;
 
 use crate::desk::{B, C, Desk, furnished};
 
 #[test]
 fn two_minutes_without_a_collision() {
-    let mut desk = Desk::with(&furnished(), &RobotSpec::default());
+    let mut desk = Desk::with(&furnished(), &default_robot());
     for motor in [B, C] {
         desk.put(&format!("{motor}stop_action"), "hold");
     }

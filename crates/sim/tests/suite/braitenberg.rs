@@ -1,12 +1,13 @@
 //! Vehicles that are drawn to a lamp, or flee it: the paper's first programs.
 
+use crate::robots::default_robot;
 use ev3_sim::{Bounds, Item, Pose, RobotSpec, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
 const LAMP: [f64; 2] = [100.0, 120.0];
 
-/// `braitenberg2` of the paper: the right eye (in2) drives outB, the left one (in3) outC.
+/// `braitenberg2` of the paper: the eye on in2 drives outB, the one on in3 drives outC.
 /// Answers how near the robot came to the lamp, and how far it was at the end.
 fn vehicle_2(robot: &RobotSpec, start: Pose) -> (f64, f64) {
     let world = WorldSpec {
@@ -40,9 +41,11 @@ fn vehicle_2(robot: &RobotSpec, start: Pose) -> (f64, f64) {
 fn vehicle_2_flees_the_lamp_and_its_crossed_twin_reaches_it() {
     for start in [Pose::new(80.0, 40.0, 0.0), Pose::new(130.0, 50.0, -20.0)] {
         let begin = (start.x - LAMP[0]).hypot(start.y - LAMP[1]);
-        let (nearest, _) = vehicle_2(&RobotSpec::default(), start);
-        assert!(nearest < 10.0, "crossed: {nearest} from {begin}");
-        let (nearest, _) = vehicle_2(&RobotSpec::swapped(), start);
+        let (nearest, _) = vehicle_2(&default_robot(), start);
         assert!(nearest > 30.0, "shy: {nearest} from {begin}");
+        let mut crossed = default_robot();
+        std::mem::swap(&mut crossed.left.port, &mut crossed.right.port);
+        let (nearest, _) = vehicle_2(&crossed, start);
+        assert!(nearest < 10.0, "crossed: {nearest} from {begin}");
     }
 }

@@ -1,6 +1,7 @@
-//! `dc-motor`: duty and nothing else (section 4.1 of the sheet).
+//! `dc-motor`: duty and nothing else (`docs/ev3dev-sysfs.md`, 4.1).
 
-use ev3_sim::{Errno, Item, Port, Pose, RobotSpec, WorldSpec};
+use crate::robots::default_robot;
+use ev3_sim::{Errno, Item, Port, Pose, WorldSpec};
 
 use crate::desk::Desk;
 
@@ -107,7 +108,7 @@ fn ramps_follow_the_signed_duty() {
 
 #[test]
 fn a_lamp_on_a_port_is_seen_as_bright_as_the_port_drives_it() {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     robot.sensors[1].pose = Pose::new(0.0, 0.0, 0.0);
     let bulb = Item::Bulb { at: [0.0, 50.0], intensity: 12.0, port: Port::OutD };
     let world = WorldSpec { ambient: 0.0, items: vec![bulb], ..WorldSpec::default() };

@@ -1,5 +1,6 @@
 //! A brick on a desk, in the words of a shell.
 
+use crate::robots::default_robot;
 use std::fmt::Display;
 use std::time::Duration;
 
@@ -19,7 +20,7 @@ pub(crate) fn furnished() -> WorldSpec {
         items: vec![
             boxed(70.0, 155.0, 20.0, 40.0, 30.0),
             boxed(215.0, 80.0, -15.0, 30.0, 45.0),
-            Item::Circle { centre: [190.0, 185.0], radius: 10.0 },
+            Item::Circle { center: [190.0, 185.0], radius: 10.0 },
         ],
         bounds: Some(Bounds { low: [0.0, 0.0], high: [300.0, 240.0] }),
         start: Pose::new(60.0, 50.0, 0.0),
@@ -32,7 +33,7 @@ pub(crate) struct Desk(pub(crate) Machine);
 impl Desk {
     /// The default robot on an endless floor.
     pub(crate) fn new() -> Desk {
-        Desk::with(&WorldSpec::default(), &RobotSpec::default())
+        Desk::with(&WorldSpec::default(), &default_robot())
     }
 
     pub(crate) fn with(world: &WorldSpec, robot: &RobotSpec) -> Desk {

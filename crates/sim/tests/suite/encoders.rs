@@ -1,13 +1,14 @@
 //! Encoders whose teeth are not quite where they should be.
 
+use crate::robots::default_robot;
 use std::collections::{BTreeMap, BTreeSet};
 
-use ev3_sim::{Machine, Options, RobotSpec, WorldSpec};
+use ev3_sim::{Machine, Options, WorldSpec};
 
 use crate::desk::{A, B, C, Desk};
 
 fn desk_of(sigma: f64, seed: u64) -> Desk {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     for motor in &mut robot.motors {
         motor.encoder_noise = sigma;
     }
@@ -100,7 +101,7 @@ fn positions_that_are_held_are_those_that_are_shown() {
 #[test]
 fn errors_are_not_below_0() {
     for sigma in [-1.0, f64::NAN, f64::INFINITY] {
-        let mut robot = RobotSpec::default();
+        let mut robot = default_robot();
         robot.motors[1].encoder_noise = sigma;
         let error = robot.validate().unwrap_err();
         assert!(error.to_string().starts_with("encoder noise on outB"), "{error}");

@@ -1,8 +1,9 @@
 //! One long run whose every byte is fixed: the same on each machine, build and day.
 
+use crate::robots::default_robot;
 use std::fmt::Write;
 
-use ev3_sim::{Machine, Options, RobotSpec};
+use ev3_sim::{Machine, Options};
 
 use crate::desk::{B, C, Desk, furnished};
 
@@ -15,7 +16,7 @@ fn digest(bytes: &[u8]) -> u64 {
 
 /// Drives about the noisy room for a minute, turning away from what is near.
 fn run() -> Vec<u8> {
-    let robot = RobotSpec::default().with_typical_noise();
+    let robot = default_robot().with_typical_noise();
     let options = Options { seed: 42, ..Options::default() };
     let mut desk = Desk(Machine::new(&furnished(), &robot, options).unwrap());
     let mut bytes = String::new();

@@ -1,4 +1,4 @@
-//! Linear actuators (sections 1, 2 and 2.1 of the sheet).
+//! Linear actuators (`docs/ev3dev-sysfs.md`, 1, 2 and 2.1).
 
 use ev3_sim::{Errno, Port};
 
@@ -15,7 +15,7 @@ fn desk() -> Desk {
     let mut desk = Desk::new();
     desk.0.plug(Port::OutD, "act-l12-ev3-50").unwrap();
     desk.step(1000);
-    assert_eq!(desk.get("tacho-motor/motor3/driver_name"), "lego-ev3-l-motor", "not recognised");
+    assert_eq!(desk.get("tacho-motor/motor3/driver_name"), "lego-ev3-l-motor", "not recognized");
     desk.put("lego-port/port7/set_device", "act-l12-ev3-50");
     desk.step(500);
     desk

@@ -1,8 +1,9 @@
 //! Sensors of the NXT and of other makers, beacons and remote controls.
 
+use crate::robots::{default_robot, touch_robot};
 use std::time::Duration;
 
-use ev3_sim::{Button, Errno, Item, Machine, Options, Pose, RobotSpec, WorldSpec};
+use ev3_sim::{Errno, Item, Machine, Options, Pose, RemoteButton, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
@@ -15,7 +16,7 @@ fn desk(driver: &str, items: Vec<Item>) -> Desk {
 }
 
 fn desk_in(driver: &str, world: &WorldSpec) -> Desk {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     driver.clone_into(&mut robot.sensors[3].driver);
     let mut desk = Desk::with(world, &robot);
     if desk.get("lego-port/port3/status") == "nxt-analog" && driver != "lego-nxt-light" {
@@ -94,13 +95,13 @@ fn every_mode_says_what_the_sheet_says() {
 #[test]
 fn light_is_a_voltage_that_falls() {
     let mut desk = desk("lego-nxt-light", vec![]);
-    assert_eq!(get(&mut desk, "driver_name"), "lego-nxt-light", "recognised when plugged in");
+    assert_eq!(get(&mut desk, "driver_name"), "lego-nxt-light", "recognized when plugged in");
     assert_eq!(values(&mut desk, "REFLECT"), [922]);
     let data = bytes(&mut desk);
     let millivolts = i32::from_le_bytes(data[..4].try_into().unwrap());
     assert_eq!((millivolts - 4116) * 1000 / (543 - 4116), 922, "{millivolts} mV");
     assert_eq!(values(&mut desk, "AMBIENT"), [20], "the light from everywhere");
-    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Colour::BLACK);
+    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Color::BLACK);
     desk.0.add_item(black).unwrap();
     assert!(values(&mut desk, "REFLECT")[0] < 100);
 }
@@ -174,7 +175,7 @@ fn without_polling_a_new_mode_shows_what_it_showed_last() {
 }
 
 #[test]
-fn the_nxt_sonar_counts_centimetres() {
+fn the_nxt_sonar_counts_centimeters() {
     let mut desk = desk("lego-nxt-us", vec![Item::wall([-100.0, 80.7], [100.0, 80.7])]);
     assert_eq!(values(&mut desk, "US-DIST-CM"), [80]);
     assert_eq!(values(&mut desk, "US-DIST-IN"), [80 * 1000 / 255]);
@@ -192,7 +193,7 @@ fn the_nxt_sonar_counts_centimetres() {
 }
 
 #[test]
-fn hitechnic_sees_colours_by_its_own_numbers() {
+fn hitechnic_sees_colors_by_its_own_numbers() {
     for (name, number, rgb) in [("white", 17, None), ("black", 0, None), ("red", 8, Some(0))] {
         let floor = WorldSpec { floor: name.parse().unwrap(), ..WorldSpec::default() };
         let mut first = desk_in("ht-nxt-color", &floor);
@@ -303,7 +304,7 @@ fn a_row_of_lights_finds_the_line() {
     let line = |x: f64| Item::Line {
         points: vec![[x, -50.0], [x, 50.0]],
         width: 1.0,
-        colour: ev3_sim::Colour::BLACK,
+        color: ev3_sim::Color::BLACK,
     };
     let steer = |x: f64| values(&mut desk("ms-line-leader", vec![line(x)]), "PID-ALL");
     assert_eq!(steer(30.0), [0, 0, 0], "no line");
@@ -328,7 +329,7 @@ fn a_beacon_is_seen_where_it_is() {
     desk.0.place(Pose::new(0.0, 0.0, 180.0)).unwrap();
     assert_eq!(values(&mut desk, "IR-SEEK")[..2], [0, -128], "behind it");
     desk.0.place(Pose::new(0.0, 0.0, 0.0)).unwrap();
-    desk.0.add_item(Item::Circle { centre: [0.0, 70.0], radius: 5.0 }).unwrap();
+    desk.0.add_item(Item::Circle { center: [0.0, 70.0], radius: 5.0 }).unwrap();
     assert_eq!(values(&mut desk, "IR-SEEK")[..2], [0, -128], "hidden");
     let far = values(&mut self::desk("lego-ev3-ir", vec![beacon(0.0, 210.0, 2)]), "IR-SEEK");
     assert_eq!(far, [0, -128, 0, -128, 0, -128, 0, -128]);
@@ -355,10 +356,10 @@ fn hitechnics_seeker_tells_nine_directions() {
 #[test]
 fn a_remote_control_is_heard_everywhere() {
     let mut desk = desk("lego-ev3-ir", vec![]);
-    desk.0.hold_buttons(2, &[Button::BlueDown, Button::RedUp]).unwrap();
+    desk.0.hold_buttons(2, &[RemoteButton::BlueDown, RemoteButton::RedUp]).unwrap();
     assert_eq!(values(&mut desk, "IR-REMOTE"), [0, 6, 0, 0]);
     assert_eq!(values(&mut desk, "IR-REM-A"), [384]);
-    desk.0.hold_buttons(1, &[Button::RedDown]).unwrap();
+    desk.0.hold_buttons(1, &[RemoteButton::RedDown]).unwrap();
     desk.step(2);
     assert_eq!(values(&mut desk, "IR-REM-A"), [256 + 32]);
     desk.0.hold_buttons(2, &[]).unwrap();
@@ -367,7 +368,7 @@ fn a_remote_control_is_heard_everywhere() {
     let error = desk.0.hold_buttons(0, &[]).unwrap_err();
     assert!(error.to_string().contains("channel 0"), "{error}");
     assert!(desk.0.hold_buttons(5, &[]).is_err());
-    let all = [Button::RedUp, Button::BlueUp, Button::BlueDown];
+    let all = [RemoteButton::RedUp, RemoteButton::BlueUp, RemoteButton::BlueDown];
     assert!(desk.0.hold_buttons(1, &all).is_err());
     assert_eq!(values(&mut desk, "IR-REMOTE"), [2, 0, 0, 0], "nothing was changed");
 }
@@ -419,13 +420,13 @@ fn impossible_worlds_are_refused() {
         WorldSpec { loudness: 101.0, ..WorldSpec::default() },
     ];
     for world in impossible {
-        assert!(Machine::new(&world, &RobotSpec::default(), Options::default()).is_err());
+        assert!(Machine::new(&world, &default_robot(), Options::default()).is_err());
     }
 }
 
 #[test]
 fn a_pressed_nxt_touch_sensor_wakes_who_waits() {
-    let mut robot = RobotSpec::with_touch();
+    let mut robot = touch_robot();
     "lego-nxt-touch".clone_into(&mut robot.sensors[3].driver);
     let world = WorldSpec {
         items: vec![Item::wall([-100.0, 30.0], [100.0, 30.0])],
@@ -449,7 +450,7 @@ fn a_pressed_nxt_touch_sensor_wakes_who_waits() {
 #[test]
 fn sensors_of_the_nxt_have_errors_if_they_are_asked_for() {
     for (driver, mode) in [("lego-nxt-us", "US-DIST-CM"), ("ht-nxt-compass", "COMPASS")] {
-        let mut robot = RobotSpec::default();
+        let mut robot = default_robot();
         driver.clone_into(&mut robot.sensors[3].driver);
         let wall = vec![Item::wall([-100.0, 100.5], [100.0, 100.5])];
         let world = WorldSpec { items: wall, ..WorldSpec::default() };

@@ -1,5 +1,6 @@
 //! The robot drives: distances, turns, walls.
 
+use crate::robots::default_robot;
 use ev3_sim::{Bounds, Hull, Item, Pose, RobotSpec, WorldSpec};
 
 use crate::desk::{B, C, Desk};
@@ -65,16 +66,16 @@ fn mounting_and_wheels_make_a_difference() {
         move_both(&mut desk, 300, 720.0, 720.0);
         desk.0.pose()
     };
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     robot.left.inverted = true;
     robot.right.inverted = true;
     assert_near(forward(&robot), Pose::new(0.0, -720.0 / PER_CM, 0.0), 0.3, 0.1);
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     std::mem::swap(&mut robot.left.port, &mut robot.right.port);
     robot.left.diameter = 5.5;
     let pose = forward(&robot);
     assert!(pose.heading < -3.0 && pose.x < -0.5, "pulls to the smaller, left wheel: {pose:?}");
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     robot.right.slip = 0.05;
     assert!(forward(&robot).heading > 5.0, "pulls to the slipping, right wheel");
 }
@@ -84,7 +85,7 @@ fn corridor(hull: Hull) -> Desk {
         items: vec![Item::wall([-100.0, 60.0], [100.0, 60.0])],
         ..WorldSpec::default()
     };
-    Desk::with(&world, &RobotSpec { hull, ..RobotSpec::default() })
+    Desk::with(&world, &RobotSpec { hull, ..default_robot() })
 }
 
 #[test]
@@ -168,7 +169,7 @@ fn the_battery_sags_under_load() {
             bounds: Some(Bounds { low: [-20.0, -20.0], high: [20.0, 20.0] }),
             ..WorldSpec::default()
         },
-        &RobotSpec::default(),
+        &default_robot(),
     );
     let volts = "power_supply/lego-ev3-battery/voltage_now";
     let rest = desk.number(volts);

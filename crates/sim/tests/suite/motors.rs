@@ -1,4 +1,4 @@
-//! The state machine of a tacho motor, transition by transition (section 3 of the sheet).
+//! The state machine of a tacho motor, transition by transition (`docs/ev3dev-sysfs.md`, 3).
 
 use ev3_sim::{Access, Descriptor, Errno, Port};
 

@@ -1,12 +1,13 @@
 //! Wires pulled and put in, and the modes of ports.
 
-use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, RobotSpec, WorldSpec};
+use crate::robots::default_robot;
+use ev3_sim::{Access, Descriptor, Errno, Machine, Options, Port, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
 fn instant() -> Desk {
     let options = Options { instant: true, ..Options::default() };
-    Desk(Machine::new(&WorldSpec::default(), &RobotSpec::default(), options).unwrap())
+    Desk(Machine::new(&WorldSpec::default(), &default_robot(), options).unwrap())
 }
 
 #[test]
@@ -113,11 +114,11 @@ fn a_shown_state_wakes_who_polls_once() {
 fn what_cannot_be_shown_is_refused() {
     let mut desk = instant();
     assert_eq!(desk.0.show(Port::OutD, "state", ""), Err(Errno::ENODEV));
-    assert_eq!(desk.0.show(Port::OutB, "colour", "red"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.show(Port::OutB, "color", "red"), Err(Errno::ENOENT));
     assert_eq!(desk.0.show(Port::OutB, "command", "stop"), Err(Errno::EACCES));
     assert_eq!(desk.0.show(Port::OutB, "state", &"x".repeat(4096)), Err(Errno::EINVAL));
     desk.0.show(Port::OutB, "state", &"x".repeat(4095)).unwrap();
-    assert_eq!(desk.0.unshow(Port::OutB, "colour"), Err(Errno::ENOENT));
+    assert_eq!(desk.0.unshow(Port::OutB, "color"), Err(Errno::ENOENT));
     assert_eq!(desk.0.unshow(Port::OutD, "state"), Err(Errno::ENODEV));
 }
 

@@ -1,5 +1,6 @@
 //! What holds for every program, every world and every slicing of time.
 
+use crate::robots::default_robot;
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -58,7 +59,7 @@ fn deeds(most: usize) -> impl Strategy<Value = Vec<Deed>> {
 }
 
 fn noisy_room(seed: u64) -> Desk {
-    let robot = RobotSpec::default().with_typical_noise();
+    let robot = default_robot().with_typical_noise();
     let options = Options { seed, ..Options::default() };
     Desk(Machine::new(&furnished(), &robot, options).unwrap())
 }
@@ -163,7 +164,7 @@ proptest! {
         });
         let rectangular = Hull::Rectangle { width: 13.0, length: 19.0, offset: 2.0 };
         let hull = if rectangle { rectangular } else { Hull::Circle { radius: 8.0 } };
-        let robot = RobotSpec { hull, ..RobotSpec::default() };
+        let robot = RobotSpec { hull, ..default_robot() };
         let bounds = Some(Bounds { low: [-70.0, -70.0], high: [70.0, 70.0] });
         let mut desk = Desk::with(&WorldSpec { bounds, ..WorldSpec::default() }, &robot);
         for item in items {

@@ -1,16 +1,15 @@
 //! Sensors against the geometry of a world, and the ways of their drivers.
 
+use crate::robots::{default_robot, touch_robot};
 use std::time::Duration;
 
-use ev3_sim::{
-    Access, Descriptor, Errno, Item, Machine, Noise, Options, Port, Pose, RobotSpec, WorldSpec,
-};
+use ev3_sim::{Access, Descriptor, Errno, Item, Machine, Noise, Options, Port, Pose, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
 const SONAR: &str = "lego-sensor/sensor0/";
-const RIGHT: &str = "lego-sensor/sensor1/";
-const LEFT: &str = "lego-sensor/sensor2/";
+const LEFT: &str = "lego-sensor/sensor1/";
+const RIGHT: &str = "lego-sensor/sensor2/";
 const GYRO: &str = "lego-sensor/sensor3/";
 
 fn world(items: Vec<Item>) -> WorldSpec {
@@ -19,7 +18,7 @@ fn world(items: Vec<Item>) -> WorldSpec {
 
 /// A desk with one sensor of a kind on in4.
 fn with_in4(driver: &str, items: Vec<Item>) -> Desk {
-    let mut robot = RobotSpec::with_touch();
+    let mut robot = touch_robot();
     driver.clone_into(&mut robot.sensors[3].driver);
     Desk::with(&world(items), &robot)
 }
@@ -113,13 +112,11 @@ fn every_mode_says_what_the_sheet_says() {
 
 #[test]
 fn the_sonar_measures_the_nearest_thing_in_its_cone() {
-    let mut desk = Desk::with(
-        &world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]),
-        &RobotSpec::default(),
-    );
+    let mut desk =
+        Desk::with(&world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]), &default_robot());
     // The sensor sits 7 cm ahead of the axle; the wall's near face is at 99.5 cm.
     assert_eq!(value(&mut desk, SONAR, 0), 925);
-    let pillar = desk.0.add_item(Item::Circle { centre: [5.0, 60.0], radius: 3.0 }).unwrap();
+    let pillar = desk.0.add_item(Item::Circle { center: [5.0, 60.0], radius: 3.0 }).unwrap();
     desk.step(2);
     let pillar_at = value(&mut desk, SONAR, 0);
     assert!((498..=506).contains(&pillar_at), "{pillar_at}");
@@ -139,10 +136,8 @@ fn the_sonar_measures_the_nearest_thing_in_its_cone() {
 
 #[test]
 fn single_shots_are_taken_once_and_not_too_often() {
-    let mut desk = Desk::with(
-        &world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]),
-        &RobotSpec::default(),
-    );
+    let mut desk =
+        Desk::with(&world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]), &default_robot());
     mode(&mut desk, SONAR, "US-SI-CM");
     assert_eq!(value(&mut desk, SONAR, 0), 925);
     desk.0.place(Pose::new(0.0, 20.0, 0.0)).unwrap();
@@ -162,17 +157,17 @@ fn single_shots_are_taken_once_and_not_too_often() {
 }
 
 #[test]
-fn the_floor_has_colours() {
-    let colour = |name: &str| name.parse().unwrap();
+fn the_floor_has_colors() {
+    let color = |name: &str| name.parse().unwrap();
     for (code, name) in (1..).zip(["black", "blue", "green", "yellow", "red", "white", "brown"]) {
-        let floor = WorldSpec { floor: colour(name), ..WorldSpec::default() };
-        let mut desk = Desk::with(&floor, &RobotSpec::default());
+        let floor = WorldSpec { floor: color(name), ..WorldSpec::default() };
+        let mut desk = Desk::with(&floor, &default_robot());
         mode(&mut desk, RIGHT, "COL-COLOR");
         assert_eq!(value(&mut desk, RIGHT, 0), code, "{name}");
     }
     let line =
-        Item::Line { points: vec![[3.0, -50.0], [3.0, 50.0]], width: 2.0, colour: colour("black") };
-    let mut desk = Desk::with(&world(vec![line]), &RobotSpec::default());
+        Item::Line { points: vec![[3.0, -50.0], [3.0, 50.0]], width: 2.0, color: color("black") };
+    let mut desk = Desk::with(&world(vec![line]), &default_robot());
     assert_eq!(value(&mut desk, RIGHT, 0), 6);
     assert_eq!(value(&mut desk, LEFT, 0), 92);
     desk.0.place(Pose::new(-1.0, 0.0, 0.0)).unwrap();
@@ -188,16 +183,16 @@ fn the_floor_has_colours() {
 
 #[test]
 fn lamps_fall_off_with_the_square_and_throw_shadows() {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     robot.sensors[1].pose = Pose::new(0.0, 0.0, 0.0);
     let dark = WorldSpec { ambient: 0.0, ..WorldSpec::default() };
     let read = |distance: f64, heading: f64, box_at: Option<f64>| {
         let mut items = vec![Item::Lamp { at: [0.0, distance], intensity: 12.0 }];
-        items.extend(box_at.map(|y| Item::Circle { centre: [0.0, y], radius: 3.0 }));
+        items.extend(box_at.map(|y| Item::Circle { center: [0.0, y], radius: 3.0 }));
         let mut desk = Desk::with(&WorldSpec { items, ..dark.clone() }, &robot);
         desk.0.place(Pose::new(0.0, 0.0, heading)).unwrap();
-        mode(&mut desk, RIGHT, "COL-AMBIENT");
-        value(&mut desk, RIGHT, 0)
+        mode(&mut desk, LEFT, "COL-AMBIENT");
+        value(&mut desk, LEFT, 0)
     };
     let table = [(20.0, 100), (50.0, 38), (100.0, 12), (200.0, 3)];
     for (distance, expected) in table {
@@ -236,7 +231,7 @@ fn the_gyro_turns_with_the_robot_and_restarts_with_its_mode() {
 
 #[test]
 fn gyro_drift_and_noise_are_off_until_asked_for() {
-    let mut robot = RobotSpec::default();
+    let mut robot = default_robot();
     robot.sensors[3].noise = Noise { sigma: 0.0, bias: 0.5 };
     robot.sensors[0].noise = Noise { sigma: 1.0, bias: 0.0 };
     let wall = world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]);
@@ -298,41 +293,41 @@ fn a_bumper_is_pressed_by_a_wall_and_wakes_who_waits() {
 #[test]
 fn a_mode_change_takes_a_moment_and_leaves_stale_values() {
     let mut desk = Desk::new();
-    assert_eq!(value(&mut desk, RIGHT, 0), 92);
-    let blocks = desk.try_put(&format!("{RIGHT}mode"), "COL-COLOR").unwrap();
+    assert_eq!(value(&mut desk, LEFT, 0), 92);
+    let blocks = desk.try_put(&format!("{LEFT}mode"), "COL-COLOR").unwrap();
     assert!(blocks > Duration::ZERO && blocks < Duration::from_millis(20));
-    assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-REFLECT", "until data come");
-    assert_eq!(desk.try_put(&format!("{RIGHT}mode"), "REF-RAW"), Err(Errno::EBUSY));
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-REFLECT", "until data come");
+    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "REF-RAW"), Err(Errno::EBUSY));
     desk.0.step(blocks);
-    assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR");
-    assert_eq!(value(&mut desk, RIGHT, 0), 6, "nothing that could be left over");
-    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Colour::BLACK);
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-COLOR");
+    assert_eq!(value(&mut desk, LEFT, 0), 6, "nothing that could be left over");
+    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Color::BLACK);
     desk.0.add_item(black).unwrap();
-    desk.put(&format!("{RIGHT}mode"), "COL-REFLECT");
-    assert_eq!(value(&mut desk, RIGHT, 0), 92, "left over from the last time");
+    desk.put(&format!("{LEFT}mode"), "COL-REFLECT");
+    assert_eq!(value(&mut desk, LEFT, 0), 92, "left over from the last time");
     desk.step(10);
-    assert_eq!(value(&mut desk, RIGHT, 0), 6);
+    assert_eq!(value(&mut desk, LEFT, 0), 6);
 }
 
 #[test]
 fn a_lost_contact_comes_back() {
     let mut desk = Desk::new();
-    mode(&mut desk, RIGHT, "COL-COLOR");
+    mode(&mut desk, LEFT, "COL-COLOR");
     assert!(desk.0.lose_contact(Port::In2, Duration::from_millis(500)));
-    assert_eq!(desk.try_get(&format!("{RIGHT}value0")), Err(Errno::ENXIO));
-    assert_eq!(desk.number(&format!("{RIGHT}num_values")), 0);
-    assert_eq!(desk.get(&format!("{RIGHT}mode")), "");
-    assert_eq!(desk.try_put(&format!("{RIGHT}mode"), "COL-COLOR"), Err(Errno::ENODEV));
+    assert_eq!(desk.try_get(&format!("{LEFT}value0")), Err(Errno::ENXIO));
+    assert_eq!(desk.number(&format!("{LEFT}num_values")), 0);
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "");
+    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "COL-COLOR"), Err(Errno::ENODEV));
     desk.step(600);
-    assert_eq!(desk.get(&format!("{RIGHT}mode")), "COL-COLOR", "the last mode is restored");
-    assert_eq!(value(&mut desk, RIGHT, 0), 6);
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-COLOR", "the last mode is restored");
+    assert_eq!(value(&mut desk, LEFT, 0), 6);
     assert!(!desk.0.lose_contact(Port::OutB, Duration::from_millis(500)));
 }
 
 #[test]
 fn the_calibration_mode_loses_contact_by_itself() {
     let mut desk = Desk::new();
-    desk.put(&format!("{RIGHT}mode"), "COL-CAL");
+    desk.put(&format!("{LEFT}mode"), "COL-CAL");
     desk.step(800);
-    assert_eq!(desk.try_get(&format!("{RIGHT}value0")), Err(Errno::ENXIO));
+    assert_eq!(desk.try_get(&format!("{LEFT}value0")), Err(Errno::ENXIO));
 }

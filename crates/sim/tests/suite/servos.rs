@@ -1,4 +1,4 @@
-//! RC servos behind a controller (section 4.3 of the sheet).
+//! RC servos behind a controller (`docs/ev3dev-sysfs.md`, 4.3).
 
 use ev3_sim::{Errno, Port};
 

@@ -15,7 +15,7 @@
 %   obstacles and this start, a state or `none`. Without rows there are 8 by 8
 %   cells.
 %
-%   @error domain_error(map_row, Row)
+%   @error domain_error(map_row, Row) for an unknown character or a second start
 
 grid_drawn(Rows, Obstacles, Start, Bounds) :-
     must_be(list, Rows),
@@ -37,15 +37,25 @@ drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
               memberchk(Character, [#, 'O'])
             ),
             Obstacles),
-    (   member(Character-Cell, Drawn),
-        start(Character, Direction)
-    ->  Start = state(Cell, Direction)
-    ;   Start = none
-    ),
+    findall(state(Cell, Direction),
+            ( member(Character-Cell, Drawn),
+              start(Character, Direction)
+            ),
+            Starts),
+    only_start(Starts, Rows, Start),
     length(Rows, Count),
     Y2 is Count - 1,
     findall(X, member(_-[X, _], Drawn), Xs),
     max_list([0|Xs], X2).
+
+%   Starts and Rows are from below; the second start from above is one too many.
+only_start([], _, none).
+only_start([Start], _, Start) :-
+    !.
+only_start(Starts, Rows, _) :-
+    reverse(Starts, [_, state([_, Y], _)|_]),
+    nth0(Y, Rows, Row),
+    domain_error(map_row, Row).
 
 must_be_row(Row) :-
     must_be(nonvar, Row),
@@ -61,8 +71,9 @@ must_be_row(Row) :-
 %   Those of the simulator: the rest are free cells.
 character(Character) :-
     memberchk(Character,
-              [ #, 'O', '.', ' ', 'L', ^, >, v, <, k, b, g, y, r, w, n ]).
+              [ #, 'O', '.', ' ', 'L', 'S', ^, >, v, <, k, b, g, y, r, w, n ]).
 
+start('S', [0, 1]).
 start(^, [0, 1]).
 start(>, [1, 0]).
 start(v, [0, -1]).

@@ -1,4 +1,4 @@
-//! The sensors of the EV3 sets (section 5.4 of the reference sheet).
+//! The sensors of the EV3 sets: `docs/ev3dev-sysfs.md`, 5.4.
 
 use super::{Format, Mode, Sense, SensorKind};
 
@@ -16,7 +16,7 @@ pub(super) static KINDS: &[SensorKind] = &[
         &[
             Mode::new("COL-REFLECT", 1, 0, "pct", Format::S8, Sense::Reflection),
             Mode::new("COL-AMBIENT", 1, 0, "pct", Format::S8, Sense::Ambient),
-            Mode::new("COL-COLOR", 1, 0, "col", Format::S8, Sense::Colour),
+            Mode::new("COL-COLOR", 1, 0, "col", Format::S8, Sense::Color),
             Mode::new("REF-RAW", 2, 0, "", Format::S16, Sense::ReflectionRaw),
             Mode::new("RGB-RAW", 3, 0, "", Format::S16, Sense::Rgb),
             Mode::new("COL-CAL", 4, 0, "", Format::S16, Sense::Nothing).mute(),

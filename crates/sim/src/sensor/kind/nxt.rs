@@ -1,5 +1,5 @@
-//! LEGO's sensors for the NXT, and others that are but a voltage (section 5.5 of the reference
-//! sheet). What raw data are shown as what is from the kernel's `nxt_analog_sensor_defs.c` and
+//! LEGO's sensors for the NXT, and others that only give a voltage: `docs/ev3dev-sysfs.md`, 5.5.
+//! How each mode shows the raw data is from the kernel's `nxt_analog_sensor_defs.c` and
 //! `nxt_i2c_sensor_defs.c`.
 
 use super::{Format, Link, Mode, Sense, SensorKind};
@@ -48,7 +48,7 @@ pub(super) static KINDS: &[SensorKind] = &[
     SensorKind::nxt_analog("lego-nxt-touch", &[analog("TOUCH", 1, 0, "", Sense::Touch)]),
     SensorKind {
         driver_name: "lego-nxt-light",
-        link: Link::NxtAnalog { recognised: true },
+        link: Link::NxtAnalog { recognized: true },
         settling_ms: 0,
         commands: &[],
         modes: &[

@@ -1,6 +1,6 @@
-//! Sensors of `HiTechnic`, mindsensors and others on the I2C bus (section 5.5 of the reference
-//! sheet). What raw data are shown as what, addresses and commands are from the kernel's
-//! `nxt_i2c_sensor_defs.c`. What has no counterpart in the world shows the same always.
+//! Sensors of `HiTechnic`, mindsensors and others on the I2C bus: `docs/ev3dev-sysfs.md`, 5.5.
+//! Addresses, commands and how each mode shows the raw data are from the kernel's
+//! `nxt_i2c_sensor_defs.c`. A sensor of something that this world lacks always shows the same.
 
 use super::{Format, Mode, Parts, Sense, SensorKind};
 
@@ -64,20 +64,20 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ht-nxt-color",
         1,
         &[
-            byte("COLOR", 1, Sense::ColourNumber { parts: false }),
+            byte("COLOR", 1, Sense::ColorNumber { parts: false }),
             byte("RED", 1, Sense::Part(0)),
             byte("GREEN", 1, Sense::Part(1)),
             byte("BLUE", 1, Sense::Part(2)),
             parts("RAW", 3, Format::U16, Parts::Wide),
             parts("NORM", 4, Format::U8, Parts::Normal),
-            byte("ALL", 4, Sense::ColourNumber { parts: true }),
+            byte("ALL", 4, Sense::ColorNumber { parts: true }),
         ],
     ),
     SensorKind::i2c(
         "ht-nxt-color-v2",
         1,
         &[
-            byte("COLOR", 1, Sense::ColourNumber { parts: false }),
+            byte("COLOR", 1, Sense::ColorNumber { parts: false }),
             parts("RGB", 4, Format::U8, Parts::Bytes),
             parts("NORM", 4, Format::U8, Parts::Normal),
             // With its lamp off it sees next to nothing of the floor.

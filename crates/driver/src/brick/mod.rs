@@ -1,0 +1,8 @@
+//! The brick's own devices: lights, battery, buttons, sound, screen, ports.
+pub mod battery;
+pub mod buttons;
+pub mod light;
+pub mod port;
+mod programs;
+pub mod screen;
+pub mod sound;

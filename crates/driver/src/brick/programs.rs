@@ -1,0 +1,192 @@
+//! Other programs: those that speak and play.
+use crate::devfs::{Devfs, until};
+use crate::error::{Error, Interrupted, Result};
+use nix::sys::signal::Signal;
+use std::ffi::OsStr;
+use std::io::{self, Read};
+use std::os::unix::process::ExitStatusExt as _;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// How a program ends that could not be started, where that is only found out
+/// later: in shells, and on an emulated processor.
+const NOT_FOUND: i32 = 127;
+
+/// The signal that ends a program whose output nobody reads any more.
+const SIGPIPE: i32 = Signal::SIGPIPE as i32;
+
+/// A program, and the Debian package that brings it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Program {
+    name: &'static str,
+    package: &'static str,
+}
+
+impl Program {
+    pub(crate) const APLAY: Self = Self { name: "aplay", package: "alsa-utils" };
+    pub(crate) const AMIXER: Self = Self { name: "amixer", package: "alsa-utils" };
+    pub(crate) const ESPEAK: Self = Self { name: "espeak", package: "espeak" };
+
+    /// Starts it. Its messages can be read later.
+    pub(crate) fn start(
+        self,
+        arguments: &[&OsStr],
+        input: Stdio,
+        output: Stdio,
+    ) -> Result<Started> {
+        let mut command = Command::new(self.name);
+        command.args(arguments).stdin(input).stdout(output).stderr(Stdio::piped());
+        let child = command.spawn().map_err(|source| self.cannot_start(&source))?;
+        Ok(Started { program: self, child })
+    }
+
+    /// Runs it to its end; returns its output.
+    pub(crate) fn output(self, arguments: &[&str]) -> Result<String> {
+        let arguments: Vec<&OsStr> = arguments.iter().map(OsStr::new).collect();
+        let mut started = self.start(&arguments, Stdio::null(), Stdio::piped())?;
+        let mut printed = String::new();
+        if let Some(output) = &mut started.child.stdout {
+            let read = output.read_to_string(&mut printed);
+            read.map_err(|source| self.failed(&source.to_string()))?;
+        }
+        let status = started.child.wait().map_err(|source| self.failed(&source.to_string()))?;
+        if status.success() { Ok(printed) } else { Err(started.complaint(status)) }
+    }
+
+    fn cannot_start(self, source: &io::Error) -> Error {
+        match source.kind() {
+            io::ErrorKind::NotFound => self.missing(),
+            _ => self.failed(&source.to_string()),
+        }
+    }
+
+    fn missing(self) -> Error {
+        Error::NoProgram { program: self.name, package: self.package }
+    }
+
+    fn failed(self, message: &str) -> Error {
+        Error::Program { program: self.name, message: message.trim().to_owned() }
+    }
+}
+
+/// A program that runs, and ends when this is dropped.
+#[derive(Debug)]
+pub(crate) struct Started {
+    program: Program,
+    child: Child,
+}
+
+impl Started {
+    /// Its output, as the input of another program.
+    pub(crate) fn printed(&mut self) -> Stdio {
+        self.child.stdout.take().map_or_else(Stdio::null, Stdio::from)
+    }
+
+    /// Its error message.
+    fn complaint(&mut self, status: ExitStatus) -> Error {
+        if status.code() == Some(NOT_FOUND) {
+            return self.program.missing();
+        }
+        let mut message = String::new();
+        if let Some(errors) = &mut self.child.stderr {
+            // A part of the message is better than nothing.
+            let _ = errors.read_to_string(&mut message);
+        }
+        self.program.failed(&message)
+    }
+}
+
+impl Drop for Started {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Programs that run, by a number for those that run together.
+#[derive(Debug, Default)]
+pub(crate) struct Programs {
+    running: Mutex<Vec<(u32, Started)>>,
+    next: AtomicU32,
+}
+
+impl Programs {
+    /// Starts programs, in the order of the pipe between them, and waits until
+    /// all have ended, by themselves or by [`end`](Self::end). However it is
+    /// left, they have.
+    pub(crate) fn run<const N: usize>(
+        &self,
+        dev: &dyn Devfs,
+        start: impl FnOnce() -> Result<[Started; N]>,
+        interrupted: Interrupted,
+    ) -> Result<()> {
+        let number = self.next.fetch_add(1, Ordering::SeqCst);
+        let mut running = self.running();
+        running.extend(start()?.map(|program| (number, program)));
+        drop(running);
+        let over = until(dev, None, None, interrupted, || self.are_over(number));
+        self.running().retain(|(other, _)| *other != number);
+        over.map(drop)
+    }
+
+    /// Whether all have ended. If several failed, the error is that of the first one
+    /// that did not just lose the reader of its output.
+    fn are_over(&self, number: u32) -> Result<Option<()>> {
+        let mut running = self.running();
+        let mut failed = Vec::new();
+        for (_, started) in running.iter_mut().filter(|(other, _)| *other == number) {
+            let status = started.child.try_wait();
+            match status.map_err(|source| started.program.failed(&source.to_string()))? {
+                None => return Ok(None),
+                Some(status) if status.success() => (),
+                Some(status) => failed.push((started, status)),
+            }
+        }
+        let first = failed.into_iter().min_by_key(|(_, status)| status.signal() == Some(SIGPIPE));
+        first.map_or(Ok(Some(())), |(started, why)| Err(started.complaint(why)))
+    }
+
+    /// Ends all that run, and those that are just being started.
+    pub(crate) fn end(&self) {
+        self.running().clear();
+    }
+
+    fn running(&self) -> MutexGuard<'_, Vec<(u32, Started)>> {
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devfs::DevfsDir;
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    const SLEEP: Program = Program { name: "sleep", package: "coreutils" };
+
+    #[test]
+    fn what_is_just_being_started_is_ended() {
+        let programs = &Programs::default();
+        let begun = Instant::now();
+        std::thread::scope(|scope| {
+            let (starting, has_started) = channel();
+            let (ending, is_ended) = channel();
+            scope.spawn(move || {
+                has_started.recv().unwrap();
+                ending.send(()).unwrap();
+                programs.end();
+            });
+            let start = || {
+                let started = SLEEP.start(&[OsStr::new("60")], Stdio::null(), Stdio::null())?;
+                starting.send(()).unwrap();
+                is_ended.recv().unwrap();
+                Ok([started])
+            };
+            programs.run(&DevfsDir::new("/dev"), start, &mut || false).unwrap();
+        });
+        assert!(begun.elapsed() < Duration::from_secs(60), "it ran to its end");
+    }
+}

@@ -1,0 +1,262 @@
+//! Where the device files are: the brick's keys, its speaker and its screen.
+//!
+//! They are no attributes of text: events are read and written in the kernel's
+//! binary layout, the screen is an array of bytes. [`DevfsDir`] is a directory of
+//! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
+//! a named pipe or a file stands for each device. A simulator may stand in for
+//! it within the process by implementing [`Devfs`] and [`Stream`].
+use crate::error::{Access, Error, Interrupted, Result};
+use crate::sysfs::is_generated;
+use input_linux::EvdevHandle;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::OFlags;
+use rustix::io::Errno;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::os::fd::AsFd;
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The longest sleep before asking the caller whether to go on.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// A directory of device files.
+pub trait Devfs: Send + Sync {
+    /// The path under which programs see it: `/dev`.
+    fn root(&self) -> &Path;
+
+    /// Opens a device below the root. Never blocks.
+    ///
+    /// # Errors
+    /// The kernel's, as ENOENT where there is no such device.
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>>;
+
+    /// The time since some fixed moment.
+    fn now(&self) -> Duration;
+
+    /// Lets time pass: returns when there may be something to read, when a
+    /// signal arrives, or after `timeout`. May return early.
+    ///
+    /// # Errors
+    /// The kernel's, as ENOMEM.
+    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()>;
+
+    /// A speaker that speaks by itself, as a simulated one does. With a real
+    /// one, programs have to do it.
+    fn speaker(&self) -> Option<&dyn Speaker> {
+        None
+    }
+}
+
+/// An open device.
+pub trait Stream: Send + Sync {
+    /// Reads what comes next.
+    ///
+    /// # Errors
+    /// [`WouldBlock`](io::ErrorKind::WouldBlock) if there is nothing yet, else
+    /// the kernel's.
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// Writes behind what was written before.
+    ///
+    /// # Errors
+    /// The kernel's.
+    fn write(&self, bytes: &[u8]) -> io::Result<usize>;
+
+    /// Passes over what could be read so far.
+    ///
+    /// # Errors
+    /// The kernel's.
+    fn skip(&self) -> io::Result<()>;
+
+    /// Which keys are down, a bit for each code, as EVIOCGKEY reports.
+    ///
+    /// # Errors
+    /// ENOTTY where the file is no such device.
+    fn key_state(&self, bits: &mut [u8]) -> io::Result<()>;
+
+    /// How many bytes there are, if it is a store of bytes.
+    fn length(&self) -> Option<u64>;
+
+    /// The file that poll(2) can wait on.
+    fn pollable(&self) -> Option<&File> {
+        None
+    }
+}
+
+/// A speaker that needs no programs to speak and to play.
+pub trait Speaker: Send + Sync {
+    /// Says a text; how long that takes.
+    fn say(&self, text: &str) -> Duration;
+
+    /// Plays a recording.
+    fn play(&self, file: &str);
+
+    /// Ends what is said or played.
+    fn silence(&self);
+
+    /// The volume, in percent.
+    fn volume(&self) -> u8;
+
+    /// Sets the volume, in percent.
+    fn set_volume(&self, percent: u8);
+}
+
+/// A directory of real files.
+#[derive(Debug)]
+pub struct DevfsDir {
+    root: PathBuf,
+    started: Instant,
+}
+
+impl DevfsDir {
+    /// The devices below `root`, which need not exist.
+    #[must_use]
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into(), started: Instant::now() }
+    }
+}
+
+impl Devfs for DevfsDir {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>> {
+        let file = OpenOptions::new()
+            .read(access == Access::Read)
+            .write(access == Access::Write)
+            .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
+            .open(path)?;
+        let metadata = file.metadata()?;
+        let is_plain = metadata.is_file() && !is_generated(&file)?;
+        let length = (metadata.is_file() && metadata.len() > 0).then_some(metadata.len());
+        Ok(Box::new(DevFile { file, is_plain, length }))
+    }
+
+    fn now(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()> {
+        let until = Instant::now() + timeout;
+        if let Some(file) = stream.and_then(Stream::pollable) {
+            let mut descriptors = [PollFd::new(file, PollFlags::IN)];
+            let at_most = Timespec::try_from(timeout).map_err(io::Error::other)?;
+            match poll(&mut descriptors, Some(&at_most)) {
+                Ok(0) | Err(Errno::INTR) => return Ok(()),
+                Ok(_)
+                    if descriptors.iter().any(|found| found.revents().contains(PollFlags::IN)) =>
+                {
+                    return Ok(());
+                }
+                // A pipe whose writers have gone, which is ready for nothing.
+                Ok(_) => {}
+                Err(errno) => return Err(errno.into()),
+            }
+        }
+        std::thread::sleep(until.saturating_duration_since(Instant::now()));
+        Ok(())
+    }
+}
+
+/// A device as an open file.
+struct DevFile {
+    file: File,
+    is_plain: bool,
+    length: Option<u64>,
+}
+
+impl Stream for DevFile {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        (&self.file).read(buffer)
+    }
+
+    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        (&self.file).write(bytes)
+    }
+
+    fn skip(&self) -> io::Result<()> {
+        // A device delivers the events after it was opened; a plain file holds the
+        // earlier ones, too.
+        if self.is_plain {
+            (&self.file).seek(SeekFrom::End(0))?;
+        }
+        Ok(())
+    }
+
+    fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
+        EvdevHandle::new(self.file.as_fd()).key_state(bits).map(drop)
+    }
+
+    fn length(&self) -> Option<u64> {
+        self.length
+    }
+
+    fn pollable(&self) -> Option<&File> {
+        // A plain file is always ready.
+        (!self.is_plain).then_some(&self.file)
+    }
+}
+
+/// Opens a device by its path below the root; `None` if there is none.
+pub(crate) fn open(
+    dev: &dyn Devfs,
+    path: &Path,
+    access: Access,
+) -> Result<Option<Box<dyn Stream>>> {
+    match dev.open(path, access) {
+        Ok(stream) => Ok(Some(stream)),
+        Err(error)
+            if matches!(
+                Errno::from_io_error(&error),
+                Some(Errno::NOENT | Errno::NOTDIR | Errno::NODEV | Errno::NXIO)
+            ) =>
+        {
+            Ok(None)
+        }
+        Err(source) => Err(Error::Open { path: path.to_owned(), access, source }),
+    }
+}
+
+/// Opens the first of these devices that exists; also its path.
+pub(crate) fn open_first(
+    dev: &dyn Devfs,
+    names: &[&str],
+    access: Access,
+) -> Result<Option<(Box<dyn Stream>, PathBuf)>> {
+    for name in names {
+        let path = dev.root().join(name);
+        if let Some(stream) = open(dev, &path, access)? {
+            return Ok(Some((stream, path)));
+        }
+    }
+    Ok(None)
+}
+
+/// Calls `look` until it finds something or the time is up, and whenever there may
+/// be something to read.
+pub(crate) fn until<T>(
+    dev: &dyn Devfs,
+    stream: Option<&dyn Stream>,
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+    mut look: impl FnMut() -> Result<Option<T>>,
+) -> Result<Option<T>> {
+    let end = timeout.map(|timeout| dev.now().saturating_add(timeout));
+    loop {
+        if let Some(found) = look()? {
+            return Ok(Some(found));
+        }
+        let left = end.map_or(SLICE, |end| end.saturating_sub(dev.now()));
+        if left.is_zero() {
+            return Ok(None);
+        }
+        let paused = dev.pause(stream, left.min(SLICE));
+        paused.map_err(|source| Error::Read { path: dev.root().to_owned(), source })?;
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+    }
+}

@@ -1,0 +1,416 @@
+//! One device: its attributes as kept descriptors, and its constants.
+mod attribute;
+mod list;
+pub(crate) mod motion;
+mod observer;
+pub mod registry;
+pub mod retry;
+
+use crate::class::{Class, Detected};
+use crate::device::attribute::{Attribute, LINE, PAGE, SHORT, malformed, open, read_node, text_of};
+pub use crate::device::attribute::{read_file, read_value, write_file};
+use crate::device::list::List;
+use crate::device::motion::MotorRun;
+pub(crate) use crate::device::observer::{MotionObserver, Observer};
+use crate::error::{Access, Error, Result};
+use crate::sysfs::{AttributeFile, Entry, Sysfs};
+use crate::value::{first_line, integer};
+use rustix::io::Errno;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, ThreadId};
+use std::time::Duration;
+
+/// How long a device in a plain tree is believed to be there, in microseconds:
+/// less than it takes to delete one.
+const PRESENT_FOR_US: u32 = 100;
+
+/// A motor, a sensor, a port, a light or the battery.
+pub struct Device {
+    class: Class,
+    port: Box<str>,
+    driver: Box<str>,
+    path: PathBuf,
+    entry: Entry,
+    /// A file that exists as long as the device does.
+    presence: Box<dyn AttributeFile>,
+    /// When it was last found to be there, in microseconds, wrapping around.
+    present_at_us: AtomicU32,
+    first_seen: Duration,
+    tree: Arc<dyn Sysfs>,
+    attributes: List<Attribute>,
+    constants: List<Constant>,
+    /// The last command to a motor.
+    run: Mutex<Option<MotorRun>>,
+    /// Learns of commands that start it.
+    observer: Arc<Observer>,
+    /// The thread that is putting a sensor into a mode and reading it there.
+    user: Mutex<Option<ThreadId>>,
+    /// When its values will have settled in that mode; zero once they have.
+    settled_at: Mutex<Duration>,
+}
+
+/// A number that cannot change while the device is plugged in.
+struct Constant {
+    attribute: &'static str,
+    /// The sensor's mode that it belongs to; empty if to any.
+    mode: Box<str>,
+    value: i64,
+}
+
+impl Device {
+    /// Reads which device an entry of a class directory is.
+    pub(crate) fn detect(
+        tree: &Arc<dyn Sysfs>,
+        observer: &Arc<Observer>,
+        class: Class,
+        entry: Entry,
+    ) -> Result<Self> {
+        let path = tree.root().join(class.directory()).join(&entry.name);
+        let (presence, address, driver) = match class {
+            // These have no address: their directories are named after them.
+            Class::Led => named(&**tree, &path.join("brightness"), &entry.name)?,
+            Class::Battery => named(&**tree, &path.join("voltage_now"), &entry.name)?,
+            _ => {
+                let (presence, address) = address_of(&**tree, &path)?;
+                (presence, address, read_file(&**tree, &path.join("driver_name"))?)
+            }
+        };
+        Ok(Self {
+            class,
+            port: crate::port_name::short(&address).into(),
+            driver: driver.into(),
+            path,
+            entry,
+            presence,
+            present_at_us: AtomicU32::default(),
+            first_seen: tree.now(),
+            tree: Arc::clone(tree),
+            attributes: List::default(),
+            constants: List::default(),
+            run: Mutex::default(),
+            observer: Arc::clone(observer),
+            user: Mutex::default(),
+            settled_at: Mutex::default(),
+        })
+    }
+
+    /// The kind of device.
+    #[must_use]
+    pub fn class(&self) -> Class {
+        self.class
+    }
+
+    /// The port it is plugged into, by its short name: `outA`. Of a light or a
+    /// battery, the name of its directory.
+    #[must_use]
+    pub fn port(&self) -> &str {
+        &self.port
+    }
+
+    /// Its type: `lego-ev3-l-motor`.
+    #[must_use]
+    pub fn driver(&self) -> &str {
+        &self.driver
+    }
+
+    /// Its directory.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The tree it is in, whose clock it lives by.
+    #[must_use]
+    pub fn tree(&self) -> &dyn Sysfs {
+        &*self.tree
+    }
+
+    /// Its description for programs.
+    #[must_use]
+    pub fn detected(&self) -> Detected {
+        Detected {
+            port: self.port().to_owned(),
+            driver: self.driver().to_owned(),
+            path: self.path.clone(),
+        }
+    }
+
+    /// The error that says that it was unplugged.
+    pub(crate) fn unplugged(&self) -> Error {
+        Error::Unplugged { class: self.class, port: self.port().to_owned() }
+    }
+
+    pub(crate) fn entry(&self) -> &Entry {
+        &self.entry
+    }
+
+    /// Whether it is what an entry of its class directory stands for. A file
+    /// system may give a new directory the inode number of one that was
+    /// removed; the kernel's devices have each its own.
+    pub(crate) fn is_at(&self, entry: &Entry) -> bool {
+        self.entry == *entry && self.check_present().is_ok()
+    }
+
+    /// When it was first seen, by the tree's clock.
+    pub(crate) fn first_seen(&self) -> Duration {
+        self.first_seen
+    }
+
+    /// Fails as a read of an unplugged device does, where the reads themselves
+    /// do not notice (see [`AttributeFile::check_present`]). The result is trusted
+    /// for [`PRESENT_FOR_US`].
+    ///
+    /// # Errors
+    /// ENODEV.
+    pub fn check_present(&self) -> Result<()> {
+        if !self.presence.is_plain() {
+            return Ok(());
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "only differences count")]
+        let now = self.tree.now().as_micros() as u32;
+        let checked = self.present_at_us.load(Ordering::Relaxed);
+        if now.wrapping_sub(checked) < PRESENT_FOR_US {
+            return Ok(());
+        }
+        self.presence
+            .check_present()
+            .map_err(|source| Error::Read { path: self.path.join("address"), source })?;
+        self.present_at_us.store(now, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// The last command to the motor.
+    pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
+        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Reports that the motor was started.
+    pub(crate) fn started(&self) {
+        if let Some(observer) = self.observer.get() {
+            observer.motor_started();
+        }
+    }
+
+    /// Does a write that changes the motor's count without turning the motor:
+    /// the odometry must not take it for a movement.
+    pub(crate) fn without_counting(&self, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        match self.observer.get() {
+            Some(observer) => observer.without_counting(self.port(), write),
+            None => write(),
+        }
+    }
+
+    /// The right to change the sensor's mode, if no other thread has it. A
+    /// thread that has it gets it again: a signal that it handles while it
+    /// waits may ask for the same sensor.
+    pub(crate) fn try_use(&self) -> Option<Use<'_>> {
+        let me = thread::current().id();
+        let mut user = self.user();
+        match *user {
+            None => {
+                *user = Some(me);
+                Some(Use { device: self, is_outermost: true })
+            }
+            Some(holder) if holder == me => Some(Use { device: self, is_outermost: false }),
+            Some(_) => None,
+        }
+    }
+
+    fn user(&self) -> MutexGuard<'_, Option<ThreadId>> {
+        self.user.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// When the sensor's values will have settled; zero once they have.
+    pub(crate) fn settled_at(&self) -> MutexGuard<'_, Duration> {
+        self.settled_at.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// An integer attribute.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where the file holds none, else the kernel's.
+    pub fn number(&self, attribute: &str) -> Result<i64> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let mut text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        if text.is_empty() && attribute.is_plain(self.tree())? {
+            text = first_line(attribute.read_written(self.tree(), &mut buffer)?);
+        }
+        integer(text).ok_or_else(|| attribute.malformed(text, "an integer"))
+    }
+
+    /// An integer that cannot change while the device is plugged in: read
+    /// once.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn constant(&self, attribute: &'static str) -> Result<i64> {
+        self.constant_in(attribute, "")
+    }
+
+    /// An integer that depends on nothing but the sensor's mode: read once for
+    /// each.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn constant_in(&self, attribute: &'static str, mode: &str) -> Result<i64> {
+        if let Some(value) = self.known_in(attribute, mode) {
+            return Ok(value);
+        }
+        let value = self.number(attribute)?;
+        self.know_in(attribute, mode, value);
+        Ok(value)
+    }
+
+    /// A number that [`know_in`](Self::know_in) remembered for a mode.
+    pub(crate) fn known_in(&self, name: &str, mode: &str) -> Option<i64> {
+        let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
+        self.constants.find(is_it).map(|constant| constant.value)
+    }
+
+    /// Remembers a number that depends on nothing but the sensor's mode. A number
+    /// that is known already stays.
+    pub(crate) fn know_in(&self, name: &'static str, mode: &str, value: i64) {
+        let is_it = |constant: &Constant| constant.attribute == name && *constant.mode == *mode;
+        let make = || Constant { attribute: name, mode: mode.into(), value };
+        self.constants.find_or_push(is_it, make);
+    }
+
+    /// Whether an attribute only stores what is written to it.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub(crate) fn is_plain(&self, attribute: &str) -> Result<bool> {
+        self.attribute(attribute).is_plain(self.tree())
+    }
+
+    /// The bytes of an attribute that is no text; how many there are.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where they fill the buffer, else the kernel's.
+    pub(crate) fn bytes(&self, attribute: &str, buffer: &mut [u8]) -> Result<usize> {
+        Ok(self.attribute(attribute).read(self.tree(), buffer)?.len())
+    }
+
+    /// Calls `look` with the text of a short attribute, as `mode` or `state`.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
+    pub fn with_word<T>(&self, attribute: &str, look: impl FnOnce(&str) -> T) -> Result<T> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let text = first_line(attribute.read(self.tree(), &mut buffer)?);
+        let word = std::str::from_utf8(text).map_err(|_| attribute.malformed(text, "a word"))?;
+        Ok(look(word))
+    }
+
+    /// The text of an attribute.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where it is not UTF-8 or is longer than a page,
+    /// else the kernel's.
+    pub fn text(&self, attribute: &str) -> Result<String> {
+        let attribute = self.attribute(attribute);
+        let mut line = [0; LINE];
+        match attribute.read(self.tree(), &mut line) {
+            // More than fits: once more, with all the room there may be.
+            Err(Error::Malformed { .. }) => {}
+            read => return text_of(&attribute.path, read?),
+        }
+        let mut page = [0; PAGE + 1];
+        text_of(&attribute.path, attribute.read(self.tree(), &mut page)?)
+    }
+
+    /// Writes an attribute.
+    ///
+    /// # Errors
+    /// The kernel's, as EINVAL for a value that is not accepted.
+    pub fn write(&self, attribute: &str, text: &str) -> Result<()> {
+        self.attribute(attribute).write(self.tree(), text)
+    }
+
+    /// Opens an attribute for writing, so that a later write cannot fail for
+    /// want of permission.
+    pub(crate) fn prepare(&self, attribute: &str) -> Result<()> {
+        self.attribute(attribute).writer(self.tree()).map(drop)
+    }
+
+    /// Writes an integer.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_number(&self, attribute: &str, number: i64) -> Result<()> {
+        self.write(attribute, itoa::Buffer::new().format(number))
+    }
+
+    /// Whether it is a linear actuator: it counts in lengths, not in turns.
+    pub(crate) fn is_linear(&self) -> bool {
+        self.entry.name.starts_with("linear")
+    }
+
+    /// Whether udev has made its files writable for this user, which takes up to a
+    /// second after a device appears (docs/ev3dev-sysfs.md, 0.1). This tries a file
+    /// that is writable on every device of the class.
+    pub(crate) fn is_writable(&self) -> bool {
+        let file = match self.class {
+            Class::TachoMotor | Class::DcMotor | Class::ServoMotor => "command",
+            Class::Sensor | Class::Port => "mode",
+            Class::Led => "brightness",
+            Class::Battery => return true,
+        };
+        let opened = self.tree.open(&self.path.join(file), Access::Write);
+        opened.err().and_then(|error| Errno::from_io_error(&error)) != Some(Errno::ACCESS)
+    }
+
+    /// The attribute of that name, whether or not there is such a file.
+    pub(crate) fn attribute(&self, name: &str) -> &Attribute {
+        let is_it = |attribute: &Attribute| *attribute.name == *name;
+        self.attributes.find_or_push(is_it, || Attribute::new(name, &self.path))
+    }
+}
+
+/// The right to change a sensor's mode; given back when dropped.
+pub(crate) struct Use<'a> {
+    device: &'a Device,
+    is_outermost: bool,
+}
+
+impl Drop for Use<'_> {
+    fn drop(&mut self) {
+        if self.is_outermost {
+            *self.device.user() = None;
+        }
+    }
+}
+
+/// A device that is known by its name, if it has a certain file.
+fn named(
+    tree: &dyn Sysfs,
+    path: &Path,
+    name: &str,
+) -> Result<(Box<dyn AttributeFile>, String, String)> {
+    Ok((open(tree, path, Access::Read)?, name.to_owned(), name.to_owned()))
+}
+
+/// Reads the `address` and `driver_name` of the device at a path.
+///
+/// # Errors
+/// The kernel's; [`Error::Malformed`] where there is no address.
+pub fn identity(tree: &dyn Sysfs, path: &Path) -> Result<(String, String)> {
+    let (_, address) = address_of(tree, path)?;
+    Ok((address, read_file(tree, &path.join("driver_name"))?))
+}
+
+/// Reads the `address` of the device at a path; also the open file.
+fn address_of(tree: &dyn Sysfs, path: &Path) -> Result<(Box<dyn AttributeFile>, String)> {
+    let path = path.join("address");
+    let node = open(tree, &path, Access::Read)?;
+    let mut buffer = [0; SHORT];
+    let address = text_of(&path, read_node(&*node, &path, &mut buffer)?)?;
+    if address.is_empty() {
+        return Err(malformed(&path, b"", "an address"));
+    }
+    Ok((node, address))
+}

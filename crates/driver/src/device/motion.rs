@@ -1,0 +1,41 @@
+//! The last command to a motor: pure data that is kept with the device.
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+/// The last command to a motor, as far as a wait for its end needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MotorRun {
+    /// When it was started, by the tree's clock.
+    pub(crate) started: Duration,
+    /// Whether it was started by `run-to-rel-pos`.
+    pub(crate) is_relative: bool,
+    /// The coordinated motion that has claimed the motor.
+    pub(crate) claim: Option<NonZeroU32>,
+    pub(crate) end: End,
+}
+
+impl MotorRun {
+    /// The position at which it ends.
+    pub(crate) fn target(self) -> Option<i64> {
+        match self.end {
+            End::Position { target, .. } => Some(target),
+            End::Time(_) | End::Never => None,
+        }
+    }
+
+    /// The position at which a relative run ends.
+    pub(crate) fn relative_target(self) -> Option<i64> {
+        self.target().filter(|_| self.is_relative)
+    }
+}
+
+/// How a run is meant to end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum End {
+    /// At a position, in tacho counts, coming from another one.
+    Position { from: i64, target: i64 },
+    /// After a time.
+    Time(Duration),
+    /// Not by itself.
+    Never,
+}

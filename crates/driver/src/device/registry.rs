@@ -1,0 +1,269 @@
+//! Which devices there are, by class and port.
+//!
+//! The kernel lists each class in a directory of its own, one entry a device,
+//! under numbers that follow the order of plugging in. Programs name ports. The
+//! listing is cached. It is renewed when it is older than [`LISTING_AGE`], when a
+//! port is asked for that it does not have, and when a device answers as an
+//! unplugged one does. Devices that are still there keep their descriptors.
+use crate::class::{Class, Detected};
+use crate::device::{Device, MotionObserver, Observer, identity};
+use crate::error::{Access, Error, Result};
+use crate::held::Held;
+use crate::port_name;
+use crate::sysfs::Sysfs;
+use rustix::io::Errno;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, Weak};
+use std::time::Duration;
+
+/// How long a listing of a class directory is believed.
+pub const LISTING_AGE: Duration = Duration::from_millis(100);
+
+/// The devices in a tree.
+pub struct Registry {
+    tree: Arc<dyn Sysfs>,
+    listings: [Mutex<Listing>; Class::ALL.len()],
+    observer: Arc<Observer>,
+}
+
+/// The devices in a class directory when it was last listed.
+#[derive(Default)]
+struct Listing {
+    made: Option<Duration>,
+    /// In the order of ports.
+    devices: Arc<[Arc<Device>]>,
+    by_port: HashMap<String, Arc<Device>>,
+}
+
+impl Registry {
+    /// The devices in a tree. Nothing is read yet.
+    #[must_use]
+    pub fn new(tree: Arc<dyn Sysfs>) -> Self {
+        Self { tree, listings: Default::default(), observer: Arc::default() }
+    }
+
+    /// The tree they are in.
+    #[must_use]
+    pub fn tree(&self) -> &dyn Sysfs {
+        &*self.tree
+    }
+
+    /// All devices of a class, in the order of their ports.
+    ///
+    /// # Errors
+    /// The kernel's. A class that does not exist has no devices.
+    pub fn all(&self, class: Class) -> Result<Arc<[Arc<Device>]>> {
+        let mut listing = self.listing(class);
+        if !self.is_fresh(&listing) {
+            self.list(class, &mut listing)?;
+        }
+        Ok(Arc::clone(&listing.devices))
+    }
+
+    /// The devices of a class that were seen when it was last looked at.
+    pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
+        Arc::clone(&self.listing(class).devices)
+    }
+
+    /// The device at a port, which may be spelled either way. A sensor on the
+    /// I2C bus is found by its socket, too.
+    ///
+    /// # Errors
+    /// As [`all`](Self::all).
+    pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
+        let port = port_name::short(port);
+        let mut listing = self.listing(class);
+        let is_fresh = self.is_fresh(&listing);
+        if !is_fresh || !listing.by_port.contains_key(port) {
+            match self.list(class, &mut listing) {
+                // If the class cannot be listed, trust the last listing: a robot
+                // can still be stopped.
+                Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
+                listed => listed?,
+            }
+        }
+        Ok(listing.by_port.get(port).cloned())
+    }
+
+    /// Whether that very device is still plugged in.
+    ///
+    /// # Errors
+    /// As [`all`](Self::all).
+    pub fn has(&self, device: &Device) -> Result<bool> {
+        let present = self.find(device.class(), device.port())?;
+        Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
+    }
+
+    /// Does something with the device at a port; `None` where there is none.
+    ///
+    /// # Errors
+    /// As `act`, or as [`all`](Self::all).
+    pub fn with<T>(
+        &self,
+        class: Class,
+        port: &str,
+        mut act: impl FnMut(&Arc<Device>) -> Result<T>,
+    ) -> Result<Option<T>> {
+        self.retry_after_relisting(|| match self.find(class, port)? {
+            Some(device) => {
+                device.check_present()?;
+                act(&device).map(Some)
+            }
+            None => Ok(None),
+        })
+    }
+
+    /// Reads from a device, or from the one that has replaced it; `None` if the port
+    /// is empty now.
+    ///
+    /// # Errors
+    /// As `read`, or as [`all`](Self::all).
+    pub fn read<T>(
+        &self,
+        device: &Device,
+        read: impl Fn(&Device) -> Result<T>,
+    ) -> Result<Option<T>> {
+        match device.check_present().and_then(|()| read(device)) {
+            Err(error) if error.is_stale() => {
+                self.forget_listings();
+                self.with(device.class(), device.port(), |device| read(device))
+            }
+            result => result.map(Some),
+        }
+    }
+
+    /// Calls `act`, and once more with a new listing if it met a device that answers
+    /// as an unplugged one does: a device that was plugged in again has another
+    /// number.
+    ///
+    /// # Errors
+    /// As `act`.
+    pub(crate) fn retry_after_relisting<T>(&self, mut act: impl FnMut() -> Result<T>) -> Result<T> {
+        match act() {
+            Err(error) if error.is_stale() => {
+                self.forget_listings();
+                act()
+            }
+            result => result,
+        }
+    }
+
+    /// The device that a file belongs to, among those listed.
+    pub(crate) fn owner(&self, path: &Path) -> Option<Arc<Device>> {
+        Class::ALL.into_iter().find_map(|class| {
+            let listing = self.listing(class);
+            listing.devices.iter().find(|device| path.starts_with(device.path())).cloned()
+        })
+    }
+
+    /// Makes each class be listed again when it is next asked for.
+    pub fn forget_listings(&self) {
+        for class in Class::ALL {
+            self.listing(class).made = None;
+        }
+    }
+
+    /// The devices whose directories match a shell pattern, in the order of
+    /// their ports. Directories that hold no device are passed over.
+    ///
+    /// # Errors
+    /// [`Error::Pattern`]; the kernel's, as EMFILE.
+    pub fn detect(&self, pattern: &str) -> Result<Vec<Detected>> {
+        let paths = self.tree.matching(pattern)?;
+        let mut detected = Vec::new();
+        for path in paths {
+            match identity(&*self.tree, &path) {
+                Ok((address, driver)) => {
+                    let port = port_name::short(&address).to_owned();
+                    detected.push(Detected { port, driver, path });
+                }
+                Err(error) if is_exhaustion(&error) => return Err(error),
+                Err(_) => {}
+            }
+        }
+        detected.sort_unstable_by(|a, b| {
+            port_name::order(&a.port, &b.port).then_with(|| a.path.cmp(&b.path))
+        });
+        Ok(detected)
+    }
+
+    /// Makes the motors report to an observer. A registry has one.
+    pub(crate) fn observe(&self, observer: Weak<dyn MotionObserver>) {
+        self.observer.set(observer);
+    }
+
+    fn listing(&self, class: Class) -> Held<'_, Listing> {
+        // Class::ALL is in the order of the enum.
+        let [tacho_motor, sensor, servo_motor, dc_motor, port, led, battery] = &self.listings;
+        let listing = match class {
+            Class::TachoMotor => tacho_motor,
+            Class::Sensor => sensor,
+            Class::ServoMotor => servo_motor,
+            Class::DcMotor => dc_motor,
+            Class::Port => port,
+            Class::Led => led,
+            Class::Battery => battery,
+        };
+        Held::lock(listing)
+    }
+
+    fn is_fresh(&self, listing: &Listing) -> bool {
+        let now = self.tree.now();
+        listing.made.is_some_and(|made| now.saturating_sub(made) < LISTING_AGE)
+    }
+
+    /// Lists the class directory, keeping the devices that are still there.
+    fn list(&self, class: Class, listing: &mut Listing) -> Result<()> {
+        let directory = self.tree.root().join(class.directory());
+        let mut entries = match self.tree.list(&directory) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
+            Err(source) => {
+                return Err(Error::Open { path: directory, access: Access::Read, source });
+            }
+        };
+        listing.made = Some(self.tree.now());
+        entries.retain(|entry| class.admits(&entry.name));
+        let is_same = entries.len() == listing.devices.len()
+            && entries.iter().all(|entry| listing.devices.iter().any(|d| d.is_at(entry)));
+        if is_same {
+            return Ok(());
+        }
+        let mut devices = Vec::with_capacity(entries.len());
+        for entry in entries {
+            match listing.devices.iter().find(|device| device.is_at(&entry)) {
+                Some(known) => devices.push(Arc::clone(known)),
+                None => match Device::detect(&self.tree, &self.observer, class, entry) {
+                    Ok(device) => devices.push(Arc::new(device)),
+                    Err(error) if is_exhaustion(&error) => return Err(error),
+                    // Unplugged again, or not a device: the next listing tries again.
+                    Err(_) => {}
+                },
+            }
+        }
+        let key = |device: &Device| (device.port().to_owned(), device.entry().name.clone());
+        devices.sort_unstable_by(|a, b| {
+            let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
+            port_name::order(&a_port, &b_port).then_with(|| port_name::order(&a_name, &b_name))
+        });
+        // A port has one device of a class. Where two directories say they are
+        // at it, the one with the lower number is about to vanish.
+        devices.reverse();
+        devices.dedup_by(|earlier, later| earlier.port() == later.port());
+        devices.reverse();
+        // By its socket, too, if nothing else is there; of two, the first.
+        let in_socket = devices.iter().rev();
+        let in_socket = in_socket.map(|device| (port_name::socket(device.port()), device));
+        let at_port = devices.iter().map(|device| (device.port(), device));
+        let all = in_socket.chain(at_port);
+        listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();
+        listing.devices = devices.into();
+        Ok(())
+    }
+}
+
+/// Whether this process has run out of descriptors or memory.
+fn is_exhaustion(error: &Error) -> bool {
+    matches!(error.errno(), Some(Errno::MFILE | Errno::NFILE | Errno::NOMEM))
+}

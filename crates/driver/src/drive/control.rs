@@ -1,0 +1,368 @@
+//! Odometry and control of one robot, one period at a time.
+use crate::class::Class;
+use crate::device::registry::Registry;
+use crate::drive::devices::{DriveDevices, Robot, angle, counts};
+use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD};
+use crate::drive::odometry::{Estimate, Pose};
+use crate::drive::steering::{Leg, Limits, Order, Steering};
+use crate::error::{Error, Result};
+use crate::motor::claim::Claim;
+use crate::motor::wait::Reason;
+use crate::motor::{self, Ramps, Speed, StopAction};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How long the wheels must stand still to be at rest.
+const AT_REST: Duration = Duration::from_secs(1);
+
+/// The period while they are, in which the gyro's drift is measured.
+const REST_PERIOD: Duration = Duration::from_millis(100);
+
+/// How long that takes at most; then nothing is done until a motor is started.
+const MEASURED: Duration = Duration::from_secs(30);
+
+/// A command to the drive.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// One part after the other. The second says whether rear first.
+    Legs(Vec<Leg>, bool),
+    /// On and on: speed in cm/s, rate of turn in degrees a second.
+    Cruise(f64, f64),
+    /// The same for the motion under way, unless it has ended.
+    Change(f64, f64),
+    /// On and on: the speed of each wheel as a share of that of the faster one.
+    Wheels([f64; 2]),
+}
+
+/// How to carry out a command.
+#[derive(Clone, Copy, Debug)]
+pub struct DriveOptions {
+    /// Of the faster wheel, in percent of what it can. Not for a cruise.
+    pub percent: f64,
+    /// In cm/s².
+    pub acceleration: f64,
+    /// The action of the motors at the end.
+    pub stop_action: StopAction,
+    /// Whether the gyro, if there is one, measures the heading.
+    pub use_gyro: bool,
+}
+
+/// The state of a robot and its motion.
+pub(super) struct Inner {
+    pub(super) robot: Robot,
+    pub(super) devices: Option<DriveDevices>,
+    pub(super) use_gyro: bool,
+    /// The time of the last update of the estimate.
+    pub(super) now: Duration,
+    /// When the wheels last turned.
+    pub(super) moved: Duration,
+    pub(super) estimate: Estimate,
+    /// The end of the previous motion.
+    pub(super) goal: Option<Pose>,
+    pub(super) active: Option<ActiveMotion>,
+    pub(super) last: Option<Arc<Outcome>>,
+}
+
+impl Inner {
+    /// A robot at the origin.
+    pub(super) fn new(robot: &Robot) -> Self {
+        let mut inner = Self {
+            robot: robot.clone(),
+            devices: None,
+            use_gyro: true,
+            now: Duration::ZERO,
+            moved: Duration::ZERO,
+            estimate: Estimate::default(),
+            goal: None,
+            active: None,
+            last: None,
+        };
+        inner.set_pose(Pose::default());
+        inner
+    }
+
+    /// Ends the motion of this robot, and goes on with another one at its pose.
+    pub(super) fn set_robot(&mut self, robot: &Robot) {
+        self.end_motion(Ok(Reason::Stopped));
+        let pose = self.pose();
+        self.robot = robot.clone();
+        self.devices = None;
+        self.goal = None;
+        self.estimate.forget_wheels();
+        self.set_pose(pose);
+    }
+
+    /// The pose of the robot's reference point.
+    pub(super) fn pose(&self) -> Pose {
+        self.estimate.pose().ahead(-self.robot.wheels.offset)
+    }
+
+    pub(super) fn set_pose(&mut self, pose: Pose) {
+        self.estimate.set_pose(pose.ahead(self.robot.wheels.offset));
+    }
+
+    /// Updates the estimate to the present time. `false` where a motor is absent.
+    pub(super) fn integrate(&mut self, registry: &Registry) -> Result<bool> {
+        let before = self.now;
+        if self.devices.as_ref().is_some_and(|devices| !devices.is_there()) {
+            self.devices = None;
+        }
+        let is_new = self.devices.is_none();
+        if is_new {
+            self.devices = DriveDevices::find(registry, &self.robot)?;
+            self.estimate.gyro_lost();
+        }
+        let Some(devices) = &mut self.devices else {
+            return Ok(false);
+        };
+        let read = counts(&devices.motors);
+        let now = registry.tree().now();
+        let counts = match read {
+            Ok(counts) => counts,
+            Err(error) => {
+                self.devices = None;
+                return Err(error);
+            }
+        };
+        self.now = now;
+        if now < before {
+            // A simulation that was put back to an earlier moment.
+            devices.counts = counts;
+            self.end_motion(Ok(Reason::Stopped));
+            return Ok(true);
+        }
+        let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
+        let ways = devices.ways(counts, seconds);
+        devices.counts = counts;
+        if ways != [0.0, 0.0] || is_new {
+            self.moved = now;
+        }
+        self.estimate.predict(&self.robot.wheels, ways, seconds);
+        match devices.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
+            Some(Ok(Some(angle))) => self.estimate.observe_gyro(angle),
+            Some(Ok(None)) => self.estimate.gyro_lost(),
+            Some(Err(error)) => {
+                self.estimate.gyro_lost();
+                let gone = devices
+                    .gyro
+                    .take_if(|gyro| error.is_unplugged() || gyro.check_present().is_err());
+                if let (Some(gyro), true) = (gone, self.active.is_some()) {
+                    return Err(gyro.unplugged());
+                }
+            }
+            None => {}
+        }
+        Ok(true)
+    }
+
+    /// The motor that is missing.
+    pub(super) fn absent(&self) -> Error {
+        let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
+        Error::Unplugged { class: Class::TachoMotor, port }
+    }
+
+    /// The time to the next call; `None` if there is nothing to do until a motor
+    /// is started.
+    pub(super) fn next_call(&self) -> Option<Duration> {
+        if self.active.is_some() {
+            return Some(PERIOD);
+        }
+        let devices = self.devices.as_ref()?;
+        let rests = self.now.saturating_sub(self.moved);
+        if rests < AT_REST || devices.motors.iter().any(|motor| motor::runs_on(motor)) {
+            Some(PERIOD)
+        } else {
+            (devices.gyro.is_some() && self.use_gyro && rests < MEASURED).then_some(REST_PERIOD)
+        }
+    }
+
+    /// Begins a motion, or changes the one under way. `None` if that is impossible.
+    pub(super) fn begin(
+        &mut self,
+        command: &Command,
+        options: &DriveOptions,
+    ) -> Result<Option<Arc<Outcome>>> {
+        let Some(devices) = &self.devices else {
+            return Ok(None);
+        };
+        let wheels = self.robot.wheels;
+        let slowest =
+            devices.cm_per_count.iter().fold(f64::INFINITY, |least, way| way.abs().min(least));
+        let fastest = devices.fastest * slowest;
+        let percent = devices
+            .motors
+            .iter()
+            .map(|motor| Speed::Percent(options.percent).in_counts(motor))
+            .collect::<Result<Option<Vec<_>>>>()?;
+        let Some([left, right]) = percent.as_deref() else {
+            return Ok(None);
+        };
+        let speed = left.abs().min(right.abs());
+        #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
+        let limits = Limits { speed: speed as f64 * slowest, acceleration: options.acceleration };
+        let steering = match command {
+            Command::Wheels(shares) => {
+                let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
+                Steering::cruise(wheels, limits, way, turn.to_degrees())
+            }
+            Command::Cruise(speed, rate) | Command::Change(speed, rate) => {
+                let ways = wheels.ways(*speed, rate.to_radians());
+                let is_possible = ways.iter().all(|way| way.abs() <= fastest * 1.000_001);
+                if !is_possible {
+                    return Ok(None);
+                }
+                Steering::cruise(wheels, limits, *speed, *rate)
+            }
+            Command::Legs(legs, is_backwards) => {
+                if speed == 0 {
+                    return Ok(None);
+                }
+                let from = (self.estimate.pose(), self.goal);
+                Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
+            }
+        };
+        if let Command::Change(..) = command {
+            return Ok(Some(self.change(steering)));
+        }
+        self.install(steering, options.stop_action).map(Some)
+    }
+
+    /// Changes the motion under way. A motion that has ended stays ended: the
+    /// outcome is that of the ended motion.
+    fn change(&mut self, mut steering: Steering) -> Arc<Outcome> {
+        if let Some(active) = &mut self.active {
+            steering.take_over(&active.steering);
+            active.steering = steering;
+            active.landing = None;
+        }
+        Arc::clone(self.last.get_or_insert_with(Outcome::stopped))
+    }
+
+    /// Puts a motion in the place of the one under way.
+    fn install(&mut self, mut steering: Steering, stop_action: StopAction) -> Result<Arc<Outcome>> {
+        let before = self.active.take();
+        if let Some(before) = &before {
+            steering.take_over(&before.steering);
+            before.outcome.end(Ok(Reason::Stopped));
+        }
+        // Its ramps are put back first.
+        drop(before);
+        let claim = Claim::new();
+        let outcome = Arc::new(Outcome::default());
+        let Some(devices) = &self.devices else {
+            return Ok(outcome);
+        };
+        let options = motor::MoveOptions {
+            ramp_up_ms: Some(0),
+            ramp_down_ms: Some(0),
+            ..motor::MoveOptions::default()
+        };
+        let mut ramps = Ramps::default();
+        for motor in &devices.motors {
+            ramps.set(motor, &options)?;
+            motor.write("stop_action", StopAction::Hold.word())?;
+            claim.take(motor);
+        }
+        self.last = Some(Arc::clone(&outcome));
+        self.goal = None;
+        self.active = Some(ActiveMotion {
+            claim,
+            motors: devices.motors.clone(),
+            steering,
+            stop_action,
+            controlled: self.now,
+            steered: self.now.saturating_sub(PERIOD),
+            speeds: None,
+            landing: None,
+            stuck: devices.counts.map(|count| (count, Duration::ZERO)),
+            outcome: Arc::clone(&outcome),
+            _ramps: ramps,
+        });
+        Ok(outcome)
+    }
+
+    /// One period of the motion under way; `Some` when it has ended.
+    pub(super) fn control(&mut self) -> Result<Option<Reason>> {
+        let (Some(active), Some(devices)) = (&mut self.active, &self.devices) else {
+            return Ok(None);
+        };
+        let passed = self.now.saturating_sub(active.controlled).min(LONGEST_LOOK);
+        active.controlled = self.now;
+        let pose = self.estimate.pose();
+        let order = match &mut active.landing {
+            Some(landing) => match landing.look(devices.counts, passed) {
+                Landed::NotYet => return Ok(active.is_foreign(devices).then_some(Reason::Stopped)),
+                Landed::Never => return Ok(Some(Reason::Stalled)),
+                Landed::There => {
+                    active.landing = None;
+                    active.stuck = devices.counts.map(|count| (count, Duration::ZERO));
+                    active.steering.landed(pose)
+                }
+            },
+            None => None,
+        };
+        let seconds = self.now.saturating_sub(active.steered).as_secs_f64().clamp(0.001, 0.1);
+        active.steered = self.now;
+        let order = match order {
+            Some(order) => order,
+            None => active.steering.step(pose, seconds),
+        };
+        match order {
+            Order::Arrived => Ok(Some(Reason::Reached)),
+            Order::Roll(ways) => active.roll(devices, ways, passed),
+            Order::Land(ways) => active.land(devices, ways),
+        }
+    }
+
+    /// Does a period of the motion under way, if a whole one was left out.
+    pub(super) fn catch_up(&mut self) {
+        let missed = self.active.as_ref().map(|active| self.now.saturating_sub(active.controlled));
+        if missed.is_some_and(|missed| missed >= PERIOD * 2) {
+            let stepped = self.control();
+            self.conclude(stepped);
+        }
+    }
+
+    /// Ends the motion if its last period says so.
+    pub(super) fn conclude(&mut self, stepped: Result<Option<Reason>>) {
+        match stepped {
+            Ok(None) => {}
+            Ok(Some(reason)) => self.end_motion(Ok(reason)),
+            Err(error) => {
+                let error = self.named(error);
+                self.end_motion(Err(error));
+            }
+        }
+    }
+
+    pub(super) fn end_motion(&mut self, result: Result<Reason>) {
+        let Some(active) = self.active.take() else {
+            return;
+        };
+        let is_reached = matches!(result, Ok(Reason::Reached));
+        if is_reached {
+            self.goal = active.steering.goal();
+        }
+        let action = if is_reached { active.stop_action } else { StopAction::Brake };
+        if !(is_reached && action == StopAction::Hold) {
+            for motor in &active.motors {
+                // One that is gone has nothing to stop.
+                let _ = active.claim.stop(motor, action);
+            }
+        }
+        active.outcome.end(result);
+    }
+
+    /// The error with the device that is gone, where one is.
+    fn named(&self, error: Error) -> Error {
+        if !error.is_stale() {
+            return error;
+        }
+        let motors = self.active.as_ref().map(|active| active.motors.iter());
+        let path = error.path();
+        match motors.into_iter().flatten().find(|d| path.is_some_and(|p| p.starts_with(d.path()))) {
+            Some(gone) => gone.unplugged(),
+            None => error,
+        }
+    }
+}

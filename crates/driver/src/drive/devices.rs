@@ -1,0 +1,108 @@
+//! The devices of a robot, and their readings.
+use crate::class::Class;
+use crate::device::Device;
+use crate::device::registry::Registry;
+use crate::drive::odometry::Wheels;
+use crate::error::Result;
+use crate::motor::find_all;
+use crate::sensor;
+use crate::value::Value;
+use std::sync::Arc;
+
+/// Tolerance, in counts, beyond the fastest that a wheel can turn. A larger
+/// difference means that the counter was written.
+const MARGIN: f64 = 30.0;
+
+/// The gyro's mode in which it measures its angle.
+pub(super) const GYRO_MODE: &str = "GYRO-ANG";
+
+/// The type of a gyro.
+const GYRO: &str = "lego-ev3-gyro";
+
+/// A robot: where its motors are, and how it is built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    /// Ports of the left and the right motor.
+    pub ports: [String; 2],
+    /// Its wheels.
+    pub wheels: Wheels,
+}
+
+/// The robot's devices as they are plugged in now.
+pub(super) struct DriveDevices {
+    pub(super) motors: Vec<Arc<Device>>,
+    pub(super) gyro: Option<Arc<Device>>,
+    pub(super) counts: [i64; 2],
+    pub(super) cm_per_count: [f64; 2],
+    /// Counts per second.
+    pub(super) fastest: f64,
+}
+
+impl DriveDevices {
+    /// The robot's devices; `None` where a motor is absent.
+    pub(super) fn find(registry: &Registry, robot: &Robot) -> Result<Option<Self>> {
+        let Some(motors) = find_all(registry, robot.ports.iter().map(String::as_str))? else {
+            return Ok(None);
+        };
+        let [left, right] = &*motors else {
+            return Ok(None);
+        };
+        let way = |side, motor: &Device| -> Result<f64> {
+            #[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
+            let counts = motor.constant("count_per_rot")? as f64;
+            Ok(robot.wheels.cm_per_count(side, counts))
+        };
+        let cm_per_count = [way(0, left)?, way(1, right)?];
+        let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
+        let counts = counts(&motors)?;
+        let sensors = registry.all(Class::Sensor)?;
+        let gyro = sensors.iter().find(|sensor| sensor.driver() == GYRO).cloned();
+        #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
+        let fastest = fastest as f64;
+        Ok(Some(Self { motors, gyro, counts, cm_per_count, fastest }))
+    }
+
+    /// Whether the motors are still plugged in.
+    pub(super) fn is_there(&self) -> bool {
+        self.motors.iter().all(|motor| motor.check_present().is_ok())
+    }
+
+    /// The distances that the wheels have rolled since the previous counts. A
+    /// write to a counter has not turned a wheel.
+    #[expect(clippy::cast_precision_loss, reason = "a plausible difference is small")]
+    pub(super) fn ways(&self, counts: [i64; 2], seconds: f64) -> [f64; 2] {
+        let most = self.fastest * 1.5 * seconds + MARGIN;
+        std::array::from_fn(|side| {
+            let turned = counts[side].saturating_sub(self.counts[side]) as f64;
+            if turned.abs() <= most { turned * self.cm_per_count[side] } else { 0.0 }
+        })
+    }
+
+    /// Counts from a distance in cm, or counts per second from a speed.
+    pub(super) fn in_counts(&self, ways: [f64; 2]) -> [f64; 2] {
+        [ways[0] / self.cm_per_count[0], ways[1] / self.cm_per_count[1]]
+    }
+}
+
+pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
+    let mut counts = [0; 2];
+    for (count, motor) in counts.iter_mut().zip(motors) {
+        motor.check_present()?;
+        *count = motor.number("position")?;
+    }
+    Ok(counts)
+}
+
+/// The gyro's angle in degrees; `None` if the gyro is in another mode.
+pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
+    gyro.check_present()?;
+    if !gyro.with_word("mode", |mode| mode == GYRO_MODE)? {
+        return Ok(None);
+    }
+    Ok(match sensor::read_value(gyro, Some(GYRO_MODE), 0)? {
+        #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
+        Value::Integer(degrees) => Some(degrees as f64),
+        Value::Float(degrees) => Some(degrees),
+        Value::Text(_) => None,
+    })
+}

@@ -1,0 +1,449 @@
+//! Steering along a motion: from where the robot is to how fast it should go
+//! and turn.
+//!
+//! Pure arithmetic, called once each period. The controlled quantities are the
+//! distance and the heading of the middle of the axle: a wheel that lags turns
+//! the robot, and correcting the heading brings the wheels back together.
+//!
+//! | gain | value | what it does |
+//! |---|---|---|
+//! | [`HEADING_GAIN`] | 6 /s | turns back for each radian off the heading |
+//! | [`LOOKAHEAD`] | 0.5 s | aims at the path that far ahead when beside it |
+//! | [`PLACE_GAIN`] | 4 /s | goes back for each cm that a turn on the spot strays |
+//! | [`BRAKING`] | 0.7 | share of the acceleration that slowing down counts on |
+//!
+//! The motors' own regulator takes some 50 ms to follow; with these gains the
+//! loop around it has no overshoot worth mentioning.
+use crate::drive::odometry::{Pose, Wheels, wrapped};
+use crate::drive::path::{Segment, direction, rounded};
+use std::collections::VecDeque;
+
+/// Rate of turn for each radian off the heading, per second.
+const HEADING_GAIN: f64 = 6.0;
+
+/// How far ahead on the path to aim at, as a time.
+const LOOKAHEAD: f64 = 0.5;
+
+/// The same at least, in cm.
+const NEAREST_AIM: f64 = 3.0;
+
+/// Speed for each cm that a turn on the spot strays, per second.
+const PLACE_GAIN: f64 = 4.0;
+
+/// Share of the acceleration that slowing down counts on.
+const BRAKING: f64 = 0.7;
+
+/// How far ahead of the robot the motors' speeds are, in seconds.
+const LAG: f64 = 0.03;
+
+/// From this far before the end on, in cm, the wheels go to positions.
+const LANDING: f64 = 0.4;
+
+/// The same for a turn, in degrees.
+const LANDING_TURN: f64 = 2.0;
+
+/// Nearer than this, in cm, is there.
+const THERE: f64 = 0.2;
+
+/// Closer than this, in degrees, is in that direction.
+const ALIGNED: f64 = 0.3;
+
+/// How often the end of a turn is corrected.
+const CORRECTIONS: u32 = 3;
+
+/// The end of a turn may stay this far off, in degrees.
+const TURN_TOLERANCE: f64 = 0.5;
+
+/// How far off a goal the next move may start and still count from it.
+const GOAL_WITHIN: f64 = 1.0;
+
+/// The same in degrees.
+const GOAL_ALIGNED: f64 = 1.5;
+
+/// A part of a motion. Relative ones count from where the part before was to
+/// end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Leg {
+    /// Turn on the spot by an angle in degrees.
+    Turn(f64),
+    /// Turn on the spot to a heading as it is, full turns included.
+    Heading(f64),
+    /// Turn on the spot to a heading, the shorter way round.
+    Face(f64),
+    /// Turn on the spot towards a place, front or rear first.
+    Towards([f64; 2]),
+    /// Go to a place with the middle of the axle.
+    To([f64; 2]),
+    /// Go to a place with the robot's reference point.
+    Reach([f64; 2]),
+    /// An arc: its length in cm and its curvature in the direction of travel.
+    Arc(f64, f64),
+    /// A path through places, its corners rounded with a radius.
+    Through(Vec<[f64; 2]>, f64),
+    /// A path without corners.
+    Pieces(Vec<Segment>),
+}
+
+/// How fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Speed of the faster wheel, in cm/s.
+    pub speed: f64,
+    /// Of the robot, in cm/s².
+    pub acceleration: f64,
+}
+
+/// The order to the wheels until the next period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Order {
+    /// Roll at these speeds, in cm/s.
+    Roll([f64; 2]),
+    /// Roll by these ways, in cm, and hold.
+    Land([f64; 2]),
+    /// Nothing more.
+    Arrived,
+}
+
+/// The control of a motion under way.
+#[derive(Clone, Debug)]
+pub struct Steering {
+    wheels: Wheels,
+    limits: Limits,
+    is_backwards: bool,
+    task: Task,
+    /// Speed in the robot's own direction, in cm/s.
+    speed: f64,
+    /// Rate of turn, in radians a second.
+    rate: f64,
+    /// Where the motion is to end, as far as it has got.
+    goal: Pose,
+}
+
+#[derive(Clone, Debug)]
+enum Task {
+    Legs { legs: VecDeque<Leg>, phase: Phase },
+    Cruise { speed: f64, rate: f64, heading: Option<f64> },
+}
+
+#[derive(Clone, Debug)]
+enum Phase {
+    /// The next leg is to be begun.
+    Next,
+    Turning {
+        heading: f64,
+        place: [f64; 2],
+        corrections: u32,
+    },
+    Following {
+        path: Vec<Segment>,
+        index: usize,
+        along: f64,
+    },
+}
+
+impl Steering {
+    /// A motion of several parts, from a robot at rest at `pose`. It counts
+    /// from `goal`, where the motion before was to end, if that is near.
+    #[must_use]
+    pub fn along(
+        wheels: Wheels,
+        limits: Limits,
+        is_backwards: bool,
+        legs: Vec<Leg>,
+        (pose, goal): (Pose, Option<Pose>),
+    ) -> Self {
+        let is_near = |goal: &Pose| {
+            (goal.x - pose.x).hypot(goal.y - pose.y) < GOAL_WITHIN
+                && (goal.heading - pose.heading).abs() < GOAL_ALIGNED
+        };
+        let goal = goal.filter(is_near).unwrap_or(pose);
+        let task = Task::Legs { legs: legs.into(), phase: Phase::Next };
+        Self { wheels, limits, is_backwards, task, speed: 0.0, rate: 0.0, goal }
+    }
+
+    /// A motion without end: speed in cm/s, rate of turn in degrees a second.
+    #[must_use]
+    pub fn cruise(wheels: Wheels, limits: Limits, speed: f64, rate: f64) -> Self {
+        let task = Task::Cruise { speed, rate: rate.to_radians(), heading: None };
+        let goal = Pose::default();
+        Self { wheels, limits, is_backwards: false, task, speed: 0.0, rate: 0.0, goal }
+    }
+
+    /// Takes over from another motion that is under way.
+    pub fn take_over(&mut self, before: &Self) {
+        self.speed = before.speed;
+        self.rate = before.rate;
+    }
+
+    /// Whether it goes on until it is stopped.
+    #[must_use]
+    pub fn is_endless(&self) -> bool {
+        matches!(self.task, Task::Cruise { .. })
+    }
+
+    /// Where the motion is to end, once it has.
+    #[must_use]
+    pub fn goal(&self) -> Option<Pose> {
+        (!self.is_endless()).then_some(self.goal)
+    }
+
+    /// One period of `seconds`, with the robot at `pose`.
+    pub fn step(&mut self, pose: Pose, seconds: f64) -> Order {
+        if let Task::Cruise { speed, rate, heading } = self.task {
+            return self.cruise_on(pose, seconds, (speed, rate), heading);
+        }
+        // Each round begins a leg that is not done yet, or finds that it is.
+        loop {
+            let Task::Legs { legs, phase } = &mut self.task else {
+                return Order::Arrived;
+            };
+            match std::mem::replace(phase, Phase::Next) {
+                Phase::Next => match legs.pop_front() {
+                    Some(leg) => self.begin(&leg, pose),
+                    None => return Order::Arrived,
+                },
+                Phase::Turning { heading, place, corrections } => {
+                    self.set_phase(Phase::Turning { heading, place, corrections });
+                    return self.turn_on(pose, seconds, heading, place);
+                }
+                Phase::Following { path, index, along } => {
+                    return self.follow_on(pose, seconds, (path, index, along));
+                }
+            }
+        }
+    }
+
+    /// The wheels have landed, with the robot at `pose`. The next step begins
+    /// the next part; or the order corrects this one.
+    pub fn landed(&mut self, pose: Pose) -> Option<Order> {
+        self.speed = 0.0;
+        self.rate = 0.0;
+        let Task::Legs { phase, .. } = &mut self.task else {
+            return None;
+        };
+        if let Phase::Turning { heading, place, corrections } = phase {
+            if (*heading - pose.heading).abs() > TURN_TOLERANCE && *corrections < CORRECTIONS {
+                *corrections += 1;
+                let (heading, place) = (*heading, *place);
+                return Some(self.land_turn(pose, heading, place));
+            }
+        }
+        *phase = Phase::Next;
+        None
+    }
+
+    fn set_phase(&mut self, next: Phase) {
+        if let Task::Legs { phase, .. } = &mut self.task {
+            *phase = next;
+        }
+    }
+
+    /// How far the axle is ahead of the robot's reference point, in the direction
+    /// of travel.
+    fn lead(&self) -> f64 {
+        if self.is_backwards { -self.wheels.offset } else { self.wheels.offset }
+    }
+
+    /// The robot's heading as a direction of travel.
+    fn travel(&self, heading: f64) -> f64 {
+        if self.is_backwards { heading + 180.0 } else { heading }
+    }
+
+    fn begin(&mut self, leg: &Leg, pose: Pose) {
+        let phase = match leg.clone() {
+            Leg::Turn(degrees) => self.turn_to(self.goal.heading + degrees),
+            Leg::Heading(heading) => self.turn_to(heading),
+            Leg::Face(heading) => {
+                self.turn_to(self.goal.heading + wrapped(heading - self.goal.heading))
+            }
+            Leg::Towards([x, y]) => {
+                if (x - pose.x).hypot(y - pose.y) < THERE {
+                    return;
+                }
+                self.goal = pose;
+                let aim = self.travel(direction([pose.x, pose.y], [x, y]));
+                let turn = wrapped(aim - pose.heading);
+                if turn.abs() < ALIGNED {
+                    return;
+                }
+                self.turn_to(pose.heading + turn)
+            }
+            Leg::To([x, y]) | Leg::Reach([x, y]) => {
+                let mut line = Segment::line([pose.x, pose.y], [x, y]);
+                if matches!(leg, Leg::Reach(_)) {
+                    line.length = (line.length + self.lead()).max(0.0);
+                }
+                let turn = wrapped(self.travel(line.start.heading) - pose.heading);
+                self.follow(vec![line], pose.heading + turn)
+            }
+            Leg::Arc(length, curvature) => {
+                let start = Pose { heading: self.travel(self.goal.heading), ..self.goal };
+                let turn = (length * curvature).to_degrees();
+                self.follow(vec![Segment { start, length, curvature }], self.goal.heading + turn)
+            }
+            Leg::Through(mut points, radius) => {
+                points.insert(0, [pose.x, pose.y]);
+                if let [.., before, last] = points.as_mut_slice() {
+                    let heading = direction(*before, *last);
+                    let end = Pose { x: last[0], y: last[1], heading }.ahead(self.lead());
+                    *last = [end.x, end.y];
+                }
+                let mut pieces = rounded(&points, radius);
+                let Some(last) = pieces.pop() else {
+                    return;
+                };
+                // Pieces but the last end in corners that are turned on the spot.
+                let Task::Legs { legs, .. } = &mut self.task else {
+                    return;
+                };
+                let mut first = Vec::new();
+                for piece in pieces.into_iter().chain([last]) {
+                    if let Some(start) = piece.first() {
+                        let next = start.end();
+                        first.push(Leg::Towards([next.x, next.y]));
+                    }
+                    first.push(Leg::Pieces(piece));
+                }
+                for leg in first.into_iter().rev() {
+                    legs.push_front(leg);
+                }
+                return;
+            }
+            Leg::Pieces(path) => {
+                let Some(first) = path.first() else {
+                    return;
+                };
+                let turn = wrapped(self.travel(first.start.heading) - pose.heading);
+                let turns = path.iter().map(|part| (part.length * part.curvature).to_degrees());
+                let heading = pose.heading + turn + turns.sum::<f64>();
+                self.follow(path, heading)
+            }
+        };
+        self.set_phase(phase);
+    }
+
+    fn turn_to(&mut self, heading: f64) -> Phase {
+        self.goal.heading = heading;
+        Phase::Turning { heading, place: [self.goal.x, self.goal.y], corrections: 0 }
+    }
+
+    /// A path that ends with that heading of the robot.
+    fn follow(&mut self, path: Vec<Segment>, heading: f64) -> Phase {
+        if let Some(last) = path.last() {
+            self.goal = Pose { heading, ..last.end() };
+        }
+        Phase::Following { path, index: 0, along: 0.0 }
+    }
+
+    fn turn_on(&mut self, pose: Pose, seconds: f64, heading: f64, place: [f64; 2]) -> Order {
+        let off = heading - pose.heading;
+        let is_slow = self.speed.abs() < 2.0;
+        if off.abs() < LANDING_TURN && is_slow && self.rate.abs() < 2.0 {
+            return self.land_turn(pose, heading, place);
+        }
+        let half_axle = self.wheels.axle / 2.0;
+        let acceleration = self.limits.acceleration / half_axle;
+        let left = (off.to_radians() - self.rate * LAG).abs();
+        let most = (2.0 * BRAKING * acceleration * left).sqrt();
+        let wanted = off.signum() * most.min(self.limits.speed / half_axle);
+        self.rate = approach(self.rate, wanted, 1.5 * acceleration * seconds);
+        let back = (-PLACE_GAIN * strayed(pose, place)).clamp(-5.0, 5.0);
+        self.speed = approach(self.speed, back, self.limits.acceleration * seconds);
+        Order::Roll(self.ways())
+    }
+
+    fn land_turn(&self, pose: Pose, heading: f64, place: [f64; 2]) -> Order {
+        let off = (heading - pose.heading).to_radians();
+        let back = -strayed(pose, place);
+        let back = if back.abs() < GOAL_WITHIN { back } else { 0.0 };
+        Order::Land(self.wheels.ways(back, off))
+    }
+
+    fn follow_on(
+        &mut self,
+        pose: Pose,
+        seconds: f64,
+        (path, mut index, mut along): (Vec<Segment>, usize, f64),
+    ) -> Order {
+        let sign = if self.is_backwards { -1.0 } else { 1.0 };
+        let mut place = path[index].locate([pose.x, pose.y], along);
+        while place.along > path[index].length && index + 1 < path.len() {
+            along = place.along - path[index].length;
+            index += 1;
+            place = path[index].locate([pose.x, pose.y], along);
+        }
+        along = place.along;
+        let left = path[index + 1..].iter().map(|part| part.length).sum::<f64>()
+            + path[index].length
+            - along;
+        let speed = self.speed * sign;
+        if left - speed * LAG < LANDING && index + 1 == path.len() {
+            let end = self.goal.heading;
+            let turn = (end - pose.heading).to_radians();
+            self.set_phase(Phase::Following { path, index, along });
+            return Order::Land(self.wheels.ways(left * sign, turn));
+        }
+        let part = path[index];
+        let turns = 1.0 + part.curvature.abs() * self.wheels.axle / 2.0;
+        let braking = BRAKING * self.limits.acceleration;
+        let mut most = self.limits.speed / turns;
+        most = most.min((2.0 * braking * (left - speed * LAG).max(0.0)).sqrt().max(2.0));
+        if let Some(next) = path.get(index + 1) {
+            // Slow down for a tighter part before it comes.
+            let next_turns = 1.0 + next.curvature.abs() * self.wheels.axle / 2.0;
+            let limit = self.limits.speed / next_turns;
+            let room = (part.length - along).max(0.0);
+            most = most.min((limit * limit + 2.0 * braking * room).sqrt());
+        }
+        let speed = approach(speed, most, self.limits.acceleration * seconds)
+            .min(most.max(speed - 1.5 * self.limits.acceleration * seconds));
+        // Where the robot is when the motors have followed.
+        let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
+        let place = part.locate([soon.x, soon.y], along);
+        let ahead = place.along.clamp(0.0, part.length);
+        let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(1.0 / part.curvature.abs().max(1e-3));
+        let back = (place.aside / aim).clamp(-1.0, 1.0).asin().to_degrees();
+        let heading = self.travel(part.at(ahead).heading) - back;
+        let off = wrapped(heading - soon.heading).to_radians();
+        self.speed = speed * sign;
+        self.rate = speed * part.curvature + HEADING_GAIN * off;
+        self.set_phase(Phase::Following { path, index, along });
+        Order::Roll(self.ways())
+    }
+
+    fn cruise_on(
+        &mut self,
+        pose: Pose,
+        seconds: f64,
+        (speed, rate): (f64, f64),
+        held: Option<f64>,
+    ) -> Order {
+        let half_axle = self.wheels.axle / 2.0;
+        let acceleration = self.limits.acceleration;
+        self.speed = approach(self.speed, speed, acceleration * seconds);
+        self.rate = approach(self.rate, rate, 2.0 * acceleration / half_axle * seconds);
+        // The heading that the robot should have by now; not farther away than
+        // can be made up for.
+        let held = held.unwrap_or(pose.heading) + (self.rate * seconds).to_degrees();
+        let held = pose.heading + (held - pose.heading).clamp(-15.0, 15.0);
+        self.task = Task::Cruise { speed, rate, heading: Some(held) };
+        let off = (held - pose.heading).to_radians() - self.rate * 2.0 * LAG;
+        let turning = self.rate + HEADING_GAIN / 2.0 * off;
+        Order::Roll(self.wheels.ways(self.speed, turning))
+    }
+
+    fn ways(&self) -> [f64; 2] {
+        self.wheels.ways(self.speed, self.rate)
+    }
+}
+
+/// How far ahead of a place the robot is.
+fn strayed(pose: Pose, [x, y]: [f64; 2]) -> f64 {
+    let (sin, cos) = pose.heading.to_radians().sin_cos();
+    (pose.x - x) * sin + (pose.y - y) * cos
+}
+
+/// A value on its way to another one, by at most `step`.
+fn approach(value: f64, wanted: f64, step: f64) -> f64 {
+    value + (wanted - value).clamp(-step, step)
+}

@@ -1,0 +1,298 @@
+//! Motors: set-points, commands, moves of several motors at once.
+//!
+//! A command to a motor takes two steps. Set-points (`speed_sp`,
+//! `position_sp`, `stop_action`, `ramp_up_sp` ...) are stored; the next
+//! `command` copies them all and starts. Nothing that is written to a
+//! set-point changes a motion under way (kernel, `tacho_motor_class.c`). So
+//! each function here writes the set-points that its command depends on first.
+//! Several motors get all their set-points first and then their commands one
+//! right after the other.
+pub(crate) mod claim;
+pub(crate) mod command;
+pub mod dc;
+pub(crate) mod plan;
+pub mod servo;
+pub mod wait;
+
+use crate::class::Class;
+use crate::device::Device;
+use crate::device::motion::End;
+use crate::device::registry::Registry;
+use crate::device::retry::{self, while_permissions_settle};
+use crate::error::{Error, Interrupted, Result};
+pub use command::{StopAction, command, reset, stop, stop_all};
+use command::{best_effort, start_all, stop_best_effort};
+pub(crate) use command::{prepare, runs_on, start};
+use plan::plan;
+pub use plan::{Extent, Move, Speed, position, set_position};
+pub(crate) use plan::{duty, milliseconds};
+use std::sync::Arc;
+use std::time::Duration;
+use wait::{Reason, wait_for};
+
+/// A motor and the speed at which to run.
+#[derive(Clone, Debug)]
+pub struct Run<'a> {
+    /// The motor's port.
+    pub port: &'a str,
+    /// The speed; its sign is the direction.
+    pub speed: Speed,
+}
+
+/// How a move is made and ended.
+#[derive(Clone, Copy, Debug)]
+pub struct MoveOptions {
+    /// The action of the motors once they are there.
+    pub stop_action: StopAction,
+    /// Milliseconds for speeding up from 0 to `max_speed`.
+    pub ramp_up_ms: Option<i64>,
+    /// Milliseconds for slowing down from `max_speed` to 0.
+    pub ramp_down_ms: Option<i64>,
+    /// Whether to return only when the motors are done.
+    pub wait: bool,
+    /// How long to wait at most.
+    pub timeout: Option<Duration>,
+}
+
+impl Default for MoveOptions {
+    /// To the very position, and wait for it. A motor that coasts or brakes
+    /// overshoots its target.
+    fn default() -> Self {
+        Self {
+            stop_action: StopAction::Hold,
+            ramp_up_ms: None,
+            ramp_down_ms: None,
+            wait: true,
+            timeout: None,
+        }
+    }
+}
+
+/// Stops every motor, of any class, that was started and not stopped since. One
+/// that is gone has nothing to stop.
+///
+/// # Errors
+/// The first that occurred.
+pub fn stop_started(registry: &Registry) -> Result<()> {
+    let mut result = Ok(());
+    for class in Class::MOTORS {
+        // Motors that were started are listed already: nothing needs to be opened.
+        for motor in registry.known(class).iter().filter(|motor| motor.run().is_some()) {
+            result = result.and(match class {
+                Class::ServoMotor => best_effort(start(motor, "float", None)),
+                _ => stop_best_effort(motor, StopAction::Brake),
+            });
+        }
+    }
+    result
+}
+
+/// Runs motors until they are stopped. `false` if one is absent or cannot run
+/// at its speed; then nothing has moved.
+///
+/// # Errors
+/// The kernel's. A motor that goes away while the others start stops them.
+/// [`Error::DuplicatePort`]; [`Interrupted`](Error::Interrupted).
+pub fn run_forever(registry: &Registry, runs: &[Run], interrupted: Interrupted) -> Result<bool> {
+    while_permissions_settle(registry, interrupted, || run_forever_once(registry, runs))
+}
+
+fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<bool> {
+    let Some(motors) = find_each(registry, runs.iter().map(|run| run.port))? else {
+        return Ok(false);
+    };
+    let speed = |(motor, run): (&Arc<Device>, &Run)| run.speed.in_counts(motor);
+    // All of them, before anything is written.
+    let possible = motors.iter().zip(runs).map(speed).collect::<Result<Option<Vec<i64>>>>()?;
+    let Some(speeds) = possible else {
+        return Ok(false);
+    };
+    prepare(&motors)?;
+    run_at(&motors, speeds)?;
+    Ok(true)
+}
+
+/// Runs motors at speeds in counts per second until they are stopped.
+pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i64>) -> Result<()> {
+    for (motor, speed) in motors.iter().zip(speeds) {
+        motor.write_number("speed_sp", speed)?;
+    }
+    start_all(motors, |motor| start(motor, "run-forever", Some(End::Never)))
+}
+
+/// Gives a motor without regulation, of either class, a share of the voltage
+/// until it is stopped; when it runs so already, from now on. `false` if it is
+/// absent or the percentage beyond 100; then nothing has moved.
+///
+/// # Errors
+/// The kernel's, as EINVAL of a motor that cannot; [`Error::Interrupted`].
+pub fn run_direct(
+    registry: &Registry,
+    class: Class,
+    port: &str,
+    percent: f64,
+    interrupted: Interrupted,
+) -> Result<bool> {
+    let Some(duty) = duty(percent) else {
+        return Ok(false);
+    };
+    let run = |motor: &Arc<Device>| {
+        motor.write_number("duty_cycle_sp", duty)?;
+        start(motor, "run-direct", Some(End::Never))
+    };
+    Ok(retry::with(registry, class, port, interrupted, run)?.is_some())
+}
+
+/// Turns motors, all at once. `None` if one is absent, or the move
+/// is impossible: a speed of 0 or beyond the motor's, an angle or a time beyond
+/// what the kernel counts; then nothing has moved.
+///
+/// Without [`MoveOptions::wait`] the answer is [`Reason::Reached`] once the
+/// motors are started. A move that does not reach its end is stopped.
+///
+/// # Errors
+/// The kernel's; [`Unplugged`](crate::Error::Unplugged) if one is unplugged under way;
+/// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait.
+/// The motors are stopped before. [`Error::DuplicatePort`].
+pub fn run_to(
+    registry: &Registry,
+    moves: &[Move],
+    options: &MoveOptions,
+    interrupted: Interrupted,
+) -> Result<Option<Reason>> {
+    let start = || start_moves(registry, moves, options);
+    match while_permissions_settle(registry, &mut *interrupted, start)? {
+        Some(motors) => finish(registry, &motors, options, interrupted).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// Waits, if that is asked for, until motors that were started are done. Those
+/// that do not get there are stopped.
+pub(crate) fn finish(
+    registry: &Registry,
+    motors: &[Arc<Device>],
+    options: &MoveOptions,
+    interrupted: Interrupted,
+) -> Result<Reason> {
+    if !options.wait {
+        return Ok(Reason::Reached);
+    }
+    let result = wait_for(registry, motors, options.timeout, interrupted);
+    if !matches!(result, Ok(Reason::Reached)) {
+        // No motor may keep turning, however the wait ended. The result already says
+        // that a motor was unplugged, so the error of stopping it is ignored.
+        let _ = stop_all(motors, StopAction::Brake);
+    }
+    match (result?, motors.iter().find(|motor| !registry.has(motor).unwrap_or(false))) {
+        (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
+        (reason, _) => Ok(reason),
+    }
+}
+
+/// Starts the motors of a move; `None` if one is absent or cannot make it.
+fn start_moves(
+    registry: &Registry,
+    moves: &[Move],
+    options: &MoveOptions,
+) -> Result<Option<Vec<Arc<Device>>>> {
+    let Some(motors) = find_each(registry, moves.iter().map(|one| one.port))? else {
+        return Ok(None);
+    };
+    let mut plans = Vec::with_capacity(moves.len());
+    for (motor, one) in motors.iter().zip(moves) {
+        match plan(motor, one)? {
+            Some(plan) => plans.push(plan),
+            None => return Ok(None),
+        }
+    }
+    prepare(&motors)?;
+    for (motor, plan) in motors.iter().zip(&plans) {
+        if plan.command == "run-to-rel-pos" {
+            count_from_here(motor)?;
+        }
+        motor.write_number(plan.set_point, plan.value)?;
+        motor.write_number("speed_sp", plan.speed)?;
+        motor.write("stop_action", options.stop_action.word())?;
+    }
+    let mut ramps = Ramps::default();
+    for motor in &motors {
+        ramps.set(motor, options)?;
+    }
+    let mut plans = plans.iter();
+    start_all(&motors, |motor| match plans.next() {
+        Some(plan) => start(motor, plan.command, Some(plan.end)),
+        None => Ok(()),
+    })?;
+    Ok(Some(motors))
+}
+
+/// Makes the next relative move count from where the motor is.
+///
+/// Since ev3dev-stretch one that comes right after another counts from where
+/// that was to end, even if the position was written meanwhile or the motor
+/// turned by hand (`tacho_motor_class.c`); on jessie it does not. Any other
+/// command in between makes them agree. The last command of an earlier program is
+/// unknown, so the first relative move may need one, too.
+fn count_from_here(motor: &Device) -> Result<()> {
+    let may_follow_relative = motor.run().is_none_or(|run| run.is_relative);
+    if may_follow_relative { motor.write("command", "stop") } else { Ok(()) }
+}
+
+/// The ramps that the motors had before a move with its own. The command
+/// copies them, so that they are put back as soon as the motors run, or when
+/// they could not start.
+#[derive(Default)]
+pub(crate) struct Ramps(Vec<(Arc<Device>, &'static str, i64)>);
+
+impl Ramps {
+    pub(crate) fn set(&mut self, motor: &Arc<Device>, options: &MoveOptions) -> Result<()> {
+        let given = [("ramp_up_sp", options.ramp_up_ms), ("ramp_down_sp", options.ramp_down_ms)];
+        for (attribute, milliseconds) in given {
+            if let Some(milliseconds) = milliseconds {
+                self.0.push((Arc::clone(motor), attribute, motor.number(attribute)?));
+                motor.write_number(attribute, milliseconds)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Ramps {
+    fn drop(&mut self) {
+        // In reverse order. Errors are ignored: the motor was unplugged.
+        for (motor, attribute, milliseconds) in self.0.drain(..).rev() {
+            let _ = motor.write_number(attribute, milliseconds);
+        }
+    }
+}
+
+/// The tacho motors at these ports, each of them another, or `None` if one is
+/// absent.
+fn find_each<'a>(
+    registry: &Registry,
+    ports: impl IntoIterator<Item = &'a str>,
+) -> Result<Option<Vec<Arc<Device>>>> {
+    let found = find_all(registry, ports)?;
+    for (index, motor) in found.iter().flatten().enumerate() {
+        if found.iter().flatten().take(index).any(|other| Arc::ptr_eq(other, motor)) {
+            return Err(Error::DuplicatePort { port: motor.port().to_owned() });
+        }
+    }
+    Ok(found)
+}
+
+/// The tacho motors at these ports, or `None` if one is absent.
+///
+/// # Errors
+/// The kernel's, as ENODEV for one that was just unplugged.
+pub fn find_all<'a>(
+    registry: &Registry,
+    ports: impl IntoIterator<Item = &'a str>,
+) -> Result<Option<Vec<Arc<Device>>>> {
+    let find = |port| match registry.find(Class::TachoMotor, port)? {
+        Some(motor) => motor.check_present().map(|()| Some(motor)),
+        None => Ok(None),
+    };
+    ports.into_iter().map(find).collect()
+}

@@ -1,0 +1,192 @@
+//! Moves in the kernel's units: speeds, angles and times as set-points.
+use crate::device::Device;
+use crate::device::motion::{End, MotorRun};
+use crate::error::Result;
+use crate::motor::wait::{TOLERANCE, has};
+use crate::value::Value;
+use std::time::Duration;
+
+/// A motor, and how far to turn it.
+#[derive(Clone, Debug)]
+pub struct Move<'a> {
+    /// The motor's port.
+    pub port: &'a str,
+    /// The speed; its sign is a direction.
+    pub speed: Speed,
+    /// Where the move ends.
+    pub extent: Extent,
+}
+
+/// How far a move goes. Angles are in degrees of the output shaft, or, of a
+/// linear actuator, in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// By an angle; its sign and that of the speed make the direction.
+    By(f64),
+    /// To an angle, counted from where the position is 0, whatever the sign of
+    /// the speed.
+    To(f64),
+    /// For a time.
+    For(Duration),
+}
+
+/// A motor's speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Speed {
+    /// In percent of `max_speed`.
+    Percent(f64),
+    /// In tacho counts per second.
+    CountsPerSecond(i64),
+}
+
+impl Speed {
+    /// Tacho counts per second, `floor(percent / 100 * max_speed)`, or `None`
+    /// beyond what the motor accepts.
+    ///
+    /// # Errors
+    /// The kernel's, of reading `max_speed`.
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        reason = "a speed in range fits either type"
+    )]
+    pub fn in_counts(self, motor: &Device) -> Result<Option<i64>> {
+        let max = motor.constant("max_speed")?;
+        let counts = match self {
+            Self::Percent(percent) => {
+                // Multiplied first: most percentages are no binary fractions.
+                let counts = (percent * max as f64 / 100.0).floor();
+                // Also false for NaN.
+                (counts.abs() <= max as f64).then_some(counts as i64)
+            }
+            Self::CountsPerSecond(counts) => Some(counts),
+        };
+        Ok(counts.filter(|counts| counts.unsigned_abs() <= max.unsigned_abs()))
+    }
+}
+
+/// A move in the kernel's units.
+pub(super) struct Plan {
+    pub(super) command: &'static str,
+    pub(super) end: End,
+    pub(super) speed: i64,
+    /// The set-point that says how far, and its value.
+    pub(super) set_point: &'static str,
+    pub(super) value: i64,
+}
+
+/// Converts a move; `None` if it is impossible.
+pub(super) fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
+    let Some(speed) = one.speed.in_counts(motor)?.filter(|speed| *speed != 0) else {
+        return Ok(None);
+    };
+    Ok(match one.extent {
+        Extent::By(angle) => plan_by(motor, speed, angle)?,
+        Extent::To(angle) => {
+            let (from, target) = (motor.number("position")?, counts(motor, angle)?);
+            target.map(|target| Plan {
+                command: "run-to-abs-pos",
+                end: End::Position { from, target },
+                speed: speed.abs(),
+                set_point: "position_sp",
+                value: target,
+            })
+        }
+        Extent::For(time) => milliseconds(time, i32::MAX).map(|value| Plan {
+            command: "run-timed",
+            end: End::Time(time),
+            speed,
+            set_point: "time_sp",
+            value,
+        }),
+    })
+}
+
+/// The kernel ignores the sign of `speed_sp` in position moves, so that of the
+/// speed goes into the distance.
+fn plan_by(motor: &Device, speed: i64, angle: f64) -> Result<Option<Plan>> {
+    let Some(counts) = counts(motor, angle)? else {
+        return Ok(None);
+    };
+    let position = motor.number("position")?;
+    let from = base(motor, position)?;
+    let target = from.saturating_add(counts * speed.signum());
+    // From where the motor is to the target.
+    let distance = target.saturating_sub(position);
+    // The kernel counts in 32 bits.
+    let is_possible = i32::try_from(target).is_ok() && i32::try_from(distance).is_ok();
+    Ok(is_possible.then_some(Plan {
+        command: "run-to-rel-pos",
+        end: End::Position { from, target },
+        speed: speed.abs(),
+        set_point: "position_sp",
+        value: distance,
+    }))
+}
+
+/// An angle, or a length, in tacho counts; `None` beyond what the kernel counts.
+#[expect(clippy::cast_possible_truncation, reason = "checked to fit 32 bits")]
+fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
+    let counts = (angle * counts_per_unit(motor)?).round();
+    // Also false for NaN.
+    Ok((counts.abs() <= f64::from(i32::MAX)).then_some(counts as i64))
+}
+
+/// Tacho counts for a degree of the shaft, or a millimetre of a linear actuator.
+#[expect(clippy::cast_precision_loss, reason = "counts are few")]
+fn counts_per_unit(motor: &Device) -> Result<f64> {
+    Ok(if motor.is_linear() {
+        motor.constant("count_per_m")? as f64 / 1000.0
+    } else {
+        motor.constant("count_per_rot")? as f64 / 360.0
+    })
+}
+
+/// A time as the kernel takes it; `None` if it is longer than that.
+pub(crate) fn milliseconds(time: Duration, longest: i32) -> Option<i64> {
+    let milliseconds = i64::try_from((time + Duration::from_micros(500)).as_millis()).ok()?;
+    (milliseconds <= i64::from(longest)).then_some(milliseconds)
+}
+
+/// The start of a move: the motor's position, or the position where it is held, so
+/// that the errors of consecutive moves do not add up.
+fn base(motor: &Device, position: i64) -> Result<i64> {
+    let target = motor.run().and_then(MotorRun::target);
+    let is_near = |target: &i64| target.abs_diff(position) <= TOLERANCE;
+    match target.filter(is_near) {
+        Some(target) if motor.with_word("state", |state| has(state, "holding"))? => Ok(target),
+        _ => Ok(position),
+    }
+}
+
+/// A share of the voltage in whole percent, or `None` beyond 100.
+#[expect(clippy::cast_possible_truncation, reason = "checked to be a percentage")]
+pub(crate) fn duty(percent: f64) -> Option<i64> {
+    let whole = percent.round();
+    // Also false for NaN.
+    (whole.abs() <= 100.0).then_some(whole as i64)
+}
+
+/// Where a motor is, in degrees, or millimetres of a linear actuator: an
+/// integer where a tacho count is one, else a float.
+///
+/// # Errors
+/// The kernel's.
+#[expect(clippy::cast_precision_loss, reason = "positions have 32 bits")]
+pub fn position(motor: &Device) -> Result<Value> {
+    let (counts, per_unit) = (motor.number("position")?, counts_per_unit(motor)?);
+    let is_unit = (per_unit - 1.0).abs() < f64::EPSILON;
+    Ok(if is_unit { Value::Integer(counts) } else { Value::Float(counts as f64 / per_unit) })
+}
+
+/// Sets the position of a motor, in the units of [`position`], without turning it.
+/// `false` if that is beyond what the kernel counts.
+///
+/// # Errors
+/// The kernel's.
+pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
+    match counts(motor, position)? {
+        Some(counts) => motor.write_number("position", counts).map(|()| true),
+        None => Ok(false),
+    }
+}

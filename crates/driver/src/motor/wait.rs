@@ -1,0 +1,355 @@
+//! Waiting for motors.
+//!
+//! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
+//! a state that comes and goes between two announcements never. Other boards
+//! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
+//! but never for longer than [`SLICE`], then samples again; towards the end that
+//! position and speed predict it samples every [`SHORT_SLICE`].
+use crate::device::Device;
+use crate::device::motion::{End, MotorRun};
+use crate::device::registry::Registry;
+use crate::error::{Error, Interrupted, Result};
+use crate::sysfs::{AttributeFile, SLICE};
+use rustix::io::Errno;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The time between two samples when the end is near.
+const SHORT_SLICE: Duration = Duration::from_millis(2);
+
+/// How long after a command `running` may still be missing: controllers on
+/// I2C and SPI report late.
+const GRACE: Duration = Duration::from_millis(100);
+
+/// How long `stalled` must last to be believed: some boards flag each start.
+const STALLED_FOR: Duration = Duration::from_millis(100);
+
+/// Position error, in counts, at which the regulator's torque must have overcome
+/// static friction. The EV3 adds 3 % of its torque for each count (`Ki` 60 every
+/// 2 ms), and a motor with a wheel needs some 10 % to break away: a slow one
+/// stands still for longer than [`STALLED_FOR`] at each start.
+const BEHIND: u64 = 8;
+
+/// How long a position may stay the same under way to one where the board
+/// never flags a stall.
+const STUCK_FOR: Duration = Duration::from_secs(2);
+
+/// The same for a linear actuator, flagged or not: at 24 counts a second at most
+/// its regulation takes seconds to push it off.
+const SLOW_STUCK_FOR: Duration = Duration::from_secs(5);
+
+/// How much too early a timed run may end: the kernel's timers count in these.
+const TICK: Duration = Duration::from_millis(10);
+
+/// How far from its target a motor may end a move, in tacho counts. The
+/// `BrickPi3` ends its moves within 10.
+pub(crate) const TOLERANCE: u64 = 10;
+
+/// Why a wait ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// The motors are where they were to go, or have run as long as they were to.
+    Reached,
+    /// A motor is blocked.
+    Stalled,
+    /// The time is up.
+    Timeout,
+    /// A motor is no longer plugged in.
+    Unplugged,
+    /// Another command stopped a motor before it got there.
+    Stopped,
+}
+
+impl Reason {
+    /// The word programs see.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::Stalled => "stalled",
+            Self::Timeout => "timeout",
+            Self::Unplugged => "unplugged",
+            Self::Stopped => "stopped",
+        }
+    }
+}
+
+/// Waits until none of the motors runs, or one of them is blocked or unplugged.
+///
+/// # Errors
+/// The kernel's; [`Error::Interrupted`].
+pub fn wait_for(
+    registry: &Registry,
+    motors: &[Arc<Device>],
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+) -> Result<Reason> {
+    let mut all: Vec<Progress> = motors.iter().map(|motor| Progress::new(motor)).collect();
+    let mut reason = Reason::Reached;
+    let waited = until(registry, motors, timeout, interrupted, |now| {
+        let mut nearest = None;
+        for progress in all.iter_mut().filter(|progress| !progress.is_done) {
+            match progress.sample(now)? {
+                Sample::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
+                Sample::Blocked => {
+                    reason = Reason::Stalled;
+                    return Ok(None);
+                }
+                Sample::Done(Reason::Reached) => {}
+                Sample::Done(other) => reason = other,
+            }
+        }
+        Ok(nearest)
+    });
+    match waited {
+        Ok(true) => Ok(reason),
+        Ok(false) => Ok(Reason::Timeout),
+        Err(error) if error.is_unplugged() => {
+            // The caller may ask which motor it was: list again at once.
+            registry.forget_listings();
+            Ok(Reason::Unplugged)
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// Waits until a flag is among the motor's states, or no longer.
+///
+/// # Errors
+/// [`Error::Unplugged`] when the motor is unplugged, the kernel's,
+/// [`Error::Interrupted`].
+pub fn wait_for_flag(
+    registry: &Registry,
+    motor: &Arc<Device>,
+    flag: &str,
+    present: bool,
+    interrupted: Interrupted,
+) -> Result<()> {
+    let mut progress = Progress::new(motor);
+    let motors = std::slice::from_ref(motor);
+    let waited = until(registry, motors, None, interrupted, |now| {
+        let is_there = motor.with_word("state", |state| has(state, flag))?;
+        if !is_there && !progress.is_confirmed()? {
+            return Ok(Some(SHORT_SLICE));
+        }
+        progress.has_run |= is_there && flag == "running";
+        // That nothing runs yet right after a command does not mean that
+        // nothing runs any more.
+        if is_there == present && (present || flag != "running" || progress.is_over(now)?) {
+            return Ok(None);
+        }
+        Ok(Some(progress.slice(now)?))
+    });
+    match waited {
+        Err(error) if error.is_unplugged() => Err(motor.unplugged()),
+        waited => waited.map(drop),
+    }
+}
+
+/// Calls `look` until it returns `None`. Otherwise it returns the longest time to
+/// sleep before the next call. `false` when the time is up.
+fn until(
+    registry: &Registry,
+    motors: &[Arc<Device>],
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+    mut look: impl FnMut(Duration) -> Result<Option<Duration>>,
+) -> Result<bool> {
+    let tree = registry.tree();
+    let deadline = timeout.map(|timeout| tree.now().saturating_add(timeout));
+    let mut listen = true;
+    loop {
+        let now = tree.now();
+        let Some(slice) = look(now)? else {
+            return Ok(true);
+        };
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+        let left = deadline.map_or(SLICE, |deadline| deadline.saturating_sub(now));
+        if left.is_zero() {
+            return Ok(false);
+        }
+        let attributes: Vec<_> = motors.iter().map(|motor| motor.attribute("state")).collect();
+        let nodes: Vec<&dyn AttributeFile> = attributes
+            .iter()
+            .filter(|_| listen)
+            .filter_map(|attribute| attribute.reader(tree).ok())
+            .collect();
+        let slice = slice.min(left).min(SLICE);
+        // After a pause that failed, too, the next sample shows the state.
+        let _ = tree.pause(&nodes, slice);
+        // Woken early, and perhaps for nothing: sleep through the next slice,
+        // so that a descriptor that is always ready does not make us spin.
+        listen = !listen || tree.now().saturating_sub(now) >= slice;
+        for motor in motors {
+            if !registry.has(motor)? {
+                return Err(motor.unplugged());
+            }
+        }
+    }
+}
+
+/// One motor under observation.
+struct Progress<'a> {
+    motor: &'a Device,
+    /// The command under way when the wait began. If the motor gets another one, it
+    /// does not reach the end of this one.
+    run: Option<MotorRun>,
+    has_run: bool,
+    is_done: bool,
+    /// Whether the last sample found nothing running.
+    was_quiet: bool,
+    stalled_since: Option<Duration>,
+    /// A position, and since when it has been that.
+    stuck: Option<(i64, Duration)>,
+}
+
+/// The result of one sample.
+enum Sample {
+    /// It runs; take the next sample after this time.
+    Runs(Duration),
+    /// It runs, and does not move.
+    Blocked,
+    /// It does not run any more.
+    Done(Reason),
+}
+
+impl<'a> Progress<'a> {
+    fn new(motor: &'a Device) -> Self {
+        Self {
+            motor,
+            run: *motor.run(),
+            has_run: false,
+            is_done: false,
+            was_quiet: false,
+            stalled_since: None,
+            stuck: None,
+        }
+    }
+
+    fn sample(&mut self, now: Duration) -> Result<Sample> {
+        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
+            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
+        })?;
+        // Controllers on I2C go on running while they hold. As theirs may be
+        // the state of the move before, what counts is whether it is there.
+        if runs && !(holds && self.is_at_end(now)?) {
+            self.has_run = true;
+            self.was_quiet = false;
+            let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
+            self.stalled_since = since;
+            let lasts = match since {
+                Some(since) => now.saturating_sub(since) >= self.believed_after()?,
+                None => false,
+            };
+            if lasts || self.is_stuck(now)? {
+                return Ok(Sample::Blocked);
+            }
+            return Ok(Sample::Runs(self.slice(now)?));
+        }
+        if !self.is_confirmed()? {
+            return Ok(Sample::Runs(SHORT_SLICE));
+        }
+        // Not even `holding` is believed at once: it may be that of the move
+        // before.
+        if !self.is_over(now)? {
+            return Ok(Sample::Runs(self.slice(now)?));
+        }
+        self.is_done = true;
+        let is_there = self.is_at_end(now)? || !self.has_run && self.is_plain()?;
+        Ok(Sample::Done(if is_there { Reason::Reached } else { Reason::Stopped }))
+    }
+
+    /// Whether a missing flag can be believed. A plain file is empty for a
+    /// moment while another program writes it: that takes a second sample.
+    fn is_confirmed(&mut self) -> Result<bool> {
+        let was_quiet = std::mem::replace(&mut self.was_quiet, true);
+        Ok(was_quiet || !self.is_plain()?)
+    }
+
+    /// Whether the motor is nothing but plain files. Where nothing ever moves,
+    /// a motor that does not run is taken to be there, as in the paper.
+    fn is_plain(&self) -> Result<bool> {
+        self.motor.attribute("state").is_plain(self.motor.tree())
+    }
+
+    /// Whether a motor that does not run has run already, rather than not yet.
+    fn is_over(&self, now: Duration) -> Result<bool> {
+        let started = self.run.map(|run| run.started);
+        let is_late = started.is_none_or(|started| now.saturating_sub(started) >= GRACE);
+        Ok(is_late || self.has_run || self.is_at_end(now)?)
+    }
+
+    /// Whether the motor is where its motion was to end, or beyond that, as a
+    /// motor that coasts; or whether it has run for its time.
+    fn is_at_end(&self, now: Duration) -> Result<bool> {
+        let Some(run) = self.run else {
+            return Ok(true);
+        };
+        Ok(match run.end {
+            End::Position { from, target } => {
+                let position = self.motor.number("position")?;
+                let is_beyond =
+                    if target >= from { position >= target } else { position <= target };
+                is_beyond || target.abs_diff(position) <= TOLERANCE
+            }
+            End::Time(time) => now.saturating_add(TICK) >= run.started.saturating_add(time),
+            End::Never => false,
+        })
+    }
+
+    /// How long `stalled` must last to be believed, at the motor's speed.
+    fn believed_after(&self) -> Result<Duration> {
+        let speed = self.motor.number("speed_sp")?.unsigned_abs();
+        let slowly = Duration::from_millis((BEHIND * 1000).checked_div(speed).unwrap_or(0));
+        Ok(if self.motor.is_linear() {
+            SLOW_STUCK_FOR
+        } else {
+            slowly.clamp(STALLED_FOR, STUCK_FOR)
+        })
+    }
+
+    /// Whether the position has been the same for too long under way.
+    fn is_stuck(&mut self, now: Duration) -> Result<bool> {
+        if !matches!(self.run, Some(MotorRun { end: End::Position { .. }, .. })) {
+            return Ok(false);
+        }
+        let position = self.motor.number("position")?;
+        let patience = if self.motor.is_linear() { SLOW_STUCK_FOR } else { STUCK_FOR };
+        match self.stuck {
+            Some((before, since)) if before == position => {
+                Ok(now.saturating_sub(since) >= patience)
+            }
+            _ => {
+                self.stuck = Some((position, now));
+                Ok(false)
+            }
+        }
+    }
+
+    /// The time to the next sample: until shortly before the predicted end.
+    fn slice(&self, now: Duration) -> Result<Duration> {
+        let left = match self.run.map(|run| (run.started, run.end)) {
+            Some((_, End::Position { target, .. })) => {
+                let position = self.motor.number("position")?;
+                let speed = match self.motor.number("speed") {
+                    // Controllers on I2C do not measure it.
+                    Err(error) if error.errno() == Some(Errno::OPNOTSUPP) => 0,
+                    speed => speed?.unsigned_abs(),
+                };
+                let counts = target.abs_diff(position);
+                let milliseconds = counts.saturating_mul(1000).checked_div(speed);
+                milliseconds.map_or(SLICE, Duration::from_millis)
+            }
+            Some((started, End::Time(time))) => started.saturating_add(time).saturating_sub(now),
+            Some((_, End::Never)) | None => SLICE,
+        };
+        Ok(left.clamp(SHORT_SLICE, SLICE))
+    }
+}
+
+/// Whether a flag is among those of a state.
+pub(crate) fn has(state: &str, flag: &str) -> bool {
+    state.split_ascii_whitespace().any(|word| word == flag)
+}

@@ -1,0 +1,219 @@
+//! What is built into the brick: status LEDs, battery, the note that says which board it is, and
+//! that which says how the screen is laid out.
+
+pub(crate) mod panel;
+pub(crate) mod port;
+pub(crate) mod remote;
+pub(crate) mod screen;
+
+use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
+use crate::files::errno::Errno;
+use crate::files::text::{lenient_unsigned, word};
+use screen::{Depth, HEIGHT, WIDTH};
+
+/// The EV3's four status lights; a left and a right pair of red and green.
+pub(crate) const LEDS: [(&str, u32); 4] = [
+    ("led0:green:brick-status", 255),
+    ("led0:red:brick-status", 0),
+    ("led1:green:brick-status", 255),
+    ("led1:red:brick-status", 0),
+];
+const TRIGGERS: [&str; 7] =
+    ["none", "mmc0", "timer", "heartbeat", "default-on", "transient", "rfkill0"];
+const NONE: usize = 0;
+const TIMER: usize = 2;
+const DEFAULT_ON: usize = 4;
+/// `max_brightness` of the lights in the brick, and of one on an output port.
+const FULL: u32 = 255;
+const FULL_ON_PORT: u32 = 100;
+
+/// A status light.
+#[derive(Clone, Debug)]
+pub(crate) struct Led {
+    pub(crate) name: String,
+    brightness: u32,
+    full: u32,
+    trigger: usize,
+    delay_on: u32,
+    delay_off: u32,
+}
+
+impl Led {
+    /// A status light of the brick.
+    pub(crate) fn new(name: &str, brightness: u32) -> Self {
+        Led {
+            name: name.to_owned(),
+            brightness,
+            full: FULL,
+            trigger: NONE,
+            delay_on: 500,
+            delay_off: 500,
+        }
+    }
+
+    /// A light on an output port in the mode `led`.
+    pub(crate) fn on_port(address: &str) -> Self {
+        Led { full: FULL_ON_PORT, ..Led::new(&format!("{address}::brick-status"), 0) }
+    }
+
+    /// How bright it is, from 0 to 1.
+    pub(crate) fn level(&self) -> f64 {
+        f64::from(self.brightness) / f64::from(self.full)
+    }
+
+    fn set_brightness(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
+        self.brightness = lenient_unsigned(bytes)?.min(self.full);
+        if self.brightness == 0 {
+            self.trigger = NONE;
+        }
+        Ok(Effect::Done)
+    }
+
+    fn set_trigger(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
+        let before = self.trigger;
+        self.trigger = word(bytes, TRIGGERS.into_iter())?;
+        match self.trigger {
+            NONE => self.brightness = 0,
+            DEFAULT_ON => self.brightness = self.full,
+            TIMER if before != TIMER => {
+                (self.delay_on, self.delay_off) = (500, 500);
+                if self.brightness == 0 {
+                    self.brightness = self.full;
+                }
+                return Ok(Effect::Appeared);
+            }
+            _ => {}
+        }
+        Ok(Effect::Done)
+    }
+
+    fn triggers(&self) -> String {
+        let shown = TRIGGERS.iter().enumerate().map(|(index, name)| {
+            if index == self.trigger { format!("[{name}]") } else { (*name).to_owned() }
+        });
+        shown.collect::<Vec<_>>().join(" ")
+    }
+}
+
+impl Table for Led {
+    const ATTRS: &'static [Attr<Led>] = &[
+        Attr::rw("brightness", |l| text(l.brightness), Led::set_brightness),
+        Attr::rw(
+            "delay_off",
+            |l: &Led| text(l.delay_off),
+            |l, bytes| {
+                l.delay_off = lenient_unsigned(bytes)?;
+                Ok(Effect::Done)
+            },
+        )
+        .only_while(|l| l.trigger == TIMER)
+        .late(),
+        Attr::rw(
+            "delay_on",
+            |l: &Led| text(l.delay_on),
+            |l, bytes| {
+                l.delay_on = lenient_unsigned(bytes)?;
+                Ok(Effect::Done)
+            },
+        )
+        .only_while(|l| l.trigger == TIMER)
+        .late(),
+        Attr::ro("max_brightness", |l| text(l.full)),
+        Attr::rw("trigger", |l| text(l.triggers()), Led::set_trigger),
+        Attr::rw("uevent", |_| Ok(Vec::new()), |_, bytes| write_uevent(bytes)),
+    ];
+}
+
+/// The rechargeable pack. Its voltage falls with the load.
+#[derive(Clone, Debug)]
+pub(crate) struct Battery {
+    /// Volts at the terminals.
+    pub(crate) volts: f64,
+    /// Amperes drawn.
+    pub(crate) amperes: f64,
+}
+
+impl Battery {
+    /// Terminal voltage without load: a well-charged lithium-ion pack of two cells.
+    const OPEN_VOLTS: f64 = 8.0;
+    /// Inner resistance with its wiring, in ohms.
+    const OHMS: f64 = 0.15;
+    /// What the brick itself draws, in A.
+    const IDLE_AMPERES: f64 = 0.17;
+    pub(crate) const NAME: &'static str = "lego-ev3-battery";
+
+    pub(crate) fn new() -> Self {
+        let mut battery = Battery { volts: 0.0, amperes: 0.0 };
+        battery.load(0.0);
+        battery
+    }
+
+    /// The motors together draw this much now.
+    pub(crate) fn load(&mut self, motor_amperes: f64) {
+        self.amperes = Self::IDLE_AMPERES + motor_amperes;
+        self.volts = Self::OPEN_VOLTS - self.amperes * Self::OHMS;
+    }
+}
+
+/// Millis of a unit as the micros of the files: the converter is not finer than that.
+#[expect(clippy::cast_possible_truncation, reason = "a few volts or amperes")]
+fn micros(value: f64) -> i64 {
+    libm::round(value * 1000.0) as i64 * 1000
+}
+
+impl Table for Battery {
+    const ATTRS: &'static [Attr<Battery>] = &[
+        Attr::ro("current_now", |b| text(micros(b.amperes))),
+        Attr::ro("scope", |_| text("System")),
+        Attr::ro("technology", |_| text("Li-ion")),
+        Attr::ro("type", |_| text("Battery")),
+        Attr::rw(
+            "uevent",
+            |b| {
+                text(format_args!(
+                    "POWER_SUPPLY_NAME={}\nPOWER_SUPPLY_TECHNOLOGY=Li-ion\n\
+                     POWER_SUPPLY_VOLTAGE_MAX_DESIGN=84000000\n\
+                     POWER_SUPPLY_VOLTAGE_MIN_DESIGN=60000000\nPOWER_SUPPLY_VOLTAGE_NOW={}\n\
+                     POWER_SUPPLY_CURRENT_NOW={}\nPOWER_SUPPLY_SCOPE=System",
+                    Battery::NAME,
+                    micros(b.volts),
+                    micros(b.amperes)
+                ))
+            },
+            |_, bytes| write_uevent(bytes),
+        ),
+        // Ten times too large, as the kernel's driver has it.
+        Attr::ro("voltage_max_design", |_| text(84_000_000)),
+        Attr::ro("voltage_min_design", |_| text(60_000_000)),
+        Attr::ro("voltage_now", |b| text(micros(b.volts))),
+    ];
+}
+
+/// Which brick this is.
+#[derive(Clone, Debug)]
+pub(crate) struct Board;
+
+impl Table for Board {
+    const ATTRS: &'static [Attr<Board>] = &[Attr::rw(
+        "uevent",
+        |_| {
+            text(
+                "BOARD_INFO_HW_REV=7\nBOARD_INFO_MODEL=LEGO MINDSTORMS EV3\n\
+                 BOARD_INFO_ROM_REV=6\nBOARD_INFO_SERIAL_NUM=001653000000\nBOARD_INFO_TYPE=main",
+            )
+        },
+        |_, bytes| write_uevent(bytes),
+    )];
+}
+
+/// How the screen in `/dev/fb0` is laid out.
+#[derive(Clone, Debug)]
+pub(crate) struct Framebuffer(pub(crate) Depth);
+
+impl Table for Framebuffer {
+    const ATTRS: &'static [Attr<Framebuffer>] = &[
+        Attr::ro("bits_per_pixel", |f| text(f.0.bits())),
+        Attr::ro("stride", |f| text(f.0.stride())),
+        Attr::ro("virtual_size", |_| text(format_args!("{WIDTH},{HEIGHT}"))),
+    ];
+}

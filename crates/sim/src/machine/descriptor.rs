@@ -1,0 +1,76 @@
+//! An open file, as the kernel sees it: what a `pread` and a `poll` on it do.
+
+use crate::files::attr::Access;
+use crate::files::errno::Errno;
+use crate::machine::tree::NodeId;
+use crate::machine::{Machine, Written};
+
+/// An open attribute. It stays with its device: once that is unplugged, reads and writes answer
+/// ENODEV for ever.
+#[derive(Clone, Debug)]
+pub struct Descriptor {
+    node: NodeId,
+    text: Vec<u8>,
+    seen: Option<u32>,
+}
+
+impl Descriptor {
+    /// Opens an attribute by its path below the class directory.
+    ///
+    /// # Errors
+    /// ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do.
+    pub fn open(machine: &Machine, path: &str, access: Access) -> Result<Descriptor, Errno> {
+        machine.open(path, access).map(Descriptor::new)
+    }
+
+    /// Wraps a node that was opened already.
+    #[must_use]
+    pub const fn new(node: NodeId) -> Descriptor {
+        Descriptor { node, text: Vec::new(), seen: None }
+    }
+
+    /// The node behind it.
+    #[must_use]
+    pub const fn node(&self) -> NodeId {
+        self.node
+    }
+
+    /// Reads from an offset. At offset 0 the driver makes a new text. Elsewhere this gives the
+    /// rest of the last one, 0 bytes at its end.
+    ///
+    /// # Errors
+    /// ENODEV after an unplug; what the driver answers.
+    pub fn pread(
+        &mut self,
+        machine: &mut Machine,
+        offset: usize,
+        buffer: &mut [u8],
+    ) -> Result<usize, Errno> {
+        if offset == 0 || self.text.is_empty() {
+            self.seen = Some(machine.event_count(self.node)?);
+            self.text = machine.read(self.node)?;
+        }
+        let rest = self.text.get(offset..).unwrap_or(&[]);
+        let length = rest.len().min(buffer.len());
+        buffer[..length].copy_from_slice(&rest[..length]);
+        Ok(length)
+    }
+
+    /// Writes: one call of the driver with these bytes.
+    ///
+    /// # Errors
+    /// ENODEV after an unplug; what the driver answers.
+    pub fn write(&mut self, machine: &mut Machine, bytes: &[u8]) -> Result<Written, Errno> {
+        machine.write(self.node, bytes)
+    }
+
+    /// True if poll(2) would report POLLPRI and POLLERR: the attribute has notified since this
+    /// descriptor's last read, was never read on it, or its device is gone.
+    #[must_use]
+    pub fn poll(&self, machine: &Machine) -> bool {
+        match machine.event_count(self.node) {
+            Ok(count) => self.seen != Some(count),
+            Err(_) => true,
+        }
+    }
+}

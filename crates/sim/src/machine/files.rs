@@ -1,0 +1,195 @@
+//! What a program does with the tree: look up, open, read, write, poll.
+
+use std::time::Duration;
+
+use crate::JIFFY_TICKS;
+use crate::brick::port::Port;
+use crate::files::attr::{Access, Effect};
+use crate::files::errno::Errno;
+use crate::machine::Descriptor;
+use crate::machine::tree::{Entry, Hardware, NodeId, Stat, Tree};
+use crate::machine::{Machine, Written};
+use crate::noise::{Noise, Source};
+use crate::sense::View;
+use crate::sensor::{Reading, Sensor};
+use crate::trace::Action;
+use crate::world::geometry::Pose;
+
+/// Where a sensor sits on a port for which the robot names none.
+const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);
+
+impl Machine {
+    /// The node at a path below the class directory; the empty path is that directory.
+    ///
+    /// # Errors
+    /// ENOENT; ENOTDIR where the path goes on behind a file.
+    pub fn resolve(&self, path: &str) -> Result<NodeId, Errno> {
+        self.tree.resolve(path)
+    }
+
+    /// The node with this name in a directory.
+    ///
+    /// # Errors
+    /// ENOENT; ENOTDIR; ENODEV if the directory's device is gone.
+    pub fn lookup(&self, directory: NodeId, name: &str) -> Result<NodeId, Errno> {
+        self.tree.lookup(directory, name)
+    }
+
+    /// What is in a directory.
+    ///
+    /// # Errors
+    /// ENOTDIR; ENODEV if its device is gone.
+    pub fn read_dir(&self, directory: NodeId) -> Result<Vec<Entry>, Errno> {
+        self.tree.list(directory)
+    }
+
+    /// Kind, permission bits and size of a node.
+    ///
+    /// # Errors
+    /// ENODEV if its device is gone.
+    pub fn stat(&self, node: NodeId) -> Result<Stat, Errno> {
+        self.tree.stat(node, self.tick)
+    }
+
+    /// The path of a node below the class directory.
+    ///
+    /// # Errors
+    /// ENODEV if its device is gone.
+    pub fn path(&self, node: NodeId) -> Result<String, Errno> {
+        self.tree.path(node)
+    }
+
+    /// Opens an attribute, as `open(2)` checks it.
+    ///
+    /// # Errors
+    /// ENOENT, ENOTDIR, EISDIR; EACCES for what the attribute cannot do, and for writing while
+    /// udev has not yet opened the files of a new device.
+    pub fn open(&self, path: &str, access: Access) -> Result<NodeId, Errno> {
+        let node = self.tree.resolve(path)?;
+        self.open_node(node, access).map(|()| node)
+    }
+
+    /// The same check for a node that is known already.
+    ///
+    /// # Errors
+    /// As [`Machine::open`].
+    pub fn open_node(&self, node: NodeId, access: Access) -> Result<(), Errno> {
+        self.tree.may_open(node, access, self.tick)
+    }
+
+    /// Reads an attribute: its driver is called and makes a new text. A [`Descriptor`] decides
+    /// which part of it a `pread` gets.
+    ///
+    /// # Errors
+    /// ENODEV if its device is gone; EACCES if it cannot be read; what the driver answers.
+    pub fn read(&mut self, node: NodeId) -> Result<Vec<u8>, Errno> {
+        let measured = self.tree.measured(node);
+        if measured {
+            self.look(Tree::owner(node));
+        }
+        let text = self.tree.read(node)?;
+        if measured {
+            self.record(Action::Read, node, &text);
+        }
+        Ok(text)
+    }
+
+    /// Writes an attribute: one call of its driver with these bytes.
+    ///
+    /// # Errors
+    /// ENODEV if its device is gone; EACCES if it cannot be written; what the driver answers.
+    pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
+        let mut written = Written { length: bytes.len(), blocks: Duration::ZERO };
+        if bytes.is_empty() {
+            return Ok(written);
+        }
+        let effect = self.tree.write(node, bytes)?;
+        self.record(Action::Written, node, bytes);
+        let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
+        match (effect, port) {
+            (Effect::Blocks(time), _) => written.blocks = time,
+            (Effect::Appeared, _) => {
+                let open_at = self.tick + self.udev_ticks();
+                self.tree.appeared(Tree::owner(node), open_at);
+            }
+            (Effect::PortMode(mode), Some(port)) => written.blocks = self.port_mode(port, mode),
+            (Effect::PortDevice(name), Some(port)) => {
+                self.sockets[port as usize].forced = Some(name);
+                self.register(port, false);
+            }
+            _ => {}
+        }
+        Ok(written)
+    }
+
+    /// How often an attribute has notified those who poll it. Only `state` of tacho motors and
+    /// `value0` of touch sensors ever do.
+    ///
+    /// # Errors
+    /// ENODEV if its device is gone: then poll returns at once.
+    pub fn event_count(&self, node: NodeId) -> Result<u32, Errno> {
+        self.tree.events(node)
+    }
+
+    /// Opens, reads and closes: for tests and small tools.
+    ///
+    /// # Errors
+    /// As [`Machine::open`] and [`Machine::read`].
+    pub fn read_path(&mut self, path: &str) -> Result<String, Errno> {
+        let node = self.open(path, Access::ReadOnly)?;
+        self.read(node).map(|text| String::from_utf8_lossy(&text).into_owned())
+    }
+
+    /// Opens, writes and closes: for tests and small tools.
+    ///
+    /// # Errors
+    /// As [`Machine::open`] and [`Machine::write`].
+    pub fn write_path(&mut self, path: &str, text: &str) -> Result<Written, Errno> {
+        let node = self.open(path, Access::WriteOnly)?;
+        Descriptor::new(node).write(self, text.as_bytes())
+    }
+
+    fn record(&mut self, action: Action, node: NodeId, bytes: &[u8]) {
+        if let Ok(path) = self.tree.attribute_path(node) {
+            let text = String::from_utf8_lossy(bytes.strip_suffix(b"\n").unwrap_or(bytes));
+            self.trace.event(self.now, action, &path, &text);
+        }
+    }
+
+    // ---- sensors --------------------------------------------------------------------------
+
+    /// Lets a sensor look at the world, if its values are not fresh.
+    fn look(&mut self, serial: u64) {
+        let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
+            return;
+        };
+        if !sensor.wants_reading() {
+            return;
+        }
+        let reading = self.measure(sensor);
+        if let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) {
+            sensor.take(reading);
+        }
+    }
+
+    pub(crate) fn measure(&self, sensor: &Sensor) -> Reading {
+        let port = sensor.port();
+        let (pose, noise) = self.mount(port);
+        let sample = self.tick / JIFFY_TICKS;
+        let mut view = View {
+            scene: &self.scene,
+            pose: self.body.pose.compose(&pose),
+            angle: sensor.angle,
+            rate: sensor.rate,
+            power: self.power(),
+            axle: sensor.axle,
+            noise: Source::new(noise, self.options.seed, port as usize, sample),
+        };
+        view.measure(sensor.mode().sense)
+    }
+
+    pub(crate) fn mount(&self, port: Port) -> (Pose, Noise) {
+        let mount = self.robot.sensors.iter().find(|mount| mount.port == port);
+        mount.map_or((SPARE_MOUNT, Noise::NONE), |mount| (mount.pose, mount.noise))
+    }
+}

@@ -1,0 +1,259 @@
+//! The whole: brick, robot and world, and what is true of them.
+//!
+//! What a program does with the files is in `files`, how wires come and go in `plugs`, how time
+//! passes in `time`.
+
+mod descriptor;
+mod dev;
+mod files;
+mod panel;
+mod plugs;
+mod socket;
+mod svg;
+mod time;
+pub(crate) mod tree;
+
+pub use descriptor::Descriptor;
+pub use dev::DevDescriptor;
+
+use std::time::Duration;
+
+use crate::TICK_US;
+use crate::brick::panel::Panel;
+use crate::brick::port::{LegoPort, Port};
+use crate::brick::remote::{Remote, RemoteButton};
+use crate::brick::screen::Depth;
+use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
+use crate::machine::socket::{Plug, Socket};
+use crate::machine::tree::{Hardware, Tree};
+use crate::mechanics::Body;
+use crate::mechanics::shaft::Shaft;
+use crate::noise::Teeth;
+use crate::robot::RobotSpec;
+use crate::trace::{Collision, Trace};
+use crate::world::geometry::Pose;
+use crate::world::scene::Scene;
+use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
+
+/// How faithful a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Where noise starts from.
+    pub seed: u64,
+    /// A plug that is moved is noticed at once, its files are open at once, and a sensor changes
+    /// its mode at once and settled. Real bricks take their time: 0.4 s for a motor, 1.3 s for a
+    /// serial sensor, 0.5 s more for write permission, some ms for a mode.
+    pub instant: bool,
+    /// How many bits the screen has for a pixel.
+    pub depth: Depth,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { seed: 1, instant: false, depth: Depth::default() }
+    }
+}
+
+/// What a successful write did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes taken: all of them.
+    pub length: usize,
+    /// The real call returns only after this time. There is no clock here to wait for, so an
+    /// adapter that has one lets this time pass before it returns to its caller.
+    pub blocks: Duration,
+}
+
+/// A brick with its robot in its world. `clone` is a snapshot.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    options: Options,
+    now: Duration,
+    tick: u64,
+    tree: Tree,
+    sockets: Vec<Socket>,
+    shafts: [Shaft; 4],
+    battery: u64,
+    robot: RobotSpec,
+    body: Body,
+    scene: Scene,
+    panel: Panel,
+    trace: Trace,
+}
+
+impl Machine {
+    /// Boots a brick with everything plugged in, standing at the start of the world.
+    ///
+    /// # Errors
+    /// Names what is impossible in the world or the robot, or that the start is inside something.
+    pub fn new(
+        world: &WorldSpec,
+        robot: &RobotSpec,
+        options: Options,
+    ) -> Result<Machine, SpecError> {
+        robot.validate()?;
+        let scene = Scene::new(world)?;
+        let mut tree = Tree::new();
+        let lego_ports = Port::ALL.map(|port| tree.add(Hardware::Port(LegoPort::new(port)), 0));
+        for (name, brightness) in LEDS {
+            tree.add(Hardware::Led(Led::new(name, brightness)), 0);
+        }
+        let battery = tree.add(Hardware::Battery(Battery::new()), 0);
+        tree.add(Hardware::Board(Board), 0);
+        tree.add(Hardware::Framebuffer(Framebuffer(options.depth)), 0);
+        let socket = |(port, lego_port)| Socket {
+            port,
+            plug: None,
+            due: None,
+            device: None,
+            servos: Vec::new(),
+            lego_port,
+            forced: None,
+        };
+        let shafts = std::array::from_fn(|slot| {
+            let mount = robot.motors.iter().find(|mount| mount.port.slot() == slot);
+            let sigma = mount.map_or(0.0, |mount| mount.encoder_noise);
+            Shaft::new(Teeth::new(sigma, options.seed, slot))
+        });
+        let mut machine = Machine {
+            options,
+            now: Duration::ZERO,
+            tick: 0,
+            tree,
+            sockets: Port::ALL.into_iter().zip(lego_ports).map(socket).collect(),
+            shafts,
+            battery,
+            robot: robot.clone(),
+            body: Body::new(robot, world.start),
+            scene,
+            panel: Panel::new(options.depth),
+            trace: Trace::new(),
+        };
+        machine.check_free(&world.start)?;
+        for mount in &robot.motors {
+            machine.sockets[mount.port as usize].plug = Plug::named(&mount.driver, mount.port);
+        }
+        for mount in &robot.sensors {
+            machine.sockets[mount.port as usize].plug = Plug::named(&mount.driver, mount.port);
+        }
+        for port in Port::ALL {
+            if let Some(Plug::Motor(kind)) = machine.sockets[port as usize].plug {
+                machine.shafts[port.slot()].connect(kind);
+            }
+            machine.register(port, true);
+        }
+        machine.trace.tick(0, Duration::ZERO, world.start);
+        Ok(machine)
+    }
+
+    // ---- ground truth ---------------------------------------------------------------------
+
+    /// Where the robot really is. The heading is not reduced to a full turn.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.body.pose
+    }
+
+    /// Lifts the robot to another place, where it stands still. Its gyro does not notice.
+    ///
+    /// # Errors
+    /// If something is in the way there.
+    pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
+        if !pose.is_finite() {
+            return Err(SpecError::new("robot", "has a number that is not finite"));
+        }
+        self.check_free(&pose)?;
+        self.body.place(pose);
+        for port in [self.robot.left.port, self.robot.right.port] {
+            self.shafts[port.slot()].omega = 0.0;
+        }
+        Ok(())
+    }
+
+    fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
+        let Some(id) = self.scene.overlap(self.robot.hull, pose) else {
+            return Ok(());
+        };
+        let items = self.scene.items();
+        let index = items.iter().position(|(other, _)| *other == id);
+        let (name, part) = match index {
+            Some(index) => (items[index].1.to_string(), Part::Item(index)),
+            None => ("the walls of the bounds".to_owned(), Part::Bounds),
+        };
+        let item = format!("robot at {}, {}", pose.x, pose.y);
+        let error = SpecError::new(item, format!("is inside {name}"));
+        Err(error.in_part(Part::Start).in_part(part))
+    }
+
+    /// Everything in the world, with the numbers under which it can be removed.
+    #[must_use]
+    pub fn items(&self) -> &[(ItemId, Item)] {
+        self.scene.items()
+    }
+
+    /// Puts something into the world.
+    ///
+    /// # Errors
+    /// If the item is impossible, or the robot is where it should stand.
+    pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
+        let name = item.to_string();
+        let id = self.scene.add(item)?;
+        if self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
+            self.scene.remove(id);
+            return Err(SpecError::new(name, "is where the robot stands"));
+        }
+        self.body.world_changed();
+        Ok(id)
+    }
+
+    /// Takes something out of the world; false if there is no such item.
+    pub fn remove_item(&mut self, id: ItemId) -> bool {
+        self.body.world_changed();
+        self.scene.remove(id)
+    }
+
+    /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until
+    /// the next call. Wherever the robot is, its infrared sensors hear it.
+    ///
+    /// # Errors
+    /// If there is no such channel, or these cannot be told from others: any single one can, and
+    /// any two but the beacon's.
+    pub fn hold_buttons(&mut self, channel: u8, buttons: &[RemoteButton]) -> Result<(), SpecError> {
+        let item = || format!("remote control on channel {channel}");
+        let index = usize::from(channel).wrapping_sub(1);
+        let Some(remote) = self.scene.remotes.get_mut(index) else {
+            return Err(SpecError::new(item(), "needs a channel from 1 to 4"));
+        };
+        let held = Remote::holding(buttons);
+        *remote = held.ok_or_else(|| SpecError::new(item(), "has no such buttons at once"))?;
+        Ok(())
+    }
+
+    /// The robot as it was given.
+    #[must_use]
+    pub fn robot(&self) -> &RobotSpec {
+        &self.robot
+    }
+
+    /// Goes back to a snapshot. What is plugged in from now on gets numbers that no device has had
+    /// in the meantime, either: a program that still knows that device would mistake the new one for
+    /// it.
+    pub fn restore(&mut self, snapshot: Machine) {
+        let before = std::mem::replace(self, snapshot);
+        self.tree.count_on_from(&before.tree);
+    }
+
+    /// What happened so far.
+    #[must_use]
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    fn hit(&mut self, item: ItemId) {
+        self.trace.collision(Collision {
+            at: Duration::from_micros(self.tick * TICK_US),
+            item,
+            pose: self.body.pose,
+        });
+    }
+}

@@ -1,0 +1,261 @@
+//! How time passes: ticks of 2 ms, each the same however a caller slices his steps.
+
+use std::time::Duration;
+
+use crate::brick::port::Port;
+use crate::machine::Machine;
+use crate::machine::socket::Plug;
+use crate::machine::tree::Hardware;
+use crate::mechanics::Load;
+use crate::motor::Bridge;
+use crate::noise::{Noise, Source};
+use crate::world::geometry::Pose;
+use crate::{JIFFY_TICKS, NOTIFY_TICKS, TICK_US};
+
+const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
+
+impl Machine {
+    /// Virtual time since boot.
+    #[must_use]
+    pub fn now(&self) -> Duration {
+        self.now
+    }
+
+    /// Lets exactly this much time pass.
+    pub fn step(&mut self, dt: Duration) {
+        self.now += dt;
+        let ticks = self.now.as_micros() / u128::from(TICK_US);
+        while u128::from(self.tick) < ticks {
+            self.advance();
+        }
+    }
+
+    /// A time, after now, before which nothing happens that a waiting program could be woken by:
+    /// the next 50 ms look at the motors' flags, the end of a sensor's mode change, a plug being
+    /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock
+    /// may jump there with `step(next_event() - now())` and look again.
+    #[must_use]
+    pub fn next_event(&self) -> Duration {
+        let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
+        let mut next = next_on_grid(NOTIFY_TICKS);
+        let moving = self.shafts.iter().any(|shaft| shaft.omega != 0.0);
+        for hardware in self.tree.all() {
+            let due = match hardware {
+                Hardware::Tacho(motor) => motor.next_timer(),
+                Hardware::DcMotor(motor) => motor.next_timer(),
+                Hardware::Sensor(sensor) if sensor.kind.link.is_analog() && moving => {
+                    Some(next_on_grid(JIFFY_TICKS))
+                }
+                Hardware::Sensor(sensor) => sensor.next_event(),
+                _ => None,
+            };
+            next = next.min(due.unwrap_or(next).max(self.tick + 1));
+        }
+        next = next.min(self.panel.next_tick().unwrap_or(next).max(self.tick + 1));
+        for due in self.sockets.iter().filter_map(|socket| socket.due) {
+            next = next.min(due.max(self.tick + 1));
+        }
+        Duration::from_micros(next * TICK_US)
+    }
+
+    /// One tick.
+    fn advance(&mut self) {
+        let start_us = self.tick * TICK_US;
+        self.tick += 1;
+        self.turn_shafts(start_us);
+        self.run_drivers();
+        for port in Port::ALL {
+            if self.sockets[port as usize].due.is_some_and(|due| due <= self.tick) {
+                self.detect(port);
+            }
+        }
+        self.apply_planned_buttons();
+        let at = Duration::from_micros(self.tick * TICK_US);
+        self.trace.tick(self.tick, at, self.body.pose);
+    }
+
+    /// True if a motor's wire is in its socket.
+    fn wired(&self, port: Port) -> bool {
+        matches!(self.sockets[port as usize].plug, Some(Plug::Motor(_)))
+    }
+
+    fn bridge(&self, port: Port) -> Bridge {
+        let device = self.sockets[port as usize].device.filter(|_| self.wired(port));
+        match device.and_then(|serial| self.tree.hardware(serial)) {
+            Some(Hardware::Tacho(motor)) => motor.bridge(),
+            Some(Hardware::DcMotor(motor)) => motor.bridge(),
+            _ => Bridge::Float,
+        }
+    }
+
+    /// The share of the battery's voltage that each output port gives what is plugged in: 0 where
+    /// the port has no driver that simply does so.
+    pub(crate) fn power(&self) -> [f64; 4] {
+        OUTPUTS.map(|port| {
+            let device = self.sockets[port as usize].device;
+            match device.and_then(|serial| self.tree.hardware(serial)) {
+                Some(Hardware::DcMotor(motor)) => match motor.bridge() {
+                    Bridge::Driven(duty) => f64::from(duty.abs()) / 100.0,
+                    Bridge::Float | Bridge::Short => 0.0,
+                },
+                Some(Hardware::Led(led)) => led.level(),
+                _ => 0.0,
+            }
+        })
+    }
+
+    fn battery_volts(&self) -> f64 {
+        match self.tree.hardware(self.battery) {
+            Some(Hardware::Battery(battery)) => battery.volts,
+            _ => 0.0,
+        }
+    }
+
+    /// Loads on the four shafts, and the current that their motors draw.
+    fn loads(&self) -> ([Load; 4], f64) {
+        let volts = self.battery_volts();
+        let mut amperes = 0.0;
+        let loads = OUTPUTS.map(|port| {
+            let mount = self.robot.motors.iter().find(|mount| mount.port == port);
+            let noise = mount.map_or(Noise::NONE, |mount| mount.noise);
+            let sample = self.tick / JIFFY_TICKS;
+            let mut source = Source::new(noise, self.options.seed, port as usize, sample);
+            let strength = 1.0 + noise.bias / 100.0;
+            let shaft = &self.shafts[port.slot()];
+            let (load, drawn) = shaft.load(self.bridge(port), volts, strength, source.jitter());
+            amperes += drawn;
+            load
+        });
+        (loads, amperes)
+    }
+
+    fn turn_shafts(&mut self, start_us: u64) {
+        let at_rest = self.shafts.iter().all(|shaft| shaft.omega == 0.0);
+        let undriven =
+            |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
+        if at_rest && OUTPUTS.into_iter().all(undriven) {
+            self.set_current(0.0);
+            self.body.turn_rate = 0.0;
+            for port in OUTPUTS {
+                let wired = self.wired(port);
+                self.shafts[port.slot()].rest(wired, start_us);
+            }
+            return;
+        }
+        let (loads, amperes) = self.loads();
+        self.set_current(amperes);
+        self.turn_wheels(&loads);
+        let wheels = [self.robot.left.port, self.robot.right.port];
+        for port in OUTPUTS {
+            let wired = self.wired(port);
+            let shaft = &mut self.shafts[port.slot()];
+            if !wheels.contains(&port) {
+                shaft.omega = loads[port.slot()].turn_free(shaft.omega);
+            }
+            shaft.turn(wired, start_us);
+        }
+    }
+
+    fn turn_wheels(&mut self, loads: &[Load; 4]) {
+        let [left, right] = [self.robot.left.port.slot(), self.robot.right.port.slot()];
+        let mut omega = [self.shafts[left].omega, self.shafts[right].omega];
+        let mut hits = Vec::new();
+        let wheel_loads = [loads[left], loads[right]];
+        let hit = |item| hits.push(item);
+        self.body.advance(&mut omega, &wheel_loads, &self.robot, &self.scene, hit);
+        self.shafts[left].omega = omega[0];
+        self.shafts[right].omega = omega[1];
+        for item in hits {
+            self.hit(item);
+        }
+    }
+
+    fn set_current(&mut self, amperes: f64) {
+        if let Some(Hardware::Battery(battery)) = self.tree.hardware_mut(self.battery) {
+            battery.load(amperes);
+        }
+    }
+
+    /// The kernel's share of a tick: motor loops, sensors' clocks, samples, notifications.
+    fn run_drivers(&mut self) {
+        let tick = self.tick;
+        let notify = tick % NOTIFY_TICKS == 0;
+        for port in OUTPUTS {
+            let encoder = &self.shafts[port.slot()].encoder;
+            let (count, speed) = (encoder.count(), encoder.speed());
+            let device = self.sockets[port as usize].device;
+            let hardware = device.and_then(|serial| self.tree.hardware_mut(serial));
+            match hardware {
+                Some(Hardware::Tacho(motor)) => {
+                    motor.sample(tick, count, speed);
+                    if notify {
+                        motor.notify();
+                    }
+                }
+                Some(Hardware::DcMotor(motor)) => motor.sample(tick),
+                _ => {}
+            }
+        }
+        for index in 0..4 {
+            let Some(serial) = self.sockets[index].device else {
+                continue;
+            };
+            let (_, noise) = self.mount(self.sockets[index].port);
+            let (rate, axle_rate) = (self.body.turn_rate, self.axle_rate());
+            let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) else {
+                continue;
+            };
+            // Only a gyro knows a rate; its bias is drift.
+            let drift = if sensor.kind.is_gyro() { noise.bias } else { 0.0 };
+            sensor.tick(tick, rate + drift, axle_rate);
+            if sensor.samples_now() {
+                self.sample(serial);
+            }
+        }
+    }
+
+    /// How fast the left wheel's axle turns, in degrees per second, positive where it drives ahead.
+    fn axle_rate(&self) -> f64 {
+        let wheel = self.robot.left;
+        let rate = self.shafts[wheel.port.slot()].omega.to_degrees();
+        if wheel.inverted { -rate } else { rate }
+    }
+
+    fn sample(&mut self, serial: u64) {
+        let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
+            return;
+        };
+        let reading = self.measure(sensor);
+        if let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) {
+            sensor.take(reading);
+        }
+    }
+
+    // ---- ground truth ---------------------------------------------------------------------
+
+    /// How far a motor's shaft has turned since boot, in degrees, whoever counts.
+    #[must_use]
+    pub fn shaft_angle(&self, port: Port) -> f64 {
+        if port.is_output() { self.shafts[port.slot()].angle } else { 0.0 }
+    }
+
+    /// Energy of motion of robot and motors, in joules.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let (loads, _) = self.loads();
+        let [left, right] = [self.robot.left.port.slot(), self.robot.right.port.slot()];
+        let omega = [self.shafts[left].omega, self.shafts[right].omega];
+        let driving = self.body.energy(omega, &[loads[left], loads[right]]);
+        let free = (0..4).filter(|slot| ![left, right].contains(slot));
+        driving
+            + free
+                .map(|slot| loads[slot].inertia * self.shafts[slot].omega.powi(2) / 2.0)
+                .sum::<f64>()
+    }
+
+    /// Where a sensor is in the world and which way it looks.
+    #[must_use]
+    pub fn sensor_pose(&self, port: Port) -> Pose {
+        self.body.pose.compose(&self.mount(port).0)
+    }
+}

@@ -1,0 +1,271 @@
+//! What stands and lies in a world, as plain data.
+
+use std::fmt;
+
+use crate::brick::port::Port;
+use crate::world::color::Color;
+use crate::world::geometry::Pose;
+
+/// A point in cm.
+pub type Point = [f64; 2];
+
+/// Names an item of a world. Bounds are item 0, the items of the world's spec follow in order,
+/// and what is added later gets the next number; numbers are not used again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ItemId(pub u32);
+
+/// One thing in the world. Lengths in cm, headings in degrees clockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// A wall from a point to another.
+    Wall {
+        /// One end.
+        from: Point,
+        /// The other end.
+        to: Point,
+        /// How thick it is, centerd on the line between the ends.
+        thickness: f64,
+    },
+    /// A box.
+    Box {
+        /// Center and direction of its depth.
+        pose: Pose,
+        /// Extent across its heading.
+        width: f64,
+        /// Extent along its heading.
+        depth: f64,
+    },
+    /// A round thing.
+    Circle {
+        /// Center.
+        center: Point,
+        /// Radius.
+        radius: f64,
+    },
+    /// A colored polygon on the floor. Later patches and lines cover earlier ones.
+    Patch {
+        /// At least three corners, in order.
+        corners: Vec<Point>,
+        /// Its color.
+        color: Color,
+    },
+    /// A line on the floor, with round ends and joints.
+    Line {
+        /// At least two points.
+        points: Vec<Point>,
+        /// How wide it is.
+        width: f64,
+        /// Its color.
+        color: Color,
+    },
+    /// A lamp, 30 cm above the floor.
+    Lamp {
+        /// Where it hangs.
+        at: Point,
+        /// The percentage that a color sensor in COL-AMBIENT reads when it looks at the lamp
+        /// from 100 cm. It falls with the square of the distance: of 12 there is left about 100
+        /// at 20 cm, 40 at 50 cm, 3 at 200 cm.
+        intensity: f64,
+    },
+    /// A lamp like the others, but lit by an output port in the mode `dc-motor` or `led`: as bright
+    /// as the duty or brightness there says.
+    Bulb {
+        /// Where it hangs.
+        at: Point,
+        /// As of a lamp, at 100 %.
+        intensity: f64,
+        /// The port it is plugged into.
+        port: Port,
+    },
+    /// A remote control whose beacon is on, as high as the sensors. Seen from up to 200 cm.
+    Beacon {
+        /// Where it stands.
+        at: Point,
+        /// 1 to 4.
+        channel: u8,
+    },
+}
+
+impl Item {
+    /// A wall of the usual thickness, 1 cm.
+    #[must_use]
+    pub const fn wall(from: Point, to: Point) -> Item {
+        Item::Wall { from, to, thickness: 1.0 }
+    }
+
+    /// A colored rectangle on the floor from one corner to the opposite one.
+    #[must_use]
+    pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, color: Color) -> Item {
+        Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], color }
+    }
+
+    /// The word for it in error messages.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Item::Wall { .. } => "wall",
+            Item::Box { .. } => "box",
+            Item::Circle { .. } => "circle",
+            Item::Patch { .. } => "patch",
+            Item::Line { .. } => "line",
+            Item::Lamp { .. } | Item::Bulb { .. } => "lamp",
+            Item::Beacon { .. } => "beacon",
+        }
+    }
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the item and what is impossible about it.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let fault = match self {
+            Item::Wall { from, to, thickness } => first_fault([
+                (finite(&[*from, *to]), NOT_FINITE),
+                (positive(libm::hypot(to[0] - from[0], to[1] - from[1])), "has no length"),
+                (positive(*thickness), "needs a thickness above 0"),
+            ]),
+            Item::Box { pose, width, depth } => first_fault([
+                (pose.is_finite(), NOT_FINITE),
+                (positive(*width) && positive(*depth), "needs a width and a depth above 0"),
+            ]),
+            Item::Circle { center, radius } => first_fault([
+                (finite(&[*center]), NOT_FINITE),
+                (positive(*radius), "needs a radius above 0"),
+            ]),
+            Item::Patch { corners, .. } => first_fault([
+                (finite(corners), NOT_FINITE),
+                (corners.len() >= 3, "needs at least three corners"),
+            ]),
+            Item::Line { points, width, .. } => first_fault([
+                (finite(points), NOT_FINITE),
+                (positive(*width) && points.len() >= 2, "needs two points and a width above 0"),
+            ]),
+            Item::Lamp { at, intensity } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
+            ]),
+            Item::Bulb { at, intensity, port } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
+                (port.is_output(), "needs an output port"),
+            ]),
+            Item::Beacon { at, channel } => first_fault([
+                (finite(&[*at]), NOT_FINITE),
+                ((1..=4).contains(channel), "needs a channel from 1 to 4"),
+            ]),
+        };
+        match fault {
+            Some(reason) => Err(SpecError::new(self.to_string(), reason)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// As the fact that describes it in a world file; of long lists of points only the first.
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
+                write!(f, "wall({x1}, {y1}, {x2}, {y2}, {thickness})")
+            }
+            Item::Box { pose: Pose { x, y, heading }, width, depth } => {
+                write!(f, "box({x}, {y}, {width}, {depth}, {heading})")
+            }
+            Item::Circle { center: [x, y], radius } => write!(f, "circle({x}, {y}, {radius})"),
+            Item::Patch { corners, color } => write!(f, "patch({color}, {})", Points(corners)),
+            Item::Line { points, width, color } => {
+                write!(f, "line({color}, {width}, {})", Points(points))
+            }
+            Item::Lamp { at: [x, y], intensity } => write!(f, "lamp({x}, {y}, {intensity})"),
+            Item::Bulb { at: [x, y], intensity, port } => {
+                write!(f, "lamp({x}, {y}, {intensity}, {port})")
+            }
+            Item::Beacon { at: [x, y], channel } => write!(f, "beacon({x}, {y}, {channel})"),
+        }
+    }
+}
+
+struct Points<'a>(&'a [Point]);
+
+impl fmt::Display for Points<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => f.write_str("[]"),
+            [[x, y]] => write!(f, "[[{x}, {y}]]"),
+            [[x, y], ..] => write!(f, "[[{x}, {y}]|...]"),
+        }
+    }
+}
+
+pub(crate) const NOT_FINITE: &str = "has a number that is not finite";
+
+fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'static str> {
+    checks.into_iter().find(|(fine, _)| !fine).map(|(_, reason)| reason)
+}
+
+pub(crate) fn finite(points: &[Point]) -> bool {
+    points.iter().flatten().all(|number| number.is_finite())
+}
+
+fn positive(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+/// A part of a world or a robot, as its file's facts name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// An item, by its place in [`WorldSpec::items`](crate::WorldSpec::items).
+    Item(usize),
+    /// The bounds.
+    Bounds,
+    /// The light from everywhere.
+    Ambient,
+    /// The temperature.
+    Temperature,
+    /// The loudness.
+    Loudness,
+    /// Where the robot starts.
+    Start,
+    /// A row of a drawn world, counted from 0.
+    MapRow(usize),
+    /// The left wheel.
+    LeftWheel,
+    /// The right wheel.
+    RightWheel,
+    /// The axle.
+    Axle,
+    /// The outline.
+    Hull,
+    /// The mass.
+    Mass,
+    /// A motor, by its place in [`RobotSpec::motors`](crate::RobotSpec::motors).
+    Motor(usize),
+    /// The errors of the encoder of the motor at a port.
+    EncoderNoise(Port),
+    /// A sensor, by its place in [`RobotSpec::sensors`](crate::RobotSpec::sensors).
+    Sensor(usize),
+}
+
+/// Something impossible in a world or a robot.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{item} {reason}")]
+pub struct SpecError {
+    /// The offending item, as a message names it.
+    pub item: String,
+    /// What is wrong with it.
+    pub reason: String,
+    /// The parts that may be to blame, the likeliest first.
+    pub parts: Vec<Part>,
+}
+
+impl SpecError {
+    pub(crate) fn new(item: impl Into<String>, reason: impl Into<String>) -> Self {
+        SpecError { item: item.into(), reason: reason.into(), parts: Vec::new() }
+    }
+
+    /// The same error, with one more part that may be to blame.
+    pub(crate) fn in_part(mut self, part: Part) -> Self {
+        self.parts.push(part);
+        self
+    }
+}

@@ -1,0 +1,15 @@
+//! The world: what is in it, as plain data ([`item`], [`spec`], [`map`]), and the shapes that stop
+//! robots, sound and light ([`scene`], [`obstacle`]).
+
+pub(crate) mod color;
+pub(crate) mod geometry;
+mod hull;
+mod item;
+mod map;
+pub(crate) mod obstacle;
+pub(crate) mod scene;
+mod spec;
+
+pub use hull::Hull;
+pub use item::{Item, ItemId, Part, Point, SpecError};
+pub use spec::{Bounds, WorldSpec};

@@ -1,0 +1,206 @@
+//! Things that stop robots, sound and light: boxes and circles, and where a hull touches them.
+
+use parry2d_f64::math::Point;
+use parry2d_f64::query::{self, PointQuery, Ray, RayCast};
+use parry2d_f64::shape::{Ball, Cuboid, Segment, Shape};
+
+use crate::world::Hull;
+use crate::world::geometry::{Frame, Pose, Vec2, frame, length, outside};
+use crate::world::{Bounds, Item, ItemId};
+
+/// How thick the walls of the bounds are.
+const BOUND_THICKNESS: f64 = 10.0;
+
+#[derive(Clone, Copy, Debug)]
+enum Solid {
+    Box(Cuboid),
+    Ball(Ball),
+}
+
+/// A solid thing in its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Obstacle {
+    pub(crate) id: ItemId,
+    solid: Solid,
+    frame: Frame,
+    /// The largest distance of a point of it from its center.
+    reach: f64,
+}
+
+/// A place where a hull is at, or near, an obstacle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    pub(crate) id: ItemId,
+    /// Distance left, in cm.
+    pub(crate) gap: f64,
+    /// Away from the obstacle.
+    pub(crate) normal: Vec2,
+    /// The point of the hull.
+    pub(crate) point: Vec2,
+}
+
+impl Obstacle {
+    /// The solid form of an item, if it has one.
+    pub(crate) fn new(id: ItemId, item: &Item) -> Option<Obstacle> {
+        match *item {
+            Item::Wall { from: [x1, y1], to: [x2, y2], thickness } => {
+                let way = Vec2::new(x2 - x1, y2 - y1);
+                let long = length(way);
+                let middle = Vec2::new(f64::midpoint(x1, x2), f64::midpoint(y1, y2));
+                let frame = frame(middle, way.x / long, way.y / long);
+                Some(Obstacle::cuboid(id, frame, long / 2.0, thickness / 2.0))
+            }
+            Item::Box { pose, width, depth } => {
+                Some(Obstacle::cuboid(id, pose.frame(), width / 2.0, depth / 2.0))
+            }
+            Item::Circle { center: [x, y], radius } => Some(Obstacle {
+                id,
+                solid: Solid::Ball(Ball::new(radius)),
+                frame: frame(Vec2::new(x, y), 1.0, 0.0),
+                reach: radius,
+            }),
+            Item::Patch { .. }
+            | Item::Line { .. }
+            | Item::Lamp { .. }
+            | Item::Bulb { .. }
+            | Item::Beacon { .. } => None,
+        }
+    }
+
+    fn cuboid(id: ItemId, frame: Frame, half_x: f64, half_y: f64) -> Obstacle {
+        let half = Vec2::new(half_x, half_y);
+        Obstacle { id, solid: Solid::Box(Cuboid::new(half)), frame, reach: length(half) }
+    }
+
+    /// The four walls around the bounds: left, right, below, above.
+    pub(crate) fn around(id: ItemId, bounds: Bounds) -> [Obstacle; 4] {
+        let Bounds { low: [left, low], high: [right, high] } = bounds;
+        let half = BOUND_THICKNESS / 2.0;
+        let (x, y) = (f64::midpoint(left, right), f64::midpoint(low, high));
+        let (half_x, half_y) = ((right - left) / 2.0, (high - low) / 2.0);
+        let wall = |x: f64, y: f64, half_x: f64, half_y: f64| {
+            Obstacle::cuboid(id, frame(Vec2::new(x, y), 1.0, 0.0), half_x, half_y)
+        };
+        [
+            wall(left - half, y, half, half_y + BOUND_THICKNESS),
+            wall(right + half, y, half, half_y + BOUND_THICKNESS),
+            wall(x, low - half, half_x + BOUND_THICKNESS, half),
+            wall(x, high + half, half_x + BOUND_THICKNESS, half),
+        ]
+    }
+
+    fn shape(&self) -> &dyn Shape {
+        match &self.solid {
+            Solid::Box(cuboid) => cuboid,
+            Solid::Ball(ball) => ball,
+        }
+    }
+
+    /// How far a ray goes before it meets this, at most `max`. Its direction has length 1.
+    pub(crate) fn cast(&self, ray: &Ray, max: f64) -> Option<f64> {
+        let offset = self.frame.translation.vector - ray.origin.coords;
+        let aside = ray.dir.x * offset.y - ray.dir.y * offset.x;
+        if aside.abs() > self.reach {
+            return None;
+        }
+        match &self.solid {
+            Solid::Box(cuboid) => cuboid.cast_ray(&self.frame, ray, max, true),
+            Solid::Ball(ball) => ball.cast_ray(&self.frame, ray, max, true),
+        }
+    }
+
+    /// Not farther than this obstacle is from a circle: cheap.
+    pub(crate) fn at_least(&self, center: Vec2, radius: f64) -> f64 {
+        length(self.frame.translation.vector - center) - self.reach - radius
+    }
+
+    /// True if it overlaps a hull.
+    pub(crate) fn overlaps(&self, hull: Hull, pose: &Pose) -> bool {
+        let frame = pose.frame();
+        let test = if let Some((outline, center)) = hull_box(hull, &frame) {
+            query::intersection_test(&center, &outline, &self.frame, self.shape())
+        } else {
+            let outline = Ball::new(hull.reach());
+            query::intersection_test(&frame, &outline, &self.frame, self.shape())
+        };
+        test.unwrap_or(false)
+    }
+
+    /// True if it is within `distance` of a straight line between two points.
+    pub(crate) fn near_line(&self, from: Vec2, to: Vec2, distance: f64) -> bool {
+        let line = Segment::new(Point::from(from), Point::from(to));
+        self.at_least((from + to) / 2.0, length(to - from) / 2.0) <= distance
+            && query::distance(&Frame::identity(), &line, &self.frame, self.shape())
+                .is_ok_and(|gap| gap <= distance)
+    }
+
+    /// The points at which a hull may touch this, each as gap, direction away, and the hull's
+    /// point. The nearest points of two convex outlines always include a corner of one of them,
+    /// so it is enough to look at the corners.
+    pub(crate) fn touch_points(
+        &self,
+        hull: Hull,
+        frame: &Frame,
+        mut found: impl FnMut(f64, Vec2, Vec2),
+    ) {
+        let middle = frame.translation.vector;
+        let center = self.frame.translation.vector;
+        match (hull_box(hull, frame), &self.solid) {
+            (None, Solid::Box(cuboid)) => {
+                let (distance, normal) = away_from(cuboid, &self.frame, middle);
+                let radius = hull.reach();
+                found(distance - radius, normal, middle - normal * radius);
+            }
+            (None, Solid::Ball(ball)) => {
+                let offset = middle - center;
+                let distance = length(offset).max(1e-9);
+                let normal = offset / distance;
+                let radius = hull.reach();
+                found(distance - radius - ball.radius, normal, middle - normal * radius);
+            }
+            (Some((outline, place)), Solid::Ball(ball)) => {
+                let (distance, normal) = away_from(&outline, &place, center);
+                found(distance - ball.radius, -normal, center - normal * distance);
+            }
+            (Some((outline, place)), Solid::Box(cuboid)) => {
+                for corner in corners(&outline, &place) {
+                    let (distance, normal) = away_from(cuboid, &self.frame, corner);
+                    found(distance, normal, corner);
+                }
+                for corner in corners(cuboid, &self.frame) {
+                    let (distance, normal) = away_from(&outline, &place, corner);
+                    found(distance, -normal, corner);
+                }
+            }
+        }
+    }
+}
+
+/// A rectangular hull and the frame of its center.
+fn hull_box(hull: Hull, frame: &Frame) -> Option<(Cuboid, Frame)> {
+    let Hull::Rectangle { width, length, offset } = hull else {
+        return None;
+    };
+    let center = outside(frame, Vec2::new(0.0, offset));
+    let outline = Cuboid::new(Vec2::new(width / 2.0, length / 2.0));
+    Some((outline, Frame::from_parts(center.into(), frame.rotation)))
+}
+
+/// The corners of a box around its center.
+fn corners(cuboid: &Cuboid, frame: &Frame) -> [Vec2; 4] {
+    let (x, y) = (cuboid.half_extents.x, cuboid.half_extents.y);
+    [(x, y), (x, -y), (-x, -y), (-x, y)].map(|(x, y)| outside(frame, Vec2::new(x, y)))
+}
+
+/// Signed distance of a point from a box, and the direction away from the box.
+fn away_from(cuboid: &Cuboid, frame: &Frame, point: Vec2) -> (f64, Vec2) {
+    let projection = cuboid.project_point(frame, &Point::from(point), false);
+    let offset = point - projection.point.coords;
+    let distance = length(offset);
+    if distance < 1e-9 {
+        let outwards = point - frame.translation.vector;
+        return (0.0, outwards / length(outwards).max(1e-9));
+    }
+    let signed = if projection.is_inside { -distance } else { distance };
+    (signed, offset / signed)
+}

@@ -1,0 +1,225 @@
+//! The world as the physics and the sensors need it: shapes to bump into, to see, to stand on.
+
+use parry2d_f64::math::Point;
+use parry2d_f64::query::{PointQuery, Ray};
+use parry2d_f64::shape::Segment;
+use parry2d_f64::utils::point_in_poly2d;
+
+use crate::brick::remote::{CHANNELS, Remote};
+use crate::world::Hull;
+use crate::world::color::Color;
+use crate::world::geometry::{Frame, Pose, Vec2, length};
+use crate::world::obstacle::{Contact, Obstacle};
+use crate::world::{Bounds, Item, ItemId, SpecError, WorldSpec};
+
+const BOUNDS: ItemId = ItemId(0);
+
+/// A world in working order.
+#[derive(Clone, Debug)]
+pub(crate) struct Scene {
+    items: Vec<(ItemId, Item)>,
+    obstacles: Vec<Obstacle>,
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) floor: Color,
+    pub(crate) ambient: f64,
+    pub(crate) temperature: f64,
+    pub(crate) loudness: f64,
+    /// What is held down on each channel of remote controls.
+    pub(crate) remotes: [Remote; CHANNELS],
+    next_id: u32,
+}
+
+impl Scene {
+    pub(crate) fn new(spec: &WorldSpec) -> Result<Scene, SpecError> {
+        spec.validate()?;
+        let mut scene = Scene {
+            items: Vec::new(),
+            obstacles: Vec::new(),
+            bounds: spec.bounds,
+            floor: spec.floor,
+            ambient: spec.ambient,
+            temperature: spec.temperature,
+            loudness: spec.loudness,
+            remotes: [Remote::NONE; CHANNELS],
+            next_id: 1,
+        };
+        if let Some(bounds) = spec.bounds {
+            scene.obstacles.extend(Obstacle::around(BOUNDS, bounds));
+        }
+        for item in &spec.items {
+            scene.add(item.clone())?;
+        }
+        Ok(scene)
+    }
+
+    pub(crate) fn add(&mut self, item: Item) -> Result<ItemId, SpecError> {
+        item.validate()?;
+        let id = ItemId(self.next_id);
+        self.next_id += 1;
+        self.obstacles.extend(Obstacle::new(id, &item));
+        self.items.push((id, item));
+        Ok(id)
+    }
+
+    pub(crate) fn remove(&mut self, id: ItemId) -> bool {
+        let before = self.items.len();
+        self.items.retain(|(other, _)| *other != id);
+        if self.items.len() == before {
+            return false;
+        }
+        self.obstacles.retain(|obstacle| obstacle.id != id);
+        true
+    }
+
+    pub(crate) fn items(&self) -> &[(ItemId, Item)] {
+        &self.items
+    }
+
+    /// How far a ray goes before it meets something, at most `max`.
+    pub(crate) fn cast(&self, from: Vec2, direction: Vec2, max: f64) -> Option<f64> {
+        let ray = Ray::new(Point::from(from), direction);
+        let mut nearest = None;
+        let mut limit = max;
+        for obstacle in &self.obstacles {
+            if let Some(distance) = obstacle.cast(&ray, limit) {
+                limit = distance;
+                nearest = Some(distance);
+            }
+        }
+        nearest
+    }
+
+    /// True if nothing stands between two points.
+    pub(crate) fn clear_between(&self, from: Vec2, to: Vec2) -> bool {
+        let way = to - from;
+        let far = length(way);
+        far < 1e-9 || self.cast(from, way / far, far).is_none()
+    }
+
+    /// The lamps: where they hang and how bright they are, those on output ports by the share of
+    /// the voltage that each port gives.
+    pub(crate) fn lamps(&self, power: [f64; 4]) -> impl Iterator<Item = (Vec2, f64)> {
+        self.items.iter().filter_map(move |(_, item)| match item {
+            Item::Lamp { at: [x, y], intensity } => Some((Vec2::new(*x, *y), *intensity)),
+            Item::Bulb { at: [x, y], intensity, port } => {
+                Some((Vec2::new(*x, *y), *intensity * power[port.slot()]))
+            }
+            _ => None,
+        })
+    }
+
+    /// The beacons: where they stand and on which channels.
+    pub(crate) fn beacons(&self) -> impl Iterator<Item = (Vec2, u8)> {
+        self.items.iter().filter_map(|(_, item)| match item {
+            Item::Beacon { at: [x, y], channel } => Some((Vec2::new(*x, *y), *channel)),
+            _ => None,
+        })
+    }
+
+    /// The color of the floor at a point.
+    pub(crate) fn color_at(&self, point: Vec2) -> Color {
+        let on_top = self.items.iter().rev().find_map(|(_, item)| match item {
+            Item::Patch { corners, color } => {
+                let corners: Vec<_> = corners.iter().copied().map(Point::from).collect();
+                point_in_poly2d(&Point::from(point), &corners).then_some(*color)
+            }
+            Item::Line { points, width, color } => {
+                let near = |pair: &[[f64; 2]]| {
+                    let part = Segment::new(Point::from(pair[0]), Point::from(pair[1]));
+                    part.distance_to_local_point(&Point::from(point), true) <= width / 2.0
+                };
+                points.windows(2).any(near).then_some(*color)
+            }
+            _ => None,
+        });
+        on_top.unwrap_or(self.floor)
+    }
+
+    /// Collects where a hull is within `margin` of an obstacle, and answers a distance that the
+    /// hull can certainly go without coming that near anywhere else.
+    pub(crate) fn contacts(
+        &self,
+        hull: Hull,
+        frame: &Frame,
+        margin: f64,
+        contacts: &mut Vec<Contact>,
+    ) -> f64 {
+        contacts.clear();
+        let reach = hull.reach();
+        let mut free = f64::INFINITY;
+        for obstacle in &self.obstacles {
+            let rough = obstacle.at_least(frame.translation.vector, reach);
+            if rough > free.min(20.0).max(margin) {
+                free = free.min(rough);
+                continue;
+            }
+            obstacle.touch_points(hull, frame, |gap, normal, point| {
+                free = free.min(gap);
+                if gap < margin {
+                    contacts.push(Contact { id: obstacle.id, gap, normal, point });
+                }
+            });
+        }
+        free
+    }
+
+    /// True if a hull in this place overlaps an obstacle, and which one.
+    pub(crate) fn overlap(&self, hull: Hull, pose: &Pose) -> Option<ItemId> {
+        let mut obstacles = self.obstacles.iter();
+        obstacles.find(|obstacle| obstacle.overlaps(hull, pose)).map(|obstacle| obstacle.id)
+    }
+
+    /// True if an obstacle is within `distance` of a straight bumper.
+    pub(crate) fn near_bumper(&self, from: Vec2, to: Vec2, distance: f64) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.near_line(from, to, distance))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rays_meet_walls_boxes_and_circles() {
+        let mut scene = Scene::new(&WorldSpec::default()).unwrap();
+        let up = Vec2::new(0.0, 1.0);
+        assert_eq!(scene.cast(Vec2::zeros(), up, 255.0), None);
+        let wall = scene.add(Item::wall([-50.0, 100.0], [50.0, 100.0])).unwrap();
+        let near = |expected: f64, scene: &Scene| {
+            let distance = scene.cast(Vec2::zeros(), up, 255.0).unwrap();
+            assert!((distance - expected).abs() < 1e-9, "{distance}");
+        };
+        near(99.5, &scene);
+        scene.add(Item::Circle { center: [0.0, 80.0], radius: 5.0 }).unwrap();
+        near(75.0, &scene);
+        let pose = Pose::new(0.0, 50.0, 45.0);
+        let diamond = scene.add(Item::Box { pose, width: 10.0, depth: 10.0 }).unwrap();
+        near(50.0 - 50.0_f64.sqrt(), &scene);
+        assert!(!scene.clear_between(Vec2::zeros(), Vec2::new(0.0, 60.0)));
+        assert!(scene.remove(diamond) && scene.remove(wall) && !scene.remove(wall));
+        near(75.0, &scene);
+    }
+
+    #[test]
+    fn floors_cover_each_other_in_order() {
+        let mut scene = Scene::new(&WorldSpec::default()).unwrap();
+        let red = "red".parse().unwrap();
+        scene.add(Item::rectangle([0.0, 0.0], [10.0, 10.0], red)).unwrap();
+        let points = vec![[0.0, 5.0], [20.0, 5.0], [20.0, 20.0]];
+        scene.add(Item::Line { points, width: 2.0, color: Color::BLACK }).unwrap();
+        let at = |x, y| scene.color_at(Vec2::new(x, y));
+        assert_eq!(at(-1.0, 1.0), Color::WHITE);
+        assert_eq!(at(5.0, 8.0), red);
+        assert_eq!(at(5.0, 5.9), Color::BLACK);
+        assert_eq!(at(19.5, 15.0), Color::BLACK);
+    }
+
+    #[test]
+    fn impossible_items_are_named() {
+        let mut scene = Scene::new(&WorldSpec::default()).unwrap();
+        let error = scene.add(Item::Circle { center: [0.0, 0.0], radius: -1.0 }).unwrap_err();
+        assert!(error.to_string().starts_with("circle"), "{error}");
+        assert!(scene.add(Item::wall([1.0, 1.0], [1.0, 1.0])).is_err());
+        assert!(scene.add(Item::Lamp { at: [f64::NAN, 0.0], intensity: 1.0 }).is_err());
+    }
+}

@@ -1,0 +1,95 @@
+//! A whole world, as plain data.
+
+use crate::world::color::Color;
+use crate::world::geometry::Pose;
+use crate::world::item::{Item, NOT_FINITE, Part, Point, SpecError, finite};
+
+/// Temperatures that there can be, in degrees Celsius.
+const ABSOLUTE_ZERO: f64 = -273.15;
+const HOTTEST: f64 = 1000.0;
+
+/// A rectangle with walls around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub low: Point,
+    /// Upper right corner.
+    pub high: Point,
+}
+
+impl Bounds {
+    /// Checks the corners.
+    ///
+    /// # Errors
+    /// If the rectangle has no inside.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let Bounds { low, high } = *self;
+        if finite(&[low, high]) && low[0] < high[0] && low[1] < high[1] {
+            return Ok(());
+        }
+        Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
+    }
+}
+
+/// A world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldSpec {
+    /// Everything in it.
+    pub items: Vec<Item>,
+    /// Walls all around, if it ends anywhere.
+    pub bounds: Option<Bounds>,
+    /// Color of the floor where nothing lies on it.
+    pub floor: Color,
+    /// Light that comes from everywhere, in the per cent of COL-AMBIENT.
+    pub ambient: f64,
+    /// Of the air and everything else, in degrees Celsius.
+    pub temperature: f64,
+    /// How loud it is, in per cent of what an NXT sound sensor can tell.
+    pub loudness: f64,
+    /// Where the robot starts.
+    pub start: Pose,
+}
+
+impl Default for WorldSpec {
+    /// An endless white floor, a little light, a silent room's 21.5 degrees, and nothing else.
+    fn default() -> Self {
+        WorldSpec {
+            items: Vec::new(),
+            bounds: None,
+            floor: Color::WHITE,
+            ambient: 2.0,
+            temperature: 21.5,
+            loudness: 0.0,
+            start: Pose::default(),
+        }
+    }
+}
+
+impl WorldSpec {
+    /// Checks everything in it, and that the bounds have an inside with the start in it.
+    ///
+    /// # Errors
+    /// Names the first offending item.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        for (index, item) in self.items.iter().enumerate() {
+            item.validate().map_err(|error| error.in_part(Part::Item(index)))?;
+        }
+        if !(self.ambient.is_finite() && self.ambient >= 0.0) {
+            return Err(SpecError::new("ambient", "must be 0 or more").in_part(Part::Ambient));
+        }
+        if !(ABSOLUTE_ZERO..=HOTTEST).contains(&self.temperature) {
+            return Err(SpecError::new("temperature", "must be from -273.15 to 1000")
+                .in_part(Part::Temperature));
+        }
+        if !(0.0..=100.0).contains(&self.loudness) {
+            return Err(SpecError::new("loudness", "must be from 0 to 100").in_part(Part::Loudness));
+        }
+        if !self.start.is_finite() {
+            return Err(SpecError::new("start", NOT_FINITE).in_part(Part::Start));
+        }
+        if let Some(bounds) = self.bounds {
+            bounds.validate()?;
+        }
+        Ok(())
+    }
+}

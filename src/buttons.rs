@@ -1,0 +1,114 @@
+//! `prolog/ev3dev/keys.pl`: the keys of the brick.
+use crate::glue::call::Call;
+use crate::glue::error::wrong_value;
+use crate::glue::terms::unify_atom;
+use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_buttons();
+    register_button_wait();
+    register_button_source();
+    register_button_event();
+}
+
+/// What is done to the keys from a moment on, until it is closed.
+#[arc_blob("ev3_buttons", defaults)]
+struct Source {
+    events: Mutex<Option<Arc<Events>>>,
+}
+
+impl Source {
+    fn events(&self) -> MutexGuard<'_, Option<Arc<Events>>> {
+        self.events.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The sources that somebody may still read.
+static SOURCES: Mutex<Vec<Weak<Source>>> = Mutex::new(Vec::new());
+
+fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
+    SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Closes all sources: the file system that they are in goes away. Later
+/// reads fail.
+#[cfg(feature = "fuse")]
+pub(crate) fn close_sources() {
+    for source in sources().drain(..).filter_map(|source| source.upgrade()) {
+        *source.events() = None;
+    }
+}
+
+predicates! {
+    /// buttons_(-Keys)
+    #[module("ev3dev_native")]
+    #[name("buttons_")]
+    semidet fn buttons(context, keys) {
+        let call = Call::of(context, "button", 1);
+        let pressed = call.or_fail(keys::pressed(&*call.dev()?))?;
+        let words: Vec<_> = pressed.into_iter().map(|key| atomable(key.word())).collect();
+        keys.unify(words.as_slice())
+    }
+
+    /// button_wait_(?Key, ?Event, +Timeout)
+    #[module("ev3dev_native")]
+    #[name("button_wait_")]
+    semidet fn button_wait(context, key, event, timeout) {
+        let call = Call::of(context, "button_wait", 3);
+        let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
+        let timeout = call.seconds(timeout)?;
+        let events = call.or_fail(Events::from_now(call.dev()?))?;
+        let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
+        unify_event(key, event, call.or_fail(next)?)
+    }
+
+    /// button_source_(-Source)
+    #[module("ev3dev_native")]
+    #[name("button_source_")]
+    semidet fn button_source(context, source) {
+        let call = Call::of(context, "button_events", 1);
+        let events = call.or_fail(Events::from_now(call.dev()?))?;
+        let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
+        sources().retain(|source| source.strong_count() > 0);
+        sources().push(Arc::downgrade(&opened));
+        source.unify(opened)
+    }
+
+    /// button_event_(+Source, +Index, -Key, -Event)
+    #[module("ev3dev_native")]
+    #[name("button_event_")]
+    semidet fn button_event(context, source, index, key, event) {
+        let call = Call::of(context, "button_events", 1);
+        let source: Arc<Source> = source.get_ex()?;
+        let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
+        let events = source.events().clone().ok_or(PrologError::Failure)?;
+        let read = events.nth(index, &mut call.interrupted());
+        unify_event(key, event, call.or_throw(read)?)
+    }
+}
+
+fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
+    unify_atom(key, read.button.word())?;
+    unify_atom(event, if read.is_press { "pressed" } else { "released" })
+}
+
+/// A key by its name, or any.
+fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
+    let Some(word) = call.text_if_bound(term)? else {
+        return Ok(None);
+    };
+    Button::named(&word).map_or_else(|| wrong_value(call, "button", term), |key| Ok(Some(key)))
+}
+
+/// `pressed` or `released`, or any.
+fn is_press_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<bool>> {
+    match call.text_if_bound(term)?.as_deref() {
+        None => Ok(None),
+        Some("pressed") => Ok(Some(true)),
+        Some("released") => Ok(Some(false)),
+        Some(_) => wrong_value(call, "button_event", term),
+    }
+}

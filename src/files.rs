@@ -1,0 +1,95 @@
+//! `prolog/ev3dev/sysfs.pl`, `dev.pl`: any file, and where the two trees are.
+use crate::driver::{Bound, unify_device};
+use crate::glue::call::Call;
+use crate::glue::state::{self, devices, use_files};
+use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::class::Detected;
+use ev3_driver::device::{read_value, write_file};
+use std::path::Path;
+use std::vec::IntoIter;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    register_subsystem_detect();
+    register_file_read();
+    register_file_write();
+    register_sysfs();
+    register_sysfs_use();
+    register_dev();
+    register_dev_use();
+}
+
+predicates! {
+    /// subsystem_detect_(?Port, ?Type, ?Path, +Pattern)
+    #[module("ev3dev_native")]
+    #[name("subsystem_detect_")]
+    nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
+        setup => {
+            let call = Call::of(context, "subsystem_detect", 4);
+            let pattern = call.text(pattern)?;
+            let bound = Bound::of(&call, port, kind, path)?;
+            let mut detected = call.or_throw(call.devices()?.detect(&pattern))?;
+            detected.retain(|device| bound.admits(device));
+            Ok(Some(detected.into_iter()))
+        },
+        call(detected) => {
+            Call::of(context, "subsystem_detect", 4)
+                .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
+        }
+    }
+
+    /// file_read_(+File, -Value)
+    #[module("ev3dev_native")]
+    #[name("file_read_")]
+    semidet fn file_read(context, file, value) {
+        let call = Call::of(context, "file_read", 2);
+        let path = call.text(file)?;
+        let read = call.or_throw(read_value(call.devices()?.tree(), Path::new(&*path)))?;
+        unify_value(value, &read)
+    }
+
+    /// file_write_(+File, +Value)
+    #[module("ev3dev_native")]
+    #[name("file_write_")]
+    semidet fn file_write(context, file, value) {
+        let call = Call::of(context, "file_write", 2);
+        let (path, text) = (call.text(file)?, call.value(value)?);
+        call.or_throw(write_file(call.devices()?.tree(), Path::new(&*path), &text))
+    }
+
+    /// sysfs_(-Root)
+    #[module("ev3dev_native")]
+    #[name("sysfs_")]
+    semidet fn sysfs(_context, root) {
+        unify_atom(root, &devices().tree().root().to_string_lossy())
+    }
+
+    /// sysfs_use_(+Root): a directory that exists.
+    #[module("ev3dev_native")]
+    #[name("sysfs_use_")]
+    semidet fn sysfs_use(context, root) {
+        let call = Call::of(context, "ev3_sysfs", 1);
+        let root = call.text(root)?;
+        let used = use_files(&*root);
+        #[cfg(feature = "sim")]
+        crate::sim::end_unless_mounted();
+        call.or_throw(used)
+    }
+
+    /// dev_(-Directory)
+    #[module("ev3dev_native")]
+    #[name("dev_")]
+    semidet fn dev(_context, directory) {
+        unify_atom(directory, &state::dev().root().to_string_lossy())
+    }
+
+    /// dev_use_(+Directory)
+    #[module("ev3dev_native")]
+    #[name("dev_use_")]
+    semidet fn dev_use(context, directory) {
+        let directory = Call::of(context, "ev3_dev", 1).text(directory)?;
+        state::use_dev_files(&*directory);
+        Ok(())
+    }
+}

@@ -1,0 +1,234 @@
+//! One call of a native predicate: its arguments, its answers.
+use crate::glue::error::{Origin, raise};
+use crate::glue::interned::atom_text;
+use crate::glue::state;
+use crate::glue::terms::unify_value;
+use ev3_driver::{Class, Devfs, Device, Registry, Value};
+use std::borrow::Cow;
+use std::ops::Deref;
+use std::sync::Arc;
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// The text of an atom or a string.
+pub(crate) type Text = Cow<'static, str>;
+
+/// Registry that are still to be answered.
+pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
+
+/// The call under way of a public predicate: the origin of errors, and access to the devices.
+pub(crate) struct Call<'a, C: QueryableContextType>(Origin<'a, C>);
+
+impl<'a, C: QueryableContextType> Deref for Call<'a, C> {
+    type Target = Origin<'a, C>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<'a, C: QueryableContextType> Call<'a, C> {
+    pub(crate) fn of(context: &'a Context<'a, C>, name: &'static str, arity: u64) -> Self {
+        Self(Origin { context, name, arity })
+    }
+
+    /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
+    pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
+        if !state::is_chosen() {
+            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+            state::chosen();
+        }
+        Ok(state::devices())
+    }
+
+    /// The device files in use. Until these or the tree are chosen, Prolog is
+    /// asked to.
+    pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
+        if !state::is_dev_chosen() {
+            self.devices()?;
+        }
+        Ok(state::dev())
+    }
+
+    /// The text of an atom or a string.
+    pub(crate) fn text(&self, term: &Term) -> PrologResult<Text> {
+        let text = match atom_text(term)? {
+            None => term.get_str(|text| text.map(|text| Text::Owned(text.to_owned())))?,
+            atom => atom,
+        };
+        text.map_or_else(|| self.wrong_type("atom", term), Ok)
+    }
+
+    /// The text of an atom or a string, or `None` for a variable.
+    pub(crate) fn text_if_bound(&self, term: &Term) -> PrologResult<Option<Text>> {
+        if term.is_var() { Ok(None) } else { self.text(term).map(Some) }
+    }
+
+    /// The text of an atom, a string or a number, as it is written to a file.
+    pub(crate) fn value(&self, term: &Term) -> PrologResult<Text> {
+        if let Some(integer) = attempt_opt(self.integer_of(term))? {
+            return Ok(Text::Owned(integer.to_string()));
+        }
+        if term.is_integer() {
+            return crate::glue::error::too_long(self);
+        }
+        if term.term_type() == TermType::Float {
+            return Ok(Text::Owned(term.get::<f64>()?.to_string()));
+        }
+        self.text(term)
+    }
+
+    /// A number, integer or float. An integer beyond all floats is infinite:
+    /// as impossible a speed, angle or time as that.
+    pub(crate) fn float(&self, term: &Term) -> PrologResult<f64> {
+        match attempt_opt(term.get::<f64>())? {
+            Some(float) => Ok(float),
+            None if term.is_integer() => Ok(f64::INFINITY),
+            None => self.wrong_type("number", term),
+        }
+    }
+
+    /// An integer of at most 64 bits.
+    pub(crate) fn integer(&self, term: &Term) -> PrologResult<i64> {
+        match attempt_opt(self.integer_of(term))? {
+            Some(integer) => Ok(integer),
+            None if term.is_integer() => crate::glue::error::too_long(self),
+            None => self.wrong_type("integer", term),
+        }
+    }
+
+    /// A time in seconds, or `None` for one without end: an atom, or more than
+    /// can be counted.
+    pub(crate) fn seconds(&self, term: &Term) -> PrologResult<Option<Duration>> {
+        if term.is_atom() {
+            return Ok(None);
+        }
+        Ok(Duration::try_from_secs_f64(self.float(term)?).ok())
+    }
+
+    /// A time in seconds, which has an end.
+    pub(crate) fn time(&self, term: &Term) -> PrologResult<Duration> {
+        match Duration::try_from_secs_f64(self.float(term)?) {
+            Ok(time) => Ok(time),
+            Err(_) => crate::glue::error::wrong_value(self, "seconds", term),
+        }
+    }
+
+    /// The devices of a class, for a nondeterministic predicate's setup: all, or
+    /// the one at a port that is bound.
+    pub(crate) fn listed(&self, class: Class, port: &Term) -> PrologResult<Option<ListedDevices>> {
+        let (port, devices) = (self.text_if_bound(port)?, self.devices()?);
+        let found = self.or_throw(match port {
+            Some(port) => devices.find(class, &port).map(|device| device.into_iter().collect()),
+            None => devices.all(class).map(|all| all.to_vec()),
+        })?;
+        Ok(Some(found.into_iter()))
+    }
+
+    /// The elements of a list.
+    pub(crate) fn list(&self, term: &Term<'a>) -> PrologResult<Vec<Term<'a>>> {
+        match term.term_type() {
+            TermType::Nil | TermType::ListPair => Ok(self.context.term_list_vec(term)),
+            _ => self.wrong_type("list", term),
+        }
+    }
+
+    /// What each element of a list is; in one pass, and no vector of terms.
+    pub(crate) fn map_list<T>(
+        &self,
+        term: &Term<'a>,
+        of: impl FnMut(Term<'a>) -> PrologResult<T>,
+    ) -> PrologResult<Vec<T>> {
+        match term.term_type() {
+            TermType::Nil | TermType::ListPair => {
+                self.context.term_list_iter(term).map(of).collect()
+            }
+            _ => self.wrong_type("list", term),
+        }
+    }
+
+    /// A list of `[X, Y]`.
+    pub(crate) fn points(&self, term: &Term<'a>) -> PrologResult<Vec<[f64; 2]>> {
+        let point = |term: &Term<'a>| match &*self.list(term)? {
+            [x, y] => Ok([self.float(x)?, self.float(y)?]),
+            _ => crate::glue::error::wrong_value(self, "point", term),
+        };
+        self.list(term)?.iter().map(point).collect()
+    }
+
+    /// The arguments of a compound term.
+    pub(crate) fn arguments<const N: usize>(&self, term: &Term) -> PrologResult<[Term<'a>; N]> {
+        match attempt_opt(self.context.compound_terms(term))? {
+            Some(arguments) => Ok(arguments),
+            None => self.wrong_type("compound", term),
+        }
+    }
+
+    /// Name and arguments of a compound term; `None` of what is none.
+    pub(crate) fn compound(&self, term: &Term) -> PrologResult<Option<(String, Vec<Term<'a>>)>> {
+        let Some(arguments) = attempt_opt(self.context.compound_terms_vec(term))? else {
+            return Ok(None);
+        };
+        Ok(Some((term.get::<Functor>()?.name_string(), arguments)))
+    }
+
+    /// What the driver answered; its error as an exception.
+    pub(crate) fn or_throw<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
+        result.or_else(|error| raise(self, &error, &state::devices()))
+    }
+
+    /// What the driver found; a failure if it found nothing.
+    pub(crate) fn or_fail<T>(&self, result: ev3_driver::Result<Option<T>>) -> PrologResult<T> {
+        self.or_throw(result)?.ok_or(PrologError::Failure)
+    }
+
+    /// Handles signals; `true` if that raised an exception.
+    pub(crate) fn interrupted(&self) -> impl FnMut() -> bool + use<'a, C> {
+        let context = self.context;
+        move || context.handle_signals().is_err()
+    }
+
+    /// The next solution: reads the items one after the other until `unify`
+    /// succeeds with what was read. `true` if there may be more.
+    pub(crate) fn next<T, V>(
+        &self,
+        items: &mut std::vec::IntoIter<T>,
+        read: impl Fn(&T) -> PrologResult<V>,
+        unify: impl Fn(&T, &V) -> PrologResult<()>,
+    ) -> PrologResult<bool> {
+        while let Some(item) = items.next() {
+            let Some(value) = attempt_opt(read(&item))? else {
+                continue;
+            };
+            if items.len() == 0 {
+                return unify(&item, &value).map(|()| false);
+            }
+            let frame = self.context.open_frame();
+            if attempt(unify(&item, &value))? {
+                frame.close();
+                return Ok(true);
+            }
+            frame.discard();
+        }
+        Err(PrologError::Failure)
+    }
+
+    /// Terms of numbers and atoms, as elements of a list.
+    pub(crate) fn terms(&self, values: &[Value]) -> PrologResult<Vec<Term<'a>>> {
+        let term = |value| {
+            let term = self.context.new_term_ref();
+            unify_value(&term, value).map(|()| term)
+        };
+        values.iter().map(term).collect()
+    }
+
+    fn wrong_type<T>(&self, expected: &str, term: &Term) -> PrologResult<T> {
+        crate::glue::error::wrong_type(self, expected, term)
+    }
+
+    /// An integer, not a float that is whole.
+    #[expect(clippy::unused_self, reason = "reads as one of its kind")]
+    fn integer_of(&self, term: &Term) -> PrologResult<i64> {
+        if term.is_integer() { term.get() } else { Err(PrologError::Failure) }
+    }
+}

@@ -1,0 +1,227 @@
+//! From the driver's errors to ISO error terms.
+//!
+//! The formal term says what is wrong in terms of the program, its context
+//! which predicate was called, the file, and the kernel's own words.
+//!
+//! | the kernel says | formal term |
+//! |---|---|
+//! | `ENOENT` | `existence_error(file, Path)` |
+//! | `ENODEV`, `ENXIO` | `existence_error(Class, Port)` |
+//! | `EACCES`, `EPERM`, `EROFS` | `permission_error(Access, attribute, Path)` |
+//! | `EBUSY` | `permission_error(Access, busy_attribute, Path)` |
+//! | `EOPNOTSUPP` | `permission_error(Access, unsupported_attribute, Path)` |
+//! | `EINVAL`, `ERANGE` to a write | `domain_error(Attribute, Value)` |
+//! | `EMFILE`, `ENFILE` | `resource_error(max_files)` |
+//! | `ENOMEM` | `resource_error(no_memory)` |
+//! | anything else | `system_error(Words)` |
+//!
+//! Access is `read` or `write`.
+use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::error::{Access, Error};
+use ev3_driver::{Class, Errno, Registry, Value};
+use std::error::Error as _;
+use std::path::Path;
+use swipl::prelude::*;
+
+/// Where errors come from: the public predicate that was called, by its name and arity.
+pub(crate) struct Origin<'a, C: QueryableContextType> {
+    pub(crate) context: &'a Context<'a, C>,
+    pub(crate) name: &'static str,
+    pub(crate) arity: u64,
+}
+
+/// Raises a driver's error. Its message lists the devices if one of them is missing.
+pub(crate) fn raise<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    error: &Error,
+    devices: &Registry,
+) -> PrologResult<T> {
+    if matches!(error, Error::Interrupted) {
+        // The signal handler has raised an exception already.
+        return Err(PrologError::Exception);
+    }
+    let context = call.context;
+    let formal = formal(context, error, devices)?;
+    throw(call, &formal, &message(error, devices))
+}
+
+/// Raises `instantiation_error` for a variable, else `type_error`.
+pub(crate) fn wrong_type<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    expected: &str,
+    term: &Term,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = if term.is_var() {
+        term! {context: instantiation_error}?
+    } else {
+        term! {context: type_error(#atomable(expected), #term)}?
+    };
+    throw(call, &formal, "")
+}
+
+/// Raises `domain_error(Domain, Term)`.
+pub(crate) fn wrong_value<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    domain: &str,
+    term: &Term,
+) -> PrologResult<T> {
+    wrong_because(call, domain, term, "")
+}
+
+/// Raises `domain_error(Domain, Term)`, with the reason as the message.
+pub(crate) fn wrong_because<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    domain: &str,
+    term: &Term,
+    reason: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: domain_error(#atomable(domain), #term)}?;
+    throw(call, &formal, reason)
+}
+
+/// Raises `existence_error(Kind, Name)`, with the reason as the message.
+#[cfg(feature = "sim")]
+pub(crate) fn no_such<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    kind: &str,
+    name: &str,
+    reason: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: existence_error(#atomable(kind), #atomable(name))}?;
+    throw(call, &formal, reason)
+}
+
+/// Raises the error for an integer of more than 64 bits.
+pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: representation_error(int64_t)}?;
+    throw(call, &formal, "")
+}
+
+/// Raises `error(Formal, context(Called, Message))`, as
+/// `prolog/ev3dev/private/errors.pl` does: that finds out what the program called,
+/// and has words for what has no message.
+fn throw<T, C: QueryableContextType>(
+    call: &Origin<C>,
+    formal: &Term,
+    message: &str,
+) -> PrologResult<T> {
+    let context = call.context;
+    let indicator = context.new_term_ref();
+    indicator.unify(Functor::new("/", 2))?;
+    indicator.unify_arg(1, atomable(call.name))?;
+    indicator.unify_arg(2, call.arity)?;
+    let text = context.new_term_ref();
+    unify_atom(&text, message)?;
+    context.call_once(pred!("ev3dev_errors:throw_error/3"), [formal, &indicator, &text])?;
+    // It has thrown.
+    Err(PrologError::Exception)
+}
+
+/// The formal term of a driver's error.
+fn formal<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    error: &Error,
+    devices: &Registry,
+) -> PrologResult<Term<'a>> {
+    let attribute = error.path().map(file_name).unwrap_or_default();
+    let path = error.path().map(Path::to_string_lossy).unwrap_or_default();
+    let (attribute, path) = (atomable(&*attribute), atomable(&*path));
+    let access = match error {
+        Error::Write { .. } | Error::Open { access: Access::Write, .. } => "write",
+        _ => "read",
+    };
+    match error {
+        Error::Unplugged { class, port } => {
+            let (class, port) = (atomable(class.to_string()), atomable(port.as_str()));
+            term! {context: existence_error(#class, #port)}
+        }
+        Error::Malformed { .. } => term! {context: syntax_error(attribute)},
+        Error::Format { format, .. } => term! {context: syntax_error(#atomable(*format))},
+        Error::NoProgram { program, .. } => {
+            term! {context: existence_error(program, #atomable(*program))}
+        }
+        Error::NoValue { index, .. } => {
+            term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
+        }
+        Error::DuplicatePort { port } => {
+            term! {context: domain_error(distinct_ports, #atomable(port.as_str()))}
+        }
+        Error::UnknownMotorType { name } => {
+            term! {context: domain_error(motor_type, #atomable(name.as_str()))}
+        }
+        Error::Pattern { pattern, .. } => {
+            term! {context: domain_error(file_name_pattern, #atomable(pattern.as_str()))}
+        }
+        Error::Write { text, .. } if matches!(error.errno(), Some(Errno::INVAL | Errno::RANGE)) => {
+            let value = context.new_term_ref();
+            unify_value(&value, &Value::parse(text.clone()))?;
+            term! {context: domain_error(#attribute, #&value)}
+        }
+        error => match error.errno() {
+            Some(Errno::NOENT) => term! {context: existence_error(file, #path)},
+            Some(Errno::ACCESS | Errno::PERM | Errno::ROFS) => {
+                term! {context: permission_error(#atomable(access), attribute, #path)}
+            }
+            Some(Errno::BUSY) => {
+                term! {context: permission_error(#atomable(access), busy_attribute, #path)}
+            }
+            Some(Errno::OPNOTSUPP) => {
+                term! {context: permission_error(#atomable(access), unsupported_attribute, #path)}
+            }
+            Some(Errno::NODEV | Errno::NXIO) => {
+                let device = error.path().map(|path| device_of(path, devices)).unwrap_or_default();
+                let (class, port) = (atomable(device.0), atomable(device.1));
+                term! {context: existence_error(#class, #port)}
+            }
+            Some(Errno::MFILE | Errno::NFILE) => term! {context: resource_error(max_files)},
+            Some(Errno::NOMEM) => term! {context: resource_error(no_memory)},
+            _ => term! {context: system_error(#atomable(message(error, devices)))},
+        },
+    }
+}
+
+/// What went wrong where, the kernel's words, and for a device that is gone
+/// what is connected.
+fn message(error: &Error, devices: &Registry) -> String {
+    let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+    // That a picture is missing has nothing to do with devices.
+    let is_device = |path: &Path| path.starts_with(devices.tree().root());
+    let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
+    let connected = if is_gone { connected(devices) } else { String::new() };
+    format!("{error}{source}{connected}")
+}
+
+/// The motors and sensors that are plugged in, but for servos: there are many.
+fn connected(devices: &Registry) -> String {
+    let all = [Class::TachoMotor, Class::DcMotor, Class::Sensor].map(|class| devices.all(class));
+    let names: Vec<String> = all
+        .iter()
+        .flatten()
+        .flat_map(|devices| devices.iter())
+        .map(|device| format!("{} ({})", device.port(), device.driver()))
+        .collect();
+    if names.is_empty() {
+        "; nothing is connected".to_owned()
+    } else {
+        format!("; connected: {}", names.join(", "))
+    }
+}
+
+/// The class and port of the device that an attribute file belongs to, or the
+/// file itself where that is unknown.
+fn device_of(path: &Path, devices: &Registry) -> (String, String) {
+    let owner = Class::ALL.into_iter().find_map(|class| {
+        let listed = devices.all(class).ok()?;
+        let device = listed.iter().find(|device| path.starts_with(device.path()))?;
+        Some((class.to_string(), device.port().to_owned()))
+    });
+    owner.unwrap_or_else(|| ("file".to_owned(), path.to_string_lossy().into_owned()))
+}
+
+fn file_name(path: &Path) -> std::borrow::Cow<'_, str> {
+    path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default()
+}

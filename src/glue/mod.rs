@@ -1,0 +1,6 @@
+//! What all predicates share: a call and its arguments, errors, terms, and what is in use.
+pub(crate) mod call;
+pub(crate) mod error;
+pub(crate) mod interned;
+pub(crate) mod state;
+pub(crate) mod terms;

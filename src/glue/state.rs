@@ -1,0 +1,162 @@
+//! The brick in use: the one value that holds the state of this process.
+use ev3_driver::brick::screen::frame::Frame;
+use ev3_driver::brick::sound::Sound;
+use ev3_driver::drive::{Drive, Robot};
+use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
+use std::path::PathBuf;
+use std::sync::{
+    Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
+    RwLockWriteGuard,
+};
+
+/// A brick: its attribute files, its device files, and what this process knows
+/// of both.
+struct Brick {
+    /// The files in use, which may be others later.
+    files: RwLock<InUse>,
+    /// The sounds that this program makes.
+    sound: Sound,
+    /// The picture that this program has drawn.
+    frame: Mutex<Frame>,
+}
+
+/// The files in use.
+struct InUse {
+    tree: InTree,
+    /// Whether it is settled which tree is in use.
+    is_tree_chosen: bool,
+    dev: Arc<dyn Devfs>,
+    /// Whether it is settled which device files are in use.
+    is_dev_chosen: bool,
+}
+
+/// The state that belongs to one tree, and is left behind with it.
+struct InTree {
+    /// The robot's drive, with its odometry. Made when first asked for. The first
+    /// field, as it uses the devices.
+    drive: OnceLock<Arc<Drive>>,
+    devices: Arc<Registry>,
+}
+
+impl InTree {
+    fn new(tree: Arc<dyn Sysfs>) -> Self {
+        Self { drive: OnceLock::new(), devices: Arc::new(Registry::new(tree)) }
+    }
+}
+
+impl Brick {
+    fn files(&self) -> RwLockReadGuard<'_, InUse> {
+        self.files.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change_files(&self) -> RwLockWriteGuard<'_, InUse> {
+        self.files.write().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where the kernel's own tree is.
+const KERNEL: &str = "/sys/class";
+
+/// Where the kernel's own device files are.
+const KERNEL_DEV: &str = "/dev";
+
+static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
+    files: RwLock::new(InUse {
+        tree: InTree::new(Arc::new(SysfsDir::new(KERNEL))),
+        is_tree_chosen: false,
+        dev: Arc::new(DevfsDir::new(KERNEL_DEV)),
+        is_dev_chosen: false,
+    }),
+    sound: Sound::default(),
+    frame: Mutex::default(),
+});
+
+/// The devices of the tree in use.
+pub(crate) fn devices() -> Arc<Registry> {
+    Arc::clone(&BRICK.files().tree.devices)
+}
+
+/// The drive of a robot in the tree in use. There is one: for another robot it
+/// goes on from the pose it has.
+pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
+    let drive = {
+        let files = BRICK.files();
+        let InTree { drive, devices } = &files.tree;
+        Arc::clone(drive.get_or_init(|| Drive::new(Arc::clone(devices), robot)))
+    };
+    drive.set_robot(robot);
+    drive
+}
+
+/// Whether it is settled which tree is in use.
+pub(crate) fn is_chosen() -> bool {
+    BRICK.files().is_tree_chosen
+}
+
+/// The tree in use now is the one to use.
+pub(crate) fn chosen() {
+    BRICK.change_files().is_tree_chosen = true;
+}
+
+/// Uses another tree from now on. Motors that were started in the tree in use
+/// so far are stopped: nobody would find them there any more.
+pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
+    let tree = InTree::new(tree);
+    let before = {
+        let mut files = BRICK.change_files();
+        files.is_tree_chosen = true;
+        std::mem::replace(&mut files.tree, tree)
+    };
+    motor::stop_started(&before.devices)
+}
+
+/// Uses the tree of files below a directory from now on.
+pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
+    use_tree(Arc::new(SysfsDir::new(root)))
+}
+
+/// Uses the kernel's own tree from now on.
+#[cfg(feature = "fuse")]
+pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
+    use_files(KERNEL)
+}
+
+/// The device files in use.
+pub(crate) fn dev() -> Arc<dyn Devfs> {
+    Arc::clone(&BRICK.files().dev)
+}
+
+/// Whether it is settled which device files are in use.
+pub(crate) fn is_dev_chosen() -> bool {
+    BRICK.files().is_dev_chosen
+}
+
+/// Uses other device files from now on.
+pub(crate) fn use_dev(dev: Arc<dyn Devfs>) {
+    let _before = {
+        let mut files = BRICK.change_files();
+        files.is_dev_chosen = true;
+        std::mem::replace(&mut files.dev, dev)
+    };
+}
+
+/// Uses the device files below a directory from now on.
+pub(crate) fn use_dev_files(root: impl Into<PathBuf>) {
+    use_dev(Arc::new(DevfsDir::new(root)));
+}
+
+/// Uses the kernel's own device files from now on.
+#[cfg(feature = "fuse")]
+pub(crate) fn use_default_dev() {
+    use_dev_files(KERNEL_DEV);
+}
+
+/// The sounds that this program makes.
+pub(crate) fn sound() -> &'static Sound {
+    &BRICK.sound
+}
+
+/// The picture that this program has drawn.
+pub(crate) fn frame() -> MutexGuard<'static, Frame> {
+    BRICK.frame.lock().unwrap_or_else(PoisonError::into_inner)
+}

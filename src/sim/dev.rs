@@ -1,0 +1,141 @@
+//! The simulated brick's keys, speaker and screen as a [`Dev`].
+use crate::sim::files::error;
+use ev3_driver::Devfs;
+use ev3_driver::devfs::{Speaker, Stream};
+use ev3_driver::error::Access;
+use ev3_sim::{DevDescriptor, Simulation};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Where programs see them.
+const ROOT: &str = "/dev";
+
+/// The number of the ioctl that reads which keys are down into a buffer of this
+/// many bytes (linux/input.h).
+fn eviocgkey(bytes: usize) -> u32 {
+    let bytes = u32::try_from(bytes).unwrap_or(0) & 0x3fff;
+    2 << 30 | bytes << 16 | u32::from(b'E') << 8 | 0x18
+}
+
+/// The device files of a simulation.
+pub(crate) struct SimulatedDev {
+    simulation: Arc<Simulation>,
+    root: PathBuf,
+}
+
+impl SimulatedDev {
+    pub(crate) fn new(simulation: Arc<Simulation>) -> Self {
+        Self { simulation, root: ROOT.into() }
+    }
+}
+
+impl Devfs for SimulatedDev {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn open(&self, path: &Path, _access: Access) -> io::Result<Box<dyn Stream>> {
+        let below = path.strip_prefix(&self.root).ok().and_then(Path::to_str);
+        let below = below.ok_or(io::ErrorKind::NotFound)?;
+        let descriptor = DevDescriptor::open(&self.simulation.machine(), below).map_err(error)?;
+        let place = Mutex::new(Place { descriptor, offset: 0 });
+        Ok(Box::new(SimulatedStream { simulation: Arc::clone(&self.simulation), place }))
+    }
+
+    fn now(&self) -> Duration {
+        self.simulation.machine().now()
+    }
+
+    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()> {
+        match stream {
+            Some(_) => {
+                let count = self.simulation.machine().button_events();
+                let is_new = |machine: &ev3_sim::Machine| machine.button_events() != count;
+                self.simulation.pause_until(timeout, is_new);
+            }
+            None => self.simulation.pause(timeout),
+        }
+        Ok(())
+    }
+
+    fn speaker(&self) -> Option<&dyn Speaker> {
+        Some(self)
+    }
+}
+
+impl Speaker for SimulatedDev {
+    fn say(&self, text: &str) -> Duration {
+        self.simulation.machine().say(text)
+    }
+
+    fn play(&self, file: &str) {
+        self.simulation.machine().play(file);
+    }
+
+    fn silence(&self) {
+        self.simulation.machine().silence();
+    }
+
+    fn volume(&self) -> u8 {
+        self.simulation.machine().volume()
+    }
+
+    fn set_volume(&self, percent: u8) {
+        self.simulation.machine().set_volume(percent);
+    }
+}
+
+/// An open device of a simulation.
+struct SimulatedStream {
+    simulation: Arc<Simulation>,
+    place: Mutex<Place>,
+}
+
+/// Where its next read or write is.
+struct Place {
+    descriptor: DevDescriptor,
+    offset: usize,
+}
+
+impl SimulatedStream {
+    fn place(&self) -> MutexGuard<'_, Place> {
+        self.place.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Stream for SimulatedStream {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        let Place { descriptor, offset } = &mut *self.place();
+        let read = self.simulation.read(|machine| descriptor.read(machine, *offset, buffer));
+        let length = read.map_err(error)?;
+        *offset += length;
+        Ok(length)
+    }
+
+    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        let Place { descriptor, offset } = &mut *self.place();
+        let written = self.simulation.write(|machine| descriptor.write(machine, *offset, bytes));
+        let length = written.map_err(error)?;
+        *offset += length;
+        Ok(length)
+    }
+
+    fn skip(&self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
+        let place = self.place();
+        let command = eviocgkey(bits.len());
+        let state = self.simulation.read(|machine| place.descriptor.ioctl(machine, command));
+        bits.copy_from_slice(&state.map_err(error)?.1);
+        Ok(())
+    }
+
+    fn length(&self) -> Option<u64> {
+        let length = self.place().descriptor.length(&self.simulation.machine());
+        length.map(|length| length as u64)
+    }
+}

@@ -1,0 +1,118 @@
+//! The simulated brick's attribute files as a [`Sysfs`]: the driver works on it as
+//! on files. Time passes as [`ev3_sim::Simulation`] says.
+use ev3_driver::error::Access;
+use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
+use ev3_sim::{Errno, NodeId, Simulation};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Where programs see the tree.
+const ROOT: &str = "/sys/class";
+
+/// The attribute files of a simulation.
+pub(crate) struct SimulatedFiles {
+    simulation: Arc<Simulation>,
+    root: PathBuf,
+    /// Files that are not ev3dev's.
+    others: SysfsDir,
+}
+
+impl SimulatedFiles {
+    pub(crate) fn new(simulation: Arc<Simulation>) -> Self {
+        Self { simulation, root: ROOT.into(), others: SysfsDir::new("/") }
+    }
+
+    /// The path below the root, if it is there.
+    fn below<'a>(&self, path: &'a Path) -> Option<&'a str> {
+        path.strip_prefix(&self.root).ok()?.to_str()
+    }
+
+    fn list_below(&self, path: &str) -> io::Result<Vec<Entry>> {
+        let machine = self.simulation.machine();
+        let directory = machine.resolve(path).map_err(error)?;
+        let entries = machine.read_dir(directory).map_err(error)?;
+        let entry = |entry: ev3_sim::Entry| Entry { name: entry.name, inode: entry.node.0 };
+        Ok(entries.into_iter().map(entry).collect())
+    }
+}
+
+impl Sysfs for SimulatedFiles {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
+        self.list_below(self.below(directory).ok_or(io::ErrorKind::NotFound)?)
+    }
+
+    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
+        let Some(below) = self.below(path) else {
+            return self.others.open(path, access);
+        };
+        let wanted = match access {
+            Access::Read => ev3_sim::Access::ReadOnly,
+            Access::Write => ev3_sim::Access::WriteOnly,
+        };
+        let node = self.simulation.machine().open(below, wanted).map_err(error)?;
+        Ok(Box::new(SimulatedFile { simulation: Arc::clone(&self.simulation), node }))
+    }
+
+    fn matching(&self, pattern: &str) -> ev3_driver::Result<Vec<PathBuf>> {
+        let matcher = glob::Pattern::new(pattern.trim_end_matches('/'))
+            .map_err(|source| ev3_driver::Error::Pattern { pattern: pattern.to_owned(), source })?;
+        let mut paths = Vec::new();
+        for class in self.list_below("").unwrap_or_default() {
+            for device in self.list_below(&class.name).unwrap_or_default() {
+                paths.push(self.root.join(&class.name).join(device.name));
+            }
+        }
+        paths.retain(|path| matcher.matches_path(path));
+        paths.sort_unstable();
+        Ok(paths)
+    }
+
+    fn now(&self) -> Duration {
+        self.simulation.machine().now()
+    }
+
+    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
+        self.simulation.pause(timeout);
+        Ok(())
+    }
+
+    fn every(&self, period: Duration, act: Repeated) -> io::Result<()> {
+        self.simulation.repeat(period, act);
+        Ok(())
+    }
+}
+
+/// An open file of a simulation.
+struct SimulatedFile {
+    simulation: Arc<Simulation>,
+    node: NodeId,
+}
+
+impl AttributeFile for SimulatedFile {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        let text = self.simulation.read(|machine| machine.read(self.node));
+        let text = text.map_err(error)?;
+        let length = text.len().min(buffer.len());
+        buffer[..length].copy_from_slice(&text[..length]);
+        Ok(length)
+    }
+
+    fn write(&self, text: &[u8]) -> io::Result<()> {
+        let written = self.simulation.write(|machine| machine.write(self.node, text));
+        let blocks = written.map_err(error)?.blocks;
+        if !blocks.is_zero() && !self.simulation.is_acting() {
+            self.simulation.pause(blocks);
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn error(errno: Errno) -> io::Error {
+    io::Error::from_raw_os_error(errno.0)
+}

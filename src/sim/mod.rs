@@ -1,0 +1,519 @@
+//! `prolog/ev3dev/sim.pl`, `sim_hand.pl`, `sim_time.pl`, `sim_views.pl`: the simulator.
+mod buttons;
+mod dev;
+mod files;
+#[cfg(feature = "fuse")]
+mod mount;
+#[cfg(not(feature = "fuse"))]
+#[path = "no_mount.rs"]
+mod mount;
+
+use self::dev::SimulatedDev;
+use self::files::SimulatedFiles;
+use crate::facts::{self, channel_of, named, remote_buttons};
+use crate::glue::call::Call;
+use crate::glue::error::{no_such, wrong_because, wrong_value};
+use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
+use crate::glue::terms::unify_atom;
+use ev3_driver::Registry;
+use ev3_sim::facts::{Fact, Subject, culprit};
+use ev3_sim::{
+    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
+    WorldSpec,
+};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    buttons::register();
+    register_sim_check();
+    register_sim_start();
+    register_sim_stop();
+    register_sim_active();
+    register_sim_pose();
+    register_sim_place();
+    register_sim_add();
+    register_sim_remove();
+    register_sim_plug();
+    register_sim_unplug();
+    register_sim_jam();
+    register_sim_show();
+    register_sim_unshow();
+    register_sim_wait();
+    register_sim_hold();
+    register_sim_release();
+    register_sim_remote();
+    register_sim_step();
+    register_sim_time();
+    register_sim_snapshot();
+    register_sim_restore();
+    register_sim_collisions();
+    register_sim_trace();
+    register_sim_svg();
+    register_sim_mount();
+    register_sim_unmount();
+}
+
+/// The simulation that runs.
+static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
+
+/// Where the attributes and the device files are that were in use before.
+static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
+
+/// How much simulated time passes between two checks for signals.
+const STEP_SLICE: Duration = Duration::from_secs(1);
+
+/// A machine as it was.
+#[arc_blob("ev3_snapshot", defaults)]
+struct Snapshot {
+    machine: Mutex<Machine>,
+}
+
+predicates! {
+    /// sim_check_(+Subject, +Fact): subject is `world` or `robot`.
+    #[module("ev3dev_native")]
+    #[name("sim_check_")]
+    semidet fn sim_check(context, subject, term) {
+        let call = Call::of(context, "sim_start", 2);
+        known_fact(&call, subject_of(&call, subject)?, term).map(drop)
+    }
+
+    /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
+    /// fault is `none`, or fault(Subject, Index, Why) for the fact that is to blame, counted
+    /// from 1, or 0 if one is missing.
+    #[module("ev3dev_native")]
+    #[name("sim_start_")]
+    semidet fn sim_start(context, world, robot, options, fault) {
+        let call = Call::of(context, "sim_start", 2);
+        let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
+        let [clock, seed, noise, screen] = call.arguments(options)?;
+        let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
+        let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
+        let options = Options { seed, depth, ..Options::default() };
+        match built(&world, &robot, noise.get_ex()?, options) {
+            Ok(machine) => {
+                start(&call, machine, clock_of(&call, &clock)?)?;
+                unify_atom(fault, "none")
+            }
+            Err((subject, index, error)) => {
+                let index = index.map_or(0, |index| index as u64 + 1);
+                let (subject, why) = (atomable(subject), atomable(error.to_string()));
+                fault.unify(&term! {context: fault(#subject, #index, #why)}?)
+            }
+        }
+    }
+
+    /// sim_stop_
+    #[module("ev3dev_native")]
+    #[name("sim_stop_")]
+    semidet fn sim_stop(context) {
+        let call = Call::of(context, "sim_stop", 0);
+        simulation()?;
+        mount::end();
+        *running() = None;
+        let before = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let [files, dev] = before.ok_or(PrologError::Failure)?;
+        use_dev_files(dev);
+        call.or_throw(use_files(files))
+    }
+
+    /// sim_active_
+    #[module("ev3dev_native")]
+    #[name("sim_active_")]
+    semidet fn sim_active(_context) {
+        simulation().map(drop)
+    }
+
+    /// sim_pose_(-X, -Y, -Heading)
+    #[module("ev3dev_native")]
+    #[name("sim_pose_")]
+    semidet fn sim_pose(_context, x, y, heading) {
+        let pose = simulation()?.machine().pose();
+        x.unify(pose.x)?;
+        y.unify(pose.y)?;
+        heading.unify(pose.heading)
+    }
+
+    /// sim_place_(+X, +Y, +Heading)
+    #[module("ev3dev_native")]
+    #[name("sim_place_")]
+    semidet fn sim_place(context, x, y, heading) {
+        let call = Call::of(context, "sim_place", 3);
+        let pose = facts::pose(&call, [x, y, heading])?;
+        let placed = simulation()?.machine().place(pose);
+        possible(&call, placed)
+    }
+
+    /// sim_add_(+Fact, -Id)
+    #[module("ev3dev_native")]
+    #[name("sim_add_")]
+    semidet fn sim_add(context, term, id) {
+        let call = Call::of(context, "sim_add", 1);
+        let item = match facts::fact(&call, Subject::World, term)? {
+            Some(Fact::Item(item)) => item,
+            Some(_) => return wrong_value(&call, "world_item", term),
+            None => return wrong_value(&call, "world_or_robot_fact", term),
+        };
+        let added = simulation()?.machine().add_item(item);
+        id.unify(i64::from(possible(&call, added)?.0))
+    }
+
+    /// sim_remove_(+Id)
+    #[module("ev3dev_native")]
+    #[name("sim_remove_")]
+    semidet fn sim_remove(context, id) {
+        let id = Call::of(context, "sim_remove", 1).integer(id)?;
+        let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
+        into_prolog_result(simulation()?.machine().remove_item(ItemId(id)))
+    }
+
+    /// sim_plug_(+Port, +Type)
+    #[module("ev3dev_native")]
+    #[name("sim_plug_")]
+    semidet fn sim_plug(context, port, kind) {
+        let call = Call::of(context, "sim_plug", 2);
+        let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
+        let plugged = simulation()?.machine().plug(port, &kind);
+        possible(&call, plugged)
+    }
+
+    /// sim_unplug_(+Port)
+    #[module("ev3dev_native")]
+    #[name("sim_unplug_")]
+    semidet fn sim_unplug(context, port) {
+        let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
+        into_prolog_result(simulation()?.machine().unplug(port))
+    }
+
+    /// sim_jam_(+Port, +Bool)
+    #[module("ev3dev_native")]
+    #[name("sim_jam_")]
+    semidet fn sim_jam(context, port, fast) {
+        let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
+        let fast = fast.get_ex()?;
+        simulation()?.machine().jam(port, fast);
+        Ok(())
+    }
+
+    /// sim_show_(+Port, +Attribute, +Text)
+    #[module("ev3dev_native")]
+    #[name("sim_show_")]
+    semidet fn sim_show(context, port, attribute, text) {
+        let call = Call::of(context, "sim_show", 3);
+        let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
+        let simulation = simulation()?;
+        let shown = simulation.machine().show(port, &name, &line);
+        simulation.shared().wake();
+        shown.or_else(|errno| cannot_show(&call, errno, attribute, text))
+    }
+
+    /// sim_unshow_(+Port, +Attribute)
+    #[module("ev3dev_native")]
+    #[name("sim_unshow_")]
+    semidet fn sim_unshow(context, port, attribute) {
+        let call = Call::of(context, "sim_unshow", 2);
+        let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
+        let simulation = simulation()?;
+        let was_shown = simulation.machine().unshow(port, &name);
+        simulation.shared().wake();
+        match was_shown {
+            Ok(was_shown) => into_prolog_result(was_shown),
+            Err(errno) => cannot_show(&call, errno, attribute, attribute),
+        }
+    }
+
+    /// sim_wait_(+Seconds)
+    #[module("ev3dev_native")]
+    #[name("sim_wait_")]
+    semidet fn sim_wait(context, seconds) {
+        let call = Call::of(context, "sim_wait", 1);
+        let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
+            return wrong_value(&call, "seconds", seconds);
+        };
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
+    }
+
+    /// sim_hold_
+    #[module("ev3dev_native")]
+    #[name("sim_hold_")]
+    semidet fn sim_hold(_context) {
+        simulation()?.hold();
+        Ok(())
+    }
+
+    /// sim_release_
+    #[module("ev3dev_native")]
+    #[name("sim_release_")]
+    semidet fn sim_release(_context) {
+        simulation()?.release();
+        Ok(())
+    }
+
+    /// sim_remote_(+Channel, +Buttons)
+    #[module("ev3dev_native")]
+    #[name("sim_remote_")]
+    semidet fn sim_remote(context, channel, list) {
+        let call = Call::of(context, "sim_remote", 2);
+        let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
+        match simulation()?.machine().hold_buttons(channel, &held) {
+            Ok(()) => Ok(()),
+            Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
+        }
+    }
+
+    /// sim_step_(+Seconds)
+    #[module("ev3dev_native")]
+    #[name("sim_step_")]
+    semidet fn sim_step(context, seconds) {
+        let call = Call::of(context, "sim_step", 1);
+        let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
+            return wrong_value(&call, "seconds", seconds);
+        };
+        let (simulation, mut interrupted) = (simulation()?, call.interrupted());
+        while !left.is_zero() {
+            let slice = left.min(STEP_SLICE);
+            simulation.step(slice);
+            left -= slice;
+            if interrupted() {
+                return call.or_throw(Err(ev3_driver::Error::Interrupted));
+            }
+        }
+        Ok(())
+    }
+
+    /// sim_time_(-Seconds)
+    #[module("ev3dev_native")]
+    #[name("sim_time_")]
+    semidet fn sim_time(_context, seconds) {
+        seconds.unify(simulation()?.machine().now().as_secs_f64())
+    }
+
+    /// sim_snapshot_(-Snapshot)
+    #[module("ev3dev_native")]
+    #[name("sim_snapshot_")]
+    semidet fn sim_snapshot(_context, snapshot) {
+        let machine = simulation()?.machine().clone();
+        snapshot.unify(Arc::new(Snapshot { machine: Mutex::new(machine) }))
+    }
+
+    /// sim_restore_(+Snapshot)
+    #[module("ev3dev_native")]
+    #[name("sim_restore_")]
+    semidet fn sim_restore(_context, snapshot) {
+        let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
+        let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        simulation()?.machine().restore(machine);
+        devices().forget_listings();
+        Ok(())
+    }
+
+    /// sim_collisions_(-Collisions): a list of collision(Time, X, Y, Heading).
+    #[module("ev3dev_native")]
+    #[name("sim_collisions_")]
+    semidet fn sim_collisions(context, collisions) {
+        let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
+        let terms = seen.iter().map(|collision| {
+            let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
+            term! {context: collision(#at, #pose.x, #pose.y, #pose.heading)}
+        });
+        let terms = terms.collect::<PrologResult<Vec<_>>>()?;
+        collisions.unify(terms.as_slice())
+    }
+
+    /// sim_trace_(-Trace): a list of at(Time, Event).
+    #[module("ev3dev_native")]
+    #[name("sim_trace_")]
+    semidet fn sim_trace(context, trace) {
+        let seen = simulation()?.machine().trace().clone();
+        let poses = seen.path().iter().map(|(at, pose)| {
+            let seconds = at.as_secs_f64();
+            let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
+            Ok((*at, entry?))
+        });
+        let events = seen.events().into_iter().map(|event| {
+            let seconds = event.at.as_secs_f64();
+            let (path, text) = (atomable(event.path.as_str()), atomable(event.text.as_str()));
+            let entry = match event.action {
+                Action::Written => term! {context: at(#seconds, written(#path, #text))},
+                Action::Read => term! {context: at(#seconds, read(#path, #text))},
+                Action::Tone => term! {context: at(#seconds, tone(#event.text.parse::<i64>().unwrap_or(0)))},
+                Action::Said => term! {context: at(#seconds, said(#text))},
+                Action::Played => term! {context: at(#seconds, played(#text))},
+                Action::Silenced => term! {context: at(#seconds, silenced)},
+                Action::Pressed => term! {context: at(#seconds, pressed(#text))},
+                Action::Released => term! {context: at(#seconds, released(#text))},
+            };
+            Ok((event.at, entry?))
+        });
+        let mut entries = poses.chain(events).collect::<PrologResult<Vec<_>>>()?;
+        entries.sort_by_key(|(at, _)| *at);
+        let entries: Vec<_> = entries.into_iter().map(|(_, entry)| entry).collect();
+        trace.unify(entries.as_slice())
+    }
+
+    /// sim_svg_(-Text)
+    #[module("ev3dev_native")]
+    #[name("sim_svg_")]
+    semidet fn sim_svg(_context, text) {
+        let picture = simulation()?.machine().svg();
+        unify_atom(text, &picture)
+    }
+
+    /// sim_mount_(+Directory, ?DevDirectory)
+    #[module("ev3dev_native")]
+    #[name("sim_mount_")]
+    semidet fn sim_mount(context, classes, dev) {
+        let call = Call::of(context, "sim_mount", 1);
+        let dev = (!dev.is_var()).then_some(dev);
+        mount::mount(&call, &simulation()?.shared(), classes, dev)
+    }
+
+    /// sim_unmount_
+    #[module("ev3dev_native")]
+    #[name("sim_unmount_")]
+    semidet fn sim_unmount(context) {
+        mount::unmount(&Call::of(context, "sim_unmount", 0))
+    }
+}
+
+/// Ends the simulation after the program has turned to other files, unless
+/// other programs may use it through a mount.
+pub(crate) fn end_unless_mounted() {
+    if !mount::is_mounted() {
+        *running() = None;
+        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
+/// What runs, if something does.
+fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The simulation that runs; a failure if there is none.
+pub(crate) fn simulation() -> PrologResult<Arc<Simulation>> {
+    running().clone().ok_or(PrologError::Failure)
+}
+
+/// Starts a simulation in the place of the one that runs.
+fn start<C: QueryableContextType>(
+    call: &Call<C>,
+    machine: Machine,
+    clock: Clock,
+) -> PrologResult<()> {
+    let simulation = match Simulation::new(machine, clock) {
+        Ok(simulation) => Arc::new(simulation),
+        Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
+    };
+    mount::end();
+    if running().replace(Arc::clone(&simulation)).is_none() {
+        let roots = [devices().tree().root().to_owned(), dev().root().to_owned()];
+        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(roots);
+    }
+    use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
+    call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
+}
+
+/// `world` or `robot`.
+fn subject_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
+    match &*call.text(term)? {
+        "world" => Ok(Subject::World),
+        "robot" => Ok(Subject::Robot),
+        _ => wrong_value(call, "subject", term),
+    }
+}
+
+/// A fact of the vocabulary, checked alone.
+fn known_fact<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    subject: Subject,
+    term: &Term<'a>,
+) -> PrologResult<Fact> {
+    if let Some(fact) = facts::fact(call, subject, term)? {
+        return Ok(fact);
+    }
+    let (domain, kind) = match subject {
+        Subject::World => ("world_fact", "world"),
+        Subject::Robot => ("robot_fact", "robot"),
+    };
+    let names: Vec<_> = subject.vocabulary().iter().map(|(name, _)| *name).collect();
+    wrong_because(call, domain, term, &format!("a {kind} has: {}", names.join(", ")))
+}
+
+fn facts_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    subject: Subject,
+    list: &Term<'a>,
+) -> PrologResult<Vec<Fact>> {
+    call.map_list(list, |term| known_fact(call, subject, &term))
+}
+
+/// What is impossible: in which list of facts, at which place if one is to blame.
+type Fault = (&'static str, Option<usize>, SpecError);
+
+fn built(world: &[Fact], robot: &[Fact], noise: bool, options: Options) -> Result<Machine, Fault> {
+    let in_robot = |error: SpecError| ("robot", culprit(robot, &error), error);
+    let spec = RobotSpec::from_facts(robot).map_err(in_robot)?;
+    let spec = if noise { spec.with_typical_noise() } else { spec };
+    let in_world = |error: SpecError| ("world", culprit(world, &error), error);
+    Machine::new(&WorldSpec::from_facts(world), &spec, options).map_err(in_world)
+}
+
+/// `realtime`, `scaled(Factor)` or `virtual`.
+fn clock_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Clock> {
+    let factor = match attempt_opt(call.context.compound_terms::<1>(term))? {
+        Some([factor]) => Some(call.float(&factor)?),
+        None => match &*call.text(term)? {
+            "realtime" => Some(1.0),
+            "virtual" => return Ok(Clock::Virtual),
+            _ => None,
+        },
+    };
+    match factor {
+        Some(factor) if factor > 0.0 && factor <= 1000.0 => Ok(Clock::Wall(factor)),
+        _ => wrong_value(call, "clock", term),
+    }
+}
+
+/// A port, in either spelling.
+fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<ev3_sim::Port> {
+    let text = call.text(term)?;
+    match ev3_driver::port_name::socket(&text).parse() {
+        Ok(port) => Ok(port),
+        Err(_) => named(call, "port", term),
+    }
+}
+
+/// Why an attribute cannot be made to show a text.
+fn cannot_show<T, C: QueryableContextType>(
+    call: &Call<C>,
+    errno: Errno,
+    attribute: &Term,
+    text: &Term,
+) -> PrologResult<T> {
+    match errno {
+        Errno::ENODEV => Err(PrologError::Failure),
+        Errno::ENOENT => no_such(call, "attribute", &call.text(attribute)?, "not of that device"),
+        Errno::EACCES => wrong_because(call, "readable_attribute", attribute, "is only written"),
+        _ => wrong_because(call, "attribute_text", text, "is longer than a page"),
+    }
+}
+
+/// What the simulator answered; that it is impossible as an exception.
+fn possible<T, C: QueryableContextType>(
+    call: &Call<C>,
+    result: Result<T, SpecError>,
+) -> PrologResult<T> {
+    result.or_else(|error| {
+        let item = call.context.new_term_ref();
+        unify_atom(&item, &error.item)?;
+        wrong_because(call, "possible_geometry", &item, &error.reason)
+    })
+}

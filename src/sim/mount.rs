@@ -1,0 +1,110 @@
+//! The simulated tree as real files, through FUSE.
+use crate::buttons::close_sources;
+use crate::glue::call::Call;
+use crate::glue::error::{no_such, wrong_because};
+use crate::glue::state::{dev, devices, use_default_dev, use_default_files};
+use ev3_driver::Registry;
+use ev3_sim::{Mount, MountError, Shared};
+use std::error::Error;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::time::{Duration, Instant};
+use swipl::prelude::*;
+
+static MOUNTED: Mutex<Option<Mounted>> = Mutex::new(None);
+
+/// What is mounted: the classes of devices, and the device files if they are.
+struct Mounted {
+    classes: Mount,
+    dev: Option<Mount>,
+}
+
+/// Mounts the tree of a machine on a directory, and its device files on
+/// another one if it is given. One mount at a time: another one before is
+/// unmounted.
+pub(crate) fn mount<C: QueryableContextType>(
+    call: &Call<C>,
+    machine: &Arc<Shared>,
+    classes: &Term,
+    dev: Option<&Term>,
+) -> PrologResult<()> {
+    end();
+    let classes = mounted(call, classes, Mount::new, machine)?;
+    let dev = dev.map(|term| mounted(call, term, Mount::dev, machine)).transpose()?;
+    *MOUNTED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Mounted { classes, dev });
+    Ok(())
+}
+
+fn mounted<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+    mount: fn(Arc<Shared>, &Path) -> Result<Mount, MountError>,
+    machine: &Arc<Shared>,
+) -> PrologResult<Mount> {
+    let directory = call.text(term)?;
+    match mount(Arc::clone(machine), Path::new(&*directory)) {
+        Ok(mount) => Ok(mount),
+        Err(error @ MountError::NoFuse) => no_such(call, "device", "/dev/fuse", &error.to_string()),
+        Err(error @ MountError::NoDirectory(_)) => {
+            no_such(call, "directory", &directory, &error.to_string())
+        }
+        Err(error) => {
+            let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+            wrong_because(call, "mountable_directory", term, &format!("{error}{source}"))
+        }
+    }
+}
+
+/// Unmounts; fails where nothing is mounted.
+pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
+    let mounted = take().ok_or(PrologError::Failure)?;
+    call.or_throw(let_go(&mounted))?;
+    if let Some(mount) = mounted.dev {
+        gone(call, mount)?;
+    }
+    gone(call, mounted.classes)
+}
+
+/// Uses what is mounted no longer: descriptors of our own would keep it busy.
+fn let_go(mounted: &Mounted) -> ev3_driver::Result<()> {
+    let used = Arc::downgrade(&devices());
+    if devices().tree().root().starts_with(mounted.classes.path()) {
+        use_default_files()?;
+        wait_until_unused(&used);
+    }
+    if mounted.dev.as_ref().is_some_and(|mount| dev().root().starts_with(mount.path())) {
+        use_default_dev();
+        close_sources();
+    }
+    Ok(())
+}
+
+/// Another thread may be in the midst of a step with these devices, as the loop of
+/// a drive. One that goes on with them for long keeps the mount busy.
+fn wait_until_unused(devices: &Weak<Registry>) {
+    let patience = Instant::now() + Duration::from_secs(1);
+    while devices.strong_count() > 0 && Instant::now() < patience {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<()> {
+    mount.unmount().or_else(|error| no_such(call, "mount", "mount", &error.to_string()))
+}
+
+/// Whether something is mounted.
+pub(crate) fn is_mounted() -> bool {
+    MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+}
+
+/// Unmounts whatever is mounted.
+pub(crate) fn end() {
+    if let Some(mounted) = take() {
+        // Motors that cannot be stopped any more do not keep it mounted.
+        let _ = let_go(&mounted);
+    }
+}
+
+fn take() -> Option<Mounted> {
+    MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).take()
+}

@@ -1,0 +1,29 @@
+//! In the place of `mount.rs` where the library is built without FUSE.
+use crate::glue::call::Call;
+use crate::glue::error::no_such;
+use ev3_sim::Shared;
+use std::sync::Arc;
+use swipl::prelude::*;
+
+/// Says that this cannot be had.
+pub(crate) fn mount<C: QueryableContextType>(
+    call: &Call<C>,
+    _machine: &Arc<Shared>,
+    _classes: &Term,
+    _dev: Option<&Term>,
+) -> PrologResult<()> {
+    no_such(call, "feature", "fuse", "this library was built without FUSE")
+}
+
+/// Fails: nothing is mounted.
+pub(crate) fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<()> {
+    Err(PrologError::Failure)
+}
+
+/// Nothing is mounted.
+pub(crate) fn end() {}
+
+/// Nothing is.
+pub(crate) fn is_mounted() -> bool {
+    false
+}
