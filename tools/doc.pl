@@ -58,7 +58,7 @@ main :-
     maplist(write_library(Directory, Map), Map),
     write_index(Directory, Map),
     write_predicates(Directory, Map),
-    write_worlds(Directory),
+    write_worlds(Directory, Map),
     write_robots(Directory),
     write_planners(Directory, Map),
     copy_style(Directory),
@@ -130,14 +130,10 @@ page(File, Page) :-
     file_name_extension(Name, html, Page).
 
 write_library(Directory, Map, file(File, Page)) :-
-    Options = [ files(Map), html_resources(pldoc_files), source_link(false),
-                resource_directory(Directory), public_only(true) ],
-    setup_call_cleanup(
-        nb_setval(pldoc_options, Options),
-        with_output_to(string(Html0),
-                       ( b_setval(pldoc_output, Page),
-                         doc_for_file(File, Options) )),
-        nb_delete(pldoc_options)),
+    with_options(Directory, Map, Options,
+                 with_output_to(string(Html0),
+                                ( b_setval(pldoc_output, Page),
+                                  doc_for_file(File, Options) ))),
     also_exported(File, Map, Also),
     % A page's link to itself
     file_base_name(Page, Base),
@@ -146,6 +142,18 @@ write_library(Directory, Map, file(File, Page)) :-
     atomic_list_concat(Parts, Self, Html1),
     without_undocumented(Html1, Also, Html),
     write_page(Page, Html).
+
+%   pldoc makes links to other pages by these.
+
+:- meta_predicate with_options(+, +, -, 0).
+
+with_options(Directory, Map, Options, Goal) :-
+    Options = [ files(Map), html_resources(pldoc_files), source_link(false),
+                resource_directory(Directory), public_only(true) ],
+    setup_call_cleanup(
+        nb_setval(pldoc_options, Options),
+        once(Goal),
+        nb_delete(pldoc_options)).
 
 %   pldoc takes what a library exports again for undocumented.
 
@@ -277,13 +285,17 @@ summary(PI, Def, _) :-
                 *  WORLDS, ROBOTS, PLANNERS    *
                 *******************************/
 
-write_worlds(Directory) :-
+write_worlds(Directory, Map) :-
     fact_files(worlds, Files),
     forall(member(Name-_, Files), draw_world(Directory, Name)),
     markdown('docs/worlds.md', Text),
-    write_site_page(Directory, 'worlds.html', 'Worlds',
-                    [ \shipped(Files, picture), h2('What a world may hold'),
-                      \html(Text) ]).
+    with_options(Directory, Map, _,
+                 write_site_page(Directory, 'worlds.html', 'Worlds',
+                                 [ \wiki(Text),
+                                   \shipped(Files, picture) ])).
+
+wiki(Dom) -->
+    pldoc_html:html(Dom).
 
 draw_world(Directory, Name) :-
     format(atom(File), '~w/world_~w.svg', [Directory, Name]),
@@ -365,7 +377,13 @@ write_page(File, Html) :-
         close(Out)).
 
 markdown(File, Dom) :-
-    read_file_to_codes(File, Codes, [encoding(utf8)]),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    % The page has a title of its own.
+    once(sub_string(Text, 0, _, After, "# ")),
+    sub_string(Text, _, After, 0, Rest0),
+    once(sub_string(Rest0, _, _, Left, "\n")),
+    sub_string(Rest0, _, Left, 0, Rest),
+    string_codes(Rest, Codes),
     wiki_codes_to_dom(Codes, [], Dom).
 
 copy_style(Directory) :-
