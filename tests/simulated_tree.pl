@@ -50,7 +50,10 @@ root(mount, Root) :-
     ev3_sysfs(Root).
 
 % The paper's wheels, whether or not their motors are there.
-robot(Devices, [axle(10.6)|Facts]) :-
+robot(Devices,
+      [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
+        hull(circle(8)), mass(0.75)
+      | Facts ]) :-
     findall(Fact, ( member(Port-Type, Devices), fact(Port, Type, Fact) ), Facts).
 
 % Lights and the battery are the brick's own.

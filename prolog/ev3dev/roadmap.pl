@@ -46,8 +46,8 @@ roadmap is made is the option method(Method):
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
 or a file. Lengths are in centimetres, x to the right and y up. A Map may have
-all facts of a world. Only those count that stop a robot, bounds(X1, Y1, X2, Y2), wall/4,5,
-box/4,5, circle/3 and map/2; a list may also hold
+all facts of a world. Only those count that stop a robot: bounds/4, wall/4,5,
+box/4,5, circle/3 and map/2. A list may also hold
 
   - polygon(Corners)
     At least three corners, each `X-Y` or `[X, Y]`, in either order. It may be

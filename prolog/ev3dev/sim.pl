@@ -84,8 +84,8 @@ of
     A world that is drawn: strings or atoms, a character for each cell, the
     lower left corner of the last row at 0, 0. `#` is a wall, `O` a pillar,
     `.` or a space floor, `L` a lamp, `^`, `>`, `v` or `<` the start and its
-    heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w` and `n` are black, blue, green,
-    yellow, red, white and brown floor.
+    heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w` and `n`
+    are black, blue, green, yellow, red, white and brown floor.
 
 Shipped are `room` with walls and boxes, `lights` with a lamp, `line` with a
 track, `grid` with boxes in cells of 20 cm, and `maze`.
@@ -198,7 +198,8 @@ use devices. The same program with the same seed does the same each time.
 %   @error domain_error(robot_fact, Fact) if a robot has no such facts
 %   @error domain_error(possible_geometry, Fact)
 %   @error domain_error(possible_geometry, Robot) if the robot lacks a part
-%   @error domain_error(map_row, Row) for an unknown character or a second start
+%   @error domain_error(map_row, Row) for an unknown character or a second
+%          start
 %   @error domain_error(clock, Clock)
 %   @error domain_error(sim_option, Option) for an option that is none
 %   @error domain_error(screen_bits, Bits)

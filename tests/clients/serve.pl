@@ -13,6 +13,7 @@ robot(left_wheel(outB, 5.6)).
 robot(right_wheel(outC, 5.6)).
 robot(axle(10.6)).
 robot(hull(circle(8))).
+robot(mass(0.75)).
 robot(motor(outA, 'lego-ev3-m-motor')).
 robot(motor(outB, 'lego-ev3-l-motor')).
 robot(motor(outC, 'lego-ev3-l-motor')).

@@ -15,7 +15,8 @@
 %   obstacles and this start, a state or `none`. Without rows there are 8 by 8
 %   cells.
 %
-%   @error domain_error(map_row, Row) for an unknown character or a second start
+%   @error domain_error(map_row, Row) for an unknown character or a second
+%          start
 
 grid_drawn(Rows, Obstacles, Start, Bounds) :-
     must_be(list, Rows),
@@ -48,8 +49,10 @@ drawn(Rows0, Obstacles, Start, bounds(0, 0, X2, Y2)) :-
     findall(X, member(_-[X, _], Drawn), Xs),
     max_list([0|Xs], X2).
 
-%   Starts and Rows are from below; the second start from above is one too many.
-only_start([], _, none).
+%   Starts and Rows are from below; the second start from above is one too
+%   many.
+only_start([], _, none) :-
+    !.
 only_start([Start], _, Start) :-
     !.
 only_start(Starts, Rows, _) :-
@@ -71,7 +74,8 @@ must_be_row(Row) :-
 %   Those of the simulator: the rest are free cells.
 character(Character) :-
     memberchk(Character,
-              [ #, 'O', '.', ' ', 'L', 'S', ^, >, v, <, k, b, g, y, r, w, n ]).
+              [ #, 'O', '.', ' ', 'L', 'S', ^, >, v, <,
+                k, b, g, y, r, w, n ]).
 
 start('S', [0, 1]).
 start(^, [0, 1]).
