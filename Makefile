@@ -11,7 +11,7 @@ LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
 .PHONY: all setup build check check-rust check-prolog check-clients check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
-        lint bench dist demo install clean distclean realclean
+        lint bench doc dist demo install clean distclean realclean
 
 all: build
 
@@ -69,12 +69,17 @@ bench: build
 check-old: build
 	@$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 
+# HTML pages about all predicates, worlds, robots and planners: doc/index.html
+doc: build
+	@rm -rf doc
+	@$(SWIPL) -g main -t 'halt(1)' tools/doc.pl doc
+
 # The binary pack, for machines that cannot build: dist/ev3dev-<version>.tgz
-dist:
+dist: doc
 	@tools/dist.sh
 
 # A second one made elsewhere has the same bytes
-check-dist:
+check-dist: dist
 	@tools/check-dist.sh
 
 # On an emulated EV3: installs the binary pack, then the suite
@@ -107,7 +112,7 @@ clean:
 	$(CARGO) clean
 
 distclean: clean
-	rm -rf lib dist
+	rm -rf lib dist doc
 
 # The toolchain for other machines, too: 1.3 GB to fetch again
 realclean: distclean

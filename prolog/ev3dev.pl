@@ -36,6 +36,7 @@ a motor does not run. What is no sensible argument throws.
 */
 
 :- use_module(ev3dev/private/scripts, []).
+:- use_module(ev3dev/private/help, []).
 :- reexport(ev3dev/driver).
 :- reexport(ev3dev/device_table).
 :- reexport(ev3dev/motors).

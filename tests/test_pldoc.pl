@@ -1,0 +1,55 @@
+% pldoc makes a page of each public library, without a complaint.
+
+:- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+
+:- if(( current_prolog_flag(version, Version), Version >= 80200,
+        exists_source(library(pldoc)), exists_source(library(http/html_head)) )).
+
+:- use_module(library(pldoc)).
+:- use_module(library(pldoc/doc_html), [doc_for_file/2]).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/roadmap)).
+
+:- dynamic complaint/1.
+
+:- begin_tests(pldoc).
+
+test(makes_a_page_of_each_library,
+     [ forall(library_file(File)), true(Complaints-Closed == []-true) ]) :-
+    setup_call_cleanup(
+        asserta((user:message_hook(Term, Kind, _) :-
+                     memberchk(Kind, [warning, error]),
+                     assertz(user:complaint(Term))), Hook),
+        with_output_to(string(Page), doc_for_file(File, [])),
+        erase(Hook)),
+    findall(Term, retract(user:complaint(Term)), Complaints),
+    (   sub_string(Page, _, _, _, "</html>")
+    ->  Closed = true
+    ;   Closed = false
+    ).
+
+library_file(File) :-
+    member(Pattern, ['prolog/*.pl', 'prolog/ev3dev/*.pl',
+                     'prolog/ev3dev/planners/*.pl']),
+    expand_file_name(Pattern, Files),
+    member(Relative, Files),
+    absolute_file_name(Relative, File).
+
+:- end_tests(pldoc).
+
+:- else.
+
+:- begin_tests(pldoc).
+
+test(is_installed, [blocked('library(pldoc) or HTTP is not installed')]) :-
+    true.
+
+:- end_tests(pldoc).
+
+:- endif.
