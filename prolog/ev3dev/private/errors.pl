@@ -211,17 +211,6 @@ is_of_system(Module:_) :-
     module_property(Module, class(Class)),
     memberchk(Class, [system, library]).
 
-%!  term_expansion(+Clause0, -Clause) is semidet.
-%
-%   Keep the frames of exported predicates, see above.
-
-term_expansion((Head :- Body), (Head :- Body, true)) :-
-    prolog_load_context(module, Module),
-    callable(Head),
-    functor(Head, Name, Arity),
-    module_property(Module, exports(Exports)),
-    memberchk(Name/Arity, Exports).
-
                 /*******************************
                 *            WORDS             *
                 *******************************/
@@ -284,3 +273,36 @@ quoted([], []).
 quoted([Value|Values], [Atom|Atoms]) :-
     format(atom(Atom), '~w', [Value]),
     quoted(Values, Atoms).
+
+                /*******************************
+                *      FRAMES ARE KEPT         *
+                *******************************/
+
+:- dynamic
+    exported/3,                         % Name, Arity, Module
+    known/1.                            % Module
+
+is_exported(Name, Arity, Module) :-
+    (   known(Module)
+    ->  true
+    ;   module_property(Module, exports(Exports)),
+        note_exports(Exports, Module),
+        assertz(known(Module))
+    ),
+    exported(Name, Arity, Module),
+    !.
+
+note_exports([], _).
+note_exports([Name/Arity|Exports], Module) :-
+    assertz(exported(Name, Arity, Module)),
+    note_exports(Exports, Module).
+
+%!  term_expansion(+Clause0, -Clause) is semidet.
+%
+%   Keep the frames of exported predicates: `true` behind the last call.
+
+term_expansion((Head :- Body), (Head :- Body, true)) :-
+    prolog_load_context(module, Module),
+    callable(Head),
+    functor(Head, Name, Arity),
+    is_exported(Name, Arity, Module).
