@@ -19,7 +19,7 @@ can_help :-
 
 :- set_prolog_flag(help_pager, false).
 
-:- begin_tests(help).
+:- begin_tests(help, [setup(use_module(library(pldoc/man_index), []))]).
 
 test(answers_for_each_export,
      [condition(helps_with_programs), true(Without == [])]) :-

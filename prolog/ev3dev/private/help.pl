@@ -23,6 +23,7 @@ user:prolog_load_file(Module:File, Options) :-
     ev3dev_help:extend_index.
 
 is_index(pldoc(man_index)).
+is_index(library(pldoc/man_index)).
 is_index(File) :-
     atom(File),
     sub_atom(File, _, _, _, 'pldoc/man_index').
