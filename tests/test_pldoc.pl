@@ -1,8 +1,11 @@
-% pldoc makes a page of each public library, without a complaint.
+% pldoc makes a page of each public library, without a complaint; `make doc` makes
+% a site without broken links.
 
 :- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(process)).
 
 :- if(( current_prolog_flag(version, Version), Version >= 80200,
         exists_source(library(pldoc)), exists_source(library(http/html_head)) )).
@@ -33,6 +36,18 @@ test(makes_a_page_of_each_library,
     ->  Closed = true
     ;   Closed = false
     ).
+
+% The binary pack has no tools.
+test(the_site_has_no_broken_links,
+     [condition(exists_file('tools/doc.pl')), true(Status == exit(0))]) :-
+    tmp_file(doc, Directory),
+    current_prolog_flag(executable, Prolog),
+    setup_call_cleanup(
+        process_create(Prolog, [ '-g', main, '-t', 'halt(1)', 'tools/doc.pl',
+                                 file(Directory) ],
+                       [stdout(null), process(Id)]),
+        process_wait(Id, Status),
+        ignore(catch(delete_directory_and_contents(Directory), _, fail))).
 
 library_file(File) :-
     member(Pattern, ['prolog/*.pl', 'prolog/ev3dev/*.pl',

@@ -8,8 +8,8 @@
 # Usage: tools/dist.sh
 #
 # There is no Makefile in it, so nothing is built on installation. The foreign
-# libraries are native/<target>/ev3dev.so; prolog/ev3dev/private/library_file.pl picks
-# one. They are not below lib: where there is a folder lib but none in it that is
+# libraries are native/<target>/ev3dev.so; prolog/ev3dev/private/library_file.pl
+# picks one. They are not below lib: where there is a folder lib but none in it that is
 # named by the Prolog flag `arch`, SWI-Prolog up to 9.0 does not use the pack at
 # all, and the flags of all builds there are cannot be known.
 #
@@ -25,7 +25,8 @@ source "$(dirname "$0")/common.sh"
 source "$root/tools/targets.sh"
 
 # Of these, doc is made by `make doc`.
-contents=(pack.pl README.md LICENSE CHANGELOG.md prolog examples docs doc)
+contents=(pack.pl README.md LICENSE CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md
+    prolog examples docs doc)
 
 main() {
     local name archive stage=$root/target/dist/stage

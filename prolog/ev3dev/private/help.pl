@@ -7,7 +7,8 @@ into the index of the manual. When that index is loaded, at the first call of
 help/1 or apropos/1, the pack's predicates are added (see `help_index.pl`).
 Loading the pack costs no more than this file.
 
-Versions before 8.2, such as the brick's 7.2.3, have another help/1.
+In versions before 9, help/1 knows the manual alone; those before 8.2, such as
+the brick's 7.2.3, have another apropos/1.
 */
 
 :- if((current_prolog_flag(version, Version), Version >= 80200)).
@@ -22,6 +23,7 @@ user:prolog_load_file(Module:File, Options) :-
     ev3dev_help:extend_index.
 
 is_index(pldoc(man_index)).
+is_index(library(pldoc/man_index)).
 is_index(File) :-
     atom(File),
     sub_atom(File, _, _, _, 'pldoc/man_index').
