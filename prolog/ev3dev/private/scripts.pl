@@ -28,7 +28,14 @@ script(Main) :-
 
 is_program :-
     \+ current_prolog_flag(break_level, _),
-    '$cmd_option_val'(toplevel, prolog).
+    '$cmd_option_val'(toplevel, prolog),
+    \+ is_compiled.
+
+%   By `swipl -c`: the state calls main/0 when it starts.
+
+is_compiled :-
+    prolog_current_frame(Frame),
+    prolog_frame_attribute(Frame, parent_goal, system:'$compile_wic').
 
 run(Main) :-
     (   catch(Main, E, true)
