@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/keys.pl`: the keys of the brick.
+//! `prolog/ev3dev/buttons.pl`: the buttons of the brick.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;

@@ -83,10 +83,8 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
               [Left, Right]),
         fail
     ),
-    Diameters = DL-DR,
-    Inverted = IL-IR,
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
-                robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)).
+                built(Diameters, Inverted, Offset)).
 
 build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     must_be_options(robot_option,

@@ -2,7 +2,7 @@
           [ robot/4,                    % ?WheelDiameter, ?Axle, ?Left, ?Right
             robot_set/4,                % -WheelDiameter, -Axle, -Left, -Right
             robot_description/1,        % -Robot
-            store_robot/2,              % +Robot, +Description
+            store_robot/2,              % +Robot, +Built
             robot_hook/0,
             move_hook/2                 % +Move, -Done
           ]).
@@ -13,7 +13,7 @@
 
 :- dynamic
     robot/4,
-    description/1.
+    built/3.                            % Diameters, Inverted, Offset
 
 :- multifile
     robot_hook/0,
@@ -48,21 +48,24 @@ robot_set(WheelDiameter, AxleLength, Left, Right) :-
 
 robot_description(Robot) :-
     robot_set(WheelDiameter, AxleLength, Left, Right),
-    (   description(Robot)
+    (   built(DL-DR, IL-IR, Offset)
     ->  true
     ;   % a program's own robot/4
-        Robot = robot(Left, Right, WheelDiameter, WheelDiameter, false, false,
-                      AxleLength, 0)
-    ).
+        DL-DR = WheelDiameter-WheelDiameter,
+        IL-IR = false-false,
+        Offset = 0
+    ),
+    Robot = robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset).
 
-%!  store_robot(+Robot, +Description) is det.
+%!  store_robot(+Robot, +Built) is det.
 %
-%   Replace the robot by a term robot/4, and its description.
+%   Replace the robot by a term robot/4, and what else is known of it by
+%   built(LeftDiameter-RightDiameter, LeftInverted-RightInverted, AxleOffset).
 
-store_robot(Robot, Description) :-
+store_robot(Robot, Built) :-
     with_mutex(ev3dev_robot,
                ( retractall(robot(_, _, _, _)),
-                 retractall(description(_)),
-                 assertz(description(Description)),
+                 retractall(built(_, _, _)),
+                 assertz(Built),
                  asserta(Robot) )),
     forall(robot_hook, true).
