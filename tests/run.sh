@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs plunit files, each in a process of its own, and counts.
 #
-#   tests/run.sh [FILE...]        default: all of tests/test_*.pl
+#   tests/run.sh [FILE...]        default: all of tests/prolog and tests/behavior
 #
-# Those about devices run once over each kind of tree (see tests/tree.pl):
+# Those about devices run once over each kind of tree (see tests/support/tree.pl):
 # plain files, the simulator within the process, and its mount where FUSE can
 # be had. TREES names others, as in TREES="plain simulator". The rest runs once.
 #
@@ -13,8 +13,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# shellcheck source=tests/about_devices.sh
-source tests/about_devices.sh
+# shellcheck source=tests/support/about_devices.sh
+source tests/support/about_devices.sh
 
 export SWIPL=${SWIPL:-swipl}
 logs=$(mktemp -d)
@@ -22,7 +22,7 @@ trap 'rm -rf "$logs"' EXIT
 
 main() {
     local files=("$@") file tree tests
-    [ $# -gt 0 ] || files=(tests/test_*.pl)
+    [ $# -gt 0 ] || files=(tests/{prolog,behavior}/test_*.pl)
     for file in "${files[@]}"; do
         if is_about_devices "$file"; then
             for tree in ${TREES:-plain simulator mount}; do
@@ -59,7 +59,7 @@ one() {
 
 can_mount() {
     [ -e "$logs/mounts" ] || {
-        if "$SWIPL" -g '(can_mount->halt(0);halt(1))' tests/simulation.pl </dev/null; then
+        if "$SWIPL" -g '(can_mount->halt(0);halt(1))' tests/support/simulation.pl </dev/null; then
             echo yes
         else
             echo no

@@ -13,13 +13,13 @@
 #              SWIPL_723, SWIPL_101  swipl of a built 7.2.3 and 10.1, which come
 #                       in no package. They need the packages clib, plunit, sgml,
 #                       http and archive.
-#              SUITE    the test files (default: tests/test_*.pl)
+#              SUITE    the test files (default: those in tests/prolog and tests/behavior)
 
 set -euo pipefail
 # shellcheck source=tools/common.sh
 source "$(dirname "$0")/common.sh"
-# shellcheck source=tests/about_devices.sh
-source "$root/tests/about_devices.sh"
+# shellcheck source=tests/support/about_devices.sh
+source "$root/tests/support/about_devices.sh"
 
 pc=(8.2.4 9.0.4 9.2.9)
 passed=0 failed=0
@@ -73,7 +73,7 @@ try() {
     step "$name: an example" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/example.pl"
     cd "$tree/ev3dev"
-    for file in ${SUITE:-tests/test_*.pl}; do
+    for file in ${SUITE:-tests/prolog/test_*.pl tests/behavior/test_*.pl}; do
         step "$name: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
         ! is_about_devices "$file" || EV3DEV_TEST_TREE=simulator \
             step "$name, simulator: $file" run_swipl -g '(run_tests->halt;halt(1))' "$file"
