@@ -1,4 +1,4 @@
-:- use_module('../support/tree').
+:- use_module('../support/trees').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 :- use_module(library(apply)).
@@ -232,7 +232,7 @@ call_of(go_cm(number, out)).
 call_of(turn(number, out)).
 
 call_of(Call) :-
-    \+ tree_kind(mount),
+    \+ current_tree(mount),
     call_for_seconds(Call).
 
 % Without arguments, or that hold what was said before.
@@ -305,12 +305,12 @@ called_elsewhere(say/1).
 called_elsewhere(screen_png/1).
 
 test(whatever_is_thrown_is_an_iso_error_that_names_what_was_called,
-     true(Bad == [])) :-
-    with_tree([ in1-'lego-ev3-us', outA-'lego-ev3-m-motor',
-                outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor',
-                outD-'rcx-motor', 'in2:i2c88:sv1'-'ms-8ch-servo',
-                'led0:red:brick-status'-led, 'led0:green:brick-status'-led,
-                'lego-ev3-battery'-battery ],
+     [forall(tree(Tree)), true(Bad == [])]) :-
+    with_tree(Tree, [ in1-'lego-ev3-us', outA-'lego-ev3-m-motor',
+                      outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor',
+                      outD-'rcx-motor', 'in2:i2c88:sv1'-'ms-8ch-servo',
+                      'led0:red:brick-status'-led, 'led0:green:brick-status'-led,
+                      'lego-ev3-battery'-battery ],
               ( set_robot(5.6, 10.6, outB, outC),
                 findall(Goal-How,
                         ( odd_call(Goal), ends_badly(Goal, How) ),
@@ -394,40 +394,46 @@ mad(Text) :-
     atom_codes(Text, Codes).
 
 test(no_number_is_refused,
-     [forall(mad(Text)), error(syntax_error(attribute), context(_/_, _))]) :-
-    with_tree(( show_attribute(outB, position, Text),
-                position(outB, _) )).
+     [forall(( tree(Tree),
+               mad(Text) )), error(syntax_error(attribute), context(_/_, _))]) :-
+    with_tree(Tree, ( show_attribute(outB, position, Text),
+                      position(outB, _) )).
 test(texts_are_read_as_they_are,
-     [ forall(( mad(Text), \+ atom_number(Text, _) )), true(Read == Text) ]) :-
-    with_tree(( show_attribute(outB, stop_action, Text),
-                motor_attribute(outB, stop_action, Read) )).
+     [ forall(( tree(Tree),
+                mad(Text), \+ atom_number(Text, _) )), true(Read == Text) ]) :-
+    with_tree(Tree, ( show_attribute(outB, stop_action, Text),
+                      motor_attribute(outB, stop_action, Read) )).
 test(moves_throw_or_fail_where_a_motor_reads_badly,
-     [ forall(( member(Attribute, [max_speed, count_per_rot, position]),
+     [ forall(( tree(Tree),
+                member(Attribute, [max_speed, count_per_rot, position]),
                 mad(Text) )),
        error(syntax_error(attribute), context(motor_run/4, _)) ]) :-
-    with_tree(( show_attribute(outB, Attribute, Text),
-                motor_run(outB, 50, 90, [timeout(1)]) )).
+    with_tree(Tree, ( show_attribute(outB, Attribute, Text),
+                      motor_run(outB, 50, 90, [timeout(1)]) )).
 test(a_motor_whose_state_is_none_is_left_at_rest,
-     [ forall(( mad(Text), atom_length(Text, Length), Length < 60 )),
+     [ forall(( tree(Tree),
+                mad(Text), atom_length(Text, Length), Length < 60 )),
        true(C-W == stop-true) ]) :-
-    with_tree(( show_attribute(outB, state, Text),
-                put_attribute(outB, command, 'run-forever'),
-                motor_states(outB, States),
-                ( is_list(States) -> W = true ; W = States ),
-                motor_stop(outB),
-                get_attribute(outB, command, C) )).
+    with_tree(Tree, ( show_attribute(outB, state, Text),
+                      put_attribute(outB, command, 'run-forever'),
+                      motor_states(outB, States),
+                      ( is_list(States) -> W = true ; W = States ),
+                      motor_stop(outB),
+                      get_attribute(outB, command, C) )).
 test(sensors_throw_where_they_read_badly,
-     [ forall(( member(Attribute, [value0, decimals]), mad(Text) )),
+     [ forall(( tree(Tree),
+                member(Attribute, [value0, decimals]), mad(Text) )),
        error(syntax_error(attribute), context(_/_, _)) ]) :-
-    with_tree([in1-'lego-ev3-us'],
+    with_tree(Tree, [in1-'lego-ev3-us'],
               ( show_attribute(in1, Attribute, Text),
                 us_dist_cm(in1, _) )).
-test(a_device_without_an_address_is_passed_over, true(Ps == [outC])) :-
-    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+test(a_device_without_an_address_is_passed_over,
+     [forall(tree(Tree)), true(Ps == [outC])]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( show_attribute(outB, address, ''),
                 findall(P, tacho_motor(P), Ps) )).
-test(a_table_of_mad_devices_is_printed, [forall(mad(Text))]) :-
-    with_tree([outB-'lego-ev3-l-motor', in1-'lego-ev3-us'],
+test(a_table_of_mad_devices_is_printed, [forall(( tree(Tree), mad(Text) ))]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', in1-'lego-ev3-us'],
               ( show_attribute(outB, position, Text),
                 show_attribute(in1, value0, Text),
                 with_output_to(string(_), ev3_devices) )).
@@ -479,8 +485,8 @@ root_reads_all :-
     unreadable(File),
     catch(( open(File, read, In), close(In) ), _, fail).
 
-:- begin_tests(any_files,
-               [condition(only(plain, 'a file that no kernel has'))]).
+% A file that no kernel has.
+:- begin_tests(any_files).
 
 % strange(Name, Goal_1): Goal_1 makes such a file.
 strange(empty, bytes([])).
@@ -501,20 +507,20 @@ test(numbers_are_read_or_refused,
      [ forall(( strange(Name, Make_1), Name \== no_newline,
                 \+ ( Name == unreadable, root_reads_all ) )),
        true(Fine == true) ]) :-
-    with_tree(( replace(outB, position, Make_1),
-                outcome(position(outB, V), V, Outcome) )),
+    with_tree(plain, ( replace(outB, position, Make_1),
+                       outcome(position(outB, V), V, Outcome) )),
     (   Outcome = error(F, context(_/_, _)), iso_file_error(F)
     ->  Fine = true
     ;   Fine = Outcome
     ).
 test(a_number_without_a_newline_is_one, true(V == 7)) :-
-    with_tree(( replace(outB, position, bytes([0'7])),
-                position(outB, V) )).
+    with_tree(plain, ( replace(outB, position, bytes([0'7])),
+                       position(outB, V) )).
 test(texts_are_read_whole_or_refused,
      [ forall(( strange(Name, Make_1), \+ ( Name == unreadable, root_reads_all ) )),
        true(Fine == true) ]) :-
-    with_tree(( replace(outB, stop_action, Make_1),
-                outcome(motor_attribute(outB, stop_action, V), V, Outcome) )),
+    with_tree(plain, ( replace(outB, stop_action, Make_1),
+                       outcome(motor_attribute(outB, stop_action, V), V, Outcome) )),
     (   memberchk(Name-Outcome,
                   [ empty-value(''), no_newline-value(7), spaces-value('  7  '),
                     newlines-value('\n\n'), nuls-value('\u0000\u0000\u0000') ])
@@ -528,9 +534,9 @@ test(texts_are_read_whole_or_refused,
 test(file_read_reads_a_text_whole_or_refuses_it,
      [ forall(( strange(Name, Make_1), \+ ( Name == unreadable, root_reads_all ) )),
        true(Fine == true) ]) :-
-    with_tree(( replace(outB, stop_action, Make_1),
-                attribute_path(outB, stop_action, File),
-                outcome(file_read(File, V), V, Outcome) )),
+    with_tree(plain, ( replace(outB, stop_action, Make_1),
+                       attribute_path(outB, stop_action, File),
+                       outcome(file_read(File, V), V, Outcome) )),
     (   Outcome = value(_)
     ->  ( memberchk(Name, [empty, no_newline, spaces, newlines, nuls, page])
         -> Fine = true ; Fine = Outcome )
@@ -546,9 +552,9 @@ test(moves_throw_or_fail_where_a_motor_reads_badly,
                 \+ ( Attribute == state,
                      memberchk(Name, [empty, newlines, spaces, nuls]) ) )),
        true(Fine == true) ]) :-
-    with_tree(( replace(outB, Attribute, Make_1),
-                outcome(call_with_time_limit(5, motor_run(outB, 50, 90, [timeout(1)])),
-                        done, Outcome) )),
+    with_tree(plain, ( replace(outB, Attribute, Make_1),
+                       outcome(call_with_time_limit(5, motor_run(outB, 50, 90, [timeout(1)])),
+                               done, Outcome) )),
     (   Outcome == fails
     ->  Fine = true
     ;   Outcome = error(F, context(_/_, _)), iso_file_error(F)
@@ -562,7 +568,7 @@ test(sensors_throw_or_fail_where_they_read_badly,
                 % each 2 s of patience with a sensor without contact
                 \+ ( Name == pipe, Attribute == mode ) )),
        true(Fine == true) ]) :-
-    with_tree([in1-'lego-ev3-us'],
+    with_tree(plain, [in1-'lego-ev3-us'],
               ( replace(in1, Attribute, Make_1),
                 outcome(call_with_time_limit(5, us_dist_cm(in1, V)), V, Outcome) )),
     (   Outcome == fails
@@ -578,33 +584,33 @@ test(what_is_no_device_is_passed_over,
                 member(Name, [binary, more_than_a_page, directory, pipe, missing]),
                 strange(Name, Make_1) )),
        true(Ps == [outC]) ]) :-
-    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+    with_tree(plain, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( replace(outB, Attribute, Make_1),
                 findall(P, tacho_motor(P), Ps) )).
 test(a_class_that_is_a_file_throws, error(system_error(_), context(_/_, _))) :-
-    with_tree([],
+    with_tree(plain, [],
               ( tree_root(Root),
                 directory_file_path(Root, 'tacho-motor', File),
                 bytes([], File),
                 tacho_motor(_) )).
 test(a_table_of_strange_devices_is_printed,
      [ forall(( strange(Name, Make_1), Name \== unreadable )) ]) :-
-    with_tree([outB-'lego-ev3-l-motor', in1-'lego-ev3-us'],
+    with_tree(plain, [outB-'lego-ev3-l-motor', in1-'lego-ev3-us'],
               ( replace(outB, position, Make_1),
                 replace(in1, value0, Make_1),
                 with_output_to(string(_), ev3_devices) )).
 test(writing_to_what_cannot_be_written_throws,
      [ forall(member(Make_1, [make_directory, pipe, [_]>>true])),
        error(_, context(_/_, _)) ]) :-
-    with_tree(( replace(outB, speed_sp, Make_1),
-                speed_sp(outB, 5) )).
+    with_tree(plain, ( replace(outB, speed_sp, Make_1),
+                       speed_sp(outB, 5) )).
 test(a_text_of_a_page_is_written_whole, true(Length == 4096)) :-
     length(Codes, 4096),
     maplist(=(0'a), Codes),
     atom_codes(Text, Codes),
-    with_tree(( motor_attribute(outB, stop_action, Text),
-                get_attribute(outB, stop_action, Written),
-                atom_length(Written, Length) )).
+    with_tree(plain, ( motor_attribute(outB, stop_action, Text),
+                       get_attribute(outB, stop_action, Written),
+                       atom_length(Written, Length) )).
 
 :- end_tests(any_files).
 
@@ -614,15 +620,16 @@ test(a_text_of_a_page_is_written_whole, true(Length == 4096)) :-
 
 :- begin_tests(torn_values).
 
-test(a_reader_sees_either_text_and_nothing_between, true(Others == [])) :-
-    with_tree(( position(outB, 1),
-                meanwhile(alternate,
-                          ( sees(1000000),
-                            findall(V,
-                                    ( between(1, 20000, _), position(outB, V) ),
-                                    Vs),
-                            sees(1) )),
-                subtract(Vs, [1, 1000000], Others) )).
+test(a_reader_sees_either_text_and_nothing_between,
+     [forall(tree(Tree)), true(Others == [])]) :-
+    with_tree(Tree, ( position(outB, 1),
+                      meanwhile(alternate,
+                                ( sees(1000000),
+                                  findall(V,
+                                          ( between(1, 20000, _), position(outB, V) ),
+                                          Vs),
+                                  sees(1) )),
+                      subtract(Vs, [1, 1000000], Others) )).
 
 sees(Value) :-
     eventually(( position(outB, V), V == Value )).

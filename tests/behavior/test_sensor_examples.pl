@@ -1,6 +1,5 @@
 % The examples that need other sensors than the paper's robot has, run.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -17,7 +16,7 @@ test(shows_how_warm_it_is,
     with_sensor(Tree, Type, [temperature(-4.5)],
                 with_output_to(string(Shown), thermometer:thermometer(1))).
 test(has_a_star_a_degree, true(Shown == "  19.6 C = ********************\n")) :-
-    with_tree([in1-'lego-nxt-temp'],
+    with_tree(plain, [in1-'lego-nxt-temp'],
               ( put_attribute(in1, value0, 196),
                 with_output_to(string(Shown), thermometer:thermometer(1)) )).
 test(tells_the_trend, [ forall(member(Before-Now-Sign, [ 20.0-20.1-(=), 20.0-19.9-(=),
@@ -26,18 +25,18 @@ test(tells_the_trend, [ forall(member(Before-Now-Sign, [ 20.0-20.1-(=), 20.0-19.
     thermometer:trend(Before, Now, S).
 test(goes_on, true(Lines == ["  21.5 C = **********************",
                              "  21.5 C = **********************", ""])) :-
-    with_tree([in1-'lego-nxt-temp'],
+    with_tree(plain, [in1-'lego-nxt-temp'],
               with_output_to(string(Shown), thermometer:thermometer(2))),
     split_string(Shown, "\n", "", Lines).
 test(goes_on_until_the_sensor_is_gone, true(Lines >= 2)) :-
-    with_tree([in1-'lego-nxt-temp'],
+    with_tree(plain, [in1-'lego-nxt-temp'],
               ( later(3, unplug(in1)),
                 with_output_to(string(Shown), ignore(thermometer:thermometer)) )),
     split_string(Shown, "\n", "", Parts),
     length(Parts, Count),
     Lines is Count - 1.
 test(fails_without_a_sensor, [fail]) :-
-    with_tree(thermometer:thermometer).
+    with_tree(plain, thermometer:thermometer).
 
 :- end_tests(thermometer).
 
@@ -64,14 +63,14 @@ test(goes_turns_and_stops_as_it_is_told, true(End-States == true-([]/[]))) :-
                     ))),
     States = Left/Right.
 test(fails_without_an_infrared_sensor, [fail]) :-
-    with_tree(remote_control:drive).
+    with_tree(plain, remote_control:drive).
 test(fails_without_a_motor, [fail]) :-
-    with_tree([in1-'lego-ev3-ir'],
+    with_tree(plain, [in1-'lego-ev3-ir'],
               ( put_attribute(in1, mode, 'IR-REMOTE'),
                 put_attribute(in1, value0, 1),
                 remote_control:drive )).
 test(the_wheels_stop_however_it_ends, true(End-Left == over-stop)) :-
-    with_tree([in1-'lego-ev3-ir', outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+    with_tree(plain, [in1-'lego-ev3-ir', outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( put_attribute(in1, mode, 'IR-REMOTE'),
                 put_attribute(in1, value0, 1),
                 thread_self(Me),

@@ -1,6 +1,5 @@
 :- use_module('../support/dev').
 :- use_module('../support/simulation').
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).

@@ -1,6 +1,6 @@
 % Many threads at once: nothing is torn, nobody waits for ever.
 
-:- use_module('../support/tree').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 
 :- begin_tests(threads).
@@ -8,16 +8,17 @@
 %   How long to go on, in seconds.
 lasts(10).
 
-test(eight_threads_call_everything_at_once, true(Ends == Fine)) :-
+test(eight_threads_call_everything_at_once,
+     [forall(tree(Tree)), true(Ends == Fine)]) :-
     findall(true, between(1, 8, _), Fine),
-    with_tree(( put_attribute(in2, value0, 42),
-                lasts(Seconds),
-                get_time(Now),
-                End is Now + Seconds,
-                findall(Id, ( worker(Goal_1),
-                              thread_create(work(Goal_1, End), Id, []) ), Ids),
-                maplist(thread_join, Ids, Ends),
-                stop_all_motors )).
+    with_tree(Tree, ( put_attribute(in2, value0, 42),
+                      lasts(Seconds),
+                      get_time(Now),
+                      End is Now + Seconds,
+                      findall(Id, ( worker(Goal_1),
+                                    thread_create(work(Goal_1, End), Id, []) ), Ids),
+                      maplist(thread_join, Ids, Ends),
+                      stop_all_motors )).
 
 worker(writes(111)).
 worker(writes(2222222)).
@@ -52,7 +53,7 @@ reads_light(Mode, sane) :-
 drives(sane) :-
     motors_run([run(outB, 20), run(outC, -20)]),
     motor_states(outB, States),
-    (   tree_kind(plain)
+    (   current_tree(plain)
     ->  States == []
     ;   must_be(list(oneof([running, overloaded, stalled])), States)
     ),

@@ -1,7 +1,6 @@
 % The same tests over three trees: plain files, the simulator within the
 % process on its virtual clock, and the simulator's files through FUSE.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -47,7 +46,7 @@ test(a_table_of_all, [forall(tree(Tree))]) :-
 
 test(a_tree_that_is_switched_is_seen, true(A-B == 1050-[])) :-
     on(simulator, ( max_speed(outB, A),
-                    with_tree([], findall(P, tacho_motor(P), B)) )).
+                    with_tree(plain, [], findall(P, tacho_motor(P), B)) )).
 
 :- end_tests(devices).
 
@@ -132,7 +131,7 @@ test(runs_until_it_is_stopped, [forall(behaving(Tree)), true(R == stopped)]) :-
                meanwhile(( sleep(0.1), motor_stop(outA) ),
                          motor_wait(outA, [], R)) )).
 test(turns_by_an_angle, [forall(tree(Tree))]) :-
-    on(Tree, ( moving(Tree, [outA], motor_run(outA, 50, 180)),
+    on(Tree, ( obeying([outA], motor_run(outA, 50, 180)),
                position(outA, There),
                near(There, 180, 5) )).
 test(turns_back_at_a_negative_speed, [forall(behaving(Tree))]) :-
@@ -167,7 +166,7 @@ test(a_timeout_stops_it, [forall(behaving(Tree)), true(Fs == [])]) :-
 
 test(goes_a_distance, [forall(tree(Tree)), true(Robot == robot)]) :-
     on(Tree, ( set_robot(5.6, 10.6, outB, outC),
-               moving(Tree, [outB, outC], go_cm(40, 10)),
+               obeying([outB, outC], go_cm(40, 10)),
                position(outB, Left), position(outC, Right),
                near(Left, 205, 6), near(Right, 205, 6),
                Robot = robot )).

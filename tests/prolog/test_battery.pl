@@ -1,11 +1,10 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 
 % A plain tree with a battery of that name and these files.
 powered(Name, Files, Goal) :-
-    with_tree([], ( plug(Name, battery),
+    with_tree(plain, [], ( plug(Name, battery),
                     forall(member(File=Text, Files),
                            put_attribute(Name, File, Text)),
                     once(Goal) )).
@@ -33,7 +32,7 @@ test(the_voltage_falls_under_load, [forall(behaving(Tree))]) :-
                     battery(voltage, Load), battery(current, Amperes),
                     Load < Rest, Amperes > 0.3 )).
 test(no_battery, [fail]) :-
-    with_tree([], ( battery(voltage, _) ; battery(_, _) )).
+    with_tree(plain, [], ( battery(voltage, _) ; battery(_, _) )).
 test(the_battery_of_another_computer_is_none, [fail]) :-
     powered('BAT0', [], battery(_, _)).
 test(an_unknown_key_throws, error(domain_error(battery_key, charge), _)) :-

@@ -1,5 +1,4 @@
 :- use_module('../support/dev').
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).

@@ -1,4 +1,3 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/simulation').
@@ -14,7 +13,7 @@ in_tree(Tree, Goal) :-
                Goal )).
 
 plain(Goal) :-
-    with_tree([outA-'rcx-motor'], once(Goal)).
+    with_tree(plain, [outA-'rcx-motor'], once(Goal)).
 
 :- begin_tests(dc_motor).
 

@@ -1,6 +1,5 @@
 % Driving: curves, odometry, going to places, calibration.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/cases').
 :- use_module('../support/simulation').
@@ -157,9 +156,9 @@ test(nothing_can_be_done_without_a_robot,
                               pose(_, _, _), set_pose(0, 0, 0),
                               pose_uncertainty(_), drive_wait([], _),
                               calibrate(axle, [], _) ]) )), true(W == [])]) :-
-    with_tree(( retractall(ev3dev_robot_state:robot(_, _, _, _)),
-                \+ Goal,
-                written(W) )).
+    with_tree(plain, ( retractall(ev3dev_robot_state:robot(_, _, _, _)),
+                       \+ Goal,
+                       written(W) )).
 test(a_missing_motor_fails_and_writes_nothing,
      [forall(( tree(Tree),
                ( any_move(Move), with_options(Move, [], Goal)
@@ -181,17 +180,17 @@ test(an_impossible_move_fails_and_writes_nothing,
                               go_to(1, 1, [speed(0)]),
                               go_to(1, 1, [speed(101)]) ]) )),
       true(W == [])]) :-
-    with_tree(( set_robot(5.6, 10.6, outB, outC),
-                written(W0),
-                \+ Goal,
-                written(W1),
-                subtract(W1, W0, W) )).
+    with_tree(plain, ( set_robot(5.6, 10.6, outB, outC),
+                       written(W0),
+                       \+ Goal,
+                       written(W1),
+                       subtract(W1, W0, W) )).
 test(what_is_not_finite_throws_and_writes_nothing,
      [ forall(( evaluated(inf, Inf), evaluated(nan, Nan),
                 member(Goal, [go_to(Inf, 1), face(Nan)]) )),
        error(domain_error(finite_number, _), _) ]) :-
-    with_tree(( set_robot(5.6, 10.6, outB, outC),
-                Goal )).
+    with_tree(plain, ( set_robot(5.6, 10.6, outB, outC),
+                       Goal )).
 test(what_is_no_number_throws_and_writes_nothing,
      [forall(( member(Goal-Error,
                       [ go_to(_, 1)-instantiation_error,
@@ -242,12 +241,12 @@ test(what_is_no_number_throws_and_writes_nothing,
                         calibrate(wheels, [distance(0)], _)
                             -domain_error(positive_number, 0) ]) )),
       true(Caught-W == caught-[])]) :-
-    with_tree(( set_robot(5.6, 10.6, outB, outC),
-                written(W0),
-                catch(Goal, error(Formal, _), Caught = caught),
-                subsumes_term(Error, Formal),
-                written(W1),
-                subtract(W1, W0, W) )).
+    with_tree(plain, ( set_robot(5.6, 10.6, outB, outC),
+                       written(W0),
+                       catch(Goal, error(Formal, _), Caught = caught),
+                       subsumes_term(Error, Formal),
+                       written(W1),
+                       subtract(W1, W0, W) )).
 test(options_of_the_robot_are_checked,
      [forall(member(Options-Error,
                     [ [left_diameter(0)]-domain_error(positive_number, 0),
@@ -255,8 +254,8 @@ test(options_of_the_robot_are_checked,
                       [inverted(left)]-type_error(_, left),
                       [axle_offset(x)]-type_error(number, x) ])),
       true(Caught == caught)]) :-
-    with_tree(catch(set_robot(5.6, 10.6, outB, outC, Options),
-                    error(Formal, _), Caught = caught)),
+    with_tree(plain, catch(set_robot(5.6, 10.6, outB, outC, Options),
+                           error(Formal, _), Caught = caught)),
     subsumes_term(Error, Formal).
 
 :- end_tests(bad_input).
@@ -279,11 +278,11 @@ take_out(mount, Port) :-
 test(nothing_moves_then_it_is_stalled,
      [forall(( a_move(Move), Move \= follow(_) )), true(R-C == stalled-(stop-stop))]) :-
     with_options(Move, [reason(R)], Goal),
-    with_tree(( set_robot(5.6, 10.6, outB, outC),
-                Goal,
-                get_attribute(outB, command, Left),
-                get_attribute(outC, command, Right),
-                C = Left-Right )).
+    with_tree(plain, ( set_robot(5.6, 10.6, outB, outC),
+                       Goal,
+                       get_attribute(outB, command, Left),
+                       get_attribute(outC, command, Right),
+                       C = Left-Right )).
 test(a_blocked_wheel_stops_both_and_fails_with_a_warning,
      true(Ws == [ev3dev(stalled([outB, outC]))])) :-
     quiet(false, ( sim_jam(outB, true),
@@ -537,7 +536,7 @@ test(is_where_it_was_said_to_be,
 % One wheel after the other: whenever else these files are read, it is along
 % the same two arcs.
 test(plain_files_that_another_program_moves, [true]) :-
-    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+    with_tree(plain, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( set_robot(5.6, 10.6, outB, outC),
                 forall(( member(Port, [outB, outC]), between(1, 20, I) ),
                        ( Count is I * 10,
@@ -700,7 +699,7 @@ test(an_axle_that_is_ahead) :-
                   sim_pose(X1, Y1, _),
                   near(X1, 20, 0.5), near(Y1, 35, 0.5) )).
 test(go_and_turn_without_this_library_know_of_it, true(S == '525'-'-525')) :-
-    with_tree([outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+    with_tree(plain, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( set_robot(5.6, 10.6, outB, outC, [inverted([right])]),
                 go(50),
                 get_attribute(outB, speed_sp, L),
@@ -1017,7 +1016,7 @@ test(a_thread_works_only_while_something_moves,
      condition(exists_directory('/proc/self/task'))) :-
     motors_alone(Motors),
     eventually(drive_threads([])),
-    with_tree(Motors,
+    with_tree(plain, Motors,
               ( set_robot(5.6, 10.6, outB, outC),
                 eventually(drive_threads([_])),
                 eventually(drive_threads([])),
@@ -1029,7 +1028,7 @@ test(the_thread_takes_no_signals,
      [ condition(exists_directory('/proc/self/task')),
        true(Bits =:= Int + Term) ]) :-
     motors_alone(Motors),
-    with_tree(Motors,
+    with_tree(plain, Motors,
               ( set_robot(5.6, 10.6, outB, outC),
                 eventually(drive_threads([Hexadecimal|_])) )),
     atom_concat('0x', Hexadecimal, Text),

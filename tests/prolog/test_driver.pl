@@ -1,4 +1,4 @@
-:- use_module('../support/tree').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
@@ -10,65 +10,71 @@
 
 :- begin_tests(devices).
 
-test(motors_are_listed_in_port_order, all(P == [outA, outB, outC, outD])) :-
-    with_tree([],
+test(motors_are_listed_in_port_order,
+     [forall(tree(Tree)), all(P == [outA, outB, outC, outD])]) :-
+    with_tree(Tree, [],
               ( plug(outD, 'lego-nxt-motor'),
                 plug(outB, 'lego-ev3-l-motor'),
                 plug(outC, 'lego-ev3-l-motor'),
                 plug(outA, 'lego-ev3-m-motor'),
                 tacho_motor(P) )).
 test(sensors_are_listed_in_port_order,
-     all(P-T == [in1-'lego-ev3-gyro', in2-'lego-ev3-touch',
-                 in4-'lego-ev3-us'])) :-
-    with_tree([],
+     [ forall(tree(Tree)),
+       all(P-T == [in1-'lego-ev3-gyro', in2-'lego-ev3-touch',
+                 in4-'lego-ev3-us']) ]) :-
+    with_tree(Tree, [],
               ( plug(in4, 'lego-ev3-us'),
                 plug(in2, 'lego-ev3-touch'),
                 plug(in1, 'lego-ev3-gyro'),
                 lego_sensor(P, T) )).
-test(a_type_selects_ports, all(P == [outB, outC, outD])) :-
-    with_tree(tacho_motor(P, 'lego-ev3-l-motor')).
-test(a_port_gives_type_and_path, true(T-Is == 'lego-ev3-us'-Path)) :-
-    with_tree(( lego_sensor(in1, T, Is),
-                attribute_directory(in1, Path) )).
-test(a_path_gives_the_port, true(P == outC)) :-
-    with_tree(( attribute_directory(outC, Path),
-                tacho_motor(P, _, Path) )).
+test(a_type_selects_ports,
+     [forall(tree(Tree)), all(P == [outB, outC, outD])]) :-
+    with_tree(Tree, tacho_motor(P, 'lego-ev3-l-motor')).
+test(a_port_gives_type_and_path,
+     [forall(tree(Tree)), true(T-Is == 'lego-ev3-us'-Path)]) :-
+    with_tree(Tree, ( lego_sensor(in1, T, Is),
+                      attribute_directory(in1, Path) )).
+test(a_path_gives_the_port, [forall(tree(Tree)), true(P == outC)]) :-
+    with_tree(Tree, ( attribute_directory(outC, Path),
+                      tacho_motor(P, _, Path) )).
 test(the_long_spelling_of_a_port_is_left_as_it_is,
-     true(P-T == 'ev3-ports:outA'-'lego-ev3-m-motor')) :-
+     [forall(tree(Tree)), true(P-T == 'ev3-ports:outA'-'lego-ev3-m-motor')]) :-
     P = 'ev3-ports:outA',
-    with_tree(tacho_motor(P, T)).
+    with_tree(Tree, tacho_motor(P, T)).
 test(each_kind_of_motor_has_its_enumerator,
-     true([L, M, N] == [[outB], [outA], [outC]])) :-
-    with_tree([ outA-'lego-ev3-m-motor', outB-'lego-ev3-l-motor',
-                outC-'lego-nxt-motor' ],
+     [forall(tree(Tree)), true([L, M, N] == [[outB], [outA], [outC]])]) :-
+    with_tree(Tree, [ outA-'lego-ev3-m-motor', outB-'lego-ev3-l-motor',
+                      outC-'lego-nxt-motor' ],
               ( findall(P, ev3_large_motor(P), L),
                 findall(P, ev3_medium_motor(P), M),
                 findall(P, nxt_motor(P), N) )).
+% A controller has eight servos.
 test(a_servo_is_found,
-     [ condition(only(plain, 'a controller has eight servos')),
-       all(P == ['in1:i2c88:sv2', 'in1:i2c88:sv10']) ]) :-
-    with_tree([],
+     [ all(P == ['in1:i2c88:sv2', 'in1:i2c88:sv10']) ]) :-
+    with_tree(plain, [],
               ( add_device('servo-motor/motor0', 'in1:i2c88:sv10', 'ms-8ch-servo'),
                 add_device('servo-motor/motor1', 'in1:i2c88:sv2', 'ms-8ch-servo'),
                 servo_motor(P) )).
-test(a_port_with_no_device_fails, fail) :-
-    with_tree(tacho_motor(outE)).
-test(a_sensor_is_no_motor, fail) :-
-    with_tree(tacho_motor(in1)).
-test(an_empty_tree_has_no_devices, true(Ps == [])) :-
-    with_tree([], findall(P, (tacho_motor(P) ; lego_sensor(P) ; servo_motor(P)), Ps)).
+test(a_port_with_no_device_fails, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, tacho_motor(outE)).
+test(a_sensor_is_no_motor, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, tacho_motor(in1)).
+test(an_empty_tree_has_no_devices, [forall(tree(Tree)), true(Ps == [])]) :-
+    with_tree(Tree, [], findall(P, (tacho_motor(P) ; lego_sensor(P) ; servo_motor(P)), Ps)).
 test(other_boards_addresses_are_used_as_they_are,
-     all(P == ['spi0.1:MA', 'spi0.1:MB'])) :-
-    with_tree([outA-'lego-nxt-motor', outB-'lego-nxt-motor'],
+     [forall(tree(Tree)), all(P == ['spi0.1:MA', 'spi0.1:MB'])]) :-
+    with_tree(Tree, [outA-'lego-nxt-motor', outB-'lego-nxt-motor'],
               ( show_attribute(outA, address, 'spi0.1:MB'),
                 show_attribute(outB, address, 'spi0.1:MA'),
                 nxt_motor(P) )).
-test(a_port_is_no_number, error(type_error(atom, 1), _)) :-
-    with_tree(tacho_motor(1)).
-test(asking_for_devices_writes_nothing, true(W == [])) :-
-    with_tree(( forall(tacho_motor(_, _, _), true),
-                forall(lego_sensor(_, _, _), true),
-                written(W) )).
+test(a_port_is_no_number,
+     [forall(tree(Tree)), error(type_error(atom, 1), _)]) :-
+    with_tree(Tree, tacho_motor(1)).
+test(asking_for_devices_writes_nothing,
+     [forall(tree(Tree)), true(W == [])]) :-
+    with_tree(Tree, ( forall(tacho_motor(_, _, _), true),
+                      forall(lego_sensor(_, _, _), true),
+                      written(W) )).
 
 :- end_tests(devices).
 
@@ -95,36 +101,41 @@ add_file(Directory, Name, Text) :-
 
 :- begin_tests(subsystem_detect).
 
-test(finds_what_matches, all(P == [outA, outB, outC, outD])) :-
-    with_tree(( pattern('tacho-motor/motor*', Pattern),
-                subsystem_detect(P, _, _, Pattern) )).
+test(finds_what_matches,
+     [forall(tree(Tree)), all(P == [outA, outB, outC, outD])]) :-
+    with_tree(Tree, ( pattern('tacho-motor/motor*', Pattern),
+                      subsystem_detect(P, _, _, Pattern) )).
 test(takes_the_papers_pattern_with_a_slash_at_the_end, 
-     all(P-T == [outA-'lego-ev3-m-motor'])) :-
-    with_tree([outA-'lego-ev3-m-motor'],
+     [forall(tree(Tree)), all(P-T == [outA-'lego-ev3-m-motor'])]) :-
+    with_tree(Tree, [outA-'lego-ev3-m-motor'],
               subsystem_detect(P, T, _, '/sys/class/tacho-motor/motor*/')).
-test(looks_in_the_tree_in_use_for_sys_class, true(Path == Expected)) :-
-    with_tree(( attribute_directory(outA, Expected),
-                subsystem_detect(outA, _, Path, '/sys/class/tacho-motor/*') )).
-test(takes_any_pattern, true(Ps == [in1, in3])) :-
-    with_tree(( pattern('*-sensor/sensor[02]', Pattern),
-                findall(P, subsystem_detect(P, _, _, Pattern), Ps) )).
-test(leaves_no_choice_point_at_a_bound_port, true(T == 'lego-ev3-l-motor')) :-
-    with_tree(( pattern('tacho-motor/motor*', Pattern),
-                subsystem_detect('ev3-ports:outB', T, _, Pattern) )).
-test(passes_over_directories_that_are_no_device, fail) :-
-    with_tree(( tree_root(Root),
-                subsystem_detect(_, _, _, Root) )).
-test(fails_where_nothing_matches, fail) :-
-    with_tree(subsystem_detect(_, _, _, '/nowhere/*')).
-test(fails_for_another_type, fail) :-
-    with_tree(( pattern('tacho-motor/motor*', Pattern),
-                subsystem_detect(_, 'lego-nxt-motor', _, Pattern) )).
-test(an_unbound_pattern_throws, error(instantiation_error, _)) :-
-    with_tree(subsystem_detect(_, _, _, _)).
+test(looks_in_the_tree_in_use_for_sys_class,
+     [forall(tree(Tree)), true(Path == Expected)]) :-
+    with_tree(Tree, ( attribute_directory(outA, Expected),
+                      subsystem_detect(outA, _, Path, '/sys/class/tacho-motor/*') )).
+test(takes_any_pattern, [forall(tree(Tree)), true(Ps == [in1, in3])]) :-
+    with_tree(Tree, ( pattern('*-sensor/sensor[02]', Pattern),
+                      findall(P, subsystem_detect(P, _, _, Pattern), Ps) )).
+test(leaves_no_choice_point_at_a_bound_port,
+     [forall(tree(Tree)), true(T == 'lego-ev3-l-motor')]) :-
+    with_tree(Tree, ( pattern('tacho-motor/motor*', Pattern),
+                      subsystem_detect('ev3-ports:outB', T, _, Pattern) )).
+test(passes_over_directories_that_are_no_device,
+     [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, ( tree_root(Root),
+                      subsystem_detect(_, _, _, Root) )).
+test(fails_where_nothing_matches, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, subsystem_detect(_, _, _, '/nowhere/*')).
+test(fails_for_another_type, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, ( pattern('tacho-motor/motor*', Pattern),
+                      subsystem_detect(_, 'lego-nxt-motor', _, Pattern) )).
+test(an_unbound_pattern_throws,
+     [forall(tree(Tree)), error(instantiation_error, _)]) :-
+    with_tree(Tree, subsystem_detect(_, _, _, _)).
 test(a_malformed_pattern_throws,
-     [ forall(member(Pattern, ['[a', '***'])),
+     [ forall(( tree(Tree), member(Pattern, ['[a', '***']) )),
        error(domain_error(file_name_pattern, Pattern), _) ]) :-
-    with_tree(subsystem_detect(_, _, _, Pattern)).
+    with_tree(Tree, subsystem_detect(_, _, _, Pattern)).
 
 :- end_tests(subsystem_detect).
 
@@ -139,51 +150,55 @@ pattern(Pattern0, Pattern) :-
 :- begin_tests(files).
 
 test(file_read_gives_the_value,
-     [ forall(member(Text-Value,
-                     [ '42'-42, '-7'-(-7), '0'-0, '7.5'-7.5,
-                       'run-forever'-'run-forever', ''-'', '0x10'-'0x10',
-                       '1e5'-'1e5', nan-nan, 'a b'-'a b',
-                       '9223372036854775807'-9223372036854775807,
-                       '9223372036854775808'-'9223372036854775808' ])),
+     [ forall(( tree(Tree),
+                member(Text-Value,
+                       [ '42'-42, '-7'-(-7), '0'-0, '7.5'-7.5,
+                         'run-forever'-'run-forever', ''-'', '0x10'-'0x10',
+                         '1e5'-'1e5', nan-nan, 'a b'-'a b',
+                         '9223372036854775807'-9223372036854775807,
+                         '9223372036854775808'-'9223372036854775808' ]) )),
        true(Read == Value) ]) :-
-    with_tree(( show_attribute(outB, stop_action, Text),
-                attribute_path(outB, stop_action, File),
-                file_read(File, Read) )).
-test(file_read_takes_a_string_for_the_file, true(Value == 1050)) :-
-    with_tree(( attribute_path(outB, max_speed, File),
-                atom_string(File, String),
-                file_read(String, Value) )).
-test(file_read_fails_for_another_value, fail) :-
-    with_tree(( attribute_path(outB, max_speed, File),
-                file_read(File, 1) )).
+    with_tree(Tree, ( show_attribute(outB, stop_action, Text),
+                      attribute_path(outB, stop_action, File),
+                      file_read(File, Read) )).
+test(file_read_takes_a_string_for_the_file,
+     [forall(tree(Tree)), true(Value == 1050)]) :-
+    with_tree(Tree, ( attribute_path(outB, max_speed, File),
+                      atom_string(File, String),
+                      file_read(String, Value) )).
+test(file_read_fails_for_another_value, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, ( attribute_path(outB, max_speed, File),
+                      file_read(File, 1) )).
 test(file_read_of_a_missing_file_throws,
      error(existence_error(file, '/nowhere/address'), _)) :-
     file_read('/nowhere/address', _).
 test(file_write_writes_a_line,
-     [ forall(member(Attribute-Value-Text,
-                     [ speed_sp-42-'42', speed_sp-(-7)-'-7', speed_sp-"12"-'12',
-                       stop_action-hold-hold, stop_action-"brake"-brake ])),
+     [ forall(( tree(Tree),
+                member(Attribute-Value-Text,
+                       [ speed_sp-42-'42', speed_sp-(-7)-'-7', speed_sp-"12"-'12',
+                         stop_action-hold-hold, stop_action-"brake"-brake ]) )),
        true(Written == Text) ]) :-
-    with_tree(( attribute_path(outB, Attribute, File),
-                file_write(File, Value),
-                get_attribute(outB, Attribute, Written) )).
+    with_tree(Tree, ( attribute_path(outB, Attribute, File),
+                      file_write(File, Value),
+                      get_attribute(outB, Attribute, Written) )).
+% A kernel refuses the text.
 test(file_write_writes_any_line,
-     [ condition(only(plain, 'a kernel refuses the text')),
-       forall(member(Value-Text, [7.5-'7.5', ''-''])),
+     [ forall(member(Value-Text, [7.5-'7.5', ''-''])),
        true(Written == Text) ]) :-
-    with_tree(( attribute_path(outB, stop_action, File),
-                file_write(File, Value),
-                get_attribute(outB, stop_action, Written) )).
+    with_tree(plain, ( attribute_path(outB, stop_action, File),
+                       file_write(File, Value),
+                       get_attribute(outB, stop_action, Written) )).
+% A kernel has no text that is too long.
 test(file_write_replaces_a_longer_text,
-     [ condition(only(plain, 'a kernel has no text that is too long')),
-       true(Written == "stop\n") ]) :-
-    with_tree(( put_attribute(outB, command, 'run-forever'),
-                attribute_path(outB, command, File),
-                file_write(File, stop),
-                read_file_to_string(File, Written, []) )).
-test(file_write_makes_no_new_file, error(existence_error(file, File), _)) :-
-    with_tree(( attribute_path(outB, new, File),
-                file_write(File, 1) )).
+     [ true(Written == "stop\n") ]) :-
+    with_tree(plain, ( put_attribute(outB, command, 'run-forever'),
+                       attribute_path(outB, command, File),
+                       file_write(File, stop),
+                       read_file_to_string(File, Written, []) )).
+test(file_write_makes_no_new_file,
+     [forall(tree(Tree)), error(existence_error(file, File), _)]) :-
+    with_tree(Tree, ( attribute_path(outB, new, File),
+                      file_write(File, 1) )).
 test(an_unbound_argument_throws,
      [ forall(member(Goal, [ file_read(_, _), file_write(_, 1),
                              file_write('/nowhere', _) ])),
@@ -203,135 +218,150 @@ test(a_file_that_is_no_name_throws,
 :- begin_tests(attributes).
 
 test(motor_attributes_are_read,
-     [ forall(member(Goal-Value,
-                     [ speed(outB, V)-0,
-                       speed_sp(outB, V)-0,
-                       max_speed(outB, V)-1050,
-                       position(outB, V)-0,
-                       position_sp(outB, V)-0,
-                       state(outB, V)-'',
-                       motor_states(outB, V)-[],
-                       motor_attribute(outB, stop_action, V)-coast,
-                       motor_attribute(outB, count_per_rot, V)-360,
-                       motor_attribute(outB, polarity, V)-normal ])),
+     [ forall(( tree(Tree),
+                member(Goal-Value,
+                       [ speed(outB, V)-0,
+                         speed_sp(outB, V)-0,
+                         max_speed(outB, V)-1050,
+                         position(outB, V)-0,
+                         position_sp(outB, V)-0,
+                         state(outB, V)-'',
+                         motor_states(outB, V)-[],
+                         motor_attribute(outB, stop_action, V)-coast,
+                         motor_attribute(outB, count_per_rot, V)-360,
+                         motor_attribute(outB, polarity, V)-normal ]) )),
        true(V == Value) ]) :-
-    with_tree(Goal).
+    with_tree(Tree, Goal).
 test(sensor_attributes_are_read,
-     [ forall(member(Goal-Value,
-                     [ mode(in1, V)-'US-DIST-CM',
-                       value(in1, 0, V)-843,
-                       value(in1, 2, V)-7,
-                       decimals(in1, V)-1,
-                       sensor_attribute(in1, num_values, V)-1 ])),
+     [ forall(( tree(Tree),
+                member(Goal-Value,
+                       [ mode(in1, V)-'US-DIST-CM',
+                         value(in1, 0, V)-843,
+                         value(in1, 2, V)-7,
+                         decimals(in1, V)-1,
+                         sensor_attribute(in1, num_values, V)-1 ]) )),
        true(V == Value) ]) :-
-    with_tree(( put_attribute(in1, value0, 843),
-                put_attribute(in1, value2, 7),
-                Goal )).
+    with_tree(Tree, ( put_attribute(in1, value0, 843),
+                      put_attribute(in1, value2, 7),
+                      Goal )).
 test(the_long_spelling_of_a_port_is_taken,
-     [ forall(member(Goal, [ max_speed('ev3-ports:outB', 1050),
-                             position('ev3-ports:outB', 5),
-                             mode('ev3-ports:in1', 'US-DIST-CM'),
-                             value('ev3-ports:in1', 0, 843),
-                             command('ev3-ports:outB', stop),
-                             speed_sp_file('ev3-ports:outB', _) ])) ]) :-
-    with_tree(( put_attribute(in1, value0, 843),
-                Goal )).
+     [ forall(( tree(Tree),
+                member(Goal, [ max_speed('ev3-ports:outB', 1050),
+                               position('ev3-ports:outB', 5),
+                               mode('ev3-ports:in1', 'US-DIST-CM'),
+                               value('ev3-ports:in1', 0, 843),
+                               command('ev3-ports:outB', stop),
+                               speed_sp_file('ev3-ports:outB', _) ]) )) ]) :-
+    with_tree(Tree, ( put_attribute(in1, value0, 843),
+                      Goal )).
 test(an_unbound_port_enumerates,
-     all(P-S == [outA-1560, outB-1050, outC-1050, outD-1050])) :-
-    with_tree(max_speed(P, S)).
-test(a_bound_value_selects_ports, all(P == [outB, outC, outD])) :-
-    with_tree(max_speed(P, 1050)).
+     [forall(tree(Tree)), all(P-S == [outA-1560, outB-1050, outC-1050, outD-1050])]) :-
+    with_tree(Tree, max_speed(P, S)).
+test(a_bound_value_selects_ports,
+     [forall(tree(Tree)), all(P == [outB, outC, outD])]) :-
+    with_tree(Tree, max_speed(P, 1050)).
 test(states_are_a_list_in_the_kernels_order,
-     true(S-T == 'running stalled'-[running, stalled])) :-
-    with_tree(( put_attribute(outB, state, 'running stalled'),
-                state(outB, S),
-                motor_states(outB, T) )).
+     [forall(tree(Tree)), true(S-T == 'running stalled'-[running, stalled])]) :-
+    with_tree(Tree, ( put_attribute(outB, state, 'running stalled'),
+                      state(outB, S),
+                      motor_states(outB, T) )).
 test(a_bound_value_is_written,
-     [ forall(member(Goal-(Port-Attribute=Text),
-                     [ speed_sp(outB, -300)-(outB-speed_sp='-300'),
-                       position(outB, 90)-(outB-position='90'),
-                       position_sp(outB, 90)-(outB-position_sp='90'),
-                       command(outB, 'run-direct')-(outB-command='run-direct'),
-                       mode(in2, 'COL-COLOR')-(in2-mode='COL-COLOR'),
-                       motor_attribute(outB, polarity, inversed)-
-                           (outB-polarity=inversed),
-                       sensor_attribute(in2, mode, "RGB-RAW")-
-                           (in2-mode='RGB-RAW') ])),
+     [ forall(( tree(Tree),
+                member(Goal-(Port-Attribute=Text),
+                       [ speed_sp(outB, -300)-(outB-speed_sp='-300'),
+                         position(outB, 90)-(outB-position='90'),
+                         position_sp(outB, 90)-(outB-position_sp='90'),
+                         command(outB, 'run-direct')-(outB-command='run-direct'),
+                         mode(in2, 'COL-COLOR')-(in2-mode='COL-COLOR'),
+                         motor_attribute(outB, polarity, inversed)-
+                             (outB-polarity=inversed),
+                         sensor_attribute(in2, mode, "RGB-RAW")-
+                             (in2-mode='RGB-RAW') ]) )),
        true(Written == [Port-(Attribute=Text)]) ]) :-
-    with_tree(( Goal,
-                written(Written) )).
+    with_tree(Tree, ( Goal,
+                      written(Written) )).
 test(what_can_only_be_read_is_compared,
-     [ forall(member(Goal, [ speed(outB, 10), max_speed(outB, 10),
-                             state(outB, running), motor_states(outB, [running]),
-                             value(in1, 0, 10), decimals(in1, 3) ])),
+     [ forall(( tree(Tree),
+                member(Goal, [ speed(outB, 10), max_speed(outB, 10),
+                               state(outB, running), motor_states(outB, [running]),
+                               value(in1, 0, 10), decimals(in1, 3) ]) )),
        true(Written == []) ]) :-
-    with_tree(( \+ Goal,
-                written(Written) )).
+    with_tree(Tree, ( \+ Goal,
+                      written(Written) )).
 test(an_absent_device_fails,
-     [ forall(member(Goal, [ speed(outE, _), speed_sp(outE, _),
-                             speed_sp(outE, 1), max_speed(outE, _),
-                             position(outE, _), position(outE, 1),
-                             position_sp(outE, _), state(outE, _),
-                             motor_states(outE, _), command(outE, stop),
-                             motor_attribute(outE, nothing, _),
-                             mode(outB, _), mode(in5, 'COL-COLOR'),
-                             value(in5, 0, _), decimals(in5, _),
-                             sensor_attribute(in5, nothing, _) ])),
+     [ forall(( tree(Tree),
+                member(Goal, [ speed(outE, _), speed_sp(outE, _),
+                               speed_sp(outE, 1), max_speed(outE, _),
+                               position(outE, _), position(outE, 1),
+                               position_sp(outE, _), state(outE, _),
+                               motor_states(outE, _), command(outE, stop),
+                               motor_attribute(outE, nothing, _),
+                               mode(outB, _), mode(in5, 'COL-COLOR'),
+                               value(in5, 0, _), decimals(in5, _),
+                               sensor_attribute(in5, nothing, _) ]) )),
        fail ]) :-
-    with_tree(Goal).
+    with_tree(Tree, Goal).
 test(writing_needs_a_port,
-     [ forall(member(Goal, [ position(_, 0), speed_sp(_, 0), command(_, stop),
-                             position_sp(_, 0), mode(_, 'COL-COLOR'),
-                             motor_attribute(_, stop_action, hold) ])),
+     [ forall(( tree(Tree),
+                member(Goal, [ position(_, 0), speed_sp(_, 0), command(_, stop),
+                               position_sp(_, 0), mode(_, 'COL-COLOR'),
+                               motor_attribute(_, stop_action, hold) ]) )),
        error(instantiation_error, _) ]) :-
-    with_tree(Goal).
-test(a_refused_write_writes_nothing, true(Written == [])) :-
-    with_tree(( catch(position(_, 7), error(instantiation_error, _), true),
-                catch(speed_sp(outB, f(x)), error(type_error(_, _), _), true),
-                written(Written) )).
-test(an_attribute_must_be_named, error(instantiation_error, _)) :-
-    with_tree(motor_attribute(outB, _, _)).
+    with_tree(Tree, Goal).
+test(a_refused_write_writes_nothing,
+     [forall(tree(Tree)), true(Written == [])]) :-
+    with_tree(Tree, ( catch(position(_, 7), error(instantiation_error, _), true),
+                      catch(speed_sp(outB, f(x)), error(type_error(_, _), _), true),
+                      written(Written) )).
+test(an_attribute_must_be_named,
+     [forall(tree(Tree)), error(instantiation_error, _)]) :-
+    with_tree(Tree, motor_attribute(outB, _, _)).
 test(an_attribute_that_is_not_there_throws,
-     error(existence_error(file, File), _)) :-
-    with_tree(( attribute_path(outB, nothing, File),
-                motor_attribute(outB, nothing, _) )).
-test(a_command_must_be_given, error(instantiation_error, _)) :-
-    with_tree(command(outB, _)).
+     [forall(tree(Tree)), error(existence_error(file, File), _)]) :-
+    with_tree(Tree, ( attribute_path(outB, nothing, File),
+                      motor_attribute(outB, nothing, _) )).
+test(a_command_must_be_given,
+     [forall(tree(Tree)), error(instantiation_error, _)]) :-
+    with_tree(Tree, command(outB, _)).
 test(a_value_has_a_number,
-     [ forall(member(Index-Error,
-                     [ _-instantiation_error,
-                       a-type_error(_, a),
-                       1.0-type_error(_, 1.0),
-                       -1-type_error(nonneg, -1),
-                       8-domain_error(sensor_value_index, 8) ])),
+     [ forall(( tree(Tree),
+                member(Index-Error,
+                       [ _-instantiation_error,
+                         a-type_error(_, a),
+                         1.0-type_error(_, 1.0),
+                         -1-type_error(nonneg, -1),
+                         8-domain_error(sensor_value_index, 8) ]) )),
        error(Error, _) ]) :-
-    with_tree(value(in1, Index, _)).
+    with_tree(Tree, value(in1, Index, _)).
 
 :- end_tests(attributes).
 
 :- begin_tests(attribute_files).
 
 test(each_attribute_has_its_file,
-     [ forall(member(Goal-(Port/Attribute),
-                     [ command_file(outB, F)-outB/command,
-                       speed_file(outB, F)-outB/speed,
-                       speed_sp_file(outB, F)-outB/speed_sp,
-                       max_speed_file(outB, F)-outB/max_speed,
-                       position_file(outB, F)-outB/position,
-                       position_sp_file(outB, F)-outB/position_sp,
-                       state_file(outB, F)-outB/state,
-                       mode_file(in1, F)-in1/mode,
-                       value_file(in1, 0, F)-in1/value0,
-                       decimals_file(in1, F)-in1/decimals ])),
+     [ forall(( tree(Tree),
+                member(Goal-(Port/Attribute),
+                       [ command_file(outB, F)-outB/command,
+                         speed_file(outB, F)-outB/speed,
+                         speed_sp_file(outB, F)-outB/speed_sp,
+                         max_speed_file(outB, F)-outB/max_speed,
+                         position_file(outB, F)-outB/position,
+                         position_sp_file(outB, F)-outB/position_sp,
+                         state_file(outB, F)-outB/state,
+                         mode_file(in1, F)-in1/mode,
+                         value_file(in1, 0, F)-in1/value0,
+                         decimals_file(in1, F)-in1/decimals ]) )),
        true(F == File) ]) :-
-    with_tree(( Goal,
-                attribute_path(Port, Attribute, File) )).
-test(an_unbound_port_enumerates, all(P == [outA, outB, outC, outD])) :-
-    with_tree(command_file(P, _)).
-test(an_absent_device_has_no_file, fail) :-
-    with_tree(command_file(outE, _)).
-test(a_value_file_needs_a_number, error(instantiation_error, _)) :-
-    with_tree(value_file(in1, _, _)).
+    with_tree(Tree, ( Goal,
+                      attribute_path(Port, Attribute, File) )).
+test(an_unbound_port_enumerates,
+     [forall(tree(Tree)), all(P == [outA, outB, outC, outD])]) :-
+    with_tree(Tree, command_file(P, _)).
+test(an_absent_device_has_no_file, [forall(tree(Tree)), fail]) :-
+    with_tree(Tree, command_file(outE, _)).
+test(a_value_file_needs_a_number,
+     [forall(tree(Tree)), error(instantiation_error, _)]) :-
+    with_tree(Tree, value_file(in1, _, _)).
 
 :- end_tests(attribute_files).
 
@@ -344,7 +374,7 @@ test(a_value_file_needs_a_number, error(instantiation_error, _)) :-
 kernel_file('/proc/self/oom_score_adj').
 
 in_place_of(_, _, _) :-
-    \+ tree_kind(plain),
+    \+ current_tree(plain),
     !.
 in_place_of(Port, Attribute, Target) :-
     attribute_path(Port, Attribute, Path),
@@ -355,19 +385,20 @@ in_place_of(Port, Attribute, Target) :-
                [ condition(( kernel_file(File), exists_file(File) )) ]).
 
 test(a_value_that_is_not_accepted_is_a_domain_error,
-     [ forall(member(Goal-(Attribute-Value),
-                     [ speed_sp(outB, 99999)-(speed_sp-99999),
-                       speed_sp(outB, 99999999999)-(speed_sp-99999999999),
-                       speed_sp(outB, fast)-(speed_sp-fast),
-                       command(outB, jump)-(command-jump),
-                       mode(in1, 'NO-MODE')-(mode-'NO-MODE'),
-                       sensor_value(in1, 'NO-MODE', 0, _)-(mode-'NO-MODE') ])),
+     [ forall(( tree(Tree),
+                member(Goal-(Attribute-Value),
+                       [ speed_sp(outB, 99999)-(speed_sp-99999),
+                         speed_sp(outB, 99999999999)-(speed_sp-99999999999),
+                         speed_sp(outB, fast)-(speed_sp-fast),
+                         command(outB, jump)-(command-jump),
+                         mode(in1, 'NO-MODE')-(mode-'NO-MODE'),
+                         sensor_value(in1, 'NO-MODE', 0, _)-(mode-'NO-MODE') ]) )),
        error(domain_error(Attribute, Value), context(_/_, _)) ]) :-
     kernel_file(File),
-    with_tree(( in_place_of(outB, speed_sp, File),
-                in_place_of(outB, command, File),
-                in_place_of(in1, mode, File),
-                Goal )).
+    with_tree(Tree, ( in_place_of(outB, speed_sp, File),
+                      in_place_of(outB, command, File),
+                      in_place_of(in1, mode, File),
+                      Goal )).
 test(the_message_names_the_file_and_gives_the_kernels_words,
      true(sub_atom(Message, _, _, _, 'Invalid argument'))) :-
     kernel_file(File),
@@ -383,62 +414,69 @@ test(the_message_names_the_file_and_gives_the_kernels_words,
 
 :- begin_tests(replug).
 
-test(a_motor_under_another_number_is_found_again, true(File1-V == File2-17)) :-
-    with_tree(( position(outB, 0),
-                unplug(outB),
-                plug(outB, 'lego-ev3-l-motor'),
-                attribute_path(outB, position, File2),
-                put_attribute(outB, position, 17),
-                position(outB, V),
-                position_file(outB, File1) )).
-test(a_command_reaches_the_new_motor, true(C == 'run-forever')) :-
-    with_tree(( command(outB, stop),
-                unplug(outB),
-                plug(outB, 'lego-ev3-l-motor'),
-                motor_run(outB, 20),
-                get_attribute(outB, command, C) )).
-test(a_sensor_under_another_number_is_found_again, true(D == 12.5)) :-
-    with_tree(( us_dist_cm(in1, _),
-                unplug(in1),
-                plug(in1, 'lego-ev3-us'),
-                put_attribute(in1, value0, 125),
-                us_dist_cm(in1, D) )).
-test(a_sensor_at_another_port_is_found_by_an_unbound_one, true(P == in3)) :-
-    with_tree([in1-'lego-ev3-us'],
+test(a_motor_under_another_number_is_found_again,
+     [forall(tree(Tree)), true(File1-V == File2-17)]) :-
+    with_tree(Tree, ( position(outB, 0),
+                      unplug(outB),
+                      plug(outB, 'lego-ev3-l-motor'),
+                      attribute_path(outB, position, File2),
+                      put_attribute(outB, position, 17),
+                      position(outB, V),
+                      position_file(outB, File1) )).
+test(a_command_reaches_the_new_motor,
+     [forall(tree(Tree)), true(C == 'run-forever')]) :-
+    with_tree(Tree, ( command(outB, stop),
+                      unplug(outB),
+                      plug(outB, 'lego-ev3-l-motor'),
+                      motor_run(outB, 20),
+                      get_attribute(outB, command, C) )).
+test(a_sensor_under_another_number_is_found_again,
+     [forall(tree(Tree)), true(D == 12.5)]) :-
+    with_tree(Tree, ( us_dist_cm(in1, _),
+                      unplug(in1),
+                      plug(in1, 'lego-ev3-us'),
+                      put_attribute(in1, value0, 125),
+                      us_dist_cm(in1, D) )).
+test(a_sensor_at_another_port_is_found_by_an_unbound_one,
+     [forall(tree(Tree)), true(P == in3)]) :-
+    with_tree(Tree, [in1-'lego-ev3-us'],
               ( us_dist_cm(_, _),
                 unplug(in1),
                 plug(in3, 'lego-ev3-us'),
                 eventually(us_dist_cm(P, _)) )).
-test(another_type_at_the_port_is_noticed, true(T == 'lego-ev3-touch')) :-
-    with_tree(( us_dist_cm(in1, _),
-                unplug(in1),
-                plug(in1, 'lego-ev3-touch'),
-                \+ us_dist_cm(in1, _),
-                lego_sensor(in1, T) )).
-test(a_motor_of_another_type_has_its_own_max_speed, true(S == 1560)) :-
-    with_tree(( max_speed(outB, 1050),
-                motor_run(outB, 50),
-                unplug(outB),
-                plug(outB, 'lego-ev3-m-motor'),
-                motor_run(outB, 50),
-                get_attribute(outB, speed_sp, '780'),
-                max_speed(outB, S) )).
-test(an_unplugged_device_fails) :-
-    with_tree(( position(outB, 0),
-                us_dist_cm(in1, _),
-                unplug(outB),
-                unplug(in1),
-                \+ position(outB, _),
-                \+ command(outB, stop),
-                \+ us_dist_cm(in1, _),
-                \+ mode(in1, _) )).
-test(an_unplugged_device_is_soon_no_longer_listed, true(Ps == [outA, outC, outD])) :-
-    with_tree(( tacho_motor(outB),
-                unplug(outB),
-                eventually(\+ ( tacho_motor(P), P == outB )),
-                findall(P, tacho_motor(P), Ps) )).
-test(a_device_plugged_in_is_found_at_once) :-
-    with_tree([],
+test(another_type_at_the_port_is_noticed,
+     [forall(tree(Tree)), true(T == 'lego-ev3-touch')]) :-
+    with_tree(Tree, ( us_dist_cm(in1, _),
+                      unplug(in1),
+                      plug(in1, 'lego-ev3-touch'),
+                      \+ us_dist_cm(in1, _),
+                      lego_sensor(in1, T) )).
+test(a_motor_of_another_type_has_its_own_max_speed,
+     [forall(tree(Tree)), true(S == 1560)]) :-
+    with_tree(Tree, ( max_speed(outB, 1050),
+                      motor_run(outB, 50),
+                      unplug(outB),
+                      plug(outB, 'lego-ev3-m-motor'),
+                      motor_run(outB, 50),
+                      get_attribute(outB, speed_sp, '780'),
+                      max_speed(outB, S) )).
+test(an_unplugged_device_fails, [forall(tree(Tree))]) :-
+    with_tree(Tree, ( position(outB, 0),
+                      us_dist_cm(in1, _),
+                      unplug(outB),
+                      unplug(in1),
+                      \+ position(outB, _),
+                      \+ command(outB, stop),
+                      \+ us_dist_cm(in1, _),
+                      \+ mode(in1, _) )).
+test(an_unplugged_device_is_soon_no_longer_listed,
+     [forall(tree(Tree)), true(Ps == [outA, outC, outD])]) :-
+    with_tree(Tree, ( tacho_motor(outB),
+                      unplug(outB),
+                      eventually(\+ ( tacho_motor(P), P == outB )),
+                      findall(P, tacho_motor(P), Ps) )).
+test(a_device_plugged_in_is_found_at_once, [forall(tree(Tree))]) :-
+    with_tree(Tree, [],
               ( \+ tacho_motor(outB),
                 plug(outB, 'lego-ev3-l-motor'),
                 tacho_motor(outB) )).
@@ -451,52 +489,53 @@ test(a_device_plugged_in_is_found_at_once) :-
 
 :- begin_tests(ev3_sysfs).
 
-test(tells_the_tree_in_use, true(Same == true)) :-
-    with_tree(( tree_root(Root),
-                ev3_sysfs(Directory),
-                ( same_file(Root, Directory) -> Same = true ; Same = false ) )).
-test(takes_a_string, true(Same == true)) :-
-    with_tree(( tree_root(Root),
-                atom_string(Root, String),
-                ev3_sysfs(String),
-                ev3_sysfs(Directory),
-                ( same_file(Root, Directory) -> Same = true ; Same = false ) )).
+test(tells_the_tree_in_use, [forall(tree(Tree)), true(Same == true)]) :-
+    with_tree(Tree, ( tree_root(Root),
+                      ev3_sysfs(Directory),
+                      ( same_file(Root, Directory) -> Same = true ; Same = false ) )).
+test(takes_a_string, [forall(tree(Tree)), true(Same == true)]) :-
+    with_tree(Tree, ( tree_root(Root),
+                      atom_string(Root, String),
+                      ev3_sysfs(String),
+                      ev3_sysfs(Directory),
+                      ( same_file(Root, Directory) -> Same = true ; Same = false ) )).
 test(what_is_no_directory_throws,
      [ forall(member(Path, ['/nowhere', '/dev/null', ''])),
        error(existence_error(directory, Path), _) ]) :-
     ev3_sysfs(Path).
-test(a_refused_directory_changes_nothing, true(Before == After)) :-
-    with_tree(( ev3_sysfs(Before),
-                catch(ev3_sysfs('/nowhere'), error(_, _), true),
-                ev3_sysfs(After) )).
+test(a_refused_directory_changes_nothing,
+     [forall(tree(Tree)), true(Before == After)]) :-
+    with_tree(Tree, ( ev3_sysfs(Before),
+                      catch(ev3_sysfs('/nowhere'), error(_, _), true),
+                      ev3_sysfs(After) )).
+% Another tree ends the simulation.
 test(another_tree_stops_the_motors_of_the_one_before,
-     [ condition(only(files, 'another tree ends the simulation')),
-       true(C-D == stop-'') ]) :-
-    with_tree(( motor_run(outB, 50),
-                ev3_sysfs('/'),
-                get_attribute(outB, command, C),
-                get_attribute(outC, command, D) )).
+     [ forall(of_files(Tree)), true(C-D == stop-'') ]) :-
+    with_tree(Tree, ( motor_run(outB, 50),
+                      ev3_sysfs('/'),
+                      get_attribute(outB, command, C),
+                      get_attribute(outC, command, D) )).
 
 :- end_tests(ev3_sysfs).
 
 :- begin_tests(ev3_devices).
 
-test(prints_each_device_with_what_it_reads) :-
-    with_tree(( put_attribute(in1, value0, 843),
-                put_attribute(outB, position, 720),
-                put_attribute(outB, state, running),
-                with_output_to(string(Table), ev3_devices) )),
+test(prints_each_device_with_what_it_reads, [forall(tree(Tree))]) :-
+    with_tree(Tree, ( put_attribute(in1, value0, 843),
+                      put_attribute(outB, position, 720),
+                      put_attribute(outB, state, running),
+                      with_output_to(string(Table), ev3_devices) )),
     forall(member(Row, [ ["in1", "lego-ev3-us", "US-DIST-CM", "84.3"],
                          ["in4", "lego-ev3-gyro", "GYRO-ANG", "0"],
                          ["outB", "lego-ev3-l-motor", "720", "running"] ]),
            assertion(row(Table, Row))).
-test(lists_a_device_that_cannot_be_read) :-
-    with_tree(( show_attribute(outB, position, nonsense),
-                with_output_to(string(Table), ev3_devices) )),
+test(lists_a_device_that_cannot_be_read, [forall(tree(Tree))]) :-
+    with_tree(Tree, ( show_attribute(outB, position, nonsense),
+                      with_output_to(string(Table), ev3_devices) )),
     assertion(row(Table, ["outB", "lego-ev3-l-motor", "attribute"])),
     assertion(row(Table, ["outC", "lego-ev3-l-motor"])).
-test(says_that_there_is_nothing_and_where_it_looked) :-
-    with_tree([],
+test(says_that_there_is_nothing_and_where_it_looked, [forall(tree(Tree))]) :-
+    with_tree(Tree, [],
               ( tree_root(Root),
                 with_output_to(string(Text), ev3_devices) )),
     assertion(sub_string(Text, _, _, _, "Nothing")),

@@ -1,6 +1,5 @@
 % Beacons, remote controls and what sees them, over three trees.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -53,7 +52,7 @@ test(the_last_leaves_no_choice, all(C == [1, 3])) :-
     with_ir(plain, Values, World, findall(C0, ir_beacon(_, C0, _, _), Cs)),
     member(C, Cs).
 test(of_another_sensor_fails, [fail]) :-
-    with_tree(ir_beacon(in1, 1, _, _)).
+    with_tree(plain, ir_beacon(in1, 1, _, _)).
 test(a_wrong_channel_throws_and_writes_nothing,
      [ forall(member(Channel-Error, [ 0-domain_error(ir_channel, 0),
                                       5-domain_error(ir_channel, 5),
@@ -109,7 +108,7 @@ test(leaves_no_choice) :-
 test(a_code_that_is_none_fails, [fail]) :-
     with_ir(plain, [77, 0, 0, 0], [], ir_remote(in1, 1, _)).
 test(of_another_sensor_fails, [fail]) :-
-    with_tree(ir_remote(_, 1, _)).
+    with_tree(plain, ir_remote(_, 1, _)).
 test(a_wrong_channel_throws,
      [ forall(member(Channel-Error, [ 5-domain_error(ir_channel, 5),
                                       a-type_error(integer, a) ])),
@@ -124,7 +123,7 @@ test(is_seventy_times_the_proximity,
      [ forall(tree(Tree)), true(abs(D - 35.0) < 0.5) ]) :-
     with_ir(Tree, [50], [wall(-50, 35.5, 50, 35.5)], ir_dist_cm(in1, D)).
 test(of_another_sensor_fails, [fail]) :-
-    with_tree(ir_dist_cm(in1, _)).
+    with_tree(plain, ir_dist_cm(in1, _)).
 
 :- end_tests(ir_dist_cm).
 
@@ -155,7 +154,7 @@ test(fails_where_its_eyes_see_nothing, [forall(tree(Tree)), fail]) :-
 test(of_another_sensor_fails, [forall(member(Goal, [ ir_seeker(in1, _),
                                                      ir_seeker(in1, pulsed, _, _) ])),
                                fail]) :-
-    with_tree(Goal).
+    with_tree(plain, Goal).
 test(a_wrong_light_throws,
      [ forall(member(Light-Error, [ _-instantiation_error,
                                     red-domain_error(ir_light, red) ])),

@@ -1,4 +1,3 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -26,7 +25,7 @@ led_file(Led, Attribute, File) :-
 
 % A plain tree with these LEDs.
 leds(Names, Goal) :-
-    with_tree([], ( forall(member(Name, Names), plug(Name, led)),
+    with_tree(plain, [], ( forall(member(Name, Names), plug(Name, led)),
                     once(Goal) )).
 
 % The trigger in a file: in brackets, or, in a plain file, all there is.
@@ -77,7 +76,7 @@ test(a_colour_that_the_light_does_not_have_fails_and_changes_nothing,
 test(an_absent_light_fails, [forall(tree(Tree)), fail]) :-
     lit(Tree, led(up, red)).
 test(no_lights_at_all, [fail]) :-
-    with_tree([], ( led(_) ; led(_, _) ; led(left, red) )).
+    with_tree(plain, [], ( led(_) ; led(_, _) ; led(left, red) )).
 test(what_is_no_colour_throws_and_changes_nothing,
      [ forall(member(Colour-Error,
                      [ pink-domain_error(led_color, pink),

@@ -1,4 +1,3 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
@@ -7,7 +6,7 @@
 :- use_module(library(time)).
 
 plain(Goal) :-
-    with_tree([outA-'lego-ev3-m-motor', outB-'lego-ev3-l-motor'], once(Goal)).
+    with_tree(plain, [outA-'lego-ev3-m-motor', outB-'lego-ev3-l-motor'], once(Goal)).
 
 % A linear actuator at outD of Tree, drawn in.
 linear(Tree, Goal) :-
@@ -171,10 +170,10 @@ test(of_a_wait, error(domain_error(motor_option, wait(false)), _)) :-
     plain(motor_wait(outB, [wait(false)], _)).
 test(of_a_simulation_and_nothing_is_started,
      true(E-After == caught-Before)) :-
-    with_tree(( ev3_sysfs(Before),
-                catch(sim_start(room, [klock(virtual)]),
-                      error(domain_error(sim_option, klock(virtual)), _), E = caught),
-                ev3_sysfs(After) )).
+    with_tree(plain, ( ev3_sysfs(Before),
+                       catch(sim_start(room, [klock(virtual)]),
+                             error(domain_error(sim_option, klock(virtual)), _), E = caught),
+                       ev3_sysfs(After) )).
 
 :- end_tests(options).
 

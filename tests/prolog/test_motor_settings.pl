@@ -1,11 +1,10 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 
 plain(Goal) :-
-    with_tree([outB-'lego-ev3-l-motor'], once(Goal)).
+    with_tree(plain, [outB-'lego-ev3-l-motor'], once(Goal)).
 
 :- begin_tests(motor_position).
 

@@ -1,6 +1,5 @@
 % Sensors of the NXT and of other makers, over three trees.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -173,9 +172,9 @@ test(each_shows_what_there_is,
     expect(Tree, Row, V, Expected).
 test(each_fails_at_another_sensor_and_writes_nothing,
      [ forall(row(Goal, _)), true(W == []) ]) :-
-    with_tree([in1-'lego-ev3-gyro'], ( \+ Goal, written(W) )).
+    with_tree(plain, [in1-'lego-ev3-gyro'], ( \+ Goal, written(W) )).
 test(each_fails_without_a_sensor, [forall(row(Goal, _)), fail]) :-
-    with_tree([], Goal).
+    with_tree(plain, [], Goal).
 test(each_leaves_no_choice_at_a_port,
      [ forall(shows(Goal, in1, Type, _, Raw, Decimals, _, _, _, _)) ]) :-
     with_sensor(plain, Type, [],
@@ -189,16 +188,16 @@ test(each_finds_its_port,
     ->  atomic_list_concat([in1, Address], ':', Port)
     ;   Port = in1
     ),
-    with_tree([Port-Type, in4-'lego-ev3-gyro'],
+    with_tree(plain, [Port-Type, in4-'lego-ev3-gyro'],
               ( show(plain, Raw, Decimals), findall(P, Goal, Ports) )).
 
 test(several_kinds_of_thermometer_in_the_order_of_ports,
      all(P-V == [in1-21.5, 'in2:i2c1'-0.0, in4-0.0])) :-
-    with_tree([ in4-'ms-ir-thermometer', in3-'lego-ev3-us',
-                in1-'lego-nxt-temp', 'in2:i2c1'-'ht-nxt-barometric' ],
+    with_tree(plain, [ in4-'ms-ir-thermometer', in3-'lego-ev3-us',
+                       in1-'lego-nxt-temp', 'in2:i2c1'-'ht-nxt-barometric' ],
               temperature(P, V)).
 test(a_bound_value_selects, all(P == ['in2:i2c1'])) :-
-    with_tree([in1-'ht-nxt-compass', 'in2:i2c1'-'ht-nxt-compass'],
+    with_tree(plain, [in1-'ht-nxt-compass', 'in2:i2c1'-'ht-nxt-compass'],
               ( put_attribute('in2:i2c1', value0, 90),
                 compass(P, 90) )).
 test(a_wrong_range_of_the_proximity_detector,
@@ -206,9 +205,9 @@ test(a_wrong_range_of_the_proximity_detector,
                                     far-domain_error(eopd_range, far),
                                     1-domain_error(eopd_range, 1) ])),
        error(Error, _) ]) :-
-    with_tree([in1-'ht-nxt-eopd'], ht_eopd(in1, Range, _)).
+    with_tree(plain, [in1-'ht-nxt-eopd'], ht_eopd(in1, Range, _)).
 test(a_port_is_no_number, [forall(row_at(7, Goal)), error(type_error(_, 7), _)]) :-
-    with_tree(Goal).
+    with_tree(plain, Goal).
 
 row_at(Port, Goal) :-
     shows(Goal, Port, _, _, _, _, _, _, _, _).
@@ -297,17 +296,17 @@ test(come_from_the_raw_data_the_second_time,
             ( member(_-read(File, _), New), file_base_name(File, Name) ),
             Read).
 test(are_as_many_as_the_mode_has, true(Values == [1, 2, 3, 0, 0])) :-
-    with_tree([in1-'ht-super-pro'],
+    with_tree(plain, [in1-'ht-super-pro'],
               ( forall(nth0(I, [1, 2, 3], V),
                        ( atom_concat(value, I, A), put_attribute(in1, A, V) )),
                 put_attribute(in1, num_values, 5),
                 sensor_values(in1, 'AOUT-0', Values) )).
 test(of_each_sensor_with_the_mode, all(P == [in2, in3])) :-
-    with_tree(sensor_values(P, 'COL-COLOR', _)).
+    with_tree(plain, sensor_values(P, 'COL-COLOR', _)).
 test(of_an_absent_sensor_fail, [fail]) :-
-    with_tree(sensor_values(in9, 'COL-COLOR', _)).
+    with_tree(plain, sensor_values(in9, 'COL-COLOR', _)).
 test(of_no_mode_at_all_fail, [fail]) :-
-    with_tree(sensor_values(_, 'NO-MODE', _)).
+    with_tree(plain, sensor_values(_, 'NO-MODE', _)).
 test(of_a_mode_that_the_sensor_lacks,
      [forall(behaving(Tree)), error(domain_error(mode, 'TASTE'), _)]) :-
     with_sensor(Tree, 'ht-nxt-accel', [], sensor_values(in1, 'TASTE', _)).
@@ -316,6 +315,6 @@ test(a_wrong_argument_throws,
                                         in1-7-type_error(_, 7),
                                         7-'COL-COLOR'-type_error(_, 7) ])),
        error(Error, _) ]) :-
-    with_tree(sensor_values(Port, Mode, _)).
+    with_tree(plain, sensor_values(Port, Mode, _)).
 
 :- end_tests(sensor_values).

@@ -1,4 +1,3 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -49,7 +48,7 @@ test(auto_at_first,
 test(modes, [forall(tree(Tree)), true(Modes == [auto, 'tacho-motor', 'dc-motor', led, raw])]) :-
     in_tree(Tree, port_modes(outA, Modes)).
 test(no_modes, true(Modes == [])) :-
-    with_tree([port(outA)-'ev3-output-port'],
+    with_tree(plain, [port(outA)-'ev3-output-port'],
               ( put_attribute(port(outA), modes, ''),
                 port_modes(outA, Modes) )).
 test(status, [forall(tree(Tree)), true(S == 'no-motor')]) :-
@@ -89,21 +88,21 @@ test(an_absent_port_fails, [forall(tree(Tree)), fail]) :-
     in_tree(Tree, ( port_mode(outE, _) ; port_mode(outE, led) ;
                     port_modes(outE, _) ; port_status(outE, _) )).
 test(no_ports, [fail]) :-
-    with_tree(port_mode(outA, 'dc-motor')).
+    with_tree(plain, port_mode(outA, 'dc-motor')).
 test(an_unknown_mode_throws,
      [forall(behaving(Tree)), error(domain_error(mode, 'dc_motor'), _)]) :-
     in_tree(Tree, port_mode(outA, 'dc_motor')).
 test(a_device_that_does_not_appear_fails, [fail]) :-
-    with_tree([port(outA)-'ev3-output-port'], port_mode(outA, 'dc-motor')).
+    with_tree(plain, [port(outA)-'ev3-output-port'], port_mode(outA, 'dc-motor')).
 test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
-    with_tree([port(outA)-'ev3-output-port'],
+    with_tree(plain, [port(outA)-'ev3-output-port'],
               catch(call_with_time_limit(0.1, port_mode(outA, 'dc-motor')), E, true)).
 test(what_is_no_mode_throws_and_writes_nothing,
      [ forall(member(Port-Mode-Error,
                      [ outA-7-type_error(atom, 7), outA-"led"-type_error(atom, _),
                        _-led-instantiation_error, 7-led-type_error(_, 7) ])),
        true(E-W == caught-[]) ]) :-
-    with_tree([port(outA)-'ev3-output-port'],
+    with_tree(plain, [port(outA)-'ev3-output-port'],
               ( catch(port_mode(Port, Mode), error(Error, _), E = caught),
                 written(W) )).
 
@@ -135,7 +134,7 @@ test(a_port_is_told_of_a_sensor_and_its_address, true(T == 'lego-nxt-temp')) :-
                                port_device(in1, 'lego-nxt-temp 76')),
                      lego_sensor(in1, T) )).
 test(what_is_there_already_is_not_written, true(W == [])) :-
-    with_tree([outA-'lego-ev3-l-motor', port(outA)-'ev3-output-port'],
+    with_tree(plain, [outA-'lego-ev3-l-motor', port(outA)-'ev3-output-port'],
               ( port_device(outA, 'lego-ev3-l-motor'), written(W) )).
 test(a_motor_that_there_is_not_throws_and_changes_nothing,
      [forall(tree(Tree)), true(T-E == 'lego-ev3-m-motor'-caught)]) :-
@@ -149,9 +148,9 @@ test(a_port_that_cannot_be_told_throws,
        error(permission_error(write, unsupported_attribute, _), _) ]) :-
     in_tree(Tree, port_device(Port, Type)).
 test(a_device_that_does_not_appear_fails, [fail]) :-
-    with_tree([port(outA)-'ev3-output-port'], port_device(outA, 'lego-nxt-motor')).
+    with_tree(plain, [port(outA)-'ev3-output-port'], port_device(outA, 'lego-nxt-motor')).
 test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
-    with_tree([port(outA)-'ev3-output-port'],
+    with_tree(plain, [port(outA)-'ev3-output-port'],
               catch(call_with_time_limit(0.1, port_device(outA, 'lego-nxt-motor')),
                     E, true)).
 test(an_absent_port_fails, [forall(tree(Tree)), fail]) :-
@@ -161,7 +160,7 @@ test(what_is_no_device_throws_and_writes_nothing,
                      [ outA-7-type_error(atom, 7), outA-''-domain_error(motor_type, ''),
                        _-'lego-nxt-motor'-instantiation_error ])),
        true(E-W == caught-[]) ]) :-
-    with_tree([port(outA)-'ev3-output-port'],
+    with_tree(plain, [port(outA)-'ev3-output-port'],
               ( catch(port_device(Port, Device), error(Error, _), E = caught),
                 written(W) )).
 

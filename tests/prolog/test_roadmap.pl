@@ -2,9 +2,9 @@
 
 :- use_module('../support/rooms').
 :- use_module('../support/cases').
-:- use_module('../support/simulated_tree', [hold_clock/0, release_clock/0]).
+:- use_module('../support/trees/simulated', [hold_clock/0, release_clock/0]).
 :- use_module('../support/simulation').
-:- use_module('../support/tree', [meanwhile/2]).
+:- use_module('../support/trees', [meanwhile/2]).
 :- use_module('../support/trees').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).

@@ -1,7 +1,6 @@
 :- use_module('../support/dev').
 :- use_module('../support/pictures').
 :- use_module('../support/simulation').
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).

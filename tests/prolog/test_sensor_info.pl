@@ -1,6 +1,5 @@
 % What sensors say of themselves, and the table of what they are.
 
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -83,8 +82,8 @@ test(tells_all_of_a_compass,
     with_sensor(Tree, 'ht-nxt-compass', [start(0, 0, 90)], sensor_info(in1, Info)).
 test(in_a_plain_tree, true(Mode/Values/Units/Count/Commands ==
                            'US-DIST-CM'/[84.3]/cm/5/[])) :-
-    with_tree(( put_attribute(in1, units, cm),
-                sensor_info(in1, Info) )),
+    with_tree(plain, ( put_attribute(in1, units, cm),
+                       sensor_info(in1, Info) )),
     memberchk(mode(Mode), Info),
     memberchk(values(Values), Info),
     memberchk(units(Units), Info),
@@ -92,11 +91,11 @@ test(in_a_plain_tree, true(Mode/Values/Units/Count/Commands ==
     memberchk(commands(Commands), Info),
     length(Modes, Count).
 test(leaves_the_sensor_in_its_mode, true(W == [])) :-
-    with_tree(( sensor_info(in1, _), written(W) )).
+    with_tree(plain, ( sensor_info(in1, _), written(W) )).
 test(of_a_sensor_that_is_in_no_table,
      true(Info == [ type('my-nose'), mode('SMELL'), values([0]), units(''),
                     modes([mode('SMELL'), mode('STINK')]), commands([]) ])) :-
-    with_tree([in1-'lego-nxt-temp'],
+    with_tree(plain, [in1-'lego-nxt-temp'],
               ( put_attribute(in1, driver_name, 'my-nose'),
                 put_attribute(in1, modes, 'SMELL STINK'),
                 put_attribute(in1, mode, 'SMELL'),
@@ -105,18 +104,18 @@ test(of_a_sensor_that_is_in_no_table,
                 sensor_info(in1, Info) )).
 test(each_sensor_in_turn, all(P-T == [ in1-'lego-ev3-us', in2-'lego-ev3-color',
                                        in3-'lego-ev3-color', in4-'lego-ev3-gyro' ])) :-
-    with_tree(( sensor_info(P, Info), memberchk(type(T), Info) )).
+    with_tree(plain, ( sensor_info(P, Info), memberchk(type(T), Info) )).
 test(of_no_sensor_fails, [fail]) :-
-    with_tree(sensor_info(in9, _)).
+    with_tree(plain, sensor_info(in9, _)).
 test(a_port_is_no_number, error(type_error(_, 7), _)) :-
-    with_tree(sensor_info(7, _)).
+    with_tree(plain, sensor_info(7, _)).
 
 :- end_tests(sensor_info).
 
 :- begin_tests(sensor_command).
 
 test(is_written, true(Text == 'BEGIN-CAL')) :-
-    with_tree(['in1:i2c1'-'ht-nxt-compass'],
+    with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],
               ( sensor_command(in1, 'BEGIN-CAL'),
                 get_attribute('in1:i2c1', command, Text) )).
 test(is_taken, [forall(behaving(Tree))]) :-
@@ -130,16 +129,16 @@ test(to_a_sensor_that_has_none,
      [forall(behaving(Tree)), error(domain_error(command, 'RESET'), _)]) :-
     with_sensor(Tree, 'lego-ev3-gyro', [], sensor_command(in1, 'RESET')).
 test(to_no_sensor_fails, [fail]) :-
-    with_tree(sensor_command(in9, 'RESET')).
+    with_tree(plain, sensor_command(in9, 'RESET')).
 test(needs_both, [ forall(member(P-C, [_-'RESET', in1-_])), error(instantiation_error, _) ]) :-
-    with_tree(sensor_command(P, C)).
+    with_tree(plain, sensor_command(P, C)).
 
 :- end_tests(sensor_command).
 
 :- begin_tests(socket).
 
 test(a_port_finds_what_is_on_its_bus, true(P-T-Q == 'in1:i2c1'-'ht-nxt-compass'-Path)) :-
-    with_tree(['in1:i2c1'-'ht-nxt-compass'],
+    with_tree(plain, ['in1:i2c1'-'ht-nxt-compass'],
               ( lego_sensor(P, _),
                 lego_sensor(in1, T, Path),
                 lego_sensor('ev3-ports:in1:i2c1', T, Q),
@@ -147,10 +146,10 @@ test(a_port_finds_what_is_on_its_bus, true(P-T-Q == 'in1:i2c1'-'ht-nxt-compass'-
                 value(in1, 0, 0),
                 sensor_attribute('ev3-ports:in1', decimals, 0) )).
 test(it_is_written_by_its_port, true(Mode == 'NXT-TEMP-F')) :-
-    with_tree(['in1:i2c76'-'lego-nxt-temp'],
+    with_tree(plain, ['in1:i2c76'-'lego-nxt-temp'],
               ( mode(in1, 'NXT-TEMP-F'), get_attribute('in1:i2c76', mode, Mode) )).
 test(another_address_is_another_sensor, [fail]) :-
-    with_tree(['in1:i2c76'-'lego-nxt-temp'], lego_sensor('in1:i2c1')).
+    with_tree(plain, ['in1:i2c76'-'lego-nxt-temp'], lego_sensor('in1:i2c1')).
 test(the_simulator_takes_it, [true(Sensors == [])]) :-
     with_sensor(simulator, 'ht-nxt-compass', [],
                 ( lego_sensor(P),

@@ -1,4 +1,3 @@
-:- use_module('../support/tree').
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/old_prolog').
@@ -13,7 +12,7 @@ in_tree(Tree, Goal) :-
 
 plain(Goal) :-
     sv1(Servo),
-    with_tree([Servo-'ms-8ch-servo'], once(Goal)).
+    with_tree(plain, [Servo-'ms-8ch-servo'], once(Goal)).
 
 :- begin_tests(servo_motor).
 

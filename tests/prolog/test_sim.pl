@@ -1,6 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/simulation').
-:- use_module('../support/tree', [with_tree/2]).
+:- use_module('../support/trees', [with_tree/3]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(filesex)).
@@ -706,7 +706,7 @@ test(stop_is_the_end) :-
 
 test(another_directory_is_the_end) :-
     with_sim([], ( motor_run(outA, 20),
-                   with_tree([outA-'lego-ev3-l-motor'],
+                   with_tree(plain, [outA-'lego-ev3-l-motor'],
                              ( \+ sim_pose(_, _, _),
                                \+ sim_stop,
                                tacho_motor(outA, 'lego-ev3-l-motor') )) )).
@@ -720,12 +720,12 @@ test(a_mounted_one_goes_on_in_another_directory, [condition(can_mount)]) :-
                  ( sim_mount(Directory),
                    ev3_sysfs(Directory),
                    max_speed(outA, 1560),
-                   with_tree([], ( \+ tacho_motor(_), sim_pose(_, _, _) )),
+                   with_tree(plain, [], ( \+ tacho_motor(_), sim_pose(_, _, _) )),
                    ev3_sysfs(Directory),
                    max_speed(outA, 1560),
                    sim_unmount ))).
 test(stop_goes_back_to_the_directory_in_use_before) :-
-    with_tree([],
+    with_tree(plain, [],
               ( ev3_sysfs(Directory),
                 with_sim(room, ev3_sysfs('/sys/class')),
                 ev3_sysfs(Directory) )).

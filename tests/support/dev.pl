@@ -9,7 +9,7 @@
             bytes_of/2,                 % +File, -Bytes
             heard/2                     % +Tree, -Tones
           ]).
-:- use_module(tree).
+:- use_module(trees).
 :- use_module(simulation).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -74,7 +74,7 @@ with_dev(Files, Goal) :-
           assertz(dev(Dev)),
           forall(member(Name-Bytes, Files), make_file(Name, Bytes))
         ),
-        with_tree([], back_to(Before, ( ev3_dev(Dev), once(Goal) ))),
+        with_tree(plain, [], back_to(Before, ( ev3_dev(Dev), once(Goal) ))),
         ( retract(dev(Dev)),
           delete_directory_and_contents(Dev)
         )).

@@ -1,6 +1,6 @@
 % Checks over the pack's Prolog files; run by `make lint`.
 
-:- use_module(tree).
+:- use_module(trees).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/sensor_table/lego)).

@@ -109,9 +109,21 @@ with_directory(Directory, Goal) :-
 
 %!  can_mount
 %
-%   True if this machine has FUSE, and the library was built with it.
+%   True if this machine has FUSE, and the library was built with it. It is tried
+%   once.
 
 can_mount :-
+    (   mountable(_)
+    ->  true
+    ;   mounts_here
+    ->  assertz(mountable(true))
+    ;   assertz(mountable(false))
+    ),
+    mountable(true).
+
+:- dynamic mountable/1.                 % Boolean
+
+mounts_here :-
     access_file('/dev/fuse', exist),
     with_directory(Directory, with_sim(room, mounts(Directory))).
 

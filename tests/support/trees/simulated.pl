@@ -16,7 +16,7 @@
             simulating_program/3        % +Devices, +Text, -Program
           ]).
 :- asserta(user:file_search_path(library, prolog)).
-:- use_module(plain_tree, [read_line_of/2]).
+:- use_module(plain, [read_line_of/2]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(filesex)).
