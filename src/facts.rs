@@ -2,6 +2,7 @@
 //! roadmaps.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
+use crate::glue::places::places;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
     Bounds, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError, Wheel, WorldSpec,
@@ -77,11 +78,11 @@ fn read<'a, C: QueryableContextType>(
         }
         ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
         ("patch", [color, corners]) => Fact::Item(Item::Patch {
-            corners: call.points(corners)?,
+            corners: places(call, corners)?,
             color: named(call, "colour", color)?,
         }),
         ("line", [color, width, along]) => Fact::Item(Item::Line {
-            points: call.points(along)?,
+            points: places(call, along)?,
             width: number(width)?,
             color: named(call, "colour", color)?,
         }),

@@ -555,14 +555,14 @@ refused(Options, Error) :-
 test(options, [forall(bad(Options, Expected)), Error =@= Expected]) :-
     refused(Options, Error).
 
-bad([cell_cm(0)],               domain_error(cell_cm, 0)).
-bad([cell_cm(wide)],            type_error(number, wide)).
-bad([eye(near)],                type_error(number, near)).
-bad([origin(a, 0)],             type_error(number, a)).
-bad([speed(0)],                 domain_error(speed, 0)).
-bad([speed(101)],               domain_error(speed, 101)).
-bad([fade(-1)],                 domain_error(fade, -1)).
-bad([fade(soon)],               type_error(number, soon)).
+bad([cell_cm(0)],               domain_error(positive_number, 0)).
+bad([cell_cm(wide)],            type_error(evaluable, wide/0)).
+bad([eye(near)],                type_error(evaluable, near/0)).
+bad([origin(a, 0)],             type_error(evaluable, a/0)).
+bad([speed(0)],                 domain_error(speed_ahead, 0)).
+bad([speed(101)],               domain_error(speed_ahead, 101)).
+bad([fade(-1)],                 domain_error(positive_number, -1)).
+bad([fade(soon)],               type_error(evaluable, soon/0)).
 bad([neighbours(5)],            domain_error(neighbours, 5)).
 bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
