@@ -1,11 +1,12 @@
 //! From terms to the facts of worlds and robots, for the simulator and for
 //! roadmaps.
 use crate::glue::call::Call;
-use crate::glue::error::wrong_because;
+use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
-    Bounds, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError, Wheel, WorldSpec,
+    Bounds, Drawing, Drawn, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError,
+    Wheel,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -26,12 +27,24 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     let Some(fact) = read(call, &name, &arguments)? else {
         return Ok(None);
     };
+    must_be_ground(call, term)?;
     match &fact {
         Fact::Item(item) => impossible(call, term, item.validate())?,
         Fact::Bounds(bounds) => impossible(call, term, bounds.validate())?,
         _ => {}
     }
     Ok(Some(fact))
+}
+
+/// Raises `instantiation_error` for a fact that is not ground, as one with a partial list.
+pub(crate) fn must_be_ground<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<()> {
+    if attempt(call.context.call_once(pred!("system:ground/1"), [term]))? {
+        return Ok(());
+    }
+    wrong_type(call, "ground", &call.context.new_term_ref())
 }
 
 /// Raises what is impossible about a fact.
@@ -139,22 +152,29 @@ fn read<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// A world that is drawn.
+/// What a drawing adds to a world.
 fn drawn<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     size: &Term<'a>,
     rows: &Term<'a>,
-) -> PrologResult<WorldSpec> {
+) -> PrologResult<Drawn> {
+    let drawn = drawing(call, rows)?.drawn(call.float(size)?);
+    drawn.or_else(|error| wrong_because(call, "possible_geometry", size, &error.to_string()))
+}
+
+/// A map that is drawn: a list of texts, from above.
+pub(crate) fn drawing<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    rows: &Term<'a>,
+) -> PrologResult<Drawing> {
     let list = call.list(rows)?;
     let texts = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-    WorldSpec::from_map(&texts.join("\n"), call.float(size)?).or_else(|error| {
-        let reason = error.to_string();
-        let [Part::MapRow(row)] = *error.parts else {
-            return wrong_because(call, "possible_geometry", size, &reason);
+    Drawing::read(&texts).or_else(|error| {
+        let row = match *error.parts {
+            [Part::MapRow(row)] => list.get(row),
+            _ => None,
         };
-        // Empty rows at the top are no part of the drawing.
-        let empty = texts.iter().take_while(|text| text.is_empty()).count();
-        wrong_because(call, "map_row", list.get(empty + row).unwrap_or(rows), &reason)
+        wrong_because(call, "map_row", row.unwrap_or(rows), &error.to_string())
     })
 }
 

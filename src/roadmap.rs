@@ -104,7 +104,9 @@ fn polygon<'a, C: QueryableContextType>(
     let ("polygon", [corners]) = (&*name, &*arguments) else {
         return Ok(None);
     };
-    Ok(Some(Obstacle::polygon(places(call, corners)?)))
+    let corners = places(call, corners)?;
+    facts::must_be_ground(call, term)?;
+    Ok(Some(Obstacle::polygon(corners)))
 }
 
 fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {

@@ -566,7 +566,7 @@ bad([fade(soon)],               type_error(evaluable, soon/0)).
 bad([neighbours(5)],            domain_error(neighbours, 5)).
 bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
-bad([rows([1.5])],              domain_error(map_row, 1.5)).
+bad([rows([1.5])],              type_error(atom, 1.5)).
 bad([move_cost(-1)],            type_error(positive_integer, -1)).
 bad([cell(20)],                 domain_error(grid_option, cell(20))).
 bad([start([0, 0])],            domain_error(grid_option, start([0, 0]))).
@@ -593,6 +593,53 @@ test(obstacle_is_unbound, error(instantiation_error, _)) :-
     obstacle_remove(_).
 
 :- end_tests(bad_input).
+
+:- begin_tests(drawn).
+
+%   A drawing is the same as a world and as a grid with cells as wide: the robot
+%   starts in the same place.
+
+drawing(["#.#", "#S#", "###"]).
+drawing([">."]).
+drawing(["..", ".v", "##"]).
+drawing(["..", "<", "", " "]).
+drawing(['#', '^#n']).
+
+test(starts_alike, [ forall(drawing(Rows)), true(Pose == Placed) ]) :-
+    with_sim([map(20, Rows)],
+             ( sim_pose(X, Y, Heading),
+               robot,
+               set_grid([rows(Rows), origin(10, 10)]),
+               pose(X1, Y1, Heading1) )),
+    Pose0 = [X, Y, Heading],
+    Placed0 = [X1, Y1, Heading1],
+    maplist([A, B]>>(B is round(A)), Pose0, Pose),
+    maplist([A, B]>>(B is round(A)), Placed0, Placed).
+test(is_refused_alike,
+     [ forall(member(Rows, [ ["S.", "..", ".^"], ["#?"], ["..", "#\t"], ["#\n#"],
+                             [".", 7], [f(x)], [_], ["."|_], rows ])),
+       true(ByWorld =@= ByGrid) ]) :-
+    refusal(sim_start([map(20, Rows)], [clock(virtual)]), ByWorld),
+    refusal(grid_map([rows(Rows)], _), ByGrid),
+    ByGrid \== none.
+test(says_what_is_wrong_with_file_and_line, true(Where-Why == 2-Words)) :-
+    Words = 'map row 2 column 2 is a second start',
+    with_file("floor(red).\nmap(20, [\"S.\", \".^\"]).\n", File,
+              catch(sim_start(File), error(domain_error(map_row, ".^"), Context), true)),
+    Context = fact(file(_, Where, _, _), Why).
+test(without_a_start_leaves_that_of_the_world, true(X-Y == 50.0-10.0)) :-
+    with_sim([start(50, 10, 0), map(20, ["#..", "..."])], sim_pose(X, Y, _)).
+
+refusal(Goal, Refusal) :-
+    (   catch(Goal, error(Formal, context(_, Words)), true)
+    ->  (   var(Formal)
+        ->  Refusal = none
+        ;   Refusal = Formal-Words
+        )
+    ;   Refusal = fails
+    ).
+
+:- end_tests(drawn).
 
 :- begin_tests(grid_navigation).
 

@@ -51,6 +51,12 @@ test(what_is_unbound_is_the_same_error_everywhere,
      [ forall(( member(No, [_, _-20, [15, _]]), with_place(No, Goal) )),
        error(instantiation_error, _) ]) :-
     in_a_world(Goal).
+test(a_partial_list_of_places_is_unbound,
+     [ forall(member(Goal, [ follow([1-1|_]), sim_add(line(red, 1, [0-0, 1-1|_])),
+                             sim_start([patch(red, [0-0, 9-0, 9-9|_])]),
+                             roadmap_path([polygon([0-0, 9-0, 9-9|_])], 50-0, 60-0, _) ])),
+       error(instantiation_error, _) ]) :-
+    in_a_world(Goal).
 test(go_to_takes_one, true(X/Y == 15/20)) :-
     in_a_world(( go_to(15-(2 * 10)), pose(X0, Y0, _) )),
     X is round(X0),

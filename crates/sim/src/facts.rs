@@ -5,7 +5,7 @@ use crate::noise::Noise;
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
-use crate::world::{Bounds, Hull, Item, Part, SpecError, WorldSpec};
+use crate::world::{Bounds, Drawn, Hull, Item, Part, SpecError, WorldSpec};
 
 /// What a file describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,8 +69,7 @@ pub enum Fact {
     Loudness(f64),
     Start(Pose),
     Item(Item),
-    /// A whole world, drawn.
-    Map(WorldSpec),
+    Map(Drawn),
     LeftWheel(Wheel),
     RightWheel(Wheel),
     Axle(f64),
@@ -91,7 +90,7 @@ impl Fact {
             | (Fact::Ambient(_), Part::Ambient)
             | (Fact::Temperature(_), Part::Temperature)
             | (Fact::Loudness(_), Part::Loudness)
-            | (Fact::Start(_) | Fact::Map(_), Part::Start)
+            | (Fact::Start(_) | Fact::Map(Drawn { start: Some(_), .. }), Part::Start)
             | (Fact::LeftWheel(_), Part::LeftWheel)
             | (Fact::RightWheel(_), Part::RightWheel)
             | (Fact::Axle(_), Part::Axle)
@@ -149,7 +148,7 @@ impl WorldSpec {
                 Fact::Item(item) => world.items.push(item.clone()),
                 Fact::Map(map) => {
                     world.items.extend(map.items.iter().cloned());
-                    world.start = map.start;
+                    world.start = map.start.unwrap_or(world.start);
                 }
                 _ => {}
             }

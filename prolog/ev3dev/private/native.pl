@@ -65,6 +65,7 @@
             pose_/5,
             pose_uncertainty_/3,
             set_pose_/5,
+            grid_drawn_/2,
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
@@ -250,6 +251,12 @@ missing.
 %
 %   `src/drive.rs`
 
+% Grids
+
+%!  grid_drawn_(+Rows, -Drawn) is det.
+%
+%   `src/grid.rs`
+
 % Roadmaps
 
 %!  roadmap_(+Facts, +Start, +Goal, +Options, -Way) is semidet.
@@ -260,7 +267,7 @@ missing.
 % Navigation
 
 %!  steer_(+Way, +Pose, +Before, -Gone, -DegreesPerCm) is semidet.
-%!  views_block_(+Views, +Point) is semidet.
+%!  views_block_(+Views, +Place) is semidet.
 %!  views_forget_(+Views) is semidet.
 %!  views_look_(+Views, +Pose, +Sensor, +Range, -Moved) is semidet.
 %!  views_new_(+Radius, -Views) is semidet.
