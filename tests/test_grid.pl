@@ -264,6 +264,21 @@ test(what_is_not_known_cannot_be_removed, fail) :-
     in_room([], [], obstacle_remove([1,1])).
 test(set_grid_forgets, fail) :-
     in_room([], [], ( obstacle_add([1,1]), set_grid([]), obstructed(_) )).
+% Bricks that share a program know nothing of each other's grids.
+test(another_brick_has_a_grid_of_its_own, Seen-State == [[1,1]]-[0,0]) :-
+    all_told(_),
+    setup_call_cleanup(
+        ( assertz(ev3dev_grid_knowledge:obstacle(other, [0,1], ever, never)),
+          assertz(ev3dev_grid_knowledge:free(other, [1,1], ever)),
+          assertz(ev3dev_grid_place:stands(other, [3,3], [0,1])) ),
+        in_room([], [],
+                ( obstacle_add([1,1]),
+                  findall(C, obstructed(C), Seen),
+                  plan_and_go_to([0,2], [0,1], [tell(tell)]),
+                  all_told([plan(state(State, _), [move, move])|_]) )),
+        ( retract(ev3dev_grid_knowledge:obstacle(other, [0,1], ever, never)),
+          retract(ev3dev_grid_knowledge:free(other, [1,1], ever)),
+          retract(ev3dev_grid_place:stands(other, [3,3], [0,1])) )).
 test(the_robot_may_be_put_elsewhere, X-Y == 40-60) :-
     in_room([], [],
             ( sim_place(40, 40, 90),
@@ -380,10 +395,10 @@ test(jammed_wheels, Reason == stalled) :-
                plan_and_go_to([0,2], _, [reason(Reason)])
              )).
 test(without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:on_grid(_, _, _)),
                    plan_and_go_to([1,1], _) )).
 test(a_plan_without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:on_grid(_, _, _)),
                    execute_plan([left]) )).
 test(no_grid_without_a_robot, fail) :-
     with_sim([], ( robot, sim_unplug(outB), sim_step(2), set_grid([]) )).

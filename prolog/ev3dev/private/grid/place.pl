@@ -6,6 +6,7 @@
             set_state/2,                % +Cell, +Direction
             cell_place/4                % +Metric, +Cell, -X, -Y
           ]).
+:- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../../drive', [set_pose/3]).
@@ -21,8 +22,8 @@ Which grid it is on, and where on it the robot is.
 */
 
 :- dynamic
-    state_position/2,                   % Cell, Direction
-    grid/2.                             % Map, Metric
+    stands/3,                           % Brick, Cell, Direction
+    on_grid/3.                         % Brick, Map, Metric
 
 %!  set_grid(+Options) is semidet.
 %
@@ -67,8 +68,9 @@ set_grid(Options) :-
     fade(Own, Fade),
     set_pose_in(Metric, Cell, Direction),
     forget_all(Fade, Obstructed),
-    retractall(grid(_, _)),
-    assertz(grid(Map, Metric)),
+    brick(Brick),
+    retractall(on_grid(Brick, _, _)),
+    assertz(on_grid(Brick, Map, Metric)),
     set_state(Cell, Direction).
 
 start(Options, Map, Cell, Direction) :-
@@ -130,16 +132,25 @@ cell_place(metric(Cm, X0, Y0, _, _), [CX, CY], X, Y) :-
 %   The robot is in Cell now and looks in Direction.
 
 set_state(Cell, Direction) :-
-    retractall(state_position(_, _)),
-    assertz(state_position(Cell, Direction)).
+    brick(Brick),
+    retractall(stands(Brick, _, _)),
+    assertz(stands(Brick, Cell, Direction)).
 
 %!  state_position(?Cell, ?Direction) is semidet.
 %
 %   True if the robot is in Cell and looks in Direction. If a move ended early
 %   it is still in the cell from which it started, as far as one can tell.
 
+state_position(Cell, Direction) :-
+    brick(Brick),
+    stands(Brick, Cell, Direction).
+
 %!  grid(-Map, -Metric) is semidet.
 %
 %   True if Map is that of the grid that was set. Metric is `metric(Cm, X, Y,
 %   Eye, Speed)`: how wide its cells are, where [0,0] is, and what set_grid/1
 %   was told of the robot's sensor and its moves.
+
+grid(Map, Metric) :-
+    brick(Brick),
+    on_grid(Brick, Map, Metric).
