@@ -33,9 +33,9 @@ predicates! {
 
 fn cell_term<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
-    cell: [usize; 2],
+    at: [usize; 2],
 ) -> PrologResult<Term<'a>> {
     let term = call.context.new_term_ref();
-    term.unify(cell.map(|count| count as u64).as_slice())?;
+    term.unify(at.map(|count| count as u64).as_slice())?;
     Ok(term)
 }

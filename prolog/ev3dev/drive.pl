@@ -21,7 +21,9 @@
 :- use_module(private/errors,
               [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,
-              [number_option/4, number_value/2, number_value/3, take_options/4]).
+              [ number_option/4, number_value/2, number_value/3,
+                take_options/4
+              ]).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
@@ -51,8 +53,8 @@ X = 30.0, Y = 40.0, Heading = 0.1.
 Lengths are in centimetres, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
 along y, clockwise is positive, and full turns count. A place is `X-Y`, or
-`[X, Y]` where a program gives one. Speeds are in percent of
-what the motors can, and are those of the faster wheel.
+`[X, Y]` where a program gives one. Speeds are in percent of what the motors
+can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else

@@ -13,7 +13,8 @@
               ]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
-:- use_module(private/arguments, [must_be_options/3, number_option/4, number_value/3]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/3]).
 :- use_module(private/robot_state,
               [ move_hook/2, robot_description/1, robot_set/4,
                 store_robot/2 ]).
@@ -31,8 +32,9 @@ of most building instructions. It is described once:
 ```
 
 Speeds are in percent of the motors' highest speed, distances in centimetres,
-angles in degrees; they may be any arithmetic expression. The sign of a speed and that of a distance or angle
-together make the direction; clockwise is positive.
+angles in degrees; they may be any arithmetic expression. The sign of a speed
+and that of a distance or angle together make the direction; clockwise is
+positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an

@@ -9,7 +9,8 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(arguments, [must_be_options/3, number_option/4, timeout_option/2]).
+:- use_module(arguments,
+              [must_be_options/3, number_option/4, timeout_option/2]).
 :- use_module('../odometry', [drive_option/2]).
 :- use_module(robot_state, [robot/4, robot_description/1]).
 :- use_module(native, [drive_/4, drive_wait_/3]).

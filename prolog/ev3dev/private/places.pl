@@ -8,15 +8,15 @@
 /** <module> Places
 
 A place is written `X-Y`, in cm. Wherever a program gives one it may also be
-`[X, Y]`. The facts of worlds have places, too: src/glue/places.rs reads those,
-with the same errors.
+`[X, Y]`. The facts of worlds have places, too: src/glue/places.rs reads
+those, with the same errors.
 */
 
 %!  place(+Place, -Native) is det.
 %!  places(+Places, -Native) is det.
 %
-%   True if Native is `X-Y`, both numbers, for a Place whose coordinates may be
-%   arithmetic expressions; or a list of such.
+%   True if Native is `X-Y`, both numbers, for a Place whose coordinates may
+%   be arithmetic expressions; or a list of such.
 %
 %   @error domain_error(place, Place)
 %   @error domain_error(finite_number, Number)

@@ -14,7 +14,9 @@
 :- use_module(knowledge).
 :- use_module(map).
 :- use_module('../arguments',
-              [number_option/4, number_value/2, number_value/3, take_options/4]).
+              [ number_option/4, number_value/2, number_value/3,
+                take_options/4
+              ]).
 
 /** <module> A robot on a grid
 
@@ -23,7 +25,7 @@ Which grid it is on, and where on it the robot is.
 
 :- dynamic
     stands/3,                           % Brick, Cell, Direction
-    on_grid/3.                         % Brick, Map, Metric
+    on_grid/3.                          % Brick, Map, Metric
 
 %!  set_grid(+Options) is semidet.
 %
