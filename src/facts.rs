@@ -36,6 +36,17 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
+/// Raises that there is no such fact, and says which there are.
+pub(crate) fn unknown<T, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    subject: Subject,
+    term: &Term,
+) -> PrologResult<T> {
+    let (name, _) = call.compound(term)?.unwrap_or_default();
+    wrong_because(call, domain, term, &subject.expected(&name))
+}
+
 /// Raises `instantiation_error` for a fact that is not ground, as one with a partial list.
 pub(crate) fn must_be_ground<C: QueryableContextType>(
     call: &Call<C>,
@@ -89,15 +100,15 @@ fn read<'a, C: QueryableContextType>(
         ("circle", [x, y, radius]) => {
             Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
         }
-        ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
+        ("floor", [color]) => Fact::Floor(named(call, "color", color)?),
         ("patch", [color, corners]) => Fact::Item(Item::Patch {
             corners: places(call, corners)?,
-            color: named(call, "colour", color)?,
+            color: named(call, "color", color)?,
         }),
         ("line", [color, width, along]) => Fact::Item(Item::Line {
             points: places(call, along)?,
             width: number(width)?,
-            color: named(call, "colour", color)?,
+            color: named(call, "color", color)?,
         }),
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
@@ -123,10 +134,7 @@ fn read<'a, C: QueryableContextType>(
             Fact::RightWheel(wheel(call, port, diameter, options)?)
         }
         ("axle", [length]) => Fact::Axle(number(length)?),
-        ("hull", [hull]) => match self::hull(call, hull)? {
-            Some(hull) => Fact::Hull(hull),
-            None => return Ok(None),
-        },
+        ("hull", [hull]) => Fact::Hull(self::hull(call, hull)?),
         ("mass", [mass]) => Fact::Mass(number(mass)?),
         ("motor", [port, driver]) => Fact::Motor(MotorMount {
             port: named(call, "port", port)?,
@@ -239,7 +247,7 @@ fn wheel<'a, C: QueryableContextType>(
         for option in call.list(options)? {
             let [value] = call.arguments(&option)?;
             match &*option.get::<Functor>()?.name_string() {
-                "inverted" => wheel.inverted = value.get_ex()?,
+                "inverted" => wheel.inverted = boolean(call, &value)?,
                 "slip" => wheel.slip = call.float(&value)?,
                 _ => return wrong_because(call, "wheel_option", &option, ""),
             }
@@ -248,21 +256,21 @@ fn wheel<'a, C: QueryableContextType>(
     Ok(wheel)
 }
 
+fn boolean<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
+    attempt_opt(term.get())?.map_or_else(|| wrong_type(call, "bool", term), Ok)
+}
+
 /// `circle(Radius)` or `rectangle(Width, Length, Offset)`.
-fn hull<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Option<Hull>> {
-    let Some((name, arguments)) = call.compound(term)? else {
-        return Ok(None);
-    };
-    Ok(match (&*name, &*arguments) {
-        ("circle", [radius]) => Some(Hull::Circle { radius: call.float(radius)? }),
-        ("rectangle", [width, length, offset]) => Some(Hull::Rectangle {
+fn hull<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Hull> {
+    let (name, arguments) = call.compound(term)?.unwrap_or_default();
+    match (&*name, &*arguments) {
+        ("circle", [radius]) => Ok(Hull::Circle { radius: call.float(radius)? }),
+        ("rectangle", [width, length, offset]) => Ok(Hull::Rectangle {
             width: call.float(width)?,
             length: call.float(length)?,
             offset: call.float(offset)?,
         }),
-        _ => None,
-    })
+        _ if term.is_var() => wrong_type(call, "hull", term),
+        _ => wrong_because(call, "hull", term, ""),
+    }
 }

@@ -85,7 +85,7 @@ pub(crate) fn map_of<'a, C: QueryableContextType>(
         } else if let Some(fact) = facts::fact(call, Subject::World, &term)? {
             add(&mut map, fact)
         } else {
-            return wrong_value(call, "roadmap_fact", &term);
+            return facts::unknown(call, "roadmap_fact", Subject::World, &term);
         };
         added
             .or_else(|fault| wrong_because(call, "possible_geometry", &term, &fault.to_string()))?;

@@ -51,6 +51,24 @@ impl Subject {
         }
     }
 
+    /// What is expected instead of a fact that is not in the vocabulary: another number of
+    /// arguments, or another name.
+    #[must_use]
+    pub fn expected(self, name: &str) -> String {
+        let vocabulary = self.vocabulary();
+        if let Some((_, arities)) = vocabulary.iter().find(|(other, _)| *other == name) {
+            let counts: Vec<_> = arities.iter().map(usize::to_string).collect();
+            let plural = if arities == &[1] { "" } else { "s" };
+            return format!("{name} has {} argument{plural}", counts.join(" or "));
+        }
+        let names: Vec<_> = vocabulary.iter().map(|(name, _)| *name).collect();
+        let kind = match self {
+            Subject::World => "world",
+            Subject::Robot => "robot",
+        };
+        format!("a {kind} has: {}", names.join(", "))
+    }
+
     /// Whether a fact with this name and number of arguments is in the vocabulary.
     #[must_use]
     pub fn has(self, name: &str, arity: usize) -> bool {

@@ -55,6 +55,8 @@ allowed(button,             [up, down, left, right, enter, back]).
 allowed(button_event,       [pressed, released]).
 allowed(calibration,        [wheels, axle]).
 allowed(clock,              [realtime, scaled('Factor'), virtual]).
+allowed(color,
+        [black, blue, green, yellow, red, white, brown, '#rrggbb']).
 allowed(direction,          'a direction is a number from -100 to 100').
 allowed(distinct_ports,     'two different ports are expected').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
@@ -62,6 +64,8 @@ allowed(eopd_range,         [long, short]).
 allowed(finite_number,      'a finite number is expected').
 allowed(font,               [tiny, small, medium, large]).
 allowed(frequency,          'a tone has from 100 to 10000 Hz').
+allowed(hull,
+        [circle('Radius'), rectangle('Width', 'Length', 'Offset')]).
 allowed(ir_channel,         'a channel is a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
 allowed(led_color,
@@ -95,3 +99,4 @@ allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
 allowed(volume,             'a volume is a number from 0 to 100').
+allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
