@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/odometry.pl`, `drive_moves.pl`, `calibrate.pl`: curves, odometry, going to places.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
+use crate::glue::places::places;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
 use crate::motors::stop_action;
@@ -181,7 +182,7 @@ fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> P
         ("to", [x, y]) => Leg::To([call.float(x)?, call.float(y)?]),
         ("reach", [x, y]) => Leg::Reach([call.float(x)?, call.float(y)?]),
         ("arc", [length, curvature]) => Leg::Arc(call.float(length)?, call.float(curvature)?),
-        ("through", [points, radius]) => Leg::Through(call.points(points)?, call.float(radius)?),
+        ("through", [points, radius]) => Leg::Through(places(call, points)?, call.float(radius)?),
         _ => return wrong_value(call, "leg", term),
     })
 }

@@ -16,6 +16,7 @@ mod driver;
 mod facts;
 mod files;
 mod glue;
+mod grid;
 mod halt;
 mod lights;
 mod motors;
@@ -50,6 +51,7 @@ pub extern "C" fn install() {
     buttons::register();
     sound::register();
     screen::register();
+    grid::register();
     roadmap::register();
     navigation::register();
     drive::register();

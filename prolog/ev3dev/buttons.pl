@@ -8,7 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, must_be_timeout/1]).
+:- use_module(private/arguments, [must_be_options/3, timeout_option/2]).
 :- use_module(private/native,
               [ button_event_/4, button_source_/1, button_wait_/3,
                 buttons_/1 ]).
@@ -68,8 +68,7 @@ button_wait(Key, Event) :-
 
 button_wait(Key, Event, Options) :-
     must_be_options(button_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     button_wait_(Key, Event, Timeout).
 
 %!  button_events(-Events) is semidet.

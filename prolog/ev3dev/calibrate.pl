@@ -4,9 +4,9 @@
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/2]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
-:- use_module(odometry, [number_value/2]).
 :- use_module(drive, [go_cm/3, turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(private/native, [drive_pause_/1]).
@@ -79,7 +79,7 @@ calibrate(What, Module:Options, SetRobot) :-
 
 wheels(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
-    length_option(distance, Options, 100, Distance),
+    number_option(distance(Distance), positive_number, Options, 100),
     option(speed(Speed), Options, 20),
     way(Distance, Speed, Axle, Module, Options, Length, Turn),
     % What each wheel rolled in truth, by what it was thought to roll.
@@ -103,7 +103,7 @@ way(Distance, Speed, _, Module, Options, Length, Turn) :-
 way(Distance, Speed, _, _, Options, Length, Turn) :-
     gyro_sensor(Gyro),
     !,
-    length_option(length, Options, Distance, Length),
+    number_option(length(Length), positive_number, Options, Distance),
     rest_angle(Gyro, A0),
     move(go_cm(Speed, Distance)),
     rest_angle(Gyro, A1),
@@ -178,15 +178,6 @@ rest_angle(Gyro, Angle) :-
 pause_ang(Gyro, Angle) :-
     drive_pause_(0.01),
     gyro_ang(Gyro, Angle).
-
-length_option(Name, Options, Default, Length) :-
-    Option =.. [Name, Value],
-    option(Option, Options, Default),
-    number_value(Value, Length),
-    (   Length > 0
-    ->  true
-    ;   domain_error(positive_number, Length)
-    ).
 
 %   The call that describes a robot, to a hundredth of a millimetre.
 call_of(robot(Left, Right, DL0, DR0, IL, IR, Axle0, Offset), SetRobot) :-

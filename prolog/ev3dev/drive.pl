@@ -9,25 +9,26 @@
             steer/3,            % +Speed, +Direction, +Options
             drive_cm/2,         % +CmPerSecond, +DegreesPerSecond
             drive_cm/3,         % +CmPerSecond, +DegreesPerSecond, +Options
+            go_to/1,            % +Place
             go_to/2,            % +X, +Y
             go_to/3,            % +X, +Y, +HeadingOrOptions
             go_to/4,            % +X, +Y, +Heading, +Options
             face/1,             % +Heading
             face/2,             % +Heading, +Options
-            follow/1,           % +Points
-            follow/2            % +Points, +Options
+            follow/1,           % +Places
+            follow/2            % +Places, +Options
           ]).
 :- use_module(private/errors,
-              [ domain_error/2, instantiation_error/1, must_be/2,
-                term_expansion/2, type_error/2
+              [must_be/2, term_expansion/2]).
+:- use_module(private/arguments,
+              [ number_option/4, number_value/2, number_value/3,
+                take_options/4
               ]).
-:- use_module(library(option), [option/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
                 speed_option/2
               ]).
-:- use_module(odometry, [number_value/2]).
 :- reexport(private/drive_moves, [drive_wait/2]).
 :- reexport(odometry,
             [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
@@ -51,8 +52,9 @@ X = 30.0, Y = 40.0, Heading = 0.1.
 
 Lengths are in centimetres, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
-along y, clockwise is positive, and full turns count. Speeds are in percent of
-what the motors can, and are those of the faster wheel.
+along y, clockwise is positive, and full turns count. A place is `X-Y`, or
+`[X, Y]` where a program gives one. Speeds are in percent of what the motors
+can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
@@ -96,7 +98,7 @@ takes the place of one that is under way.
 
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
-@error domain_error(Option, Value)
+@error domain_error(Domain, Value) for a value that makes no sense
 @error domain_error(drive_option, Option) for an option that is none
 */
 
@@ -181,11 +183,7 @@ steer(Speed, Direction) :-
 
 steer(Speed, Direction, Options) :-
     number_value(Speed, Percent),
-    number_value(Direction, D),
-    (   abs(D) =< 100
-    ->  true
-    ;   domain_error(direction, D)
-    ),
+    number_value(direction, Direction, D),
     Inner is 1 - abs(D) / 50.0,
     (   D >= 0
     ->  wheels(Percent, 1, Inner, Options)
@@ -232,12 +230,19 @@ done(Goal, Done) :-
     ;   Done = false
     ).
 
+%!  go_to(+Place) is semidet.
 %!  go_to(+X, +Y) is semidet.
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
 %
 %   Turn towards a place, go there, and turn to a heading if one is given.
 %   With a negative speed, back into it.
+%
+%   @error domain_error(place, Place)
+
+go_to(Place) :-
+    place(Place, X-Y),
+    go_to(X, Y).
 
 go_to(X, Y) :-
     go_to(X, Y, []).
@@ -288,49 +293,30 @@ face(Heading, Options) :-
     speed_option(Options, Percent),
     move(Percent, legs([face(Degrees)], false), Options).
 
-%!  follow(+Points) is semidet.
-%!  follow(+Points, +Options) is semidet.
+%!  follow(+Places) is semidet.
+%!  follow(+Places, +Options) is semidet.
 %
-%   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. No points are `reached`
-%   at once. Another option:
+%   Go through all of a list of places on straight lines, and turn on the spot
+%   at each. No places are `reached` at once. Another option:
 %
 %     - radius(+Cm)
 %       Round the corners with that radius, or with less where the lines are
 %       too short for it, and do not stop there.
+%
+%   @error domain_error(place, Place)
 
-follow(Points) :-
-    follow(Points, []).
+follow(Places) :-
+    follow(Places, []).
 
-follow(Points, Options) :-
-    must_be(list, Points),
+follow(Places0, Options) :-
+    must_be(list, Places0),
     take_options([radius], Options, Own, Rest),
     must_be_move_options(Rest),
-    points(Points, Places),
-    option(radius(Radius), Own, 0),
-    number_value(Radius, R),
-    (   R >= 0
-    ->  true
-    ;   domain_error(radius, R)
-    ),
+    places(Places0, Places),
+    number_option(radius(R), nonnegative_number, Own, 0),
     (   Places == []
     ->  % This, too, takes the place of a move under way.
         Leg = turn(0)
     ;   Leg = through(Places, R)
     ),
     travel([Leg], Rest).
-
-points([], []).
-points([Point|Points], [[X, Y]|Places]) :-
-    (   var(Point)
-    ->  instantiation_error(Point)
-    ;   point(Point, X0, Y0)
-    ->  number_value(X0, X),
-        number_value(Y0, Y)
-    ;   type_error(point, Point)
-    ),
-    points(Points, Places).
-
-point([X, Y], X, Y).
-point(X-Y, X, Y).
-point(point(X, Y), X, Y).

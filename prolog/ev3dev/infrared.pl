@@ -6,6 +6,7 @@
             ir_seeker/4                 % ?Port, +Light, -Direction,
                                         % -Strengths
           ]).
+:- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
@@ -82,12 +83,7 @@ seen(Channel, Values, Heading, Percent) :-
 must_be_channel(Channel) :-
     (   var(Channel)
     ->  true
-    ;   must_be(integer, Channel),
-        (   Channel >= 1,
-            Channel =< 4
-        ->  true
-        ;   domain_error(ir_channel, Channel)
-        )
+    ;   must_be_within(1, 4, ir_channel, Channel)
     ).
 
 %!  ir_dist_cm(?Port, -Centimetres) is nondet.

@@ -29,7 +29,7 @@
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
               [ motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, must_be_timeout/1
+                must_be_options/3, timeout_option/2
               ]).
 :- use_module(private/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
@@ -299,8 +299,7 @@ flag(stalled).
 
 motor_wait(Ports, Options, Reason) :-
     must_be_options(motor_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     (   is_list(Ports)
     ->  motor_wait_(Ports, Timeout, Reason)
     ;   motor_wait_([Ports], Timeout, Reason)

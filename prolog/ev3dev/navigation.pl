@@ -3,16 +3,16 @@
             navigate_to/3       % +Map, +Goal, +Options
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
 :- use_module(private/drive_moves, [move/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments,
+              [number_option/4, number_value/2, take_options/4]).
+:- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
-              [ number_option/4, roadmap_facts/2, roadmap_options/2,
-                roadmap_point/2
-              ]).
+              [roadmap_facts/2, roadmap_options/2]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(private/native,
@@ -79,16 +79,15 @@ navigate_to(Map, Goal) :-
 
 navigate_to(Map, Goal0, Options) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Goal0, Goal),
+    place(Goal0, Goal),
     take_options([speed, sensor/3, tolerance, reason, steps, obstacles],
                  Options, Own, OfWay),
     roadmap_options(OfWay, Native),
     number_option(radius(Radius), positive_number, OfWay, 8),
-    number_option(margin(Margin), nonneg, OfWay, 4),
+    number_option(margin(Margin), nonnegative_number, OfWay, 4),
     number_option(speed(Speed), positive_number, Own, 15),
     number_option(tolerance(Tolerance), positive_number, Own, 2),
     option(steps(Steps), Own, 200),
-    must_be(integer, Steps),
     must_be(nonneg, Steps),
     sensor(Own, Sensor),
     once(us_dist_cm(Port, _)),
@@ -111,9 +110,9 @@ sensor(Options, sensor(X, Y, Heading)) :-
     ->  true
     ;   X0 = 0, Y0 = 7, Heading0 = 0
     ),
-    evaluated(X0, X),
-    evaluated(Y0, Y),
-    evaluated(Heading0, Heading).
+    number_value(X0, X),
+    number_value(Y0, Y),
+    number_value(Heading0, Heading).
 
 %   Plans with the map alone first: if that leaves no way, nothing moves.
 

@@ -3,15 +3,12 @@
             set_pose/3,             % +X, +Y, +Heading
             pose_uncertainty/1,     % -Covariance
             heading_wrapped/2,      % +Heading, -Wrapped
-            drive_option/2,         % +Name, ?Value
-            valid_drive_option/3,   % +Name, +Value, -Valid
-            number_value/2          % +Expression, -Number
+            drive_option/2          % +Name, ?Value
           ]).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
-              ]).
+              [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [finite/1]).
+:- use_module(private/arguments, [number_value/2, number_value/3]).
 :- use_module(private/robot_state, [robot/4, robot_description/1]).
 :- use_module(private/native,
               [ heading_wrapped_/2, odometry_/1, pose_/5,
@@ -50,32 +47,18 @@ drive_option(Name, Value) :-
     ->  domain_error(drive_option, Name)
     ;   var(Value)
     ->  option_value(Name, Value)
-    ;   valid_drive_option(Name, Value, Valid),
+    ;   valid_option(Name, Value, Valid),
         with_mutex(ev3dev_robot,
                    ( retractall(option_value(Name, _)),
                      assertz(option_value(Name, Valid)) ))
     ).
 
-%!  valid_drive_option(+Name, +Value, -Valid) is det.
-%
-%   What the value of an option stands for, or an error.
-
-valid_drive_option(use_gyro, Value, Value) :-
+valid_option(use_gyro, Value, Value) :-
     must_be(boolean, Value).
-valid_drive_option(speed, Speed, Percent) :-
-    number_value(Speed, Percent),
-    (   Percent =\= 0,
-        abs(Percent) =< 100
-    ->  true
-    ;   domain_error(speed, Percent)
-    ).
-valid_drive_option(acceleration, Acceleration, Value) :-
-    number_value(Acceleration, Value),
-    (   Value > 0,
-        finite(Value)
-    ->  true
-    ;   domain_error(acceleration, Value)
-    ).
+valid_option(speed, Speed, Percent) :-
+    number_value(speed, Speed, Percent).
+valid_option(acceleration, Acceleration, Number) :-
+    number_value(positive_number, Acceleration, Number).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %
@@ -124,20 +107,6 @@ heading_wrapped(Heading, Wrapped) :-
 robot(Robot, UseGyro) :-
     robot_description(Robot),
     option_value(use_gyro, UseGyro).
-
-%!  number_value(+Expression, -Number) is det.
-%
-%   The finite number that an expression stands for.
-%
-%   @error domain_error(finite_number, Number)
-
-number_value(Expression, Number) :-
-    evaluated(Expression, Number),
-    (   finite(Number)
-    ->  true
-    ;   domain_error(finite_number, Number)
-    ).
-
 
 :- multifile ev3dev_robot_state:robot_hook/0.
 

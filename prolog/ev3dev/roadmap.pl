@@ -9,8 +9,9 @@
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
 :- use_module(private/arguments, [take_options/4]).
+:- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
-              [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
+              [roadmap_facts/2, roadmap_options/2]).
 :- reexport(navigation).
 :- use_module(private/native, [roadmap_/5, roadmap_svg_/5]).
 
@@ -50,11 +51,11 @@ all facts of a world. Only those count that stop a robot: bounds/4, wall/4,5,
 box/4,5, circle/3 and map/2. A list may also hold
 
   - polygon(Corners)
-    At least three corners, each `X-Y` or `[X, Y]`, in either order. It may be
+    At least three corners, which are places, in either order. It may be
     concave. No two edges may cross or touch, but at the corners.
 
-A Start or Goal is written as a corner is; x and y may be arithmetic
-expressions.
+A place is `X-Y`, or `[X, Y]` where a program gives one. The x and y of Start
+and Goal may be arithmetic expressions.
 
 ## Options {#roadmap-options}
 
@@ -91,7 +92,7 @@ expressions.
 %   @error domain_error(map_row, Row) for a row of map/2
 %   @error domain_error(possible_geometry, Fact) for a polygon with less than
 %          three corners, or one that crosses itself, and the like
-%   @error domain_error(point, Point)
+%   @error domain_error(place, Place)
 %   @error domain_error(roadmap_method, Method)
 %   @error domain_error(Domain, Value) for an option that makes no sense
 %   @error domain_error(roadmap_option, Option) for an option that is none
@@ -118,8 +119,8 @@ roadmap_legs(Map, Start, Goal, Legs, Options) :-
 
 way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Start0, Start),
-    roadmap_point(Goal0, Goal),
+    place(Start0, Start),
+    place(Goal0, Goal),
     take_options([length], Options, Own, Rest),
     roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
@@ -141,8 +142,8 @@ way(Map, Start0, Goal0, Options, Points, Legs) :-
 
 roadmap_svg(Map, Start0, Goal0, File, Options) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Start0, Start),
-    roadmap_point(Goal0, Goal),
+    place(Start0, Start),
+    place(Goal0, Goal),
     roadmap_options(Options, Native),
     roadmap_svg_(Facts, Start, Goal, Native, Text),
     setup_call_cleanup(

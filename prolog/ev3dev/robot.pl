@@ -13,7 +13,8 @@
               ]).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
-:- use_module(private/arguments, [finite/1, must_be_options/3]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/3]).
 :- use_module(private/robot_state,
               [ move_hook/2, robot_description/1, robot_set/4,
                 store_robot/2 ]).
@@ -31,9 +32,9 @@ of most building instructions. It is described once:
 ```
 
 Speeds are in percent of the motors' highest speed, distances in centimetres,
-angles in degrees; in moves, not in the robot's description, they may be any
-arithmetic expression. The sign of a speed and that of a distance or angle
-together make the direction; clockwise is positive.
+angles in degrees; they may be any arithmetic expression. The sign of a speed
+and that of a distance or angle together make the direction; clockwise is
+positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an
@@ -69,9 +70,9 @@ Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).
 
-set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
-    must_be_length(WheelDiameter),
-    must_be_length(AxleLength),
+set_robot(WheelDiameter0, AxleLength0, Left, Right, Options) :-
+    number_value(positive_number, WheelDiameter0, WheelDiameter),
+    number_value(positive_number, AxleLength0, AxleLength),
     must_be(atom, Left),
     must_be(atom, Right),
     build(WheelDiameter, Options, Diameters, Inverted, Offset),
@@ -90,13 +91,12 @@ build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     must_be_options(robot_option,
                     [left_diameter, right_diameter, inverted, axle_offset],
                     Options),
-    option(left_diameter(LeftDiameter), Options, WheelDiameter),
-    option(right_diameter(RightDiameter), Options, WheelDiameter),
     option(inverted(Sides), Options, []),
-    option(axle_offset(Offset), Options, 0),
-    must_be_length(LeftDiameter),
-    must_be_length(RightDiameter),
-    must_be(number, Offset),
+    number_option(left_diameter(LeftDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(right_diameter(RightDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(axle_offset(Offset), finite_number, Options, 0),
     must_be(list(atom), Sides),
     inverted(Sides, Inverted).
 
@@ -130,14 +130,6 @@ sign_of(false, 1).
 directed(1, Number, Number).
 directed(-1, Number, Opposite) :-
     Opposite is -Number.
-
-must_be_length(Length) :-
-    must_be(number, Length),
-    (   Length > 0,
-        finite(Length)
-    ->  true
-    ;   domain_error(positive_number, Length)
-    ).
 
 %!  stop is semidet.
 %

@@ -58,10 +58,10 @@ of
     The floor, by default white: one of `black`, `blue`, `green`, `yellow`,
     `red`, `white` and `brown`, or `'#rrggbb'`.
   - patch(Colour, Corners)
-    A coloured piece of floor with at least three Corners, each `[X, Y]`.
-    Patches and lines cover those before them.
-  - line(Colour, Width, Points)
-    A line on the floor through at least two Points, each `[X, Y]`.
+    A coloured piece of floor with at least three Corners, each a place
+    `X-Y`. Patches and lines cover those before them.
+  - line(Colour, Width, Places)
+    A line on the floor through at least two Places, each `X-Y`.
   - lamp(X, Y, Intensity)
   - lamp(X, Y, Intensity, Port)
     A lamp, 30 cm above the floor. One with a Port is lit by that output port

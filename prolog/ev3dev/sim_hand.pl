@@ -15,11 +15,13 @@
             added_facts/1,              % -Added
             set_added_facts/1           % +Added
           ]).
-:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/2,
+               number_value/3]).
 :- use_module(private/native,
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,
@@ -41,9 +43,9 @@ what is around it. All fail if no simulation runs.
 %   @error domain_error(possible_geometry, Item) if something stands there
 
 sim_place(X0, Y0, Heading0) :-
-    evaluated(X0, X),
-    evaluated(Y0, Y),
-    evaluated(Heading0, Heading),
+    number_value(X0, X),
+    number_value(Y0, Y),
+    number_value(Heading0, Heading),
     sim_place_(X, Y, Heading).
 
 %!  sim_add(+Fact) is semidet.
@@ -188,11 +190,11 @@ sim_release(Key) :-
 
 sim_press(Key, Options) :-
     must_be_options(sim_option, [after, for], Options),
-    option(after(After), Options, 0),
-    option(for(For), Options, 0.2),
-    (   For == infinite
-    ->  true
-    ;   must_be(number, For)
+    number_option(after(After), seconds, Options, 0),
+    option(for(For0), Options, 0.2),
+    (   For0 == infinite
+    ->  For = infinite
+    ;   number_value(seconds, For0, For)
     ),
     sim_plan_key_(Key, After, For).
 

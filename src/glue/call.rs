@@ -147,15 +147,6 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// A list of `[X, Y]`.
-    pub(crate) fn points(&self, term: &Term<'a>) -> PrologResult<Vec<[f64; 2]>> {
-        let point = |term: &Term<'a>| match &*self.list(term)? {
-            [x, y] => Ok([self.float(x)?, self.float(y)?]),
-            _ => crate::glue::error::wrong_value(self, "point", term),
-        };
-        self.list(term)?.iter().map(point).collect()
-    }
-
     /// The arguments of a compound term.
     pub(crate) fn arguments<const N: usize>(&self, term: &Term) -> PrologResult<[Term<'a>; N]> {
         match attempt_opt(self.context.compound_terms(term))? {

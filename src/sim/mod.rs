@@ -436,12 +436,11 @@ fn known_fact<'a, C: QueryableContextType>(
     if let Some(fact) = facts::fact(call, subject, term)? {
         return Ok(fact);
     }
-    let (domain, kind) = match subject {
-        Subject::World => ("world_fact", "world"),
-        Subject::Robot => ("robot_fact", "robot"),
+    let domain = match subject {
+        Subject::World => "world_fact",
+        Subject::Robot => "robot_fact",
     };
-    let names: Vec<_> = subject.vocabulary().iter().map(|(name, _)| *name).collect();
-    wrong_because(call, domain, term, &format!("a {kind} has: {}", names.join(", ")))
+    facts::unknown(call, domain, subject, term)
 }
 
 fn facts_of<'a, C: QueryableContextType>(

@@ -20,6 +20,7 @@ bad(steer(30, 10), [foo-1, _-2, 101-2]).
 bad(steer(30, 10, []), [foo-1, 101-2, [x]-3]).
 bad(drive_cm(10, 0), [foo-1, _-2]).
 bad(drive_cm(10, 0, []), [foo-1, _-2, [wait]-3]).
+bad(go_to(10-10), [far-1, _-1, point(1, 2)-1]).
 bad(go_to(10, 10), [far-1, _-2]).
 bad(go_to(10, 10, []), [far-1, _-2, north-3, [x(1)]-3]).
 bad(go_to(10, 10, 0, []), [far-1, _-2, north-3, [x(1)]-4]).
@@ -65,6 +66,14 @@ test(refuse_what_is_wrong, true(Accepted == [])) :-
             ( bad_call(Goal),
               \+ wrongly(Goal) ),
             Accepted).
+test(a_measure_may_be_an_expression, [ forall(measure(2*3, Goal)) ]) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC), ignore(Goal) )).
+test(what_is_no_measure_is_the_same_error_everywhere,
+     [ forall(measure(a, Goal)),
+       error(type_error(evaluable, a/0), context(_, 'a number is expected, not a')) ]) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC), Goal )).
 test(list_what_is_allowed,
      [ forall(member(Goal-Words,
                      [ led(left, blu)-"off, on, red",
@@ -81,6 +90,54 @@ test(list_what_is_allowed,
     assertion(sub_atom(Message, _, _, _, Words)).
 
 :- end_tests(errors).
+
+%   Goal has X for a length, an angle, a speed or a time.
+
+measure(X, set_robot(X, 10.6, outB, outC)).
+measure(X, set_robot(5.6, X, outB, outC)).
+measure(X, set_robot(5.6, 10.6, outB, outC, [Option])) :-
+    member(Name, [left_diameter, right_diameter, axle_offset]),
+    Option =.. [Name, X].
+measure(X, go(20, X)).
+measure(X, go_cm(20, X)).
+measure(X, go_cm(X, 1, [])).
+measure(X, go_cm(20, 1, [Option])) :-
+    member(Name, [acceleration, timeout]),
+    Option =.. [Name, X].
+measure(X, go_to(X, 1, [])).
+measure(X, go_to(1, X, 0, [])).
+measure(X, go_to(X-1)).
+measure(X, face(1, [speed(X)])).
+measure(X, follow([1-X])).
+measure(X, follow([], [radius(X)])).
+measure(X, set_pose(0, 0, X)).
+measure(X, drive_option(speed, X)).
+measure(X, drive_option(acceleration, X)).
+measure(X, drive_wait([timeout(X)], _)).
+measure(X, calibrate(wheels, [distance(X), measured(none)], _)).
+measure(X, motor_run(outA, 50, X, [wait(false)])).
+measure(X, motor_run(outA, 50, 9, [timeout(X)])).
+measure(X, motor_wait(outA, [timeout(X)], _)).
+measure(X, button_wait(up, pressed, [timeout(X)])).
+measure(X, set_grid([Option])) :-
+    member(Name, [cell_cm, eye, speed, fade]),
+    Option =.. [Name, X].
+measure(X, set_grid([origin(0, X)])).
+measure(X, roadmap_path([], X-0, 9-9, _)).
+measure(X, roadmap_path([], 0-0, 9-9, _, [Option])) :-
+    member(Name, [radius, margin, arc_radius]),
+    Option =.. [Name, X].
+measure(X, navigate_to([], 1-1, [Option])) :-
+    member(Name, [speed, tolerance, radius]),
+    Option =.. [Name, X].
+measure(X, navigate_to([], 1-1, [sensor(0, 7, X)])).
+measure(X, sim_place(40, 40, X)).
+measure(X, sim_wait(X)).
+measure(X, sim_press(up, [after(X)])).
+measure(X, sim_press(up, [for(X)])).
+
+none(_, _) :-
+    fail.
 
 bad_call(Goal) :-
     bad(Call, Wrongs),

@@ -131,7 +131,7 @@ test(no_such_event, error(domain_error(button_event, held), _)) :-
     with_keys([], button_wait(up, held)).
 test(negative_timeout, error(domain_error(timeout, -1), _)) :-
     with_keys([], button_wait(up, pressed, [timeout(-1)])).
-test(timeout_that_is_no_number, error(type_error(number, soon), _)) :-
+test(timeout_that_is_no_number, error(type_error(evaluable, soon/0), _)) :-
     with_keys([], button_wait(up, pressed, [timeout(soon)])).
 test(options_that_are_no_list, error(type_error(list, 5), _)) :-
     with_keys([], button_wait(up, pressed, 5)).

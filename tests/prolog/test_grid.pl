@@ -264,6 +264,21 @@ test(what_is_not_known_cannot_be_removed, fail) :-
     in_room([], [], obstacle_remove([1,1])).
 test(set_grid_forgets, fail) :-
     in_room([], [], ( obstacle_add([1,1]), set_grid([]), obstructed(_) )).
+% Bricks that share a program know nothing of each other's grids.
+test(another_brick_has_a_grid_of_its_own, Seen-State == [[1,1]]-[0,0]) :-
+    all_told(_),
+    setup_call_cleanup(
+        ( assertz(ev3dev_grid_knowledge:obstacle(other, [0,1], ever, never)),
+          assertz(ev3dev_grid_knowledge:free(other, [1,1], ever)),
+          assertz(ev3dev_grid_place:stands(other, [3,3], [0,1])) ),
+        in_room([], [],
+                ( obstacle_add([1,1]),
+                  findall(C, obstructed(C), Seen),
+                  plan_and_go_to([0,2], [0,1], [tell(tell)]),
+                  all_told([plan(state(State, _), [move, move])|_]) )),
+        ( retract(ev3dev_grid_knowledge:obstacle(other, [0,1], ever, never)),
+          retract(ev3dev_grid_knowledge:free(other, [1,1], ever)),
+          retract(ev3dev_grid_place:stands(other, [3,3], [0,1])) )).
 test(the_robot_may_be_put_elsewhere, X-Y == 40-60) :-
     in_room([], [],
             ( sim_place(40, 40, 90),
@@ -380,10 +395,10 @@ test(jammed_wheels, Reason == stalled) :-
                plan_and_go_to([0,2], _, [reason(Reason)])
              )).
 test(without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:on_grid(_, _, _)),
                    plan_and_go_to([1,1], _) )).
 test(a_plan_without_a_grid, fail) :-
-    with_sim([], ( retractall(ev3dev_grid_place:grid(_, _)),
+    with_sim([], ( retractall(ev3dev_grid_place:on_grid(_, _, _)),
                    execute_plan([left]) )).
 test(no_grid_without_a_robot, fail) :-
     with_sim([], ( robot, sim_unplug(outB), sim_step(2), set_grid([]) )).
@@ -555,18 +570,18 @@ refused(Options, Error) :-
 test(options, [forall(bad(Options, Expected)), Error =@= Expected]) :-
     refused(Options, Error).
 
-bad([cell_cm(0)],               domain_error(cell_cm, 0)).
-bad([cell_cm(wide)],            type_error(number, wide)).
-bad([eye(near)],                type_error(number, near)).
-bad([origin(a, 0)],             type_error(number, a)).
-bad([speed(0)],                 domain_error(speed, 0)).
-bad([speed(101)],               domain_error(speed, 101)).
-bad([fade(-1)],                 domain_error(fade, -1)).
-bad([fade(soon)],               type_error(number, soon)).
+bad([cell_cm(0)],               domain_error(positive_number, 0)).
+bad([cell_cm(wide)],            type_error(evaluable, wide/0)).
+bad([eye(near)],                type_error(evaluable, near/0)).
+bad([origin(a, 0)],             type_error(evaluable, a/0)).
+bad([speed(0)],                 domain_error(speed_ahead, 0)).
+bad([speed(101)],               domain_error(speed_ahead, 101)).
+bad([fade(-1)],                 domain_error(positive_number, -1)).
+bad([fade(soon)],               type_error(evaluable, soon/0)).
 bad([neighbours(5)],            domain_error(neighbours, 5)).
 bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
-bad([rows([1.5])],              domain_error(map_row, 1.5)).
+bad([rows([1.5])],              type_error(atom, 1.5)).
 bad([move_cost(-1)],            type_error(positive_integer, -1)).
 bad([cell(20)],                 domain_error(grid_option, cell(20))).
 bad([start([0, 0])],            domain_error(grid_option, start([0, 0]))).
@@ -593,6 +608,53 @@ test(obstacle_is_unbound, error(instantiation_error, _)) :-
     obstacle_remove(_).
 
 :- end_tests(bad_input).
+
+:- begin_tests(drawn).
+
+%   A drawing is the same as a world and as a grid with cells as wide: the robot
+%   starts in the same place.
+
+drawing(["#.#", "#S#", "###"]).
+drawing([">."]).
+drawing(["..", ".v", "##"]).
+drawing(["..", "<", "", " "]).
+drawing(['#', '^#n']).
+
+test(starts_alike, [ forall(drawing(Rows)), true(Pose == Placed) ]) :-
+    with_sim([map(20, Rows)],
+             ( sim_pose(X, Y, Heading),
+               robot,
+               set_grid([rows(Rows), origin(10, 10)]),
+               pose(X1, Y1, Heading1) )),
+    Pose0 = [X, Y, Heading],
+    Placed0 = [X1, Y1, Heading1],
+    maplist([A, B]>>(B is round(A)), Pose0, Pose),
+    maplist([A, B]>>(B is round(A)), Placed0, Placed).
+test(is_refused_alike,
+     [ forall(member(Rows, [ ["S.", "..", ".^"], ["#?"], ["..", "#\t"], ["#\n#"],
+                             [".", 7], [f(x)], [_], ["."|_], rows ])),
+       true(ByWorld =@= ByGrid) ]) :-
+    refusal(sim_start([map(20, Rows)], [clock(virtual)]), ByWorld),
+    refusal(grid_map([rows(Rows)], _), ByGrid),
+    ByGrid \== none.
+test(says_what_is_wrong_with_file_and_line, true(Where-Why == 2-Words)) :-
+    Words = 'map row 2 column 2 is a second start',
+    with_file("floor(red).\nmap(20, [\"S.\", \".^\"]).\n", File,
+              catch(sim_start(File), error(domain_error(map_row, ".^"), Context), true)),
+    Context = fact(file(_, Where, _, _), Why).
+test(without_a_start_leaves_that_of_the_world, true(X-Y == 50.0-10.0)) :-
+    with_sim([start(50, 10, 0), map(20, ["#..", "..."])], sim_pose(X, Y, _)).
+
+refusal(Goal, Refusal) :-
+    (   catch(Goal, error(Formal, context(_, Words)), true)
+    ->  (   var(Formal)
+        ->  Refusal = none
+        ;   Refusal = Formal-Words
+        )
+    ;   Refusal = fails
+    ).
+
+:- end_tests(drawn).
 
 :- begin_tests(grid_navigation).
 

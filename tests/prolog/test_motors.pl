@@ -389,7 +389,7 @@ test(a_wrong_option_throws_and_writes_nothing,
                          [ramp_down(slow)]-type_error(integer, slow),
                          [ramp_up(_)]-instantiation_error,
                          [timeout(-1)]-domain_error(timeout, -1),
-                         [timeout(soon)]-type_error(number, soon),
+                         [timeout(soon)]-type_error(evaluable, soon/0),
                          [timeout(_)]-instantiation_error ]) )),
        true(Caught-W == caught-[]) ]) :-
     with_tree(Tree, ( catch(motor_run(outB, 50, 90, Options), error(Error, _), Caught = caught),
@@ -512,7 +512,7 @@ test(a_wrong_argument_throws,
                          outB-_-instantiation_error,
                          outB-foo-type_error(list, foo),
                          outB-[timeout(-1)]-domain_error(timeout, -1),
-                         outB-[timeout(x)]-type_error(number, x) ]) )),
+                         outB-[timeout(x)]-type_error(evaluable, x/0) ]) )),
        error(Error, _) ]) :-
     with_tree(Tree, motor_wait(Ports, Options, _)).
 

@@ -83,7 +83,7 @@ shows(light_row(P, V), P, 'ms-line-leader', 'CAL', [1, 2, 3, 4, 5, 6, 7, 8], 0,
       V, [1, 2, 3, 4, 5, 6, 7, 8], [],
       [100, 100, 100, 100, 100, 100, 100, 100]).
 shows(line_leader(P, S, L), P, 'ms-line-leader', 'PID-ALL', [-30, 25, 6], 0,
-      S-L, -30-[2, 3], [line(black, 1, [[2.2, -50], [2.2, 50]])], 71-[7]).
+      S-L, -30-[2, 3], [line(black, 1, [2.2- -50, 2.2-50])], 71-[7]).
 shows(line_leader(P, S, L), P, 'ms-line-leader', 'PID-ALL', [100, 80, -128], 0,
       S-L, 100-[8], [], 0-[]).
 shows(energy_meter(P, I, O, J), P, 'lego-power-storage', 'ALL',
@@ -274,7 +274,7 @@ test(are_those_of_the_files,
      [ forall(( behaving(Tree), several(Type, Mode) )),
        true(Once-Again == Files-Files) ]) :-
     World = [ beacon(20, 60, 1), beacon(-50, 60, 4), floor('#c08040'),
-              line(black, 2, [[1, -10], [1, 10]]) ],
+              line(black, 2, [1- -10, 1-10]) ],
     with_sensor(Tree, Type, World,
                 ( sensor_values(in1, Mode, Once),
                   sensor_values(in1, Mode, Again),

@@ -580,7 +580,7 @@ test(bounds_hold_a_cell, error(domain_error(bounds, bounds(1,0,0,0)), _)) :-
     grid_map([bounds(1, 0, 0, 0)], _).
 test(bounds_are_integers, error(type_error(integer, a), _)) :-
     grid_map([bounds(0, 0, a, 0)], _).
-test(rows_are_text, error(domain_error(map_row, f(x)), _)) :-
+test(rows_are_text, error(type_error(atom, f(x)), _)) :-
     grid_map([rows([f(x)])], _).
 test(rows_have_known_characters, error(domain_error(map_row, "..?"), _)) :-
     grid_map([rows(["..?"])], _).

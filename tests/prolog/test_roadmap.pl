@@ -26,8 +26,8 @@ world_fact(box(50, 50, 10, 10)).
 world_fact(box(50, 50, 10, 10, 45)).
 world_fact(circle(200, 200, 5)).
 world_fact(floor(yellow)).
-world_fact(patch(blue, [[0, 0], [9, 0], [9, 9]])).
-world_fact(line('#102030', 2, [[0, 0], [100, 100]])).
+world_fact(patch(blue, [0-0, 9-0, [9, 9]])).
+world_fact(line('#102030', 2, [0-0, [100, 100]])).
 world_fact(lamp(1, 1, 12)).
 world_fact(lamp(1, 1, 12, outD)).
 world_fact(beacon(1, 1, 1)).
@@ -175,7 +175,7 @@ test(fact_of_words, error(type_error(number, a))) :-
     roadmap_path([circle(a, 2, 3)], 0-0, 1-1, _).
 test(unbound_fact, error(_)) :-
     roadmap_path([_], 0-0, 1-1, _).
-test(corner_that_is_none, error(domain_error(point, a+b))) :-
+test(corner_that_is_none, error(domain_error(place, a+b))) :-
     roadmap_path([polygon([0-0, 1-1, a+b])], 0-0, 1-1, _).
 test(no_such_world, error(existence_error(world, nowhere))) :-
     roadmap_path(nowhere, 0-0, 1-1, _).
@@ -185,18 +185,18 @@ test(unbound_start, error(instantiation_error)) :-
     roadmap_path([], _, 1-1, _).
 test(unbound_goal, error(instantiation_error)) :-
     roadmap_path([], 0-0, _-1, _).
-test(no_place, error(domain_error(point, here))) :-
+test(no_place, error(domain_error(place, here))) :-
     roadmap_path([], 0-0, here, _).
 test(bad_option, [ forall(bad(Option, Formal)), error(Formal) ]) :-
     roadmap_path([], 0-0, 1-1, _, [Option]).
 
 bad(radius(0), domain_error(positive_number, 0)).
 bad(radius(a), type_error(evaluable, a/0)).
-bad(margin(-1), domain_error(nonneg, -1)).
+bad(margin(-1), domain_error(nonnegative_number, -1)).
 bad(arc_radius(0), domain_error(positive_number, 0)).
 bad(method(guess), domain_error(roadmap_method, guess)).
 bad(method(_), instantiation_error).
-bad(samples(-1), type_error(nonneg, -1)).
+bad(samples(-1), domain_error(samples, -1)).
 bad(samples(1000000), domain_error(samples, 1000000)).
 bad(seed(x), type_error(integer, x)).
 bad(steps(5), domain_error(roadmap_option, steps(5))).

@@ -9,7 +9,7 @@
           ]).
 :- use_module('../private/errors',
               [domain_error/2, must_be/2]).
-:- use_module('../private/arguments', [finite/1]).
+:- use_module('../private/domains', [finite/1]).
 :- use_module(best_first).
 :- use_module(breadth_first).
 :- use_module(d_star_lite).

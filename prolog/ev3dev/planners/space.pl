@@ -12,7 +12,8 @@
               ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/3]).
-:- use_module('../private/arguments', [finite/1, must_be_options/3]).
+:- use_module('../private/arguments', [must_be_options/3]).
+:- use_module('../private/domains', [finite/1]).
 
 /** <module> The space that a planner searches
 

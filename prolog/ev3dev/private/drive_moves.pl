@@ -9,11 +9,9 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(arguments, [must_be_options/3, must_be_timeout/1]).
-:- use_module('../odometry',
-              [ drive_option/2, number_value/2,
-                valid_drive_option/3
-              ]).
+:- use_module(arguments,
+              [must_be_options/3, number_option/4, timeout_option/2]).
+:- use_module('../odometry', [drive_option/2]).
 :- use_module(robot_state, [robot/4, robot_description/1]).
 :- use_module(native, [drive_/4, drive_wait_/3]).
 
@@ -63,16 +61,15 @@ move_options(Percent, Course, Options,
     must_be_move_options(Options),
     evaluated(abs(Percent), Speed),
     drive_option(acceleration, Default),
-    option(acceleration(Acceleration0), Options, Default),
-    valid_drive_option(acceleration, Acceleration0, Acceleration),
+    number_option(acceleration(Acceleration), positive_number, Options,
+                  Default),
     option(stop_action(Action), Options, hold),
     drive_option(use_gyro, Default1),
     option(use_gyro(UseGyro), Options, Default1),
     must_be(boolean, UseGyro),
     option(wait(Wait0), Options, true),
     must_be(boolean, Wait0),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     (   Course = legs(_, _)
     ->  Wait = Wait0
     ;   Wait = false
@@ -100,8 +97,7 @@ ended(Reason, Course) :-
 
 drive_wait(Options, Reason) :-
     must_be_options(drive_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     robot_description(Robot),
     catch(drive_wait_(Robot, Timeout, Reason),
           error(existence_error(_, _), _),
@@ -125,8 +121,7 @@ must_be_move_options(Options) :-
 speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    number_value(Speed, Percent).
+    number_option(speed(Percent), finite_number, Options, Default).
 
 %!  backwards(+Direction, -Backwards) is det.
 %

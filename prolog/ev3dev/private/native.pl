@@ -6,6 +6,7 @@
             dev_use_/1,
             file_read_/2,
             file_write_/2,
+            now_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
@@ -65,6 +66,7 @@
             pose_/5,
             pose_uncertainty_/3,
             set_pose_/5,
+            grid_drawn_/2,
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
@@ -128,6 +130,7 @@ missing.
 %!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
+%!  now_(-Seconds) is det.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
@@ -250,6 +253,12 @@ missing.
 %
 %   `src/drive.rs`
 
+% Grids
+
+%!  grid_drawn_(+Rows, -Drawn) is det.
+%
+%   `src/grid.rs`
+
 % Roadmaps
 
 %!  roadmap_(+Facts, +Start, +Goal, +Options, -Way) is semidet.
@@ -260,7 +269,7 @@ missing.
 % Navigation
 
 %!  steer_(+Way, +Pose, +Before, -Gone, -DegreesPerCm) is semidet.
-%!  views_block_(+Views, +Point) is semidet.
+%!  views_block_(+Views, +Place) is semidet.
 %!  views_forget_(+Views) is semidet.
 %!  views_look_(+Views, +Pose, +Sensor, +Range, -Moved) is semidet.
 %!  views_new_(+Radius, -Views) is semidet.

@@ -3,8 +3,8 @@
 use crate::robots::default_robot;
 use ev3_sim::facts::{Fact, culprit};
 use ev3_sim::{
-    Action, Bounds, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose, RobotSpec,
-    WorldSpec,
+    Action, Bounds, Drawing, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
+    RobotSpec, WorldSpec,
 };
 
 use crate::desk::{B, C, Desk, furnished};
@@ -44,7 +44,7 @@ fn impossible_worlds_and_robots_are_named() {
 #[test]
 fn errors_are_put_to_the_fact_that_is_to_blame() {
     let circle = |x: f64| Fact::Item(Item::Circle { center: [x, 0.0], radius: 3.0 });
-    let drawn = Fact::Map(WorldSpec::from_map("#.\n.#", 20.0).unwrap());
+    let drawn = Fact::Map(Drawing::read(&["#.", ".#"]).unwrap().drawn(20.0).unwrap());
     let start = |x: f64| Fact::Start(Pose::new(x, 0.0, 0.0));
     let blamed = |facts: &[Fact]| {
         let world = WorldSpec::from_facts(facts);
@@ -56,6 +56,11 @@ fn errors_are_put_to_the_fact_that_is_to_blame() {
         blamed(&[circle(50.0), circle(1.0)]),
         Some(1),
         "without a start, what is in the way"
+    );
+    assert_eq!(
+        blamed(&[circle(1.0), start(0.0), drawn.clone()]),
+        Some(1),
+        "a drawing without a start sets none"
     );
     assert_eq!(blamed(&[start(0.0), Fact::Ambient(1.0), Fact::Ambient(-1.0)]), Some(2));
     let tiny = Fact::Item(Item::Circle { center: [0.0, 90.0], radius: 0.0 });
