@@ -5,10 +5,10 @@
             button_events/1             % -Events
           ]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, must_be_timeout/1]).
+:- use_module(private/arguments,
+              [must_be_options/3, must_be_timeout/1, option/3]).
+:- use_module(private/one_of).
 :- use_module(private/native,
               [ button_event_/4, button_source_/1, button_wait_/3,
                 buttons_/1 ]).
@@ -37,7 +37,7 @@ button(Key) :-
     var(Key),
     !,
     buttons_(Keys),
-    member(Key, Keys).
+    one_of(Keys, Key).
 button(Key) :-
     must_be(atom, Key),
     (   memberchk(Key, [up, down, left, right, enter, back])

@@ -3,8 +3,7 @@
           ]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
 :- use_module(odometry, [number_value/2]).
 :- use_module(drive, [go_cm/3, turn/3]).

@@ -21,8 +21,7 @@
               [ domain_error/2, instantiation_error/1, must_be/2,
                 term_expansion/2, type_error/2
               ]).
-:- use_module(library(option), [option/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments, [take_options/4, option/3]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
                 speed_option/2

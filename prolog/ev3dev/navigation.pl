@@ -2,13 +2,12 @@
           [ navigate_to/2,      % +Map, +Goal
             navigate_to/3       % +Map, +Goal, +Options
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
 :- use_module(private/drive_moves, [move/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments, [take_options/4, option/2, option/3]).
 :- use_module(private/roadmap_arguments,
               [ number_option/4, roadmap_facts/2, roadmap_options/2,
                 roadmap_point/2
@@ -99,7 +98,7 @@ navigate_to(Map, Goal0, Options) :-
         true,
         navigate(Drive, Steps, Reason0),
         ignore(stop)),
-    debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
+    explain("way to ~p: ~w", [Goal, Reason0]),
     views_obstacles_(Views, Facts, Obstacles0),
     option(obstacles(Obstacles), Own, _),
     option(reason(Reason), Own, reached),

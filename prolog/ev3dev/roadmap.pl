@@ -5,10 +5,9 @@
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(driver, []).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments, [take_options/4, option/3]).
 :- use_module(private/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
 :- reexport(navigation).
@@ -124,7 +123,7 @@ way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
     (   Found = no_way(Why)
-    ->  debug(ev3dev, "no way from ~p to ~p: ~w", [Start, Goal, Why]),
+    ->  explain("no way from ~p to ~p: ~w", [Start, Goal, Why]),
         fail
     ;   Found = way(Length0, Points, Legs)
     ),

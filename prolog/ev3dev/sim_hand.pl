@@ -17,9 +17,8 @@
           ]).
 :- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/native,
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,

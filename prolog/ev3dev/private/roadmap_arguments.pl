@@ -5,10 +5,9 @@
             number_option/4             % +Option, +Domain, +Options, +Default
           ]).
 :- use_module(errors, [evaluated/2, domain_error/2, must_be/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(facts, [located_facts/3]).
-:- use_module(arguments, [finite/1, must_be_options/3]).
+:- use_module(arguments, [finite/1, must_be_options/3, option/3]).
 
 /** <module> Arguments of planning and navigation
 

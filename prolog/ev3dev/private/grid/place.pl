@@ -8,12 +8,11 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module('../errors', [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).
-:- use_module('../arguments', [finite/1, take_options/4]).
+:- use_module('../arguments', [finite/1, take_options/4, option/2, option/3]).
 
 /** <module> A robot on a grid
 
