@@ -35,5 +35,6 @@ does a move that is impossible; `debug(ev3dev)` tells what is missing, or why
 a motor does not run. What is no sensible argument throws.
 */
 
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(ev3dev/private/compiled, []).
 :- reexport(ev3dev/private/core).

@@ -201,6 +201,14 @@ test(explains_what_is_missing, true) :-
     assertion(Status == 0),
     assertion(sub_string(Text, _, _, _, "there is no light nowhere")),
     assertion(\+ sub_string(Text, _, _, _, "topic")).
+test(is_not_gone_into_by_the_tracer, Result == 0-"") :-
+    run("use_module(library(ev3dev)),
+         forall(( current_module(M), sub_atom(M, 0, _, _, ev3dev),
+                  current_predicate(M:N/A), functor(H, N, A),
+                  \\+ predicate_property(M:H, imported_from(_)),
+                  \\+ predicate_property(M:H, dynamic),
+                  \\+ predicate_property(M:H, nodebug) ),
+                ( print(M:N/A), nl ))", Result).
 test(is_found_by_make_after_an_edit, true(Status-Said == 0-true)) :-
     in_copy('prolog/ev3dev/motors.pl', File),
     format(string(Goal),

@@ -4,6 +4,7 @@
             button_wait/3,              % ?Key, ?Event, +Options
             button_events/1             % -Events
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(files, []).
 :- use_module(private/arguments,

@@ -1,6 +1,7 @@
 :- module(ev3dev_compile,
           [ ev3dev_compile/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled,
               [ contents/2, index_file/1, pack_folder/1, source_time/2,
                 this_prolog/1, use_sources/0 ]).
@@ -221,8 +222,8 @@ compile(Name, Files, If, Folder, Qlf) :-
         close(Out)),
     qcompile(Source).
 
-%   What the files of a unit load becomes part of it, too, or is needed by it if
-%   it is loaded already: then the unit has only the imports.
+%   What the files of a unit load becomes part of it, too. What is loaded
+%   already is needed by it, and the unit has only the imports.
 
 :- multifile user:term_expansion/2.
 :- dynamic user:term_expansion/2.

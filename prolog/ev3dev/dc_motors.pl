@@ -11,6 +11,7 @@
             dc_motor_ramps/3,           % ?Port, ?Up, ?Down
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

@@ -1,6 +1,7 @@
 :- module(ev3dev_device_table,
           [ ev3_devices/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(driver,
               [ decimals/2, lego_sensor/2, mode/2, position/2,

@@ -17,6 +17,7 @@
             follow/1,           % +Points
             follow/2            % +Points, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, instantiation_error/1, must_be/2,
                 term_expansion/2, type_error/2

@@ -6,6 +6,7 @@
             ir_seeker/4                 % ?Port, +Light, -Direction,
                                         % -Strengths
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native, [sensor_values_/5]).

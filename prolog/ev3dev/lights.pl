@@ -5,6 +5,7 @@
             led_triggers/2,             % ?Light, -Triggers
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

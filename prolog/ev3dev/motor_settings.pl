@@ -7,6 +7,7 @@
             motor_speed_pid/2,          % ?Port, ?PID
             motor_hold_pid/2            % ?Port, ?PID
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, term_expansion/2
               ]).

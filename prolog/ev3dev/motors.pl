@@ -20,6 +20,7 @@
             motor_run_to/4,             % +Port, +Speed, +Angle, +Options
             motor_run_direct/2          % +Port, +Percent
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

@@ -2,6 +2,7 @@
           [ navigate_to/2,      % +Map, +Goal
             navigate_to/3       % +Map, +Goal, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).

@@ -21,6 +21,7 @@
             line_leader/3,              % ?Port, -Steering, -Seen
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(sensors, [reading_types/2, sensor_reading/3]).
 :- use_module(private/sensor_type, [sensor_of/3]).

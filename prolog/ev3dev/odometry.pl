@@ -7,6 +7,7 @@
             valid_drive_option/3,   % +Name, +Value, -Valid
             number_value/2          % +Expression, -Number
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

@@ -5,6 +5,7 @@
             port_status/2,              % ?Port, -Status
             port_device/2               % ?Port, ?Device
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).

@@ -4,6 +4,7 @@
             roadmap_legs/5,     % +Map, +Start, +Goal, -Legs, +Options
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).

@@ -8,6 +8,7 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

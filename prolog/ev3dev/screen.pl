@@ -16,6 +16,7 @@
             screen_show/0,
             screen_png/1                % +File
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

@@ -23,6 +23,7 @@
             adjust_val/3,               % +Port, +Raw, -Value
             reading_types/2             % ?Reading, ?Types
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, [lego_sensor/2]).

@@ -3,6 +3,7 @@
             sim_start/2,                % +World, +Options
             sim_stop/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/2

@@ -15,6 +15,7 @@
             added_facts/1,              % -Added
             set_added_facts/1           % +Added
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, []).

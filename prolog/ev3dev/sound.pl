@@ -7,6 +7,7 @@
             volume/1,                   % ?Percent
             sound_stop/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

@@ -3,6 +3,7 @@
 /** <module> What library(ev3dev) offers
 */
 
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(scripts, []).
 :- use_module(help, []).
 :- reexport('../driver').
