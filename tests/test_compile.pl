@@ -173,6 +173,10 @@ same_compiled_or_not(Goal) :-
 
 test(is_used, Origin == "compiled") :-
     origin(Origin).
+test(is_used_by_an_absolute_name, Origin == "compiled") :-
+    in_copy('prolog/ev3dev', File),
+    format(string(Loading), "use_module(~q)", [File]),
+    origin(Loading, Origin).
 test(is_used_for_the_libraries_beside, Result == 0-"core drive grid ") :-
     run("use_module(library(ev3dev)), use_module(library(ev3dev/grid)),
          forall(( member(U, [core, drive, grid, roadmap]),
