@@ -106,13 +106,16 @@ check-versions: dist
 demo: build
 	@tools/demo.sh $(EXAMPLE)
 
+# Its files then load several times as fast; they are for this Prolog alone
 install:
+	@$(SWIPL) -q -f none -t 'halt(1)' </dev/null \
+	    -g "asserta(user:file_search_path(library,prolog)),use_module(library(ev3dev/compile)),ev3dev_compile,halt"
 
 clean:
 	$(CARGO) clean
 
 distclean: clean
-	rm -rf lib dist doc
+	rm -rf lib dist doc compiled
 
 # The toolchain for other machines, too: 1.3 GB to fetch again
 realclean: distclean

@@ -35,22 +35,6 @@ does a move that is impossible; `debug(ev3dev)` tells what is missing, or why
 a motor does not run. What is no sensible argument throws.
 */
 
-:- use_module(ev3dev/private/scripts, []).
-:- use_module(ev3dev/private/help, []).
-:- reexport(ev3dev/driver).
-:- reexport(ev3dev/device_table).
-:- reexport(ev3dev/motors).
-:- reexport(ev3dev/motor_settings).
-:- reexport(ev3dev/dc_motors).
-:- reexport(ev3dev/servo_motors).
-:- reexport(ev3dev/sensors, except([reading_types/2])).
-:- reexport(ev3dev/infrared).
-:- reexport(ev3dev/nxt_sensors).
-:- reexport(ev3dev/sensor_info).
-:- reexport(ev3dev/robot).
-:- reexport(ev3dev/lights).
-:- reexport(ev3dev/battery).
-:- reexport(ev3dev/ports).
-:- reexport(ev3dev/buttons).
-:- reexport(ev3dev/sound).
-:- reexport(ev3dev/screen).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(ev3dev/private/compiled, []).
+:- reexport(ev3dev/private/core).

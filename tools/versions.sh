@@ -65,6 +65,8 @@ try() {
         -g "pack_install('$home/${archive##*/}', [interactive(false)])" -t halt
     step "$name: pack_install again, to update" nothing_to_build_with \
         -g "pack_install('$home/${archive##*/}', [interactive(false), upgrade(true)])" -t halt
+    step "$name: compile" nothing_to_build_with \
+        -g "use_module(library(ev3dev/compile)),ev3dev_compile,halt" -t 'halt(1)'
     step "$name: every predicate" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/smoke.pl"
     step "$name: an example" nothing_to_build_with \

@@ -1,6 +1,7 @@
 :- module(ev3dev_battery,
           [ battery/2                   % ?Key, -Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/native, [battery_/2]).
 

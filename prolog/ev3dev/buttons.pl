@@ -4,11 +4,12 @@
             button_wait/3,              % ?Key, ?Event, +Options
             button_events/1             % -Events
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, timeout_option/2]).
+:- use_module(private/arguments,
+              [must_be_options/3, option/3, timeout_option/2]).
+:- use_module(private/one_of).
 :- use_module(private/native,
               [ button_event_/4, button_source_/1, button_wait_/3,
                 buttons_/1 ]).
@@ -37,7 +38,7 @@ button(Key) :-
     var(Key),
     !,
     buttons_(Keys),
-    member(Key, Keys).
+    one_of(Keys, Key).
 button(Key) :-
     must_be(atom, Key),
     (   memberchk(Key, [up, down, left, right, enter, back])

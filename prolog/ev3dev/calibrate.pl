@@ -1,11 +1,13 @@
 :- module(ev3dev_calibrate,
           [ calibrate/3                 % +What, :Options, -SetRobot
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
-:- use_module(library(option), [option/2, option/3]).
 :- use_module(private/arguments,
-              [must_be_options/3, number_option/4, number_value/2]).
+              [ must_be_options/3, number_option/4, number_value/2,
+                option/2, option/3
+              ]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
 :- use_module(drive, [go_cm/3, turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).

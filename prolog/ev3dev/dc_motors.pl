@@ -11,10 +11,11 @@
             dc_motor_ramps/3,           % ?Port, ?Up, ?Down
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/halt, []).
@@ -97,7 +98,7 @@ dc_motor_run_timed(Port, Percent0, Seconds0, Options) :-
 run_ended(reached, _) :-
     !.
 run_ended(Reason, Port) :-
-    debug(ev3dev, "the run of ~w ended early: ~w", [Port, Reason]),
+    explain("the run of ~w ended early: ~w", [Port, Reason]),
     fail.
 
 %!  dc_motor_run_direct(+Port, +Percent) is semidet.
@@ -114,8 +115,8 @@ dc_motor_run_direct(Port, Percent0) :-
 
 cannot(Port, Percent) :-
     (   dc_motor(Port)
-    ->  debug(ev3dev, "~w cannot run so, at ~w %", [Port, Percent])
-    ;   debug(ev3dev, "~w is no port for a motor without sensor", [Port])
+    ->  explain("~w cannot run so, at ~w %", [Port, Percent])
+    ;   explain("~w is no port for a motor without sensor", [Port])
     ),
     fail.
 

@@ -1,14 +1,15 @@
 :- module(ev3dev_device_table,
           [ ev3_devices/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(driver,
               [ decimals/2, lego_sensor/2, mode/2, position/2,
                 sensor_attribute/3, state/2, tacho_motor/2, value/3
               ]).
 :- use_module(files, [ev3_sysfs/1]).
 :- use_module(private/native, [attribute_/4, device_/4]).
+:- use_module(private/one_of).
 
 /** <module> A table of what is connected
 */
@@ -24,7 +25,7 @@ ev3_devices :-
     ->  ev3_sysfs(Root),
         format("Nothing is connected (looking in ~w).~n", [Root])
     ;   format("~w~t~16|~w~t~38|~w~n", ['Port', 'Type', 'Reads']),
-        forall(member(row(Port, Type, Reads), Rows),
+        forall(one_of(Rows, row(Port, Type, Reads)),
                format("~w~t~16|~w~t~38|~w~n", [Port, Type, Reads]))
     ).
 

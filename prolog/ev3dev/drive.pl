@@ -18,6 +18,7 @@
             follow/1,           % +Places
             follow/2            % +Places, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,

@@ -34,6 +34,7 @@
             value_file/3,               % ?Port, +Index, -File
             decimals_file/2             % ?Port, -File
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/attributes,
               [attribute/4, attribute_words/4, value_attribute/2]).

@@ -5,6 +5,7 @@
             ev3_sysfs/1,                % ?Directory
             ev3_dev/1                   % ?Directory
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/directory, [directory_path/2, environment_directory/2]).
 :- use_module(private/native,

@@ -3,8 +3,9 @@
             plan_and_go_to/3,           % +Cell, ?Direction, :Options
             execute_plan/1              % +Plan
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(private/grid/knowledge).
@@ -101,7 +102,7 @@ plan_and_go_to(Cell, Direction, Module:Options0) :-
     planner_meant(Planner0, Planner),
     (   grid(Map, _)
     ->  true
-    ;   debug(ev3dev, "there is no grid: see set_grid/1", []),
+    ;   explain("there is no grid: see set_grid/1", []),
         fail
     ),
     Goal = state(Cell, Direction),
@@ -217,7 +218,7 @@ execute_plan(Plan) :-
     carry_out(Plan, nobody, Outcome),
     (   Outcome == done
     ->  true
-    ;   debug(ev3dev, "the plan was broken off: ~w", [Outcome]),
+    ;   explain("the plan was broken off: ~w", [Outcome]),
         fail
     ).
 

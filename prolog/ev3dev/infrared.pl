@@ -6,11 +6,12 @@
             ir_seeker/4                 % ?Port, +Light, -Direction,
                                         % -Strengths
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native, [sensor_values_/5]).
+:- use_module(private/one_of).
 
 /** <module> Infrared sensors
 
@@ -36,7 +37,7 @@ ir_remote(Port, Channel, Buttons) :-
     must_be_channel(Channel),
     sensor_values_(Port, ['lego-ev3-ir'], 'IR-REMOTE', 4,
                                   Codes),
-    nth1(Channel, Codes, Code),
+    of_channel(Codes, Channel, Code),
     buttons(Code, Held),
     Buttons = Held.
 
@@ -67,18 +68,20 @@ ir_beacon(Port, Channel, Heading, Percent) :-
     sensor_values_(Port, ['lego-ev3-ir'], 'IR-SEEK', 8,
                                   Values),
     findall(beacon(Channel, Seen, Far),
-            ( between(1, 4, Channel),
-              seen(Channel, Values, Seen, Far)
+            ( in_pairs(Values, Pairs),
+              of_channel(Pairs, Channel, Seen-Far),
+              Far =\= -128
             ),
             Beacons),
-    member(beacon(Channel, Heading, Percent), Beacons).
+    one_of(Beacons, beacon(Channel, Heading, Percent)).
 
-seen(Channel, Values, Heading, Percent) :-
-    Index is 2 * (Channel - 1),
-    nth0(Index, Values, Heading),
-    Next is Index + 1,
-    nth0(Next, Values, Percent),
-    Percent =\= -128.
+in_pairs([], []).
+in_pairs([Heading, Percent|Values], [Heading-Percent|Pairs]) :-
+    in_pairs(Values, Pairs).
+
+of_channel(Elements, Channel, Element) :-
+    Channels =.. [channels|Elements],
+    arg(Channel, Channels, Element).
 
 must_be_channel(Channel) :-
     (   var(Channel)

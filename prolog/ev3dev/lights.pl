@@ -5,10 +5,11 @@
             led_triggers/2,             % ?Light, -Triggers
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native,
               [ led_/3, led_set_colour_/2, led_set_delays_/3,
@@ -78,7 +79,7 @@ led(Light, Colour0) :-
     (   led_set_colour_(Light, Colour)
     ->  true
     ;   led(Light)
-    ->  debug(ev3dev, "the light ~w cannot show ~w", [Light, Colour]),
+    ->  explain("the light ~w cannot show ~w", [Light, Colour]),
         fail
     ;   no_light(Light)
     ).
@@ -111,7 +112,7 @@ percent(Expression, Percent) :-
     ).
 
 no_light(Light) :-
-    debug(ev3dev, "there is no light ~w", [Light]),
+    explain("there is no light ~w", [Light]),
     fail.
 
 %!  led_trigger(?Light, ?Trigger) is nondet.

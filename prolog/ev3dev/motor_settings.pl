@@ -7,16 +7,16 @@
             motor_speed_pid/2,          % ?Port, ?PID
             motor_hold_pid/2            % ?Port, ?PID
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, term_expansion/2
               ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native,
               [ attribute_/4, motor_position_/2, motor_set_position_/2 ]).
+:- use_module(private/one_of).
 
 /** <module> What a motor is set to
 
@@ -123,7 +123,7 @@ motor_pid(Port, Directory, PID) :-
 
 must_be_pid(PID) :-
     (   PID = pid(P, I, D)
-    ->  forall(member(Constant, [P, I, D]),
+    ->  forall(one_of([P, I, D], Constant),
                must_be_within(0, 2147483647, pid_constant, Constant))
     ;   domain_error(pid, PID)
     ).

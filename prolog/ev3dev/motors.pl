@@ -20,10 +20,11 @@
             motor_run_to/4,             % +Port, +Speed, +Angle, +Options
             motor_run_direct/2          % +Port, +Percent
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(private/halt, []).
@@ -37,6 +38,7 @@
                 motor_wait_flag_/3, motors_run_/1, run_forever_/2,
                 stop_all_motors_/0
               ]).
+:- use_module(private/one_of).
 
 /** <module> Motors
 
@@ -151,11 +153,11 @@ turn_ended(reached, _) :-
     !.
 turn_ended(stalled, Moves) :-
     !,
-    findall(Port, ( member(Move, Moves), arg(1, Move, Port) ), Ports),
+    findall(Port, ( one_of(Moves, Move), arg(1, Move, Port) ), Ports),
     print_message(warning, ev3dev(stalled(Ports))),
     fail.
 turn_ended(Reason, Moves) :-
-    debug(ev3dev, "~p ended early: ~w", [Moves, Reason]),
+    explain("~p ended early: ~w", [Moves, Reason]),
     fail.
 
 %!  why_not(+Runs) is failure.
@@ -164,19 +166,19 @@ turn_ended(Reason, Moves) :-
 %   that are missing, or else what they were to do.
 
 why_not(Runs) :-
-    debugging(ev3dev),
+    is_explained,
     findall(Port,
-            ( member(Run, Runs), arg(1, Run, Port), \+ tacho_motor(Port) ),
+            ( one_of(Runs, Run), arg(1, Run, Port), \+ tacho_motor(Port) ),
             Missing),
-    (   member(Port, Missing),
-        debug(ev3dev, "there is no motor at ~w", [Port])
+    (   one_of(Missing, Port),
+        explain("there is no motor at ~w", [Port])
     ;   Missing == [],
-        member(Run, Runs),
+        one_of(Runs, Run),
         arg(1, Run, Port),
         arg(2, Run, Percent),
         max_speed(Port, Max),
-        debug(ev3dev, "~w cannot run at ~w % of its ~w counts/s as ~p asks",
-              [Port, Percent, Max, Run])
+        explain("~w cannot run at ~w % of its ~w counts/s as ~p asks",
+                [Port, Percent, Max, Run])
     ),
     fail.
 
@@ -231,8 +233,8 @@ run_forever(Port, Speed) :-
     (   abs(CountsPerSecond) < 2 ** 31,
         run_forever_(Port, CountsPerSecond)
     ->  true
-    ;   debug(ev3dev, "~w cannot run at ~w counts/s",
-              [Port, CountsPerSecond]),
+    ;   explain("~w cannot run at ~w counts/s",
+                [Port, CountsPerSecond]),
         fail
     ).
 
@@ -329,8 +331,12 @@ motor_run_timed(Port, Speed, Seconds0, Options0) :-
     evaluated(Speed, Percent),
     evaluated(Seconds0, Seconds),
     must_be(list, Options0),
-    append(Options0, [stop_action(brake)], Options),
+    or_brake(Options0, Options),
     motors_turn([for(Port, Percent, Seconds)], Options).
+
+or_brake([], [stop_action(brake)]).
+or_brake([Option|Options0], [Option|Options]) :-
+    or_brake(Options0, Options).
 
 %!  motor_run_to(+Port, +Speed, +Angle) is semidet.
 %!  motor_run_to(+Port, +Speed, +Angle, +Options) is semidet.
@@ -362,9 +368,9 @@ motor_run_direct(Port, Percent0) :-
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
     ;   tacho_motor(Port)
-    ->  debug(ev3dev, "~w cannot run at ~w % of the voltage",
-              [Port, Percent]),
+    ->  explain("~w cannot run at ~w % of the voltage",
+                [Port, Percent]),
         fail
-    ;   debug(ev3dev, "there is no motor at ~w", [Port]),
+    ;   explain("there is no motor at ~w", [Port]),
         fail
     ).

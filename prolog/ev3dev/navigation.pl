@@ -2,14 +2,16 @@
           [ navigate_to/2,      % +Map, +Goal
             navigate_to/3       % +Map, +Goal, +Options
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
 :- use_module(private/drive_moves, [move/3]).
 :- use_module(private/arguments,
-              [number_option/4, number_value/2, take_options/4]).
+              [ number_option/4, number_value/2, option/2, option/3,
+                take_options/4
+              ]).
 :- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2]).
@@ -98,7 +100,7 @@ navigate_to(Map, Goal0, Options) :-
         true,
         navigate(Drive, Steps, Reason0),
         ignore(stop)),
-    debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
+    explain("way to ~p: ~w", [Goal, Reason0]),
     views_obstacles_(Views, Facts, Obstacles0),
     option(obstacles(Obstacles), Own, _),
     option(reason(Reason), Own, reached),

@@ -21,11 +21,12 @@
             line_leader/3,              % ?Port, -Steering, -Seen
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(sensors, [reading_types/2, sensor_reading/3]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native, [sensor_values_/5]).
+:- use_module(private/one_of).
 
 /** <module> Sensors of the NXT and of other makers
 
@@ -49,7 +50,7 @@ measured(Reading, Port, Value) :-
 measured(Reading, Port, Value) :-
     findall(Type,
             ( reading_types(Reading, Types),
-              member(Type, Types)
+              one_of(Types, Type)
             ),
             All),
     sensor_of(Port, All, _),

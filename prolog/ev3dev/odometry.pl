@@ -5,6 +5,7 @@
             heading_wrapped/2,      % +Heading, -Wrapped
             drive_option/2          % +Name, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).

@@ -1,4 +1,5 @@
 :- module(ev3dev_planners, []).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 
 /** <module> Planners to compare

@@ -5,8 +5,9 @@
             port_status/2,              % ?Port, -Status
             port_device/2               % ?Port, ?Device
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(private/attributes, [attribute_words/4]).
 :- use_module(private/native,
@@ -101,7 +102,7 @@ port_device(Port, Device) :-
 
 not_there(Port, What) :-
     (   lego_port(Port)
-    ->  debug(ev3dev, "nothing came of ~w at ~w", [What, Port])
-    ;   debug(ev3dev, "there is no port ~w", [Port])
+    ->  explain("nothing came of ~w at ~w", [What, Port])
+    ;   explain("there is no port ~w", [Port])
     ),
     fail.

@@ -4,11 +4,11 @@
             roadmap_legs/5,     % +Map, +Start, +Goal, -Legs, +Options
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(driver, []).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments, [option/3, take_options/4]).
 :- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
               [roadmap_facts/2, roadmap_options/2]).
@@ -125,7 +125,7 @@ way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
     (   Found = no_way(Why)
-    ->  debug(ev3dev, "no way from ~p to ~p: ~w", [Start, Goal, Why]),
+    ->  explain("no way from ~p to ~p: ~w", [Start, Goal, Why]),
         fail
     ;   Found = way(Length0, Points, Legs)
     ),

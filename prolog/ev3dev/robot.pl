@@ -8,9 +8,11 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
 :- use_module(private/arguments,
@@ -80,8 +82,8 @@ set_robot(WheelDiameter0, AxleLength0, Left, Right, Options) :-
         tacho_motor(Right, Type, RightPath),
         LeftPath \== RightPath
     ->  true
-    ;   debug(ev3dev, "~w and ~w are not two motors of one type",
-              [Left, Right]),
+    ;   explain("~w and ~w are not two motors of one type",
+                [Left, Right]),
         fail
     ),
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
@@ -260,7 +262,7 @@ turn_ended(Ended, Degrees) :-
 moves(Number) :-
     (   Number =\= 0
     ->  true
-    ;   debug(ev3dev, "a speed or an angle of 0 moves nothing", []),
+    ;   explain("a speed or an angle of 0 moves nothing", []),
         fail
     ).
 

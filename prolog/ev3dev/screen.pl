@@ -16,13 +16,14 @@
             screen_show/0,
             screen_png/1                % +File
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, must_be_within/4]).
+:- use_module(private/arguments,
+              [must_be_options/3, must_be_within/4, option/3]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ screen_clear_/0, screen_draw_/2, screen_image_/3,
@@ -261,7 +262,7 @@ screen_show :-
     ).
 
 no_screen :-
-    debug(ev3dev, "screen: there is no fb0 of 178 x 128 pixels", []),
+    explain("screen: there is no fb0 of 178 x 128 pixels", []),
     fail.
 
 %!  screen_png(+File) is semidet.

@@ -5,11 +5,12 @@
             sensor_type/2,              % ?Type, ?What
             sensor_command/2            % +Port, +Command
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
 :- use_module(private/attributes, [attribute_words/4]).
+:- use_module(private/one_of).
 
 /** <module> What sensors there are, and what they can do
 
@@ -131,11 +132,11 @@ info(Port, _, Item) :-
     mode(Port, Mode),
     sensor_values(Port, Mode, Values),
     sensor_attribute(Port, units, Units),
-    member(Item, [mode(Mode), values(Values), units(Units)]).
+    one_of([mode(Mode), values(Values), units(Units)], Item).
 info(Port, Type, modes(Modes)) :-
     attribute_words('lego-sensor', Port, modes, Names),
     findall(Mode,
-            ( member(Name, Names), mode_info(Type, Name, Mode) ),
+            ( one_of(Names, Name), mode_info(Type, Name, Mode) ),
             Modes).
 info(Port, _, commands(Commands)) :-
     attribute_words('lego-sensor', Port, commands, Commands).

@@ -23,7 +23,9 @@
             adjust_val/3,               % +Port, +Raw, -Value
             reading_types/2             % ?Reading, ?Types
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
@@ -131,7 +133,7 @@ sensor_reading(Reading, Port, Value) :-
     (   reading(Reading, Types, Mode, Index),
         sensor_value_(Port, Types, Mode, Index, Read)
     ->  Value = Read
-    ;   debug(ev3dev, "~w has no sensor for ~w", [Port, Reading]),
+    ;   explain("~w has no sensor for ~w", [Port, Reading]),
         fail
     ).
 

@@ -7,8 +7,9 @@
             servo_motor_pulses/4,       % ?Port, ?Min, ?Mid, ?Max
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [evaluated/2, term_expansion/2]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(private/halt, []).
@@ -69,8 +70,8 @@ servo_motor_angle(Port, Degrees0) :-
 
 cannot(Port, Position) :-
     (   servo_motor(Port)
-    ->  debug(ev3dev, "the servo at ~w cannot go to ~w", [Port, Position])
-    ;   debug(ev3dev, "there is no servo at ~w", [Port])
+    ->  explain("the servo at ~w cannot go to ~w", [Port, Position])
+    ;   explain("there is no servo at ~w", [Port])
     ),
     fail.
 

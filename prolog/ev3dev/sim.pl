@@ -3,14 +3,14 @@
             sim_start/2,                % +World, +Options
             sim_stop/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/2
               ]).
 :- use_module(library(lists), [nth1/3]).
-:- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(sim_hand, [set_added_facts/1]).

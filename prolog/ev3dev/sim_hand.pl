@@ -15,13 +15,14 @@
             added_facts/1,              % -Added
             set_added_facts/1           % +Added
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(driver, []).
 :- use_module(private/arguments,
-              [must_be_options/3, number_option/4, number_value/2,
-               number_value/3]).
+              [ must_be_options/3, number_option/4, number_value/2,
+                number_value/3, option/3
+              ]).
 :- use_module(private/native,
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,

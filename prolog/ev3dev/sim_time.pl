@@ -5,6 +5,7 @@
             sim_snapshot/1,             % -Snapshot
             sim_restore/1               % +Snapshot
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).

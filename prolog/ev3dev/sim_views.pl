@@ -7,6 +7,7 @@
             sim_mount/2,                % +Directory, +DevDirectory
             sim_unmount/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, []).

@@ -7,13 +7,13 @@
             volume/1,                   % ?Percent
             sound_stop/0
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
@@ -88,7 +88,7 @@ tones(Tones, Options) :-
     native_tones(Tones, Quarter, Native),
     (   tones_(Native)
     ->  true
-    ;   debug(ev3dev, "tone: there is no speaker", []),
+    ;   explain("tone: there is no speaker", []),
         fail
     ).
 

@@ -1,7 +1,7 @@
 % Places are X-Y, and [X, Y] is accepted wherever a program gives one. What is
 % no place is the same error everywhere.
 
-:- use_module(../support/simulation).
+:- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).

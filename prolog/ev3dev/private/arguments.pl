@@ -1,6 +1,8 @@
 :- module(ev3dev_arguments,
           [ must_be_options/3,          % +Domain, +Names, +Options
             take_options/4,             % +Names, +Options, -Taken, -Rest
+            option/2,                   % ?Option, +Options
+            option/3,                   % ?Option, +Options, +Default
             number_value/2,             % +Expression, -Number
             number_value/3,             % +Domain, +Expression, -Number
             number_option/4,            % ?Option, +Domain, +Options, +Default
@@ -78,6 +80,35 @@ taken([Option|Options], Names, Taken, Rest) :-
         Rest = [Option|Rest1]
     ),
     taken(Options, Names, Taken1, Rest1).
+
+%!  option(?Option, +Options) is semidet.
+%!  option(?Option, +Options, +Default) is semidet.
+%
+%   True if Option, a term Name(Value), has the Value that the first option of
+%   that Name has in Options; or else Default. Options are such as
+%   must_be_options/3 accepts. (Not by library(option): with all that it loads
+%   it takes a brick longer than the pack.)
+
+option(Option, Options) :-
+    Option =.. [Name, Value],
+    given(Options, Name, Given),
+    !,
+    Value = Given.
+
+option(Option, Options, Default) :-
+    Option =.. [Name, Value],
+    (   given(Options, Name, Given)
+    ->  Value = Given
+    ;   Value = Default
+    ).
+
+given([Option|Options], Name, Value) :-
+    (   Option = (Name=Value0)
+    ->  Value = Value0
+    ;   Option =.. [Name, Value0]
+    ->  Value = Value0
+    ;   given(Options, Name, Value)
+    ).
 
 %!  number_value(+Expression, -Number) is det.
 %!  number_value(+Domain, +Expression, -Number) is det.

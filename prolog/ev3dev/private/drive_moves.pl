@@ -6,11 +6,12 @@
             backwards/2,                % +Direction, -Backwards
             not_nothing/1               % +Number
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(explain).
 :- use_module(arguments,
-              [must_be_options/3, number_option/4, timeout_option/2]).
+              [ must_be_options/3, number_option/4, option/2, option/3,
+                timeout_option/2
+              ]).
 :- use_module('../odometry', [drive_option/2]).
 :- use_module(robot_state, [robot/4, robot_description/1]).
 :- use_module(native, [drive_/4, drive_wait_/3]).
@@ -51,8 +52,8 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
-              [Course, Percent]),
+    ;   explain("the robot cannot move by ~p at ~w %",
+                [Course, Percent]),
         fail
     ).
 
@@ -83,7 +84,7 @@ ended(stalled, _) :-
     print_message(warning, ev3dev(stalled([Left, Right]))),
     fail.
 ended(Reason, Course) :-
-    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
+    explain("~p ended early: ~w", [Course, Reason]),
     fail.
 
 %!  drive_wait(+Options, -Reason) is semidet.
@@ -140,6 +141,6 @@ backwards(Direction, Backwards) :-
 not_nothing(Number) :-
     (   Number =\= 0
     ->  true
-    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
+    ;   explain("a distance or an angle of 0 moves nothing", []),
         fail
     ).

@@ -40,7 +40,11 @@ load_once :-
 load_once :-
     library_file(File),
     open_shared_object(File, Library),
-    call_shared_object_function(Library, install),
+    current_prolog_flag(access_level, Level),
+    setup_call_cleanup(
+        set_prolog_flag(access_level, system),  % no tracer shows them
+        call_shared_object_function(Library, install),
+        set_prolog_flag(access_level, Level)),
     assertz(loaded).
 
 %!  library_file(-File) is det.

@@ -3,11 +3,11 @@
             roadmap_options/2           % +Options, -Native
           ]).
 :- use_module(errors, [must_be/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(facts, [located_facts/3]).
 :- use_module(arguments,
-              [must_be_options/3, must_be_within/4, number_option/4]).
+              [ must_be_options/3, must_be_within/4, number_option/4, option/3
+              ]).
 
 /** <module> Arguments of planning and navigation
 

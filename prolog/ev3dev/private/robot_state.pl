@@ -6,7 +6,7 @@
             robot_hook/0,
             move_hook/2                 % +Move, -Done
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(explain, [explain/2]).
 
 /** <module> The robot that is set
 */
@@ -36,7 +36,7 @@
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
     (   robot(WheelDiameter, AxleLength, Left, Right)
     ->  true
-    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
+    ;   explain("no robot is set: see set_robot/4", []),
         fail
     ).
 

@@ -8,14 +8,13 @@
           ]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).
 :- use_module('../arguments',
-              [ number_option/4, number_value/2, number_value/3,
-                take_options/4
+              [ number_option/4, number_value/2, number_value/3, option/2,
+                option/3, take_options/4
               ]).
 
 /** <module> A robot on a grid
