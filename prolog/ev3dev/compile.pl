@@ -215,6 +215,8 @@ compile(Name, Files, If, Folder, Qlf) :-
     setup_call_cleanup(
         open(Source, write, Out, [encoding(utf8)]),
         ( format(Out, ':- module(~q, []).~n', [Module]),
+          format(Out, ':- set_prolog_flag(~q, ~q).~n',
+                 [generate_debug_info, false]),
           forall('$member'(File, Files),
                  format(Out, ':- load_files(~q, ~q).~n',
                         [File, [qcompile(part), if(If), imports([])]]))

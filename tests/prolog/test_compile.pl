@@ -207,7 +207,8 @@ test(explains_what_is_missing, true) :-
     assertion(sub_string(Text, _, _, _, "there is no light nowhere")),
     assertion(\+ sub_string(Text, _, _, _, "topic")).
 test(is_not_gone_into_by_the_tracer, Result == 0-"") :-
-    run("use_module(library(ev3dev)),
+    run("use_module(library(ev3dev)), use_module(library(ev3dev/grid)),
+         use_module(library(ev3dev/sim)), sensor_type('lego-ev3-us', _),
          forall(( current_module(M), sub_atom(M, 0, _, _, ev3dev),
                   current_predicate(M:N/A), functor(H, N, A),
                   \\+ predicate_property(M:H, imported_from(_)),
@@ -279,6 +280,9 @@ test(is_not_used_without_a_good_index,
        true(Origin == "sources") ]) :-
     index_file(Index),
     meanwhile(Index, Change, origin(Origin)).
+test(is_not_used_while_comments_are_collected, Origin == "sources") :-
+    origin("use_module(library(pldoc)), use_module(library(pldoc/doc_process)), \c
+            doc_collect(true), use_module(library(ev3dev))", Origin).
 test(is_not_used_if_sources_are_loaded_already, Origin == "sources") :-
     origin("use_module(library(ev3dev/motors)), use_module(library(ev3dev))", Origin).
 

@@ -84,30 +84,34 @@ taken([Option|Options], Names, Taken, Rest) :-
 %!  option(?Option, +Options) is semidet.
 %!  option(?Option, +Options, +Default) is semidet.
 %
-%   True if Option, a term Name(Value), has the Value that the first option of
-%   that Name has in Options; or else Default. Options are such as
+%   True if Option, a term as Name(Value), is the first of its name in Options;
+%   where there is none, Value is Default. Options are such as
 %   must_be_options/3 accepts. (Not by library(option): with all that it loads
 %   it takes a brick longer than the pack.)
 
 option(Option, Options) :-
-    Option =.. [Name, Value],
-    given(Options, Name, Given),
+    given(Options, Option, Given),
     !,
-    Value = Given.
+    Option = Given.
 
 option(Option, Options, Default) :-
-    Option =.. [Name, Value],
-    (   given(Options, Name, Given)
-    ->  Value = Given
-    ;   Value = Default
+    (   given(Options, Option, Given)
+    ->  Option = Given
+    ;   arg(1, Option, Default)
     ).
 
-given([Option|Options], Name, Value) :-
-    (   Option = (Name=Value0)
-    ->  Value = Value0
-    ;   Option =.. [Name, Value0]
-    ->  Value = Value0
-    ;   given(Options, Name, Value)
+given(Options, Option, Given) :-
+    functor(Option, Name, Arity),
+    functor(Given, Name, Arity),
+    first(Options, Given).
+
+first([Option|Options], Given) :-
+    (   Option = Given
+    ->  true
+    ;   Option = (Name=Value),
+        functor(Given, Name, 1)
+    ->  arg(1, Given, Value)
+    ;   first(Options, Given)
     ).
 
 %!  number_value(+Expression, -Number) is det.

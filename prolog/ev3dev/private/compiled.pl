@@ -85,7 +85,10 @@ contents(File, Sum) :-
                 *          THE INDEX           *
                 *******************************/
 
+%   Comments are collected from sources alone (library(pldoc)).
+
 use_compiled :-
+    \+ current_prolog_flag(pldoc_collecting, true),
     index_file(File),
     exists_file(File),
     catch(read_index(File, Index), error(_, _), fail),
