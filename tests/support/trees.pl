@@ -38,7 +38,6 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(error)).
-:- use_module(library(filesex)).
 :- use_module(library(lists)).
 
 /** <module> The same test over three trees of devices
