@@ -286,6 +286,7 @@ test(speed_and_angle_are_expressions,
 test(waits_until_the_motor_is_there, [forall(tree(Tree))]) :-
     with_tree(Tree, obeying([outB],
                             ( motor_run(outB, 50, 360),
+                              settle(Tree),
                               get_attribute(outB, position, P) ))),
     atom_number(P, Position),
     near(Position, 360, 10).
@@ -627,8 +628,8 @@ linear(Tree, Goal) :-
 :- begin_tests(motor_run_timed).
 
 test(runs_for_its_time_and_brakes, [forall(behaving(Tree)), true(Ss-R == []-stopped)]) :-
-    on(Tree, ( sim_time(T0), motor_run_timed(outA, 50, 0.5), sim_time(T),
-               near(T - T0, 0.5, 0.15), motor_states(outA, Ss),
+    on(Tree, ( sim_time(T0), motor_run_timed(outA, 50, 0.5),
+               took(Tree, T0, 0.5, 0.15), motor_states(outA, Ss),
                position(outA, There), near(There, 390, 150), R = stopped )).
 test(writes_what_the_command_depends_on,
      true(W == [ command='run-timed', speed_sp='-525', stop_action=brake,
@@ -690,7 +691,8 @@ test(a_new_zero_counts, [forall(behaving(Tree))]) :-
                motor_run_to(outA, 50, 90), settle(Tree),
                position(outA, P), near(P, 90, 3) )).
 test(a_relative_move_after_it_counts_from_there, [forall(behaving(Tree))]) :-
-    on(Tree, ( motor_run_to(outA, 50, 90), motor_run(outA, 50, 90), settle(Tree),
+    on(Tree, ( motor_run_to(outA, 50, 90), settle(Tree),
+               motor_run(outA, 50, 90), settle(Tree),
                position(outA, P), near(P, 180, 2) )).
 test(writes_what_the_command_depends_on,
      true(W == [ command='run-to-abs-pos', position_sp='-180', speed_sp='525',

@@ -1,4 +1,5 @@
 :- use_module('../support/simulation').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(time)).
@@ -30,15 +31,16 @@ test(several_threads_wait_at_once) :-
                sim_time(T) )),
     Status == true,
     near(T, 1, 0.7).
+% On a busy machine it falls behind.
 test(real_time_passes_by_itself) :-
+    get_time(Before),
     with_sim([], [clock(realtime)],
-             ( get_time(Before), sim_time(T0), sleep(0.1), sim_time(T), get_time(After) )),
-    T - T0 > 0.09,
-    T - T0 < After - Before + 0.01.
+             ( eventually(( sim_time(T), T > 0.1 )), get_time(After) )),
+    T < After - Before.
 test(scaled_time_is_faster) :-
+    get_time(Before),
     with_sim([], [clock(scaled(50))],
-             ( sim_time(T0), sleep(0.1), sim_time(T) )),
-    T - T0 > 1.
+             eventually(( sim_time(T), get_time(Now), T > 5 * (Now - Before) ))).
 
 polled_until(Port, Position) :-
     position(Port, P),
