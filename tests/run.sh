@@ -9,7 +9,7 @@
 #
 # SWIPL names another Prolog, JOBS how many files run at once (default: one for
 # each processor, and one that waits). A leftover choice point or any other
-# warning fails the run, and so does a file that takes five minutes.
+# warning fails the run, and so does a file that takes twenty minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -35,7 +35,7 @@ one() {
     local log
     log=$logs/$(basename "$1" .pl).log
     SECONDS=0
-    if timeout 300 "$SWIPL" --on-warning=status --on-error=status \
+    if timeout 1200 "$SWIPL" --on-warning=status --on-error=status \
         -g run_tests -t halt "$1" </dev/null >"$log" 2>&1; then
         echo "$1" >>"$logs/passed"
     else

@@ -24,6 +24,8 @@ wheels(Attribute, Left-Right) :-
 
 % The wheels are there, within the tolerance of a motor.
 wheels_near(Left, Right, Tolerance) :-
+    current_tree(Tree),
+    settle(Tree),
     wheels(position, L-R),
     atom_number(L, AtLeft),
     atom_number(R, AtRight),

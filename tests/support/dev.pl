@@ -25,7 +25,6 @@ simulator's files through FUSE.
 :- meta_predicate
     on_dev(+, 0),
     with_dev(+, 0),
-    on_mount(0),
     back_to(+, 0).
 
 :- dynamic dev/1.                       % Directory
@@ -40,26 +39,18 @@ on_dev(plain, Goal) :-
                fb0-zero(91136)
              ], Goal).
 on_dev(simulator, Goal) :-
-    with_sim(room, Goal).
+    on(simulator, Goal).
 on_dev(mount, Goal) :-
-    on_mount(Goal).
-
-on_mount(Goal) :-
-    tmp_file(mount, Classes),
-    tmp_file(mount_dev, Dev),
-    setup_call_cleanup(
-        maplist(make_directory, [Classes, Dev]),
-        setup_call_cleanup(
-            ( sim_start(room, [clock(realtime)]),
-              sim_mount(Classes, Dev),
-              ev3_sysfs(Classes),
-              ev3_dev(Dev)
-            ),
-            once(Goal),
-            ( sim_unmount,
-              sim_stop
-            )),
-        maplist(delete_directory, [Classes, Dev])).
+    with_directory(Classes,
+        with_directory(Dev,
+            setup_call_cleanup(
+                ( sim_start(room, [clock(realtime)]),
+                  sim_mount(Classes, Dev),
+                  ev3_sysfs(Classes),
+                  ev3_dev(Dev) ),
+                once(Goal),
+                ( sim_unmount,
+                  sim_stop )))).
 
 %!  with_dev(+Files, :Goal)
 %

@@ -22,6 +22,7 @@ main :-
     check,
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
     forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
+    forall(without_partner(File), complain(no_test_or_no_module(File))),
     (   complaint
     ->  halt(1)
     ;   halt(0)
@@ -60,6 +61,25 @@ undocumented(Module, Name/Arity) :-
     functor(Head, Name, Arity),
     \+ predicate_property(Module:Head, imported_from(_)),
     \+ doc_comment(Module:Name/Arity, _, _, _).
+
+%!  without_partner(-File) is nondet.
+%
+%   A public module has a test file of its name, and the other way round: what
+%   is about no single module is in tests/behavior.
+
+without_partner(File) :-
+    named('prolog/ev3dev/*.pl', '', Name, File),
+    \+ named('tests/prolog/*.pl', test_, Name, _).
+without_partner(File) :-
+    named('tests/prolog/*.pl', test_, Name, File),
+    \+ named('prolog/ev3dev/*.pl', '', Name, _).
+
+named(Pattern, Prefix, Name, File) :-
+    expand_file_name(Pattern, Files),
+    member(File, Files),
+    file_base_name(File, Base),
+    file_name_extension(Stem, _, Base),
+    atom_concat(Prefix, Name, Stem).
 
 source(File) :-
     member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',

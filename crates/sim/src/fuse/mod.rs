@@ -31,11 +31,12 @@ use served::Served;
 
 const DEVICE: &str = "/dev/fuse";
 
-/// How long files may be busy that were closed.
-const FREE_WITHIN: Duration = Duration::from_secs(1);
+/// How long files may be busy that were closed: seconds, where three times as many threads want to
+/// run as there are processors.
+const FREE_WITHIN: Duration = Duration::from_secs(5);
 
 /// How long unmounting may take.
-const UNMOUNTED_WITHIN: Duration = Duration::from_secs(2);
+const UNMOUNTED_WITHIN: Duration = Duration::from_secs(10);
 
 /// Why a tree could not be mounted.
 #[derive(Debug, thiserror::Error)]
