@@ -75,15 +75,15 @@ fn read<'a, C: QueryableContextType>(
         ("circle", [x, y, radius]) => {
             Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
         }
-        ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
+        ("floor", [color]) => Fact::Floor(named(call, "color", color)?),
         ("patch", [color, corners]) => Fact::Item(Item::Patch {
             corners: call.points(corners)?,
-            color: named(call, "colour", color)?,
+            color: named(call, "color", color)?,
         }),
         ("line", [color, width, along]) => Fact::Item(Item::Line {
             points: call.points(along)?,
             width: number(width)?,
-            color: named(call, "colour", color)?,
+            color: named(call, "color", color)?,
         }),
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })

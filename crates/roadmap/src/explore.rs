@@ -187,7 +187,7 @@ mod tests {
         assert!((90.0..100.0).contains(&safe), "{safe}");
         let wall = Obstacle::wall([-20.0, 30.0], [5.0, 30.0], 1.0).unwrap();
         let map = Map::new(vec![wall], None).unwrap();
-        // No arc of half a metre fits beside the wall.
+        // No arc of half a meter fits beside the wall.
         let options = Options { arc_radius: 50.0, ..Options::default() };
         let step = views.next_step(&map, [0.0, 0.0], [0.0, 60.0], 2.0, &options).unwrap();
         assert_eq!(step.run.legs().len(), 1);

@@ -1,4 +1,4 @@
-//! RRT*: a tree that grows from the start towards points drawn at random, and
+//! RRT*: a tree that grows from the start toward points drawn at random, and
 //! is rewired where that shortens a way.
 use crate::geometry::{Point, distance, point, vec2};
 use crate::map::Map;

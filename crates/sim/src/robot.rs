@@ -14,7 +14,7 @@ pub struct Wheel {
     pub port: Port,
     /// Diameter in cm.
     pub diameter: f64,
-    /// The motor is mounted the other way round: positive turns drive backwards.
+    /// The motor is mounted the other way round: positive turns drive backward.
     pub inverted: bool,
     /// Share of its way that the wheel loses by slipping: 0 none, 0.01 one per cent.
     pub slip: f64,

@@ -3,7 +3,7 @@
 //! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
 //! a state that comes and goes between two announcements never. Other boards
 //! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
-//! but never for longer than [`SLICE`], then samples again; towards the end that
+//! but never for longer than [`SLICE`], then samples again; toward the end that
 //! position and speed predict it samples every [`SHORT_SLICE`].
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};

@@ -15,7 +15,7 @@ pub enum RemoteButton {
     BlueUp,
     /// Lower right.
     BlueDown,
-    /// The grey one in the middle.
+    /// The gray one in the middle.
     Beacon,
 }
 

@@ -33,7 +33,7 @@ const BUMPER_TRAVEL: f64 = 0.5;
 
 /// The NXT's sonar: nothing there is 255 cm.
 const NXT_SONAR_NOTHING: f64 = 255.0;
-/// The range of the sensor that measures how long light takes: two metres in a narrow beam.
+/// The range of the sensor that measures how long light takes: two meters in a narrow beam.
 const TIME_OF_FLIGHT_FAR: f64 = 200.0;
 /// How far `HiTechnic`'s proximity detector sees its own light come back, in cm.
 const REFLECTOR_FAR: f64 = 25.0;
@@ -126,7 +126,7 @@ impl View<'_> {
                 reading[5] = COUNTS_PER_G & 3;
             }
             Sense::AxesRate => reading[2] = whole(self.rate * 10.0),
-            Sense::Millimetres => {
+            Sense::Millimeters => {
                 let distance = self.cone(INFRARED_HALF_ANGLE, INFRARED_RAYS, TIME_OF_FLIGHT_FAR);
                 let seen = self.noise.disturb(distance.unwrap_or(TIME_OF_FLIGHT_FAR));
                 reading[0] = whole(seen.clamp(SONAR_NEAR, TIME_OF_FLIGHT_FAR) * 10.0);

@@ -115,7 +115,7 @@ pub(crate) enum Sense {
     /// Tenths of a degree per second about x, y and z.
     AxesRate,
     /// The nearest thing ahead, by the time that light takes.
-    Millimetres,
+    Millimeters,
     /// Light that comes back from something ahead: this over its distance in cm.
     Reflector {
         reach: i32,

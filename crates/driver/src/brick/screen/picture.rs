@@ -154,7 +154,7 @@ pub fn to_png(width: u32, height: u32, shades: &[u8]) -> Vec<u8> {
     let mut header = Vec::new();
     header.extend(width.to_be_bytes());
     header.extend(height.to_be_bytes());
-    // Grey, and the only compression, filters and order there are.
+    // Gray, and the only compression, filters and order there are.
     header.extend([bits, 0, 0, 0, 0]);
     chunk(&mut file, *b"IHDR", &header);
     let mut data = Vec::new();

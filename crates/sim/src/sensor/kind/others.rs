@@ -276,7 +276,7 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ms-tof",
         1,
         &[
-            Mode::new("DIST", 1, 0, "mm", Format::S16, Sense::Millimetres),
+            Mode::new("DIST", 1, 0, "mm", Format::S16, Sense::Millimeters),
             Mode::new("VOLT", 1, 0, "mV", Format::S16, Sense::Fixed(&[5000])),
         ],
     )
