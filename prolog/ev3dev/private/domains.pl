@@ -2,15 +2,15 @@
           [ allowed/2                   % ?Domain, ?What
           ]).
 
-/** <module> What may stand where a domain_error is thrown
+/** <module> The allowed values of each domain
 
-For the messages of errors, in one table.
+One table, for the messages of errors.
 */
 
 %!  allowed(?Domain, ?What) is nondet.
 %
-%   What may stand where domain_error(Domain, _) is thrown: a list of all
-%   values, or a text.
+%   What describes the allowed values of domain_error(Domain, _): a list of
+%   all values, or a text.
 
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).
