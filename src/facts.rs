@@ -33,7 +33,7 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// Raises what is impossible about a fact.
+/// Raises an error for an impossible fact.
 fn impossible<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
@@ -138,7 +138,7 @@ fn read<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// A world that is drawn.
+/// A drawn world.
 fn drawn<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     size: &Term<'a>,
@@ -151,7 +151,7 @@ fn drawn<'a, C: QueryableContextType>(
         let [Part::MapRow(row)] = *error.parts else {
             return wrong_because(call, "possible_geometry", size, &reason);
         };
-        // Empty rows at the top are no part of the drawing.
+        // Empty rows at the top do not belong to the drawing.
         let empty = texts.iter().take_while(|text| text.is_empty()).count();
         wrong_because(call, "map_row", list.get(empty + row).unwrap_or(rows), &reason)
     })
@@ -165,7 +165,7 @@ pub(crate) fn pose<C: QueryableContextType>(
     Ok(Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
 }
 
-/// Something that has a name: a port, a color.
+/// A value with a name: a port, a color.
 pub(crate) fn named<T: FromStr, C: QueryableContextType>(
     call: &Call<C>,
     domain: &str,

@@ -15,7 +15,7 @@ pub(crate) fn register() {
     register_led_set_delays();
 }
 
-/// Lights that are still to be answered.
+/// The lights that the call has not returned yet.
 type Lights = IntoIter<Light>;
 
 predicates! {
@@ -74,7 +74,7 @@ predicates! {
     }
 }
 
-/// What can be read of a light.
+/// The readable properties of a light.
 enum Read {
     Nothing,
     Color(Color),
