@@ -26,7 +26,7 @@ const DIRECTIONS: u8 = 24;
 /// How far ahead on its way a robot aims, in cm.
 const AHEAD: f64 = 4.0;
 
-/// What to do next.
+/// The next action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The way up to its first corner.
@@ -123,7 +123,7 @@ fn until_corner(path: Path) -> (Path, f64) {
 }
 
 impl Path {
-    /// Where it begins to go, in degrees.
+    /// The heading at its start, in degrees.
     #[must_use]
     pub fn heading(&self) -> f64 {
         let start = self.legs().first().map_or(Vec2::zeros(), |leg| vec2(leg.start()));

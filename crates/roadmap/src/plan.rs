@@ -28,14 +28,14 @@ pub struct Solution {
     pub path: Path,
     /// The way along the roadmap, from corner to corner.
     pub raw: Vec<Point>,
-    /// The lines of the roadmap that were looked at and keep the distance.
+    /// The lines of the roadmap that the search checked and that keep the distance.
     pub roadmap: Vec<[Point; 2]>,
 }
 
 /// Finds a way from a start to a goal.
 ///
 /// # Errors
-/// Says why there is none.
+/// The reason why there is no path.
 pub fn plan(map: &Map, start: Point, goal: Point, options: &Options) -> Result<Solution, NoWay> {
     if !map.point_clear(start, options.keep) {
         return Err(NoWay::StartBlocked);

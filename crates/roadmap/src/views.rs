@@ -1,4 +1,4 @@
-//! What an ultrasonic sensor has seen.
+//! The echoes that an ultrasonic sensor has measured.
 //!
 //! The sensor hears the nearest thing in a cone, 15 degrees to each side, and
 //! tells how far it is, but not where in the cone. So one look says two
@@ -51,18 +51,18 @@ const FRONT: [f64; 17] = [
     80.0, -80.0,
 ];
 
-/// A look through the sensor.
+/// A measurement of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where the sensor was.
+    /// The place of the sensor.
     pub at: Point,
-    /// Where it looked, in degrees.
+    /// Its heading, in degrees.
     pub heading: f64,
-    /// What it measured, in cm.
+    /// The measured distance, in cm.
     pub range: f64,
 }
 
-/// What one look tells.
+/// The information of one measurement.
 #[derive(Clone, Copy, Debug)]
 struct Look {
     at: Point,

@@ -1,4 +1,4 @@
-//! What the robot is made of, as plain data: the vocabulary of robot files.
+//! The parts of the robot, as plain data: the vocabulary of robot files.
 
 use crate::brick::port::Port;
 use crate::motor::MotorKind;

@@ -203,7 +203,7 @@ unsafe extern "C" {
 
 /// Declares functions that take a query, narrowing it to what C expects. (Before
 /// version 8, `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does
-/// not look at what they answer.)
+/// not look at their results.)
 macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]

@@ -61,7 +61,7 @@ impl Registry {
         Ok(Arc::clone(&listing.devices))
     }
 
-    /// The devices of a class that were seen when it was last looked at.
+    /// The devices of a class at the last listing.
     pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
         Arc::clone(&self.listing(class).devices)
     }
@@ -95,7 +95,7 @@ impl Registry {
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
-    /// Does something with the device at a port; `None` where there is none.
+    /// Calls a closure with the device at a port; `None` if there is no device.
     ///
     /// # Errors
     /// As `act`, or as [`all`](Self::all).

@@ -13,7 +13,7 @@ pub struct Move<'a> {
     pub port: &'a str,
     /// The speed; its sign is a direction.
     pub speed: Speed,
-    /// Where the move ends.
+    /// The target of the move.
     pub extent: Extent,
 }
 

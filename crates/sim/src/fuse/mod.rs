@@ -115,7 +115,7 @@ impl Mount {
         Ok(Mount { session: Some(session), watcher, shared, stop, path: path.to_owned() })
     }
 
-    /// Where it is mounted.
+    /// The directory of the mount.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -151,7 +151,7 @@ impl Mount {
                 Some(number) if is_unmounted && number == Errno::INVAL.raw_os_error() => Ok(()),
                 _ => Err(error),
             });
-            // Where nobody waits any more, it has been told that this may take long.
+            // If the receiver is gone, the caller knows that this may take long.
             let _ = sender.send(ended);
         })?;
         match ended.recv_timeout(UNMOUNTED_WITHIN) {

@@ -83,7 +83,7 @@ impl Machine {
         found.map(|(_, node)| node).ok_or(Errno::ENOENT)
     }
 
-    /// What is in a directory below `/dev`.
+    /// The entries of a directory below `/dev`.
     ///
     /// # Errors
     /// ENOTDIR.
@@ -234,7 +234,7 @@ impl DevDescriptor {
                 (Device::Sound, Some((EV_SND, SND_BELL, on))) => {
                     machine.set_tone(if on == 0 { 0 } else { BELL_HERTZ });
                 }
-                // What a device cannot do it passes over.
+                // The device ignores what it does not have.
                 _ => {}
             }
         }
@@ -267,7 +267,7 @@ impl DevDescriptor {
             // EVIOCGVERSION, EVIOCGID: the version of evdev; bus, vendor, product, version.
             0x01 => 0x0001_0001_i32.to_ne_bytes().to_vec(),
             0x02 => [0x19_u16, 1, 1, 0x100].map(u16::to_ne_bytes).concat(),
-            // EVIOCGEFFECTS: of force feedback there is none.
+            // EVIOCGEFFECTS: the device has no force feedback.
             0x84 => 0_i32.to_ne_bytes().to_vec(),
             // EVIOCGNAME, EVIOCGPHYS, EVIOCGKEY
             0x06 => name.into(),

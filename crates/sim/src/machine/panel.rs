@@ -1,4 +1,4 @@
-//! What a person does to the brick and notices of it: buttons, tones, speech.
+//! The actions and observations of a person at the brick: buttons, tones, speech.
 
 use std::time::Duration;
 

@@ -159,7 +159,7 @@ impl Machine {
         true
     }
 
-    /// Makes an attribute of the device at a port show a text, whatever the device is about, until
+    /// Makes an attribute of the device at a port show a text in place of its own, until
     /// [`Machine::unshow`] or until it is unplugged. What is written to the attribute is taken as
     /// ever. Only that file is changed: a sensor whose `value0` is shown has its own `bin_data`.
     ///

@@ -1,4 +1,4 @@
-//! What the driver does by itself: every 2 ms, at its timers, and when it looks at its flags.
+//! The periodic work of the driver: every 2 ms, at its timers, and when it samples its flags.
 
 use super::{Drive, Tacho};
 use crate::JIFFY_TICKS;

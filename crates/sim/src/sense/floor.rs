@@ -1,4 +1,4 @@
-//! What sensors that are not LEGO's see of the floor.
+//! Readings of the floor by sensors that are not LEGO's.
 
 use super::{View, whole};
 use crate::sensor::{Parts, Reading};

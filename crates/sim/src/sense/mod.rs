@@ -1,4 +1,4 @@
-//! What each sensor would measure, here and now.
+//! The measurement of each sensor at this place and time.
 
 mod floor;
 mod infrared;
@@ -25,7 +25,7 @@ const LAMP_HEIGHT: f64 = 30.0;
 const LAMP_DISTANCE: f64 = 100.0;
 /// A raw RGB part of white paper; the sensor is not calibrated.
 const RAW_WHITE: f64 = 420.0;
-/// What REF-RAW shows in the dark with its LED off.
+/// The value of REF-RAW in the dark with its LED off.
 const RAW_DARK: f64 = 560.0;
 /// A bumper: half its width, and how far it gives way, in cm.
 const BUMPER_HALF: f64 = 4.0;
@@ -40,10 +40,10 @@ const REFLECTOR_FAR: f64 = 25.0;
 /// `HiTechnic`'s accelerometer counts this many to the g, by its data sheet.
 const COUNTS_PER_G: i32 = 200;
 
-/// A look at the world through one sensor.
+/// The world as one sensor sees it.
 pub(crate) struct View<'a> {
     pub(crate) scene: &'a Scene,
-    /// Where the sensor is in the world and which way it looks.
+    /// The place of the sensor in the world, and its heading.
     pub(crate) pose: Pose,
     /// Degrees since the last reset, for a gyro.
     pub(crate) angle: f64,
@@ -51,7 +51,7 @@ pub(crate) struct View<'a> {
     pub(crate) rate: f64,
     /// The share of the voltage that each output port gives a lamp.
     pub(crate) power: [f64; 4],
-    /// What an angle sensor sits on.
+    /// The state of the axle that an angle sensor measures.
     pub(crate) axle: Axle,
     pub(crate) noise: Source,
 }

@@ -31,7 +31,7 @@ impl Picture {
         picture.map_err(|reason| Error::Format { path: path.to_owned(), format, reason })
     }
 
-    /// Where its pixels are, from the upper left corner, and their shades.
+    /// Its pixels, from the upper left corner, and their shades.
     pub(crate) fn pixels(&self) -> impl Iterator<Item = ([i32; 2], u8)> {
         let at = |index: usize| {
             let index = u32::try_from(index).ok()?;

@@ -33,7 +33,7 @@ const fn pressure(
     Mode::new(name, 1, 0, units, format, Sense::Fixed(fixed))
 }
 
-/// A camera that sees nothing it was told to look for.
+/// A camera that sees none of its objects.
 const fn camera(name: &'static str, values: usize) -> Mode {
     byte(name, values, Sense::Nothing)
 }
