@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/robot.pl`: turns by a gyro.
+//! `prolog/ev3dev/robot.pl`: what takes more than motors.
 use crate::glue::call::Call;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Class;
