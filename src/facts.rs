@@ -33,7 +33,7 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// Raises an error for an impossible fact.
+/// Raises what is impossible about a fact.
 fn impossible<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
@@ -75,15 +75,15 @@ fn read<'a, C: QueryableContextType>(
         ("circle", [x, y, radius]) => {
             Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
         }
-        ("floor", [color]) => Fact::Floor(named(call, "color", color)?),
+        ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
         ("patch", [color, corners]) => Fact::Item(Item::Patch {
             corners: call.points(corners)?,
-            color: named(call, "color", color)?,
+            color: named(call, "colour", color)?,
         }),
         ("line", [color, width, along]) => Fact::Item(Item::Line {
             points: call.points(along)?,
             width: number(width)?,
-            color: named(call, "color", color)?,
+            color: named(call, "colour", color)?,
         }),
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
@@ -138,7 +138,7 @@ fn read<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// A drawn world.
+/// A world that is drawn.
 fn drawn<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     size: &Term<'a>,
@@ -151,7 +151,7 @@ fn drawn<'a, C: QueryableContextType>(
         let [Part::MapRow(row)] = *error.parts else {
             return wrong_because(call, "possible_geometry", size, &reason);
         };
-        // Empty rows at the top do not belong to the drawing.
+        // Empty rows at the top are no part of the drawing.
         let empty = texts.iter().take_while(|text| text.is_empty()).count();
         wrong_because(call, "map_row", list.get(empty + row).unwrap_or(rows), &reason)
     })
@@ -165,7 +165,7 @@ pub(crate) fn pose<C: QueryableContextType>(
     Ok(Pose::new(call.float(x)?, call.float(y)?, call.float(heading)?))
 }
 
-/// A value with a name: a port, a color.
+/// Something that has a name: a port, a color.
 pub(crate) fn named<T: FromStr, C: QueryableContextType>(
     call: &Call<C>,
     domain: &str,

@@ -4,7 +4,7 @@
 
 /** <module> The allowed values of each domain
 
-One table, for the messages of errors.
+For the messages of errors, in one table.
 */
 
 %!  allowed(?Domain, ?What) is nondet.

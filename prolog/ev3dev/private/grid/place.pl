@@ -26,9 +26,10 @@ Which grid it is on, and where on it the robot is.
 
 %!  set_grid(+Options) is semidet.
 %
-%   Begin with an unknown grid and the robot in the middle of a cell. Fails if no robot is set, or a motor is not connected. Options are
-%   those of grid_map/2, where `rows` and `obstacles` are what is known from
-%   the start, and
+%   Begin with an unknown grid and the robot in the middle of a cell. Fails if
+%   no robot is set, or a motor is not connected. Options are those of
+%   grid_map/2, where `rows` and `obstacles` are what is known from the start,
+%   and
 %
 %     - start(+Cell, +Direction)
 %       Where the robot is, by default as drawn in `rows`, or in [0,0] with
