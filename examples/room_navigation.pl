@@ -14,9 +14,9 @@
 
 %   The map that the robot gets, in cm, and its pose at the start.
 
-told([ bounds(0, 0, 300, 250),
-       box(90, 165, 40, 25, 20)
-     ]).
+known_map([ bounds(0, 0, 300, 250),
+            box(90, 165, 40, 25, 20)
+          ]).
 
 stands(40, 40, 40).
 
@@ -30,7 +30,7 @@ start :-
 
 start(Goal) :-
     set_robot(5.6, 10.6, outB, outC),
-    told(Map),
+    known_map(Map),
     stands(X, Y, Heading),
     set_pose(X, Y, Heading),
     navigate_to(Map, Goal, [reason(Reason), obstacles(Found)]),
@@ -44,6 +44,6 @@ start(Goal) :-
 %   the obstacles of the map.
 
 picture(Goal, File) :-
-    told(Map),
+    known_map(Map),
     stands(X, Y, _),
     roadmap_svg(Map, X-Y, Goal, File, []).

@@ -15,8 +15,8 @@ pub enum NoWay {
     /// An obstacle is too near.
     #[error("an obstacle is too near to the goal")]
     GoalBlocked,
-    /// None was found. There is none, if it is the visibility graph that says so:
-    /// at least none that keeps 2 % more.
+    /// The search found no path. If the visibility graph found none, there is no path
+    /// that keeps 2 % more distance.
     #[error("there is no way between the obstacles")]
     None,
 }

@@ -41,8 +41,8 @@ pub struct SensorMount {
     pub port: Port,
     /// The driver's name, such as `lego-ev3-us`.
     pub driver: String,
-    /// Where it sits, from the middle of the axle: x to the right, y ahead, in cm, and where it
-    /// looks. A color sensor sees the floor below this point, and lamps in its direction; a touch
+    /// Its place from the middle of the axle, x to the right, y ahead, in cm, and its heading. A
+    /// color sensor sees the floor below this point, and lamps in its direction; a touch
     /// sensor is an 8 cm wide bumper across its heading.
     pub pose: Pose,
     /// Its errors.

@@ -19,7 +19,7 @@ const FIRST_SPACING_TICKS: u64 = 50;
 pub struct Collision {
     /// Virtual time.
     pub at: Duration,
-    /// What it ran into.
+    /// The obstacle.
     pub item: ItemId,
     /// The pose of the robot.
     pub pose: Pose,

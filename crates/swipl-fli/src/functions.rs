@@ -1,6 +1,6 @@
 //! Functions that every version from 7.2 to 10 has.
 //!
-//! Three kinds, told apart by what the headers say:
+//! Three kinds, as the headers declare them:
 //! [`truth!`] declares those that answer `int` in old versions and `bool` in
 //! new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same

@@ -247,8 +247,8 @@ impl Registry {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port_name::order(&a_port, &b_port).then_with(|| port_name::order(&a_name, &b_name))
         });
-        // A port has one device of a class. Where two directories say they are
-        // at it, the one with the lower number is about to vanish.
+        // A port has one device of a class. If two directories name the same port, the
+        // one with the lower number is about to vanish.
         devices.reverse();
         devices.dedup_by(|earlier, later| earlier.port() == later.port());
         devices.reverse();

@@ -167,8 +167,8 @@ pub(crate) fn duty(percent: f64) -> Option<i64> {
     (whole.abs() <= 100.0).then_some(whole as i64)
 }
 
-/// Where a motor is, in degrees, or millimeters of a linear actuator: an
-/// integer where a tacho count is one, else a float.
+/// The position of a motor in degrees, or millimeters of a linear actuator: an integer
+/// if a tacho count is one of these, else a float.
 ///
 /// # Errors
 /// The kernel's.

@@ -177,8 +177,8 @@ pub(crate) fn text(value: impl Display) -> Result<Vec<u8>, Errno> {
     Ok(format!("{value}\n").into_bytes())
 }
 
-/// What a device's `uevent` says: the only way to find driver and address without opening two
-/// files. Writing an action word makes udev look again; here it has nobody to wake.
+/// The text of a device's `uevent`, which has driver and address in one file. Writing an action
+/// word makes udev read the device again; here it has no effect.
 pub(crate) fn uevent(driver: &str, address: &str) -> Result<Vec<u8>, Errno> {
     text(format_args!("LEGO_DRIVER_NAME={driver}\nLEGO_ADDRESS={address}"))
 }

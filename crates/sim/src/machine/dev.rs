@@ -1,4 +1,4 @@
-//! The device files: what is below `/dev` on a brick.
+//! The device files, which are below `/dev` on a brick.
 //!
 //! ```text
 //! fb0
@@ -6,7 +6,7 @@
 //! input/event1    input/by-path/platform-gpio_keys-event
 //! ```
 //! The paths by which programs find an event device are links on a brick; here they are names of
-//! the same file. What the calls do and answer is the kernel's evdev and fbmem (known in general,
+//! the same file. The calls behave like the kernel's evdev and fbmem (known in general,
 //! not read in their source).
 
 use std::sync::Arc;
@@ -241,8 +241,8 @@ impl DevDescriptor {
         Ok(taken)
     }
 
-    /// What an ioctl answers: its result, and the bytes for the caller. Served are those that
-    /// tell about an event device, whose numbers hold their size.
+    /// The answer to an ioctl: its result, and the bytes for the caller. This serves the ioctls
+    /// that describe an event device; their numbers hold their size.
     ///
     /// # Errors
     /// ENOTTY for a device that has none, EINVAL for one that is not served.

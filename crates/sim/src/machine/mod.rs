@@ -1,7 +1,7 @@
-//! The whole: brick, robot and world, and what is true of them.
+//! The whole: brick, robot and world, and their state.
 //!
-//! What a program does with the files is in `files`, how wires come and go in `plugs`, how time
-//! passes in `time`.
+//! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
+//! time pass.
 
 mod descriptor;
 mod dev;
@@ -235,9 +235,8 @@ impl Machine {
         &self.robot
     }
 
-    /// Goes back to a snapshot. What is plugged in from now on gets numbers that no device has had
-    /// in the meantime, either: a program that still knows that device would mistake the new one for
-    /// it.
+    /// Goes back to a snapshot. A device that is plugged in later gets a number that no device has
+    /// had in the meantime, so that a program does not mistake it for a device that it still knows.
     pub fn restore(&mut self, snapshot: Machine) {
         let before = std::mem::replace(self, snapshot);
         self.tree.count_on_from(&before.tree);

@@ -59,7 +59,7 @@ impl Machine {
         }
     }
 
-    /// What the tone generator plays now, in Hz; 0 is silence.
+    /// The present tone of the tone generator, in Hz; 0 is silence.
     #[must_use]
     pub fn tone(&self) -> u32 {
         self.panel.tone()

@@ -12,11 +12,11 @@ use super::format::{Format, Scale};
 pub enum Link {
     /// Over a serial line, by LEGO's protocol: changing the mode takes a moment.
     Uart,
-    /// As a voltage on pin 6, sampled every 10 ms; a resistor tells the type.
+    /// As a voltage on pin 6, sampled every 10 ms; a resistor identifies the type.
     Analog,
-    /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light
-    /// sensor from the others: `recognized`. The others come up as `nxt-analog` until the port is
-    /// told what it has.
+    /// As a voltage on pin 1, sampled every 10 ms. The brick recognizes only the light sensor among
+    /// these: `recognized`. The others appear as `nxt-analog` until a program sets the device of
+    /// the port.
     NxtAnalog {
         /// Whether the brick knows it when it is plugged in.
         recognized: bool,

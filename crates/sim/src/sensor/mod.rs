@@ -1,10 +1,9 @@
-//! Sensors: what stands between a measurement and the files of `lego-sensor`.
+//! Sensors: from a measurement to the files of `lego-sensor`.
 //!
 //! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
 //! arrive, everything shows the old one; for the settling time after that the numbers are still
 //! those that the new mode showed last, if it was ever read. An analog sensor has none of this.
-//! What a sensor sees is not decided here: [`crate::sense`] looks at the world and hands in a
-//! [`Reading`].
+//! This module does not measure: [`crate::sense`] samples the world and passes a [`Reading`].
 
 mod attrs;
 mod bus;

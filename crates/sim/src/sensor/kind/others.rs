@@ -18,7 +18,7 @@ const fn temperature(name: &'static str, per_degree: i32, fahrenheit: bool) -> M
     Mode::new(name, 1, decimals, units, format, Sense::Temperature { per_degree, fahrenheit })
 }
 
-/// The voltage of a box with motors or servos: 6 V, as far as its byte can tell.
+/// The voltage of a box with motors or servos: 6 V, within the steps of its byte.
 const fn supply(name: &'static str, raw: [i32; 2], shown: [i32; 2]) -> Mode {
     Mode::new(name, 1, 3, "V", Format::U8, Sense::Fixed(&[6000])).scaled(raw, shown)
 }
