@@ -27,7 +27,7 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// odometry_(+Robot): counts from now on, if it did not.
+    /// odometry_(+Robot): starts the odometry if it does not run yet.
     #[module("ev3dev_native")]
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
@@ -141,7 +141,8 @@ fn drive_of<'a, C: QueryableContextType>(
     Ok(drive)
 }
 
-/// The drive of a robot in the tree in use. Until one is chosen, Prolog is asked to.
+/// The drive of a robot in the tree in use. If no tree is chosen yet, asks Prolog to
+/// choose one.
 fn robots_drive<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     robot: &Term<'a>,

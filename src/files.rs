@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/sysfs.pl`, `dev.pl`: any file, and where the two trees are.
+//! `prolog/ev3dev/sysfs.pl`, `dev.pl`: any file, and the directories of the two trees.
 use crate::driver::{Bound, unify_device};
 use crate::glue::call::Call;
 use crate::glue::state::{self, devices, use_files};

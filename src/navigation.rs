@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/navigation.pl`: driving through a room that is not wholly known.
+//! `prolog/ev3dev/navigation.pl`: driving through a partly known room.
 use crate::glue::call::Call;
 use crate::glue::places::{place, place_term, places_term};
 use crate::roadmap::{map_of, no_way, options_of};
@@ -17,13 +17,13 @@ pub(crate) fn register() {
     register_steer();
 }
 
-/// What a robot has seen on its way.
+/// The echoes that a robot has measured on its path.
 #[arc_blob("ev3_views", defaults)]
 struct SeenSoFar {
     views: Mutex<Views>,
 }
 
-/// A way to be followed.
+/// A path that the robot follows.
 #[arc_blob("ev3_way", defaults)]
 struct PathBlob {
     path: Path,

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/roadmap.pl`: ways between obstacles.
+//! `prolog/ev3dev/roadmap.pl`: paths between obstacles.
 use crate::facts;
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
@@ -42,7 +42,7 @@ predicates! {
     }
 }
 
-/// The map, and the way that was found on it.
+/// The map, and the path through it.
 fn solve<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     [facts, start, goal, options]: [&Term<'a>; 4],
@@ -72,7 +72,7 @@ pub(crate) fn options_of<C: QueryableContextType>(
     })
 }
 
-/// The map of a list of facts: those of a world, of which only obstacles count, and
+/// The map of a list of facts: those of a world, of which only obstacles matter, and
 /// polygons.
 pub(crate) fn map_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,

@@ -11,13 +11,13 @@
 :- use_module(private/native, [attribute_/4, device_/4]).
 :- use_module(private/one_of).
 
-/** <module> A table of what is connected
+/** <module> A table of the connected devices
 */
 
 %!  ev3_devices is det.
 %
-%   Print a table of what is connected: port, type, and what a motor or sensor
-%   reads at present.
+%   Print a table of the connected devices: port, type, and the present
+%   reading of the motor or sensor.
 
 ev3_devices :-
     findall(Row, device_row(Row), Rows),
@@ -41,7 +41,7 @@ device_row(row(Port, Type, Reads)) :-
 device_row(row(Port, Type, '')) :-
     device_('servo-motor', Port, Type, _).
 
-% A device that cannot be read now is listed all the same, and says why.
+% The row of a device that cannot be read shows the error.
 reading(Goal_1, Reads) :-
     catch(call(Goal_1, Reads), Error, unreadable(Error, Reads)),
     !.

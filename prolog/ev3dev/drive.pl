@@ -51,7 +51,7 @@ is told. Loaded apart from library(ev3dev):
 X = 30.0, Y = 40.0, Heading = 0.1.
 ```
 
-Lengths are in centimetres, angles in degrees, both any arithmetic expression.
+Lengths are in centimeters, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
 along y, clockwise is positive, and full turns count. A place is `X-Y`, or
 `[X, Y]` where a program gives one. Speeds are in percent of what the motors
@@ -59,7 +59,7 @@ can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so whoever runs the motors, and ends when they rest. From
+meanwhile. It does so for all moves, and ends when the motors rest. From
 when this library is loaded, go/2, go_cm/2 and turn/2 are driven by it, too.
 
 The gyro, if one is connected, tells the heading, unless
@@ -100,7 +100,7 @@ takes the place of one that is under way.
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
 @error domain_error(Domain, Value) for a value that makes no sense
-@error domain_error(drive_option, Option) for an option that is none
+@error domain_error(drive_option, Option) if Option is not an option here
 */
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
@@ -130,7 +130,7 @@ turn(Speed, Angle, Options) :-
 %!  arc_cm(+Speed, +Radius, +Angle) is semidet.
 %!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
 %
-%   Go along an arc of a circle. Its centre is on the right if the radius is
+%   Go along an arc of a circle. Its center is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
 %   make the direction, ahead or backwards. Fails for an Angle of 0.
 
@@ -201,8 +201,8 @@ wheels(Percent, Left0, Right0, Options) :-
 %
 %   Go on at a speed and turn at a rate, clockwise positive, until stopped.
 %   Does not wait. Called again, it changes both smoothly: a program that
-%   controls the robot itself may do so many times a second. Fails if that is
-%   too fast for a wheel.
+%   controls the robot itself may call it many times a second. Fails if that
+%   is too fast for a wheel.
 
 drive_cm(Speed, Rate) :-
     drive_cm(Speed, Rate, []).

@@ -28,7 +28,7 @@
 The robot of the paper's section 6. It knows the cell in which it is and the
 one to which it shall go, plans a way, takes it, and looks before each move.
 Where its ultrasonic sensor sees something in the next cell it notes an
-obstacle, and plans anew from where it stands.
+obstacle, and plans again from where it stands.
 
 ```
 ?- use_module(library(ev3dev)), use_module(library(ev3dev/grid)).
@@ -84,12 +84,12 @@ move, unless it knows already that they are free.
 %       `plan(Start, Plan)`, `obstacle(Cell)`, `at(Cell, Direction)`.
 %
 %   An obstacle that fades while the robot is under way is thought of only
-%   when it has to plan anew.
+%   when it has to plan again.
 %
 %   @error domain_error(planner, Planner)
 %   @error domain_error(grid_state, State)
 %   @error domain_error(grid_action, Action)
-%   @error domain_error(grid_option, Option) for an option that is none
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 plan_and_go_to(Cell, Direction) :-
     plan_and_go_to(Cell, Direction, []).

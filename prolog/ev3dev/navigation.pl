@@ -36,7 +36,7 @@ It goes only where it has looked. At first, and whenever its way leads to a
 place that it has not seen, it turns once around on the spot. An echo tells
 how far something is, but not where in the sensor's cone of 30 degrees; what
 other looks show to be free is taken away, and the rest becomes polygons. With
-them the way is planned anew.
+them it plans the way again.
 */
 
 %!  navigate_to(+Map, +Goal) is semidet.
@@ -60,7 +60,7 @@ them the way is planned anew.
 %       `exhausted`, if it has planned its way so often as steps(Count) says;
 %       `stalled`, if something holds the robot; `unplugged`, if its sensor or
 %       a motor is; `stopped`, if another thread stopped it while it moved.
-%       A stop while it stands and plans is none.
+%       A stop while it stands and plans has no effect.
 %     - steps(+Count)
 %       Default is 200.
 %     - obstacles(-Polygons)
@@ -71,8 +71,9 @@ them the way is planned anew.
 %   no robot is set or it has no ultrasonic sensor. The robot stands when it
 %   ends, also by an exception.
 %
-%   Whoever walks into what has been seen free makes the robot stop as soon as
-%   the sensor shows it, forget what it had seen there, and plan anew.
+%   If something moves into a place that was seen free, the robot stops as
+%   soon as the sensor shows it, forgets what it had seen there, and plans
+%   again.
 %
 %   @error as roadmap_path/5
 
@@ -131,10 +132,10 @@ next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
 
 %!  advance(+Step, +Looked, +Forgets, +Steps, +Drive, -Reason) is semidet.
 %
-%   Looked tells whether the robot has looked around since it moved. What can
-%   still not be seen then counts as an obstacle. Where that or what else was
-%   made of the echoes leaves no way, it may all have been a mistake: so many
-%   times as Forgets it is forgotten, and looked at anew.
+%   Looked is `yes` if the robot has looked around since it moved, else `no`.
+%   A place that it still has not seen then counts as an obstacle. If the
+%   obstacles leave no path, the echoes may be wrong: the robot forgets them
+%   and looks again, at most Forgets times.
 
 advance(Step, _, _, _, Drive, reached) :-
     is_there(Step, Drive),

@@ -46,7 +46,7 @@ roadmap is made is the option method(Method):
 ## Maps {#roadmap-maps}
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
-or a file. Lengths are in centimetres, x to the right and y up. A Map may have
+or a file. Lengths are in centimeters, x to the right and y up. A Map may have
 all facts of a world. Only those count that stop a robot: bounds/4, wall/4,5,
 box/4,5, circle/3 and map/2. A list may also hold
 
@@ -95,7 +95,7 @@ and Goal may be arithmetic expressions.
 %   @error domain_error(place, Place)
 %   @error domain_error(roadmap_method, Method)
 %   @error domain_error(Domain, Value) for an option that makes no sense
-%   @error domain_error(roadmap_option, Option) for an option that is none
+%   @error domain_error(roadmap_option, Option) if it is not an option here
 
 roadmap_path(Map, Start, Goal, Points) :-
     roadmap_path(Map, Start, Goal, Points, []).
@@ -110,7 +110,7 @@ roadmap_path(Map, Start, Goal, Points, Options) :-
 %
 %     - line(From, To)
 %     - arc(From, To, Radius, Angle)
-%       As arc_cm/3 takes them: Radius is positive if the centre is on the
+%       As arc_cm/3 takes them: Radius is positive if the center is on the
 %       right, negative if on the left, and Angle is positive, in degrees.
 
 roadmap_legs(Map, Start, Goal, Legs, Options) :-

@@ -33,7 +33,7 @@ of most building instructions. It is described once:
 ?- set_robot(5.6, 10.6, outB, outC).
 ```
 
-Speeds are in percent of the motors' highest speed, distances in centimetres,
+Speeds are in percent of the motors' highest speed, distances in centimeters,
 angles in degrees; they may be any arithmetic expression. The sign of a speed
 and that of a distance or angle together make the direction; clockwise is
 positive.
@@ -67,7 +67,7 @@ Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 %
 %   @error domain_error(positive_number, Length)
 %   @error domain_error(side, Side)
-%   @error domain_error(robot_option, Option) for an option that is none
+%   @error domain_error(robot_option, Option) if Option is not an option here
 
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).

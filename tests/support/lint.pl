@@ -18,11 +18,14 @@
 :- dynamic complaint/0.
 
 main :-
+    self_test,
     load_again,
     check,
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
     forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
     forall(without_partner(File), complain(no_test_or_no_module(File))),
+    forall(( page(File), line_of(File, Line, Text), banned_in(Text, Word) ),
+           complain(line(File, Line, banned(Word)))),
     (   complaint
     ->  halt(1)
     ;   halt(0)
@@ -83,22 +86,24 @@ named(Pattern, Prefix, Name, File) :-
 
 source(File) :-
     member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
-                     'prolog/*/*/*.pl', 'examples/*.pl']),
+                     'prolog/*/*/*.pl', 'prolog/*/*/*/*.pl',
+                     'examples/*.pl']),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+page(File) :-
+    member(Pattern, ['README.md', 'docs/*.md']),
     expand_file_name(Pattern, Files),
     member(File, Files).
 
 bad_line(File, Number, Why) :-
-    setup_call_cleanup(
-        open(File, read, Stream),
-        ( repeat,
-          read_line_to_string(Stream, Line),
-          line_count(Stream, Number),
-          (   Line == end_of_file
-          ->  !, fail
-          ;   bad(Line, Why)
-          )
-        ),
-        close(Stream)).
+    line_of(File, Number, Line),
+    bad(Line, Why).
+
+line_of(File, Number, Line) :-
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    nth1(Number, Lines, Line).
 
 bad(Line, tab) :-
     sub_string(Line, _, _, _, "\t").
@@ -107,3 +112,64 @@ bad(Line, trailing_space) :-
 bad(Line, too_long) :-
     string_length(Line, Length),
     Length > 78.
+bad(Line, banned(Word)) :-
+    banned_in(Line, Word).
+
+%!  banned_in(+Line, -Word) is nondet.
+%
+%   True if Line uses a banned Word: one that CONTRIBUTING.md replaces, or one
+%   in British spelling. A name such as `grid_center` is a word of its own.
+
+banned_in(Line, Word) :-
+    string_lower(Line, Lower),
+    banned(Word),
+    sub_string(Lower, Before, _, After, Word),
+    \+ continues(Lower, Before, -1),
+    string_length(Lower, Length),
+    Next is Length - After,
+    \+ continues(Lower, Next, 0),
+    \+ excused(Word, Lower, Before).
+
+% A letter or an underscore stands there.
+continues(Line, Position, Offset) :-
+    Index is Position + Offset,
+    Index >= 0,
+    sub_string(Line, Index, 1, _, Char),
+    char_type(Char, csym).
+
+banned("anew").
+banned("is none").
+banned("are none").
+banned("so many").
+banned("whoever").
+banned(Word) :-
+    member(Stem, ["colour", "metre", "centimetre", "millimetre", "centre",
+                  "neighbour", "behaviour", "recognise", "tyre"]),
+    member(Ending, ["", "s", "d"]),
+    string_concat(Stem, Ending, Word),
+    Word \== "neighbours".             % an option of grid_map/2
+banned("coloured").
+banned("grey").
+banned("greys").
+banned("licence").
+banned("cancelled").
+
+% "if there is none" is plain English.
+excused(Word, Line, Before) :-
+    memberchk(Word, ["is none", "are none"]),
+    sub_string(Line, 0, Before, _, Start),
+    sub_string(Start, _, _, 0, "there ").
+
+% The check of words can fail, and does not fail on good words.
+self_test :-
+    forall(( member(Bad, [ "% Plans anew.", "%   for an option that is none",
+                           "an actuator, in millimetres", "led(?Light, ?Colour)",
+                           "% the centre, whoever asks", "So many times" ]),
+             \+ banned_in(Bad, _)
+           ),
+           complain(not_found(Bad))),
+    forall(( member(Good, [ "% fails if there is none", "set_grid([neighbours(8)])",
+                            "in centimeters", "a_grey_name", "the center" ]),
+             banned_in(Good, Word)
+           ),
+           complain(found(Word, Good))).

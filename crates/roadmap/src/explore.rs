@@ -26,7 +26,7 @@ const DIRECTIONS: u8 = 24;
 /// How far ahead on its way a robot aims, in cm.
 const AHEAD: f64 = 4.0;
 
-/// What to do next.
+/// The next action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The way up to its first corner.
@@ -123,7 +123,7 @@ fn until_corner(path: Path) -> (Path, f64) {
 }
 
 impl Path {
-    /// Where it begins to go, in degrees.
+    /// The heading at its start, in degrees.
     #[must_use]
     pub fn heading(&self) -> f64 {
         let start = self.legs().first().map_or(Vec2::zeros(), |leg| vec2(leg.start()));
@@ -187,7 +187,7 @@ mod tests {
         assert!((90.0..100.0).contains(&safe), "{safe}");
         let wall = Obstacle::wall([-20.0, 30.0], [5.0, 30.0], 1.0).unwrap();
         let map = Map::new(vec![wall], None).unwrap();
-        // No arc of half a metre fits beside the wall.
+        // No arc of half a meter fits beside the wall.
         let options = Options { arc_radius: 50.0, ..Options::default() };
         let step = views.next_step(&map, [0.0, 0.0], [0.0, 60.0], 2.0, &options).unwrap();
         assert_eq!(step.run.legs().len(), 1);

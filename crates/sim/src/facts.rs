@@ -7,7 +7,7 @@ use crate::world::color::Color;
 use crate::world::geometry::Pose;
 use crate::world::{Bounds, Drawn, Hull, Item, Part, SpecError, WorldSpec};
 
-/// What a file describes.
+/// The subject of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A world.

@@ -215,7 +215,7 @@ must_be_ramp(Attribute, Longest, Milliseconds) :-
 %   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as
 %   those of motors_run/1.
 %
-%   @error domain_error(motor_run, Run) if one of Runs is none
+%   @error domain_error(motor_run, Run) if Run has another form
 
 motor_runs(Runs, Evaluated) :-
     (   is_list(Runs)
@@ -236,7 +236,7 @@ runs([Run|Runs], [run(Port, Percent)|Evaluated]) :-
 %
 %   Evaluated is a list of Moves as those of motors_turn/2, with numbers.
 %
-%   @error domain_error(motor_move, Move) if one of Moves is none
+%   @error domain_error(motor_move, Move) if Move has another form
 
 motor_moves([], []).
 motor_moves([Move|Moves], [Evaluated|Rest]) :-

@@ -9,16 +9,17 @@
 :- use_module(native, [attribute_/4, attribute_write_/4, device_/4]).
 :- use_module(one_of).
 
-/** <module> What motors of any class are set to
+/** <module> Settings of motors of any class
 */
 
 %!  class_settings(+Class, ?Port, +Settings) is nondet.
 %
-%   Read attributes of a device if all their values are unbound, else write
-%   them, after all values were looked at. Settings is a list of
+%   Read attributes of a device if all values are unbound. Else check all
+%   values, then write them. Settings is a list of
 %   setting(Attribute, Lowest, Highest, Value), where Value is an integer.
 %
-%   @error domain_error(Attribute, Value) if a Value is out of its range
+%   @error domain_error(Attribute, Value) if Value is not between Lowest and
+%          Highest
 
 class_settings(Class, Port, Settings) :-
     forall(one_of(Settings, Setting), is_unbound(Setting)),

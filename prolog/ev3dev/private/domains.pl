@@ -4,7 +4,7 @@
             allowed/2                   % ?Domain, ?What
           ]).
 
-/** <module> What may stand where a domain_error is thrown
+/** <module> The allowed values of each domain
 
 The ranges of numbers, and for the messages of errors what is allowed.
 */
@@ -47,8 +47,8 @@ finite(Number) :-
 
 %!  allowed(?Domain, ?What) is nondet.
 %
-%   What may stand where domain_error(Domain, _) is thrown: a list of all
-%   values, or a text.
+%   What describes the allowed values of domain_error(Domain, _): a list of
+%   all values, or a text.
 
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).

@@ -32,7 +32,7 @@
             sensor_value_/5,
             sensor_values_/5,
             led_/3,
-            led_set_colour_/2,
+            led_set_color_/2,
             led_set_delays_/3,
             led_set_trigger_/2,
             button_event_/4,
@@ -181,7 +181,7 @@ missing.
 % Lights
 
 %!  led_(?Light, +What, -Value) is nondet.
-%!  led_set_colour_(+Light, +Color) is semidet.
+%!  led_set_color_(+Light, +Color) is semidet.
 %!  led_set_delays_(+Light, +On, +Off) is semidet.
 %!  led_set_trigger_(+Light, +Trigger) is semidet.
 %

@@ -1,5 +1,5 @@
-% A black line on a white floor that leads back to where it starts, 2 cm wide
-% so that it fits between the robot's colour sensors.
+% A closed black line, 2 cm wide, on a white floor. It fits between the
+% robot's color sensors.
 
 bounds(0, 0, 220, 180).
 start(80, 40, 90).

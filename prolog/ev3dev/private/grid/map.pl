@@ -55,8 +55,8 @@ eight. A diagonal move also needs the two cells beside its way.
 %     - obstacles(+Cells)
 %       These cells are obstructed.
 %     - free(:Goal)
-%       A cell is free only if call(Goal, Cell) is true. It is asked each time
-%       anew, so that the map may change.
+%       A cell is free only if call(Goal, Cell) is true. It is called each
+%       time, so that the map may change.
 %     - neighbours(+Count)
 %       4 (default) or 8.
 %     - move_cost(+Cost)
@@ -70,7 +70,7 @@ eight. A diagonal move also needs the two cells beside its way.
 %          start
 %   @error domain_error(neighbours, Count)
 %   @error domain_error(bounds, Bounds) if they hold no cell
-%   @error domain_error(grid_option, Option) for an option that is none
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 grid_map(Module:Options0, Map) :-
     must_be_options(grid_option,

@@ -28,10 +28,10 @@ Which grid it is on, and where on it the robot is.
 
 %!  set_grid(+Options) is semidet.
 %
-%   Begin anew on a grid of which nothing is known, the robot in the middle of
-%   a cell. Fails if no robot is set, or a motor is not connected. Options are
-%   those of grid_map/2, where `rows` and `obstacles` are what is known from
-%   the start, and
+%   Begin with an unknown grid and the robot in the middle of a cell. Fails if
+%   no robot is set, or a motor is not connected. Options are those of
+%   grid_map/2, where `rows` and `obstacles` are what is known from the start,
+%   and
 %
 %     - start(+Cell, +Direction)
 %       Where the robot is, by default as drawn in `rows`, or in [0,0] with
@@ -54,7 +54,7 @@ Which grid it is on, and where on it the robot is.
 %   @error domain_error(positive_number, Number) for `cell_cm` and `fade`
 %   @error domain_error(speed_ahead, Percent) if it is not above 0, or above
 %          100
-%   @error domain_error(grid_option, Option) for an option that is none
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 set_grid(Options) :-
     take_options([start/2, cell_cm, origin/2, eye, speed, fade], Options,

@@ -14,7 +14,7 @@ Loaded when library(ev3dev/sensor_info) is first asked for it.
 
 :- public type/2.
 
-type('lego-ev3-color', 'EV3 colour sensor').
+type('lego-ev3-color', 'EV3 color sensor').
 type('lego-ev3-us', 'EV3 ultrasonic sensor').
 type('lego-ev3-gyro', 'EV3 gyro').
 type('lego-ev3-ir', 'EV3 infrared sensor').
