@@ -222,7 +222,7 @@ test(no_such_option, error(domain_error(sim_option, until(3)), _)) :-
     with_sim(room, sim_press(up, [until(3)])).
 test(time_that_is_no_number,
      [ forall(member(Option, [after(soon), for(long)])),
-       error(type_error(number, _), _)
+       error(type_error(evaluable, _), _)
      ]) :-
     with_sim(room, sim_press(up, [Option])).
 test(needs_a_simulation,

@@ -34,7 +34,8 @@ type('lego-power-storage', 'LEGO energy meter').
 ev3_analog(Type) :-
     one_of([ '01', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12',
              '13', '14' ], Number),
-    atom_concat('ev3-analog-', Number, Type).
+    atom_concat('ev3-analog-', Number, Analog),
+    Type = Analog.
 
 %!  mode(?Type, ?Mode, ?Count, ?Decimals, ?Units, ?Meaning) is nondet.
 %
