@@ -95,11 +95,11 @@ as_it_is(_).
 of_another_prolog(File) :-
     setup_call_cleanup(
         open(File, read, In),
-        read(In, index(prolog(Version, _, Home), Pack, Units)),
+        read(In, index(prolog(Version, _, Home, Mode), Pack, Units)),
         close(In)),
     setup_call_cleanup(
         open(File, write, Out),
-        format(Out, '~q.~n', [index(prolog(Version, never, Home), Pack, Units)]),
+        format(Out, '~q.~n', [index(prolog(Version, never, Home, Mode), Pack, Units)]),
         close(Out)).
 
 contents(File, Bytes) :-
