@@ -78,8 +78,8 @@ taken([Option|Options], Names, Taken, Rest) :-
 %!  option(?Option, +Options) is semidet.
 %!  option(?Option, +Options, +Default) is semidet.
 %
-%   True if Option, a term as Name(Value), is the first of its name in Options;
-%   where there is none, Value is Default. Options are such as
+%   True if Option, a term as Name(Value), is the first of its name in
+%   Options; where there is none, Value is Default. Options are such as
 %   must_be_options/3 accepts. (Not by library(option): with all that it loads
 %   it takes a brick longer than the pack.)
 
