@@ -73,6 +73,12 @@ ev3dev_compile :-
     index_file(Index),
     file_directory_name(Index, Folder),
     new_folder(Folder, New),
+    catch(compile_into(New, Index), Error,
+          ( catch(delete_folder(New), error(_, _), true),
+            throw(Error)
+          )).
+
+compile_into(New, Index) :-
     setup_call_cleanup(
         assertz(compiling),
         units_compiled(New, Units),

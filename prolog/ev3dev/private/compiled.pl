@@ -55,12 +55,17 @@ index_file(File) :-
 %!  this_prolog(-Prolog) is det.
 %
 %   Prolog is a term that is another one for any other Prolog: of the same
-%   version, too, if it was built at another time.
+%   version, too, if it was built at another time, and of the same build as
+%   `swipl --traditional`.
 
-this_prolog(prolog(Version, Built, Home)) :-
+this_prolog(prolog(Version, Built, Home, Traditional)) :-
     current_prolog_flag(version, Version),
     current_prolog_flag(compiled_at, Built),
-    current_prolog_flag(home, Home).
+    current_prolog_flag(home, Home),
+    (   current_prolog_flag(traditional, Traditional)
+    ->  true
+    ;   Traditional = false
+    ).
 
 %!  source_time(+File, -Milliseconds) is det.
 
@@ -188,7 +193,9 @@ load_unit(Unit) :-
         asserta(loading(Unit), Ref),
         (   load_needed(Needed),
             catch(contents(Unit, Sum), error(_, _), fail)
-        ->  load_files(user:Unit, [if(not_loaded), imports([])]),
+        ->  catch(load_files(user:Unit, [if(not_loaded), imports([])]),
+                  error(Formal, Context),
+                  print_message(warning, error(Formal, Context))),
             assertz(used(Unit))
         ;   true
         ),
