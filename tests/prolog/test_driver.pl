@@ -20,7 +20,7 @@ test(motors_are_listed_in_port_order,
 test(sensors_are_listed_in_port_order,
      [ forall(tree(Tree)),
        all(P-T == [in1-'lego-ev3-gyro', in2-'lego-ev3-touch',
-                 in4-'lego-ev3-us']) ]) :-
+                   in4-'lego-ev3-us']) ]) :-
     with_tree(Tree, [],
               ( plug(in4, 'lego-ev3-us'),
                 plug(in2, 'lego-ev3-touch'),

@@ -263,7 +263,7 @@ test(writes_what_the_command_depends_on,
 test(writes_nothing_else,
      [ forall(tree(Tree)),
        true(W == [ command='run-to-rel-pos', position_sp='3600',
-                 speed_sp='525', stop_action=hold ]) ]) :-
+                   speed_sp='525', stop_action=hold ]) ]) :-
     with_tree(Tree, ( motor_run(outB, 50, 3600, [wait(false)]),
                       written(outB, W) )).
 test(sign_of_speed_times_sign_of_angle_is_the_direction,

@@ -544,16 +544,54 @@ left(Port, Attribute, _, Text) :-
 
 %!  later(+Seconds, :Goal)
 %
-%   Call Goal in another thread after some time by the tree's clock.
+%   Call Goal in another thread after some time by the tree's clock. In real time
+%   it comes once this thread is within a call of the library, where it waits, or
+%   after two seconds if it waits elsewhere.
 
 later(Seconds, Goal) :-
+    thread_self(Me),
     (   current_tree(simulator)
-    ->  thread_self(Me),
-        hold_clock,
+    ->  hold_clock,
         thread_create(later_by_clock(Me, Seconds, Goal), _, [detached(true)]),
         thread_get_message(is_up)
-    ;   thread_create(( sleep(Seconds), Goal ), _, [detached(true)])
+    ;   thread_create(later_in_real_time(Me, Seconds, Goal), _, [detached(true)])
     ).
+
+later_in_real_time(Main, Seconds, Goal) :-
+    sleep(Seconds),
+    get_time(Now),
+    Deadline is Now + 2,
+    thread_self(Me),
+    repeat,
+    sleep(0.002),
+    (   is_within_library(Main, Me)
+    ->  true
+    ;   get_time(Then),
+        Then > Deadline
+    ),
+    !,
+    call(Goal).
+
+% A signal is handled where the thread waits.
+is_within_library(Main, Me) :-
+    thread_signal(Main, trees:tell_whether_within(Me)),
+    thread_get_message(Me, within(Within), [timeout(0.5)]),
+    Within == true.
+
+tell_whether_within(Thread) :-
+    prolog_current_frame(Frame),
+    (   is_within(Frame)
+    ->  Within = true
+    ;   Within = false
+    ),
+    catch(thread_send_message(Thread, within(Within)), _, true).
+
+is_within(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, ev3dev_native:_),
+    !.
+is_within(Frame) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    is_within(Parent).
 
 % From here on time passes only while both threads wait, so that Goal comes
 % when it should however busy this machine is.
