@@ -65,7 +65,10 @@ angle. Nothing moves then. `debug(ev3dev)` tells why.
 %   @error type_error(evaluable, Speed)
 
 motor_run(Port, Speed) :-
-    evaluated(Speed, Percent),
+    (   number(Speed)
+    ->  Percent = Speed
+    ;   evaluated(Speed, Percent)
+    ),
     (   motor_run_(Port, Percent)
     ->  true
     ;   why_not([run(Port, Percent)])

@@ -7,7 +7,7 @@
 :- use_module('../driver', []).
 :- use_module(arguments, [must_be_within/4]).
 :- use_module(attributes, [attribute/4]).
-:- use_module(native, [attribute_/4, attribute_write_/4, device_/4]).
+:- use_module(native, [attribute_/4, attribute_write_/4, device_/3]).
 
 /** <module> What motors of any class are set to
 */
@@ -23,7 +23,7 @@
 class_settings(Class, Port, Settings) :-
     maplist(is_unbound, Settings),
     !,
-    device_(Class, Port, _, _),
+    device_(Class, Port, _),
     maplist(setting_read(Class, Port), Settings).
 class_settings(Class, Port, Settings) :-
     maplist(must_be_setting, Settings),
