@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-all check-old check-dist \
+.PHONY: all setup build check check-rust check-prolog check-clients check-bench check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench doc dist demo install clean distclean realclean
 
@@ -34,7 +34,7 @@ place:
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
 # In minutes
-check: build check-rust check-prolog check-clients
+check: build check-rust check-prolog check-clients check-bench
 
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
@@ -52,6 +52,10 @@ check-prolog:
 # Programs in other languages on the simulator's mount
 check-clients: build
 	@tests/clients/run.sh
+
+# The bench still runs, and its tables are those of its last run
+check-bench: build
+	@benches/run.py --smoke
 
 lint: build
 	$(CARGO) fmt --all --check

@@ -8,7 +8,7 @@
                 sensor_attribute/3, state/2, tacho_motor/2, value/3
               ]).
 :- use_module(files, [ev3_sysfs/1]).
-:- use_module(private/native, [attribute_/4, device_/4]).
+:- use_module(private/native, [attribute_/4, device_/3]).
 :- use_module(private/one_of).
 
 /** <module> A table of the connected devices
@@ -36,10 +36,10 @@ device_row(row(Port, Type, Reads)) :-
     tacho_motor(Port, Type),
     reading(motor_reading(Port), Reads).
 device_row(row(Port, Type, Reads)) :-
-    device_('dc-motor', Port, Type, _),
+    device_('dc-motor', Port, Type),
     reading(dc_motor_reading(Port), Reads).
 device_row(row(Port, Type, '')) :-
-    device_('servo-motor', Port, Type, _).
+    device_('servo-motor', Port, Type).
 
 % The row of a device that cannot be read shows the error.
 reading(Goal_1, Reads) :-

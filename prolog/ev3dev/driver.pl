@@ -38,7 +38,8 @@
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/attributes,
               [attribute/4, attribute_words/4, value_attribute/2]).
-:- use_module(private/native, [attribute_/4, attribute_write_/4, device_/4]).
+:- use_module(private/native,
+              [attribute_/4, attribute_write_/4, device_/3, device_/4]).
 :- reexport(files).
 
 /** <module> Driver framework: devices and their files
@@ -76,10 +77,10 @@ and write any file. library(ev3dev/device_table) prints all devices.
 %   plugged into Port. Path is its directory.
 
 tacho_motor(Port) :-
-    device_('tacho-motor', Port, _, _).
+    device_('tacho-motor', Port, _).
 
 tacho_motor(Port, Type) :-
-    device_('tacho-motor', Port, Type, _).
+    device_('tacho-motor', Port, Type).
 
 tacho_motor(Port, Type, Path) :-
     device_('tacho-motor', Port, Type, Path).
@@ -106,7 +107,7 @@ nxt_motor(Port) :-
 %   port_mode(Port, 'dc-motor') sets. See library(ev3dev/dc_motors).
 
 dc_motor(Port) :-
-    device_('dc-motor', Port, _, _).
+    device_('dc-motor', Port, _).
 
 %!  servo_motor(?Port) is nondet.
 %
@@ -114,7 +115,7 @@ dc_motor(Port) :-
 %   library(ev3dev/servo_motors).
 
 servo_motor(Port) :-
-    device_('servo-motor', Port, _, _).
+    device_('servo-motor', Port, _).
 
 %!  lego_sensor(?Port) is nondet.
 %!  lego_sensor(?Port, ?Type) is nondet.
@@ -124,10 +125,10 @@ servo_motor(Port) :-
 %   is its directory.
 
 lego_sensor(Port) :-
-    device_('lego-sensor', Port, _, _).
+    device_('lego-sensor', Port, _).
 
 lego_sensor(Port, Type) :-
-    device_('lego-sensor', Port, Type, _).
+    device_('lego-sensor', Port, Type).
 
 lego_sensor(Port, Type, Path) :-
     device_('lego-sensor', Port, Type, Path).

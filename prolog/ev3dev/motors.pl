@@ -67,7 +67,10 @@ angle. Nothing moves then. `debug(ev3dev)` explains why.
 %   @error type_error(evaluable, Speed)
 
 motor_run(Port, Speed) :-
-    evaluated(Speed, Percent),
+    (   number(Speed)
+    ->  Percent = Speed
+    ;   evaluated(Speed, Percent)
+    ),
     (   motor_run_(Port, Percent)
     ->  true
     ;   explain_failure([run(Port, Percent)])

@@ -11,7 +11,7 @@
 :- use_module(driver, []).
 :- use_module(private/attributes, [attribute_words/4]).
 :- use_module(private/native,
-              [ attribute_/4, device_/4, port_device_/2, port_set_device_/2,
+              [ attribute_/4, device_/3, port_device_/2, port_set_device_/2,
                 port_set_mode_/2 ]).
 
 /** <module> Ports, and the devices that are plugged into them
@@ -37,7 +37,7 @@ All predicates fail if there is no such port.
 %   True if Port is a port of the brick: `in1` to `in4` and `outA` to `outD`.
 
 lego_port(Port) :-
-    device_('lego-port', Port, _, _).
+    device_('lego-port', Port, _).
 
 %!  port_mode(?Port, ?Mode) is nondet.
 %

@@ -125,12 +125,10 @@ reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 %   `flex` from 0 to 100, and `tof_dist_mm`.
 
 sensor_reading(Reading, Port, Value) :-
-    var(Port),
-    !,
-    reading(Reading, Types, Mode, Index),
-    sensor_value_(Port, Types, Mode, Index, Value).
-sensor_reading(Reading, Port, Value) :-
-    (   reading(Reading, Types, Mode, Index),
+    (   var(Port)
+    ->  reading(Reading, Types, Mode, Index),
+        sensor_value_(Port, Types, Mode, Index, Value)
+    ;   reading(Reading, Types, Mode, Index),
         sensor_value_(Port, Types, Mode, Index, Read)
     ->  Value = Read
     ;   explain("~w has no sensor for ~w", [Port, Reading]),

@@ -14,11 +14,10 @@
 %   Read an attribute, or write it if Value is bound.
 
 attribute(Class, Port, Attribute, Value) :-
-    var(Value),
-    !,
-    attribute_(Class, Port, Attribute, Value).
-attribute(Class, Port, Attribute, Value) :-
-    attribute_write_(Class, Port, Attribute, Value).
+    (   var(Value)
+    ->  attribute_(Class, Port, Attribute, Value)
+    ;   attribute_write_(Class, Port, Attribute, Value)
+    ).
 
 %!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
 %

@@ -1,6 +1,7 @@
 :- module(ev3dev_native,
           [ attribute_/4,
             attribute_write_/4,
+            device_/3,
             device_/4,
             dev_/1,
             dev_use_/1,
@@ -120,6 +121,7 @@ missing.
 
 %!  attribute_(+Class, ?Port, +Attribute, ?Value) is nondet.
 %!  attribute_write_(+Class, +Port, +Attribute, +Value) is semidet.
+%!  device_(+Class, ?Port, ?Type) is nondet.
 %!  device_(+Class, ?Port, ?Type, ?Path) is nondet.
 %
 %   `src/driver.rs`

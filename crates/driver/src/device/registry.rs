@@ -12,7 +12,7 @@ use crate::held::Held;
 use crate::port_name;
 use crate::sysfs::Sysfs;
 use rustix::io::Errno;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
@@ -33,7 +33,7 @@ struct Listing {
     made: Option<Duration>,
     /// In the order of ports.
     devices: Arc<[Arc<Device>]>,
-    by_port: HashMap<String, Arc<Device>>,
+    by_port: BTreeMap<Box<str>, Arc<Device>>,
 }
 
 impl Registry {
@@ -74,14 +74,16 @@ impl Registry {
     pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
         let port = port_name::short(port);
         let mut listing = self.listing(class);
-        let is_fresh = self.is_fresh(&listing);
-        if !is_fresh || !listing.by_port.contains_key(port) {
-            match self.list(class, &mut listing) {
-                // If the class cannot be listed, trust the last listing: a robot
-                // can still be stopped.
-                Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
-                listed => listed?,
+        if self.is_fresh(&listing) {
+            if let Some(device) = listing.by_port.get(port) {
+                return Ok(Some(Arc::clone(device)));
             }
+        }
+        match self.list(class, &mut listing) {
+            // If the class cannot be listed, trust the last listing: a robot
+            // can still be stopped.
+            Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
+            listed => listed?,
         }
         Ok(listing.by_port.get(port).cloned())
     }
@@ -257,7 +259,7 @@ impl Registry {
         let in_socket = in_socket.map(|device| (port_name::socket(device.port()), device));
         let at_port = devices.iter().map(|device| (device.port(), device));
         let all = in_socket.chain(at_port);
-        listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();
+        listing.by_port = all.map(|(port, it)| (port.into(), Arc::clone(it))).collect();
         listing.devices = devices.into();
         Ok(())
     }

@@ -211,9 +211,7 @@ fn ensure_settled(
 
 fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
     match mode {
-        Some(mode) if !sensor.with_word("mode", |present| present == mode)? => {
-            write_mode(sensor, mode)
-        }
+        Some(mode) if !sensor.is_word("mode", mode)? => write_mode(sensor, mode),
         _ => Ok(()),
     }
 }
