@@ -32,6 +32,14 @@ wheels_near(Left, Right, Tolerance) :-
     near(AtLeft, Left, Tolerance),
     near(AtRight, Right, Tolerance).
 
+% On a busy machine a time limit may come before the wheels have started.
+wheels_left(Left) :-
+    wheels(command, C),
+    (   memberchk(C, [stop-stop, ''-''])
+    ->  Left = at_rest
+    ;   Left = C
+    ).
+
 running :-
     runs(outB),
     runs(outC).
@@ -213,10 +221,10 @@ test(from_another_thread_ends_a_move_which_fails,
 test(a_time_limit_stops_both_wheels,
      [ forall(( tree(Tree),
                 member(Goal, [go_cm(5, 10000), go(5, 360000), turn(5, 36000)]) )),
-       true(E-C == time_limit_exceeded-(stop-stop)) ]) :-
+       true(E-Left == time_limit_exceeded-at_rest) ]) :-
     with_robot(Tree, ( running,
                        catch(call_with_time_limit(0.05, Goal), E, true),
-                       wheels(command, C) )).
+                       wheels_left(Left) )).
 test(a_signal_stops_both_wheels,
      [forall(tree(Tree)), true(E-C == enough-(stop-stop))]) :-
     with_robot(Tree, ( running,
@@ -359,10 +367,10 @@ test(the_gyro_counts_the_other_way_then_it_fails_with_a_warning_and_stops,
                            warnings(turn(40, 90), Ws),
                            wheels(command, C) ))).
 test(a_time_limit_stops_both_wheels,
-     [forall(tree(Tree)), true(E-C == time_limit_exceeded-(stop-stop))]) :-
+     [forall(tree(Tree)), true(E-Left == time_limit_exceeded-at_rest)]) :-
     gyro(Gyro),
     with_robot(Tree, Gyro, ( catch(call_with_time_limit(0.1, turn(5, 30000)), E, true),
-                       wheels(command, C) )).
+                             wheels_left(Left) )).
 test(unplugging_the_gyro_stops_both_wheels,
      [forall(tree(Tree)), true(F-C == existence_error(sensor, in4)-(stop-stop))]) :-
     gyro(Gyro),

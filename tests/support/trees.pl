@@ -321,7 +321,7 @@ settle(plain).
 settle(simulator) :-
     sim_step(0.3).
 settle(mount) :-
-    sleep(0.3).
+    sim_wait(0.3).
 
 %!  took(+Tree, +Since, +Seconds, +Tolerance)
 %
