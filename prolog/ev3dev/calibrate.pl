@@ -6,7 +6,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(private/arguments, [must_be_options/3]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
-:- use_module(odometry, [number_value/2]).
+:- use_module(private/drive_moves, [number_value/2]).
 :- use_module(drive, [go_cm/3, turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(private/native, [drive_pause_/1]).

@@ -15,26 +15,25 @@
             face/1,             % +Heading
             face/2,             % +Heading, +Options
             follow/1,           % +Points
-            follow/2            % +Points, +Options
+            follow/2,           % +Points, +Options
+            drive_wait/2        % +Options, -Reason
           ]).
 :- use_module(private/errors,
               [ domain_error/2, instantiation_error/1, must_be/2,
                 term_expansion/2, type_error/2
               ]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(option), [option/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments,
+              [must_be_options/3, must_be_timeout/1, take_options/4]).
 :- use_module(private/drive_moves,
-              [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
-                speed_option/2
+              [ backwards/2, move/3, move_straight/3, move_turn/3,
+                must_be_move_options/1, number_value/2
               ]).
-:- use_module(odometry, [number_value/2]).
-:- reexport(private/drive_moves, [drive_wait/2]).
-:- reexport(odometry,
-            [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
-              drive_option/2
-            ]).
+:- reexport(odometry).
 :- reexport(calibrate).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/native, [drive_wait_/3]).
 
 /** <module> Driving: curves, odometry, going to places
 
@@ -56,8 +55,8 @@ what the motors can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so whoever runs the motors, and ends when they rest. From
-when this library is loaded, go/2, go_cm/2 and turn/2 are driven by it, too.
+meanwhile. It does so whoever runs the motors, and ends when they rest. go/2,
+go_cm/2 and turn/2 of library(ev3dev/robot) are driven by it, too.
 
 The gyro, if one is connected, tells the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
@@ -83,13 +82,15 @@ count.
     Stop the robot if it takes longer.
   - reason(-Reason)
     Do not fail if the move ends early, but tell why: one of `reached`,
-    `stalled`, `timeout`, `stopped` and `unplugged`.
+    `stalled`, `timeout`, `stopped`, `unplugged` and `astray`.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
 move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
 They also fail, unless asked for the reason, when they end early: a wheel is
-blocked, the time is up, or another thread stops a motor or tells it something
-else. The robot stands then.
+blocked, the time is up, another thread stops a motor or tells it something
+else, or the gyro contradicts the wheels (`astray`): it is mounted upside
+down, left and right motor are swapped, or the wheels spin on the spot. The
+robot stands then.
 
 They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
 takes the place of one that is under way.
@@ -109,9 +110,15 @@ go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
     number_value(Distance, Way),
     not_nothing(Way),
-    backwards(Percent * Way, Backwards),
-    Length is abs(Way),
-    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+    move_straight(Percent, Way, Options).
+
+%   Fails, and says so, if a distance or an angle is 0.
+not_nothing(Number) :-
+    (   Number =\= 0
+    ->  true
+    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
+        fail
+    ).
 
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
@@ -121,8 +128,7 @@ go_cm(Speed, Distance, Options) :-
 turn(Speed, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Angle, Degrees),
-    Turn is Degrees * sign(Percent),
-    move(Percent, legs([turn(Turn)], false), Options).
+    move_turn(Percent, Degrees, Options).
 
 %!  arc_cm(+Speed, +Radius, +Angle) is semidet.
 %!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
@@ -213,25 +219,6 @@ drive_cm(Speed, Rate, Options) :-
     number_value(Rate, DegreesPerSecond),
     move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
 
-                /*******************************
-                *     PREDICATES OF ROBOT      *
-                *******************************/
-
-:- multifile ev3dev_robot_state:move_hook/2.
-
-ev3dev_robot_state:move_hook(go(Percent, Degrees), Done) :-
-    robot(WheelDiameter, _, _, _),
-    Distance is Degrees * pi * WheelDiameter / 360,
-    done(go_cm(Percent, Distance, []), Done).
-ev3dev_robot_state:move_hook(turn(Percent, Degrees), Done) :-
-    done(turn(Percent, Degrees, []), Done).
-
-done(Goal, Done) :-
-    (   call(Goal)
-    ->  Done = true
-    ;   Done = false
-    ).
-
 %!  go_to(+X, +Y) is semidet.
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
@@ -274,6 +261,13 @@ travel(Legs, Options) :-
     speed_option(Options, Percent),
     backwards(Percent, Backwards),
     move(Percent, legs(Legs, Backwards), Options).
+
+%   The speed of a move that is not told one.
+speed_option(Options, Percent) :-
+    must_be(list, Options),
+    drive_option(speed, Default),
+    option(speed(Speed), Options, Default),
+    number_value(Speed, Percent).
 
 %!  face(+Heading) is semidet.
 %!  face(+Heading, +Options) is semidet.
@@ -334,3 +328,21 @@ points([Point|Points], [[X, Y]|Places]) :-
 point([X, Y], X, Y).
 point(X-Y, X, Y).
 point(point(X, Y), X, Y).
+
+%!  drive_wait(+Options, -Reason) is semidet.
+%
+%   Wait until the move under way ends, as one that was started with
+%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   Stops nothing. At once `reached` if there is none. Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most.
+
+drive_wait(Options, Reason) :-
+    must_be_options(drive_option, [timeout], Options),
+    option(timeout(Timeout), Options, infinite),
+    must_be_timeout(Timeout),
+    robot_description(Robot),
+    catch(drive_wait_(Robot, Timeout, Reason),
+          error(existence_error(_, _), _),
+          Reason = unplugged).

@@ -1,26 +1,46 @@
 :- module(ev3dev_drive_moves,
           [ move/3,                     % +Percent, +Course, +Options
-            drive_wait/2,               % +Options, -Reason
+            move_straight/3,            % +Percent, +Distance, +Options
+            move_turn/3,                % +Percent, +Angle, +Options
             must_be_move_options/1,     % +Options
-            speed_option/2,             % +Options, -Percent
-            backwards/2,                % +Direction, -Backwards
-            not_nothing/1               % +Number
+            valid_drive_option/3,       % +Name, +Value, -Valid
+            number_value/2,             % +Expression, -Number
+            backwards/2                 % +Direction, -Backwards
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
+:- use_module(errors,
+              [domain_error/2, evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(arguments, [must_be_options/3, must_be_timeout/1]).
-:- use_module('../odometry',
-              [ drive_option/2, number_value/2,
-                valid_drive_option/3
-              ]).
-:- use_module(robot_state, [robot/4, robot_description/1]).
-:- use_module(native, [drive_/4, drive_wait_/3]).
+:- use_module(arguments, [finite/1, must_be_options/3, must_be_timeout/1]).
+:- use_module(robot_state,
+              [drive_default/2, robot/4, robot_description/1]).
+:- use_module(native, [drive_/4]).
 
 /** <module> How a move is carried out
 
-What all moves of library(ev3dev/drive) have in common.
+What the moves of library(ev3dev/robot) and of library(ev3dev/drive) have in
+common.
 */
+
+%!  move_straight(+Percent, +Distance, +Options) is semidet.
+%
+%   Go straight on for Distance cm. The signs of both make the direction.
+
+move_straight(Percent, Distance, Options) :-
+    (   sign(Percent) =:= sign(Distance)
+    ->  Backwards = false
+    ;   Backwards = true
+    ),
+    Length is abs(Distance),
+    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+
+%!  move_turn(+Percent, +Angle, +Options) is semidet.
+%
+%   Turn on the spot by Angle degrees. The signs of both make the direction.
+
+move_turn(Percent, Angle, Options) :-
+    Turn is Angle * sign(Percent),
+    move(Percent, legs([turn(Turn)], false), Options).
 
 %!  move(+Percent, +Course, +Options) is semidet.
 %
@@ -62,11 +82,11 @@ move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
     must_be_move_options(Options),
     evaluated(abs(Percent), Speed),
-    drive_option(acceleration, Default),
+    drive_default(acceleration, Default),
     option(acceleration(Acceleration0), Options, Default),
     valid_drive_option(acceleration, Acceleration0, Acceleration),
     option(stop_action(Action), Options, hold),
-    drive_option(use_gyro, Default1),
+    drive_default(use_gyro, Default1),
     option(use_gyro(UseGyro), Options, Default1),
     must_be(boolean, UseGyro),
     option(wait(Wait0), Options, true),
@@ -85,27 +105,22 @@ ended(stalled, _) :-
     robot(_, _, Left, Right),
     print_message(warning, ev3dev(stalled([Left, Right]))),
     fail.
+ended(astray, _) :-
+    !,
+    robot(_, _, Left, Right),
+    print_message(warning, ev3dev(astray([Left, Right]))),
+    fail.
 ended(Reason, Course) :-
     debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
     fail.
 
-%!  drive_wait(+Options, -Reason) is semidet.
-%
-%   Wait until the move under way ends, as one that was started with
-%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
-%   Stops nothing. At once `reached` if there is none. Options:
-%
-%     - timeout(+Seconds)
-%       Wait for so long at most.
+:- multifile prolog:message//1.
 
-drive_wait(Options, Reason) :-
-    must_be_options(drive_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
-    robot_description(Robot),
-    catch(drive_wait_(Robot, Timeout, Reason),
-          error(existence_error(_, _), _),
-          Reason = unplugged).
+prolog:message(ev3dev(astray([Left, Right]))) -->
+    [ 'the gyro does not follow the wheels at ~w and ~w. '-[Left, Right],
+      'Is it mounted upside down, are left and right motor swapped, '-[],
+      'or do the wheels spin on the spot?'-[]
+    ].
 
 %!  must_be_move_options(+Options) is det.
 %
@@ -118,15 +133,39 @@ must_be_move_options(Options) :-
                       timeout, reason ],
                     Options).
 
-%!  speed_option(+Options, -Percent) is det.
+%!  valid_drive_option(+Name, +Value, -Valid) is det.
 %
-%   The speed of a move that is not told one.
+%   What the value of an option stands for, or an error.
 
-speed_option(Options, Percent) :-
-    must_be(list, Options),
-    drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    number_value(Speed, Percent).
+valid_drive_option(use_gyro, Value, Value) :-
+    must_be(boolean, Value).
+valid_drive_option(speed, Speed, Percent) :-
+    number_value(Speed, Percent),
+    (   Percent =\= 0,
+        abs(Percent) =< 100
+    ->  true
+    ;   domain_error(speed, Percent)
+    ).
+valid_drive_option(acceleration, Acceleration, Value) :-
+    number_value(Acceleration, Value),
+    (   Value > 0,
+        finite(Value)
+    ->  true
+    ;   domain_error(acceleration, Value)
+    ).
+
+%!  number_value(+Expression, -Number) is det.
+%
+%   The finite number that an expression stands for.
+%
+%   @error domain_error(finite_number, Number)
+
+number_value(Expression, Number) :-
+    evaluated(Expression, Number),
+    (   finite(Number)
+    ->  true
+    ;   domain_error(finite_number, Number)
+    ).
 
 %!  backwards(+Direction, -Backwards) is det.
 %
@@ -136,15 +175,4 @@ backwards(Direction, Backwards) :-
     (   Direction < 0
     ->  Backwards = true
     ;   Backwards = false
-    ).
-
-%!  not_nothing(+Number) is semidet.
-%
-%   Fails, and says so, if a distance or an angle is 0.
-
-not_nothing(Number) :-
-    (   Number =\= 0
-    ->  true
-    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
-        fail
     ).

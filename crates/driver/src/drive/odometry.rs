@@ -231,7 +231,7 @@ impl Estimate {
         }
     }
 
-    fn reset_certainty(&mut self, states: [usize; 3]) {
+    fn reset_certainty<const N: usize>(&mut self, states: [usize; N]) {
         for known in states {
             for other in 0..STATES {
                 self.covariance[known][other] = 0.0;
@@ -351,6 +351,17 @@ impl Estimate {
     /// The gyro is in another mode or unplugged: its next reading sets a new zero.
     pub fn gyro_lost(&mut self) {
         self.has_zero = false;
+    }
+
+    /// The gyro contradicts the wheels: forgets all that it has taught, but for the
+    /// pose.
+    pub fn forget_gyro(&mut self) {
+        self.gyro_lost();
+        self.forget_wheels();
+        self.state[RATE] = 0.0;
+        self.reset_certainty([ZERO, RATE]);
+        self.covariance[RATE][RATE] = DRIFT * DRIFT;
+        self.begin_rest();
     }
 
     /// Sets the gyro's zero so that this angle agrees with the heading.

@@ -84,6 +84,26 @@ pub enum Leg {
     Pieces(Vec<Segment>),
 }
 
+impl Leg {
+    /// How far a wheel rolls at most, in cm, from a pose that is not far away;
+    /// infinite if that is no number.
+    #[must_use]
+    pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
+        let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle / 2.0;
+        let way = |[x, y]: [f64; 2]| (x - from.x).hypot(y - from.y);
+        let roll = match self {
+            Self::Turn(degrees) => turn(*degrees),
+            Self::Heading(heading) => turn(heading - from.heading),
+            Self::Face(heading) => turn(wrapped(*heading)),
+            Self::Towards(place) | Self::To(place) | Self::Reach(place) => way(*place),
+            Self::Arc(length, curvature) => length.abs() + turn((length * curvature).to_degrees()),
+            Self::Through(places, _) => places.iter().map(|place| way(*place)).sum(),
+            Self::Pieces(path) => path.iter().map(|part| part.length.abs()).sum(),
+        };
+        if roll.is_nan() { f64::INFINITY } else { roll }
+    }
+}
+
 /// How fast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
