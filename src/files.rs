@@ -18,9 +18,18 @@ pub(crate) fn register() {
     register_sysfs_use();
     register_dev();
     register_dev_use();
+    register_now();
 }
 
 predicates! {
+    /// now_(-Seconds): by the clock of the tree.
+    #[module("ev3dev_native")]
+    #[name("now_")]
+    semidet fn now(context, seconds) {
+        let call = Call::of(context, "obstacle_add", 1);
+        seconds.unify(call.devices()?.tree().now().as_secs_f64())
+    }
+
     /// subsystem_detect_(?Port, ?Type, ?Path, +Pattern)
     #[module("ev3dev_native")]
     #[name("subsystem_detect_")]

@@ -6,6 +6,7 @@
             dev_use_/1,
             file_read_/2,
             file_write_/2,
+            now_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
@@ -127,6 +128,7 @@ missing.
 %!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
+%!  now_(-Seconds) is det.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.

@@ -12,7 +12,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
 :- use_module(map, [must_be_cell/1]).
-:- use_module('../native', [sim_time_/1]).
+:- use_module('../native', [now_/1]).
 
 /** <module> What a robot knows of its grid
 
@@ -62,18 +62,8 @@ obstructed(Cell) :-
 
 lasts(ever).
 lasts(until(Time)) :-
-    now(Now),
+    now_(Now),
     Now < Time.
-
-%   In the simulator its time counts.
-
-now(Seconds) :-
-    predicate_property(sim_time_(_), foreign),
-    sim_time_(Simulated),
-    !,
-    Seconds = Simulated.
-now(Seconds) :-
-    get_time(Seconds).
 
 %!  obstacle_add(+Cell) is det.
 %
@@ -101,7 +91,7 @@ longer(State, Seconds0, Seconds) :-
 for_long(never, ever) :-
     !.
 for_long(Seconds, until(Time)) :-
-    now(Now),
+    now_(Now),
     Time is Now + Seconds.
 
 %!  obstacle_remove(+Cell) is semidet.
