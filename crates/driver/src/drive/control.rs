@@ -4,12 +4,13 @@ use crate::device::registry::Registry;
 use crate::drive::agreement::Agreement;
 use crate::drive::devices::{DriveDevices, Robot, angle, counts};
 use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD};
-use crate::drive::odometry::{Estimate, Pose};
+use crate::drive::odometry::Estimate;
 use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::error::{Error, Result};
 use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
 use crate::motor::{self, Ramps, Speed, StopAction};
+use ev3_motion::Pose;
 use std::sync::Arc;
 use std::time::Duration;
 

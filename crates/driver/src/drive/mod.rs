@@ -15,7 +15,6 @@ mod control;
 mod devices;
 mod motion;
 pub mod odometry;
-pub mod path;
 pub mod steering;
 
 use crate::device::MotionObserver;
@@ -31,8 +30,8 @@ use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
 use devices::{GYRO_MODE, counts};
+use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
-use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
 
