@@ -16,7 +16,8 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// device_(+Class, ?Port, ?Type, ?Path): `device_` for `tacho_motor/3` and its like.
+    /// device_(+Class, ?Port, ?Type, ?Path): the native twin of `tacho_motor/3` and the
+    /// like.
     #[module("ev3dev_native")]
     #[name("device_")]
     nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
@@ -73,7 +74,7 @@ predicates! {
     }
 }
 
-/// What a call knows of the device it asks for.
+/// The part of a device that the caller knows.
 pub(crate) struct Bound {
     port: Option<Text>,
     kind: Option<Text>,
@@ -103,7 +104,7 @@ impl Bound {
     }
 }
 
-/// Registry whose attribute is still to be read.
+/// The devices whose attribute the call has not read yet.
 struct AttributeReads {
     devices: Arc<Registry>,
     found: IntoIter<Arc<Device>>,
@@ -135,7 +136,7 @@ pub(crate) fn unify_device(
     if path.is_var() { unify_atom(path, &device.path.to_string_lossy()) } else { Ok(()) }
 }
 
-/// A bound port is the one that was asked for, in whichever spelling.
+/// A bound port unifies in either spelling.
 pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
     if term.is_var() { unify_atom(term, port) } else { Ok(()) }
 }
@@ -162,7 +163,7 @@ fn accessor(class: Class) -> &'static str {
     }
 }
 
-/// The class that our own Prolog files name.
+/// The class, as the pack's Prolog files name it.
 pub(crate) fn class_of<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
     term: &Term,

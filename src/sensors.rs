@@ -43,8 +43,8 @@ predicates! {
         }
     }
 
-    /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): so many values, or
-    /// all that the mode has for a count of 0, as a list.
+    /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): the list of the first
+    /// Count values, or of all values of the mode if Count is 0.
     #[module("ev3dev_native")]
     #[name("sensor_values_")]
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
@@ -97,17 +97,17 @@ predicates! {
     }
 }
 
-/// Sensors that are still to be read.
+/// The sensors that the call has not read yet.
 struct Readings {
     devices: Arc<Registry>,
     sensors: IntoIter<Arc<Device>>,
     mode: Text,
-    /// Which value, or how many.
+    /// The index of a value, or the number of values.
     index: usize,
 }
 
-/// The sensors asked for: at a port, or all; of certain types, or, where none
-/// are named, all that have the mode.
+/// The sensors of a call: at a port, or all; of the given types, or, if there are none,
+/// all sensors that have the mode.
 fn sensors<C: QueryableContextType>(
     call: &Call<C>,
     devices: &Registry,

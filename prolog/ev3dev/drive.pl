@@ -9,26 +9,28 @@
             steer/3,            % +Speed, +Direction, +Options
             drive_cm/2,         % +CmPerSecond, +DegreesPerSecond
             drive_cm/3,         % +CmPerSecond, +DegreesPerSecond, +Options
+            go_to/1,            % +Place
             go_to/2,            % +X, +Y
             go_to/3,            % +X, +Y, +HeadingOrOptions
             go_to/4,            % +X, +Y, +Heading, +Options
             face/1,             % +Heading
             face/2,             % +Heading, +Options
-            follow/1,           % +Points
-            follow/2,           % +Points, +Options
+            follow/1,           % +Places
+            follow/2,           % +Places, +Options
             drive_wait/2        % +Options, -Reason
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, instantiation_error/1, must_be/2,
-                term_expansion/2, type_error/2
-              ]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(library(option), [option/3]).
+              [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,
-              [must_be_options/3, must_be_timeout/1, take_options/4]).
+              [ must_be_options/3, number_option/4, number_value/2,
+                number_value/3, take_options/4, timeout_option/2
+              ]).
+:- use_module(private/explain).
+:- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
-                must_be_move_options/1, number_value/2
+                must_be_move_options/1
               ]).
 :- reexport(odometry).
 :- reexport(calibrate).
@@ -48,15 +50,16 @@ is told. Loaded apart from library(ev3dev):
 X = 30.0, Y = 40.0, Heading = 0.1.
 ```
 
-Lengths are in centimetres, angles in degrees, both any arithmetic expression.
+Lengths are in centimeters, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
-along y, clockwise is positive, and full turns count. Speeds are in percent of
-what the motors can, and are those of the faster wheel.
+along y, clockwise is positive, and full turns count. A place is `X-Y`, or
+`[X, Y]` where a program gives one. Speeds are in percent of what the motors
+can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so whoever runs the motors, and ends when they rest. go/2,
-go_cm/2 and turn/2 of library(ev3dev/robot) are driven by it, too.
+meanwhile. It does so for all moves, those of library(ev3dev/robot), too, and
+ends when the motors rest.
 
 The gyro, if one is connected, tells the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
@@ -97,8 +100,8 @@ takes the place of one that is under way.
 
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
-@error domain_error(Option, Value)
-@error domain_error(drive_option, Option) for an option that is none
+@error domain_error(Domain, Value) for a value that makes no sense
+@error domain_error(drive_option, Option) if Option is not an option here
 */
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
@@ -116,7 +119,7 @@ go_cm(Speed, Distance, Options) :-
 not_nothing(Number) :-
     (   Number =\= 0
     ->  true
-    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
+    ;   explain("a distance or an angle of 0 moves nothing", []),
         fail
     ).
 
@@ -133,7 +136,7 @@ turn(Speed, Angle, Options) :-
 %!  arc_cm(+Speed, +Radius, +Angle) is semidet.
 %!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
 %
-%   Go along an arc of a circle. Its centre is on the right if the radius is
+%   Go along an arc of a circle. Its center is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
 %   make the direction, ahead or backwards. Fails for an Angle of 0.
 
@@ -187,11 +190,7 @@ steer(Speed, Direction) :-
 
 steer(Speed, Direction, Options) :-
     number_value(Speed, Percent),
-    number_value(Direction, D),
-    (   abs(D) =< 100
-    ->  true
-    ;   domain_error(direction, D)
-    ),
+    number_value(direction, Direction, D),
     Inner is 1 - abs(D) / 50.0,
     (   D >= 0
     ->  wheels(Percent, 1, Inner, Options)
@@ -208,8 +207,8 @@ wheels(Percent, Left0, Right0, Options) :-
 %
 %   Go on at a speed and turn at a rate, clockwise positive, until stopped.
 %   Does not wait. Called again, it changes both smoothly: a program that
-%   controls the robot itself may do so many times a second. Fails if that is
-%   too fast for a wheel.
+%   controls the robot itself may call it many times a second. Fails if that
+%   is too fast for a wheel.
 
 drive_cm(Speed, Rate) :-
     drive_cm(Speed, Rate, []).
@@ -219,12 +218,19 @@ drive_cm(Speed, Rate, Options) :-
     number_value(Rate, DegreesPerSecond),
     move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
 
+%!  go_to(+Place) is semidet.
 %!  go_to(+X, +Y) is semidet.
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
 %
 %   Turn towards a place, go there, and turn to a heading if one is given.
 %   With a negative speed, back into it.
+%
+%   @error domain_error(place, Place)
+
+go_to(Place) :-
+    place(Place, X-Y),
+    go_to(X, Y).
 
 go_to(X, Y) :-
     go_to(X, Y, []).
@@ -266,8 +272,7 @@ travel(Legs, Options) :-
 speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    number_value(Speed, Percent).
+    number_option(speed(Percent), finite_number, Options, Default).
 
 %!  face(+Heading) is semidet.
 %!  face(+Heading, +Options) is semidet.
@@ -282,52 +287,33 @@ face(Heading, Options) :-
     speed_option(Options, Percent),
     move(Percent, legs([face(Degrees)], false), Options).
 
-%!  follow(+Points) is semidet.
-%!  follow(+Points, +Options) is semidet.
+%!  follow(+Places) is semidet.
+%!  follow(+Places, +Options) is semidet.
 %
-%   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. No points are `reached`
-%   at once. Another option:
+%   Go through all of a list of places on straight lines, and turn on the spot
+%   at each. No places are `reached` at once. Another option:
 %
 %     - radius(+Cm)
 %       Round the corners with that radius, or with less where the lines are
 %       too short for it, and do not stop there.
+%
+%   @error domain_error(place, Place)
 
-follow(Points) :-
-    follow(Points, []).
+follow(Places) :-
+    follow(Places, []).
 
-follow(Points, Options) :-
-    must_be(list, Points),
+follow(Places0, Options) :-
+    must_be(list, Places0),
     take_options([radius], Options, Own, Rest),
     must_be_move_options(Rest),
-    points(Points, Places),
-    option(radius(Radius), Own, 0),
-    number_value(Radius, R),
-    (   R >= 0
-    ->  true
-    ;   domain_error(radius, R)
-    ),
+    places(Places0, Places),
+    number_option(radius(R), nonnegative_number, Own, 0),
     (   Places == []
     ->  % This, too, takes the place of a move under way.
         Leg = turn(0)
     ;   Leg = through(Places, R)
     ),
     travel([Leg], Rest).
-
-points([], []).
-points([Point|Points], [[X, Y]|Places]) :-
-    (   var(Point)
-    ->  instantiation_error(Point)
-    ;   point(Point, X0, Y0)
-    ->  number_value(X0, X),
-        number_value(Y0, Y)
-    ;   type_error(point, Point)
-    ),
-    points(Points, Places).
-
-point([X, Y], X, Y).
-point(X-Y, X, Y).
-point(point(X, Y), X, Y).
 
 %!  drive_wait(+Options, -Reason) is semidet.
 %
@@ -340,8 +326,7 @@ point(point(X, Y), X, Y).
 
 drive_wait(Options, Reason) :-
     must_be_options(drive_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     robot_description(Robot),
     catch(drive_wait_(Robot, Timeout, Reason),
           error(existence_error(_, _), _),

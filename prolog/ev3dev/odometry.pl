@@ -5,10 +5,11 @@
             heading_wrapped/2,      % +Heading, -Wrapped
             drive_option/2          % +Name, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).
-:- use_module(private/drive_moves, [number_value/2, valid_drive_option/3]).
+:- use_module(private/arguments, [number_value/2, number_value/3]).
 :- use_module(private/robot_state,
               [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
@@ -42,9 +43,16 @@ drive_option(Name, Value) :-
     ->  domain_error(drive_option, Name)
     ;   var(Value)
     ->  drive_default(Name, Value)
-    ;   valid_drive_option(Name, Value, Valid),
+    ;   valid_option(Name, Value, Valid),
         store_drive_default(Name, Valid)
     ).
+
+valid_option(use_gyro, Value, Value) :-
+    must_be(boolean, Value).
+valid_option(speed, Speed, Percent) :-
+    number_value(speed, Speed, Percent).
+valid_option(acceleration, Acceleration, Number) :-
+    number_value(positive_number, Acceleration, Number).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %

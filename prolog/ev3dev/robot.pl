@@ -8,12 +8,16 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1]).
-:- use_module(private/arguments, [finite/1, must_be_options/3]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/3]).
+:- use_module(private/domains, [finite/1]).
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/robot_state,
               [ robot_description/1, robot_set/4, store_robot/2 ]).
@@ -29,10 +33,10 @@ of most building instructions. It is described once:
 ?- set_robot(5.6, 10.6, outB, outC).
 ```
 
-Speeds are in percent of the motors' highest speed, distances in centimetres,
-angles in degrees; in moves, not in the robot's description, they may be any
-arithmetic expression. The sign of a speed and that of a distance or angle
-together make the direction; clockwise is positive.
+Speeds are in percent of the motors' highest speed, distances in centimeters,
+angles in degrees; they may be any arithmetic expression. The sign of a speed
+and that of a distance or angle together make the direction; clockwise is
+positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an
@@ -74,14 +78,14 @@ robot stands, if they end early:
 %
 %   @error domain_error(positive_number, Length)
 %   @error domain_error(side, Side)
-%   @error domain_error(robot_option, Option) for an option that is none
+%   @error domain_error(robot_option, Option) if Option is not an option here
 
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).
 
-set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
-    must_be_length(WheelDiameter),
-    must_be_length(AxleLength),
+set_robot(WheelDiameter0, AxleLength0, Left, Right, Options) :-
+    number_value(positive_number, WheelDiameter0, WheelDiameter),
+    number_value(positive_number, AxleLength0, AxleLength),
     must_be(atom, Left),
     must_be(atom, Right),
     build(WheelDiameter, Options, Diameters, Inverted, Offset),
@@ -89,8 +93,8 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
         tacho_motor(Right, Type, RightPath),
         LeftPath \== RightPath
     ->  true
-    ;   debug(ev3dev, "~w and ~w are not two motors of one type",
-              [Left, Right]),
+    ;   explain("~w and ~w are not two motors of one type",
+                [Left, Right]),
         fail
     ),
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
@@ -103,13 +107,12 @@ build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     must_be_options(robot_option,
                     [left_diameter, right_diameter, inverted, axle_offset],
                     Options),
-    option(left_diameter(LeftDiameter), Options, WheelDiameter),
-    option(right_diameter(RightDiameter), Options, WheelDiameter),
     option(inverted(Sides), Options, []),
-    option(axle_offset(Offset), Options, 0),
-    must_be_length(LeftDiameter),
-    must_be_length(RightDiameter),
-    must_be(number, Offset),
+    number_option(left_diameter(LeftDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(right_diameter(RightDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(axle_offset(Offset), finite_number, Options, 0),
     must_be(list(atom), Sides),
     inverted(Sides, Inverted).
 
@@ -143,14 +146,6 @@ sign_of(false, 1).
 directed(1, Number, Number).
 directed(-1, Number, Opposite) :-
     Opposite is -Number.
-
-must_be_length(Length) :-
-    must_be(number, Length),
-    (   Length > 0,
-        finite(Length)
-    ->  true
-    ;   domain_error(positive_number, Length)
-    ).
 
 %!  stop is semidet.
 %
@@ -241,13 +236,13 @@ turn(Speed, Angle) :-
 moves(Number) :-
     (   Number =\= 0
     ->  possible(Number)
-    ;   debug(ev3dev, "a speed or an angle of 0 moves nothing", []),
+    ;   explain("a speed or an angle of 0 moves nothing", []),
         fail
     ).
 
 possible(Number) :-
     (   finite(Number)
     ->  true
-    ;   debug(ev3dev, "no move is as fast or as long as ~w", [Number]),
+    ;   explain("no move is as fast or as long as ~w", [Number]),
         fail
     ).

@@ -1,8 +1,8 @@
-//! Words that programs use all the time, found by atom handle.
+//! Frequent words, found by atom handle.
 //!
-//! Getting the text of an atom costs more than reading a sensor's file should.
-//! The atoms of the words below are made once and kept for good, so that their
-//! handles stay theirs; any other atom's text is fetched.
+//! Fetching the text of an atom is slow compared with reading a sensor's file. So the
+//! atoms of the words below are made once and never released, and their handles stay
+//! valid. The text of any other atom is fetched.
 use std::borrow::Cow;
 use std::sync::OnceLock;
 use swipl::prelude::*;
@@ -35,7 +35,7 @@ pub(crate) fn register() {
         let handle = |word: &&'static str| {
             let atom = Atom::new(word);
             let handle = atom.atom_ptr();
-            // Kept for as long as the process lives.
+            // The process never releases them.
             std::mem::forget(atom);
             (handle, *word)
         };
@@ -45,7 +45,7 @@ pub(crate) fn register() {
     });
 }
 
-/// The text of an atom; `None` if the term is none.
+/// The text of an atom; `None` if the term is no atom.
 pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> {
     let known = term.get_atom(|atom| atom.and_then(|atom| word(atom.atom_ptr())))?;
     match known {

@@ -78,7 +78,7 @@ impl Path {
         })
     }
 
-    /// Where it begins to go, in degrees.
+    /// The heading at its start, in degrees.
     #[must_use]
     pub fn heading(&self) -> f64 {
         let start = self.segments.first().map_or([0.0; 2], Segment::from);

@@ -24,7 +24,7 @@ const SHORT: f64 = 1.0;
 const BACK: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 const DIRECTIONS: u8 = 24;
 
-/// What to do next.
+/// The next action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The way up to its first corner.
@@ -144,7 +144,7 @@ mod tests {
         assert!((90.0..100.0).contains(&safe), "{safe}");
         let wall = Obstacle::wall([-20.0, 30.0], [5.0, 30.0], 1.0).unwrap();
         let map = Map::new(vec![wall], None).unwrap();
-        // No arc of half a metre fits beside the wall.
+        // No arc of half a meter fits beside the wall.
         let options = Options { arc_radius: 50.0, ..Options::default() };
         let step = views.next_step(&map, [0.0, 0.0], [0.0, 60.0], 2.0, &options).unwrap();
         assert_eq!(step.run.segments().len(), 1);

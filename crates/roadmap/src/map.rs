@@ -32,7 +32,7 @@ pub struct Bounds {
     pub high: Point,
 }
 
-/// What is impossible in a map.
+/// An impossible part of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -197,7 +197,7 @@ impl Map {
     }
 
     /// How far a point is from the nearest obstacle; 0 inside of one and
-    /// outside of the bounds, infinite if there is none.
+    /// outside of the bounds, infinite if there is no obstacle.
     #[must_use]
     pub fn clearance(&self, at: Point) -> f64 {
         if self.covers(at) {

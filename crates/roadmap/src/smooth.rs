@@ -7,7 +7,7 @@ use ev3_motion::{Path, Segment};
 const PIECES: u8 = 4;
 /// How often the radius is halved in the search for the widest arc that fits.
 const HALVINGS: u8 = 10;
-/// Corners of fewer radians are none.
+/// A corner with a smaller angle, in radians, is straight.
 const STRAIGHT: f64 = 1e-6;
 
 /// A way from corner to corner, without the detours.

@@ -3,7 +3,7 @@
 //! `cargo test -p ev3-sim --features fuse --test fuse`. Where there is no FUSE, these tests say
 //! so and check nothing.
 
-#[path = "suite/robots.rs"]
+#[path = "it/robots.rs"]
 mod robots;
 
 use robots::{default_machine, default_robot};

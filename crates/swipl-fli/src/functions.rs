@@ -1,6 +1,6 @@
 //! Functions that every version from 7.2 to 10 has.
 //!
-//! Three kinds, told apart by what the headers say:
+//! Three kinds, as the headers declare them:
 //! [`truth!`] declares those that answer `int` in old versions and `bool` in
 //! new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same
@@ -203,7 +203,7 @@ unsafe extern "C" {
 
 /// Declares functions that take a query, narrowing it to what C expects. (Before
 /// version 8, `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does
-/// not look at what they answer.)
+/// not look at their results.)
 macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]

@@ -3,15 +3,14 @@
             move_straight/3,            % +Percent, +Distance, +Options
             move_turn/3,                % +Percent, +Angle, +Options
             must_be_move_options/1,     % +Options
-            valid_drive_option/3,       % +Name, +Value, -Valid
-            number_value/2,             % +Expression, -Number
             backwards/2                 % +Direction, -Backwards
           ]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(errors,
-              [domain_error/2, evaluated/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(arguments, [finite/1, must_be_options/3, must_be_timeout/1]).
+:- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
+:- use_module(explain).
+:- use_module(arguments,
+              [ must_be_options/3, number_option/4, option/2, option/3,
+                timeout_option/2
+              ]).
 :- use_module(robot_state,
               [drive_default/2, robot/4, robot_description/1]).
 :- use_module(native, [drive_/4]).
@@ -73,8 +72,8 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
-              [Course, Percent]),
+    ;   explain("the robot cannot move by ~p at ~w %",
+                [Course, Percent]),
         fail
     ).
 
@@ -83,16 +82,15 @@ move_options(Percent, Course, Options,
     must_be_move_options(Options),
     evaluated(abs(Percent), Speed),
     drive_default(acceleration, Default),
-    option(acceleration(Acceleration0), Options, Default),
-    valid_drive_option(acceleration, Acceleration0, Acceleration),
+    number_option(acceleration(Acceleration), positive_number, Options,
+                  Default),
     option(stop_action(Action), Options, hold),
     drive_default(use_gyro, Default1),
     option(use_gyro(UseGyro), Options, Default1),
     must_be(boolean, UseGyro),
     option(wait(Wait0), Options, true),
     must_be(boolean, Wait0),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     (   Course = legs(_, _)
     ->  Wait = Wait0
     ;   Wait = false
@@ -111,7 +109,7 @@ ended(astray, _) :-
     print_message(warning, ev3dev(astray([Left, Right]))),
     fail.
 ended(Reason, Course) :-
-    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
+    explain("~p ended early: ~w", [Course, Reason]),
     fail.
 
 :- multifile prolog:message//1.
@@ -132,40 +130,6 @@ must_be_move_options(Options) :-
                     [ speed, acceleration, use_gyro, stop_action, wait,
                       timeout, reason ],
                     Options).
-
-%!  valid_drive_option(+Name, +Value, -Valid) is det.
-%
-%   What the value of an option stands for, or an error.
-
-valid_drive_option(use_gyro, Value, Value) :-
-    must_be(boolean, Value).
-valid_drive_option(speed, Speed, Percent) :-
-    number_value(Speed, Percent),
-    (   Percent =\= 0,
-        abs(Percent) =< 100
-    ->  true
-    ;   domain_error(speed, Percent)
-    ).
-valid_drive_option(acceleration, Acceleration, Value) :-
-    number_value(Acceleration, Value),
-    (   Value > 0,
-        finite(Value)
-    ->  true
-    ;   domain_error(acceleration, Value)
-    ).
-
-%!  number_value(+Expression, -Number) is det.
-%
-%   The finite number that an expression stands for.
-%
-%   @error domain_error(finite_number, Number)
-
-number_value(Expression, Number) :-
-    evaluated(Expression, Number),
-    (   finite(Number)
-    ->  true
-    ;   domain_error(finite_number, Number)
-    ).
 
 %!  backwards(+Direction, -Backwards) is det.
 %

@@ -32,7 +32,7 @@
             sensor_value_/5,
             sensor_values_/5,
             led_/3,
-            led_set_colour_/2,
+            led_set_color_/2,
             led_set_delays_/3,
             led_set_trigger_/2,
             button_event_/4,
@@ -65,6 +65,7 @@
             pose_/5,
             pose_uncertainty_/3,
             set_pose_/5,
+            grid_drawn_/2,
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
@@ -179,7 +180,7 @@ missing.
 % Lights
 
 %!  led_(?Light, +What, -Value) is nondet.
-%!  led_set_colour_(+Light, +Color) is semidet.
+%!  led_set_color_(+Light, +Color) is semidet.
 %!  led_set_delays_(+Light, +On, +Off) is semidet.
 %!  led_set_trigger_(+Light, +Trigger) is semidet.
 %
@@ -245,6 +246,12 @@ missing.
 %
 %   `src/drive.rs`
 
+% Grids
+
+%!  grid_drawn_(+Rows, -Drawn) is det.
+%
+%   `src/grid.rs`
+
 % Roadmaps
 
 %!  roadmap_(+Facts, +Start, +Goal, +Options, -Way) is semidet.
@@ -255,7 +262,7 @@ missing.
 % Navigation
 
 %!  steer_(+Way, +Pose, +Before, -Gone, -DegreesPerCm) is semidet.
-%!  views_block_(+Views, +Point) is semidet.
+%!  views_block_(+Views, +Place) is semidet.
 %!  views_forget_(+Views) is semidet.
 %!  views_look_(+Views, +Pose, +Sensor, +Range, -Moved) is semidet.
 %!  views_new_(+Radius, -Views) is semidet.

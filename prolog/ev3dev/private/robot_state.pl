@@ -6,7 +6,7 @@
             drive_default/2,            % ?Name, ?Value
             store_drive_default/2       % +Name, +Value
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(explain, [explain/2]).
 
 /** <module> The robot that is set
 */
@@ -42,7 +42,7 @@ store_drive_default(Name, Value) :-
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
     (   robot(WheelDiameter, AxleLength, Left, Right)
     ->  true
-    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
+    ;   explain("no robot is set: see set_robot/4", []),
         fail
     ).
 

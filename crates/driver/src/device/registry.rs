@@ -61,7 +61,7 @@ impl Registry {
         Ok(Arc::clone(&listing.devices))
     }
 
-    /// The devices of a class that were seen when it was last looked at.
+    /// The devices of a class at the last listing.
     pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
         Arc::clone(&self.listing(class).devices)
     }
@@ -95,7 +95,7 @@ impl Registry {
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
-    /// Does something with the device at a port; `None` where there is none.
+    /// Calls a closure with the device at a port; `None` if there is no device.
     ///
     /// # Errors
     /// As `act`, or as [`all`](Self::all).
@@ -247,8 +247,8 @@ impl Registry {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port_name::order(&a_port, &b_port).then_with(|| port_name::order(&a_name, &b_name))
         });
-        // A port has one device of a class. Where two directories say they are
-        // at it, the one with the lower number is about to vanish.
+        // A port has one device of a class. If two directories name the same port, the
+        // one with the lower number is about to vanish.
         devices.reverse();
         devices.dedup_by(|earlier, later| earlier.port() == later.port());
         devices.reverse();

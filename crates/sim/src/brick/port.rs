@@ -118,9 +118,9 @@ const OUT_MODES: [&str; 5] = ["auto", "tacho-motor", "dc-motor", "led", "raw"];
 pub(crate) struct LegoPort {
     pub(crate) port: Port,
     pub(crate) mode: usize,
-    /// What detection says, as `status` shows it while the mode is `auto`.
+    /// The result of detection, as `status` shows it while the mode is `auto`.
     pub(crate) detected: &'static str,
-    /// What kind of device stands on the port now: decides whether `set_device` is taken.
+    /// The kind of device at the port now, which decides whether the port accepts `set_device`.
     pub(crate) has_tacho: bool,
     pub(crate) has_nxt_analog: bool,
 }

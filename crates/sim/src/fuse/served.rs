@@ -29,7 +29,7 @@ pub(super) trait Served: Debug + Send + Sized + 'static {
     /// The node with this name in a directory.
     fn lookup(machine: &Machine, directory: NodeId, name: &str) -> Result<NodeId, Errno>;
 
-    /// What is in a directory.
+    /// The entries of a directory.
     fn read_dir(machine: &Machine, directory: NodeId) -> Result<Vec<Entry>, Errno>;
 
     /// Opens a node.
@@ -51,10 +51,10 @@ pub(super) trait Served: Debug + Send + Sized + 'static {
         data: &[u8],
     ) -> Result<Written, Errno>;
 
-    /// Whether poll(2) has something to tell.
+    /// Whether poll(2) has an event to report.
     fn is_ready(&self, machine: &Machine) -> bool;
 
-    /// What an ioctl answers: its result, and the bytes for the caller.
+    /// The answer to an ioctl: its result, and the bytes for the caller.
     fn ioctl(&self, machine: &Machine, command: u32) -> Result<(i32, Vec<u8>), Errno>;
 }
 

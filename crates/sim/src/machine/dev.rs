@@ -1,4 +1,4 @@
-//! The device files: what is below `/dev` on a brick.
+//! The device files, which are below `/dev` on a brick.
 //!
 //! ```text
 //! fb0
@@ -6,7 +6,7 @@
 //! input/event1    input/by-path/platform-gpio_keys-event
 //! ```
 //! The paths by which programs find an event device are links on a brick; here they are names of
-//! the same file. What the calls do and answer is the kernel's evdev and fbmem (known in general,
+//! the same file. The calls behave like the kernel's evdev and fbmem (known in general,
 //! not read in their source).
 
 use std::sync::Arc;
@@ -83,7 +83,7 @@ impl Machine {
         found.map(|(_, node)| node).ok_or(Errno::ENOENT)
     }
 
-    /// What is in a directory below `/dev`.
+    /// The entries of a directory below `/dev`.
     ///
     /// # Errors
     /// ENOTDIR.
@@ -234,15 +234,15 @@ impl DevDescriptor {
                 (Device::Sound, Some((EV_SND, SND_BELL, on))) => {
                     machine.set_tone(if on == 0 { 0 } else { BELL_HERTZ });
                 }
-                // What a device cannot do it passes over.
+                // The device ignores what it does not have.
                 _ => {}
             }
         }
         Ok(taken)
     }
 
-    /// What an ioctl answers: its result, and the bytes for the caller. Served are those that
-    /// tell about an event device, whose numbers hold their size.
+    /// The answer to an ioctl: its result, and the bytes for the caller. This serves the ioctls
+    /// that describe an event device; their numbers hold their size.
     ///
     /// # Errors
     /// ENOTTY for a device that has none, EINVAL for one that is not served.
@@ -267,7 +267,7 @@ impl DevDescriptor {
             // EVIOCGVERSION, EVIOCGID: the version of evdev; bus, vendor, product, version.
             0x01 => 0x0001_0001_i32.to_ne_bytes().to_vec(),
             0x02 => [0x19_u16, 1, 1, 0x100].map(u16::to_ne_bytes).concat(),
-            // EVIOCGEFFECTS: of force feedback there is none.
+            // EVIOCGEFFECTS: the device has no force feedback.
             0x84 => 0_i32.to_ne_bytes().to_vec(),
             // EVIOCGNAME, EVIOCGPHYS, EVIOCGKEY
             0x06 => name.into(),

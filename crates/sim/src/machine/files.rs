@@ -1,4 +1,4 @@
-//! What a program does with the tree: look up, open, read, write, poll.
+//! The accesses of a program to the tree: look up, open, read, write, poll.
 
 use std::time::Duration;
 
@@ -15,7 +15,7 @@ use crate::sensor::{Reading, Sensor};
 use crate::trace::Action;
 use crate::world::geometry::Pose;
 
-/// Where a sensor sits on a port for which the robot names none.
+/// The place of a sensor at a port without a place in the robot's facts.
 const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);
 
 impl Machine {
@@ -35,7 +35,7 @@ impl Machine {
         self.tree.lookup(directory, name)
     }
 
-    /// What is in a directory.
+    /// The entries of a directory.
     ///
     /// # Errors
     /// ENOTDIR; ENODEV if its device is gone.
@@ -158,7 +158,7 @@ impl Machine {
 
     // ---- sensors --------------------------------------------------------------------------
 
-    /// Lets a sensor look at the world, if its values are not fresh.
+    /// Lets a sensor sample the world, if its values are not fresh.
     fn look(&mut self, serial: u64) {
         let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
             return;

@@ -1,4 +1,4 @@
-//! What each command does, at once: `docs/ev3dev-sysfs.md`, 3.3.
+//! The immediate effect of each command: `docs/ev3dev-sysfs.md`, 3.3.
 
 use super::{Command, Drive, Goal, Pid, Setpoints, StopAction, Tacho};
 use crate::ticks_from_ms;

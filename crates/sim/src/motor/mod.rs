@@ -63,7 +63,7 @@ impl StopAction {
         [("coast", StopAction::Coast), ("brake", StopAction::Brake), ("hold", StopAction::Hold)];
 }
 
-/// What a program sets before it writes a command.
+/// The set-points of a program before it writes a command.
 #[derive(Clone, Copy, Debug)]
 struct Setpoints {
     speed: i32,
@@ -91,7 +91,7 @@ impl Setpoints {
     }
 }
 
-/// Where a position move ends: the test is one-sided, in the direction chosen at its start.
+/// The target of a position move: the test is one-sided, in the direction chosen at its start.
 #[derive(Clone, Copy, Debug)]
 struct Goal {
     at: i32,
@@ -108,7 +108,7 @@ impl Goal {
     }
 }
 
-/// What the driver does with the bridge.
+/// The way in which the driver uses the bridge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Drive {
     Coast,
@@ -193,7 +193,7 @@ impl Tacho {
         }
     }
 
-    /// What the wires of the motor get.
+    /// The state of the bridge at the wires of the motor.
     pub(crate) fn bridge(&self) -> Bridge {
         match self.drive {
             Drive::Coast => Bridge::Float,

@@ -10,7 +10,7 @@ pub(crate) struct Pid {
     previous: i32,
 }
 
-/// What a regulator answers to an error.
+/// The output of a regulator for an error.
 pub(crate) struct Output {
     /// −100…100 %.
     pub(crate) duty: i32,

@@ -23,8 +23,8 @@ pub(crate) struct Ramp {
 }
 
 impl Tacho {
-    /// Starts to ramp. Where there is nothing to ramp, a stop is carried out at once and any
-    /// other command has no effect at all: the kernel does just that.
+    /// Starts to ramp. If the speed does not change, a stop takes effect at once, and any other
+    /// command has no effect, as in the kernel.
     pub(super) fn start_ramp(&mut self, end: i32, goal: Option<Goal>, then_stop: bool) {
         let from = if self.ramping { self.ramp_value } else { self.speed };
         if from == end {

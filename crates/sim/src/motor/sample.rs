@@ -1,4 +1,4 @@
-//! What the driver does by itself: every 2 ms, at its timers, and when it looks at its flags.
+//! The periodic work of the driver: every 2 ms, at its timers, and when it samples its flags.
 
 use super::{Drive, Tacho};
 use crate::JIFFY_TICKS;
@@ -73,7 +73,7 @@ impl Tacho {
             self.ramp = None;
             self.start_ramp(0, None, true);
         } else {
-            // A ramp up that is still under way is not cancelled: it restarts the motor (3.5).
+            // A ramp up that is still under way is not canceled: it restarts the motor (3.5).
             if let Some(ramp) = &mut self.ramp {
                 ramp.then_stop = true;
             }

@@ -11,12 +11,13 @@ use crate::files::attr::Effect;
 use crate::files::errno::Errno;
 use crate::{TICK_MS, ticks_from_ms};
 
-/// What one message on the I2C bus takes, and what passes until the answer to the next is there.
+/// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;
 /// How often the kernel polls sensors on the I2C bus, and the servo controller.
 const POLL_MS: u32 = 100;
 const SERVO_POLL_MS: u32 = 1000;
-/// What the sensors on the I2C bus say of their version, and where it and their data lie.
+/// The version texts of the sensors on the I2C bus, and the registers of these texts and of the
+/// data.
 pub(super) const VERSION: &str = "V1.0";
 const VERSION_REGISTER: usize = 0x00;
 const DATA_REGISTER: usize = 0x42;
@@ -67,7 +68,8 @@ impl Sensor {
         matches!(self.kind.link, Link::I2c(_))
     }
 
-    /// True at the times when the kernel polls it. What measures once is not polled.
+    /// True at the times when the kernel polls it. The kernel does not poll a mode that measures
+    /// once.
     pub(super) fn is_polled_now(&self) -> bool {
         let period = u64::from(self.poll_ms).div_ceil(TICK_MS);
         let is_due = period > 0 && (self.now - self.plugged_at) % period == 0;
