@@ -22,7 +22,6 @@ mod motors;
 mod navigation;
 mod ports;
 mod roadmap;
-mod robot;
 mod screen;
 mod sensors;
 mod servo_motors;
@@ -44,7 +43,6 @@ pub extern "C" fn install() {
     battery::register();
     ports::register();
     sensors::register();
-    robot::register();
     files::register();
     buttons::register();
     sound::register();

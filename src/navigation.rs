@@ -2,6 +2,7 @@
 use crate::glue::call::Call;
 use crate::glue::places::{place, place_term, places_term};
 use crate::roadmap::{map_of, no_way, options_of};
+use ev3_motion::Pose;
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use swipl::prelude::*;
@@ -106,9 +107,9 @@ predicates! {
     semidet fn steer(context, way, pose, before, gone, turn) {
         let call = Call::of(context, "navigate_to", 3);
         let [x, y, heading] = call.arguments(pose)?;
-        let (at, heading) = ([call.float(&x)?, call.float(&y)?], call.float(&heading)?);
+        let pose = Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? };
         let way: Arc<PathBlob> = way.get_ex()?;
-        let (now, degrees) = way.path.steer(at, heading, call.float(before)?);
+        let (now, degrees) = way.path.steer(pose, call.float(before)?);
         gone.unify(now)?;
         turn.unify(degrees)
     }

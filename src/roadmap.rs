@@ -5,7 +5,7 @@ use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Solution, plan, svg,
+    Bounds, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -157,7 +157,7 @@ fn way_term<'a, C: QueryableContextType>(
     path: &Path,
 ) -> PrologResult<Term<'a>> {
     let context = call.context;
-    let legs = path.legs().iter().map(|leg| leg_term(call, leg));
+    let legs = path.segments().iter().map(|leg| leg_term(call, leg));
     let legs = legs.collect::<PrologResult<Vec<_>>>()?;
     let list = context.new_term_ref();
     list.unify(legs.as_slice())?;
@@ -167,12 +167,15 @@ fn way_term<'a, C: QueryableContextType>(
 
 /// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the
 /// radius is positive to the right, and the angle always.
-fn leg_term<'a, C: QueryableContextType>(call: &Call<'a, C>, leg: &Leg) -> PrologResult<Term<'a>> {
+fn leg_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    leg: &Segment,
+) -> PrologResult<Term<'a>> {
     let context = call.context;
-    let (from, to) = (place_term(call, leg.start())?, place_term(call, leg.end())?);
-    if let Leg::Arc { radius, angle, .. } = *leg {
-        let (radius, angle) = (radius * angle.signum(), angle.abs());
-        return term! {context: arc(#&from, #&to, #radius, #angle)};
-    }
-    term! {context: line(#&from, #&to)}
+    let (from, to) = (place_term(call, leg.from())?, place_term(call, leg.to())?);
+    let Some(radius) = leg.radius() else {
+        return term! {context: line(#&from, #&to)};
+    };
+    let angle = leg.turn().abs();
+    term! {context: arc(#&from, #&to, #radius, #angle)}
 }

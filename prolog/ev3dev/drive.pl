@@ -16,27 +16,26 @@
             face/1,             % +Heading
             face/2,             % +Heading, +Options
             follow/1,           % +Places
-            follow/2            % +Places, +Options
+            follow/2,           % +Places, +Options
+            drive_wait/2        % +Options, -Reason
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,
-              [ number_option/4, number_value/2, number_value/3,
-                take_options/4
+              [ must_be_options/3, number_option/4, number_value/2,
+                number_value/3, take_options/4, timeout_option/2
               ]).
+:- use_module(private/explain).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
-              [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
-                speed_option/2
+              [ backwards/2, move/3, move_straight/3, move_turn/3,
+                must_be_move_options/1
               ]).
-:- reexport(private/drive_moves, [drive_wait/2]).
-:- reexport(odometry,
-            [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
-              drive_option/2
-            ]).
+:- reexport(odometry).
 :- reexport(calibrate).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/native, [drive_wait_/3]).
 
 /** <module> Driving: curves, odometry, going to places
 
@@ -59,8 +58,8 @@ can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so for all moves, and ends when the motors rest. From
-when this library is loaded, go/2, go_cm/2 and turn/2 are driven by it, too.
+meanwhile. It does so for all moves, those of library(ev3dev/robot), too, and
+ends when the motors rest.
 
 The gyro, if one is connected, tells the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
@@ -86,13 +85,15 @@ count.
     Stop the robot if it takes longer.
   - reason(-Reason)
     Do not fail if the move ends early, but tell why: one of `reached`,
-    `stalled`, `timeout`, `stopped` and `unplugged`.
+    `stalled`, `timeout`, `stopped`, `unplugged` and `astray`.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
 move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
 They also fail, unless asked for the reason, when they end early: a wheel is
-blocked, the time is up, or another thread stops a motor or tells it something
-else. The robot stands then.
+blocked, the time is up, another thread stops a motor or tells it something
+else, or the gyro contradicts the wheels (`astray`): it is mounted upside
+down, left and right motor are swapped, or the wheels spin on the spot. The
+robot stands then.
 
 They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
 takes the place of one that is under way.
@@ -112,9 +113,15 @@ go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
     number_value(Distance, Way),
     not_nothing(Way),
-    backwards(Percent * Way, Backwards),
-    Length is abs(Way),
-    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+    move_straight(Percent, Way, Options).
+
+%   Fails, and says so, if a distance or an angle is 0.
+not_nothing(Number) :-
+    (   Number =\= 0
+    ->  true
+    ;   explain("a distance or an angle of 0 moves nothing", []),
+        fail
+    ).
 
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
@@ -124,8 +131,7 @@ go_cm(Speed, Distance, Options) :-
 turn(Speed, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Angle, Degrees),
-    Turn is Degrees * sign(Percent),
-    move(Percent, legs([turn(Turn)], false), Options).
+    move_turn(Percent, Degrees, Options).
 
 %!  arc_cm(+Speed, +Radius, +Angle) is semidet.
 %!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
@@ -212,25 +218,6 @@ drive_cm(Speed, Rate, Options) :-
     number_value(Rate, DegreesPerSecond),
     move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
 
-                /*******************************
-                *     PREDICATES OF ROBOT      *
-                *******************************/
-
-:- multifile ev3dev_robot_state:move_hook/2.
-
-ev3dev_robot_state:move_hook(go(Percent, Degrees), Done) :-
-    robot(WheelDiameter, _, _, _),
-    Distance is Degrees * pi * WheelDiameter / 360,
-    done(go_cm(Percent, Distance, []), Done).
-ev3dev_robot_state:move_hook(turn(Percent, Degrees), Done) :-
-    done(turn(Percent, Degrees, []), Done).
-
-done(Goal, Done) :-
-    (   call(Goal)
-    ->  Done = true
-    ;   Done = false
-    ).
-
 %!  go_to(+Place) is semidet.
 %!  go_to(+X, +Y) is semidet.
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
@@ -281,6 +268,12 @@ travel(Legs, Options) :-
     backwards(Percent, Backwards),
     move(Percent, legs(Legs, Backwards), Options).
 
+%   The speed of a move that is not told one.
+speed_option(Options, Percent) :-
+    must_be(list, Options),
+    drive_option(speed, Default),
+    number_option(speed(Percent), finite_number, Options, Default).
+
 %!  face(+Heading) is semidet.
 %!  face(+Heading, +Options) is semidet.
 %
@@ -321,3 +314,20 @@ follow(Places0, Options) :-
     ;   Leg = through(Places, R)
     ),
     travel([Leg], Rest).
+
+%!  drive_wait(+Options, -Reason) is semidet.
+%
+%   Wait until the move under way ends, as one that was started with
+%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   Stops nothing. At once `reached` if there is none. Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most.
+
+drive_wait(Options, Reason) :-
+    must_be_options(drive_option, [timeout], Options),
+    timeout_option(Options, Timeout),
+    robot_description(Robot),
+    catch(drive_wait_(Robot, Timeout, Reason),
+          error(existence_error(_, _), _),
+          Reason = unplugged).

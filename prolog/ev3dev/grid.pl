@@ -74,7 +74,7 @@ move, unless it knows already that they are free.
 %           into a cell that is known to be obstructed.
 %         - no_robot
 %           No robot is set, or a motor is not connected.
-%         - stalled, timeout, stopped, unplugged
+%         - stalled, timeout, stopped, unplugged, astray
 %           A move ended so, as with the moves of library(ev3dev/drive). Where
 %           the robot is stalled by what its sensor did not see, it takes that
 %           for an obstacle and goes back; only if it cannot this is told.

@@ -58,7 +58,8 @@ them it plans the way again.
 %       Do not fail if Goal is not reached, but tell why: `reached`;
 %       `unreachable`, as there is no way with what is known and seen;
 %       `exhausted`, if it has planned its way so often as steps(Count) says;
-%       `stalled`, if something holds the robot; `unplugged`, if its sensor or
+%       `stalled`, if something holds the robot; `astray`, if the gyro
+%       contradicts the wheels; `unplugged`, if its sensor or
 %       a motor is; `stopped`, if another thread stopped it while it moved.
 %       A stop while it stands and plans has no effect.
 %     - steps(+Count)

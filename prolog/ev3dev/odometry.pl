@@ -10,22 +10,17 @@
               [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).
 :- use_module(private/arguments, [number_value/2, number_value/3]).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/robot_state,
+              [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
-              [ heading_wrapped_/2, odometry_/1, pose_/5,
-                pose_uncertainty_/3, set_pose_/5 ]).
+              [ heading_wrapped_/2, pose_/5, pose_uncertainty_/3,
+                set_pose_/5 ]).
 
 /** <module> Odometry: where the robot is
 
 The part of library(ev3dev/drive) that tells where the robot is, and holds its
-options. The pose counts from when a robot is set and this is loaded.
+options. The pose counts from when a robot is set.
 */
-
-:- dynamic option_value/2.
-
-option_value(use_gyro, true).
-option_value(speed, 40).
-option_value(acceleration, 50).
 
 %!  drive_option(+Name, ?Value) is semidet.
 %
@@ -47,11 +42,9 @@ drive_option(Name, Value) :-
     (   \+ memberchk(Name, [use_gyro, speed, acceleration])
     ->  domain_error(drive_option, Name)
     ;   var(Value)
-    ->  option_value(Name, Value)
+    ->  drive_default(Name, Value)
     ;   valid_option(Name, Value, Valid),
-        with_mutex(ev3dev_robot,
-                   ( retractall(option_value(Name, _)),
-                     assertz(option_value(Name, Valid)) ))
+        store_drive_default(Name, Valid)
     ).
 
 valid_option(use_gyro, Value, Value) :-
@@ -64,7 +57,7 @@ valid_option(acceleration, Acceleration, Number) :-
 %!  pose(-X, -Y, -Heading) is semidet.
 %
 %   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
-%   where it was when robot and library came together, or from set_pose/3.
+%   where it was when set_robot/4 was called first, or from set_pose/3.
 %   May be asked while it moves, by any thread. Fails if no robot is set or a
 %   motor is not connected.
 
@@ -107,19 +100,4 @@ heading_wrapped(Heading, Wrapped) :-
 %   The robot, and whether to use the gyro.
 robot(Robot, UseGyro) :-
     robot_description(Robot),
-    option_value(use_gyro, UseGyro).
-
-:- multifile ev3dev_robot_state:robot_hook/0.
-
-ev3dev_robot_state:robot_hook :-
-    odometry.
-
-%   Count from now on, if there is a robot.
-odometry :-
-    (   robot(_, _, _, _),
-        robot_description(Robot)
-    ->  ignore(odometry_(Robot))
-    ;   true
-    ).
-
-:- initialization(catch(odometry, _, true)).
+    drive_default(use_gyro, UseGyro).

@@ -503,6 +503,9 @@ test(to_and_fro_comes_to_an_end, Reason == no_way) :-
                           obstacles([ [1,1], [1,2], [1,3], [2,1], [2,2],
                                       [2,3], [3,1], [3,2], [3,3] ]) ]),
                plan_and_go_to([4,4], _, [reason(Reason)]) )).
+test(time_is_that_of_the_tree, Passed =:= 7) :-
+    corridor([fade(10)], ( ev3dev_native:now_(T0), sim_step(7), ev3dev_native:now_(T1) )),
+    Passed is round(T1 - T0).
 test(what_is_known_from_the_start_does_not_fade) :-
     corridor([fade(1), obstacles([[0,1]])],
              ( sim_step(10), obstructed([0,1]) )).

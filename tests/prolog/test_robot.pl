@@ -1,4 +1,5 @@
 :- use_module('../support/trees').
+:- use_module('../support/child').
 :- use_module('../support/simulation', [near/3]).
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
@@ -127,28 +128,22 @@ test(go_1_takes_an_expression,
     with_robot(Tree, ( go(min(50, 100 / 4)),
                        wheels(speed_sp, S) )).
 test(go_2_turns_both_wheels_and_waits,
-     [forall(tree(Tree)), true(S-A == ('525'-'525')-(hold-hold))]) :-
-    with_robot(Tree, obeying([outB, outC],
-                             ( go(50, 180),
-                               wheels_near(180, 180, 10),
-                               wheels(speed_sp, S),
-                               wheels(stop_action, A) ))).
+     [forall(behaving(Tree)), true(A == hold-hold)]) :-
+    with_robot(Tree, ( go(50, 180),
+                       wheels_near(180, 180, 3),
+                       wheels(stop_action, A) )).
 test(go_2_has_the_sign_of_both,
-     [ forall(( tree(Tree),
-                member(Speed-Angle-D, [ -50-180-'-180', 50-(-180)-'-180',
-                                        -50-(-180)-'180' ]) )),
-       true(P == D-D) ]) :-
-    with_robot(Tree, obeying([outB, outC],
-                             ( go(Speed, Angle),
-                               wheels(position_sp, P) ))).
+     [forall(( behaving(Tree),
+               member(Speed-Angle-D, [ -50-180-(-180), 50-(-180)-(-180),
+                                       -50-(-180)-180 ]) ))]) :-
+    with_robot(Tree, ( go(Speed, Angle),
+                       wheels_near(D, D, 3) )).
 test(go_cm_is_the_papers_formula,
-     [ forall(( tree(Tree),
-                member(Distance, [10, -3, 20.5]) )), true(P == Angle-Angle) ]) :-
-    Expected is round((Distance * 360) / (pi * 5.6)),
-    atom_number(Angle, Expected),
-    with_robot(Tree, obeying([outB, outC],
-                             ( go_cm(20, Distance),
-                               wheels(position_sp, P) ))).
+     [forall(( behaving(Tree),
+               member(Distance, [10, -3, 20.5]) ))]) :-
+    Angle is Distance * 360 / (pi * 5.6),
+    with_robot(Tree, ( go_cm(20, Distance),
+                       wheels_near(Angle, Angle, 3) )).
 test(an_impossible_move_fails_and_writes_nothing,
      [ forall(( tree(Tree),
                 member(Goal, [ go(0), go(0.0), go(101), go(10**400),
@@ -207,7 +202,7 @@ test(stops_the_other_wheel_when_one_is_missing,
 test(from_another_thread_ends_a_move_which_fails,
      [forall(tree(Tree)), true(Ended-Ws == fails-[])]) :-
     with_robot(Tree, ( running,
-                       meanwhile(( eventually(wheels(command, 'run-to-rel-pos'-'run-to-rel-pos')),
+                       meanwhile(( eventually(wheels(command, 'run-forever'-'run-forever')),
                                    stop,
                                    stops(outB),
                                    stops(outC) ),
@@ -263,17 +258,12 @@ test(turn_1_beyond_max_speed_fails_and_writes_nothing,
     with_robot(Tree, ( \+ turn(101),
                        written(W) )).
 test(turn_2_is_the_papers_formula,
-     [ forall(( tree(Tree),
-                member(Speed-Degrees-Sign, [20-90-1, 20-(-90)-1, -20-90-(-1), 20-45.5-1]) )),
-       true(P == L-R) ]) :-
-    Left is Sign * round(10.6 / 5.6 * Degrees),
+     [forall(( behaving(Tree),
+               member(Speed-Degrees-Sign, [20-90-1, 20-(-90)-1, -20-90-(-1), 20-45.5-1]) ))]) :-
+    Left is Sign * 10.6 / 5.6 * Degrees,
     Right is -Left,
-    atom_number(L, Left),
-    atom_number(R, Right),
-    with_robot(Tree, obeying([outB, outC],
-                             ( turn(Speed, Degrees),
-                               wheels(position_sp, P),
-                               wheels_near(Left, Right, 10) ))).
+    with_robot(Tree, ( turn(Speed, Degrees),
+                       wheels_near(Left, Right, 3) )).
 test(turn_2_by_nothing_succeeds, [forall(( tree(Tree),
                                            member(Speed, [20, -20]) ))]) :-
     with_robot(Tree, ( turn(Speed, 0),
@@ -287,85 +277,48 @@ test(an_impossible_turn_fails_and_writes_nothing,
 
 :- end_tests(turn_without_gyro).
 
-% Where it does not turn by itself, a thread plays the robot on the spot: its
-% wheels turn as they are told by speed_sp and command, and the gyro counts the
-% robot's angle.
-play_gyro(_) :-
-    \+ current_tree(plain),
-    !.
-play_gyro(Angle0) :-
-    wheel_speed(outB, Left),
-    wheel_speed(outC, Right),
-    Angle is Angle0 + 0.01 * (Left - Right) / 2 * 5.6 / 10.6,
-    Shown is round(Angle),
-    put_attribute(in4, value0, Shown),
-    sleep(0.01),
-    play_gyro(Angle).
-
 gyro_angle(Angle) :-
     get_attribute(in4, value0, Text),
     atom_number(Text, Angle).
-
-% The robot has been turned before.
-turned_already(Angle) :-
-    (   current_tree(plain)
-    ->  eventually(( gyro_angle(Angle), Angle =\= 0 ))
-    ;   turn(50, 100),
-        gyro_angle(Angle)
-    ).
-
-wheel_speed(Port, Speed) :-
-    get_attribute(Port, command, Command),
-    (   Command == 'run-forever'
-    ->  get_attribute(Port, speed_sp, Text),
-        atom_number(Text, Speed)
-    ;   Speed = 0
-    ).
 
 gyro([in4-'lego-ev3-gyro']).
 
 :- begin_tests(turn_with_gyro).
 
-test(ends_within_a_degree_and_brakes_both,
-     [ forall(( tree(Tree),
+test(ends_within_a_degree_and_holds_both,
+     [ forall(( behaving(Tree),
                 member(Speed-Degrees-Target, [ 40-90-90, 40-(-60)-(-60), -40-60-(-60) ]) )),
-       true(Ended-C-A == within-(stop-stop)-(brake-brake)) ]) :-
+       true(A == hold-hold) ]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro,
-               meanwhile(play_gyro(0),
-                         ( turn(Speed, Degrees),
-                           gyro_angle(Angle),
-                           ( abs(Angle - Target) =< 1 -> Ended = within ; Ended = Angle ),
-                           wheels(command, C),
-                           wheels(stop_action, A) ))).
+    with_robot(Tree, Gyro, ( turn(Speed, Degrees),
+                             gyro_angle(Angle),
+                             near(Angle, Target, 1),
+                             wheels(stop_action, A) )).
 test(by_nothing_it_succeeds, [forall(tree(Tree))]) :-
     gyro(Gyro),
     with_robot(Tree, Gyro, ( turn(20, 0), wheels_near(0, 0, 1) )).
-test(starts_from_whatever_the_gyro_shows,
-     [forall(tree(Tree)), true(Ended == within)]) :-
+test(starts_from_whatever_the_gyro_shows, [forall(behaving(Tree))]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro,
-               meanwhile(play_gyro(1000),
-                         ( turned_already(Before),
-                           turn(40, 45),
-                           gyro_angle(After),
-                           Turned is After - Before,
-                           ( abs(Turned - 45) =< 1 -> Ended = within ; Ended = Turned ) ))).
+    with_robot(Tree, Gyro, ( turn(50, 100),
+                             gyro_angle(Before),
+                             turn(40, 45),
+                             gyro_angle(After),
+                             Turned is After - Before,
+                             near(Turned, 45, 1) )).
 test(nothing_moves_then_it_fails_with_a_warning_and_stops,
-     [forall(tree(Tree)), true(Ws-C == [ev3dev(turn(stalled, 90))]-(stop-stop))]) :-
+     [forall(tree(Tree)), true(Ws-C == [ev3dev(stalled([outB, outC]))]-(stop-stop))]) :-
     gyro(Gyro),
     with_robot(Tree, Gyro, ( block(outB),
                        block(outC),
                        warnings(turn(20, 90), Ws),
                        wheels(command, C) )).
 test(the_gyro_counts_the_other_way_then_it_fails_with_a_warning_and_stops,
-     [forall(tree(Tree)), true(Ws-C == [ev3dev(turn(astray, 90))]-(stop-stop))]) :-
+     [ forall(( behaving(Tree), member(Goal, [turn(40, 90), turn(-20, 360)]) )),
+       true(Ws-C == [ev3dev(astray([outC, outB]))]-(stop-stop)) ]) :-
     gyro(Gyro),
-    with_robot(Tree, Gyro,
-               meanwhile(play_gyro(0),
-                         ( set_robot(5.6, 10.6, outC, outB),
-                           warnings(turn(40, 90), Ws),
-                           wheels(command, C) ))).
+    with_robot(Tree, Gyro, ( set_robot(5.6, 10.6, outC, outB),
+                             warnings(Goal, Ws),
+                             wheels(command, C) )).
 test(a_time_limit_stops_both_wheels,
      [forall(tree(Tree)), true(E-Left == time_limit_exceeded-at_rest)]) :-
     gyro(Gyro),
@@ -386,10 +339,57 @@ test(unplugging_a_wheel_stops_the_other_one,
 test(an_impossible_turn_fails_and_writes_nothing,
      [ forall(( tree(Tree),
                 member(Goal, [ turn(0, 90), turn(101, 90), turn(20, 1.0e300),
-                               turn(20, 10**400), turn(20, 40000) ]) )),
+                               turn(20, 10**400) ]) )),
        true(W == []) ]) :-
     gyro(Gyro),
     with_robot(Tree, Gyro, ( \+ Goal,
                        written(W) )).
 
 :- end_tests(turn_with_gyro).
+
+                /*******************************
+                *          ONE DRIVE           *
+                *******************************/
+
+%   What a program prints that makes a move of each kind, once it has loaded a
+%   library: where the robot is then, and when.
+moved(Library, Output) :-
+    format(string(Program),
+           ":- use_module(library(~w)).
+            :- use_module(library(ev3dev)).
+            :- use_module(library(ev3dev/sim)).
+            main :-
+                sim_start([], [clock(virtual)]),
+                set_robot(5.6, 10.6, outB, outC),
+                forall(member(Goal, [ turn(30, 90), go_cm(30, 20), go(-20, 360),
+                                      turn(-20, 45) ]),
+                       ( Goal,
+                         sim_pose(X, Y, Heading),
+                         sim_time(Time),
+                         print([X, Y, Heading, Time]), nl )).", [Library]),
+    run_program(Program, [goal(main)], Status, Output),
+    assertion(Status == exit(0)).
+
+:- begin_tests(one_drive).
+
+test(go_and_turn_do_the_same_whatever_else_is_loaded,
+     [ forall(member(Library, ['ev3dev/drive', 'ev3dev/grid'])), true(A == B) ]) :-
+    moved(ev3dev, A),
+    moved(Library, B),
+    once(sub_string(A, _, _, _, "[")).
+test(what_was_driven_before_the_library_was_loaded_counts) :-
+    run_program(":- use_module(library(ev3dev)).
+                 :- use_module(library(ev3dev/sim)).
+                 main :-
+                     sim_start([], [clock(virtual)]),
+                     set_robot(5.6, 10.6, outB, outC),
+                     motor_run(outB, 20, 360, [wait(false)]),
+                     motor_run(outC, 20, 360),
+                     sim_wait(1),
+                     use_module(library(ev3dev/drive)),
+                     pose(_, Y, _),
+                     Cm is round(Y),
+                     print(Cm).", [goal(main)], Status, Output),
+    Status-Output == exit(0)-"18".
+
+:- end_tests(one_drive).

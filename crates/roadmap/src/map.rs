@@ -249,9 +249,12 @@ impl Map {
 
     /// True if an arc, of which one end is outside of all obstacles, keeps a
     /// distance.
-    pub(crate) fn arc_clear(&self, arc: &Arc, keep: f64) -> bool {
-        let reach = keep + arc.length();
-        let near = |edge: &&Edge| !apart(&edge.extent, &[arc.from, arc.from], reach);
+    pub(crate) fn arc_clear(&self, segment: &ev3_motion::Segment, keep: f64) -> bool {
+        let Some(arc) = Arc::of(segment) else {
+            return self.line_clear(segment.from(), segment.to(), keep);
+        };
+        let (reach, from) = (keep + segment.length(), segment.from());
+        let near = |edge: &&Edge| !apart(&edge.extent, &[from, from], reach);
         self.circles().all(|(center, radius)| arc.distance_to(center) - radius >= keep)
             && self
                 .edges

@@ -1,9 +1,9 @@
 //! From a start to a goal.
 use crate::geometry::Point;
 use crate::map::Map;
-use crate::path::Path;
 use crate::problem::{Method, Options, Sought};
 use crate::{prm, rrt, smooth, visibility};
+use ev3_motion::Path;
 
 /// Why there is no way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -10,7 +10,7 @@ use crate::geometry::{
     Point, Vec2, cross, direction, distance, left_of, length, parry, point, rotated, vec2,
 };
 use crate::map::{Map, Obstacle};
-use crate::path::Path;
+use ev3_motion::Path;
 use parry2d_f64::transformation::convex_hull;
 use std::collections::BTreeMap;
 
@@ -271,11 +271,11 @@ impl Views {
     #[must_use]
     pub fn safe(&self, path: &Path, margin: f64) -> Safe {
         let mut safe = Safe { way: 0.0, unseen: None };
-        for (way, at, ahead) in path.samples(STEP) {
+        for (way, pose) in path.samples(STEP) {
             if way > 0.0 {
                 let front = FRONT.map(|degrees| {
-                    let out = rotated(ahead, degrees.to_radians());
-                    point(vec2(at) + out * (self.hull + margin))
+                    let out = rotated(direction(pose.heading), degrees.to_radians());
+                    point(vec2(pose.point()) + out * (self.hull + margin))
                 });
                 safe.unseen = front.into_iter().find(|place| !self.is_free(*place));
             }

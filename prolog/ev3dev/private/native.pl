@@ -58,7 +58,6 @@
             port_device_/2,
             port_set_device_/2,
             port_set_mode_/2,
-            turn_by_gyro_/5,
             drive_/4,
             drive_pause_/1,
             drive_wait_/3,
@@ -235,12 +234,6 @@ missing.
 %!  port_set_mode_(+Port, +Mode) is semidet.
 %
 %   `src/ports.rs`
-
-% Turns by a gyro
-
-%!  turn_by_gyro_(+Gyro, +Wheels, +Percent, +Degrees, -Ended) is semidet.
-%
-%   `src/robot.rs`
 
 % Driving and odometry
 

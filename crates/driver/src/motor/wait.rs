@@ -58,6 +58,8 @@ pub enum Reason {
     Unplugged,
     /// Another command stopped a motor before it got there.
     Stopped,
+    /// The gyro contradicts the wheels; only of a drive.
+    Astray,
 }
 
 impl Reason {
@@ -70,6 +72,7 @@ impl Reason {
             Self::Timeout => "timeout",
             Self::Unplugged => "unplugged",
             Self::Stopped => "stopped",
+            Self::Astray => "astray",
         }
     }
 }

@@ -6,7 +6,7 @@
 //! same each time. What a test wants to go wrong is a public field, set before
 //! or, by [`Brick::at`], at a certain time.
 use ev3_driver::error::Access;
-use ev3_driver::sysfs::{AttributeFile, Entry};
+use ev3_driver::sysfs::{AttributeFile, Entry, Repeated};
 use ev3_driver::{Device, Errno, Registry, Sysfs};
 use std::collections::VecDeque;
 use std::io;
@@ -35,7 +35,13 @@ pub(crate) fn errno<T>(errno: Errno) -> io::Result<T> {
 }
 
 /// The tree.
-pub(crate) struct Brick(Arc<Mutex<World>>);
+pub(crate) struct Brick(Arc<Mutex<World>>, Mutex<Vec<Periodic>>);
+
+/// An act that is repeated, and when it is due.
+struct Periodic {
+    at: Duration,
+    act: Repeated,
+}
 
 /// What is behind the tree.
 #[derive(Default)]
@@ -568,7 +574,7 @@ impl Brick {
         for port in motors {
             world.plug_motor(port);
         }
-        Arc::new(Self(Arc::new(Mutex::new(world))))
+        Arc::new(Self(Arc::new(Mutex::new(world)), Mutex::default()))
     }
 
     pub(crate) fn devices(self: &Arc<Self>) -> Registry {
@@ -594,9 +600,28 @@ impl Brick {
         self.now().checked_sub(then).unwrap()
     }
 
-    /// Lets time pass.
+    /// Lets time pass, and does what is due meanwhile.
     pub(crate) fn pass(&self, time: Duration) {
-        self.world().advance(time, false);
+        let end = self.now() + time;
+        while let Some(Periodic { at, mut act }) = self.due(end) {
+            let left = at.saturating_sub(self.now());
+            self.world().advance(left, false);
+            if let Some(period) = act() {
+                self.periodic().push(Periodic { at: at + period, act });
+            }
+        }
+        let left = end.saturating_sub(self.now());
+        self.world().advance(left, false);
+    }
+
+    fn due(&self, end: Duration) -> Option<Periodic> {
+        let mut periodic = self.periodic();
+        let (index, next) = periodic.iter().enumerate().min_by_key(|(_, next)| next.at)?;
+        (next.at <= end).then_some(index).map(|index| periodic.swap_remove(index))
+    }
+
+    fn periodic(&self) -> MutexGuard<'_, Vec<Periodic>> {
+        self.1.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What was written so far, and not asked for yet: `outA speed_sp 500`.
@@ -697,9 +722,18 @@ impl Sysfs for Brick {
     fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
         let mut world = self.world();
         world.pauses += 1;
-        if nodes.is_empty() || !world.always_ready {
-            world.advance(timeout, !nodes.is_empty());
+        if nodes.is_empty() {
+            drop(world);
+            self.pass(timeout);
+        } else if !world.always_ready {
+            world.advance(timeout, true);
         }
+        Ok(())
+    }
+
+    fn every(&self, period: Duration, act: Repeated) -> io::Result<()> {
+        let at = self.now() + period;
+        self.periodic().push(Periodic { at, act });
         Ok(())
     }
 }

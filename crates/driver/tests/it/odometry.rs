@@ -1,5 +1,6 @@
 //! Where a robot is, from what its wheels and its gyro tell.
-use ev3_driver::drive::odometry::{Estimate, Pose, Wheels, wrapped};
+use ev3_driver::drive::odometry::{Estimate, Wheels};
+use ev3_motion::{Pose, wrapped};
 use proptest::prelude::*;
 
 const WHEELS: Wheels =

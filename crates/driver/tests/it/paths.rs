@@ -1,38 +1,12 @@
-//! Paths of lines and arcs, and steering along them.
-use ev3_driver::drive::odometry::{Pose, Wheels};
-use ev3_driver::drive::path::{Segment, rounded};
+//! Steering along lines and arcs.
+use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::{Leg, Limits, Order, Steering};
+use ev3_motion::Pose;
 use proptest::prelude::*;
 
 const WHEELS: Wheels =
     Wheels { diameters: [5.6, 5.6], inverted: [false, false], axle: 10.6, offset: 0.0 };
 const LIMITS: Limits = Limits { speed: 20.0, acceleration: 50.0 };
-
-#[test]
-fn corners_are_rounded_without_a_kink() {
-    let pieces = rounded(&[[0.0, 0.0], [0.0, 50.0], [50.0, 50.0]], 10.0);
-    let [piece] = &*pieces else { panic!("{pieces:?}") };
-    assert_eq!(piece.len(), 3);
-    for pair in piece.windows(2) {
-        let (end, start) = (pair[0].end(), pair[1].start);
-        assert!((end.x - start.x).hypot(end.y - start.y) < 1e-9);
-        assert!((end.heading - start.heading).abs() < 1e-9);
-    }
-    let length: f64 = piece.iter().map(|part| part.length).sum();
-    assert!((length - (80.0 + 5.0 * std::f64::consts::PI)).abs() < 1e-9);
-}
-
-#[test]
-fn corners_that_are_too_sharp_remain() {
-    let pieces = rounded(&[[0.0, 0.0], [0.0, 50.0], [1.0, 0.0]], 10.0);
-    assert_eq!(pieces.len(), 2);
-}
-
-#[test]
-fn points_at_the_same_place_are_one() {
-    assert_eq!(rounded(&[[1.0, 1.0], [1.0, 1.0]], 5.0), Vec::<Vec<Segment>>::new());
-    assert_eq!(rounded(&[], 5.0), Vec::<Vec<Segment>>::new());
-}
 
 /// Steers a robot whose motors follow with a lag of 30 ms, and whose wheels make
 /// these shares of their speed; where it ends, and how far it rolled.
@@ -79,25 +53,6 @@ fn a_wheel_that_lags_is_made_up_for() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
-
-    /// A point of a segment is found where it is.
-    #[test]
-    fn points_are_located(
-        heading in -400.0_f64..400.0,
-        curvature in -0.2_f64..0.2,
-        length in 1.0_f64..60.0,
-        share in 0.0_f64..1.0,
-        aside in -3.0_f64..3.0,
-    ) {
-        let start = Pose { x: 3.0, y: -4.0, heading };
-        let segment = Segment { start, length, curvature };
-        let along = length * share;
-        let at = segment.at(along);
-        let right = Pose { heading: at.heading + 90.0, ..at }.ahead(aside);
-        let place = segment.locate([right.x, right.y], along);
-        prop_assert!((place.along - along).abs() < 1e-3, "{:?}", place);
-        prop_assert!((place.aside - aside).abs() < 1e-3, "{:?}", place);
-    }
 
     /// Each move ends where it should, front or rear first.
     #[test]
