@@ -9,7 +9,7 @@
                 option/2, option/3
               ]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
-:- use_module(drive, [go_cm/3, turn/3]).
+:- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(private/native, [drive_pause_/1]).
 
@@ -82,7 +82,7 @@ calibrate(What, Module:Options, SetRobot) :-
 wheels(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
     number_option(distance(Distance), positive_number, Options, 100),
-    option(speed(Speed), Options, 20),
+    number_option(speed(Speed), speed, Options, 20),
     way(Distance, Speed, Axle, Module, Options, Length, Turn),
     % The true distance of each wheel, divided by the assumed distance.
     Half is Axle * Turn / 2,
@@ -95,7 +95,7 @@ wheels(Robot, Module, Options, SetRobot) :-
 way(Distance, Speed, _, Module, Options, Length, Turn) :-
     option(measured(Goal), Options),
     !,
-    move(go_cm(Speed, Distance)),
+    straight(Speed, Distance),
     call(Module:Goal, Ahead0, Right0),
     number_value(Ahead0, Ahead),
     number_value(Right0, Right),
@@ -108,9 +108,9 @@ way(Distance, Speed, _, _, Options, Length, Turn) :-
     !,
     number_option(length(Length), positive_number, Options, Distance),
     rest_angle(Gyro, A0),
-    move(go_cm(Speed, Distance)),
+    straight(Speed, Distance),
     rest_angle(Gyro, A1),
-    move(go_cm(Speed, -Distance)),
+    straight(Speed, -Distance),
     rest_angle(Gyro, A2),
     % Both moves take the same time, so the drift of the gyro cancels out.
     Turn is ((A1 - A0) - (A2 - A1)) / 2 * pi / 180.
@@ -129,7 +129,7 @@ axle(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
     option(turns(Turns), Options, 5),
     must_be(positive_integer, Turns),
-    option(speed(Speed), Options, 20),
+    number_option(speed(Speed), speed, Options, 20),
     Angle is 360 * Turns,
     turned(Angle, Speed, Module, Options, Turned),
     Axle1 is Axle * Angle / Turned,
@@ -139,9 +139,9 @@ axle(Robot, Module, Options, SetRobot) :-
 turned(Angle, Speed, Module, Options, Turned) :-
     option(measured(Goal), Options),
     !,
-    move(turn(Speed, Angle)),
+    spin(Speed, Angle),
     call(Module:Goal, There0),
-    move(turn(Speed, -Angle)),
+    spin(Speed, -Angle),
     call(Module:Goal, Back0),
     number_value(There0, There),
     number_value(Back0, Back),
@@ -152,9 +152,9 @@ turned(Angle, Speed, Module, Options, Turned) :-
 turned(Angle, Speed, _, _, Turned) :-
     gyro_sensor(Gyro),
     rest_angle(Gyro, A0),
-    move(turn(Speed, Angle)),
+    spin(Speed, Angle),
     rest_angle(Gyro, A1),
-    move(turn(Speed, -Angle)),
+    spin(Speed, -Angle),
     rest_angle(Gyro, A2),
     Turned is ((A1 - A0) - (A2 - A1)) / 2.
 
@@ -166,10 +166,11 @@ nearest_turn(Expected, Degrees, Angle) :-
                 *******************************/
 
 %   Moves without the gyro.
-move(go_cm(Speed, Distance)) :-
-    go_cm(Speed, Distance, [use_gyro(false)]).
-move(turn(Speed, Angle)) :-
-    turn(Speed, Angle, [use_gyro(false)]).
+straight(Speed, Distance) :-
+    move_straight(Speed, Distance, [use_gyro(false)]).
+
+spin(Speed, Angle) :-
+    move_turn(Speed, Angle, [use_gyro(false)]).
 
 %   The gyro's angle while the robot rests. The gyro reports whole degrees;
 %   the mean of many samples is a little more exact.

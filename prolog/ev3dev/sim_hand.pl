@@ -18,7 +18,6 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(driver, []).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, option/3

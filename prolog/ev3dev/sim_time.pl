@@ -9,7 +9,6 @@
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
-:- use_module(driver, []).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
               [ sim_restore_/1, sim_snapshot_/1,

@@ -10,7 +10,6 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(driver, []).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,

@@ -1,8 +1,8 @@
 //! `prolog/ev3dev/sim_hand.pl`, too: the buttons of the simulated brick.
+use super::running::simulation;
 use crate::facts::named;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
-use crate::sim::simulation;
 use ev3_sim::{Button, Machine};
 use std::time::Duration;
 use swipl::prelude::*;

@@ -7,22 +7,23 @@ mod mount;
 #[cfg(not(feature = "fuse"))]
 #[path = "no_mount.rs"]
 mod mount;
+mod running;
 
-use self::dev::SimulatedDev;
+pub(crate) use self::running::end_unless_mounted;
+
 use self::files::SimulatedFiles;
+use self::running::{simulation, start};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
-use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
+use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Registry;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
-    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
-    WorldSpec,
+    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
 };
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -56,12 +57,6 @@ pub(crate) fn register() {
     register_sim_mount();
     register_sim_unmount();
 }
-
-/// The simulation that runs.
-static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
-
-/// The directories of attributes and device files that were in use before.
-static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
 /// How much simulated time passes between two checks for signals.
 const STEP_SLICE: Duration = Duration::from_secs(1);
@@ -111,13 +106,7 @@ predicates! {
     #[name("sim_stop_")]
     semidet fn sim_stop(context) {
         let call = Call::of(context, "sim_stop", 0);
-        simulation()?;
-        mount::end();
-        *running() = None;
-        let before = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let [files, dev] = before.ok_or(PrologError::Failure)?;
-        use_dev_files(dev);
-        call.or_throw(use_files(files))
+        running::stop(&call)
     }
 
     /// sim_active_
@@ -378,44 +367,6 @@ predicates! {
     semidet fn sim_unmount(context) {
         mount::unmount(&Call::of(context, "sim_unmount", 0))
     }
-}
-
-/// Ends the simulation after the program has selected other files, unless a mount shows
-/// it to other programs.
-pub(crate) fn end_unless_mounted() {
-    if !mount::is_mounted() {
-        *running() = None;
-        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = None;
-    }
-}
-
-/// The running simulation, if there is one.
-fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
-    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The running simulation; fails if there is none.
-pub(crate) fn simulation() -> PrologResult<Arc<Simulation>> {
-    running().clone().ok_or(PrologError::Failure)
-}
-
-/// Starts a simulation and ends the running one.
-fn start<C: QueryableContextType>(
-    call: &Call<C>,
-    machine: Machine,
-    clock: Clock,
-) -> PrologResult<()> {
-    let simulation = match Simulation::new(machine, clock) {
-        Ok(simulation) => Arc::new(simulation),
-        Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
-    };
-    mount::end();
-    if running().replace(Arc::clone(&simulation)).is_none() {
-        let roots = [devices().tree().root().to_owned(), dev().root().to_owned()];
-        *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(roots);
-    }
-    use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
-    call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
 /// `world` or `robot`.
