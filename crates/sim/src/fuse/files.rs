@@ -11,12 +11,12 @@ use fuser::{
     ReplyIoctl, ReplyOpen, ReplyPoll, ReplyWrite, Request, TimeOrNow, WriteFlags,
 };
 
-use super::open::{Open, locked};
+use super::open::{Open, locked, written};
 use super::served::Served;
 use crate::files::attr::Access;
 use crate::files::errno::Errno;
-use crate::machine::Machine;
 use crate::machine::tree::{FileKind, NodeId, Stat};
+use crate::machine::{Machine, Written};
 use crate::shared::Shared;
 
 /// Nothing may be remembered by the kernel: devices come and go.
@@ -231,15 +231,10 @@ impl<F: Served> Filesystem for Files<F> {
         let mut open = locked(&self.open);
         let offset = usize::try_from(offset).unwrap_or(usize::MAX);
         match open.file(fh.0).and_then(|file| file.write(&mut machine, offset, data)) {
-            Ok(written) => {
-                let length = u32::try_from(written.length).unwrap_or(u32::MAX);
-                if written.blocks.is_zero() {
-                    reply.written(length);
-                } else {
-                    open.written_at(machine.now() + written.blocks, length, reply);
-                }
+            Ok(Written { outcome, blocks }) if !blocks.is_zero() => {
+                open.written_at(machine.now() + blocks, outcome, reply);
             }
-            Err(errno) => reply.error(errno.into()),
+            result => written(result.and_then(|result| result.outcome), reply),
         }
         drop((machine, open));
         self.shared.wake();

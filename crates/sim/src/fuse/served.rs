@@ -141,7 +141,7 @@ impl Served for DevDescriptor {
         data: &[u8],
     ) -> Result<Written, Errno> {
         let length = DevDescriptor::write(self, machine, offset, data)?;
-        Ok(Written { length, blocks: Duration::ZERO })
+        Ok(Written { outcome: Ok(length), blocks: Duration::ZERO })
     }
 
     fn is_ready(&self, machine: &Machine) -> bool {

@@ -16,10 +16,15 @@ const BUS_MS: i32 = 4;
 /// How often the kernel polls sensors on the I2C bus, and the servo controller.
 const POLL_MS: u32 = 100;
 const SERVO_POLL_MS: u32 = 1000;
-/// What the sensors on the I2C bus say of their version, and where it and their data lie.
-pub(super) const VERSION: &str = "V1.0";
+/// What the sensors on the I2C bus say of their version, and where it, who made them, what they
+/// are and their data lie.
+const VERSION: &str = "V1.0";
 const VERSION_REGISTER: usize = 0x00;
+const VENDOR_REGISTER: usize = 0x08;
+const PRODUCT_REGISTER: usize = 0x10;
 const DATA_REGISTER: usize = 0x42;
+/// Numbers of errors are at most this.
+const LAST_ERRNO: i32 = 4095;
 /// How many registers the file `direct` shows.
 const REGISTERS: usize = 255;
 
@@ -49,9 +54,9 @@ impl Axle {
     }
 }
 
-/// How often a sensor is polled at first.
+/// How often a sensor is polled at first. Motors and servos behind it need no values.
 pub(super) fn poll_ms(kind: &SensorKind) -> u32 {
-    if kind.driver_name == "ms-8ch-servo" { SERVO_POLL_MS } else { POLL_MS }
+    if matches!(kind.driver_name, "ms-8ch-servo" | "ms-nxtmmx") { SERVO_POLL_MS } else { POLL_MS }
 }
 
 impl Sensor {
@@ -65,6 +70,12 @@ impl Sensor {
 
     pub(super) fn is_on_bus(&self) -> bool {
         matches!(self.kind.link, Link::I2c(_))
+    }
+
+    /// What a sensor on the bus says of its version. LEGO's thermometer says nothing.
+    pub(super) fn version(&self) -> &'static str {
+        let has_one = self.is_on_bus() && self.kind.driver_name != "lego-nxt-temp";
+        if has_one { VERSION } else { "" }
     }
 
     /// True at the times when the kernel polls it. What measures once is not polled.
@@ -109,12 +120,23 @@ impl Sensor {
         Effect::Done
     }
 
+    /// A period that is negative as a number with a sign is taken for an error.
     pub(super) fn poll_ms(&self) -> Result<u32, Errno> {
-        if self.is_on_bus() { Ok(self.poll_ms) } else { Err(Errno::EOPNOTSUPP) }
+        if !self.is_on_bus() {
+            return Err(Errno::EOPNOTSUPP);
+        }
+        let error = self.poll_ms.cast_signed().wrapping_neg();
+        match self.poll_ms.cast_signed() {
+            0.. => Ok(self.poll_ms),
+            _ if (1..=LAST_ERRNO).contains(&error) => Err(Errno(error)),
+            _ => Err(Errno::EINVAL),
+        }
     }
 
     pub(super) fn set_poll_ms(&mut self, poll_ms: u32) -> Result<Effect, Errno> {
-        self.poll_ms()?;
+        if !self.is_on_bus() {
+            return Err(Errno::EOPNOTSUPP);
+        }
         self.poll_ms = poll_ms;
         Ok(Effect::Done)
     }
@@ -125,7 +147,14 @@ impl Sensor {
             return Err(Errno::EOPNOTSUPP);
         }
         let mut registers = vec![0; REGISTERS];
-        registers[VERSION_REGISTER..VERSION.len()].copy_from_slice(VERSION.as_bytes());
+        let [vendor, product] = self.kind.identity();
+        for (at, text) in [
+            (VERSION_REGISTER, self.version()),
+            (VENDOR_REGISTER, vendor),
+            (PRODUCT_REGISTER, product),
+        ] {
+            registers[at..at + text.len()].copy_from_slice(text.as_bytes());
+        }
         let data = self.bin_data();
         registers[DATA_REGISTER..DATA_REGISTER + data.len()].copy_from_slice(&data);
         Ok(registers)
