@@ -69,7 +69,7 @@ impl Led {
     fn shine(&mut self, brightness: u32) {
         self.brightness = brightness;
         if let Some(output) = &mut self.output {
-            output.percent = brightness.cast_signed();
+            output.percent = i32::try_from(brightness).unwrap_or(0);
         }
     }
 

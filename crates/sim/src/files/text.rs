@@ -81,11 +81,16 @@ fn wrapped_digits(text: &[u8]) -> Result<u32, Errno> {
     digits.fold(None, add).ok_or(Errno::EINVAL)
 }
 
+/// The same bits as a number with a sign.
+pub(crate) fn signed(bits: u32) -> i32 {
+    i32::from_ne_bytes(bits.to_ne_bytes())
+}
+
 /// Parser B: white space, perhaps a minus sign, digits, then any junk. It wraps at 32 bits.
 pub(crate) fn lenient_int(bytes: &[u8]) -> Result<i32, Errno> {
     match without_space(bytes) {
-        [b'-', rest @ ..] => Ok(wrapped_digits(rest)?.cast_signed().wrapping_neg()),
-        text => Ok(wrapped_digits(text)?.cast_signed()),
+        [b'-', rest @ ..] => Ok(signed(wrapped_digits(rest)?).wrapping_neg()),
+        text => Ok(signed(wrapped_digits(text)?)),
     }
 }
 

@@ -122,12 +122,11 @@ impl Socket {
     /// A plug is put in or pulled out.
     pub(crate) fn change(&mut self, plug: Option<Plug>, now: u64) {
         self.plug = plug;
-        match plug {
-            Some(plug) => self.await_plug(plug, now),
-            None => {
-                self.noticed = Some(now + ticks_from_ms(REMOVE_MS));
-                self.due = self.noticed;
-            }
+        if let Some(plug) = plug {
+            self.await_plug(plug, now);
+        } else {
+            self.noticed = Some(now + ticks_from_ms(REMOVE_MS));
+            self.due = self.noticed;
         }
     }
 

@@ -131,9 +131,8 @@ impl Machine {
         if at_rest && OUTPUTS.into_iter().all(undriven) {
             self.set_current(0.0);
             self.body.turn_rate = 0.0;
-            for port in OUTPUTS {
-                let wired = self.wired(port);
-                self.shafts[port.slot()].rest(wired, start_us);
+            for shaft in &mut self.shafts {
+                shaft.rest(start_us);
             }
             return;
         }

@@ -123,8 +123,8 @@ impl DcMotor {
         let left = self.ends.saturating_sub(now);
         self.duty = self.active.duty;
         if self.duration != 0 && left != 0 {
-            let left = i64::from(self.change) * left.cast_signed() / self.duration.cast_signed();
-            let duty = i64::from(self.duty) - left;
+            let left = i128::from(self.change) * i128::from(left) / i128::from(self.duration);
+            let duty = i128::from(self.duty) - left;
             self.duty = i32::try_from(duty.clamp(-100, 100)).unwrap_or(0);
         }
         let pins = match (runs || self.duty != 0, self.duty >= 0) {

@@ -9,6 +9,7 @@ use super::{Command, Tacho};
 use crate::wheel::{Timer, jiffies_from_ms, jiffy};
 
 const PERIOD: u64 = 10;
+const HALF_PERIOD: i64 = 5;
 
 /// The leg under way, or the last one.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +45,7 @@ impl Tacho {
         let full = u32::try_from(jiffies_from_ms(full)).unwrap_or(u32::MAX);
         let most = self.kind.max_speed.unsigned_abs();
         let duration = full.wrapping_mul(change.unsigned_abs()) / most;
-        let started = self.jiffy() - PERIOD.cast_signed() / 2;
+        let started = self.jiffy() - HALF_PERIOD;
         self.ramp = Ramp { last: from, end, change, duration, started, stepped: started };
         self.ramping = true;
         self.ramp_step();

@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::{Link, Sensor, SensorKind};
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
+use crate::files::text::signed;
 use crate::{TICK_MS, ticks_from_ms};
 
 /// What one message on the I2C bus takes, and what passes until the answer to the next is there.
@@ -125,10 +126,9 @@ impl Sensor {
         if !self.is_on_bus() {
             return Err(Errno::EOPNOTSUPP);
         }
-        let error = self.poll_ms.cast_signed().wrapping_neg();
-        match self.poll_ms.cast_signed() {
+        match signed(self.poll_ms) {
             0.. => Ok(self.poll_ms),
-            _ if (1..=LAST_ERRNO).contains(&error) => Err(Errno(error)),
+            error if error >= -LAST_ERRNO => Err(Errno(-error)),
             _ => Err(Errno::EINVAL),
         }
     }

@@ -556,3 +556,34 @@ fn numbers_are_texts_of_c_and_limits_are_of_32_bits() {
     assert_eq!(desk.number(&format!("{A}speed_sp")), i32::MIN);
     assert_eq!(desk.try_put(&format!("{A}speed_sp"), "-2147483647"), Err(Errno::EINVAL));
 }
+
+/// A free motor that is sent to a speed from rest: how long until 90 % of it is read, in ms, and
+/// the most that is read, in per mille.
+fn step_response(driver: &str, speed: i32, rested_ms: u64) -> (u64, i32) {
+    let mut desk = Desk::new();
+    desk.0.plug(Port::OutD, driver).unwrap();
+    desk.step(1000 + rested_ms);
+    let motor = "tacho-motor/motor3/";
+    desk.run(motor, &[("speed_sp", speed)], "run-forever");
+    let (mut reached, mut most) = (None, 0);
+    for tick in 1..500 {
+        desk.step(2);
+        let now = desk.speed(motor);
+        if now * 10 >= speed * 9 {
+            reached = reached.or(Some(tick * 2));
+        }
+        most = most.max(now);
+    }
+    (reached.unwrap(), most * 1000 / speed)
+}
+
+#[test]
+fn the_stamps_made_at_rest_make_a_start_look_slow_and_so_it_is_harder() {
+    for rested in [0, 30] {
+        // 80 ms and 1.1 without stamps at rest.
+        let (reached, _) = step_response("lego-ev3-m-motor", 1000, rested);
+        assert!((88..112).contains(&reached), "{reached} ms");
+        let (_, most) = step_response("lego-ev3-l-motor", 500, rested);
+        assert!((1110..1130).contains(&most), "{most}");
+    }
+}
