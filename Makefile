@@ -6,10 +6,10 @@ CARGO     ?= cargo
 PACKSODIR ?= lib/$(shell $(SWIPL) -g "current_prolog_flag(arch,A),write(A)" -t halt 2>/dev/null)
 EXAMPLE   ?= obstacle_avoidance
 
-TESTS   = $(wildcard tests/test_*.pl)
+TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-all check-old check-dist \
+.PHONY: all setup build check check-rust check-prolog check-clients check-bench check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench doc dist demo install clean distclean realclean
 
@@ -34,7 +34,7 @@ place:
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
 # In minutes
-check: build check-rust check-prolog check-clients
+check: build check-rust check-prolog check-clients check-bench
 
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
@@ -53,14 +53,18 @@ check-prolog:
 check-clients: build
 	@tests/clients/run.sh
 
+# The bench still runs, and its tables are those of its last run
+check-bench: build
+	@benches/run.py --smoke
+
 lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	tools/layers.py --self-test
 	tools/layers.py
-	$(SWIPL) -g main -t 'halt(1)' tests/lint.pl
+	$(SWIPL) -g main -t 'halt(1)' tests/support/lint.pl
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
-	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh
+	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh tests/*/*.sh
 
 bench: build
 	@benches/run.py
@@ -106,13 +110,16 @@ check-versions: dist
 demo: build
 	@tools/demo.sh $(EXAMPLE)
 
+# Its files then load several times as fast; they are for this Prolog alone
 install:
+	@$(SWIPL) -q -f none -t 'halt(1)' </dev/null \
+	    -g "asserta(user:file_search_path(library,prolog)),use_module(library(ev3dev/compile)),ev3dev_compile,halt"
 
 clean:
 	$(CARGO) clean
 
 distclean: clean
-	rm -rf lib dist doc
+	rm -rf lib dist doc compiled
 
 # The toolchain for other machines, too: 1.3 GB to fetch again
 realclean: distclean

@@ -2,6 +2,8 @@
 """Benches: how fast is the pack, and compared with what?
 
     benches/run.py [--rounds N] [--no-callgrind]
+    benches/run.py --table
+    benches/run.py --smoke
 
 Five implementations of the same jobs over the same plain tree of 4 motors and 4
 sensors:
@@ -14,8 +16,15 @@ sensors:
 
 Each is one process that lives through the run. In each round every job is
 measured once by everyone who does it, one after the other; what counts is the
-median over the rounds, and ratios of medians. Prints a table and writes
-benches/results.json. python and rust take part where they could be installed.
+median over the rounds, and ratios of medians. Writes benches/results.json, and
+from that the tables of docs/performance.md; --table does the latter alone. What
+cannot take part ends the run: no column is left out in silence.
+
+--smoke measures nothing: in seconds it has each worker do each job a few times,
+and makes sure that docs/performance.md has the figures of benches/results.json,
+if there is one.
+It says so, and goes on, where python-ev3dev2 cannot be installed or there is no
+FUSE.
 """
 import argparse
 import json
@@ -31,6 +40,8 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
 WORK = TOP / "target" / "bench"
+RESULTS = TOP / "benches" / "results.json"
+TABLES = TOP / "docs" / "performance.md"
 SWIPL = os.environ.get("SWIPL", "swipl")
 SWIPL_PACK = [SWIPL, "-p", f"library={TOP}/prolog"]
 
@@ -136,35 +147,45 @@ def prolog_worker(root):
                   "measure({}, {}, {}).\n")
 
 
-def python_worker(root):
-    venv = WORK / "venv"
-    python = venv / "bin" / "python"
-    steps = ([sys.executable, "-m", "venv", venv],
-             [python, "-m", "pip", "install", "-q", "python-ev3dev2==2.1.0.post1"])
-    done = python.exists() or all(
-        subprocess.run(step).returncode == 0 for step in steps)
-    return Worker([str(python), "benches/worker.py"], root) if done else None
+def python_worker(root, is_smoke=False):
+    python = WORK / "venv" / "bin" / "python"
+
+    def has_ev3dev2():
+        return python.exists() and not subprocess.run(
+            [python, "-c", "import ev3dev2"], capture_output=True).returncode
+
+    if not has_ev3dev2():
+        subprocess.run([sys.executable, "-m", "venv", WORK / "venv"])
+        subprocess.run([python, "-m", "pip", "install", "-q",
+                        "python-ev3dev2==2.1.0.post1"])
+    if not has_ev3dev2():
+        if not is_smoke:
+            sys.exit("python-ev3dev2 cannot be installed: no column python")
+        print("left out: python-ev3dev2 cannot be installed")
+        return None
+    return Worker([str(python), "benches/worker.py"], root)
 
 
 def rust_worker(root):
-    env = {**os.environ, "EV3DEV_DRIVER_PATH": f"{root}/",
+    env = {**os.environ, "EV3DEV_DRIVER_PATH": f"{WORK}/tree/",
            "CARGO_TARGET_DIR": str(WORK / "rust")}
     built = subprocess.run(
         ["cargo", "build", "--release", "--locked", "--quiet",
          "--manifest-path", TOP / "benches/rust/Cargo.toml"], env=env)
     if built.returncode:
-        return None
+        sys.exit("benches/rust cannot be built: no columns rust and floor")
     return Worker([str(WORK / "rust/release/ev3dev-bench")], root)
 
 
-def measure(root, rounds, plain=True):
+def measure(root, rounds, plain=True, is_smoke=False):
     """Median seconds of each job, by implementation; on a plain tree also the
     gap between two wheels' commands and the share of CPU time while waiting
     for a motor that runs."""
-    prolog, python, rust = (prolog_worker(root), python_worker(root),
+    prolog, python, rust = (prolog_worker(root), python_worker(root, is_smoke),
                             rust_worker(root))
     workers = {"pack": prolog, "paper": prolog, "python": python,
                "rust": rust, "floor": rust}
+    workers = {name: worker for name, worker in workers.items() if worker}
     missing = {("floor", "enumerate")}
     times = {job: {} for job in JOBS}
     # Each access costs some 10 us more through FUSE
@@ -172,8 +193,8 @@ def measure(root, rounds, plain=True):
     for _ in range(rounds):
         for job, (few, many) in JOBS.items():
             for name, worker in workers.items():
-                if worker and (name, job) not in missing:
-                    count = (few if name in SLOW else many) // less
+                if (name, job) not in missing:
+                    count = 2 if is_smoke else (few if name in SLOW else many) // less
                     seconds = worker.ask(name, job, count)
                     times[job].setdefault(name, []).append(seconds)
     result = {job: {name: statistics.median(all_of)
@@ -181,13 +202,13 @@ def measure(root, rounds, plain=True):
               for job, by_name in times.items()}
     measured = {"seconds": result}
     if plain:
-        gaps = {"paper": prolog.ask("paper", "gap", 101)}
-        if rust:
-            gaps["pack"] = rust.ask("pack", "gap", 1001)
-        waits = {name: prolog.ask(name, "wait", 1)
-                 for name in ("pack", "paper")}
-        measured |= {"gap_seconds": gaps, "wait_cpu_share": waits}
-    for worker in {id(w): w for w in workers.values() if w}.values():
+        few, many, wait = (3, 3, 0.1) if is_smoke else (101, 1001, 2)
+        measured |= {
+            "gap_seconds": {"pack": rust.ask("pack", "gap", many),
+                            "paper": prolog.ask("paper", "gap", few)},
+            "wait_cpu_share": {name: prolog.ask(name, "wait", wait)
+                               for name in ("pack", "paper")}}
+    for worker in {id(w): w for w in workers.values()}.values():
         worker.close()
     return measured
 
@@ -197,7 +218,10 @@ class Mounted:
 
     def __enter__(self):
         self.directory = tempfile.TemporaryDirectory()
-        root = Path(self.directory.name)
+        root = Path(self.directory.name) / "class"
+        root.mkdir()
+        # Where serve.pl shows the device files
+        root.with_suffix(".dev").mkdir()
         goal = f"serve('{root}', 'benches/robot.pl')"
         self.process = subprocess.Popen(
             [*SWIPL_PACK, "-g", goal, "-t", "halt(1)", "tests/clients/serve.pl"],
@@ -218,8 +242,6 @@ def latency(root):
     """Median and worst seconds from a motor's stop to the end of the wait for
     it, in the simulator, through FUSE, with the real clock."""
     worker = rust_worker(root)
-    if not worker or not Path("/dev/fuse").exists():
-        return None
     median, worst = worker.ask_all("pack", "latency", 100)
     worker.close()
     return {"median": median, "worst": worst}
@@ -289,8 +311,10 @@ def loading(rounds):
 
 def instructions(root):
     """Instructions a call, of the five hottest predicates: callgrind's count
-    of 2000 calls less that of 1000. The same in every run."""
+    of 2000 calls less that of 1000, and less an empty loop's. The same in every
+    run, without the thread that collects garbage."""
     goals = {
+        "nothing": "true",
         "us_dist_cm": "us_dist_cm(_,_)", "col_ambient": "col_ambient(in2,_)",
         "motor_run": "motor_run(outD,50)", "position": "position(outB,_)",
         "state": "state(outB,_)"}
@@ -300,65 +324,145 @@ def instructions(root):
         for calls in (1000, 2000):
             said = subprocess.run(
                 ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                 *SWIPL_PACK, "-g", "use_module(library(ev3dev))",
+                 *SWIPL_PACK, "--no-threads", "-g", "use_module(library(ev3dev))",
                  "-g", f"forall(between(1,{calls},_),once({goal}))", "-t", "halt"],
                 env={**os.environ, "EV3DEV_SYSFS": str(root)}, check=True,
                 capture_output=True, text=True).stderr
             counts.append(int(said.split("Collected :")[1].split()[0]))
         result[job] = (counts[1] - counts[0]) / 1000
-    return result
+    nothing = result.pop("nothing")
+    return {job: count - nothing for job, count in result.items()}
 
 
-def table(results):
-    names = ["pack", "paper", "python", "rust", "floor"]
+CALLS = {
+    "us_dist_cm": "`us_dist_cm(_, D)`",
+    "col_ambient": "`col_ambient(in2, V)`",
+    "gyro_ang": "`gyro_ang(_, A)`",
+    "motor_run": "`motor_run(outD, 50)`",
+    "position": "`position(outB, P)`",
+    "state": "`state(outB, S)`",
+    "enumerate": "enumerate 4 motors",
+    "vehicle2": "a Braitenberg vehicle's step: 2 reads, 2 runs",
+}
+COLUMNS = {"pack": "this pack", "paper": "paper's way",
+           "python": "python-ev3dev2", "rust": "ev3dev-lang-rust",
+           "floor": "floor"}
+TREES = {"disk": "on disk", "memory": "in memory", "FUSE": "through FUSE"}
+
+
+def us(seconds):
+    """Microseconds, three digits of them."""
+    number = seconds * 1e6
+    return f"{number:.0f}" if number >= 100 else f"{number:.3g}"
+
+
+def row(*cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def tables(results):
+    """The tables of docs/performance.md, by name."""
+    written = {}
     for tree, measured in results["trees"].items():
-        title = "us a call, tree " + {
-            "disk": "on disk", "memory": "in memory", "FUSE": "through FUSE"}[tree]
-        print(f"\n{title:<28}" + "".join(f"{n:>10}" for n in names)
-              + f"{'paper/pack':>12}{'pack/floor':>12}")
+        lines = [row("us a call, " + TREES[tree], *COLUMNS.values(), "pack / floor"),
+                 "|---|---|---|---|---|---|---|"]
         for job, by_name in measured["seconds"].items():
-            cells = "".join(f"{by_name[n] * 1e6:>10.2f}" if n in by_name
-                            else f"{'-':>10}" for n in names)
-            ratio = by_name["paper"] / by_name["pack"]
-            floor = (f"{by_name['pack'] / by_name['floor']:>12.2f}"
-                     if "floor" in by_name else f"{'-':>12}")
-            print(f"{job:<28}{cells}{ratio:>12.0f}{floor}")
-        if "gap_seconds" not in measured:
-            continue
-        print("between the commands of two wheels: " + ", ".join(
-            f"{n} {s * 1e6:.1f} us"
-            for n, s in measured["gap_seconds"].items()))
-        print("CPU time while waiting 2 s: " + ", ".join(
-            f"{n} {s * 100:.2f} %"
-            for n, s in measured["wait_cpu_share"].items()))
-    print()
-    load = results["loading"]
+            cells = [us(by_name[name]) if name in by_name else "-" for name in COLUMNS]
+            ratio = (f"{by_name['pack'] / by_name['floor']:.1f}"
+                     if "floor" in by_name else "-")
+            lines.append(row(CALLS[job], *cells, ratio))
+        written[tree] = lines
+    plain = results["trees"]["disk"]
+    gap, wait = plain["gap_seconds"], plain["wait_cpu_share"]
+    load, latency = results["loading"], results["latency_seconds"]
     more = {key: load["library"][key] - load["bare"][key]
             for key in ("seconds", "kilobytes")}
-    print(f"loading: {more['seconds'] * 1e3:.0f} ms and "
-          f"{more['kilobytes']:.0f} kB over bare swipl")
-    print("position/2 with more motors: " + ", ".join(
-        f"{n}: {s * 1e6:.2f} us" for n, s in results["growth_seconds"].items()))
-    print("simulator: {seconds_per_second} simulated seconds a second; "
-          "{kilobytes_early} kB after 6 min, {kilobytes_late} kB after an hour"
-          .format(**results["simulator"]))
-    print("the loop of a drive: {:.2f} % of a core".format(
-        100 * (results["drive_share"]["driving"]
-               - results["drive_share"]["running"])))
-    if results["latency_seconds"]:
-        print("from a motor's stop to the end of the wait, through FUSE: "
-              + ", ".join(f"{name} {s * 1e3:.1f} ms" for name, s
-                          in results["latency_seconds"].items()))
+    share = results["drive_share"]
+    growth = results["growth_seconds"]
+    written["more"] = [
+        row("", "this pack", "paper's way"), "|---|---|---|",
+        row("between the commands of two wheels", f"{us(gap['pack'])} us",
+            f"{us(gap['paper'])} us, two threads"),
+        row("CPU time while waiting 2 s for a motor", f"{wait['pack']:.1%}",
+            f"{wait['paper']:.0%}"),
+        row("from a motor's stop to the end of the wait, simulated, through FUSE",
+            f"{latency['median'] * 1e3:.1f} ms, at worst "
+            f"{latency['worst'] * 1e3:.1f} ms", ""),
+        row("loading the library, over bare `swipl`",
+            f"{more['seconds'] * 1e3:.0f} ms, {more['kilobytes'] / 1024:.1f} MB", ""),
+        row("the loop that keeps a driving robot on its course",
+            f"{share['driving'] - share['running']:.1%} of a core", ""),
+        row(f"`position/2` with {', '.join(growth)} motors",
+            " ".join(us(seconds) for seconds in growth.values()) + " us", ""),
+        row("simulator, a program that polls its sensors",
+            f"{results['simulator']['seconds_per_second']} simulated seconds a "
+            "second", "")]
     if "instructions" in results:
-        print("instructions a call: " + ", ".join(
-            f"{job} {n:.0f}" for job, n in results["instructions"].items()))
+        counts = results["instructions"]
+        written["instructions"] = [
+            row("instructions a call, x86-64", *(f"`{job}`" for job in counts)),
+            "|---" * (len(counts) + 1) + "|",
+            row("", *(f"{count:.0f}" for count in counts.values()))]
+    return written
+
+
+def performance(results):
+    """docs/performance.md with the tables of these results, each between two
+    comments with its name."""
+    text = TABLES.read_text()
+    for name, lines in tables(results).items():
+        mark = f"<!-- {name}: by benches/run.py -->\n"
+        before, _, after = text.split(mark)
+        text = before + mark + "\n".join(lines) + "\n" + mark + after
+    return text
+
+
+def smoke():
+    """Each worker does each job; docs/performance.md is up to date."""
+    root = WORK / "tree"
+    make_tree(WORK / "disk", 4)
+    root.unlink(missing_ok=True)
+    root.symlink_to(WORK / "disk")
+    trees = ["disk"]
+    measure(root, 1, is_smoke=True)
+    if Path("/dev/fuse").exists():
+        trees.append("FUSE")
+        with Mounted() as tree:
+            root.unlink()
+            root.symlink_to(tree)
+            measure(root, 1, plain=False, is_smoke=True)
+    else:
+        print("left out: the mount, there is no FUSE here")
+    if RESULTS.exists() and performance(json.loads(RESULTS.read_text())) != TABLES.read_text():
+        sys.exit("docs/performance.md has other figures than benches/results.json: "
+                 "benches/run.py --table")
+    print("the bench answers:", ", ".join(trees))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--rounds", type=int, default=21)
     parser.add_argument("--no-callgrind", action="store_true")
+    parser.add_argument("--table", action="store_true")
+    parser.add_argument("--smoke", action="store_true")
     options = parser.parse_args()
+    WORK.mkdir(parents=True, exist_ok=True)
+    if options.smoke:
+        return smoke()
+    if not options.table:
+        run(options)
+    results = json.loads(RESULTS.read_text())
+    TABLES.write_text(performance(results))
+    for lines in tables(results).values():
+        print("\n".join(lines), end="\n\n")
+
+
+def run(options):
+    """Measures everything, and writes benches/results.json."""
+    if not Path("/dev/fuse").exists():
+        sys.exit("there is no /dev/fuse: nothing can be measured through FUSE")
+    if not options.no_callgrind and not shutil.which("valgrind"):
+        sys.exit("valgrind is missing: install it, or say --no-callgrind")
     trees = {"disk": WORK / "disk"}
     if Path("/dev/shm").is_dir():
         trees["memory"] = Path("/dev/shm") / f"ev3dev-bench-{os.getpid()}"
@@ -371,11 +475,10 @@ def main():
         root.unlink(missing_ok=True)
         root.symlink_to(tree)
         results["trees"][name] = measure(root, options.rounds)
-    if Path("/dev/fuse").exists():
-        with Mounted() as tree:
-            root.unlink()
-            root.symlink_to(tree)
-            results["trees"]["FUSE"] = measure(root, options.rounds, False)
+    with Mounted() as tree:
+        root.unlink()
+        root.symlink_to(tree)
+        results["trees"]["FUSE"] = measure(root, options.rounds, False)
     root.unlink()
     root.symlink_to(trees["disk"])
     results["latency_seconds"] = latency(root)
@@ -383,12 +486,11 @@ def main():
     results["growth_seconds"] = growth(options.rounds)
     results["loading"] = loading(options.rounds)
     results["drive_share"] = drive()
-    if not options.no_callgrind and shutil.which("valgrind"):
+    if not options.no_callgrind:
         results["instructions"] = instructions(root)
     for tree in trees.values():
         shutil.rmtree(tree)
-    table(results)
-    (TOP / "benches/results.json").write_text(json.dumps(results, indent=2) + "\n")
+    RESULTS.write_text(json.dumps(results, indent=2) + "\n")
 
 
 if __name__ == "__main__":

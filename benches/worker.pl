@@ -21,11 +21,11 @@ answer(measure(paper, gap, Count), Seconds) :-
     !,
     findall(Gap, ( between(1, Count, _), paper:gap(Gap) ), Gaps),
     median(Gaps, Seconds).
-answer(measure(Implementation, wait, _), Share) :-
+answer(measure(Implementation, wait, Seconds), Share) :-
     !,
     statistics(process_cputime, Cpu0),
     get_time(Time0),
-    wait(Implementation),
+    wait(Implementation, Seconds),
     get_time(Time1),
     statistics(process_cputime, Cpu1),
     Share is (Cpu1 - Cpu0) / (Time1 - Time0).
@@ -52,10 +52,10 @@ median(Numbers, Median) :-
     Half is Length // 2,
     nth0(Half, Sorted, Median).
 
-wait(pack) :-
-    motor_wait(outA, [timeout(2)], timeout).
-wait(paper) :-
-    paper:spin(outA, 2).
+wait(pack, Seconds) :-
+    motor_wait(outA, [timeout(Seconds)], timeout).
+wait(paper, Seconds) :-
+    paper:spin(outA, Seconds).
 
 goal(pack, us_dist_cm, us_dist_cm(_, _)).
 goal(pack, col_ambient, col_ambient(in2, _)).

@@ -2,7 +2,7 @@
 %
 %   ?- vehicle(fear).
 %
-% The left eye is a colour sensor at in2, the left wheel a motor at outB; the
+% The left eye is a color sensor at in2, the left wheel a motor at outB; the
 % right eye is at in3, the right wheel at outC. Light and speed both go from 0
 % to 100. Stop a vehicle by Ctrl-C.
 %
@@ -12,8 +12,8 @@
 
 %!  vehicle(+Name) is failure.
 %
-%   Drive as one of the vehicles below for as long as eyes and wheels are
-%   connected. However it ends, the wheels stop.
+%   Drive as one of the vehicles below while eyes and wheels are connected.
+%   The wheels stop at the end, also after an error or Ctrl-C.
 
 vehicle(Name) :-
     setup_call_cleanup(
@@ -32,43 +32,43 @@ vehicle(Name, Memory0) :-
 
 %!  wires(?Name, +Eyes, -Wheels, +Memory0, -Memory) is nondet.
 %
-%   The wheels' speeds that follow from what the eyes see. Vehicles 1 to 4
-%   remember nothing.
+%   Computes the speeds of the wheels from the light at the eyes. Vehicles 1
+%   to 4 remember nothing.
 
 % Vehicle 1 gets around: the more light, the faster.
 wires(alive, eyes(Left, Right), wheels(Speed, Speed), M, M) :-
     Speed is (Left + Right) / 2.
 
-% Vehicle 2a: each eye drives the wheel on its own side, which turns it away
-% from the light.
+% Vehicle 2a: each eye drives the wheel on its own side, so the vehicle turns
+% away from the light.
 wires(fear, eyes(Left, Right), wheels(Left, Right), M, M).
 
-% Vehicle 2b: wires crossed, it turns towards the light and rushes at it.
+% Vehicle 2b: the wires cross, so it turns toward the light and rushes at it.
 wires(aggression, eyes(Left, Right), wheels(Right, Left), M, M).
 
-% Vehicle 3a: light slows down the wheel on its side, so that it turns towards
+% Vehicle 3a: light slows down the wheel on its side, so that it turns toward
 % the light and comes to rest before it.
 wires(love, eyes(Left, Right), wheels(SpeedLeft, SpeedRight), M, M) :-
     inhibited(Left, SpeedLeft),
     inhibited(Right, SpeedRight).
 
-% Vehicle 3b: crossed, it slows down near the light as well, but turns away to
-% look for other ones.
+% Vehicle 3b: the wires cross. It slows down near the light, too, but turns
+% away to look for other lights.
 wires(explorer, eyes(Left, Right), wheels(SpeedLeft, SpeedRight), M, M) :-
     inhibited(Left, SpeedRight),
     inhibited(Right, SpeedLeft).
 
-% Vehicle 4a: it likes some light best, and circles where it finds that.
+% Vehicle 4a: it likes one brightness best, and circles where it finds that.
 wires(taste, eyes(Left, Right), wheels(SpeedLeft, SpeedRight), M, M) :-
     best_at_half(Left, SpeedRight),
     best_at_half(Right, SpeedLeft).
 
-% Vehicle 4b: it makes decisions: nothing happens below a threshold.
+% Vehicle 4b: it makes decisions. Below a threshold it does not move.
 wires(decision, eyes(Left, Right), wheels(SpeedLeft, SpeedRight), M, M) :-
     above_threshold(Left, SpeedRight),
     above_threshold(Right, SpeedLeft).
 
-% Vehicle 5 remembers: each time it gets dazzled it changes its mind, between
+% Vehicle 5 remembers: each time a light dazzles it, it changes between
 % aggression and fear.
 wires(memory, Eyes, Wheels, Memory0, Memory) :-
     mind(Memory0, Eyes, Memory),

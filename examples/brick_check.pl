@@ -1,12 +1,12 @@
 #!/usr/bin/env swipl
-% What a robot's motors and sensors do, as a report.
+% Tests a robot's motors and sensors, and prints a report.
 %
 %   ./brick_check.pl | tee report.txt
 %
-% Lift the robot off the ground: each motor turns by a quarter and back. Each
-% sensor is read in each of its modes, except those that calibrate it or
-% measure only once, and put back into its own. What does not work is
-% reported, and the rest goes on. Send the report with what you tell of a bug.
+% Lift the robot off the ground: the program turns each motor by a quarter and
+% back. It reads each sensor in each of its modes, except the modes that
+% calibrate it or measure only once, and restores its mode. It reports errors
+% and goes on. Send the report with a bug report.
 
 :- module(brick_check, [main/0]).
 :- use_module(library(ev3dev)).
@@ -32,8 +32,8 @@ check(Port, Type, Kind) :-
     attempt(Check),
     attempt(reading_time(Kind, Port)).
 
-%   Run a part of the report, and say so if it fails or throws. Ctrl-C is no
-%   error, and ends the report.
+%   Run a part of the report, and print if it fails or throws. Ctrl-C ends the
+%   report.
 
 attempt(Goal) :-
     catch(outcome(Goal), error(Formal, Context),
@@ -162,8 +162,8 @@ read_mode(Port, Mode) :-
             Values),
     format("    ~w: ~w~n", [Mode, Values]).
 
-%   Calibration, and single measurements: less than 250 ms apart they lock the
-%   sensor up.
+%   Modes for calibration, and modes for single measurements, which lock the
+%   sensor up if they are less than 250 ms apart.
 
 left_out(Mode) :-
     atom_concat(_, '-CAL', Mode),

@@ -1,11 +1,12 @@
-% Ten planners on one map: which finds what, and how much does it look at?
+% Ten planners on one map: which plan does each find, and how many states does
+% it expand?
 %
 %   ?- start.
 %
-% Twice they drive over the map below. First the robot knows all of it, and
-% each plans once. Then it knows nothing, and plans again whenever it finds an
-% obstacle in its way. That needs no robot; it prints a table for each, and
-% draws planners_known.svg and planners_unknown.svg.
+% The planners drive over the map below twice. First they know the whole map,
+% and each plans once. Then they know nothing, and plan again at each obstacle
+% on the path. The program needs no robot. It prints a table for each drive,
+% and draws planners_known.svg and planners_unknown.svg.
 
 :- use_module(library(ev3dev/planners)).
 
@@ -25,8 +26,8 @@ start :-
 
 %!  start(+Options) is det.
 %
-%   Compare on a map made with Options, as `[neighbours(8)]` or
-%   `[turn_cost(1)]`.
+%   Compare the planners on a map with Options, for example
+%   `[neighbours(8)]` or `[turn_cost(1)]`.
 
 start(Options) :-
     map(Rows),

@@ -1,14 +1,14 @@
-% A robot that finds its way over a grid of cells it does not know.
+% A robot that finds its path over an unknown grid of cells.
 %
 %   ?- start([3, 3]).
 %
-% It plans a way to its goal, takes it, and looks before each move. Where its
-% ultrasonic sensor sees something in the next cell it notes an obstacle and
-% plans anew from where it stands. Cells are 20 cm wide; the robot starts in
-% the cell [0,0] and looks along y.
+% It plans a path to its goal, follows it, and looks before each move. If its
+% ultrasonic sensor sees something in the next cell, it adds an obstacle to
+% the map and plans again from its cell. Cells are 20 cm wide; the robot
+% starts in the cell [0,0] and looks along y.
 %
-% How plans are made is another matter: by one of library(ev3dev/planners), or
-% by a planner of one's own, such as that in grid_planner.pl:
+% The planner is one of library(ev3dev/planners), or another program, such as
+% that in grid_planner.pl:
 %
 %   ?- start([3, 3], a_star).
 %   ?- start([3, 3], own_plan(free_cell)).
@@ -35,7 +35,7 @@ start(Goal, Planner) :-
     tell(Reason, Goal),
     Reason == reached.
 
-%   What happens on the way, and how it ended.
+%   Messages during the drive and at its end.
 
 tell(plan(state(Cell, _), Plan)) :-
     format("at ~w: ~w~n", [Cell, Plan]).
@@ -50,8 +50,8 @@ tell(Reason, Goal) :-
     \+ memberchk(Reason, [reached, no_way]),
     format("cannot go on to ~w: ~w~n", [Goal, Reason]).
 
-%   For a planner of one's own: cells into which the robot may go, as far as
-%   it knows.
+%   True if the robot may enter a cell, as far as it knows. The planner of
+%   grid_planner.pl calls this.
 
 free_cell([X, Y]) :-
     between(0, 7, X),

@@ -3,9 +3,9 @@
 
 /** <module> A planner for grid_navigation.pl
 
-Breadth first: the shortest plan, counting moves and turns alike. Any other
-planner may take its place; the program that carries plans out knows nothing
-of how they were made.
+Breadth-first search: it finds the shortest plan and counts moves and turns
+alike. Any other planner may take its place: the program that carries out
+plans does not depend on the planner.
 */
 
 :- meta_predicate own_plan(:, +, +, -).
@@ -15,7 +15,7 @@ of how they were made.
 %   True if Plan is a list of `move`, `left` and `right` that leads from Start
 %   to Goal, both `state(Cell, Direction)`, through cells for which
 %   call(Free_1, Cell) is true. A cell is `[X, Y]`, a direction one of
-%   `[0,1]`, `[1,0]`, `[0,-1]`, `[-1,0]`. Fails if there is none.
+%   `[0,1]`, `[1,0]`, `[0,-1]`, `[-1,0]`. Fails if there is no plan.
 
 own_plan(Free_1, Start, Goal, Plan) :-
     search([Start-[]], [Start], Free_1, Goal, Reversed),

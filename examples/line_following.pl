@@ -1,22 +1,22 @@
-% A robot that follows the left edge of a black line by one colour sensor.
+% A robot that follows the left edge of a black line by one color sensor.
 %
 %   ?- start.
 %
-% The sensor looks at the floor, at in2 or else at any port. Half of its light
-% comes back where the edge is below it. How far it is from that, for how long
-% it has been, and how fast that changes make the rate at which the robot
-% turns: a PID control. Stop it by Ctrl-C: however it ends, the wheels stop.
+% The sensor points at the floor. It is at in2, or else at any port. Above the
+% edge, half of its light comes back. The deviation from this value, its sum
+% over time and its rate of change give the rate at which the robot turns: a
+% PID control. Stop it by Ctrl-C: the wheels always stop at the end.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 
-%   Degrees a second for each percent, for each percent and second, and for
-%   each percent a second.
+%   P, I and D: degrees per second for each percent, for each percent times
+%   second, and for each percent per second.
 gain(proportional, 1.6).
 gain(integral, 0.3).
 gain(derivative, 0.06).
 
-%   How fast, in cm a second, and how often, in seconds.
+%   The speed in cm per second, and the period of the control in seconds.
 speed(12).
 period(0.02).
 
@@ -36,7 +36,7 @@ eye(Eye) :-
     light_sensor(Eye),
     !.
 
-%   Positive where it is too bright: the line is on the right.
+%   The deviation is positive if it is too bright: the line is on the right.
 error(Eye, Error) :-
     col_reflect(Eye, Light),
     Error is Light - 50.
@@ -52,7 +52,7 @@ line_following(Eye, Error0, Sum0) :-
     Rate is P * Error + I * Sum + D * Change,
     speed(Speed),
     drive_cm(Speed, Rate, [acceleration(100)]),
-    % Meanwhile it drives on.
+    % The robot keeps driving during the wait.
     drive_wait([timeout(Period)], timeout),
     !,
     line_following(Eye, Error, Sum).

@@ -1,10 +1,10 @@
-% A robot that goes on until something is in its way, and then turns aside.
+% A robot that drives until it sees an obstacle, and then turns aside.
 %
 %   ?- start.
 %
-% It needs two large motors and an ultrasonic sensor that looks ahead, at
-% whichever port; a gyro makes its turns exact. Stop it by Ctrl-C: however it
-% ends, the wheels stop.
+% It needs two large motors and, at any port, an ultrasonic sensor that points
+% ahead; a gyro makes its turns exact. Stop it by Ctrl-C: the wheels always
+% stop at the end.
 
 :- use_module(library(ev3dev)).
 

@@ -3,18 +3,18 @@
 %   ?- drive.
 %
 % The red buttons are for the left wheel at outB, the blue ones for the right
-% wheel at outC: the upper ones run it forwards, the lower ones backwards. The
-% beacon's button ends the program. It needs an infrared sensor, at whichever
-% port, and a remote control that is set to channel 1.
+% wheel at outC: the upper ones run it forward, the lower ones backward. The
+% beacon's button ends the program. The program needs an infrared sensor at
+% any port, and a remote control on channel 1.
 
 :- use_module(library(ev3dev)).
 
 %!  drive is semidet.
 %!  drive(+Channel) is semidet.
 %
-%   Do as the remote control says until its beacon is switched on. Fails if
-%   there is no infrared sensor, or no motor. However it ends, the wheels
-%   stop.
+%   Drive by the remote control until its beacon is switched on. Fails if
+%   there is no infrared sensor, or no motor. The wheels stop at the end, also
+%   after an error or Ctrl-C.
 
 drive :-
     drive(1).
@@ -35,7 +35,7 @@ obey(Port, Channel, Before) :-
         obey(Port, Channel, Buttons)
     ).
 
-% The wheels go on by themselves while the same buttons are held.
+% The wheels keep running while the same buttons are pressed.
 run(Buttons, Buttons) :-
     !.
 run(_, Buttons) :-
@@ -45,7 +45,7 @@ run(_, Buttons) :-
 
 %!  wheel(+Buttons, +Up, +Down, -Speed) is det.
 %
-%   Both buttons of a wheel at once, or none, leave it standing.
+%   If both buttons of a wheel are pressed, or none, it stands still.
 
 wheel(Buttons, Up, Down, Speed) :-
     (   memberchk(Up, Buttons),

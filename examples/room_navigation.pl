@@ -1,22 +1,22 @@
-% A robot that drives through a room of which it knows but a part.
+% A robot that drives through a room and knows only a part of it.
 %
 %   ?- start.
 %   ?- start(260-40).
 %
-% It is told of the walls and of one box. A second box and a pillar it finds
-% with its ultrasonic sensor: it goes only where it has looked, and plans anew
-% with what it has seen. Place it where start/3 of the map says. In the
-% simulator that is the world `room`.
+% Its map has the walls and one box. It finds a second box and a pillar with
+% its ultrasonic sensor: it drives only where it has looked, and plans again
+% with each new obstacle. Place it at start/3 of the map. In the simulator
+% this is the world `room`.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/roadmap)).
 
-%   What the robot is told of, in cm, and where it stands and looks.
+%   The map that the robot gets, in cm, and its pose at the start.
 
-told([ bounds(0, 0, 300, 250),
-       box(90, 165, 40, 25, 20)
-     ]).
+known_map([ bounds(0, 0, 300, 250),
+            box(90, 165, 40, 25, 20)
+          ]).
 
 stands(40, 40, 40).
 
@@ -25,12 +25,12 @@ start :-
 
 %!  start(+Goal) is semidet.
 %
-%   Go from where the robot stands first to a place, X-Y. Fails if it cannot
-%   be reached.
+%   Go from the start of the map to a place, X-Y. Fails if the robot cannot
+%   reach it.
 
 start(Goal) :-
     set_robot(5.6, 10.6, outB, outC),
-    told(Map),
+    known_map(Map),
     stands(X, Y, Heading),
     set_pose(X, Y, Heading),
     navigate_to(Map, Goal, [reason(Reason), obstacles(Found)]),
@@ -40,10 +40,10 @@ start(Goal) :-
 
 %!  picture(+Goal, +File) is semidet.
 %
-%   Draw the way to a place as it looks with what the robot is told: an SVG
-%   file.
+%   Draw the path to a place over the map to an SVG file. The picture has only
+%   the obstacles of the map.
 
 picture(Goal, File) :-
-    told(Map),
+    known_map(Map),
     stands(X, Y, _),
     roadmap_svg(Map, X-Y, Goal, File, []).

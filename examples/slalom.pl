@@ -1,6 +1,6 @@
-% A robot that drives around poles in a row, 60 cm apart: arcs to the left and
-% to the right of them in turn. It starts in the row, 30 cm before the first
-% pole, and looks along it.
+% A robot that drives around poles in a row, 60 cm apart, in arcs to their
+% left and right in turn. It starts in the row, 30 cm before the first pole,
+% and looks along the row.
 %
 %   ?- start.
 %   ?- start(Poles).
@@ -15,8 +15,8 @@ start(Poles) :-
     set_robot(5.6, 10.6, outB, outC),
     slalom(Poles, 60).
 
-%   It crosses the row half-way between two poles, at 60 degrees, and an arc
-%   of 120 degrees leads from there around a pole to the next such place.
+%   The robot crosses the row halfway between two poles, at 60 degrees. From
+%   there, an arc of 120 degrees leads around a pole to the next crossing.
 
 slalom(Poles, Gap) :-
     Radius is Gap / sqrt(3),

@@ -1,6 +1,6 @@
-% A robot that drives squares of a metre, to the right and then to the left,
-% and says where it thinks that it has got. If that is not where it stands,
-% its wheels or its axle are not what set_robot/4 was told: see calibrate/3.
+% A robot that drives squares of a meter, to the right and then to the left,
+% and prints its computed pose. If the robot stands at another place, the
+% sizes given to set_robot/4 are not exact: see calibrate/3.
 %
 %   ?- start.
 

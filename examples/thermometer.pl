@@ -1,17 +1,17 @@
-% A thermometer: shows how warm it is, and how that changes.
+% A thermometer: shows the temperature and whether it rises or falls.
 %
 %   ?- thermometer.
 %
-% It needs any sensor that temperature/2 takes, as LEGO's for the NXT, at
-% whichever port. Stop it by Ctrl-C.
+% It needs, at any port, a sensor that temperature/2 reads, for example LEGO's
+% for the NXT. Stop it by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 
 %!  thermometer is failure.
 %!  thermometer(+Count) is semidet.
 %
-%   Print the temperature once a second: for ever, or Count times. Fails as
-%   soon as there is no sensor.
+%   Print the temperature once per second: forever, or Count times. Fails if
+%   there is no sensor.
 
 thermometer :-
     thermometer(0).
@@ -27,8 +27,8 @@ thermometer(Count, Before) :-
     trend(Before, Celsius, Trend),
     bar(Celsius, Bar),
     format("~t~1f~6| C ~w ~w~n", [Celsius, Trend, Bar]),
-    (   Count == 1
-    ->  true                            % from 0 down it never is
+    (   Count == 1                      % never true from 0 down: forever
+    ->  true
     ;   sleep(1),
         Left is Count - 1,
         thermometer(Left, Celsius)
@@ -36,7 +36,8 @@ thermometer(Count, Before) :-
 
 %!  trend(+Before, +Now, -Sign) is det.
 %
-%   The sensor tells tenths of a degree; one more or less may be chance.
+%   The sensor measures tenths of a degree. A change by one tenth may be
+%   noise.
 
 trend(Before, Now, Sign) :-
     (   Now > Before + 0.15
@@ -48,7 +49,7 @@ trend(Before, Now, Sign) :-
 
 %!  bar(+Celsius, -Bar) is det.
 %
-%   A column of mercury that lies down, a star a degree.
+%   A bar with a star for each degree.
 
 bar(Celsius, Bar) :-
     Length is max(0, min(50, round(Celsius))),

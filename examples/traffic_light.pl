@@ -1,16 +1,16 @@
-% A traffic light that turns green for whoever presses the key in the middle.
+% A traffic light that turns green when somebody presses the middle button.
 %
 %   ?- start.
 %
-% The brick's lights, its screen and its speaker tell what it shows. Any other
-% key ends the program.
+% The brick shows the color by its lights, its screen and its speaker. Any
+% other button ends the program.
 
 :- use_module(library(ev3dev)).
 
 %!  start is semidet.
 %
-%   Be a traffic light until a key but `enter` is pressed. Fails if this is no
-%   brick with keys, lights, a speaker and a screen.
+%   Be a traffic light until somebody presses a button other than `enter`.
+%   Fails if the brick lacks buttons, lights, a speaker or a screen.
 
 start :-
     show(red),
@@ -35,21 +35,21 @@ tick :-
     tone(1200, 50),
     pause(450).
 
-%   sleep/1 would do as well, but simulated time knows nothing of it.
+%   On a brick sleep/1 would also work, but it lets no simulated time pass.
 pause(Milliseconds) :-
     Tempo is 60000 / Milliseconds,
     tones([rest(quarter)], [tempo(Tempo)]).
 
-%!  show(+Colour) is semidet.
+%!  show(+Color) is semidet.
 %
-%   Show one of the three colours.
+%   Show one of the three colors.
 
-show(Colour) :-
-    forall(member(Light, [left, right]), led(Light, Colour)),
+show(Color) :-
+    forall(member(Light, [left, right]), led(Light, Color)),
     screen_clear,
     screen_rectangle(20, 1, 50, 126, [width(2)]),
     forall(lamp(_, Y, _), screen_circle(45, Y, 17)),
-    lamp(Colour, Height, Word),
+    lamp(Color, Height, Word),
     screen_circle(45, Height, 17, [fill(true)]),
     screen_text(125, 54, Word, [font(large), align(center)]),
     screen_show.

@@ -2,7 +2,7 @@
 
 /** <module> LEGO EV3 robots from Prolog
 
-The one module a program loads. It offers all predicates of
+A program loads this module. It offers all predicates of
 
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/motor_settings): single motors
@@ -16,9 +16,9 @@ The one module a program loads. It offers all predicates of
   - library(ev3dev/driver), library(ev3dev/device_table) and
     library(ev3dev/files): devices and the files that ev3dev shows of them
 
-A machine that is no EV3 gets a simulated one at the first use of a device,
+On a machine that is no EV3, the first use of a device starts a simulated one,
 unless ev3_sysfs/1 or the environment variable EV3DEV_SYSFS names a directory.
-Its predicates are in library(ev3dev/sim), which is loaded apart.
+A program loads library(ev3dev/sim) to control the simulator.
 
 Names and argument order are those of the paper "ev3dev-prolog - Prolog API
 for LEGO EV3" (Schwarz, Wenzel 2019).
@@ -30,27 +30,11 @@ for LEGO EV3" (Schwarz, Wenzel 2019).
 ```
 
 Three rules hold everywhere. A port is an atom, `outB` or
-`'ev3-ports:outB'`. What is asked of a device that is not there fails, and so
-does a move that is impossible; `debug(ev3dev)` tells what is missing, or why
-a motor does not run. What is no sensible argument throws.
+`'ev3-ports:outB'`. A call fails if its device is not there or its move is
+impossible; `debug(ev3dev)` prints which device is missing, or why a motor
+does not run. A call throws if an argument makes no sense.
 */
 
-:- use_module(ev3dev/private/scripts, []).
-:- use_module(ev3dev/private/help, []).
-:- reexport(ev3dev/driver).
-:- reexport(ev3dev/device_table).
-:- reexport(ev3dev/motors).
-:- reexport(ev3dev/motor_settings).
-:- reexport(ev3dev/dc_motors).
-:- reexport(ev3dev/servo_motors).
-:- reexport(ev3dev/sensors, except([reading_types/2])).
-:- reexport(ev3dev/infrared).
-:- reexport(ev3dev/nxt_sensors).
-:- reexport(ev3dev/sensor_info).
-:- reexport(ev3dev/robot).
-:- reexport(ev3dev/lights).
-:- reexport(ev3dev/battery).
-:- reexport(ev3dev/ports).
-:- reexport(ev3dev/buttons).
-:- reexport(ev3dev/sound).
-:- reexport(ev3dev/screen).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(ev3dev/private/compiled, []).
+:- reexport(ev3dev/private/core).

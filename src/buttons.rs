@@ -14,7 +14,7 @@ pub(crate) fn register() {
     register_button_event();
 }
 
-/// What is done to the keys from a moment on, until it is closed.
+/// The button events from the opening of the source to its close.
 #[arc_blob("ev3_buttons", defaults)]
 struct Source {
     events: Mutex<Option<Arc<Events>>>,
@@ -33,8 +33,7 @@ fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
     SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Closes all sources: the file system that they are in goes away. Later
-/// reads fail.
+/// Closes all sources, because their file system is going away. Later reads fail.
 #[cfg(feature = "fuse")]
 pub(crate) fn close_sources() {
     for source in sources().drain(..).filter_map(|source| source.upgrade()) {
@@ -95,7 +94,7 @@ fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {
     unify_atom(event, if read.is_press { "pressed" } else { "released" })
 }
 
-/// A key by its name, or any.
+/// A button by its name, or any.
 fn key_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Option<Button>> {
     let Some(word) = call.text_if_bound(term)? else {
         return Ok(None);

@@ -1,14 +1,16 @@
 //! `prolog/ev3dev/odometry.pl`, `drive_moves.pl`, `calibrate.pl`: curves, odometry, going to places.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
+use crate::glue::places::places;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
 use crate::motors::stop_action;
-use ev3_driver::drive::odometry::{Pose, Wheels, wrapped};
+use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
 use ev3_driver::motor::wait::Reason;
 use ev3_driver::sysfs::sleep;
+use ev3_motion::{Pose, wrapped};
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -26,7 +28,7 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// odometry_(+Robot): counts from now on, if it did not.
+    /// odometry_(+Robot): starts the odometry if it does not run yet.
     #[module("ev3dev_native")]
     #[name("odometry_")]
     semidet fn odometry(context, robot) {
@@ -140,7 +142,8 @@ fn drive_of<'a, C: QueryableContextType>(
     Ok(drive)
 }
 
-/// The drive of a robot in the tree in use. Until one is chosen, Prolog is asked to.
+/// The drive of a robot in the tree in use. If no tree is chosen yet, asks Prolog to
+/// choose one.
 fn robots_drive<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     robot: &Term<'a>,
@@ -181,7 +184,7 @@ fn leg_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> P
         ("to", [x, y]) => Leg::To([call.float(x)?, call.float(y)?]),
         ("reach", [x, y]) => Leg::Reach([call.float(x)?, call.float(y)?]),
         ("arc", [length, curvature]) => Leg::Arc(call.float(length)?, call.float(curvature)?),
-        ("through", [points, radius]) => Leg::Through(call.points(points)?, call.float(radius)?),
+        ("through", [points, radius]) => Leg::Through(places(call, points)?, call.float(radius)?),
         _ => return wrong_value(call, "leg", term),
     })
 }

@@ -1,39 +1,57 @@
 //! `prolog/ev3dev/driver.pl`: devices and their attributes.
-use crate::glue::call::{Call, Text};
+use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::class::Detected;
 use ev3_driver::{Class, Device, Registry, attributes};
 use std::sync::Arc;
-use std::vec::IntoIter;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_device();
+    register_device_path();
     register_attribute();
     register_attribute_write();
 }
 
 predicates! {
-    /// device_(+Class, ?Port, ?Type, ?Path): `device_` for `tacho_motor/3` and its like.
+    /// device_(+Class, ?Port, ?Type): the native twin of `tacho_motor/2` and the like.
     #[module("ev3dev_native")]
     #[name("device_")]
-    nondet fn device<IntoIter<Detected>>(context, class, port, kind, path) {
+    nondet fn device<Found>(context, class, port, kind) {
         setup => {
-            let class = class_of(context, class)?;
-            let (name, arity) = detector(class);
-            let call = Call::of(context, name, arity);
-            let bound = Bound::of(&call, port, kind, path)?;
-            let tree = call.devices()?;
-            let devices = call.or_throw(listed(&tree, class, bound.port.as_deref()))?;
-            let mut detected: Vec<_> = devices.iter().map(|device| device.detected()).collect();
-            detected.retain(|device| bound.admits(device));
-            Ok(Some(detected.into_iter()))
+            let found = found(context, class, port, kind)?;
+            Ok(Some(found))
         },
-        call(detected) => {
-            Call::of(context, "tacho_motor", 3)
-                .next(detected, |_| Ok(()), |device, ()| unify_device(device, port, kind, path))
+        call(found) => {
+            let Found { devices, names_port, names_type } = found;
+            Call::of(context, "tacho_motor", 2).next(devices, |_| Ok(()), |device, ()| {
+                unify_asked(*names_port, port, device.port())?;
+                unify_asked(*names_type, kind, device.driver())
+            })
+        }
+    }
+
+    /// device_(+Class, ?Port, ?Type, ?Path)
+    #[module("ev3dev_native")]
+    #[name("device_")]
+    nondet fn device_path<Found>(context, class, port, kind, path) {
+        setup => {
+            let mut found = found(context, class, port, kind)?;
+            if let Some(path) = Call::of(context, "tacho_motor", 3).text_if_bound(path)? {
+                let is_it = |device: &Arc<Device>| *device.path().to_string_lossy() == *path;
+                found.devices = found.devices.filter(is_it).collect::<Vec<_>>().into_iter();
+            }
+            Ok(Some(found))
+        },
+        call(found) => {
+            let Found { devices, names_port, names_type } = found;
+            Call::of(context, "tacho_motor", 3).next(devices, |_| Ok(()), |device, ()| {
+                unify_asked(*names_port, port, device.port())?;
+                unify_asked(*names_type, kind, device.driver())?;
+                unify_asked(path.is_var(), path, &device.path().to_string_lossy())
+            })
         }
     }
 
@@ -46,16 +64,17 @@ predicates! {
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
             let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
+            let names_port = port.is_none();
             let found = call.or_throw(listed(&devices, class, port.as_deref()))?.into_iter();
-            Ok(Some(AttributeReads { devices, found, name }))
+            Ok(Some(AttributeReads { devices, class, found, names_port, name }))
         },
         call(reads) => {
-            let call = Call::of(context, accessor(class_of(context, class)?), 3);
-            let AttributeReads { devices, found, name } = reads;
+            let AttributeReads { devices, class, found, names_port, name } = reads;
+            let call = Call::of(context, accessor(*class), 3);
             let read = |device: &Arc<Device>| call.or_fail(attributes::read(devices, device, name));
             call.next(found, read, |device, read| {
                 unify_value(value, read)?;
-                unify_port(port, device.port())
+                unify_asked(*names_port, port, device.port())
             })
         }
     }
@@ -73,7 +92,7 @@ predicates! {
     }
 }
 
-/// What a call knows of the device it asks for.
+/// The part of a device that the caller knows.
 pub(crate) struct Bound {
     port: Option<Text>,
     kind: Option<Text>,
@@ -103,11 +122,39 @@ impl Bound {
     }
 }
 
-/// Registry whose attribute is still to be read.
+/// The devices whose attribute the call has not read yet.
 struct AttributeReads {
     devices: Arc<Registry>,
-    found: IntoIter<Arc<Device>>,
+    class: Class,
+    found: ListedDevices,
+    names_port: bool,
     name: Text,
+}
+
+/// Devices that are still to be answered, and what is asked about them.
+struct Found {
+    devices: ListedDevices,
+    names_port: bool,
+    names_type: bool,
+}
+
+/// The devices of a class, all or the one at a port, of one type or of any.
+fn found<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    class: &Term,
+    port: &Term,
+    kind: &Term,
+) -> PrologResult<Found> {
+    let class = class_of(context, class)?;
+    let (name, arity) = detector(class);
+    let call = Call::of(context, name, arity);
+    let (port, kind) = (call.text_if_bound(port)?, call.text_if_bound(kind)?);
+    let mut devices = call.or_throw(listed(&*call.devices()?, class, port.as_deref()))?;
+    if let Some(kind) = &kind {
+        devices.retain(|device| device.driver() == kind);
+    }
+    let devices = devices.into_iter();
+    Ok(Found { devices, names_port: port.is_none(), names_type: kind.is_none() })
 }
 
 /// The devices of a class: all, or the one at a port.
@@ -135,9 +182,14 @@ pub(crate) fn unify_device(
     if path.is_var() { unify_atom(path, &device.path.to_string_lossy()) } else { Ok(()) }
 }
 
-/// A bound port is the one that was asked for, in whichever spelling.
+/// A bound port unifies in either spelling.
 pub(crate) fn unify_port(term: &Term, port: &str) -> PrologResult<()> {
-    if term.is_var() { unify_atom(term, port) } else { Ok(()) }
+    unify_asked(term.is_var(), term, port)
+}
+
+/// Unifies what is asked for. What is not has been compared before.
+pub(crate) fn unify_asked(is_asked: bool, term: &Term, text: &str) -> PrologResult<()> {
+    if is_asked { unify_atom(term, text) } else { Ok(()) }
 }
 
 /// The public predicate that finds devices of a class.
@@ -162,7 +214,7 @@ fn accessor(class: Class) -> &'static str {
     }
 }
 
-/// The class that our own Prolog files name.
+/// The class, as the pack's Prolog files name it.
 pub(crate) fn class_of<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
     term: &Term,

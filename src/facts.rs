@@ -1,10 +1,12 @@
 //! From terms to the facts of worlds and robots, for the simulator and for
 //! roadmaps.
 use crate::glue::call::Call;
-use crate::glue::error::wrong_because;
+use crate::glue::error::{wrong_because, wrong_type};
+use crate::glue::places::places;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
-    Bounds, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError, Wheel, WorldSpec,
+    Bounds, Drawing, Drawn, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError,
+    Wheel,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -25,12 +27,35 @@ pub(crate) fn fact<'a, C: QueryableContextType>(
     let Some(fact) = read(call, &name, &arguments)? else {
         return Ok(None);
     };
+    must_be_ground(call, term)?;
     match &fact {
         Fact::Item(item) => impossible(call, term, item.validate())?,
         Fact::Bounds(bounds) => impossible(call, term, bounds.validate())?,
         _ => {}
     }
     Ok(Some(fact))
+}
+
+/// Raises that there is no such fact, and says which there are.
+pub(crate) fn unknown<T, C: QueryableContextType>(
+    call: &Call<C>,
+    domain: &str,
+    subject: Subject,
+    term: &Term,
+) -> PrologResult<T> {
+    let (name, _) = call.compound(term)?.unwrap_or_default();
+    wrong_because(call, domain, term, &subject.expected(&name))
+}
+
+/// Raises `instantiation_error` for a fact that is not ground, as one with a partial list.
+pub(crate) fn must_be_ground<C: QueryableContextType>(
+    call: &Call<C>,
+    term: &Term,
+) -> PrologResult<()> {
+    if attempt(call.context.call_once(pred!("system:ground/1"), [term]))? {
+        return Ok(());
+    }
+    wrong_type(call, "ground", &call.context.new_term_ref())
 }
 
 /// Raises what is impossible about a fact.
@@ -75,15 +100,15 @@ fn read<'a, C: QueryableContextType>(
         ("circle", [x, y, radius]) => {
             Fact::Item(Item::Circle { center: [number(x)?, number(y)?], radius: number(radius)? })
         }
-        ("floor", [color]) => Fact::Floor(named(call, "colour", color)?),
+        ("floor", [color]) => Fact::Floor(named(call, "color", color)?),
         ("patch", [color, corners]) => Fact::Item(Item::Patch {
-            corners: call.points(corners)?,
-            color: named(call, "colour", color)?,
+            corners: places(call, corners)?,
+            color: named(call, "color", color)?,
         }),
         ("line", [color, width, along]) => Fact::Item(Item::Line {
-            points: call.points(along)?,
+            points: places(call, along)?,
             width: number(width)?,
-            color: named(call, "colour", color)?,
+            color: named(call, "color", color)?,
         }),
         ("lamp", [x, y, intensity]) => {
             Fact::Item(Item::Lamp { at: [number(x)?, number(y)?], intensity: number(intensity)? })
@@ -109,10 +134,7 @@ fn read<'a, C: QueryableContextType>(
             Fact::RightWheel(wheel(call, port, diameter, options)?)
         }
         ("axle", [length]) => Fact::Axle(number(length)?),
-        ("hull", [hull]) => match self::hull(call, hull)? {
-            Some(hull) => Fact::Hull(hull),
-            None => return Ok(None),
-        },
+        ("hull", [hull]) => Fact::Hull(self::hull(call, hull)?),
         ("mass", [mass]) => Fact::Mass(number(mass)?),
         ("motor", [port, driver]) => Fact::Motor(MotorMount {
             port: named(call, "port", port)?,
@@ -138,22 +160,29 @@ fn read<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// A world that is drawn.
+/// What a drawing adds to a world.
 fn drawn<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     size: &Term<'a>,
     rows: &Term<'a>,
-) -> PrologResult<WorldSpec> {
+) -> PrologResult<Drawn> {
+    let drawn = drawing(call, rows)?.drawn(call.float(size)?);
+    drawn.or_else(|error| wrong_because(call, "possible_geometry", size, &error.to_string()))
+}
+
+/// A map that is drawn: a list of texts, from above.
+pub(crate) fn drawing<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    rows: &Term<'a>,
+) -> PrologResult<Drawing> {
     let list = call.list(rows)?;
     let texts = list.iter().map(|row| call.text(row)).collect::<PrologResult<Vec<_>>>()?;
-    WorldSpec::from_map(&texts.join("\n"), call.float(size)?).or_else(|error| {
-        let reason = error.to_string();
-        let [Part::MapRow(row)] = *error.parts else {
-            return wrong_because(call, "possible_geometry", size, &reason);
+    Drawing::read(&texts).or_else(|error| {
+        let row = match *error.parts {
+            [Part::MapRow(row)] => list.get(row),
+            _ => None,
         };
-        // Empty rows at the top are no part of the drawing.
-        let empty = texts.iter().take_while(|text| text.is_empty()).count();
-        wrong_because(call, "map_row", list.get(empty + row).unwrap_or(rows), &reason)
+        wrong_because(call, "map_row", row.unwrap_or(rows), &error.to_string())
     })
 }
 
@@ -218,7 +247,7 @@ fn wheel<'a, C: QueryableContextType>(
         for option in call.list(options)? {
             let [value] = call.arguments(&option)?;
             match &*option.get::<Functor>()?.name_string() {
-                "inverted" => wheel.inverted = value.get_ex()?,
+                "inverted" => wheel.inverted = boolean(call, &value)?,
                 "slip" => wheel.slip = call.float(&value)?,
                 _ => return wrong_because(call, "wheel_option", &option, ""),
             }
@@ -227,21 +256,21 @@ fn wheel<'a, C: QueryableContextType>(
     Ok(wheel)
 }
 
+fn boolean<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<bool> {
+    attempt_opt(term.get())?.map_or_else(|| wrong_type(call, "bool", term), Ok)
+}
+
 /// `circle(Radius)` or `rectangle(Width, Length, Offset)`.
-fn hull<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Option<Hull>> {
-    let Some((name, arguments)) = call.compound(term)? else {
-        return Ok(None);
-    };
-    Ok(match (&*name, &*arguments) {
-        ("circle", [radius]) => Some(Hull::Circle { radius: call.float(radius)? }),
-        ("rectangle", [width, length, offset]) => Some(Hull::Rectangle {
+fn hull<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Hull> {
+    let (name, arguments) = call.compound(term)?.unwrap_or_default();
+    match (&*name, &*arguments) {
+        ("circle", [radius]) => Ok(Hull::Circle { radius: call.float(radius)? }),
+        ("rectangle", [width, length, offset]) => Ok(Hull::Rectangle {
             width: call.float(width)?,
             length: call.float(length)?,
             offset: call.float(offset)?,
         }),
-        _ => None,
-    })
+        _ if term.is_var() => wrong_type(call, "hull", term),
+        _ => wrong_because(call, "hull", term, ""),
+    }
 }

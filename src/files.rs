@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/sysfs.pl`, `dev.pl`: any file, and where the two trees are.
+//! `prolog/ev3dev/sysfs.pl`, `dev.pl`: any file, and the directories of the two trees.
 use crate::driver::{Bound, unify_device};
 use crate::glue::call::Call;
 use crate::glue::state::{self, devices, use_files};
@@ -18,6 +18,7 @@ pub(crate) fn register() {
     register_sysfs_use();
     register_dev();
     register_dev_use();
+    register_now();
 }
 
 predicates! {
@@ -47,6 +48,14 @@ predicates! {
         let path = call.text(file)?;
         let read = call.or_throw(read_value(call.devices()?.tree(), Path::new(&*path)))?;
         unify_value(value, &read)
+    }
+
+    /// now_(-Seconds): by the clock of the tree in use, since some fixed moment.
+    #[module("ev3dev_native")]
+    #[name("now_")]
+    semidet fn now(context, seconds) {
+        let call = Call::of(context, "obstructed", 1);
+        seconds.unify(call.devices()?.tree().now().as_secs_f64())
     }
 
     /// file_write_(+File, +Value)

@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/halt.pl`: what happens when a program ends.
+//! `prolog/ev3dev/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
 use crate::glue::state::devices;
 use ev3_driver::motor;
@@ -10,7 +10,7 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// stop_started_: stops what the program started.
+    /// stop_started_: stops the motors that the program started.
     #[module("ev3dev_native")]
     #[name("stop_started_")]
     semidet fn stop_started(context) {

@@ -1,10 +1,9 @@
 //! Foreign library of the pack `ev3dev`: Prolog's view of [`ev3_driver`].
 //!
-//! A file here registers the natives of one Prolog module, or of a few that
-//! belong together. Each predicate takes its arguments out of
-//! their terms, calls the driver once, and unifies what it answers. Where the
-//! driver answers "there is none", the predicate fails; an error becomes an
-//! ISO exception in [`glue::error`], and nowhere else.
+//! A file here registers the native predicates of one Prolog module, or of a few that
+//! belong together. Each predicate gets its arguments from their terms, calls the
+//! driver once, and unifies the result. If the driver returns `None`, the predicate
+//! fails. Only [`glue::error`] makes an ISO exception of an error.
 //!
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
@@ -16,13 +15,13 @@ mod driver;
 mod facts;
 mod files;
 mod glue;
+mod grid;
 mod halt;
 mod lights;
 mod motors;
 mod navigation;
 mod ports;
 mod roadmap;
-mod robot;
 mod screen;
 mod sensors;
 mod servo_motors;
@@ -31,8 +30,7 @@ mod sim;
 mod sound;
 
 /// Registers all predicates; SWI-Prolog calls it when it loads the library.
-// Safety: the name is SWI-Prolog's, and no other library is asked for it: it is
-// looked up in this one only.
+// Safety: SWI-Prolog defines the name and looks it up in this library only.
 #[unsafe(no_mangle)]
 pub extern "C" fn install() {
     glue::interned::register();
@@ -45,11 +43,11 @@ pub extern "C" fn install() {
     battery::register();
     ports::register();
     sensors::register();
-    robot::register();
     files::register();
     buttons::register();
     sound::register();
     screen::register();
+    grid::register();
     roadmap::register();
     navigation::register();
     drive::register();

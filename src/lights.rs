@@ -10,16 +10,16 @@ use swipl::prelude::*;
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_led();
-    register_led_set_colour();
+    register_led_set_color();
     register_led_set_trigger();
     register_led_set_delays();
 }
 
-/// Lights that are still to be answered.
+/// The lights that the call has not returned yet.
 type Lights = IntoIter<Light>;
 
 predicates! {
-    /// led_(?Light, +What, -Value): what is `name`, `colour`, `trigger`, `triggers`,
+    /// led_(?Light, +What, -Value): what is `name`, `color`, `trigger`, `triggers`,
     /// or `delays`, whose value is `delays(On, Off)`.
     #[module("ev3dev_native")]
     #[name("led_")]
@@ -42,14 +42,14 @@ predicates! {
         }
     }
 
-    /// led_set_colour_(+Light, +Color)
+    /// led_set_color_(+Light, +Color)
     #[module("ev3dev_native")]
-    #[name("led_set_colour_")]
-    semidet fn led_set_colour(context, name, colour) {
+    #[name("led_set_color_")]
+    semidet fn led_set_color(context, name, color) {
         let call = Call::of(context, "led", 2);
-        let (name, colour) = (call.text(name)?, colour_of(&call, colour)?);
+        let (name, color) = (call.text(name)?, color_of(&call, color)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let set = light::set_color(&devices, &name, &colour, interrupted);
+        let set = light::set_color(&devices, &name, &color, interrupted);
         into_prolog_result(call.or_fail(set)?)
     }
 
@@ -74,7 +74,7 @@ predicates! {
     }
 }
 
-/// What can be read of a light.
+/// The readable properties of a light.
 enum Read {
     Nothing,
     Color(Color),
@@ -85,7 +85,7 @@ enum Read {
 
 fn read(light: &Light, what: &str) -> ev3_driver::Result<Option<Read>> {
     Ok(match what {
-        "colour" => Some(Read::Color(light.color()?)),
+        "color" => Some(Read::Color(light.color()?)),
         "trigger" => Some(Read::Trigger(light.trigger()?)),
         "triggers" => Some(Read::Triggers(light.triggers()?)),
         "delays" => light.delays()?.map(|(on, off)| Read::Delays(on, off)),
@@ -115,13 +115,13 @@ fn unify_integers(term: &Term, name: &str, integers: &[i64]) -> PrologResult<()>
     integers.iter().zip(1..).try_for_each(|(integer, nth)| term.unify_arg(nth, *integer))
 }
 
-/// A colour's name, a percentage, or `levels` of two or three.
-fn colour_of<'a, C: QueryableContextType>(
+/// A color's name, a percentage, or `levels` of two or three.
+fn color_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Color> {
     let percent = |term: &Term| Ok((0..=100).contains(&call.integer(term)?));
-    let colour = if term.is_integer() {
+    let color = if term.is_integer() {
         percent(term)?.then_some(Color::Level(call.integer(term)?))
     } else if term.term_type() == TermType::CompoundTerm {
         let levels = call.context.compound_terms_vec(term)?;
@@ -132,5 +132,5 @@ fn colour_of<'a, C: QueryableContextType>(
     } else {
         Color::named(&call.text(term)?)
     };
-    colour.map_or_else(|| wrong_value(call, "led_color", term), Ok)
+    color.map_or_else(|| wrong_value(call, "led_color", term), Ok)
 }

@@ -1,6 +1,8 @@
-//! `prolog/ev3dev/navigation.pl`: driving through a room that is not wholly known.
+//! `prolog/ev3dev/navigation.pl`: driving through a partly known room.
 use crate::glue::call::Call;
-use crate::roadmap::{map_of, no_way, options_of, point, point_term, points_term};
+use crate::glue::places::{place, place_term, places_term};
+use crate::roadmap::{map_of, no_way, options_of};
+use ev3_motion::Pose;
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use swipl::prelude::*;
@@ -16,13 +18,13 @@ pub(crate) fn register() {
     register_steer();
 }
 
-/// What a robot has seen on its way.
+/// The echoes that a robot has measured on its path.
 #[arc_blob("ev3_views", defaults)]
 struct SeenSoFar {
     views: Mutex<Views>,
 }
 
-/// A way to be followed.
+/// A path that the robot follows.
 #[arc_blob("ev3_way", defaults)]
 struct PathBlob {
     path: Path,
@@ -59,11 +61,11 @@ predicates! {
         Ok(())
     }
 
-    /// views_block_(+Views, +Point)
+    /// views_block_(+Views, +Place)
     #[module("ev3dev_native")]
     #[name("views_block_")]
     semidet fn views_block(context, views, at) {
-        let at = point(&Call::of(context, "navigate_to", 3), at)?;
+        let at = place(&Call::of(context, "navigate_to", 3), at)?;
         locked(&views.get_ex()?).block(at);
         Ok(())
     }
@@ -76,7 +78,7 @@ predicates! {
         let found = locked(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
         let corners = found.iter().filter_map(Obstacle::corners);
         let terms = corners.map(|corners| {
-            let corners = points_term(&call, corners)?;
+            let corners = places_term(&call, corners)?;
             term! {context: polygon(#&corners)}
         });
         polygons.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
@@ -91,7 +93,7 @@ predicates! {
         let (map, options) = (map_of(&call, facts)?, options_of(&call, options)?);
         let [start, goal, margin] = call.arguments(way)?;
         let (start, goal, margin) =
-            (point(&call, &start)?, point(&call, &goal)?, call.float(&margin)?);
+            (place(&call, &start)?, place(&call, &goal)?, call.float(&margin)?);
         let next = locked(&views.get_ex()?).next_step(&map, start, goal, margin, &options);
         match next {
             Ok(next) => step.unify(&step_term(&call, next)?),
@@ -105,9 +107,9 @@ predicates! {
     semidet fn steer(context, way, pose, before, gone, turn) {
         let call = Call::of(context, "navigate_to", 3);
         let [x, y, heading] = call.arguments(pose)?;
-        let (at, heading) = ([call.float(&x)?, call.float(&y)?], call.float(&heading)?);
+        let pose = Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? };
         let way: Arc<PathBlob> = way.get_ex()?;
-        let (now, degrees) = way.path.steer(at, heading, call.float(before)?);
+        let (now, degrees) = way.path.steer(pose, call.float(before)?);
         gone.unify(now)?;
         turn.unify(degrees)
     }
@@ -125,7 +127,7 @@ fn step_term<'a, C: QueryableContextType>(
     let context = call.context;
     let unseen = context.new_term_ref();
     if let Some(at) = step.unseen {
-        unseen.unify(&point_term(call, at)?)?;
+        unseen.unify(&place_term(call, at)?)?;
     }
     let Step { run, safe, rest, .. } = step;
     let (heading, length) = (run.heading(), run.length());

@@ -1,10 +1,11 @@
-//! `prolog/ev3dev/roadmap.pl`: ways between obstacles.
+//! `prolog/ev3dev/roadmap.pl`: paths between obstacles.
 use crate::facts;
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
+use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan, svg,
+    Bounds, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -41,13 +42,13 @@ predicates! {
     }
 }
 
-/// The map, and the way that was found on it.
+/// The map, and the path through it.
 fn solve<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     [facts, start, goal, options]: [&Term<'a>; 4],
 ) -> PrologResult<(Map, Result<Solution, NoWay>)> {
     let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
-    let found = plan(&map, point(call, start)?, point(call, goal)?, &options);
+    let found = plan(&map, place(call, start)?, place(call, goal)?, &options);
     Ok((map, found))
 }
 
@@ -71,7 +72,7 @@ pub(crate) fn options_of<C: QueryableContextType>(
     })
 }
 
-/// The map of a list of facts: those of a world, of which only obstacles count, and
+/// The map of a list of facts: those of a world, of which only obstacles matter, and
 /// polygons.
 pub(crate) fn map_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
@@ -84,7 +85,7 @@ pub(crate) fn map_of<'a, C: QueryableContextType>(
         } else if let Some(fact) = facts::fact(call, Subject::World, &term)? {
             add(&mut map, fact)
         } else {
-            return wrong_value(call, "roadmap_fact", &term);
+            return facts::unknown(call, "roadmap_fact", Subject::World, &term);
         };
         added
             .or_else(|fault| wrong_because(call, "possible_geometry", &term, &fault.to_string()))?;
@@ -103,8 +104,9 @@ fn polygon<'a, C: QueryableContextType>(
     let ("polygon", [corners]) = (&*name, &*arguments) else {
         return Ok(None);
     };
-    let corners = call.list(corners)?.iter().map(|at| point(call, at)).collect::<PrologResult<_>>();
-    Ok(Some(Obstacle::polygon(corners?)))
+    let corners = places(call, corners)?;
+    facts::must_be_ground(call, term)?;
+    Ok(Some(Obstacle::polygon(corners)))
 }
 
 fn add(map: &mut Map, fact: Fact) -> Result<(), Fault> {
@@ -139,25 +141,6 @@ fn obstacle(item: &Item) -> Option<Result<Obstacle, Fault>> {
     }
 }
 
-/// `X-Y` or `[X, Y]`.
-pub(crate) fn point<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    term: &Term<'a>,
-) -> PrologResult<Point> {
-    let pair = if matches!(term.term_type(), TermType::Nil | TermType::ListPair) {
-        <[Term; 2]>::try_from(call.list(term)?).ok()
-    } else if term.is_var() {
-        Some(call.arguments(term)?)
-    } else {
-        attempt_opt(call.context.compound_terms(term))?
-            .filter(|_| term.get::<Functor>().is_ok_and(|f| f.name_string() == "-"))
-    };
-    match pair {
-        Some([x, y]) => Ok([call.float(&x)?, call.float(&y)?]),
-        None => wrong_value(call, "point", term),
-    }
-}
-
 pub(crate) fn no_way<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
@@ -168,49 +151,31 @@ pub(crate) fn no_way<C: QueryableContextType>(
     term.unify(&no_way)
 }
 
-pub(crate) fn point_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    [x, y]: Point,
-) -> PrologResult<Term<'a>> {
-    let term = call.context.new_term_ref();
-    term.unify(Functor::new("-", 2))?;
-    term.unify_arg(1, x)?;
-    term.unify_arg(2, y)?;
-    Ok(term)
-}
-
-pub(crate) fn points_term<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    points: &[Point],
-) -> PrologResult<Term<'a>> {
-    let terms = points.iter().map(|at| point_term(call, *at)).collect::<PrologResult<Vec<_>>>()?;
-    let list = call.context.new_term_ref();
-    list.unify(terms.as_slice())?;
-    Ok(list)
-}
-
 /// way(Length, Points, Legs)
 fn way_term<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     path: &Path,
 ) -> PrologResult<Term<'a>> {
     let context = call.context;
-    let legs = path.legs().iter().map(|leg| leg_term(call, leg));
+    let legs = path.segments().iter().map(|leg| leg_term(call, leg));
     let legs = legs.collect::<PrologResult<Vec<_>>>()?;
     let list = context.new_term_ref();
     list.unify(legs.as_slice())?;
-    let (length, points) = (path.length(), points_term(call, &path.points())?);
+    let (length, points) = (path.length(), places_term(call, &path.points())?);
     term! {context: way(#length, #&points, #&list)}
 }
 
 /// `line(From, To)` or `arc(From, To, Radius, Angle)`, as `arc_cm/3` takes them: the
 /// radius is positive to the right, and the angle always.
-fn leg_term<'a, C: QueryableContextType>(call: &Call<'a, C>, leg: &Leg) -> PrologResult<Term<'a>> {
+fn leg_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    leg: &Segment,
+) -> PrologResult<Term<'a>> {
     let context = call.context;
-    let (from, to) = (point_term(call, leg.start())?, point_term(call, leg.end())?);
-    if let Leg::Arc { radius, angle, .. } = *leg {
-        let (radius, angle) = (radius * angle.signum(), angle.abs());
-        return term! {context: arc(#&from, #&to, #radius, #angle)};
-    }
-    term! {context: line(#&from, #&to)}
+    let (from, to) = (place_term(call, leg.from())?, place_term(call, leg.to())?);
+    let Some(radius) = leg.radius() else {
+        return term! {context: line(#&from, #&to)};
+    };
+    let angle = leg.turn().abs();
+    term! {context: arc(#&from, #&to, #radius, #angle)}
 }

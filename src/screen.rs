@@ -150,7 +150,7 @@ fn size<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u3
     pixels(call, term)
 }
 
-/// Degrees. Nobody draws with more digits than that type has.
+/// Degrees. `f32` has enough digits for drawing.
 #[expect(clippy::cast_possible_truncation, reason = "a circle has few pixels")]
 fn angle<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<f32> {
     Ok(call.float(term)? as f32)

@@ -1,11 +1,11 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
-use crate::driver::unify_port;
-use crate::glue::call::{Call, Text};
+use crate::driver::unify_asked;
+use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
+use crate::glue::interned::words;
 use crate::glue::terms::unify_value;
 use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
-use std::vec::IntoIter;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -23,42 +23,36 @@ predicates! {
     nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
-            let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
             let index = index_of(&call, index)?;
-            let devices = call.devices()?;
-            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
-            Ok(Some(Readings { devices, sensors, mode, index }))
+            readings(&call, port, types, mode, index).map(Some)
         },
         call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
-            let Readings { devices, sensors, mode, index } = readings;
+            let Readings { devices, sensors, names_port, mode, index } = readings;
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
                 call.or_fail(sensor::read(devices, device, Some(mode), *index, interrupted))
             };
             call.next(sensors, read, |device, read| {
                 unify_value(value, read)?;
-                unify_port(port, device.port())
+                unify_asked(*names_port, port, device.port())
             })
         }
     }
 
-    /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): so many values, or
-    /// all that the mode has for a count of 0, as a list.
+    /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): the list of the first
+    /// Count values, or of all values of the mode if Count is 0.
     #[module("ev3dev_native")]
     #[name("sensor_values_")]
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
-            let (mode, types) = (call.text(mode)?, types_of(&call, types)?);
             let count = usize::try_from(call.integer(count)?).unwrap_or_default();
-            let devices = call.devices()?;
-            let sensors = sensors(&call, &devices, port, &types, &mode)?.into_iter();
-            Ok(Some(Readings { devices, sensors, mode, index: count }))
+            readings(&call, port, types, mode, count).map(Some)
         },
         call(readings) => {
             let call = Call::of(context, "sensor_values", 3);
-            let Readings { devices, sensors, mode, index: count } = readings;
+            let Readings { devices, sensors, names_port, mode, index: count } = readings;
             let count = (*count > 0).then_some(*count);
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
@@ -67,7 +61,7 @@ predicates! {
             };
             call.next(sensors, read, |device, read| {
                 values.unify(read.as_slice())?;
-                unify_port(port, device.port())
+                unify_asked(*names_port, port, device.port())
             })
         }
     }
@@ -97,29 +91,32 @@ predicates! {
     }
 }
 
-/// Sensors that are still to be read.
+/// The sensors that the call has not read yet.
 struct Readings {
     devices: Arc<Registry>,
-    sensors: IntoIter<Arc<Device>>,
+    sensors: ListedDevices,
+    names_port: bool,
     mode: Text,
-    /// Which value, or how many.
+    /// The index of a value, or the number of values.
     index: usize,
 }
 
-/// The sensors asked for: at a port, or all; of certain types, or, where none
-/// are named, all that have the mode.
-fn sensors<C: QueryableContextType>(
-    call: &Call<C>,
-    devices: &Registry,
-    port: &Term,
-    types: &[Text],
-    mode: &str,
-) -> PrologResult<Vec<Arc<Device>>> {
-    let found = match call.text_if_bound(port)? {
-        Some(port) => sensor::at(devices, &port, types),
-        None => sensor::with_mode(devices, types, mode),
-    };
-    call.or_throw(found)
+/// The sensors of a call: at a port, or all; of the given types, or, if there are none,
+/// all sensors that have the mode.
+fn readings<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    port: &Term<'a>,
+    types: &Term<'a>,
+    mode: &Term<'a>,
+    index: usize,
+) -> PrologResult<Readings> {
+    let (mode, types) = (call.text(mode)?, types_of(call, types)?);
+    let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
+    let found = call.or_throw(match &port {
+        Some(port) => sensor::at(&devices, port, &types),
+        None => sensor::with_mode(&devices, &types, &mode),
+    })?;
+    Ok(Readings { devices, sensors: found.into_iter(), names_port: port.is_none(), mode, index })
 }
 
 /// A list of types; the empty list admits all.
@@ -127,7 +124,10 @@ fn types_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     types: &Term<'a>,
 ) -> PrologResult<Vec<Text>> {
-    call.map_list(types, |kind| call.text(&kind))
+    match words(types) {
+        Some(words) => Ok(words),
+        None => call.map_list(types, |kind| call.text(&kind)),
+    }
 }
 
 /// The number of a value: sensors have `value0` to `value7`.

@@ -67,7 +67,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sound_stop_")]
     semidet fn sound_stop(context) {
-        // Without choosing a tree: what sounds has done so.
+        // This does not choose a tree: the call that started the sound has done so.
         Call::of(context, "sound_stop", 0).or_throw(sound().stop(&*dev()))
     }
 }

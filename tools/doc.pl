@@ -23,6 +23,7 @@
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/compile)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/calibrate)).
 :- use_module(library(ev3dev/odometry)).
@@ -37,7 +38,7 @@ task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
 task('Ask sensors', [sensors, infrared, nxt_sensors, sensor_info]).
 task('Use the brick itself',
-     [lights, buttons, sound, screen, battery, ports]).
+     [lights, buttons, sound, screen, battery, ports, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).

@@ -1,6 +1,7 @@
 :- module(ev3dev_battery,
           [ battery/2                   % ?Key, -Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/native, [battery_/2]).
 
@@ -9,23 +10,23 @@
 
 %!  battery(?Key, -Value) is nondet.
 %
-%   True if Value is what the battery says for Key:
+%   True if Value is the battery's reading for Key:
 %
 %     - voltage
 %       In volts. It falls while motors run.
 %     - current
-%       What the brick draws, in amperes.
+%       The current that the brick draws, in amperes.
 %     - percent
-%       What is left, from 0 to 100, estimated by the voltage and the type.
-%       A driving robot shows some 5 less than one that stands, and in the
-%       middle of a discharge the voltage hardly changes: an estimate.
+%       The charge that is left, from 0 to 100, estimated from the voltage and
+%       the type. The estimate is rough: it is about 5 lower while the robot
+%       drives, and in the middle of a discharge the voltage hardly changes.
 %     - type
 %       `'Li-ion'`, LEGO's battery pack; `'NiMH'`, rechargeable AA cells; or
-%       `'Unknown'`, other AA cells, which percent takes for alkaline ones.
+%       `'Unknown'`, other AA cells; percent then assumes alkaline cells.
 %
-%   An unbound Key enumerates. What a board does not measure fails: of those
-%   that are not LEGO's most only know the voltage. Fails if the board does
-%   not tell of its battery at all.
+%   An unbound Key enumerates. Fails if the board does not measure Key: most
+%   boards that are not LEGO's measure only the voltage. Fails if the board
+%   reports nothing about its battery.
 %
 %   @error domain_error(battery_key, Key)
 

@@ -4,22 +4,22 @@
             button_wait/3,              % ?Key, ?Event, +Options
             button_events/1             % -Events
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, must_be_timeout/1]).
+:- use_module(private/arguments,
+              [must_be_options/3, option/3, timeout_option/2]).
+:- use_module(private/one_of).
 :- use_module(private/native,
               [ button_event_/4, button_source_/1, button_wait_/3,
                 buttons_/1 ]).
 
-/** <module> The keys of the brick
+/** <module> The buttons of the brick
 
 A Key is one of `up`, `down`, `left`, `right`, `enter` (in the middle) and
-`back`. A program that was started from the brick's menu is ended by `back`,
-whatever it does with it.
+`back`. If a program was started from the brick's menu, `back` always ends it.
 
-All predicates fail if there are no keys.
+All predicates fail if the machine has no buttons.
 
 ```
 ?- button_wait(Key, pressed).
@@ -29,7 +29,8 @@ Key = left.
 
 %!  button(?Key) is nondet.
 %
-%   True if Key is down now; on backtracking, each that is.
+%   True if the button Key is pressed now. An unbound Key enumerates the
+%   pressed buttons.
 %
 %   @error domain_error(button, Key)
 
@@ -37,7 +38,7 @@ button(Key) :-
     var(Key),
     !,
     buttons_(Keys),
-    member(Key, Keys).
+    one_of(Keys, Key).
 button(Key) :-
     must_be(atom, Key),
     (   memberchk(Key, [up, down, left, right, enter, back])
@@ -50,17 +51,18 @@ button(Key) :-
 %!  button_wait(?Key, ?Event) is semidet.
 %!  button_wait(?Key, ?Event, +Options) is semidet.
 %
-%   Wait until something is done to a key: Event is `pressed` or `released`.
-%   An unbound Key is any key, an unbound Event any of the two. What was done
-%   before the call does not count; to miss nothing between two calls, use
-%   button_events/1. Options:
+%   Wait until somebody presses or releases a button: Event is `pressed` or
+%   `released`. An unbound Key stands for any button, an unbound Event for
+%   either event. Events before the call do not count. button_events/1 misses
+%   no event. Options:
 %
 %     - timeout(+Seconds)
 %       Fail after that time. Default is `infinite`.
 %
 %   @error domain_error(button, Key)
 %   @error domain_error(button_event, Event)
-%   @error domain_error(button_option, Option) for an option that is none
+%   @error domain_error(button_option, Option) if Option is not an option of
+%          this predicate
 %   @error domain_error(timeout, Seconds)
 
 button_wait(Key, Event) :-
@@ -68,17 +70,16 @@ button_wait(Key, Event) :-
 
 button_wait(Key, Event, Options) :-
     must_be_options(button_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     button_wait_(Key, Event, Timeout).
 
 %!  button_events(-Events) is semidet.
 %
-%   True if Events is the list, without end, of what is done to the keys from
-%   now on, each a pair Key-Event as in button_wait/2. Does not wait: who
-%   looks at an element of the list waits until there is one. As long as the
-%   list is reachable no event is missed, and looking again, also after
-%   backtracking, finds the same.
+%   True if Events is the endless list of button events from now on. Each
+%   element is a pair Key-Event as in button_wait/2. Does not wait: reading an
+%   element of the list waits until that event happens. The list misses no
+%   event while it is reachable. Reading an element again, also after
+%   backtracking, finds the same event.
 %
 %   ```
 %   ?- button_events(Events), member(Key-released, Events).
@@ -93,7 +94,7 @@ button_events(Events) :-
 events(Source, Index, Events) :-
     freeze(Events, events_are(Events, Source, Index)).
 
-%   Reached when Events is bound, and then it is no variable.
+%   freeze/2 calls this when Events is bound.
 
 events_are([Key-Event|Rest], Source, Index) :-
     button_event_(Source, Index, Key0, Event0),

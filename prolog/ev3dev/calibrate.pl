@@ -1,65 +1,67 @@
 :- module(ev3dev_calibrate,
           [ calibrate/3                 % +What, :Options, -SetRobot
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments,
+              [ must_be_options/3, number_option/4, number_value/2,
+                option/2, option/3
+              ]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
-:- use_module(odometry, [number_value/2]).
 :- use_module(drive, [go_cm/3, turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(private/native, [drive_pause_/1]).
 
-/** <module> Calibration: how large wheels and axle really are
+/** <module> Calibration: the true size of wheels and axle
 
-What a student measures at a robot is a little off: wheels give way under its
-weight, no two are the same, and nobody knows where a tyre touches the floor.
-So it is found out from how the robot really moves.
+A ruler measures wheels and axle inexactly: wheels give way under the weight
+of the robot, no two are the same, and the point where a tire touches the
+floor is uncertain. calibrate/3 computes the sizes from moves of the robot.
 */
 
 :- meta_predicate calibrate(+, :, -).
 
 %!  calibrate(+What, :Options, -SetRobot) is semidet.
 %
-%   Find out the figures of the robot that is set, by a few moves with the
-%   wheels alone. SetRobot is the call of set_robot/4 or set_robot/5 to write
-%   down; it changes nothing unless it is called. What is
+%   Measure the wheels or the axle of the robot by a few moves without the
+%   help of a gyro. SetRobot is the call of set_robot/4 or set_robot/5 that
+%   describes the result; calibrate/3 does not call it. What is
 %
 %     - wheels
 %       The diameters, from a straight line, ahead and back. If the robot does
 %       not go straight, one wheel is larger than the other.
 %     - axle
-%       The distance of the wheels, from turns on the spot in either
-%       direction.
-%       To be done after the wheels.
+%       The distance between the wheels, from turns on the spot in both
+%       directions. Calibrate the wheels first.
 %
-%   A gyro, if one is connected, measures how far the robot turns, unless
-%   measured/1 is given. How long the line was in truth no sensor tells.
-%   Options:
+%   If a gyro is connected and measured/1 is not given, the gyro measures the
+%   angles. No sensor measures the length of the line. Options:
 %
 %     - measured(:Goal)
-%       What the user measured. For the wheels, `call(Goal, Ahead, Right)` is
-%       asked after the way ahead how many cm ahead of where it started and to
-%       the right the middle of the axle is, along and across the direction
-%       that it started in. For the axle, `call(Goal, Degrees)` is asked how
-%       far the robot has turned since it started, full turns included or not;
-%       once after the turns clockwise, and once after those back.
+%       Get the user's measurements by Goal. For the wheels, calibrate/3 calls
+%       `call(Goal, Ahead, Right)` after the line ahead: the middle of the
+%       axle is Ahead cm ahead of its start and Right cm to the right of it,
+%       along and across the robot's first direction. For the axle, it calls
+%       `call(Goal, Degrees)` after the turns clockwise, and again after the
+%       turns back: the robot has turned by Degrees since its start. Degrees
+%       may include full turns or not.
 %     - length(+Cm)
-%       With the gyro: how long the way ahead turned out to be, if it was
-%       measured once before. Default is the distance that was asked for.
+%       With the gyro: the true length of the line, measured in an earlier
+%       run. Default is the value of `distance`.
 %     - distance(+Cm)
-%       How far to go. Default is 100.
+%       The length of the line that the robot drives. Default is 100.
 %     - turns(+Count)
-%       How many full turns to make. Default is 5.
+%       The number of full turns. Default is 5.
 %     - speed(+Percent)
 %       Default is 20.
 %
-%   Fails if no robot is set, if it does not get to the end, and if there is
-%   neither a gyro nor what was measured.
+%   Fails if no robot is set, if the robot does not complete a move, or if
+%   there is neither a gyro nor the option `measured`.
 %
 %   @error domain_error(calibration, What)
-%   @error domain_error(calibration_option, Option) for an option that is none
+%   @error domain_error(calibration_option, Option) if Option is not an option
+%          of this predicate
 
 calibrate(What, Module:Options, SetRobot) :-
     must_be(atom, What),
@@ -79,16 +81,17 @@ calibrate(What, Module:Options, SetRobot) :-
 
 wheels(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
-    length_option(distance, Options, 100, Distance),
+    number_option(distance(Distance), positive_number, Options, 100),
     option(speed(Speed), Options, 20),
     way(Distance, Speed, Axle, Module, Options, Length, Turn),
-    % What each wheel rolled in truth, by what it was thought to roll.
+    % The true distance of each wheel, divided by the assumed distance.
     Half is Axle * Turn / 2,
     DL1 is DL * (Length + Half) / Distance,
     DR1 is DR * (Length - Half) / Distance,
     call_of(robot(Left, Right, DL1, DR1, IL, IR, Axle, Offset), SetRobot).
 
-%   The true length of a way, in cm, and by how many radians the robot turned.
+%   Length is the true length of the line, in cm. Turn is the angle by which
+%   the robot turned, in radians.
 way(Distance, Speed, _, Module, Options, Length, Turn) :-
     option(measured(Goal), Options),
     !,
@@ -103,13 +106,13 @@ way(Distance, Speed, _, Module, Options, Length, Turn) :-
 way(Distance, Speed, _, _, Options, Length, Turn) :-
     gyro_sensor(Gyro),
     !,
-    length_option(length, Options, Distance, Length),
+    number_option(length(Length), positive_number, Options, Distance),
     rest_angle(Gyro, A0),
     move(go_cm(Speed, Distance)),
     rest_angle(Gyro, A1),
     move(go_cm(Speed, -Distance)),
     rest_angle(Gyro, A2),
-    % Both take the same time: what the gyro drifts cancels out.
+    % Both moves take the same time, so the drift of the gyro cancels out.
     Turn is ((A1 - A0) - (A2 - A1)) / 2 * pi / 180.
 
 arc_length(Chord, Half, Length) :-
@@ -132,7 +135,7 @@ axle(Robot, Module, Options, SetRobot) :-
     Axle1 is Axle * Angle / Turned,
     call_of(robot(Left, Right, DL, DR, IL, IR, Axle1, Offset), SetRobot).
 
-%   By how many degrees the robot turned in truth.
+%   Turned is the true angle of the turns, in degrees.
 turned(Angle, Speed, Module, Options, Turned) :-
     option(measured(Goal), Options),
     !,
@@ -142,7 +145,7 @@ turned(Angle, Speed, Module, Options, Turned) :-
     call(Module:Goal, Back0),
     number_value(There0, There),
     number_value(Back0, Back),
-    % Nobody counts the full turns.
+    % The user need not count the full turns.
     nearest_turn(Angle, There, A1),
     nearest_turn(0, Back, A2),
     Turned is A1 - A2 / 2.
@@ -162,14 +165,14 @@ nearest_turn(Expected, Degrees, Angle) :-
                 *            MOVES             *
                 *******************************/
 
-%   With the wheels alone.
+%   Moves without the gyro.
 move(go_cm(Speed, Distance)) :-
     go_cm(Speed, Distance, [use_gyro(false)]).
 move(turn(Speed, Angle)) :-
     turn(Speed, Angle, [use_gyro(false)]).
 
-%   The gyro's angle while the robot rests: it tells whole degrees, and the
-%   mean of many readings tells a little more.
+%   The gyro's angle while the robot rests. The gyro reports whole degrees;
+%   the mean of many samples is a little more exact.
 rest_angle(Gyro, Angle) :-
     findall(A, ( between(1, 50, _), once(pause_ang(Gyro, A)) ), Angles),
     sum_list(Angles, Sum),
@@ -179,16 +182,7 @@ pause_ang(Gyro, Angle) :-
     drive_pause_(0.01),
     gyro_ang(Gyro, Angle).
 
-length_option(Name, Options, Default, Length) :-
-    Option =.. [Name, Value],
-    option(Option, Options, Default),
-    number_value(Value, Length),
-    (   Length > 0
-    ->  true
-    ;   domain_error(positive_number, Length)
-    ).
-
-%   The call that describes a robot, to a hundredth of a millimetre.
+%   The call that describes a robot, to a hundredth of a millimeter.
 call_of(robot(Left, Right, DL0, DR0, IL, IR, Axle0, Offset), SetRobot) :-
     rounded(DL0, DL),
     rounded(DR0, DR),

@@ -11,10 +11,11 @@
             dc_motor_ramps/3,           % ?Port, ?Up, ?Down
             dc_motor_attribute/3        % ?Port, +Attribute, ?Value
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/halt, []).
@@ -28,9 +29,9 @@
 
 /** <module> Motors without rotation sensor, and lamps
 
-Such a motor gets a share of the battery's voltage, in percent from -100 to
-100, and nobody knows how fast it turns then. The brick does not recognise
-one: say what is plugged in first, as by
+Such a motor gets a part of the battery's voltage, in percent from -100 to
+100. Nothing measures its speed. The brick does not recognize such a motor:
+set the mode of its port first, for example:
 
 ```
 ?- port_mode(outA, 'dc-motor').
@@ -38,11 +39,11 @@ one: say what is plugged in first, as by
 ```
 
 Percentages and seconds may be arithmetic expressions; percentages are
-rounded. All predicates fail if there is no such motor at a port, or a
-percentage is beyond 100; nothing moves then. A motor that was told something
-takes up to 0.1 s to do the next thing that it is told.
+rounded. All predicates fail if there is no such motor at a port, or if a
+percentage is beyond 100; nothing moves then. After a command a motor may take
+up to 0.1 s to carry out the next one.
 
-Every motor that the program has started is stopped at its end.
+When the program ends, the pack stops every motor that the program started.
 */
 
 %!  dc_motor_run(+Port, +Percent) is semidet.
@@ -59,28 +60,30 @@ dc_motor_run(Port, Percent0) :-
 %!  dc_motor_run_timed(+Port, +Percent, +Seconds) is semidet.
 %!  dc_motor_run_timed(+Port, +Percent, +Seconds, +Options) is semidet.
 %
-%   Run a motor for at most 60 Seconds, and wait until they are over. A motor
-%   that somebody else stops before makes the call fail. Options:
+%   Run a motor for Seconds, at most 60, and wait until the time is over.
+%   Fails if somebody else stops the motor before. Options:
 %
 %     - stop_action(+Action)
 %       What the motor does at the end: `brake` (default) or `coast`.
 %     - wait(+Boolean)
-%       If `false`, return as soon as it runs.
+%       If `false`, return as soon as the motor runs.
 %     - timeout(+Seconds)
-%       Stop the motor and fail if it takes longer.
+%       Stop the motor and fail if the call takes longer.
 %     - ramp_up(+Milliseconds)
 %     - ramp_down(+Milliseconds)
-%       Speed up and slow down in steps; the time is that from 0 to 100
-%       percent, from 0 to 10000. Up is forwards, down is backwards.
+%       Speed up and slow down in steps. Milliseconds is the time from 0 to
+%       100 percent, from 0 to 10000. A rising percentage uses `ramp_up`, a
+%       falling one `ramp_down`; so a start backward uses `ramp_down`.
 %
-%   A call that is left by an exception stops the motor first.
+%   If an exception ends the call, the motor is stopped first.
 %
-%   @error existence_error(motor, Port) if its port is put into another mode
-%          under way
-%   @error domain_error(seconds, Seconds) if they are negative
+%   @error existence_error(motor, Port) if somebody changes the mode of the
+%          port while the motor runs
+%   @error domain_error(seconds, Seconds) if Seconds is negative
 %   @error domain_error(stop_action, Action)
 %   @error domain_error(ramp_up_sp, Milliseconds)
-%   @error domain_error(motor_option, Option) for an option that is none
+%   @error domain_error(motor_option, Option) if Option is not an option of
+%          this predicate
 
 dc_motor_run_timed(Port, Percent, Seconds) :-
     dc_motor_run_timed(Port, Percent, Seconds, []).
@@ -97,13 +100,13 @@ dc_motor_run_timed(Port, Percent0, Seconds0, Options) :-
 run_ended(reached, _) :-
     !.
 run_ended(Reason, Port) :-
-    debug(ev3dev, "the run of ~w ended early: ~w", [Port, Reason]),
+    explain("the run of ~w ended early: ~w", [Port, Reason]),
     fail.
 
 %!  dc_motor_run_direct(+Port, +Percent) is semidet.
 %
-%   As dc_motor_run/2; while the motor runs so, writing its `duty_cycle_sp`
-%   takes effect, too.
+%   Like dc_motor_run/2. While the motor runs in this way, a value that the
+%   program writes to `duty_cycle_sp` takes effect at once.
 
 dc_motor_run_direct(Port, Percent0) :-
     evaluated(Percent0, Percent),
@@ -114,8 +117,8 @@ dc_motor_run_direct(Port, Percent0) :-
 
 cannot(Port, Percent) :-
     (   dc_motor(Port)
-    ->  debug(ev3dev, "~w cannot run so, at ~w %", [Port, Percent])
-    ;   debug(ev3dev, "~w is no port for a motor without sensor", [Port])
+    ->  explain("~w cannot run at ~w %", [Port, Percent])
+    ;   explain("~w is no port for a motor without sensor", [Port])
     ),
     fail.
 
@@ -138,7 +141,7 @@ dc_motor_stop(Port, StopAction) :-
 
 %!  dc_motor_duty(?Port, -Percent) is nondet.
 %
-%   True if the motor gets that much of the battery's voltage now.
+%   True if the motor now gets Percent of the battery's voltage.
 
 dc_motor_duty(Port, Percent) :-
     attribute_('dc-motor', Port, duty_cycle, Percent).
@@ -178,8 +181,8 @@ dc_motor_ramps(Port, Up, Down) :-
 
 %!  dc_motor_attribute(?Port, +Attribute, ?Value) is nondet.
 %
-%   Read or write any attribute of such a motor, as motor_attribute/3 those
-%   of others.
+%   Read or write any attribute of a motor without rotation sensor, like
+%   motor_attribute/3.
 
 dc_motor_attribute(Port, Attribute, Value) :-
     attribute('dc-motor', Port, Attribute, Value).

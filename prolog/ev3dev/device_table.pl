@@ -1,22 +1,23 @@
 :- module(ev3dev_device_table,
           [ ev3_devices/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(driver,
               [ decimals/2, lego_sensor/2, mode/2, position/2,
                 sensor_attribute/3, state/2, tacho_motor/2, value/3
               ]).
 :- use_module(files, [ev3_sysfs/1]).
-:- use_module(private/native, [attribute_/4, device_/4]).
+:- use_module(private/native, [attribute_/4, device_/3]).
+:- use_module(private/one_of).
 
-/** <module> A table of what is connected
+/** <module> A table of the connected devices
 */
 
 %!  ev3_devices is det.
 %
-%   Print a table of what is connected: port, type, and what a motor or sensor
-%   reads at present.
+%   Print a table of the connected devices: port, type, and the present
+%   reading of the motor or sensor.
 
 ev3_devices :-
     findall(Row, device_row(Row), Rows),
@@ -24,7 +25,7 @@ ev3_devices :-
     ->  ev3_sysfs(Root),
         format("Nothing is connected (looking in ~w).~n", [Root])
     ;   format("~w~t~16|~w~t~38|~w~n", ['Port', 'Type', 'Reads']),
-        forall(member(row(Port, Type, Reads), Rows),
+        forall(one_of(Rows, row(Port, Type, Reads)),
                format("~w~t~16|~w~t~38|~w~n", [Port, Type, Reads]))
     ).
 
@@ -35,12 +36,12 @@ device_row(row(Port, Type, Reads)) :-
     tacho_motor(Port, Type),
     reading(motor_reading(Port), Reads).
 device_row(row(Port, Type, Reads)) :-
-    device_('dc-motor', Port, Type, _),
+    device_('dc-motor', Port, Type),
     reading(dc_motor_reading(Port), Reads).
 device_row(row(Port, Type, '')) :-
-    device_('servo-motor', Port, Type, _).
+    device_('servo-motor', Port, Type).
 
-% A device that cannot be read now is listed all the same, and says why.
+% The row of a device that cannot be read shows the error.
 reading(Goal_1, Reads) :-
     catch(call(Goal_1, Reads), Error, unreadable(Error, Reads)),
     !.

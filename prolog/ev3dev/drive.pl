@@ -9,32 +9,33 @@
             steer/3,            % +Speed, +Direction, +Options
             drive_cm/2,         % +CmPerSecond, +DegreesPerSecond
             drive_cm/3,         % +CmPerSecond, +DegreesPerSecond, +Options
+            go_to/1,            % +Place
             go_to/2,            % +X, +Y
             go_to/3,            % +X, +Y, +HeadingOrOptions
             go_to/4,            % +X, +Y, +Heading, +Options
             face/1,             % +Heading
             face/2,             % +Heading, +Options
-            follow/1,           % +Points
-            follow/2            % +Points, +Options
+            follow/1,           % +Places
+            follow/2,           % +Places, +Options
+            drive_wait/2        % +Options, -Reason
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, instantiation_error/1, must_be/2,
-                term_expansion/2, type_error/2
+              [must_be/2, term_expansion/2]).
+:- use_module(private/arguments,
+              [ must_be_options/3, number_option/4, number_value/2,
+                number_value/3, take_options/4, timeout_option/2
               ]).
-:- use_module(library(option), [option/3]).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/explain).
+:- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
-              [ backwards/2, move/3, must_be_move_options/1, not_nothing/1,
-                speed_option/2
+              [ backwards/2, move/3, move_straight/3, move_turn/3,
+                must_be_move_options/1
               ]).
-:- use_module(odometry, [number_value/2]).
-:- reexport(private/drive_moves, [drive_wait/2]).
-:- reexport(odometry,
-            [ pose/3, set_pose/3, pose_uncertainty/1, heading_wrapped/2,
-              drive_option/2
-            ]).
+:- reexport(odometry).
 :- reexport(calibrate).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/native, [drive_wait_/3]).
 
 /** <module> Driving: curves, odometry, going to places
 
@@ -49,15 +50,16 @@ is told. Loaded apart from library(ev3dev):
 X = 30.0, Y = 40.0, Heading = 0.1.
 ```
 
-Lengths are in centimetres, angles in degrees, both any arithmetic expression.
+Lengths are in centimeters, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
-along y, clockwise is positive, and full turns count. Speeds are in percent of
-what the motors can, and are those of the faster wheel.
+along y, clockwise is positive, and full turns count. A place is `X-Y`, or
+`[X, Y]` where a program gives one. Speeds are in percent of what the motors
+can, and are those of the faster wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
-meanwhile. It does so whoever runs the motors, and ends when they rest. From
-when this library is loaded, go/2, go_cm/2 and turn/2 are driven by it, too.
+meanwhile. It does so for all moves, those of library(ev3dev/robot), too, and
+ends when the motors rest.
 
 The gyro, if one is connected, tells the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
@@ -83,21 +85,23 @@ count.
     Stop the robot if it takes longer.
   - reason(-Reason)
     Do not fail if the move ends early, but tell why: one of `reached`,
-    `stalled`, `timeout`, `stopped` and `unplugged`.
+    `stalled`, `timeout`, `stopped`, `unplugged` and `astray`.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
 move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
 They also fail, unless asked for the reason, when they end early: a wheel is
-blocked, the time is up, or another thread stops a motor or tells it something
-else. The robot stands then.
+blocked, the time is up, another thread stops a motor or tells it something
+else, or the gyro contradicts the wheels (`astray`): it is mounted upside
+down, left and right motor are swapped, or the wheels spin on the spot. The
+robot stands then.
 
 They can be interrupted, as by Ctrl-C, and stop the robot first. A new move
 takes the place of one that is under way.
 
 @error existence_error(Kind, Port) if a motor or the gyro is unplugged under
        way
-@error domain_error(Option, Value)
-@error domain_error(drive_option, Option) for an option that is none
+@error domain_error(Domain, Value) for a value that makes no sense
+@error domain_error(drive_option, Option) if Option is not an option here
 */
 
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
@@ -109,9 +113,15 @@ go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
     number_value(Distance, Way),
     not_nothing(Way),
-    backwards(Percent * Way, Backwards),
-    Length is abs(Way),
-    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+    move_straight(Percent, Way, Options).
+
+%   Fails, and says so, if a distance or an angle is 0.
+not_nothing(Number) :-
+    (   Number =\= 0
+    ->  true
+    ;   explain("a distance or an angle of 0 moves nothing", []),
+        fail
+    ).
 
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
@@ -121,13 +131,12 @@ go_cm(Speed, Distance, Options) :-
 turn(Speed, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Angle, Degrees),
-    Turn is Degrees * sign(Percent),
-    move(Percent, legs([turn(Turn)], false), Options).
+    move_turn(Percent, Degrees, Options).
 
 %!  arc_cm(+Speed, +Radius, +Angle) is semidet.
 %!  arc_cm(+Speed, +Radius, +Angle, +Options) is semidet.
 %
-%   Go along an arc of a circle. Its centre is on the right if the radius is
+%   Go along an arc of a circle. Its center is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
 %   make the direction, ahead or backwards. Fails for an Angle of 0.
 
@@ -181,11 +190,7 @@ steer(Speed, Direction) :-
 
 steer(Speed, Direction, Options) :-
     number_value(Speed, Percent),
-    number_value(Direction, D),
-    (   abs(D) =< 100
-    ->  true
-    ;   domain_error(direction, D)
-    ),
+    number_value(direction, Direction, D),
     Inner is 1 - abs(D) / 50.0,
     (   D >= 0
     ->  wheels(Percent, 1, Inner, Options)
@@ -202,8 +207,8 @@ wheels(Percent, Left0, Right0, Options) :-
 %
 %   Go on at a speed and turn at a rate, clockwise positive, until stopped.
 %   Does not wait. Called again, it changes both smoothly: a program that
-%   controls the robot itself may do so many times a second. Fails if that is
-%   too fast for a wheel.
+%   controls the robot itself may call it many times a second. Fails if that
+%   is too fast for a wheel.
 
 drive_cm(Speed, Rate) :-
     drive_cm(Speed, Rate, []).
@@ -213,31 +218,19 @@ drive_cm(Speed, Rate, Options) :-
     number_value(Rate, DegreesPerSecond),
     move(100, cruise(CmPerSecond, DegreesPerSecond), Options).
 
-                /*******************************
-                *     PREDICATES OF ROBOT      *
-                *******************************/
-
-:- multifile ev3dev_robot_state:move_hook/2.
-
-ev3dev_robot_state:move_hook(go(Percent, Degrees), Done) :-
-    robot(WheelDiameter, _, _, _),
-    Distance is Degrees * pi * WheelDiameter / 360,
-    done(go_cm(Percent, Distance, []), Done).
-ev3dev_robot_state:move_hook(turn(Percent, Degrees), Done) :-
-    done(turn(Percent, Degrees, []), Done).
-
-done(Goal, Done) :-
-    (   call(Goal)
-    ->  Done = true
-    ;   Done = false
-    ).
-
+%!  go_to(+Place) is semidet.
 %!  go_to(+X, +Y) is semidet.
 %!  go_to(+X, +Y, +HeadingOrOptions) is semidet.
 %!  go_to(+X, +Y, +Heading, +Options) is semidet.
 %
 %   Turn towards a place, go there, and turn to a heading if one is given.
 %   With a negative speed, back into it.
+%
+%   @error domain_error(place, Place)
+
+go_to(Place) :-
+    place(Place, X-Y),
+    go_to(X, Y).
 
 go_to(X, Y) :-
     go_to(X, Y, []).
@@ -275,6 +268,12 @@ travel(Legs, Options) :-
     backwards(Percent, Backwards),
     move(Percent, legs(Legs, Backwards), Options).
 
+%   The speed of a move that is not told one.
+speed_option(Options, Percent) :-
+    must_be(list, Options),
+    drive_option(speed, Default),
+    number_option(speed(Percent), finite_number, Options, Default).
+
 %!  face(+Heading) is semidet.
 %!  face(+Heading, +Options) is semidet.
 %
@@ -288,31 +287,27 @@ face(Heading, Options) :-
     speed_option(Options, Percent),
     move(Percent, legs([face(Degrees)], false), Options).
 
-%!  follow(+Points) is semidet.
-%!  follow(+Points, +Options) is semidet.
+%!  follow(+Places) is semidet.
+%!  follow(+Places, +Options) is semidet.
 %
-%   Go through all of a list of points, each `[X, Y]`, `X-Y` or `point(X, Y)`,
-%   on straight lines, and turn on the spot at each. No points are `reached`
-%   at once. Another option:
+%   Go through all of a list of places on straight lines, and turn on the spot
+%   at each. No places are `reached` at once. Another option:
 %
 %     - radius(+Cm)
 %       Round the corners with that radius, or with less where the lines are
 %       too short for it, and do not stop there.
+%
+%   @error domain_error(place, Place)
 
-follow(Points) :-
-    follow(Points, []).
+follow(Places) :-
+    follow(Places, []).
 
-follow(Points, Options) :-
-    must_be(list, Points),
+follow(Places0, Options) :-
+    must_be(list, Places0),
     take_options([radius], Options, Own, Rest),
     must_be_move_options(Rest),
-    points(Points, Places),
-    option(radius(Radius), Own, 0),
-    number_value(Radius, R),
-    (   R >= 0
-    ->  true
-    ;   domain_error(radius, R)
-    ),
+    places(Places0, Places),
+    number_option(radius(R), nonnegative_number, Own, 0),
     (   Places == []
     ->  % This, too, takes the place of a move under way.
         Leg = turn(0)
@@ -320,17 +315,19 @@ follow(Points, Options) :-
     ),
     travel([Leg], Rest).
 
-points([], []).
-points([Point|Points], [[X, Y]|Places]) :-
-    (   var(Point)
-    ->  instantiation_error(Point)
-    ;   point(Point, X0, Y0)
-    ->  number_value(X0, X),
-        number_value(Y0, Y)
-    ;   type_error(point, Point)
-    ),
-    points(Points, Places).
+%!  drive_wait(+Options, -Reason) is semidet.
+%
+%   Wait until the move under way ends, as one that was started with
+%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
+%   Stops nothing. At once `reached` if there is none. Options:
+%
+%     - timeout(+Seconds)
+%       Wait for so long at most.
 
-point([X, Y], X, Y).
-point(X-Y, X, Y).
-point(point(X, Y), X, Y).
+drive_wait(Options, Reason) :-
+    must_be_options(drive_option, [timeout], Options),
+    timeout_option(Options, Timeout),
+    robot_description(Robot),
+    catch(drive_wait_(Robot, Timeout, Reason),
+          error(existence_error(_, _), _),
+          Reason = unplugged).

@@ -34,10 +34,12 @@
             value_file/3,               % ?Port, +Index, -File
             decimals_file/2             % ?Port, -File
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/attributes,
               [attribute/4, attribute_words/4, value_attribute/2]).
-:- use_module(private/native, [attribute_/4, attribute_write_/4, device_/4]).
+:- use_module(private/native,
+              [attribute_/4, attribute_write_/4, device_/3, device_/4]).
 :- reexport(files).
 
 /** <module> Driver framework: devices and their files
@@ -46,8 +48,8 @@ ev3dev shows each motor and sensor as a directory of attribute files. The
 predicates here are the paper's first layer: they find devices by port and
 read and write their attributes, one read or write each.
 
-An attribute is read when the value is unbound. Where the kernel lets one
-write it, it is written when the value is bound:
+A predicate reads the attribute if the value is unbound. If the value is bound
+and the attribute is writable, it writes the attribute:
 
 ```
 ?- position(outB, P).           % read
@@ -57,9 +59,8 @@ write it, it is written when the value is bound:
 An unbound port enumerates the devices in the order of their ports; writing
 needs a bound one.
 
-Exported here, too, are the predicates of library(ev3dev/files): any files,
-and where they are. library(ev3dev/device_table) shows all devices at a
-glance.
+This library also exports the predicates of library(ev3dev/files), which read
+and write any file. library(ev3dev/device_table) prints all devices.
 
 @see http://www.ev3dev.org for each driver's attributes
 */
@@ -73,13 +74,13 @@ glance.
 %!  tacho_motor(?Port, ?Type, ?Path) is nondet.
 %
 %   True if a motor with rotation sensor of Type, e.g. `lego-ev3-l-motor`, is
-%   plugged into Port. Path is its directory. Fails if there is none.
+%   plugged into Port. Path is its directory.
 
 tacho_motor(Port) :-
-    device_('tacho-motor', Port, _, _).
+    device_('tacho-motor', Port, _).
 
 tacho_motor(Port, Type) :-
-    device_('tacho-motor', Port, Type, _).
+    device_('tacho-motor', Port, Type).
 
 tacho_motor(Port, Type, Path) :-
     device_('tacho-motor', Port, Type, Path).
@@ -88,8 +89,8 @@ tacho_motor(Port, Type, Path) :-
 %!  ev3_medium_motor(?Port) is nondet.
 %!  nxt_motor(?Port) is nondet.
 %
-%   True if a motor of that kind is plugged into Port. An EV3 takes NXT motors
-%   for large motors unless it is told otherwise.
+%   True if a motor of this kind is plugged into Port. An EV3 detects an NXT
+%   motor as a large motor, unless port_device/2 names it.
 
 ev3_large_motor(Port) :-
     tacho_motor(Port, 'lego-ev3-l-motor').
@@ -102,11 +103,11 @@ nxt_motor(Port) :-
 
 %!  dc_motor(?Port) is nondet.
 %
-%   True if Port is one for a motor without rotation sensor, as
-%   port_mode(Port, 'dc-motor') makes it. See library(ev3dev/dc_motors).
+%   True if Port is in the mode for motors without rotation sensor, which
+%   port_mode(Port, 'dc-motor') sets. See library(ev3dev/dc_motors).
 
 dc_motor(Port) :-
-    device_('dc-motor', Port, _, _).
+    device_('dc-motor', Port, _).
 
 %!  servo_motor(?Port) is nondet.
 %
@@ -114,20 +115,20 @@ dc_motor(Port) :-
 %   library(ev3dev/servo_motors).
 
 servo_motor(Port) :-
-    device_('servo-motor', Port, _, _).
+    device_('servo-motor', Port, _).
 
 %!  lego_sensor(?Port) is nondet.
 %!  lego_sensor(?Port, ?Type) is nondet.
 %!  lego_sensor(?Port, ?Type, ?Path) is nondet.
 %
 %   True if a sensor of Type, e.g. `lego-ev3-us`, is plugged into Port. Path
-%   is its directory. Fails if there is none.
+%   is its directory.
 
 lego_sensor(Port) :-
-    device_('lego-sensor', Port, _, _).
+    device_('lego-sensor', Port, _).
 
 lego_sensor(Port, Type) :-
-    device_('lego-sensor', Port, Type, _).
+    device_('lego-sensor', Port, Type).
 
 lego_sensor(Port, Type, Path) :-
     device_('lego-sensor', Port, Type, Path).
@@ -140,19 +141,19 @@ lego_sensor(Port, Type, Path) :-
 %!  sensor_attribute(?Port, +Attribute, ?Value) is nondet.
 %
 %   Read any attribute of a motor or sensor if Value is unbound, else write
-%   it. Attribute is a file name, as in `stop_action`, `'speed_pid/Kp'`,
-%   `num_values`. Value is a number if the text is one, else an atom. Writing
-%   a sensor's `mode` that it is in already does nothing.
+%   it. Attribute is a file name such as `stop_action`, `'speed_pid/Kp'` or
+%   `num_values`. Value is a number if the text of the file is a number, else
+%   an atom. Writing a sensor's present mode to `mode` does nothing.
 %
-%   Fails if there is no device at Port. On backtracking, reads at the next
-%   port if Port is unbound.
+%   Fails if there is no device at Port. If Port is unbound, reads at the next
+%   port on backtracking.
 %
 %   @error existence_error(file, File) if the device has no such attribute
-%   @error permission_error(Access, attribute, File) if it cannot be read, or
-%          not be written
-%   @error domain_error(Attribute, Value) if the device does not accept it
-%   @error instantiation_error if Attribute is unbound, or Port and Value is
-%          to be written
+%   @error permission_error(Access, attribute, File) if the attribute cannot
+%          be read, or cannot be written
+%   @error domain_error(Attribute, Value) if the device does not accept Value
+%   @error instantiation_error if Attribute is unbound, or if Value is bound
+%          and Port is unbound
 
 motor_attribute(Port, Attribute, Value) :-
     attribute('tacho-motor', Port, Attribute, Value).
@@ -162,8 +163,8 @@ sensor_attribute(Port, Attribute, Value) :-
 
 %!  command(+Port, +Command) is semidet.
 %
-%   Give a motor one of its commands: `run-forever`, `run-to-abs-pos`,
-%   `run-to-rel-pos`, `run-timed`, `run-direct`, `stop`, `reset`. Does not
+%   Send a command to a motor: `run-forever`, `run-to-abs-pos`,
+%   `run-to-rel-pos`, `run-timed`, `run-direct`, `stop` or `reset`. Does not
 %   wait. Fails if there is no motor at Port.
 %
 %   @error domain_error(command, Command)
@@ -174,8 +175,8 @@ command(Port, Command) :-
 
 %!  speed(?Port, ?CountsPerSecond) is nondet.
 %
-%   True if the motor turns at that speed now. A motor that stops shows 0
-%   only some 200 ms later.
+%   True if the motor now turns at CountsPerSecond. After a stop the speed
+%   reads 0 only about 200 ms later.
 
 speed(Port, CountsPerSecond) :-
     attribute_('tacho-motor', Port, speed, CountsPerSecond).
@@ -192,15 +193,15 @@ speed_sp(Port, CountsPerSecond) :-
 
 %!  max_speed(?Port, ?CountsPerSecond) is nondet.
 %
-%   True if that is the highest speed that the motor accepts.
+%   True if CountsPerSecond is the highest speed that the motor accepts.
 
 max_speed(Port, CountsPerSecond) :-
     attribute_('tacho-motor', Port, max_speed, CountsPerSecond).
 
 %!  position(?Port, ?Counts) is nondet.
 %
-%   Read the motor's position, or write what its present position is called
-%   from now on. LEGO's motors have one count a degree.
+%   Read the motor's position, or give its present position a new number.
+%   LEGO's motors have one count per degree.
 
 position(Port, Counts) :-
     motor_attribute(Port, position, Counts).
@@ -214,8 +215,8 @@ position_sp(Port, Counts) :-
 
 %!  state(?Port, ?State) is nondet.
 %
-%   True if State is the text of the motor's state: the atom of its flags with
-%   spaces between, `''` if it rests.
+%   True if State is the text of the motor's state: an atom with its flags,
+%   separated by spaces; `''` if the motor rests.
 
 state(Port, State) :-
     attribute_('tacho-motor', Port, state, State).
@@ -230,9 +231,9 @@ motor_states(Port, States) :-
 
 %!  mode(?Port, ?Mode) is nondet.
 %
-%   Read a sensor's mode, or put it into another one and wait until its values
-%   are settled: 10 ms, with the infrared sensor 1.1 s. Does nothing if the
-%   sensor is in that mode.
+%   Read a sensor's mode, or set it and wait until its values have settled:
+%   10 ms, for the infrared sensor 1.1 s. Does nothing if the sensor is in
+%   Mode already.
 %
 %   @error domain_error(mode, Mode)
 
@@ -241,8 +242,8 @@ mode(Port, Mode) :-
 
 %!  value(?Port, +Index, ?Value) is nondet.
 %
-%   True if the sensor's file `value<Index>` holds Value: an integer, to be
-%   divided by 10 to the power of decimals/2.
+%   True if the sensor's file `value<Index>` holds the integer Value. Divide
+%   it by 10 to the power of decimals/2.
 %
 %   @error domain_error(sensor_value_index, Index) if the present mode has no
 %          such value
@@ -253,7 +254,8 @@ value(Port, Index, Value) :-
 
 %!  decimals(?Port, ?Decimals) is nondet.
 %
-%   True if the sensor's values in its present mode have that many decimals.
+%   True if Decimals is the number of decimals of the sensor's values in its
+%   present mode.
 
 decimals(Port, Decimals) :-
     attribute_('lego-sensor', Port, decimals, Decimals).
@@ -269,7 +271,7 @@ decimals(Port, Decimals) :-
 %!  value_file(?Port, +Index, -File) is nondet.
 %!  decimals_file(?Port, -File) is nondet.
 %
-%   True if File is the attribute's file of the motor or sensor at Port.
+%   True if File is the file of this attribute of the motor or sensor at Port.
 
 command_file(Port, File) :-
     attribute_file('tacho-motor', Port, command, File).

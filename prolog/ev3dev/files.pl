@@ -5,6 +5,7 @@
             ev3_sysfs/1,                % ?Directory
             ev3_dev/1                   % ?Directory
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/directory, [directory_path/2, environment_directory/2]).
 :- use_module(private/native,
@@ -14,8 +15,9 @@
 
 /** <module> Files of devices
 
-Any file by its name, and which tree of files is in use: the brick's own,
-another directory of the same shape, or the simulator's.
+Reads and writes any file by its name, and selects the tree of files in use:
+that of the brick, another directory of the same shape, or that of the
+simulator.
 */
 
 %!  subsystem_detect(?Port, ?Type, ?Path, +Pattern) is nondet.
@@ -27,10 +29,10 @@ another directory of the same shape, or the simulator's.
 %   ?- subsystem_detect(Port, Type, Path, '/sys/class/tacho-motor/motor*').
 %   ```
 %
-%   Pattern may hold `*`, `?`, `[abc]` and `**`. What is below `/sys/class`
-%   is looked for in the tree in use, see ev3_sysfs/1. Each match is looked
-%   at anew: for motors and sensors, tacho_motor/3 and lego_sensor/3 are much
-%   faster. Directories that hold no device are passed over.
+%   Pattern may contain `*`, `?`, `[abc]` and `**`. A path below `/sys/class`
+%   stands for the same path in the tree in use, see ev3_sysfs/1. Each call
+%   reads the directories again: for motors and sensors, tacho_motor/3 and
+%   lego_sensor/3 are much faster. Skips directories without a device.
 %
 %   @error instantiation_error if Pattern is unbound
 %   @error domain_error(file_name_pattern, Pattern)
@@ -40,9 +42,9 @@ subsystem_detect(Port, Type, Path, Pattern) :-
 
 %!  file_read(+File, -Value) is semidet.
 %
-%   Read an attribute file. Value is a number if the text is one, else an
-%   atom. Fails if Value is bound to something else. The newline that ends
-%   the text is not part of it.
+%   Read an attribute file. Value is a number if the text is a number, else an
+%   atom, without the newline at the end. Fails if Value is bound to something
+%   else.
 %
 %   @error existence_error(file, File)
 %   @error permission_error(read, attribute, File)
@@ -58,23 +60,23 @@ file_read(File, Value) :-
 %
 %   @error existence_error(file, File)
 %   @error permission_error(write, attribute, File)
-%   @error domain_error(Attribute, Value) if the device does not accept it
+%   @error domain_error(Attribute, Value) if the device does not accept Value
 
 file_write(File, Value) :-
     file_write_(File, Value).
 
 %!  ev3_sysfs(?Directory) is det.
 %
-%   Query or set the directory that holds the classes of devices. At first it
-%   is the value of the environment variable EV3DEV_SYSFS, if that is set and
-%   not empty, else `/sys/class`. A relative one is relative to the working
-%   directory.
+%   Query or set the directory that holds the classes of devices. The initial
+%   value is that of the environment variable EV3DEV_SYSFS, if it is set and
+%   not empty, else `/sys/class`. A relative directory is relative to the
+%   working directory.
 %
-%   Setting it stops the motors that the program has started so far, and ends
-%   a simulation, unless that is mounted by sim_mount/1.
+%   Setting the directory stops the motors that the program has started, and
+%   ends a simulation, unless sim_mount/1 has mounted it.
 %
-%   On a machine that has no such devices, and where no directory was set, the
-%   first use of a device starts the simulator, sim_start/1, with `room`.
+%   If the machine has no such devices and no directory was set, the first use
+%   of a device starts the simulator with sim_start(room).
 %
 %   @error existence_error(directory, Directory)
 
@@ -96,9 +98,9 @@ use_environment :-
 
 %!  choose_tree is det.
 %
-%   Called by the foreign library at the first use of a device, if no tree was
-%   set: the kernel's if it has devices, else a simulated one, if the library
-%   has the simulator in it.
+%   The foreign library calls this at the first use of a device if no tree was
+%   set. Chooses the kernel's tree if it has devices, else a simulated tree if
+%   the library contains the simulator.
 
 :- public choose_tree/0.
 
@@ -138,18 +140,18 @@ prolog:message(ev3dev(simulated(World))) -->
 %!  ev3_dev(?Directory) is det.
 %
 %   Query or set the directory that holds the device files: `fb0`, the screen,
-%   and in `input/by-path` the keys and the speaker. At first it is the value
-%   of the environment variable EV3DEV_DEV, if that is set and not empty, else
-%   `/dev`. A relative one is relative to the working directory. The simulator
-%   has its own, which are used from sim_start/1 on.
+%   and in `input/by-path` the buttons and the speaker. The initial value is
+%   that of the environment variable EV3DEV_DEV, if it is set and not empty,
+%   else `/dev`. A relative directory is relative to the working directory.
+%   sim_start/1 selects the simulator's own device files.
 %
-%   A regular file or a named pipe may stand there for a device. For the keys
-%   a file holds the events there were; what is written behind them happens
-%   then. The screen is told by its length: 3072 bytes, one bit for a pixel,
-%   or 91136, four bytes for a pixel.
+%   The directory may hold a regular file or a named pipe in place of a
+%   device. A file for the buttons contains past events; an event happens when
+%   it is appended to the file. The length of a file for the screen gives its
+%   layout: 3072 bytes for one bit per pixel, 91136 for four bytes per pixel.
 %
 %   @error existence_error(directory, Directory)
-%   @see ev3_sysfs/1 for what is below `/sys/class`
+%   @see ev3_sysfs/1 for the files below `/sys/class`
 
 ev3_dev(Directory) :-
     var(Directory),

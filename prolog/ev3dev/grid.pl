@@ -3,8 +3,9 @@
             plan_and_go_to/3,           % +Cell, ?Direction, :Options
             execute_plan/1              % +Plan
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(private/grid/knowledge).
@@ -27,7 +28,7 @@
 The robot of the paper's section 6. It knows the cell in which it is and the
 one to which it shall go, plans a way, takes it, and looks before each move.
 Where its ultrasonic sensor sees something in the next cell it notes an
-obstacle, and plans anew from where it stands.
+obstacle, and plans again from where it stands.
 
 ```
 ?- use_module(library(ev3dev)), use_module(library(ev3dev/grid)).
@@ -73,7 +74,7 @@ move, unless it knows already that they are free.
 %           into a cell that is known to be obstructed.
 %         - no_robot
 %           No robot is set, or a motor is not connected.
-%         - stalled, timeout, stopped, unplugged
+%         - stalled, timeout, stopped, unplugged, astray
 %           A move ended so, as with the moves of library(ev3dev/drive). Where
 %           the robot is stalled by what its sensor did not see, it takes that
 %           for an obstacle and goes back; only if it cannot this is told.
@@ -83,12 +84,12 @@ move, unless it knows already that they are free.
 %       `plan(Start, Plan)`, `obstacle(Cell)`, `at(Cell, Direction)`.
 %
 %   An obstacle that fades while the robot is under way is thought of only
-%   when it has to plan anew.
+%   when it has to plan again.
 %
 %   @error domain_error(planner, Planner)
 %   @error domain_error(grid_state, State)
 %   @error domain_error(grid_action, Action)
-%   @error domain_error(grid_option, Option) for an option that is none
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 plan_and_go_to(Cell, Direction) :-
     plan_and_go_to(Cell, Direction, []).
@@ -101,7 +102,7 @@ plan_and_go_to(Cell, Direction, Module:Options0) :-
     planner_meant(Planner0, Planner),
     (   grid(Map, _)
     ->  true
-    ;   debug(ev3dev, "there is no grid: see set_grid/1", []),
+    ;   explain("there is no grid: see set_grid/1", []),
         fail
     ),
     Goal = state(Cell, Direction),
@@ -217,7 +218,7 @@ execute_plan(Plan) :-
     carry_out(Plan, nobody, Outcome),
     (   Outcome == done
     ->  true
-    ;   debug(ev3dev, "the plan was broken off: ~w", [Outcome]),
+    ;   explain("the plan was broken off: ~w", [Outcome]),
         fail
     ).
 

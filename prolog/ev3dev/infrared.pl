@@ -1,21 +1,24 @@
 :- module(ev3dev_infrared,
           [ ir_remote/3,                % ?Port, ?Channel, -Buttons
             ir_beacon/4,                % ?Port, ?Channel, -Heading, -Percent
-            ir_dist_cm/2,               % ?Port, -Centimetres
+            ir_dist_cm/2,               % ?Port, -Centimeters
             ir_seeker/2,                % ?Port, -Degrees
             ir_seeker/4                 % ?Port, +Light, -Direction,
                                         % -Strengths
           ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native, [sensor_values_/5]).
+:- use_module(private/one_of).
 
 /** <module> Infrared sensors
 
-The EV3's infrared sensor sees the beacon of LEGO's remote control, and hears
-which of its buttons are held down. It is in one mode at a time, and takes 1.1
-s to change it: a program that wants both has to be patient.
+The EV3's infrared sensor finds the beacon of LEGO's remote control, and
+reports which buttons of the remote control are pressed. The sensor is in one
+mode at a time and takes 1.1 s to change it, so a program that reads both
+waits 1.1 s each time.
 
 All predicates here fail if there is no such sensor. An unbound port is the
 first port that has one; on backtracking, the next.
@@ -23,11 +26,11 @@ first port that has one; on backtracking, the next.
 
 %!  ir_remote(?Port, ?Channel, -Buttons) is nondet.
 %
-%   True if these Buttons of a remote control that is set to Channel are held
-%   down. Buttons is a list, empty if none is, of `red_up`, `red_down`,
-%   `blue_up`, `blue_down` and `beacon`, in that order. The sensor can tell
-%   one, or two that are not the beacon's; the beacon's stays down until it is
-%   pressed again. An unbound Channel is each from 1 to 4.
+%   True if Buttons is the list of the pressed buttons of a remote control on
+%   Channel: `red_up`, `red_down`, `blue_up`, `blue_down` and `beacon`, in
+%   that order; `[]` if no button is pressed. The sensor reports one button,
+%   or two of the first four. The beacon counts as pressed from one press of
+%   its button to the next. An unbound Channel enumerates 1 to 4.
 %
 %   @error domain_error(ir_channel, Channel)
 
@@ -35,7 +38,7 @@ ir_remote(Port, Channel, Buttons) :-
     must_be_channel(Channel),
     sensor_values_(Port, ['lego-ev3-ir'], 'IR-REMOTE', 4,
                                   Codes),
-    nth1(Channel, Codes, Code),
+    of_channel(Codes, Channel, Code),
     buttons(Code, Held),
     Buttons = Held.
 
@@ -54,10 +57,10 @@ buttons(11, [blue_up, blue_down]).
 
 %!  ir_beacon(?Port, ?Channel, -Heading, -Percent) is nondet.
 %
-%   True if the sensor sees the beacon of a remote control that is set to
-%   Channel: Heading is from -25, far to the left, to 25, far to the right,
-%   and no angle; Percent from 0, near, to 100, some 2 m. Fails if it sees
-%   none. An unbound Channel is each on which there is one.
+%   True if the sensor sees the beacon of a remote control on Channel. Heading
+%   is from -25, far to the left, to 25, far to the right; it is no angle.
+%   Percent is from 0, near, to 100, about 2 m. Fails if the sensor sees no
+%   beacon. An unbound Channel enumerates the channels with a beacon.
 %
 %   @error domain_error(ir_channel, Channel)
 
@@ -66,45 +69,42 @@ ir_beacon(Port, Channel, Heading, Percent) :-
     sensor_values_(Port, ['lego-ev3-ir'], 'IR-SEEK', 8,
                                   Values),
     findall(beacon(Channel, Seen, Far),
-            ( between(1, 4, Channel),
-              seen(Channel, Values, Seen, Far)
+            ( in_pairs(Values, Pairs),
+              of_channel(Pairs, Channel, Seen-Far),
+              Far =\= -128
             ),
             Beacons),
-    member(beacon(Channel, Heading, Percent), Beacons).
+    one_of(Beacons, beacon(Channel, Heading, Percent)).
 
-seen(Channel, Values, Heading, Percent) :-
-    Index is 2 * (Channel - 1),
-    nth0(Index, Values, Heading),
-    Next is Index + 1,
-    nth0(Next, Values, Percent),
-    Percent =\= -128.
+in_pairs([], []).
+in_pairs([Heading, Percent|Values], [Heading-Percent|Pairs]) :-
+    in_pairs(Values, Pairs).
+
+of_channel(Elements, Channel, Element) :-
+    Channels =.. [channels|Elements],
+    arg(Channel, Channels, Element).
 
 must_be_channel(Channel) :-
     (   var(Channel)
     ->  true
-    ;   must_be(integer, Channel),
-        (   Channel >= 1,
-            Channel =< 4
-        ->  true
-        ;   domain_error(ir_channel, Channel)
-        )
+    ;   must_be_within(1, 4, ir_channel, Channel)
     ).
 
-%!  ir_dist_cm(?Port, -Centimetres) is nondet.
+%!  ir_dist_cm(?Port, -Centimeters) is nondet.
 %
-%   True if the EV3's infrared sensor sees something at about that distance,
-%   from 0 to 70 cm. It goes by how much of its light comes back, so that dark
-%   things seem farther away. 70 cm is also what it says when it sees nothing.
+%   True if the EV3's infrared sensor sees something at about Centimeters,
+%   from 0 to 70. It measures how much of its light comes back, so dark things
+%   seem farther away. It also reports 70 cm when it sees nothing.
 
-ir_dist_cm(Port, Centimetres) :-
+ir_dist_cm(Port, Centimeters) :-
     ir_prox(Port, Percent),
-    Centimetres is Percent * 0.7.
+    Centimeters is Percent * 0.7.
 
 %!  ir_seeker(?Port, -Degrees) is nondet.
 %
-%   True if HiTechnic's seeker sees pulsed infrared light, as of their ball,
-%   in that direction: -120 to 120 degrees in steps of 30, clockwise, 0 is
-%   ahead. Fails if it sees none.
+%   True if HiTechnic's seeker sees pulsed infrared light, for example of
+%   HiTechnic's ball, in the direction Degrees: -120 to 120 in steps of 30,
+%   clockwise, 0 is ahead. Fails if the seeker sees no such light.
 %
 %   @see http://www.hitechnic.com/blog/ir-seeker for degrees and directions
 
@@ -117,9 +117,9 @@ ir_seeker(Port, Degrees) :-
 %!  ir_seeker(?Port, +Light, -Direction, -Strengths) is nondet.
 %
 %   True if HiTechnic's seeker sees infrared Light, `pulsed` or `steady`, in
-%   that Direction, from 1 (far left) over 5 (ahead) to 9 (far right).
-%   Strengths is what its five eyes see of it from left to right, each from 0
-%   to 255. Fails if it sees none.
+%   Direction, from 1 (far left) over 5 (ahead) to 9 (far right). Strengths is
+%   the list of the strengths that its five eyes measure, from left to right,
+%   each from 0 to 255. Fails if the seeker sees no such light.
 %
 %   @error domain_error(ir_light, Light)
 

@@ -1,39 +1,41 @@
 :- module(ev3dev_lights,
           [ led/1,                      % ?Light
-            led/2,                      % ?Light, ?Colour
+            led/2,                      % ?Light, ?Color
             led_trigger/2,              % ?Light, ?Trigger
             led_triggers/2,             % ?Light, -Triggers
             led_blink/3                 % ?Light, ?On, ?Off
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native,
-              [ led_/3, led_set_colour_/2, led_set_delays_/3,
+              [ led_/3, led_set_color_/2, led_set_delays_/3,
                 led_set_trigger_/2 ]).
 
 /** <module> Lights
 
-The brick's lights are around its keys, one on the `left` and one on the
+The brick has two lights around its buttons, one on the `left` and one on the
 `right`:
 
 ```
 ?- led(left, red).
-?- led(Light, Colour).
+?- led(Light, Color).
 Light = left,
-Colour = red ;
+Color = red ;
 Light = right,
-Colour = green.
+Color = green.
 ?- led_blink(left, 200, 800).
 ```
 
-A lamp on an output port in the mode `led` is a light, too, called by its
-port; see port_mode/2.
+A lamp on an output port in the mode `led` is a light, too; its name is the
+port. See port_mode/2.
 
-All predicates fail if the board has no such light. What is unbound is read,
-what is bound is written. A bound port may be spelled either way.
+All predicates fail if the board has no such light. A predicate reads an
+unbound value and writes a bound one. A program may spell a port as `outA` or
+as `'ev3-ports:outA'`.
 */
 
 %!  led(?Light) is nondet.
@@ -43,10 +45,10 @@ what is bound is written. A bound port may be spelled either way.
 led(Light) :-
     led_(Light, name, _).
 
-%!  led(?Light, ?Colour) is nondet.
+%!  led(?Light, ?Color) is nondet.
 %
-%   Read the colour of a light, or set it; a light that something else
-%   switches, as one that blinks, is this program's then. Colour is one of
+%   Read the color of a light, or set it. Setting the color ends blinking and
+%   any other trigger of the light. Color is one of
 %
 %     - off
 %     - red
@@ -54,53 +56,53 @@ led(Light) :-
 %     - amber
 %     - orange
 %     - yellow
-%       Mixed of red and green.
+%       A mix of red and green.
 %     - levels(Red, Green)
-%       Each from 0 to 100; two expressions.
+%       Two arithmetic expressions, each from 0 to 100.
 %     - on
 %     - Percent
-%       From 0 to 100. For lights of one colour only.
+%       From 0 to 100. Only for lights of one color.
 %
-%   Other boards have other lights: the BrickPi `blue`, the BrickPi3 a single
-%   one in `amber`, which is called `left`, and the PiStorms red, green and
-%   blue, with `levels(Red, Green, Blue)`. Fails if the light cannot show that
-%   colour.
+%   Other boards have other lights: the BrickPi has `blue` ones, the BrickPi3
+%   has a single `amber` one with the name `left`, and the PiStorms has red,
+%   green and blue ones, with `levels(Red, Green, Blue)`. Fails if the light
+%   cannot show Color.
 %
-%   @error domain_error(led_color, Colour)
-%   @error instantiation_error if a Colour is to be set and Light is unbound
+%   @error domain_error(led_color, Color)
+%   @error instantiation_error if Color is bound and Light is unbound
 
-led(Light, Colour) :-
-    var(Colour),
+led(Light, Color) :-
+    var(Color),
     !,
-    led_(Light, colour, Colour).
-led(Light, Colour0) :-
-    colour(Colour0, Colour),
-    (   led_set_colour_(Light, Colour)
+    led_(Light, color, Color).
+led(Light, Color0) :-
+    color(Color0, Color),
+    (   led_set_color_(Light, Color)
     ->  true
     ;   led(Light)
-    ->  debug(ev3dev, "the light ~w cannot show ~w", [Light, Colour]),
+    ->  explain("the light ~w cannot show ~w", [Light, Color]),
         fail
     ;   no_light(Light)
     ).
 
-colour(Colour, Colour) :-
-    atom(Colour),
+color(Color, Color) :-
+    atom(Color),
     !.
-colour(levels(Red0, Green0), levels(Red, Green)) :-
+color(levels(Red0, Green0), levels(Red, Green)) :-
     !,
     percent(Red0, Red),
     percent(Green0, Green).
-colour(levels(Red0, Green0, Blue0), levels(Red, Green, Blue)) :-
+color(levels(Red0, Green0, Blue0), levels(Red, Green, Blue)) :-
     !,
     percent(Red0, Red),
     percent(Green0, Green),
     percent(Blue0, Blue).
-colour(Colour0, Colour) :-
-    number(Colour0),
+color(Color0, Color) :-
+    number(Color0),
     !,
-    percent(Colour0, Colour).
-colour(Colour, _) :-
-    domain_error(led_color, Colour).
+    percent(Color0, Color).
+color(Color, _) :-
+    domain_error(led_color, Color).
 
 percent(Expression, Percent) :-
     evaluated(Expression, Value),
@@ -111,14 +113,15 @@ percent(Expression, Percent) :-
     ).
 
 no_light(Light) :-
-    debug(ev3dev, "there is no light ~w", [Light]),
+    explain("there is no light ~w", [Light]),
     fail.
 
 %!  led_trigger(?Light, ?Trigger) is nondet.
 %
-%   Read or set what switches a light: `none`, or one of led_triggers/2, such
-%   as `heartbeat`, `timer` or `default-on`. The light keeps its colour; one
-%   that is off shines in all it has. With `none` it goes out.
+%   Read or set the trigger that switches a light: `none`, or one of
+%   led_triggers/2, such as `heartbeat`, `timer` or `default-on`. The light
+%   keeps its color. If it was off, it shines in all its colors. `none`
+%   switches it off.
 %
 %   @error domain_error(trigger, Trigger)
 
@@ -135,19 +138,19 @@ led_trigger(Light, Trigger) :-
 
 %!  led_triggers(?Light, -Triggers) is nondet.
 %
-%   True if Triggers is the list of what may switch the light.
+%   True if Triggers is the list of triggers that may switch the light.
 
 led_triggers(Light, Triggers) :-
     led_(Light, triggers, Triggers).
 
 %!  led_blink(?Light, ?On, ?Off) is nondet.
 %
-%   Let a light blink in its colour, On and Off for so many milliseconds in
-%   turns, until its colour is set or the board is switched off; or read these
-%   times of a light that blinks, and fail for one that does not. Does not
-%   wait for it.
+%   Let a light blink in its color: on for On milliseconds, then off for Off
+%   milliseconds, until a program sets its color or the board is switched off.
+%   Does not wait. If both times are unbound, reads them; fails if the light
+%   does not blink.
 %
-%   @error domain_error(milliseconds, Time) if it is not above 0
+%   @error domain_error(milliseconds, Time) if Time is not above 0
 
 led_blink(Light, On, Off) :-
     var(On),

@@ -7,30 +7,30 @@
             motor_speed_pid/2,          % ?Port, ?PID
             motor_hold_pid/2            % ?Port, ?PID
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, term_expansion/2
               ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native,
               [ attribute_/4, motor_position_/2, motor_set_position_/2 ]).
+:- use_module(private/one_of).
 
-/** <module> What a motor is set to
+/** <module> Settings of motors
 
-As with the attributes of library(ev3dev/driver), what is unbound is read and
-what is bound is written. An unbound port enumerates; writing needs a bound
-one. All predicates fail if there is no motor at a port. motor_reset/1 puts
-everything back to what it is after plugging in.
+As with the attributes of library(ev3dev/driver), a predicate reads an unbound
+value and writes a bound one. An unbound port enumerates; writing needs a
+bound one. All predicates fail if there is no motor at a port. motor_reset/1
+puts all settings back to their values after plugging in.
 */
 
 %!  linear_actuator(?Port) is nondet.
 %
 %   True if a linear actuator, an L12 by Actuonix, is plugged into Port. It is
-%   a motor like others, but that its positions and ways are in millimetres.
-%   The brick does not recognise one: see port_device/2.
+%   a motor with positions and distances in millimeters. The brick does not
+%   recognize a linear actuator: see port_device/2.
 
 linear_actuator(Port) :-
     tacho_motor(Port, Type),
@@ -41,11 +41,11 @@ linear('act-l12-ev3-100').
 
 %!  motor_position(?Port, ?Position) is nondet.
 %
-%   Read a motor's position in degrees, or millimetres of a linear actuator,
-%   or say what its present position is called from now on. It is an integer
-%   where the motor counts in degrees, as LEGO's do, else a float. To be
-%   written, it may be an arithmetic expression. Fails if a Position is beyond
-%   what the motor can count.
+%   Read a motor's position in degrees, or millimeters of a linear actuator,
+%   or give its present position a new number. Writing moves nothing. Position
+%   is an integer if the motor counts in degrees, as LEGO's do, else a float.
+%   A Position to write may be an arithmetic expression. Fails if Position is
+%   beyond the range of the motor's counter.
 
 motor_position(Port, Position) :-
     var(Position),
@@ -57,17 +57,18 @@ motor_position(Port, Position0) :-
 
 %!  motor_duty(?Port, -Percent) is nondet.
 %
-%   True if the motor gets that much of the battery's voltage now, from -100
-%   to 100.
+%   True if the motor now gets Percent of the battery's voltage, from -100 to
+%   100.
 
 motor_duty(Port, Percent) :-
     attribute_('tacho-motor', Port, duty_cycle, Percent).
 
 %!  motor_polarity(?Port, ?Polarity) is nondet.
 %
-%   Read or write a motor's polarity: `normal`, or `inversed` for one that is
-%   mounted the other way round; its speeds and positions then have the other
-%   sign. To be set before anything else: it changes what was set before.
+%   Read or write a motor's polarity: `normal`, or `inversed` for a motor that
+%   is mounted the other way round. `inversed` reverses the sign of its speeds
+%   and positions. Set the polarity first: it also reverses the values that
+%   were set before.
 %
 %   @error domain_error(polarity, Polarity)
 
@@ -77,8 +78,8 @@ motor_polarity(Port, Polarity) :-
 %!  motor_ramps(?Port, ?Up, ?Down) is nondet.
 %
 %   Read or write how a motor speeds up and slows down from the next command
-%   on: evenly, in so many milliseconds between rest and its highest speed,
-%   from 0 to 60000.
+%   on. It changes its speed evenly. Up and Down are the milliseconds between
+%   rest and its highest speed, from 0 to 60000.
 %
 %   @error domain_error(ramp_up_sp, Up)
 %   @error domain_error(ramp_down_sp, Down)
@@ -92,11 +93,11 @@ motor_ramps(Port, Up, Down) :-
 %!  motor_speed_pid(?Port, ?PID) is nondet.
 %!  motor_hold_pid(?Port, ?PID) is nondet.
 %
-%   Read or write the constants of the regulation, by which a motor keeps its
-%   speed, or holds its position. PID is `pid(P, I, D)`, integers of 0 or
-%   more. They take effect at once.
+%   Read or write the constants of the regulator that keeps the speed of a
+%   motor, or holds its position. PID is `pid(P, I, D)`, three integers from 0
+%   on. They take effect at once.
 %
-%   @error domain_error(pid_constant, Constant) if one is negative
+%   @error domain_error(pid_constant, Constant) if Constant is negative
 
 motor_speed_pid(Port, PID) :-
     motor_pid(Port, speed_pid, PID).
@@ -123,7 +124,7 @@ motor_pid(Port, Directory, PID) :-
 
 must_be_pid(PID) :-
     (   PID = pid(P, I, D)
-    ->  forall(member(Constant, [P, I, D]),
+    ->  forall(one_of([P, I, D], Constant),
                must_be_within(0, 2147483647, pid_constant, Constant))
     ;   domain_error(pid, PID)
     ).

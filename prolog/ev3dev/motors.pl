@@ -20,16 +20,17 @@
             motor_run_to/4,             % +Port, +Speed, +Angle, +Options
             motor_run_direct/2          % +Port, +Percent
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(driver,
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
               [ motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, must_be_timeout/1
+                must_be_options/3, timeout_option/2
               ]).
 :- use_module(private/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
@@ -37,25 +38,26 @@
                 motor_wait_flag_/3, motors_run_/1, run_forever_/2,
                 stop_all_motors_/0
               ]).
+:- use_module(private/one_of).
 
 /** <module> Motors
 
 Speeds are in percent of the motor's highest speed, angles in degrees of its
-shaft, both any arithmetic expression. Where there is an angle, its sign and
-that of the speed together make the direction. Of a linear actuator what is
-called an angle here is a length, in millimetres.
+shaft. Both may be arithmetic expressions. If a move has an angle, the signs
+of angle and speed together give the direction. For a linear actuator an angle
+is a length in millimeters.
 
-What can be set is in library(ev3dev/motor_settings), motors without rotation
-sensor are in library(ev3dev/dc_motors), and RC servos in
-library(ev3dev/servo_motors).
+library(ev3dev/motor_settings) has the settings of motors,
+library(ev3dev/dc_motors) the motors without rotation sensor, and
+library(ev3dev/servo_motors) the RC servos.
 
-Every motor that the program has started is stopped when Prolog halts, or is
-ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
+When Prolog halts, or SIGINT, SIGTERM or SIGHUP ends it, the pack stops every
+motor that the program started, unless the flag `ev3dev_stop_at_halt` is
 `false`.
 
-All predicates fail if there is no motor at a port, and if a move is
+All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
-angle. Nothing moves then. `debug(ev3dev)` tells why.
+angle. Nothing moves then. `debug(ev3dev)` explains why.
 */
 
 %!  motor_run(+Port, +Speed) is semidet.
@@ -65,10 +67,13 @@ angle. Nothing moves then. `debug(ev3dev)` tells why.
 %   @error type_error(evaluable, Speed)
 
 motor_run(Port, Speed) :-
-    evaluated(Speed, Percent),
+    (   number(Speed)
+    ->  Percent = Speed
+    ;   evaluated(Speed, Percent)
+    ),
     (   motor_run_(Port, Percent)
     ->  true
-    ;   why_not([run(Port, Percent)])
+    ;   explain_failure([run(Port, Percent)])
     ).
 
 %!  motors_run(+Runs) is semidet.
@@ -77,42 +82,44 @@ motor_run(Port, Speed) :-
 %   start at the same moment, or not at all. Does not wait.
 %
 %   @error domain_error(distinct_ports, Port) if a port is named twice
-%   @error domain_error(motor_run, Run) if one of Runs is none
+%   @error domain_error(motor_run, Run) if an element is no `run(Port, Speed)`
 %   @error type_error(evaluable, Speed)
 
 motors_run(Runs0) :-
     motor_runs(Runs0, Runs),
     (   motors_run_(Runs)
     ->  true
-    ;   why_not(Runs)
+    ;   explain_failure(Runs)
     ).
 
 %!  motor_run(+Port, +Speed, +Angle) is semidet.
 %!  motor_run(+Port, +Speed, +Angle, +Options) is semidet.
 %
-%   Turn a motor by Angle degrees at Speed percent, and wait until it is
-%   there. A motor that does not get there, because it is blocked or somebody
-%   else stops it, is stopped and makes the call fail. Options:
+%   Turn a motor by Angle degrees at Speed percent, and wait until it arrives.
+%   Stops the motor and fails if it does not arrive, because it is blocked or
+%   somebody else stops it. Options:
 %
 %     - stop_action(+Action)
 %       What the motor does at the end: `hold` its position (default), `brake`
 %       or `coast`; with these two it overshoots.
 %     - wait(+Boolean)
-%       If `false`, return as soon as it runs. See motor_wait/3.
+%       If `false`, return as soon as the motor runs. See motor_wait/3.
 %     - timeout(+Seconds)
-%       Stop the motor and fail if it takes longer.
+%       Stop the motor and fail if the move takes longer.
 %     - ramp_up(+Milliseconds)
 %     - ramp_down(+Milliseconds)
-%       Speed up and slow down evenly; the time is that between rest and the
-%       highest speed, from 0 to 60000. For this move only.
+%       Speed up and slow down evenly. Milliseconds is the time between rest
+%       and the highest speed, from 0 to 60000. For this move only.
 %
-%   A call that is left by an exception, as that of call_with_time_limit/2 or
-%   Ctrl-C, stops the motor first.
+%   If an exception ends the call, for example call_with_time_limit/2 or
+%   Ctrl-C, the motor is stopped first.
 %
-%   @error existence_error(motor, Port) if the motor is unplugged under way
+%   @error existence_error(motor, Port) if the motor is unplugged during the
+%          move
 %   @error domain_error(stop_action, Action)
 %   @error domain_error(ramp_up_sp, Milliseconds)
-%   @error domain_error(motor_option, Option) for an option that is none
+%   @error domain_error(motor_option, Option) if Option is not an option of
+%          this predicate
 
 motor_run(Port, Speed, Angle) :-
     motor_run(Port, Speed, Angle, []).
@@ -124,19 +131,19 @@ motor_run(Port, Speed, Angle, Options) :-
 
 %!  motors_turn(+Moves, +Options) is semidet.
 %
-%   Turn several motors and wait until all are there. They start at the same
+%   Turn several motors and wait until all arrive. They start at the same
 %   moment, or not at all. Options, failure and errors are those of
 %   motor_run/4. Each of Moves is one of
 %
 %     - move(Port, Speed, Angle)
-%       As motor_run/4.
+%       Like motor_run/4.
 %     - to(Port, Speed, Angle)
-%       As motor_run_to/4.
+%       Like motor_run_to/4.
 %     - for(Port, Speed, Seconds)
-%       As motor_run_timed/4.
+%       Like motor_run_timed/4.
 %
 %   @error domain_error(distinct_ports, Port) if a port is named twice
-%   @error domain_error(motor_move, Move) if it is none of these
+%   @error domain_error(motor_move, Move) if Move is not one of these
 
 motors_turn(Moves0, Options) :-
     must_be(list, Moves0),
@@ -144,46 +151,45 @@ motors_turn(Moves0, Options) :-
     motor_moves(Moves0, Moves),
     (   motor_turn_(Moves, Native, Reason)
     ->  turn_ended(Reason, Moves)
-    ;   why_not(Moves)
+    ;   explain_failure(Moves)
     ).
 
 turn_ended(reached, _) :-
     !.
 turn_ended(stalled, Moves) :-
     !,
-    findall(Port, ( member(Move, Moves), arg(1, Move, Port) ), Ports),
+    findall(Port, ( one_of(Moves, Move), arg(1, Move, Port) ), Ports),
     print_message(warning, ev3dev(stalled(Ports))),
     fail.
 turn_ended(Reason, Moves) :-
-    debug(ev3dev, "~p ended early: ~w", [Moves, Reason]),
+    explain("~p ended early: ~w", [Moves, Reason]),
     fail.
 
-%!  why_not(+Runs) is failure.
+%!  explain_failure(+Runs) is failure.
 %
-%   Tell why motors could not be started, if that is being debugged: those
-%   that are missing, or else what they were to do.
+%   Print why motors could not start, if debug(ev3dev) is on: the missing
+%   motors, or else the impossible runs.
 
-why_not(Runs) :-
-    debugging(ev3dev),
+explain_failure(Runs) :-
+    is_explained,
     findall(Port,
-            ( member(Run, Runs), arg(1, Run, Port), \+ tacho_motor(Port) ),
+            ( one_of(Runs, Run), arg(1, Run, Port), \+ tacho_motor(Port) ),
             Missing),
-    (   member(Port, Missing),
-        debug(ev3dev, "there is no motor at ~w", [Port])
+    (   one_of(Missing, Port),
+        explain("there is no motor at ~w", [Port])
     ;   Missing == [],
-        member(Run, Runs),
+        one_of(Runs, Run),
         arg(1, Run, Port),
         arg(2, Run, Percent),
         max_speed(Port, Max),
-        debug(ev3dev, "~w cannot run at ~w % of its ~w counts/s as ~p asks",
-              [Port, Percent, Max, Run])
+        explain("~w cannot run at ~w % of its ~w counts/s as ~p asks",
+                [Port, Percent, Max, Run])
     ),
     fail.
 
 %!  motor_start(+Port) is semidet.
 %
-%   Run a motor at the speed that was written to speed_sp/2 until it is
-%   stopped. Does not wait.
+%   Run a motor at the speed of speed_sp/2 until it is stopped. Does not wait.
 
 motor_start(Port) :-
     command(Port, 'run-forever').
@@ -192,7 +198,7 @@ motor_start(Port) :-
 %!  motor_stop(+Port, +StopAction) is semidet.
 %
 %   Stop a motor: let it `coast`, `brake` it (default), or `hold` its
-%   position. Does not wait until it stands.
+%   position. Does not wait until the motor rests.
 %
 %   @error domain_error(stop_action, StopAction)
 
@@ -202,20 +208,20 @@ motor_stop(Port) :-
 motor_stop(Port, StopAction) :-
     (   motor_stop_('tacho-motor', Port, StopAction)
     ->  true
-    ;   why_not([run(Port, 0)])
+    ;   explain_failure([run(Port, 0)])
     ).
 
 %!  stop_all_motors is det.
 %
-%   Stop every motor that is connected, with or without rotation sensor,
-%   whoever started it, with `brake`. Servos keep their positions.
+%   Stop all connected motors, with or without rotation sensor, by `brake`,
+%   also motors that another program started. Servos keep their positions.
 
 stop_all_motors :-
     stop_all_motors_.
 
 %!  motor_reset(+Port) is semidet.
 %
-%   Stop a motor and put all it was told back to what it is after plugging in:
+%   Stop a motor and put its settings back to the values after plugging in:
 %   position 0, speed 0, no ramps, normal polarity.
 
 motor_reset(Port) :-
@@ -223,23 +229,23 @@ motor_reset(Port) :-
 
 %!  run_forever(+Port, +CountsPerSecond) is semidet.
 %
-%   Run a motor at a speed in tacho counts a second until it is stopped. Does
-%   not wait.
+%   Run a motor at CountsPerSecond tacho counts per second until it is
+%   stopped. Does not wait.
 
 run_forever(Port, Speed) :-
     evaluated(round(Speed), CountsPerSecond),
     (   abs(CountsPerSecond) < 2 ** 31,
         run_forever_(Port, CountsPerSecond)
     ->  true
-    ;   debug(ev3dev, "~w cannot run at ~w counts/s",
-              [Port, CountsPerSecond]),
+    ;   explain("~w cannot run at ~w counts/s",
+                [Port, CountsPerSecond]),
         fail
     ).
 
 %!  speed_adjust(+Percent, ?Port, -CountsPerSecond) is nondet.
 %
-%   True if Percent of the highest speed of the motor at Port is that many
-%   tacho counts a second, rounded down.
+%   True if Percent of the highest speed of the motor at Port is
+%   CountsPerSecond tacho counts per second, rounded down.
 
 speed_adjust(Percent, Port, CountsPerSecond) :-
     max_speed(Port, MaxSpeed),
@@ -249,10 +255,11 @@ speed_adjust(Percent, Port, CountsPerSecond) :-
 %!  motor_wait_until(+Port, +Flag) is semidet.
 %
 %   Wait while, or until, Flag is among the motor's states: `running`,
-%   `ramping`, `holding`, `overloaded` or `stalled`. Uses no processor time
-%   worth mentioning. Signals are handled within 20 ms.
+%   `ramping`, `holding`, `overloaded` or `stalled`. The wait uses hardly any
+%   processor time. Prolog handles signals within 20 ms.
 %
-%   @error existence_error(motor, Port) if the motor is unplugged meanwhile
+%   @error existence_error(motor, Port) if the motor is unplugged during the
+%          wait
 %   @error domain_error(motor_state, Flag)
 
 motor_wait_while(Port, Flag) :-
@@ -279,10 +286,10 @@ flag(stalled).
 %!  motor_wait(+Ports, +Options, -Reason) is semidet.
 %
 %   Wait until a motor, or each of a list of motors, no longer runs. Stops
-%   nothing. Reason tells why the wait ended:
+%   nothing. Reason says why the wait ended:
 %
 %     - reached
-%       The motors are where they were to go.
+%       The motors arrived at their targets.
 %     - stalled
 %       A motor is blocked; it is still pushing.
 %     - timeout
@@ -290,17 +297,16 @@ flag(stalled).
 %     - unplugged
 %       A motor is no longer connected.
 %     - stopped
-%       A motor was stopped before it got there.
+%       Somebody stopped a motor before it arrived.
 %
 %   Options:
 %
 %     - timeout(+Seconds)
-%       Wait for so long at most. Default is to wait for ever.
+%       Wait at most Seconds. Default is `infinite`.
 
 motor_wait(Ports, Options, Reason) :-
     must_be_options(motor_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     (   is_list(Ports)
     ->  motor_wait_(Ports, Timeout, Reason)
     ;   motor_wait_([Ports], Timeout, Reason)
@@ -315,13 +321,14 @@ prolog:message(ev3dev(stalled(Ports))) -->
 %!  motor_run_timed(+Port, +Speed, +Seconds) is semidet.
 %!  motor_run_timed(+Port, +Speed, +Seconds, +Options) is semidet.
 %
-%   Run a motor at Speed percent for so many Seconds, and wait until they are
-%   over. Seconds may be an arithmetic expression. Options are those of
-%   motor_run/4, but that `stop_action` is `brake` by default. Slowing down
-%   with a `ramp_down` comes on top of the time.
+%   Run a motor at Speed percent for Seconds, and wait until the time is over.
+%   Seconds may be an arithmetic expression. Options are those of motor_run/4,
+%   but the default `stop_action` is `brake`. With `ramp_down` the motor slows
+%   down after Seconds, so the call takes longer.
 %
-%   @error domain_error(seconds, Seconds) if they are negative
-%   @error existence_error(motor, Port) if the motor is unplugged under way
+%   @error domain_error(seconds, Seconds) if Seconds is negative
+%   @error existence_error(motor, Port) if the motor is unplugged during the
+%          run
 
 motor_run_timed(Port, Speed, Seconds) :-
     motor_run_timed(Port, Speed, Seconds, []).
@@ -330,16 +337,21 @@ motor_run_timed(Port, Speed, Seconds0, Options0) :-
     evaluated(Speed, Percent),
     evaluated(Seconds0, Seconds),
     must_be(list, Options0),
-    append(Options0, [stop_action(brake)], Options),
+    or_brake(Options0, Options),
     motors_turn([for(Port, Percent, Seconds)], Options).
+
+or_brake([], [stop_action(brake)]).
+or_brake([Option|Options0], [Option|Options]) :-
+    or_brake(Options0, Options).
 
 %!  motor_run_to(+Port, +Speed, +Angle) is semidet.
 %!  motor_run_to(+Port, +Speed, +Angle, +Options) is semidet.
 %
-%   Turn a motor to Angle degrees at Speed percent, and wait until it is
-%   there. Angle is that of motor_position/2: 0 is where the motor was when it
-%   was plugged in or reset, or where the program says. The sign of Speed does
-%   not matter. Options, failure and errors are those of motor_run/4.
+%   Turn a motor to Angle degrees at Speed percent, and wait until it arrives.
+%   Angle is a position as in motor_position/2: 0 is the position of the motor
+%   when it was plugged in or reset, unless the program sets another. The sign
+%   of Speed does not matter. Options, failure and errors are those of
+%   motor_run/4.
 
 motor_run_to(Port, Speed, Angle) :-
     motor_run_to(Port, Speed, Angle, []).
@@ -351,21 +363,22 @@ motor_run_to(Port, Speed, Angle, Options) :-
 
 %!  motor_run_direct(+Port, +Percent) is semidet.
 %
-%   Give a motor that much of the battery's voltage, from -100 to 100, until
-%   it is stopped: nothing keeps its speed when it has to push. Does not wait.
-%   When the motor runs so already, it gets that much from now on.
+%   Give a motor Percent of the battery's voltage, from -100 to 100, until it
+%   is stopped. Nothing regulates the speed: under load the motor slows down.
+%   Does not wait. If the motor runs in this way already, its percentage
+%   changes.
 %
-%   @error domain_error(command, 'run-direct') if the motor cannot run so, as
-%          those of some other boards
+%   @error domain_error(command, 'run-direct') if the motor does not have this
+%          command, as motors on some other boards
 
 motor_run_direct(Port, Percent0) :-
     evaluated(Percent0, Percent),
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
     ;   tacho_motor(Port)
-    ->  debug(ev3dev, "~w cannot run at ~w % of the voltage",
-              [Port, Percent]),
+    ->  explain("~w cannot run at ~w % of the voltage",
+                [Port, Percent]),
         fail
-    ;   debug(ev3dev, "there is no motor at ~w", [Port]),
+    ;   explain("there is no motor at ~w", [Port]),
         fail
     ).

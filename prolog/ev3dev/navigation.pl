@@ -2,17 +2,19 @@
           [ navigate_to/2,      % +Map, +Goal
             navigate_to/3       % +Map, +Goal, +Options
           ]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
 :- use_module(private/drive_moves, [move/3]).
-:- use_module(private/arguments, [take_options/4]).
-:- use_module(private/roadmap_arguments,
-              [ number_option/4, roadmap_facts/2, roadmap_options/2,
-                roadmap_point/2
+:- use_module(private/arguments,
+              [ number_option/4, number_value/2, option/2, option/3,
+                take_options/4
               ]).
+:- use_module(private/places, [place/2]).
+:- use_module(private/roadmap_arguments,
+              [roadmap_facts/2, roadmap_options/2]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(private/native,
@@ -34,7 +36,7 @@ It goes only where it has looked. At first, and whenever its way leads to a
 place that it has not seen, it turns once around on the spot. An echo tells
 how far something is, but not where in the sensor's cone of 30 degrees; what
 other looks show to be free is taken away, and the rest becomes polygons. With
-them the way is planned anew.
+them it plans the way again.
 */
 
 %!  navigate_to(+Map, +Goal) is semidet.
@@ -56,9 +58,10 @@ them the way is planned anew.
 %       Do not fail if Goal is not reached, but tell why: `reached`;
 %       `unreachable`, as there is no way with what is known and seen;
 %       `exhausted`, if it has planned its way so often as steps(Count) says;
-%       `stalled`, if something holds the robot; `unplugged`, if its sensor or
+%       `stalled`, if something holds the robot; `astray`, if the gyro
+%       contradicts the wheels; `unplugged`, if its sensor or
 %       a motor is; `stopped`, if another thread stopped it while it moved.
-%       A stop while it stands and plans is none.
+%       A stop while it stands and plans has no effect.
 %     - steps(+Count)
 %       Default is 200.
 %     - obstacles(-Polygons)
@@ -69,8 +72,9 @@ them the way is planned anew.
 %   no robot is set or it has no ultrasonic sensor. The robot stands when it
 %   ends, also by an exception.
 %
-%   Whoever walks into what has been seen free makes the robot stop as soon as
-%   the sensor shows it, forget what it had seen there, and plan anew.
+%   If something moves into a place that was seen free, the robot stops as
+%   soon as the sensor shows it, forgets what it had seen there, and plans
+%   again.
 %
 %   @error as roadmap_path/5
 
@@ -79,16 +83,15 @@ navigate_to(Map, Goal) :-
 
 navigate_to(Map, Goal0, Options) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Goal0, Goal),
+    place(Goal0, Goal),
     take_options([speed, sensor/3, tolerance, reason, steps, obstacles],
                  Options, Own, OfWay),
     roadmap_options(OfWay, Native),
     number_option(radius(Radius), positive_number, OfWay, 8),
-    number_option(margin(Margin), nonneg, OfWay, 4),
+    number_option(margin(Margin), nonnegative_number, OfWay, 4),
     number_option(speed(Speed), positive_number, Own, 15),
     number_option(tolerance(Tolerance), positive_number, Own, 2),
     option(steps(Steps), Own, 200),
-    must_be(integer, Steps),
     must_be(nonneg, Steps),
     sensor(Own, Sensor),
     once(us_dist_cm(Port, _)),
@@ -99,7 +102,7 @@ navigate_to(Map, Goal0, Options) :-
         true,
         navigate(Drive, Steps, Reason0),
         ignore(stop)),
-    debug(ev3dev, "way to ~p: ~w", [Goal, Reason0]),
+    explain("way to ~p: ~w", [Goal, Reason0]),
     views_obstacles_(Views, Facts, Obstacles0),
     option(obstacles(Obstacles), Own, _),
     option(reason(Reason), Own, reached),
@@ -111,9 +114,9 @@ sensor(Options, sensor(X, Y, Heading)) :-
     ->  true
     ;   X0 = 0, Y0 = 7, Heading0 = 0
     ),
-    evaluated(X0, X),
-    evaluated(Y0, Y),
-    evaluated(Heading0, Heading).
+    number_value(X0, X),
+    number_value(Y0, Y),
+    number_value(Heading0, Heading).
 
 %   Plans with the map alone first: if that leaves no way, nothing moves.
 
@@ -130,10 +133,10 @@ next_step(drive(Views, Facts, Goal, Margin, Native, _, _, _), Step) :-
 
 %!  advance(+Step, +Looked, +Forgets, +Steps, +Drive, -Reason) is semidet.
 %
-%   Looked tells whether the robot has looked around since it moved. What can
-%   still not be seen then counts as an obstacle. Where that or what else was
-%   made of the echoes leaves no way, it may all have been a mistake: so many
-%   times as Forgets it is forgotten, and looked at anew.
+%   Looked is `yes` if the robot has looked around since it moved, else `no`.
+%   A place that it still has not seen then counts as an obstacle. If the
+%   obstacles leave no path, the echoes may be wrong: the robot forgets them
+%   and looks again, at most Forgets times.
 
 advance(Step, _, _, _, Drive, reached) :-
     is_there(Step, Drive),

@@ -21,27 +21,28 @@
             line_leader/3,              % ?Port, -Steering, -Seen
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(sensors, [reading_types/2, sensor_reading/3]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native, [sensor_values_/5]).
+:- use_module(private/one_of).
 
 /** <module> Sensors of the NXT and of other makers
 
 LEGO's sensors for the NXT, and those of HiTechnic (`ht_`), mindsensors and
-others. What several of them measure has one predicate: temperature/2 takes
-the thermometer of LEGO, HiTechnic's barometer and mindsensors' infrared
-thermometer. Numbers come in the units that their names or descriptions tell.
+others. If several sensors measure the same, one predicate reads them all:
+temperature/2 reads LEGO's thermometer, HiTechnic's barometer and mindsensors'
+infrared thermometer. The name of an argument or the comment gives the unit.
 
 All predicates here fail if there is no such sensor. An unbound port is the
 first port that has one; on backtracking, the next.
 
-What is only a voltage, as nxt_sound/2, ht_gyro_rate/2 and ht_eopd/3, the
-brick does not recognise: the port has to be told what it has.
+The brick does not recognize a sensor that is only a voltage, for example
+those of nxt_sound/2, ht_gyro_rate/2 and ht_eopd/3: name it by port_device/2.
 */
 
-% A sensor for which several rows of the table count, by its port.
+% Reads a sensor by its port if several rows of the table have the Reading.
 measured(Reading, Port, Value) :-
     nonvar(Port),
     !,
@@ -49,13 +50,13 @@ measured(Reading, Port, Value) :-
 measured(Reading, Port, Value) :-
     findall(Type,
             ( reading_types(Reading, Types),
-              member(Type, Types)
+              one_of(Types, Type)
             ),
             All),
     sensor_of(Port, All, _),
     sensor_reading(Reading, Port, Value).
 
-% So many values of a sensor of one of these types.
+% Reads as many values as the list Values has elements.
 values(Port, Types, Mode, Values) :-
     length(Values, Count),
     sensor_values_(Port, Types, Mode, Count, Values).
@@ -63,10 +64,10 @@ values(Port, Types, Mode, Values) :-
 %!  nxt_light(?Port, -Percent) is nondet.
 %!  nxt_ambient(?Port, -Percent) is nondet.
 %
-%   True if the NXT's light sensor sees that much light: nxt_light/2 that of
-%   its own red lamp that comes back, nxt_ambient/2 that around it, with its
-%   lamp off. From 0 to 100, and a little beyond where it is very dark or very
-%   bright.
+%   True if the NXT's light sensor measures Percent. nxt_light/2 measures the
+%   reflected light of its own red lamp, nxt_ambient/2 the light around it,
+%   with the lamp off. Percent is from 0 to 100, and a little beyond where it
+%   is very dark or very bright.
 
 nxt_light(Port, Percent) :-
     sensor_reading(nxt_light, Port, Percent).
@@ -76,9 +77,9 @@ nxt_ambient(Port, Percent) :-
 
 %!  nxt_sound(?Port, -Percent) is nondet.
 %
-%   True if the NXT's sound sensor hears it that loud: 0 is silence, 100 as
-%   loud as it can tell. The microphone's voltage is high in silence, and
-%   ev3dev shows the voltage; here it is turned round.
+%   True if the NXT's sound sensor measures the loudness Percent: 0 is
+%   silence, 100 the loudest sound that it can measure. ev3dev shows the
+%   microphone's voltage, which is high in silence; Percent is 100 minus that.
 
 nxt_sound(Port, Percent) :-
     values(Port, ['lego-nxt-sound'], 'DB', [Voltage]),
@@ -87,8 +88,9 @@ nxt_sound(Port, Percent) :-
 %!  temperature(?Port, -Celsius) is nondet.
 %!  target_temperature(?Port, -Celsius) is nondet.
 %
-%   True if it is that warm at the sensor, in degrees Celsius; or, for
-%   target_temperature/2, where the infrared thermometer of mindsensors looks.
+%   True if the sensor measures the temperature Celsius, in degrees Celsius.
+%   target_temperature/2 reads the temperature of the thing at which the
+%   infrared thermometer of mindsensors points.
 
 temperature(Port, Celsius) :-
     measured(temperature, Port, Celsius).
@@ -98,8 +100,9 @@ target_temperature(Port, Celsius) :-
 
 %!  pressure(?Port, -Hectopascal) is nondet.
 %
-%   True if that is the pressure of the air at HiTechnic's barometer, or in
-%   the tube of mindsensors' pneumatic sensor. A hectopascal is a millibar.
+%   True if Hectopascal is the pressure of the air at HiTechnic's barometer,
+%   or in the tube of mindsensors' pneumatic sensor. A hectopascal is a
+%   millibar.
 
 pressure(Port, Hectopascal) :-
     sensor_of(Port, ['ht-nxt-barometric', 'ms-pps58-nx'],
@@ -116,7 +119,7 @@ pressure_of('ms-pps58-nx', Port, Pressure) :-
 
 %!  compass(?Port, -Degrees) is nondet.
 %
-%   True if the compass looks in that direction: degrees from north,
+%   True if the compass points in the direction Degrees: from north,
 %   clockwise, 0 to 359.
 
 compass(Port, Degrees) :-
@@ -125,9 +128,9 @@ compass(Port, Degrees) :-
 %!  ht_color(?Port, -Number) is nondet.
 %!  ht_color_rgb(?Port, -RGB) is nondet.
 %
-%   True if HiTechnic's colour sensor, of version 1 or 2, sees a colour.
+%   True if HiTechnic's color sensor, of version 1 or 2, sees a color.
 %   Number is 0 black, 1 violet, 2 purple, 3 blue, 4 green, 5 lime, 6 yellow,
-%   7 orange, 8 red, 9 crimson, 10 magenta, 11 to 16 pale colours, 17 white.
+%   7 orange, 8 red, 9 crimson, 10 magenta, 11 to 16 pale colors, 17 white.
 %   RGB is the term `rgb(Red, Green, Blue)`, each from 0 to 255.
 
 ht_color(Port, Number) :-
@@ -145,17 +148,17 @@ rgb_of('ht-nxt-color-v2', Port, rgb(Red, Green, Blue)) :-
 
 %!  ht_gyro_rate(?Port, -DegreesPerSecond) is nondet.
 %
-%   True if HiTechnic's gyro turns at that rate. At rest it may show some
-%   degrees more or less than 0, always the same.
+%   True if HiTechnic's gyro turns at DegreesPerSecond. At rest it may show a
+%   few degrees per second more or less than 0. This offset is constant.
 
 ht_gyro_rate(Port, DegreesPerSecond) :-
     sensor_reading(ht_gyro_rate, Port, DegreesPerSecond).
 
 %!  ht_eopd(?Port, +Range, -Percent) is nondet.
 %
-%   True if HiTechnic's optical proximity detector sees that much of its own
-%   light come back, from 0 to 100. Range is `long` or `short`. The distance
-%   is some constant divided by Percent, which depends on the surface.
+%   True if Percent, from 0 to 100, of the light of HiTechnic's optical
+%   proximity detector comes back. Range is `long` or `short`. The distance is
+%   a constant divided by Percent. The constant depends on the surface.
 %
 %   @error domain_error(eopd_range, Range)
 
@@ -172,11 +175,11 @@ eopd_mode(short, 'SHORT').
 
 %!  acceleration(?Port, -X, -Y, -Z) is nondet.
 %
-%   True if the sensor feels that acceleration along its three axes, in g. One
-%   that lies level and at rest feels 1 g along z. Takes the sensors of
-%   HiTechnic, mindsensors and Microinfinity.
+%   True if the sensor measures the acceleration X, Y and Z along its three
+%   axes, in g. A sensor that is level and at rest measures 1 g along z. Reads
+%   the sensors of HiTechnic, mindsensors and Microinfinity.
 %
-%   @see http://www.hitechnic.com, sensor NAC1040, for its 200 counts to the g
+%   @see http://www.hitechnic.com, sensor NAC1040, for its 200 counts per g
 
 acceleration(Port, X, Y, Z) :-
     sensor_of(Port, [ 'ht-nxt-accel', 'ms-absolute-imu',
@@ -194,7 +197,7 @@ acceleration_of('ms-absolute-imu', Port, [X, Y, Z]) :-
 acceleration_of('mi-xg1300l', Port, [X, Y, Z]) :-
     values(Port, ['mi-xg1300l'], 'ACCEL', [X, Y, Z]).
 
-% The upper eight bits are signed, the lower two are the lowest of their byte.
+% The upper eight bits are signed. The lower two are the last bits of Lower.
 ten_bits(Upper, Lower, G) :-
     (   Upper > 127
     ->  High = Upper - 256
@@ -206,11 +209,10 @@ ten_bits(Upper, Lower, G) :-
 %!  tilt(?Port, -X, -Y, -Z) is nondet.
 %!  magnetic_field(?Port, -X, -Y, -Z) is nondet.
 %
-%   True if mindsensors' AbsoluteIMU turns at these rates about its three
-%   axes, in degrees per second; is tilted by these angles, from -90 to 90
-%   degrees; or feels a magnetic field of that strength, in units of its own.
-%   The rates go up to 250 at first; `ACCEL-4G` and further commands make it
-%   coarser.
+%   True if mindsensors' AbsoluteIMU measures X, Y and Z about its three axes:
+%   rates in degrees per second; tilts from -90 to 90 degrees; or the magnetic
+%   field, in units of the sensor. At first rates go up to 250; `ACCEL-4G` and
+%   further commands extend the range and make the values coarser.
 
 rotation_rate(Port, X, Y, Z) :-
     values(Port, ['ms-absolute-imu'], 'GYRO', [X, Y, Z]).
@@ -225,10 +227,10 @@ magnetic_field(Port, X, Y, Z) :-
 %!  angle_total(?Port, -Degrees) is nondet.
 %!  angle_rpm(?Port, -RevolutionsPerMinute) is nondet.
 %
-%   True if an axle is turned to that angle, 0 to 359 (HiTechnic only); has
-%   turned that far in all since the last `RESET`, see sensor_command/2; or
-%   turns that fast. Takes HiTechnic's angle sensor and mindsensors'
-%   GlideWheel, which tells half degrees.
+%   True if an axle stands at the angle Degrees, 0 to 359 (HiTechnic only);
+%   has turned by Degrees in all since the last `RESET`, see sensor_command/2;
+%   or turns at RevolutionsPerMinute. Reads HiTechnic's angle sensor and
+%   mindsensors' GlideWheel, which measures half degrees.
 
 angle_deg(Port, Degrees) :-
     sensor_reading(angle_deg, Port, Degrees).
@@ -241,9 +243,9 @@ angle_rpm(Port, RevolutionsPerMinute) :-
 
 %!  light_row(?Port, -Percents) is nondet.
 %
-%   True if Percents is the list of what the eight light sensors see in a row
-%   of mindsensors' LightSensorArray or LineLeader, from left to right, each
-%   from 0 to 100. The sensor has to be told what is white and black first, by
+%   True if Percents is the list of the light that the eight light sensors of
+%   mindsensors' LightSensorArray or LineLeader measure, from left to right,
+%   each from 0 to 100. Calibrate the sensor first on white and on black, by
 %   the commands `CAL-WHITE` and `CAL-BLACK`.
 
 light_row(Port, Percents) :-
@@ -252,11 +254,10 @@ light_row(Port, Percents) :-
 
 %!  line_leader(?Port, -Steering, -Seen) is nondet.
 %
-%   True if mindsensors' LineLeader wants a robot to steer so that it follows
-%   the line: Steering, from -100 to 100, is to be added to the speed of the
-%   left motor and subtracted from that of the right one. Seen is the list of
-%   those of its eight sensors, 1 on the left to 8 on the right, that see the
-%   line.
+%   True if mindsensors' LineLeader computes Steering, from -100 to 100. A
+%   robot follows the line if it adds Steering to the speed of the left motor
+%   and subtracts it from the speed of the right motor. Seen is the list of
+%   the sensors that see the line, from 1 on the left to 8 on the right.
 
 line_leader(Port, Steering, Seen) :-
     values(Port, ['ms-line-leader'], 'PID-ALL', [Steering0, _, Bits]),
@@ -270,11 +271,11 @@ line_leader(Port, Steering, Seen) :-
 
 %!  energy_meter(?Port, -In, -Out, -Joules) is nondet.
 %
-%   True if LEGO's energy meter measures this: In and Out are terms
-%   `power(Volts, Amperes, Watts)`, Joules is what it has stored.
+%   True if LEGO's energy meter measures the power In and Out, two terms
+%   `power(Volts, Amperes, Watts)`, and the stored energy Joules.
 
 energy_meter(Port, power(InV, InA, InW), power(OutV, OutA, OutW), Joules) :-
     values(Port, ['lego-power-storage'], 'ALL',
            [InV, InA, OutV, OutA, Stored, InW, OutW]),
-    % The kernel gives all seven three decimals, which joules have not.
+    % The kernel gives all seven values three decimals; joules have none.
     Joules is round(Stored * 1000).

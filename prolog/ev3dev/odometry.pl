@@ -3,31 +3,24 @@
             set_pose/3,             % +X, +Y, +Heading
             pose_uncertainty/1,     % -Covariance
             heading_wrapped/2,      % +Heading, -Wrapped
-            drive_option/2,         % +Name, ?Value
-            valid_drive_option/3,   % +Name, +Value, -Valid
-            number_value/2          % +Expression, -Number
+            drive_option/2          % +Name, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
-              ]).
+              [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [finite/1]).
-:- use_module(private/robot_state, [robot/4, robot_description/1]).
+:- use_module(private/arguments, [number_value/2, number_value/3]).
+:- use_module(private/robot_state,
+              [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
-              [ heading_wrapped_/2, odometry_/1, pose_/5,
-                pose_uncertainty_/3, set_pose_/5 ]).
+              [ heading_wrapped_/2, pose_/5, pose_uncertainty_/3,
+                set_pose_/5 ]).
 
 /** <module> Odometry: where the robot is
 
 The part of library(ev3dev/drive) that tells where the robot is, and holds its
-options. The pose counts from when a robot is set and this is loaded.
+options. The pose counts from when a robot is set.
 */
-
-:- dynamic option_value/2.
-
-option_value(use_gyro, true).
-option_value(speed, 40).
-option_value(acceleration, 50).
 
 %!  drive_option(+Name, ?Value) is semidet.
 %
@@ -49,38 +42,22 @@ drive_option(Name, Value) :-
     (   \+ memberchk(Name, [use_gyro, speed, acceleration])
     ->  domain_error(drive_option, Name)
     ;   var(Value)
-    ->  option_value(Name, Value)
-    ;   valid_drive_option(Name, Value, Valid),
-        with_mutex(ev3dev_robot,
-                   ( retractall(option_value(Name, _)),
-                     assertz(option_value(Name, Valid)) ))
+    ->  drive_default(Name, Value)
+    ;   valid_option(Name, Value, Valid),
+        store_drive_default(Name, Valid)
     ).
 
-%!  valid_drive_option(+Name, +Value, -Valid) is det.
-%
-%   What the value of an option stands for, or an error.
-
-valid_drive_option(use_gyro, Value, Value) :-
+valid_option(use_gyro, Value, Value) :-
     must_be(boolean, Value).
-valid_drive_option(speed, Speed, Percent) :-
-    number_value(Speed, Percent),
-    (   Percent =\= 0,
-        abs(Percent) =< 100
-    ->  true
-    ;   domain_error(speed, Percent)
-    ).
-valid_drive_option(acceleration, Acceleration, Value) :-
-    number_value(Acceleration, Value),
-    (   Value > 0,
-        finite(Value)
-    ->  true
-    ;   domain_error(acceleration, Value)
-    ).
+valid_option(speed, Speed, Percent) :-
+    number_value(speed, Speed, Percent).
+valid_option(acceleration, Acceleration, Number) :-
+    number_value(positive_number, Acceleration, Number).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %
 %   Where the robot is, as far as wheels and gyro tell. Counts from 0, 0, 0
-%   where it was when robot and library came together, or from set_pose/3.
+%   where it was when set_robot/4 was called first, or from set_pose/3.
 %   May be asked while it moves, by any thread. Fails if no robot is set or a
 %   motor is not connected.
 
@@ -123,33 +100,4 @@ heading_wrapped(Heading, Wrapped) :-
 %   The robot, and whether to use the gyro.
 robot(Robot, UseGyro) :-
     robot_description(Robot),
-    option_value(use_gyro, UseGyro).
-
-%!  number_value(+Expression, -Number) is det.
-%
-%   The finite number that an expression stands for.
-%
-%   @error domain_error(finite_number, Number)
-
-number_value(Expression, Number) :-
-    evaluated(Expression, Number),
-    (   finite(Number)
-    ->  true
-    ;   domain_error(finite_number, Number)
-    ).
-
-
-:- multifile ev3dev_robot_state:robot_hook/0.
-
-ev3dev_robot_state:robot_hook :-
-    odometry.
-
-%   Count from now on, if there is a robot.
-odometry :-
-    (   robot(_, _, _, _),
-        robot_description(Robot)
-    ->  ignore(odometry_(Robot))
-    ;   true
-    ).
-
-:- initialization(catch(odometry, _, true)).
+    drive_default(use_gyro, UseGyro).

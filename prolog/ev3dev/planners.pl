@@ -1,17 +1,18 @@
 :- module(ev3dev_planners, []).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 
 /** <module> Planners to compare
 
-Ten planners over one kind of problem, for robots on grids as for any puzzle
-whose states are Prolog terms. library(ev3dev/planners) offers the predicates
-of
+Ten planners for one kind of problem: a robot on a grid, or any puzzle whose
+states are Prolog terms. library(ev3dev/planners) offers
 
-  - planners by their names, to solve a problem and to solve it again when it
-    has changed: planner/1, planner_claim/2, plan/3, plan/4, planning/3 and
+  - planners by their names, to solve a problem and to solve it again after a
+    change: planner/1, planner_claim/2, plan/3, plan/4, planning/3 and
     replan/5
-  - maps of grids, and the problems that they pose: grid_map/2, grid_problem/4
-  - compare_planners/3, which lets them drive over a map and prints a table
+  - maps of grids and their planning problems: grid_map/2, grid_problem/4
+  - compare_planners/3, which lets the planners drive over a map and prints a
+    table
 
 ```
 ?- plan(breadth_first, problem(1, 10, [successor(step)]), Plan).

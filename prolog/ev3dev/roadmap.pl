@@ -4,13 +4,14 @@
             roadmap_legs/5,     % +Map, +Start, +Goal, -Legs, +Options
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(library(debug), [debug/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(driver, []).
-:- use_module(private/arguments, [take_options/4]).
+:- use_module(private/arguments, [option/3, take_options/4]).
+:- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
-              [roadmap_facts/2, roadmap_options/2, roadmap_point/2]).
+              [roadmap_facts/2, roadmap_options/2]).
 :- reexport(navigation).
 :- use_module(private/native, [roadmap_/5, roadmap_svg_/5]).
 
@@ -45,16 +46,16 @@ roadmap is made is the option method(Method):
 ## Maps {#roadmap-maps}
 
 A Map is a list of facts or, as for sim_start/1, the name of a shipped world
-or a file. Lengths are in centimetres, x to the right and y up. A Map may have
+or a file. Lengths are in centimeters, x to the right and y up. A Map may have
 all facts of a world. Only those count that stop a robot: bounds/4, wall/4,5,
 box/4,5, circle/3 and map/2. A list may also hold
 
   - polygon(Corners)
-    At least three corners, each `X-Y` or `[X, Y]`, in either order. It may be
+    At least three corners, which are places, in either order. It may be
     concave. No two edges may cross or touch, but at the corners.
 
-A Start or Goal is written as a corner is; x and y may be arithmetic
-expressions.
+A place is `X-Y`, or `[X, Y]` where a program gives one. The x and y of Start
+and Goal may be arithmetic expressions.
 
 ## Options {#roadmap-options}
 
@@ -91,10 +92,10 @@ expressions.
 %   @error domain_error(map_row, Row) for a row of map/2
 %   @error domain_error(possible_geometry, Fact) for a polygon with less than
 %          three corners, or one that crosses itself, and the like
-%   @error domain_error(point, Point)
+%   @error domain_error(place, Place)
 %   @error domain_error(roadmap_method, Method)
 %   @error domain_error(Domain, Value) for an option that makes no sense
-%   @error domain_error(roadmap_option, Option) for an option that is none
+%   @error domain_error(roadmap_option, Option) if it is not an option here
 
 roadmap_path(Map, Start, Goal, Points) :-
     roadmap_path(Map, Start, Goal, Points, []).
@@ -109,7 +110,7 @@ roadmap_path(Map, Start, Goal, Points, Options) :-
 %
 %     - line(From, To)
 %     - arc(From, To, Radius, Angle)
-%       As arc_cm/3 takes them: Radius is positive if the centre is on the
+%       As arc_cm/3 takes them: Radius is positive if the center is on the
 %       right, negative if on the left, and Angle is positive, in degrees.
 
 roadmap_legs(Map, Start, Goal, Legs, Options) :-
@@ -118,13 +119,13 @@ roadmap_legs(Map, Start, Goal, Legs, Options) :-
 
 way(Map, Start0, Goal0, Options, Points, Legs) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Start0, Start),
-    roadmap_point(Goal0, Goal),
+    place(Start0, Start),
+    place(Goal0, Goal),
     take_options([length], Options, Own, Rest),
     roadmap_options(Rest, Native),
     roadmap_(Facts, Start, Goal, Native, Found),
     (   Found = no_way(Why)
-    ->  debug(ev3dev, "no way from ~p to ~p: ~w", [Start, Goal, Why]),
+    ->  explain("no way from ~p to ~p: ~w", [Start, Goal, Why]),
         fail
     ;   Found = way(Length0, Points, Legs)
     ),
@@ -141,8 +142,8 @@ way(Map, Start0, Goal0, Options, Points, Legs) :-
 
 roadmap_svg(Map, Start0, Goal0, File, Options) :-
     roadmap_facts(Map, Facts),
-    roadmap_point(Start0, Start),
-    roadmap_point(Goal0, Goal),
+    place(Start0, Start),
+    place(Goal0, Goal),
     roadmap_options(Options, Native),
     roadmap_svg_(Facts, Start, Goal, Native, Text),
     setup_call_cleanup(

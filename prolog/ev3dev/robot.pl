@@ -8,18 +8,21 @@
             turn/1,             % +Speed
             turn/2              % +Speed, +Angle
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
+:- use_module(private/explain).
 :- use_module(driver, [tacho_motor/3]).
-:- use_module(motors, [motor_stop/1, motors_run/1, motors_turn/2]).
-:- use_module(private/arguments, [finite/1, must_be_options/3]).
+:- use_module(motors, [motor_stop/1, motors_run/1]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, number_value/3]).
+:- use_module(private/domains, [finite/1]).
+:- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/robot_state,
-              [ move_hook/2, robot_description/1, robot_set/4,
-                store_robot/2 ]).
+              [ robot_description/1, robot_set/4, store_robot/2 ]).
 :- reexport(private/robot_state, [robot/4]).
-:- use_module(sensors, [gyro_sensor/1]).
-:- use_module(private/native, [turn_by_gyro_/5]).
+:- use_module(private/native, [odometry_/1]).
 
 /** <module> A robot with two wheels
 
@@ -30,15 +33,26 @@ of most building instructions. It is described once:
 ?- set_robot(5.6, 10.6, outB, outC).
 ```
 
-Speeds are in percent of the motors' highest speed, distances in centimetres,
-angles in degrees; in moves, not in the robot's description, they may be any
-arithmetic expression. The sign of a speed and that of a distance or angle
-together make the direction; clockwise is positive.
+Speeds are in percent of the motors' highest speed, distances in centimeters,
+angles in degrees; they may be any arithmetic expression. The sign of a speed
+and that of a distance or angle together make the direction; clockwise is
+positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an
 angle of 0. Nothing moves then.
-Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
+
+go/2, go_cm/2 and turn/2 wait. A native loop keeps the robot on its course
+meanwhile, by the rotation sensors of its wheels and by a gyro, if one is
+connected; library(ev3dev/drive) has more moves of that kind, with options.
+They start and stop gently, and hold the robot where it is at the end. They
+can be interrupted, as by Ctrl-C, and stop the robot first. They fail, and the
+robot stands, if they end early:
+
+  - A wheel is blocked. That prints a warning.
+  - The gyro contradicts the wheels: it is mounted upside down, left and right
+    motor are swapped, or the wheels spin on the spot. That prints a warning.
+  - Another thread stops a motor, or gives it another command.
 */
 
 %!  set_robot(+WheelDiameter, +AxleLength, +Left, +Right) is semidet.
@@ -64,14 +78,14 @@ Those that wait can be interrupted, as by Ctrl-C; they stop the robot first.
 %
 %   @error domain_error(positive_number, Length)
 %   @error domain_error(side, Side)
-%   @error domain_error(robot_option, Option) for an option that is none
+%   @error domain_error(robot_option, Option) if Option is not an option here
 
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).
 
-set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
-    must_be_length(WheelDiameter),
-    must_be_length(AxleLength),
+set_robot(WheelDiameter0, AxleLength0, Left, Right, Options) :-
+    number_value(positive_number, WheelDiameter0, WheelDiameter),
+    number_value(positive_number, AxleLength0, AxleLength),
     must_be(atom, Left),
     must_be(atom, Right),
     build(WheelDiameter, Options, Diameters, Inverted, Offset),
@@ -79,24 +93,26 @@ set_robot(WheelDiameter, AxleLength, Left, Right, Options) :-
         tacho_motor(Right, Type, RightPath),
         LeftPath \== RightPath
     ->  true
-    ;   debug(ev3dev, "~w and ~w are not two motors of one type",
-              [Left, Right]),
+    ;   explain("~w and ~w are not two motors of one type",
+                [Left, Right]),
         fail
     ),
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
-                built(Diameters, Inverted, Offset)).
+                built(Diameters, Inverted, Offset)),
+    robot_description(Robot),
+    % From now on it is known how far the wheels have rolled.
+    ignore(odometry_(Robot)).
 
 build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
     must_be_options(robot_option,
                     [left_diameter, right_diameter, inverted, axle_offset],
                     Options),
-    option(left_diameter(LeftDiameter), Options, WheelDiameter),
-    option(right_diameter(RightDiameter), Options, WheelDiameter),
     option(inverted(Sides), Options, []),
-    option(axle_offset(Offset), Options, 0),
-    must_be_length(LeftDiameter),
-    must_be_length(RightDiameter),
-    must_be(number, Offset),
+    number_option(left_diameter(LeftDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(right_diameter(RightDiameter), positive_number, Options,
+                  WheelDiameter),
+    number_option(axle_offset(Offset), finite_number, Options, 0),
     must_be(list(atom), Sides),
     inverted(Sides, Inverted).
 
@@ -130,14 +146,6 @@ sign_of(false, 1).
 directed(1, Number, Number).
 directed(-1, Number, Opposite) :-
     Opposite is -Number.
-
-must_be_length(Length) :-
-    must_be(number, Length),
-    (   Length > 0,
-        finite(Length)
-    ->  true
-    ;   domain_error(positive_number, Length)
-    ).
 
 %!  stop is semidet.
 %
@@ -173,33 +181,13 @@ go(Speed) :-
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
 go(Speed, Angle) :-
-    robot_set(_, _, Left, Right),
+    robot_set(WheelDiameter, _, _, _),
     evaluated(Speed, Percent),
     evaluated(Angle, Degrees),
     moves(Percent),
     moves(Degrees),
-    (   move_hook(go(Percent, Degrees), Done)
-    ->  Done == true
-    ;   wheel_angles(Degrees, Degrees, LeftAngle, RightAngle),
-        motors_turn([ move(Left, Percent, LeftAngle),
-                      move(Right, Percent, RightAngle)
-                    ], [])
-    ).
-
-%   What the motors turn for angles of wheels of the diameter that was given.
-wheel_angles(Left, Right, LeftAngle, RightAngle) :-
-    forwards(LS, RS),
-    robot(Diameter, _, _, _),
-    robot_description(robot(_, _, DL, DR, _, _, _, _)),
-    wheel_angle(LS, Diameter, DL, Left, LeftAngle),
-    wheel_angle(RS, Diameter, DR, Right, RightAngle).
-
-wheel_angle(Sign, Diameter, Own, Angle, MotorAngle) :-
-    (   Diameter =:= Own
-    ->  OwnAngle = Angle
-    ;   OwnAngle is Angle * Diameter / Own
-    ),
-    directed(Sign, OwnAngle, MotorAngle).
+    Distance is Degrees * (pi * WheelDiameter / 360),
+    move_straight(Percent, Distance, []).
 
 %!  go_cm(+Speed, +Distance) is semidet.
 %
@@ -208,8 +196,12 @@ wheel_angle(Sign, Diameter, Own, Angle, MotorAngle) :-
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
 go_cm(Speed, Distance) :-
-    robot_set(WheelDiameter, _, _, _),
-    go(Speed, round(Distance * 360 / (pi * WheelDiameter))).
+    robot_set(_, _, _, _),
+    evaluated(Speed, Percent),
+    evaluated(Distance, Cm),
+    moves(Percent),
+    moves(Cm),
+    move_straight(Percent, Cm, []).
 
 %!  turn(+Speed) is semidet.
 %
@@ -227,62 +219,30 @@ turn(Speed) :-
 %!  turn(+Speed, +Angle) is semidet.
 %
 %   Turn on the spot by Angle degrees, clockwise positive. Waits. With a gyro,
-%   the first of those connected, it ends within a degree; if that cannot be
-%   had, it prints why and fails. Without one it goes by the wheels. A turn by
-%   0 succeeds.
+%   the first of those connected, it ends within a degree. Without one it goes
+%   by the wheels, and is as exact as AxleLength. A turn by 0 succeeds.
 %
 %   @error existence_error(Kind, Port) if a motor or the gyro is unplugged
 %          under way
 
 turn(Speed, Angle) :-
-    robot_set(WheelDiameter, AxleLength, Left, Right),
+    robot_set(_, _, _, _),
     evaluated(Speed, Percent),
     evaluated(Angle, Degrees),
     moves(Percent),
-    (   move_hook(turn(Percent, Degrees), Done)
-    ->  Done == true
-    ;   gyro_sensor(Gyro)
-    ->  forwards(LS, RS),
-        Gearing is AxleLength / float(WheelDiameter),
-        Signed is Degrees * sign(Percent),
-        Wheels = wheels(Left, Right, LS, RS, Gearing),
-        turn_by_gyro_(Gyro, Wheels, Percent, Signed, Ended),
-        turn_ended(Ended, Degrees)
-    ;   evaluated(round(AxleLength / WheelDiameter * Degrees), WheelAngle),
-        Opposite is -WheelAngle,
-        wheel_angles(WheelAngle, Opposite, LeftAngle, RightAngle),
-        motors_turn([ move(Left, Percent, LeftAngle),
-                      move(Right, Percent, RightAngle)
-                    ], [])
-    ).
-
-turn_ended(reached, _) :-
-    !.
-turn_ended(stopped, _) :-
-    !,
-    fail.
-turn_ended(Ended, Degrees) :-
-    print_message(warning, ev3dev(turn(Ended, Degrees))),
-    fail.
+    possible(Degrees),
+    move_turn(Percent, Degrees, []).
 
 moves(Number) :-
     (   Number =\= 0
-    ->  true
-    ;   debug(ev3dev, "a speed or an angle of 0 moves nothing", []),
+    ->  possible(Number)
+    ;   explain("a speed or an angle of 0 moves nothing", []),
         fail
     ).
 
-:- multifile prolog:message//1.
-
-prolog:message(ev3dev(turn(Ended, Degrees))) -->
-    [ 'Turn by ~w degrees not completed: '-[Degrees] ],
-    turn_message(Ended).
-
-turn_message(stalled) -->
-    [ 'the gyro shows no movement. Are the wheels free?' ].
-turn_message(astray) -->
-    [ 'the gyro counts the other way. Is it mounted upside down, '-[],
-      'or are left and right motor swapped?'-[]
-    ].
-turn_message(missed) -->
-    [ 'not within a degree after several corrections.' ].
+possible(Number) :-
+    (   finite(Number)
+    ->  true
+    ;   explain("no move is as fast or as long as ~w", [Number]),
+        fail
+    ).

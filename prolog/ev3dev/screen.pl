@@ -16,13 +16,14 @@
             screen_show/0,
             screen_png/1                % +File
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, must_be_within/4]).
+:- use_module(private/arguments,
+              [must_be_options/3, must_be_within/4, option/3]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ screen_clear_/0, screen_draw_/2, screen_image_/3,
@@ -30,13 +31,13 @@
 
 /** <module> The screen
 
-The screen has 178 x 128 pixels. X goes to the right from 0 and Y down from 0;
-both, and all sizes, are pixels and may be arithmetic expressions. What is
-outside is not seen.
+The screen has 178 x 128 pixels. X goes to the right from 0 and Y down from 0.
+Coordinates and sizes are in pixels and may be arithmetic expressions. Pixels
+outside the screen are ignored.
 
-A program draws on a sheet of its own, which screen_show/0 shows at once; one
-that has drawn anything else and shows again sees both. The sheet is white at
-first. All threads share it.
+A program draws on a sheet of its own, and screen_show/0 shows the sheet at
+once. The sheet keeps its pixels: a program that draws more and shows again
+sees the old and the new. The sheet is white at first. All threads share it.
 
 ```
 ?- screen_clear, screen_text(10, 10, 'Hello'), screen_show.
@@ -49,14 +50,14 @@ no screen of an EV3.
 
   - color(+Color)
     `black` (default), `dark_gray`, `light_gray` or `white`. Versions of
-    ev3dev before 2018 show only black and white, the greys as what they are
-    nearer to.
+    ev3dev before 2018 have only black and white, and show each gray as the
+    nearer one.
   - width(+Pixels)
-    How thick lines are, from 1 (default) to 128.
+    The width of lines, from 1 (default) to 128.
   - fill(+Boolean)
     If `true`, rectangles and circles are filled. Default is `false`.
 
-@error domain_error(screen_option, Option) for an option that is none
+@error domain_error(screen_option, Option) if Option is not one of these
 */
 
 %!  screen_clear is det.
@@ -71,8 +72,8 @@ screen_clear :-
 %
 %   Draw one pixel.
 %
-%   @error domain_error(pixels, X) here and below, if X is farther away than
-%          10000
+%   @error domain_error(pixels, X) if a coordinate or size, here and below, is
+%          beyond 10000
 %   @error domain_error(screen_color, Color)
 
 screen_point(X, Y) :-
@@ -103,9 +104,10 @@ screen_line(XA0, YA0, XB0, YB0, Options) :-
 %!  screen_rectangle(+X, +Y, +Width, +Height) is det.
 %!  screen_rectangle(+X, +Y, +Width, +Height, +Options) is det.
 %
-%   Draw a rectangle by its upper left corner. Its line is inside of it.
+%   Draw a rectangle. X and Y are its upper left corner. The line lies inside
+%   the rectangle.
 %
-%   @error domain_error(pixels, Width) if it is negative
+%   @error domain_error(pixels, Width) if Width or Height is negative
 
 screen_rectangle(X, Y, Width, Height) :-
     screen_rectangle(X, Y, Width, Height, []).
@@ -122,7 +124,7 @@ screen_rectangle(X0, Y0, Width0, Height0, Options) :-
 %
 %   Draw a circle around a pixel.
 %
-%   @error domain_error(pixels, Radius) if it is negative
+%   @error domain_error(pixels, Radius) if Radius is negative
 
 screen_circle(X, Y, Radius) :-
     screen_circle(X, Y, Radius, []).
@@ -136,8 +138,8 @@ screen_circle(X0, Y0, Radius0, Options) :-
 %!  screen_arc(+X, +Y, +Radius, +Start, +Sweep) is det.
 %!  screen_arc(+X, +Y, +Radius, +Start, +Sweep, +Options) is det.
 %
-%   Draw a piece of a circle: from Start on by Sweep. Both are degrees, 0 is
-%   up and clockwise is positive, as for turn/2.
+%   Draw a piece of a circle that begins at Start and continues by Sweep. Both
+%   are in degrees; 0 is up and clockwise is positive, as for turn/2.
 
 screen_arc(X, Y, Radius, Start, Sweep) :-
     screen_arc(X, Y, Radius, Start, Sweep, []).
@@ -159,7 +161,7 @@ draw(Shape, Options) :-
     must_be(boolean, Fill),
     screen_draw_(Shape, style(Color, Width, Fill)).
 
-%   Numbers that the library draws with are not too large to count with.
+%   The bounds keep the native code's arithmetic within its integers.
 
 place(Expression, Pixels) :-
     evaluated(round(Expression), Pixels),
@@ -186,28 +188,29 @@ degrees(Expression, Degrees) :-
 %!  screen_text(+X, +Y, +Text) is det.
 %!  screen_text(+X, +Y, +Text, +Options) is det.
 %
-%   Write a text, an atom, string or number, with its upper left corner at X,
-%   Y. A newline in it starts another line. Letters are those of western
-%   Europe (ISO 8859-1); others appear as `?`. Options:
+%   Write a text with its upper left corner at X, Y. Text is an atom, string
+%   or number. A newline in it starts another line. The fonts have the letters
+%   of western Europe (ISO 8859-1); other letters appear as `?`. Options:
 %
 %     - font(+Font)
 %       `tiny` (5 x 8 pixels), `small` (6 x 10), `medium` (7 x 13, default)
 %       or `large` (10 x 20).
 %     - scale(+Times)
-%       So many times as large, from 1 (default) to 16.
+%       Enlarge the letters by this factor, from 1 (default) to 16.
 %     - align(+Align)
 %       `left` (default), or `center` or `right` if X is the middle or the
 %       right end of the text.
 %     - color(+Color)
 %     - background(+Color)
-%       The colour behind the letters. By default there is none, and one sees
-%       what was there.
+%       The color behind the letters. By default the pixels behind the letters
+%       stay as they are.
 %
 %   @error domain_error(font, Font)
 %   @error domain_error(text_scale, Times)
 %   @error domain_error(text_align, Align)
 %   @error domain_error(screen_color, Color)
-%   @error domain_error(screen_option, Option) for an option that is none
+%   @error domain_error(screen_option, Option) if Option is not an option of
+%          this predicate
 
 screen_text(X, Y, Text) :-
     screen_text(X, Y, Text, []).
@@ -231,11 +234,13 @@ screen_text(X0, Y0, Text, Options) :-
 %!  screen_image(+X, +Y, +File) is det.
 %
 %   Draw a picture from a PNG or PBM file, with its upper left corner at X, Y.
-%   Colours become greys; what is more than half transparent is left out.
+%   Colors become grays. Pixels that are more than half transparent are left
+%   out.
 %
 %   @error existence_error(file, File)
-%   @error syntax_error(png) or syntax_error(pbm) if it is no such file, or an
-%          interlaced PNG, or more than 4096 pixels wide or high
+%   @error syntax_error(png) or syntax_error(pbm) if File is no PNG or PBM
+%          file, is an interlaced PNG, or is more than 4096 pixels wide or
+%          high
 
 screen_image(X0, Y0, File) :-
     place(X0, X),
@@ -246,13 +251,13 @@ screen_image(X0, Y0, File) :-
 
 %!  screen_show is semidet.
 %
-%   Show what is drawn, at once. Fails if there is no screen.
+%   Show the sheet at once. Fails if there is no screen.
 %
-%   On the brick a program is seen if it was started from the menu, or by
-%   `brickrun`; otherwise the screen belongs to the menu.
+%   On the brick the menu owns the screen. It gives the screen to a program
+%   that was started from the menu or by `brickrun`.
 %
-%   @error permission_error(write, attribute, File) for a user who is not in
-%          the group `video`
+%   @error permission_error(write, attribute, File) if the user is not in the
+%          group `video`
 
 screen_show :-
     (   screen_show_
@@ -261,15 +266,15 @@ screen_show :-
     ).
 
 no_screen :-
-    debug(ev3dev, "screen: there is no fb0 of 178 x 128 pixels", []),
+    explain("screen: there is no fb0 of 178 x 128 pixels", []),
     fail.
 
 %!  screen_png(+File) is semidet.
 %
-%   Write what is on the screen, whoever has drawn it, to a PNG file. Fails if
-%   there is no screen.
+%   Write the content of the screen to a PNG file, also if another program
+%   drew it. Fails if there is no screen.
 %
-%   @error existence_error(file, File) if its directory does not exist
+%   @error existence_error(file, File) if the directory of File does not exist
 
 screen_png(File) :-
     must_be(nonvar, File),

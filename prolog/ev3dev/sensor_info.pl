@@ -5,16 +5,17 @@
             sensor_type/2,              % ?Type, ?What
             sensor_command/2            % +Port, +Command
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
 :- use_module(private/attributes, [attribute_words/4]).
+:- use_module(private/one_of).
 
-/** <module> What sensors there are, and what they can do
+/** <module> All sensors and their modes
 
-A table of all sensors that ev3dev has drivers for, and their modes; and what
-a sensor that is plugged in says of itself.
+A table of all sensors that ev3dev has drivers for, and their modes; and a
+description of each connected sensor.
 
 ```
 ?- sensor_info(in1, Info), member(Item, Info), print(Item), nl, fail.
@@ -29,8 +30,8 @@ commands(['BEGIN-CAL','END-CAL'])
 
 ## Adding a sensor to the table {#adding-to-the-table}
 
-A program that knows of another sensor adds facts of its own; how to give its
-readings names is told in [Adding a sensor](#adding-a-sensor):
+A program adds facts for a sensor that the table lacks.
+[Adding a sensor](#adding-a-sensor) explains how its readings get names.
 
 ```
 :- multifile ev3dev_sensor_info:known_mode/6.
@@ -50,9 +51,9 @@ ev3dev_sensor_info:known_mode('my-scale', 'WEIGHT', 1, 1, g,
 
 %!  sensor_mode(?Type, ?Mode, ?Count, ?Decimals, ?Units, ?Meaning) is nondet.
 %
-%   True if sensors of Type have a Mode with Count values, which have that
-%   many Decimals and these Units, `''` if none, and have that Meaning, in
-%   words. A table: no sensor is asked.
+%   True if sensors of Type have a Mode with Count values. Decimals is the
+%   number of decimals of these values, Units is their unit, or `''`, and
+%   Meaning describes them in words. Reads a table and no sensor.
 
 sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
     load_tables,
@@ -63,8 +64,8 @@ sensor_mode(Type, Mode, Count, Decimals, Units, Meaning) :-
 
 %!  sensor_type(?Type, ?What) is nondet.
 %
-%   True if the driver's name Type stands for What, a sensor in words. A
-%   table: no sensor is asked.
+%   True if the driver's name Type stands for What, a sensor in words. Reads a
+%   table and no sensor.
 
 sensor_type(Type, What) :-
     load_tables,
@@ -73,7 +74,8 @@ sensor_type(Type, What) :-
         Table:type(Type, What)
     ).
 
-% The tables are large, and most programs never ask for them.
+% The tables are large and most programs do not use them, so they are loaded
+% at the first use.
 table(ev3dev_lego_sensors, lego).
 table(ev3dev_other_sensors, other).
 
@@ -98,27 +100,27 @@ load_table(Directory, Name) :-
 
 %!  sensor_info(?Port, -Info) is nondet.
 %
-%   True if Info is what is known of the sensor at Port, as a list of
+%   True if Info describes the sensor at Port, as a list of
 %
 %     - type(Type)
 %       The name of its driver.
 %     - what(Text)
-%       What it is in words, if the table knows it.
+%       The sensor in words, if the table knows it.
 %     - mode(Mode)
 %     - values(Values)
 %     - units(Units)
-%       The mode it is in, the values it shows there, and their units, `''` if
-%       it has none.
+%       The present mode, the values in this mode, and their unit, or `''`.
 %     - modes(Modes)
 %       All its modes, as `mode(Mode, Count, Decimals, Units, Meaning)`, see
 %       sensor_mode/6, or `mode(Mode)` if the table does not know them.
 %     - commands(Commands)
-%       What sensor_command/2 takes.
+%       The commands that sensor_command/2 accepts for this sensor.
 %
-%   The sensor stays in its mode. Fails if there is no sensor at Port. On
-%   backtracking, tells of the next if Port is unbound.
+%   The sensor stays in its mode. Fails if there is no sensor at Port. An
+%   unbound Port enumerates the sensors.
 %
-%   @error existence_error(sensor, Port) if it is out of contact for 2 s
+%   @error existence_error(sensor, Port) if the sensor is out of contact for
+%          2 s
 
 sensor_info(Port, Info) :-
     lego_sensor(Port, Type),
@@ -131,11 +133,11 @@ info(Port, _, Item) :-
     mode(Port, Mode),
     sensor_values(Port, Mode, Values),
     sensor_attribute(Port, units, Units),
-    member(Item, [mode(Mode), values(Values), units(Units)]).
+    one_of([mode(Mode), values(Values), units(Units)], Item).
 info(Port, Type, modes(Modes)) :-
     attribute_words('lego-sensor', Port, modes, Names),
     findall(Mode,
-            ( member(Name, Names), mode_info(Type, Name, Mode) ),
+            ( one_of(Names, Name), mode_info(Type, Name, Mode) ),
             Modes).
 info(Port, _, commands(Commands)) :-
     attribute_words('lego-sensor', Port, commands, Commands).
@@ -148,10 +150,10 @@ mode_info(_, Name, mode(Name)).
 
 %!  sensor_command(+Port, +Command) is semidet.
 %
-%   Give a sensor one of its commands, as 'BEGIN-CAL' for a compass. Does not
+%   Send a command to a sensor, for example 'BEGIN-CAL' to a compass. Does not
 %   wait. Fails if there is no sensor at Port.
 %
-%   @error domain_error(command, Command) if it has no such command
+%   @error domain_error(command, Command) if the sensor has no such command
 
 sensor_command(Port, Command) :-
     must_be(nonvar, Command),

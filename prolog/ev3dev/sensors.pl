@@ -9,7 +9,7 @@
             col_color/2,                % ?Port, -Color
             col_rgb_raw/2,              % ?Port, -RGB
             col_rgb_raw/4,              % ?Port, -Red, -Green, -Blue
-            us_dist_cm/2,               % ?Port, -Centimetres
+            us_dist_cm/2,               % ?Port, -Centimeters
             us_dist_inches/2,           % ?Port, -Inches
             us_listen/2,                % ?Port, -Heard
             gyro_ang/2,                 % ?Port, -Degrees
@@ -23,7 +23,9 @@
             adjust_val/3,               % +Port, +Raw, -Value
             reading_types/2             % ?Reading, ?Types
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
@@ -32,9 +34,9 @@
 
 /** <module> Sensors
 
-Each reading of a sensor, `us_dist_cm` for one, is a mode that the sensor is
-put into and a value that it shows then. Values are scaled: integers where the
-sensor has no decimals, else floats.
+Each reading of a sensor, for example `us_dist_cm`, stands for a mode of the
+sensor and a value in that mode. Values are scaled: integers if the mode has
+no decimals, else floats.
 
 All predicates here fail if there is no such sensor. An unbound port is the
 first port that has one; on backtracking, the next:
@@ -45,18 +47,18 @@ Port = in1,
 Distance = 84.3.
 ```
 
-A sensor is put into another mode only if it is not in it already, because
-that takes time: 10 ms, with sensors on the I2C bus 50 ms, with the infrared
-sensor 1.1 s. A sensor that has lost contact is given 2 s to come back before
-existence_error(sensor, Port) is thrown.
+Changing the mode of a sensor takes time: 10 ms, for a sensor on the I2C bus
+50 ms, for the infrared sensor 1.1 s. So a predicate changes the mode only if
+the sensor is in another mode. If a sensor has lost contact, a call waits up
+to 2 s for it and then throws existence_error(sensor, Port).
 
-A sensor on the I2C bus, as most of other makers, has the address of its port
-and its own there, `in1:i2c1`; `in1` is enough to name it. The kernel reads it
-ten times a second.
+Most sensors of other makers are on the I2C bus. The address of such a sensor
+is that of the port and its own, `in1:i2c1`; a program may name it `in1`. The
+kernel reads it ten times a second.
 
-Here are the EV3's own sensors and those of the NXT that measure the same.
-Others are in library(ev3dev/infrared) and library(ev3dev/nxt_sensors), and
-library(ev3dev/sensor_info) tells what any sensor can do.
+This library has the EV3's own sensors and those of the NXT that measure the
+same. Others are in library(ev3dev/infrared) and library(ev3dev/nxt_sensors).
+library(ev3dev/sensor_info) has a table of all sensors and their modes.
 
 ## Adding a sensor {#adding-a-sensor}
 
@@ -75,15 +77,15 @@ ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 
 %!  reading_types(?Reading, ?Types) is nondet.
 %
-%   True if sensors of these Types show Reading in one of their modes. For
-%   libraries that add readings.
+%   True if the sensors of Types show Reading in one of their modes. Libraries
+%   that add readings use it.
 
 reading_types(Reading, Types) :-
     reading(Reading, Types, _, _).
 
 %!  reading(?Reading, ?Types, ?Mode, ?Index) is nondet.
 %
-%   True if sensors of these Types show Reading in Mode as value number Index.
+%   True if the sensors of Types show Reading as value Index of Mode.
 
 reading(col_ambient,        ['lego-ev3-color'], 'COL-AMBIENT', 0).
 reading(col_reflect,        ['lego-ev3-color'], 'COL-REFLECT', 0).
@@ -118,20 +120,18 @@ reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
 %   True if the sensor at Port shows Value for a Reading of the table. Fails
-%   if the table has no such reading. Besides those that have predicates of
-%   their own there are `force` and `magnet`, both from 0 to 1023, `motion`
-%   from -100 to 100, `flex` from 0 to 100, and `tof_dist_mm`.
+%   if the table has no such reading. Some readings have no predicate of their
+%   own: `force` and `magnet`, both from 0 to 1023, `motion` from -100 to 100,
+%   `flex` from 0 to 100, and `tof_dist_mm`.
 
 sensor_reading(Reading, Port, Value) :-
-    var(Port),
-    !,
-    reading(Reading, Types, Mode, Index),
-    sensor_value_(Port, Types, Mode, Index, Value).
-sensor_reading(Reading, Port, Value) :-
-    (   reading(Reading, Types, Mode, Index),
+    (   var(Port)
+    ->  reading(Reading, Types, Mode, Index),
+        sensor_value_(Port, Types, Mode, Index, Value)
+    ;   reading(Reading, Types, Mode, Index),
         sensor_value_(Port, Types, Mode, Index, Read)
     ->  Value = Read
-    ;   debug(ev3dev, "~w has no sensor for ~w", [Port, Reading]),
+    ;   explain("~w has no sensor for ~w", [Port, Reading]),
         fail
     ).
 
@@ -141,8 +141,8 @@ sensor_reading(Reading, Port, Value) :-
 %!  touch_sensor(?Port) is nondet.
 %!  infrared_sensor(?Port) is nondet.
 %
-%   True if a sensor of that kind is plugged into Port: an EV3's, or for
-%   ultrasonic_sensor/1 and touch_sensor/1 also an NXT's.
+%   True if a sensor of this kind is plugged into Port. All find sensors of
+%   the EV3; ultrasonic_sensor/1 and touch_sensor/1 find those of the NXT too.
 
 light_sensor(Port) :-
     lego_sensor(Port, 'lego-ev3-color').
@@ -162,8 +162,8 @@ infrared_sensor(Port) :-
 %!  col_ambient(?Port, -Percent) is nondet.
 %!  col_reflect(?Port, -Percent) is nondet.
 %
-%   True if the colour sensor sees that much light, from 0 to 100: that around
-%   it, or that of its own red light reflected.
+%   True if the color sensor measures Percent, from 0 to 100: col_ambient/2
+%   the light around it, col_reflect/2 the reflected light of its red lamp.
 
 col_ambient(Port, Percent) :-
     sensor_reading(col_ambient, Port, Percent).
@@ -173,7 +173,7 @@ col_reflect(Port, Percent) :-
 
 %!  col_color(?Port, -Color) is nondet.
 %
-%   True if the colour sensor sees Color: 0 none, 1 black, 2 blue, 3 green,
+%   True if the color sensor sees Color: 0 none, 1 black, 2 blue, 3 green,
 %   4 yellow, 5 red, 6 white, 7 brown.
 
 col_color(Port, Color) :-
@@ -182,8 +182,8 @@ col_color(Port, Color) :-
 %!  col_rgb_raw(?Port, -RGB) is nondet.
 %!  col_rgb_raw(?Port, -Red, -Green, -Blue) is nondet.
 %
-%   True if the colour sensor sees that much red, green and blue, each from 0
-%   to 1023 and not calibrated. RGB is the term `rgb(Red, Green, Blue)`.
+%   True if the color sensor measures Red, Green and Blue, each from 0 to 1023
+%   and not calibrated. RGB is the term `rgb(Red, Green, Blue)`.
 
 col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
     col_rgb_raw(Port, Red, Green, Blue).
@@ -192,38 +192,38 @@ col_rgb_raw(Port, Red, Green, Blue) :-
     sensor_values_(Port, ['lego-ev3-color'], 'RGB-RAW', 3,
                    [Red, Green, Blue]).
 
-%!  us_dist_cm(?Port, -Centimetres) is nondet.
+%!  us_dist_cm(?Port, -Centimeters) is nondet.
 %!  us_dist_inches(?Port, -Inches) is nondet.
 %
-%   True if the ultrasonic sensor sees something at that distance, the EV3's
-%   to a tenth, the NXT's to a whole centimetre. 255 cm, or 100.3 inches (NXT:
-%   100.0), is also what it says when it sees nothing.
+%   True if the ultrasonic sensor measures this distance: the EV3's sensor to
+%   a tenth of a centimeter, the NXT's to a whole one. If it sees nothing, it
+%   reports 255 cm, or 100.3 inches (NXT: 100.0).
 
-us_dist_cm(Port, Centimetres) :-
-    sensor_reading(us_dist_cm, Port, Centimetres).
+us_dist_cm(Port, Centimeters) :-
+    sensor_reading(us_dist_cm, Port, Centimeters).
 
 us_dist_inches(Port, Inches) :-
     sensor_reading(us_dist_inches, Port, Inches).
 
 %!  us_listen(?Port, -Heard) is nondet.
 %
-%   True if Heard is 1 when the ultrasonic sensor hears another one, else 0.
+%   True if Heard is 1 while the ultrasonic sensor hears another one, else 0.
 
 us_listen(Port, Heard) :-
     sensor_reading(us_listen, Port, Heard).
 
 %!  gyro_ang(?Port, -Degrees) is nondet.
 %
-%   True if the gyro has turned by that angle since it was last reset,
-%   clockwise positive.
+%   True if the gyro has turned by Degrees since its last reset, clockwise
+%   positive.
 
 gyro_ang(Port, Degrees) :-
     sensor_reading(gyro_ang, Port, Degrees).
 
 %!  gyro_rate(?Port, -DegreesPerSecond) is nondet.
 %
-%   True if the gyro turns at that rate, up to 440, clockwise positive. Puts
-%   it into another mode, so that the angle starts from 0 again.
+%   True if the gyro turns at DegreesPerSecond, up to 440, clockwise positive.
+%   This call changes the mode of the gyro, so the angle restarts from 0.
 
 gyro_rate(Port, DegreesPerSecond) :-
     sensor_reading(gyro_rate, Port, DegreesPerSecond).
@@ -238,15 +238,15 @@ gyro_reset(Port) :-
 %!  touch(?Port, -Pressed) is nondet.
 %
 %   True if Pressed is 1 while the touch sensor is pressed, else 0. The brick
-%   does not recognise one of the NXT: its port has to be told.
+%   does not recognize every touch sensor of the NXT: port_device/2 names it.
 
 touch(Port, Pressed) :-
     sensor_reading(touch, Port, Pressed).
 
 %!  ir_prox(?Port, -Percent) is nondet.
 %
-%   True if the infrared sensor sees something at that proximity: 0 is near,
-%   100 some 70 cm or more.
+%   True if the infrared sensor sees something at the proximity Percent: 0 is
+%   near, 100 about 70 cm or more.
 
 ir_prox(Port, Percent) :-
     sensor_reading(ir_prox, Port, Percent).
@@ -254,22 +254,21 @@ ir_prox(Port, Percent) :-
 %!  sensor_value(?Port, +Mode, +Index, -Value) is nondet.
 %
 %   True if value number Index, from 0 to 7, of the sensor at Port is Value in
-%   Mode, for any sensor and mode there is. An unbound Port is each that has a
-%   sensor with this mode.
+%   Mode. Reads any sensor in any of its modes. An unbound Port enumerates the
+%   ports that have a sensor with Mode.
 %
 %   @error domain_error(mode, Mode) if the sensor at Port has no such mode
-%   @error domain_error(sensor_value_index, Index) if that mode has no such
-%          value
+%   @error domain_error(sensor_value_index, Index) if Mode has no such value
 
 sensor_value(Port, Mode, Index, Value) :-
     sensor_value_(Port, [], Mode, Index, Value).
 
 %!  sensor_values(?Port, +Mode, -Values) is nondet.
 %
-%   True if Values is the list of all values that the sensor at Port shows in
-%   Mode, for any sensor and mode there is; at most eight. They are read at
-%   once where the sensor allows it. An unbound Port is each that has a sensor
-%   with this mode.
+%   True if Values is the list of all values, at most eight, that the sensor
+%   at Port shows in Mode. Reads any sensor in any of its modes, and all
+%   values at once if the sensor allows it. An unbound Port enumerates the
+%   ports that have a sensor with Mode.
 %
 %   @error domain_error(mode, Mode) if the sensor at Port has no such mode
 
@@ -278,8 +277,8 @@ sensor_values(Port, Mode, Values) :-
 
 %!  adjust_val(+Port, +Raw, -Value) is semidet.
 %
-%   True if the integer Raw, read by value/3, means Value in the sensor's
-%   present mode: scaled by its decimals.
+%   True if Value is the integer Raw, as value/3 reads it, scaled by the
+%   decimals of the sensor's present mode.
 
 adjust_val(Port, Raw, Value) :-
     sensor_scale_(Port, Raw, Value).

@@ -7,8 +7,9 @@
             servo_motor_pulses/4,       % ?Port, ?Min, ?Mid, ?Max
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [evaluated/2, term_expansion/2]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).
 :- use_module(private/halt, []).
@@ -20,22 +21,22 @@
 /** <module> RC servos
 
 Servos of model aircraft and the like, on a controller that is plugged into
-an input port, as the 8-channel one by mindsensors. Their ports are called
-after it: `'in1:i2c88:sv1'` to `sv8`.
+an input port, for example the 8-channel controller by mindsensors. Their
+ports have the controller's name in them: `'in1:i2c88:sv1'` to `sv8`.
 
-A servo that was sent somewhere stays there until it is let float. Nobody
-knows when it arrives. As with other attributes, what is unbound is read and
-what is bound is written. All predicates fail if there is no servo at a port.
+A servo holds its position until the program lets it float. It does not report
+when it arrives. A predicate reads an unbound value and writes a bound one.
+All predicates fail if there is no servo at a port.
 
-Every servo that the program has moved is let float at its end.
+When the program ends, the pack lets every servo float that the program moved.
 */
 
 %!  servo_motor_position(?Port, ?Percent) is nondet.
 %
-%   Send a servo to a position from -100 to 100 percent of its way, 0 being
-%   the middle, or read where it was sent. Percent may be an arithmetic
-%   expression and is rounded. Does not wait. Fails, and moves nothing, beyond
-%   100 percent; reading fails while the servo floats.
+%   Send a servo to a position from -100 to 100 percent of its range, where 0
+%   is the middle, or read the position that it was sent to. Percent may be an
+%   arithmetic expression and is rounded. Does not wait. Fails, and moves
+%   nothing, if Percent is beyond 100; reading fails while the servo floats.
 
 servo_motor_position(Port, Percent) :-
     var(Percent),
@@ -50,10 +51,10 @@ servo_motor_position(Port, Percent0) :-
 
 %!  servo_motor_angle(?Port, ?Degrees) is nondet.
 %
-%   As servo_motor_position/2, in degrees from the middle, -90 to 90. That is
-%   right for a servo that turns by 180 degrees between the shortest and the
-%   longest pulse; for another, say with servo_motor_pulses/4 what pulses it
-%   takes for -90, 0 and 90 degrees.
+%   Like servo_motor_position/2, in degrees from the middle, -90 to 90. The
+%   pack assumes that the servo turns by 180 degrees between the shortest and
+%   the longest pulse. For another servo, set with servo_motor_pulses/4 the
+%   pulses that it needs for -90, 0 and 90 degrees.
 
 servo_motor_angle(Port, Degrees) :-
     var(Degrees),
@@ -69,14 +70,14 @@ servo_motor_angle(Port, Degrees0) :-
 
 cannot(Port, Position) :-
     (   servo_motor(Port)
-    ->  debug(ev3dev, "the servo at ~w cannot go to ~w", [Port, Position])
-    ;   debug(ev3dev, "there is no servo at ~w", [Port])
+    ->  explain("the servo at ~w cannot go to ~w", [Port, Position])
+    ;   explain("there is no servo at ~w", [Port])
     ),
     fail.
 
 %!  servo_motor_float(+Port) is semidet.
 %
-%   Let a servo float: it may be turned by hand.
+%   Let a servo float: a hand can turn it.
 
 servo_motor_float(Port) :-
     servo_motor_float_(Port).
@@ -93,10 +94,11 @@ servo_motor_polarity(Port, Polarity) :-
 
 %!  servo_motor_rate(?Port, ?Milliseconds) is nondet.
 %
-%   Read or write how slowly a servo moves: in so many milliseconds for 100
-%   percent, 0 for as fast as it can. The controller may round it.
+%   Read or write how slowly a servo moves: the Milliseconds that it takes for
+%   100 percent. 0 means as fast as the servo can. The controller may round
+%   the number.
 %
-%   @error domain_error(rate_sp, Milliseconds) if it is negative
+%   @error domain_error(rate_sp, Milliseconds) if Milliseconds is negative
 %   @error permission_error(write, unsupported_attribute, File) if the
 %          controller has one speed only
 
@@ -123,8 +125,7 @@ servo_motor_pulses(Port, Min, Mid, Max) :-
 
 %!  servo_motor_attribute(?Port, +Attribute, ?Value) is nondet.
 %
-%   Read or write any attribute of a servo, as motor_attribute/3 those of
-%   motors.
+%   Read or write any attribute of a servo, like motor_attribute/3.
 
 servo_motor_attribute(Port, Attribute, Value) :-
     attribute('servo-motor', Port, Attribute, Value).

@@ -3,14 +3,14 @@
             sim_start/2,                % +World, +Options
             sim_stop/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/2
               ]).
 :- use_module(library(lists), [nth1/3]).
-:- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(sim_hand, [set_added_facts/1]).
@@ -21,9 +21,9 @@
 
 /** <module> A simulated robot in a simulated world
 
-An ev3dev brick with motors and sensors, on two wheels, in a flat world. A
-program cannot tell it from a real one: while a simulation runs, all of
-library(ev3dev) works on it.
+An ev3dev brick with motors and sensors, on two wheels, in a flat world. It
+behaves like a real brick: while a simulation runs, all predicates of
+library(ev3dev) work on it.
 
 ```
 ?- sim_start(room).
@@ -34,15 +34,15 @@ Distance = 96.9.
 X = 52.9, Y = 55.4, Heading = 40.0.
 ```
 
-Lengths are in centimetres and angles in degrees. X goes to the right and y
+Lengths are in centimeters and angles in degrees. X goes to the right and y
 up; heading 0 looks along y, and clockwise is positive, as in turn/2.
 
 All predicates but sim_start/1,2 fail if no simulation runs.
 
 ## Worlds {#sim-worlds}
 
-A world is a file of facts, which is read and not run; it may hold any number
-of
+A world is a file of facts. The simulator reads the file and does not run it.
+It may contain any number of
 
   - bounds(X1, Y1, X2, Y2)
     Walls around everything, from the lower left to the upper right corner.
@@ -53,42 +53,42 @@ of
   - box(X, Y, Width, Depth, Heading)
     A box by its middle. The depth is along its heading, by default 0.
   - circle(X, Y, Radius)
-    Something round, as a pillar.
-  - floor(Colour)
+    A round obstacle, for example a pillar.
+  - floor(Color)
     The floor, by default white: one of `black`, `blue`, `green`, `yellow`,
     `red`, `white` and `brown`, or `'#rrggbb'`.
-  - patch(Colour, Corners)
-    A coloured piece of floor with at least three Corners, each `[X, Y]`.
-    Patches and lines cover those before them.
-  - line(Colour, Width, Points)
-    A line on the floor through at least two Points, each `[X, Y]`.
+  - patch(Color, Corners)
+    A colored piece of floor with at least three Corners, each a place
+    `X-Y`. Patches and lines cover those before them.
+  - line(Color, Width, Places)
+    A line on the floor through at least two Places, each `X-Y`.
   - lamp(X, Y, Intensity)
   - lamp(X, Y, Intensity, Port)
-    A lamp, 30 cm above the floor. One with a Port is lit by that output port
-    in the mode `dc-motor` or `led`, see port_mode/2. Intensity is the
-    percentage that col_ambient/2 shows when the sensor looks at it from 100
-    cm. The light falls with the square of the distance; what stands between
-    throws shadows.
+    A lamp, 30 cm above the floor. An output port in the mode `dc-motor` or
+    `led` switches a lamp with a Port, see port_mode/2. Intensity is the
+    percentage that col_ambient/2 shows when the sensor looks at the lamp from
+    100 cm. The light falls with the square of the distance; obstacles throw
+    shadows.
   - beacon(X, Y, Channel)
-    An infrared beacon on a channel from 1 to 4, see ir_beacon/4. It is seen
-    from up to 200 cm, if nothing stands between.
+    An infrared beacon on a channel from 1 to 4, see ir_beacon/4. A sensor
+    sees it from up to 200 cm, if nothing stands between.
   - ambient(Percent)
     Light from everywhere, by default 2.
   - temperature(Celsius)
-    How warm it is, by default 21.5.
+    The temperature of the air, by default 21.5.
   - loudness(Percent)
-    How loud it is, by default 0: see nxt_sound/2.
+    The loudness, by default 0: see nxt_sound/2.
   - start(X, Y, Heading)
-    Where the robot starts, by default at 0, 0 with heading 0.
+    The robot's start, by default at 0, 0 with heading 0.
   - map(CellSize, Rows)
-    A world that is drawn: strings or atoms, a character for each cell, the
-    lower left corner of the last row at 0, 0. `#` is a wall, `O` a pillar,
-    `.` or a space floor, `L` a lamp, `^`, `>`, `v` or `<` the start and its
-    heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w` and `n`
-    are black, blue, green, yellow, red, white and brown floor.
+    A drawn world. Rows are strings or atoms, with a character for each cell;
+    the lower left corner of the last row is at 0, 0. `#` is a wall, `O` a
+    pillar, `.` or a space floor, `L` a lamp, `^`, `>`, `v` or `<` the start
+    and its heading, `S` a start with heading 0; `k`, `b`, `g`, `y`, `r`, `w`
+    and `n` are black, blue, green, yellow, red, white and brown floor.
 
-Shipped are `room` with walls and boxes, `lights` with a lamp, `line` with a
-track, `grid` with boxes in cells of 20 cm, and `maze`.
+The pack has the worlds `room` with walls and boxes, `lights` with a lamp,
+`line` with a track, `grid` with boxes in cells of 20 cm, and `maze`.
 
 ## Robots {#sim-robots}
 
@@ -100,7 +100,7 @@ A robot is a file of facts, too:
   - right_wheel(Port, Diameter, Options)
     The wheels by the ports of their motors. Options are `inverted(true)` for
     a motor that is mounted the other way round, and `slip(Share)` for the
-    part of its way that the wheel loses, from 0 to less than 1.
+    part of its distance that the wheel loses, from 0 to less than 1.
   - axle(Length)
     The distance between the wheels.
   - hull(circle(Radius))
@@ -108,70 +108,71 @@ A robot is a file of facts, too:
     The outline, around the middle of the axle; the middle of a rectangle is
     Offset ahead of it.
   - mass(Kilograms)
-    A robot has each of these: two wheels, axle, hull and mass.
+    The mass. Every robot needs two wheels, an axle, a hull and a mass.
   - motor(Port, Type)
     A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'`, `'lego-nxt-motor'`,
     or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
-    The wheels' have to be among them.
+    The robot must have a motor at the port of each wheel.
   - sensor(Port, Type, X, Y, Heading)
     A sensor, X to the right and Y ahead of the middle of the axle, of any
     type that ev3dev knows, see [below](#sim-sensors).
   - noise(Port, Sigma, Bias)
-    The errors of a device that stands before: a random one, with that
-    standard deviation, and a constant one, in units of the sensor's value.
-    For a motor they are in percent; Bias makes it stronger than others. For
-    a gyro Bias is a drift in degrees per second.
+    The errors of a device that an earlier fact names: a random error with the
+    standard deviation Sigma, and the constant error Bias, in units of the
+    sensor's value. For a motor both are in percent; Bias makes the motor
+    stronger than others. For a gyro, Bias is a drift in degrees per second.
   - encoder_noise(Port, Sigma)
-    How inexact the encoder of a motor is that stands before: the standard
-    deviation in degrees by which each tooth of its disc is off, by default
-    0. So `position` is, always by the same where the motor stands the same.
+    The error of the encoder of a motor that an earlier fact names: the
+    standard deviation, in degrees, of the error of each tooth of its disc, by
+    default 0. The error of `position` is the same whenever the shaft is at
+    the same angle.
 
-Shipped are `default`, the robot of set_robot(5.6, 10.6, outB, outC) with an
-ultrasonic sensor at in1, colour sensors on its left at in2 and on its right
-at in3, and a gyro at in4; and `touch`, with a bumper at in4.
+The pack has two robots: `default`, the robot of
+set_robot(5.6, 10.6, outB, outC), with an ultrasonic sensor at in1, color
+sensors on its left at in2 and on its right at in3, and a gyro at in4; and
+`touch`, with a bumper at in4.
 
 ## Sensors {#sim-sensors}
 
-Of the EV3's own sensors, a colour sensor sees the floor below it and the
-lamps ahead of it; a touch sensor is a bumper, 8 cm wide; and the infrared one
-sees beacons up to 60 degrees aside, which it calls 25, and hears remote
-controls, see sim_remote/2.
+Of the EV3's own sensors, a color sensor sees the floor below it and the lamps
+ahead of it; a touch sensor is a bumper, 8 cm wide; and the infrared sensor
+sees beacons up to 60 degrees aside, where it shows the heading 25, and
+receives remote controls, see sim_remote/2.
 
-LEGO's sensors for the NXT do the same, and tell the temperature and how loud
-it is. A compass takes the y axis for north. `HiTechnic's` infrared seeker
-looks for beacons, too; an angle sensor sits on the axle of the left wheel, an
-accelerometer lies flat and feels gravity alone, and a proximity detector sees
-what is within 25 cm.
+LEGO's sensors for the NXT do the same, and measure temperature and loudness.
+For a compass the y axis points north. HiTechnic's infrared seeker looks for
+beacons, too; an angle sensor sits on the axle of the left wheel, an
+accelerometer lies flat and measures gravity alone, and a proximity detector
+sees things within 25 cm.
 
-For the others of sensor_mode/6 there is nothing in this world. They exist,
-with all their modes, and show the same always: the air has 1013 mbar, boxes
-for motors and servos have 6 V, a camera sees nothing.
+The other types of sensor_mode/6 have nothing to measure in this world. They
+exist, with all their modes, and always show the same: the air has 1013 mbar,
+boxes for motors and servos have 6 V, a camera sees nothing.
 
-What is an NXT sensor with nothing but a voltage comes up as `nxt-analog`, as
-on a brick, except for the light sensor. The port has to be told what it is:
-write the type to the file `set_device` of its `lego-port`.
+An NXT sensor that is only a voltage appears as `nxt-analog`, as on a brick,
+except for the light sensor. The program names its type by port_device/2.
 
 ## Time {#sim-time}
 
-With the clock `realtime`, simulated time passes like that on the wall, with
-`scaled(Factor)` so many times faster.
+With the clock `realtime`, simulated time passes as fast as real time, with
+`scaled(Factor)` Factor times as fast.
 
-With the clock `virtual` the program's own computing takes no time at all.
-Time jumps when a predicate of library(ev3dev) waits, as go_cm/2 does, to the
-end of the wait; so a minute's drive takes milliseconds. Each read of a file
-takes 0.5 ms and each write 0.1 ms, so that time passes for a program, too,
-that only polls a sensor in a loop. sleep/1 does not count: to let time pass
-otherwise, use sim_wait/1. Who waits for a key that nobody is known to press
-lets time pass, too, at most 20 times as fast as on the wall. Several threads
-may wait at once; time goes on when each waits or does something else than to
-use devices. The same program with the same seed does the same each time.
+With the clock `virtual`, the program's own computing takes no time at all.
+When a predicate of library(ev3dev) waits, for example go_cm/2, time jumps to
+the end of the wait; so a minute's drive takes milliseconds. Each read of a
+file takes 0.5 ms and each write 0.1 ms, so time also passes for a program
+that polls a sensor in a loop. sleep/1 lets no simulated time pass;
+sim_wait/1 does. While a program waits for a button that no sim_press/2 will
+press, time passes at most 20 times as fast as real time. Several threads may
+wait at once; time advances when each thread waits or uses no device. The same
+program with the same seed does the same each time.
 */
 
 %!  sim_start(+World) is det.
 %!  sim_start(+World, +Options) is det.
 %
-%   Start a simulation, in place of the one that runs, and use it as the tree
-%   of devices. World is the name of a shipped one, a file, or a list of
+%   Start a simulation in place of the running one, and use its tree of
+%   devices. World is the name of a world of the pack, a file, or a list of
 %   facts. Options:
 %
 %     - clock(+Clock)
@@ -179,17 +180,17 @@ use devices. The same program with the same seed does the same each time.
 %     - robot(+Robot)
 %       The robot, given like World. Default is `default`.
 %     - noise(+Boolean)
-%       If `true`, sensors and motors have the errors that real ones have,
-%       encoders one of half a degree. Default is `false`.
+%       If `true`, sensors and motors have errors like real ones, and encoders
+%       an error of half a degree. Default is `false`.
 %     - seed(+Integer)
-%       Where chance starts from. Default is 1.
+%       The seed of the random numbers. Default is 1.
 %     - screen(+Bits)
-%       Bits that the screen has for a pixel: 32 (default) or 1, as with older
+%       The bits per pixel of the screen: 32 (default) or 1, as with older
 %       versions of ev3dev.
 %
-%   If it cannot be started, nothing changes. What is wrong with a file is
-%   thrown as `error(Formal, fact(Location, Message))`, which is printed with
-%   file and line; Location is `file(File, Line, LinePosition, CharNo)`, or
+%   If the simulation cannot start, nothing changes. An error in a file is
+%   thrown as `error(Formal, fact(Location, Message))`, and is printed with
+%   file and line. Location is `file(File, Line, LinePosition, CharNo)`, or
 %   `file(File)` if a fact is missing.
 %
 %   @error existence_error(world, World)
@@ -201,9 +202,11 @@ use devices. The same program with the same seed does the same each time.
 %   @error domain_error(map_row, Row) for an unknown character or a second
 %          start
 %   @error domain_error(clock, Clock)
-%   @error domain_error(sim_option, Option) for an option that is none
+%   @error domain_error(sim_option, Option) if Option is not an option of this
+%          predicate
 %   @error domain_error(screen_bits, Bits)
-%   @error existence_error(feature, sim) if the pack was built without
+%   @error existence_error(feature, sim) if the pack was built without the
+%          simulator
 
 sim_start(World) :-
     sim_start(World, []).
@@ -256,7 +259,7 @@ must_be_screen(Bits) :-
     ;   domain_error(screen_bits, Bits)
     ).
 
-%   A fault names a fact by its place, or 0 if one is missing.
+%   A fault names a fact by its place in the list, or 0 if a fact is missing.
 must_be_faultless(none, _, _) :-
     !.
 must_be_faultless(fault(world, Index, Why), world(World, Located), _) :-
@@ -274,8 +277,7 @@ throw_fault(Kind, Source, _, _, Why) :-
 
 %!  sim_stop is semidet.
 %
-%   End the simulation. The tree of devices is the brick's again, if this
-%   machine is one.
+%   End the simulation. The tree in use before the simulation is in use again.
 
 sim_stop :-
     sim_stop_,

@@ -15,11 +15,14 @@
             added_facts/1,              % -Added
             set_added_facts/1           % +Added
           ]).
-:- use_module(private/errors, [evaluated/2, must_be/2, term_expansion/2]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments,
+              [ must_be_options/3, number_option/4, number_value/2,
+                number_value/3, option/3
+              ]).
 :- use_module(private/native,
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,
@@ -27,36 +30,37 @@
 
 /** <module> A hand in the simulated world
 
-The part of library(ev3dev/sim) that does what people do to a robot and to
-what is around it. All fail if no simulation runs.
+The part of library(ev3dev/sim) that moves the robot, changes the world and
+presses buttons. All predicates fail if no simulation runs.
 */
 
 :- dynamic added/2.                     % Fact, Id
 
 %!  sim_place(+X, +Y, +Heading) is semidet.
 %
-%   Lift the robot to another place, where it stands still. All three may be
-%   arithmetic expressions.
+%   Lift the robot to another place, where it stands still. All three
+%   arguments may be arithmetic expressions.
 %
-%   @error domain_error(possible_geometry, Item) if something stands there
+%   @error domain_error(possible_geometry, Item) if an obstacle stands there
 
 sim_place(X0, Y0, Heading0) :-
-    evaluated(X0, X),
-    evaluated(Y0, Y),
-    evaluated(Heading0, Heading),
+    number_value(X0, X),
+    number_value(Y0, Y),
+    number_value(Heading0, Heading),
     sim_place_(X, Y, Heading).
 
 %!  sim_add(+Fact) is semidet.
 %!  sim_add(+Fact, -Id) is semidet.
 %
-%   Put something into the world: a wall, box, circle, patch, line, lamp or
-%   beacon, by a fact as a world file has. Id is a number by which to remove
-%   it.
+%   Add a wall, box, circle, patch, line, lamp or beacon to the world, by a
+%   Fact of world files. Id is a number by which sim_remove/1 removes it.
 %
-%   @error domain_error(possible_geometry, Item) if it cannot be, or the robot
-%          stands there
-%   @error domain_error(world_item, Fact) if it is another fact of a file
-%   @error domain_error(world_or_robot_fact, Fact) if it is none
+%   @error domain_error(possible_geometry, Item) if the item is impossible, or
+%          if the robot stands there
+%   @error domain_error(world_item, Fact) if Fact is another fact of worlds or
+%          robots
+%   @error domain_error(world_or_robot_fact, Fact) if Fact is no fact of
+%          worlds or robots
 
 sim_add(Fact) :-
     sim_add(Fact, _).
@@ -68,9 +72,9 @@ sim_add(Fact, Id) :-
 
 %!  sim_remove(+IdOrFact) is semidet.
 %
-%   Take something out of the world that sim_add/1,2 put there: by its Id, or
-%   by its Fact, in which variables stand for anything; of several such the
-%   newest. Fails if there is no such thing.
+%   Remove an item from the world that sim_add/1,2 added: by its Id, or by its
+%   Fact, which may contain variables. If several items match Fact, removes
+%   the newest. Fails if no item matches.
 
 sim_remove(Id) :-
     integer(Id),
@@ -84,10 +88,10 @@ sim_remove(Fact) :-
 
 %!  sim_plug(+Port, +Type) is semidet.
 %
-%   Plug a motor or a sensor in, after pulling what is there. As on a brick it
-%   is some time before it is noticed: 0.4 s for a motor, 1.3 s for most
-%   sensors. A sensor sits and looks as the robot's file says for that port.
-%   `'ms-8ch-servo'` is a controller with eight servos behind it.
+%   Plug a motor or a sensor into a port, after unplugging the old one. As on
+%   a brick, its device appears later: after 0.4 s for a motor, 1.3 s for most
+%   sensors. The robot's facts for that port give the place and heading of the
+%   sensor. `'ms-8ch-servo'` is a controller with eight servos.
 %
 %   @error domain_error(possible_geometry, Item) if it does not fit that port
 
@@ -96,7 +100,7 @@ sim_plug(Port, Type) :-
 
 %!  sim_unplug(+Port) is semidet.
 %
-%   Pull the wire out of a port. Fails if there is none.
+%   Pull the wire out of a port. Fails if nothing is plugged in.
 
 sim_unplug(Port) :-
     sim_unplug_(Port).
@@ -112,10 +116,10 @@ sim_jam(Port, Boolean) :-
 %!  sim_show(+Port, +Attribute, +Text) is semidet.
 %!  sim_unshow(+Port, +Attribute) is semidet.
 %
-%   Make an attribute of the motor or sensor at a port show a text, an atom,
-%   string or number, whatever happens in the world, to try a program with it;
-%   and show what is true again. The device itself does not change, and takes
-%   what is written to the attribute as ever. When it is unplugged, this ends.
+%   Make an attribute of the motor or sensor at a port show Text, to test a
+%   program with it; sim_unshow/2 shows the true text again. Text is an atom,
+%   string or number. The device itself does not change, and accepts writes to
+%   the attribute as usual. Unplugging the device also ends sim_show/3.
 %
 %   ```
 %   ?- sim_show(in1, value0, 123), us_dist_cm(in1, Distance).
@@ -126,9 +130,9 @@ sim_jam(Port, Boolean) :-
 %   shows its own text already.
 %
 %   @error existence_error(attribute, Attribute)
-%   @error domain_error(readable_attribute, Attribute) if it can only be
-%          written, as `command`
-%   @error domain_error(attribute_text, Text) if it is longer than a page
+%   @error domain_error(readable_attribute, Attribute) if Attribute can only
+%          be written, as `command`
+%   @error domain_error(attribute_text, Text) if Text is longer than a page
 
 sim_show(Port, Attribute, Text) :-
     sim_show_(Port, Attribute, Text).
@@ -138,15 +142,15 @@ sim_unshow(Port, Attribute) :-
 
 %!  sim_remote(+Channel, +Buttons) is semidet.
 %
-%   Hold down these buttons of an infrared remote control on a channel from 1
-%   to 4, and let go of all others, until the next call. Buttons is a list of
+%   Hold down Buttons of an infrared remote control on a channel from 1 to 4,
+%   and release all others, until the next call. Buttons is a list of
 %   `red_up`, `red_down`, `blue_up`, `blue_down` and `beacon`: none, one, or
-%   two of the first four. The robot hears it wherever it is.
+%   two of the first four. The robot receives the signal at every place.
 %
 %   @error domain_error(ir_channel, Channel)
 %   @error domain_error(ir_button, Button) if there is no such button
-%   @error domain_error(ir_buttons, Buttons) if no sensor could tell these
-%          from others
+%   @error domain_error(ir_buttons, Buttons) if a sensor cannot report this
+%          combination
 
 sim_remote(Channel, Buttons) :-
     must_be(list, Buttons),
@@ -155,8 +159,9 @@ sim_remote(Channel, Buttons) :-
 %!  sim_press(+Key) is semidet.
 %!  sim_release(+Key) is semidet.
 %
-%   Press a key of the brick and hold it, or let go of it: `up`, `down`,
-%   `left`, `right`, `enter` or `back`. Does nothing if it is so already.
+%   Press a button of the brick and hold it, or release it: `up`, `down`,
+%   `left`, `right`, `enter` or `back`. Does nothing if the button is pressed,
+%   or released, already.
 %
 %   @error domain_error(button, Key)
 
@@ -168,8 +173,8 @@ sim_release(Key) :-
 
 %!  sim_press(+Key, +Options) is semidet.
 %
-%   Press a key at some time to come. Does not wait. So a program that waits
-%   for a key can be tried by itself:
+%   Press a button at a later time. Does not wait. So a test can run a program
+%   that waits for a button:
 %
 %   ```
 %   ?- sim_press(enter, [after(2)]), button_wait(enter, pressed).
@@ -178,28 +183,30 @@ sim_release(Key) :-
 %   Options, in simulated seconds:
 %
 %     - after(+Seconds)
-%       When it is pressed, from now. Default is 0.
+%       The time from now to the press. Default is 0.
 %     - for(+Seconds)
-%       How long it is held. Default is 0.2; `infinite` until sim_release/1.
+%       The time from press to release. Default is 0.2. With `infinite`,
+%       sim_release/1 releases the button.
 %
 %   @error domain_error(button, Key)
 %   @error domain_error(seconds, Seconds)
-%   @error domain_error(sim_option, Option) for an option that is none
+%   @error domain_error(sim_option, Option) if Option is not an option of this
+%          predicate
 
 sim_press(Key, Options) :-
     must_be_options(sim_option, [after, for], Options),
-    option(after(After), Options, 0),
-    option(for(For), Options, 0.2),
-    (   For == infinite
-    ->  true
-    ;   must_be(number, For)
+    number_option(after(After), seconds, Options, 0),
+    option(for(For0), Options, 0.2),
+    (   For0 == infinite
+    ->  For = infinite
+    ;   number_value(seconds, For0, For)
     ),
     sim_plan_key_(Key, After, For).
 
 %!  added_facts(-Added) is det.
 %!  set_added_facts(+Added) is det.
 %
-%   Added is a list of Fact-Id: what sim_add/1,2 put into the world.
+%   Added is a list of Fact-Id, the items that sim_add/1,2 added to the world.
 
 added_facts(Added) :-
     findall(Fact-Id, added(Fact, Id), Added).

@@ -5,6 +5,7 @@
             sim_snapshot/1,             % -Snapshot
             sim_restore/1               % +Snapshot
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
@@ -16,17 +17,17 @@
 
 /** <module> Simulated time
 
-The part of library(ev3dev/sim) that lets time pass, and goes back in it. All
-fail if no simulation runs.
+The part of library(ev3dev/sim) that lets time pass, and goes back in time.
+All predicates fail if no simulation runs.
 */
 
 %!  sim_wait(+Seconds) is semidet.
 %
-%   Wait until so much simulated time has passed, as a program does with
-%   sleep/1 on a brick. With the virtual clock this takes no longer than the
-%   program's other threads let it. Seconds may be an arithmetic expression.
+%   Wait until Seconds of simulated time have passed, like sleep/1 on a brick.
+%   With the virtual clock, time jumps to the end of the wait as soon as no
+%   other thread uses devices. Seconds may be an arithmetic expression.
 %
-%   @error domain_error(seconds, Seconds) if it is negative
+%   @error domain_error(seconds, Seconds) if Seconds is negative
 
 sim_wait(Seconds0) :-
     evaluated(Seconds0, Seconds),
@@ -34,10 +35,10 @@ sim_wait(Seconds0) :-
 
 %!  sim_step(+Seconds) is semidet.
 %
-%   Let so much simulated time pass at once, whatever the clock. Seconds may
-%   be an arithmetic expression.
+%   Let Seconds of simulated time pass at once, with any clock. Seconds may be
+%   an arithmetic expression.
 %
-%   @error domain_error(seconds, Seconds) if it is negative
+%   @error domain_error(seconds, Seconds) if Seconds is negative
 
 sim_step(Seconds0) :-
     evaluated(Seconds0, Seconds),
@@ -45,7 +46,7 @@ sim_step(Seconds0) :-
 
 %!  sim_time(-Seconds) is semidet.
 %
-%   True if so much simulated time has passed since the start.
+%   True if Seconds of simulated time have passed since the start.
 
 sim_time(Seconds) :-
     sim_time_(Seconds).
@@ -53,9 +54,9 @@ sim_time(Seconds) :-
 %!  sim_snapshot(-Snapshot) is semidet.
 %!  sim_restore(+Snapshot) is semidet.
 %
-%   Keep everything as it is now, and put it back as it was: the robot, its
-%   motors and sensors, the world and the time. So a program can try what
-%   would happen. A Snapshot may be restored any number of times.
+%   Save the state of the simulation, and restore it: the robot, its motors
+%   and sensors, the world and the time. A program can restore a Snapshot any
+%   number of times, and so compare what different actions do.
 
 sim_snapshot(snapshot(State, Added)) :-
     sim_snapshot_(State),

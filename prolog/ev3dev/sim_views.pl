@@ -7,6 +7,7 @@
             sim_mount/2,                % +Directory, +DevDirectory
             sim_unmount/0
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(driver, []).
@@ -15,49 +16,53 @@
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
                 sim_trace_/1, sim_unmount_/0 ]).
 
-/** <module> What a simulation shows
+/** <module> Views of the simulation
 
-The part of library(ev3dev/sim) that tells what happens in the world, and
-shows the simulated files to other programs. All fail if no simulation runs.
+The part of library(ev3dev/sim) that reports events in the world, and shows
+the simulated files to other programs. All predicates fail if no simulation
+runs.
 */
 
 %!  sim_pose(-X, -Y, -Heading) is semidet.
 %
-%   True if that is where the robot is and where it looks, really. Heading is
-%   how far it has turned in all, and not reduced to a full circle.
+%   True if the robot's true position is X, Y and its true heading is Heading.
+%   Heading is the angle that the robot has turned in all; it is not reduced
+%   to a full circle.
 
 sim_pose(X, Y, Heading) :-
     sim_pose_(X, Y, Heading).
 
 %!  sim_collisions(-Collisions) is semidet.
 %
-%   True if Collisions is the list of `collision(Time, X, Y, Heading)` for
-%   each time the robot ran into something, oldest first; the latest 256.
+%   True if Collisions is the list of `collision(Time, X, Y, Heading)`, one
+%   for each time that the robot ran into an obstacle, oldest first. The
+%   simulator keeps the latest 256.
 
 sim_collisions(Collisions) :-
     sim_collisions_(Collisions).
 
 %!  sim_trace(-Trace) is semidet.
 %
-%   True if Trace is what happened, as a list of Time-Event in the order of
+%   True if Trace is the list of events as pairs Time-Event, in the order of
 %   time. Event is one of
 %
 %     - pose(X, Y, Heading)
-%       The robot was there. On long runs these are farther apart.
+%       The pose of the robot. On long runs these are farther apart.
 %     - written(File, Text)
 %     - read(File, Text)
 %       The program wrote a file, or read a value of a sensor.
 %     - tone(Hertz)
-%       The speaker made a tone; 0 is the end of it.
+%       The speaker started a tone; 0 is the end of a tone.
 %     - said(Text)
 %     - played(File)
 %     - silenced
-%       The program said something, played a recording, or ended one.
+%       The program spoke, played a recording, or ended one.
 %     - pressed(Key)
 %     - released(Key)
-%       Somebody pressed a key, or let go of it.
+%       Somebody pressed a button, or released it.
 %
-%   The latest 4096 are kept of what was read, and of all the others.
+%   The simulator keeps the latest 4096 events `read` and the latest 4096 of
+%   all others.
 
 sim_trace(Trace) :-
     sim_trace_(Trace0),
@@ -65,7 +70,7 @@ sim_trace(Trace) :-
 
 %!  sim_svg(+File) is semidet.
 %
-%   Write a picture of the world, the robot and its way to a file, as SVG.
+%   Write a picture of the world, the robot and its path to an SVG file.
 
 sim_svg(File) :-
     sim_svg_(Text),
@@ -77,23 +82,23 @@ sim_svg(File) :-
 %!  sim_mount(+Directory) is semidet.
 %!  sim_mount(+Directory, +DevDirectory) is semidet.
 %
-%   Show the simulated files in a directory, through FUSE, so that programs in
-%   any language can use them; until sim_unmount/0, or until Prolog halts.
-%   Directory becomes what `/sys/class` is on a brick, and DevDirectory what
-%   `/dev` is, with the screen `fb0` and the event devices:
+%   Show the simulated files in a directory, through FUSE, until sim_unmount/0
+%   or until Prolog halts. Programs in any language can use these files.
+%   Directory corresponds to `/sys/class` on a brick, and DevDirectory to
+%   `/dev`, with the screen `fb0` and the event devices:
 %
 %   ```
 %   input/by-path/platform-gpio_keys-event
 %   input/by-path/platform-sound-event
 %   ```
 %
-%   They are regular files, which answer poll(2) and the ioctls that ask about
-%   an event device. That they are no devices means that the screen cannot be
-%   mapped into memory, and that who looks for devices only finds none.
+%   They are regular files that answer poll(2) and the ioctls that ask about
+%   an event device. Because they are no devices, a program cannot map the
+%   screen into memory, and a program that looks for device nodes finds none.
 %
 %   @error existence_error(directory, Directory)
 %   @error existence_error(device, '/dev/fuse') if this machine has no FUSE
-%   @error existence_error(feature, fuse) if the pack was built without
+%   @error existence_error(feature, fuse) if the pack was built without FUSE
 
 sim_mount(Directory) :-
     file_path(Directory, Path),
@@ -106,7 +111,7 @@ sim_mount(Directory, DevDirectory) :-
 
 %!  sim_unmount is semidet.
 %
-%   End what sim_mount/1 began. Fails if nothing is mounted.
+%   Unmount the files of sim_mount/1,2. Fails if nothing is mounted.
 
 sim_unmount :-
     sim_unmount_.

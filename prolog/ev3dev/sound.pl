@@ -7,13 +7,13 @@
             volume/1,                   % ?Percent
             sound_stop/0
           ]).
-:- use_module(library(debug), [debug/3]).
+:- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
               ]).
-:- use_module(library(option), [option/3]).
+:- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
@@ -21,12 +21,13 @@
 
 /** <module> The speaker
 
-All predicates but sound_stop/0 wait until the sound is over. A call that is
-left by an exception, as Ctrl-C, ends its sound first, and when Prolog halts
-nothing sounds any more.
+tone/2, tones/1,2, say/1 and play/1 wait until the sound is over. If an
+exception, for example Ctrl-C, ends a call, its sound stops first. When Prolog
+halts, all sounds of the program stop.
 
-Tones fail if there is no speaker. Speech and recordings need programs that
-may have to be installed: `espeak`, and `aplay` of the package `alsa-utils`.
+Tones fail if there is no speaker. Speech needs the program `espeak`, and
+speech and recordings need `aplay` of the package `alsa-utils`; the user may
+have to install both.
 
 ```
 ?- tones([note(c4, quarter), note(e4, quarter), note(g4, half)]).
@@ -36,11 +37,13 @@ may have to be installed: `espeak`, and `aplay` of the package `alsa-utils`.
 
 %!  tone(+Hertz, +Milliseconds) is semidet.
 %
-%   Make a tone from 100 to 10000 Hz, and wait until it is over. Both may be
-%   arithmetic expressions. While a recording plays, none is heard.
+%   Play a tone from 100 to 10000 Hz, and wait until it is over. Both
+%   arguments may be arithmetic expressions. While a recording plays, the
+%   speaker plays no tone.
 %
 %   @error domain_error(frequency, Hertz)
-%   @error domain_error(milliseconds, Milliseconds) if it is negative
+%   @error domain_error(milliseconds, Milliseconds) if Milliseconds is
+%          negative
 
 tone(Hertz, Milliseconds) :-
     tones([tone(Hertz, Milliseconds)]).
@@ -49,14 +52,15 @@ tone(Hertz, Milliseconds) :-
 %!  tones(+Tones, +Options) is semidet.
 %
 %   Play a list of tones one after the other, and wait until they are over.
-%   All are checked before the first is heard. Each is one of
+%   The call checks all tones before it plays the first. Each is one of
 %
 %     - tone(Hertz, Milliseconds)
 %     - note(Pitch, Length)
-%       Pitch is a letter from `a` to `g`, perhaps `s` for sharp or `b` for
-%       flat, and the octave: `c4` is the middle C, `a4` has 440 Hz, `fs4` is
-%       above `f4`, `bb3` below `b3`. The lowest is `gs2`, the highest `ds9`.
-%       It is held for nine tenths of its time, so that notes are heard apart.
+%       Pitch is a letter from `a` to `g`, then optionally `s` for sharp or
+%       `b` for flat, then the octave: `c4` is the middle C, `a4` has 440 Hz,
+%       `fs4` is above `f4`, `bb3` below `b3`. The lowest is `gs2`, the
+%       highest `ds9`. A note sounds for nine tenths of its time, so that a
+%       short silence separates it from the next.
 %     - rest(Length)
 %       Silence.
 %
@@ -71,7 +75,8 @@ tone(Hertz, Milliseconds) :-
 %   @error domain_error(note, Pitch)
 %   @error domain_error(note_length, Length)
 %   @error domain_error(tempo, QuartersPerMinute)
-%   @error domain_error(tone_option, Option) for an option that is none
+%   @error domain_error(tone_option, Option) if Option is not an option of
+%          this predicate
 
 tones(Tones) :-
     tones(Tones, []).
@@ -88,7 +93,7 @@ tones(Tones, Options) :-
     native_tones(Tones, Quarter, Native),
     (   tones_(Native)
     ->  true
-    ;   debug(ev3dev, "tone: there is no speaker", []),
+    ;   explain("tone: there is no speaker", []),
         fail
     ).
 
@@ -178,11 +183,11 @@ quarters(triplet(Length), Quarters) :-
 
 %!  say(+Text) is semidet.
 %
-%   Say a text, an atom or a string, and wait until it is said.
+%   Say a text and wait until it is said. Text is an atom or a string.
 %
-%   @error existence_error(program, espeak) and the same of `aplay`: the
-%          message names the package to install
-%   @error system_error(Words) if one of them cannot do it
+%   @error existence_error(program, Program) if Program, `espeak` or `aplay`,
+%          is missing: the message names the package to install
+%   @error system_error(Words) if one of these programs reports an error
 
 say(Text) :-
     say_(Text).
@@ -192,10 +197,10 @@ say(Text) :-
 %   Play a WAV file, and wait until it is over.
 %
 %   @error existence_error(file, File)
-%   @error syntax_error(wav) if it is no such file
-%   @error existence_error(program, aplay): the message names the package to
-%          install
-%   @error system_error(Words) if that cannot do it
+%   @error syntax_error(wav) if File is no WAV file
+%   @error existence_error(program, aplay) if `aplay` is missing: the message
+%          names the package to install
+%   @error system_error(Words) if `aplay` reports an error
 
 play(File) :-
     must_be(nonvar, File),
@@ -205,12 +210,13 @@ play(File) :-
 %!  volume(?Percent) is semidet.
 %
 %   Read the volume, or set it to a percentage from 0 to 100, which may be an
-%   arithmetic expression. On ev3dev-stretch it is read from the volume of
-%   recordings, and set for these and tones. Fails if there is nothing to set.
+%   arithmetic expression. ev3dev-stretch has two volumes: reading returns
+%   that of recordings, and setting changes that of recordings and that of
+%   tones. Fails if the machine has no volume control.
 %
 %   @error domain_error(volume, Percent)
-%   @error existence_error(program, amixer): the message names the package to
-%          install
+%   @error existence_error(program, amixer) if `amixer` is missing: the
+%          message names the package to install
 
 volume(Percent) :-
     var(Percent),
@@ -226,8 +232,8 @@ volume(Percent0) :-
 
 %!  sound_stop is det.
 %
-%   End all sounds that this program makes. Calls in other threads that wait
-%   for one succeed.
+%   Stop all sounds of this program. Calls in other threads that wait for a
+%   sound succeed.
 
 sound_stop :-
     sound_stop_.

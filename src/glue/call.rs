@@ -13,10 +13,10 @@ use swipl::prelude::*;
 /// The text of an atom or a string.
 pub(crate) type Text = Cow<'static, str>;
 
-/// Registry that are still to be answered.
+/// The devices that the call has not returned yet.
 pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
 
-/// The call under way of a public predicate: the origin of errors, and access to the devices.
+/// A call of a public predicate: the origin of errors, and access to the devices.
 pub(crate) struct Call<'a, C: QueryableContextType>(Origin<'a, C>);
 
 impl<'a, C: QueryableContextType> Deref for Call<'a, C> {
@@ -32,7 +32,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         Self(Origin { context, name, arity })
     }
 
-    /// The devices of the tree in use. Until one is chosen, Prolog is asked to.
+    /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
+    /// one.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
         if !state::is_chosen() {
             self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
@@ -41,8 +42,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         Ok(state::devices())
     }
 
-    /// The device files in use. Until these or the tree are chosen, Prolog is
-    /// asked to.
+    /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog
+    /// to choose.
     pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
         if !state::is_dev_chosen() {
             self.devices()?;
@@ -78,8 +79,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         self.text(term)
     }
 
-    /// A number, integer or float. An integer beyond all floats is infinite:
-    /// as impossible a speed, angle or time as that.
+    /// A number, integer or float. An integer beyond all floats becomes infinite, which
+    /// is an impossible speed, angle or time, too.
     pub(crate) fn float(&self, term: &Term) -> PrologResult<f64> {
         match attempt_opt(term.get::<f64>())? {
             Some(float) => Ok(float),
@@ -97,8 +98,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// A time in seconds, or `None` for one without end: an atom, or more than
-    /// can be counted.
+    /// A time in seconds, or `None` for an infinite time: an atom, or a number beyond
+    /// the range of `Duration`.
     pub(crate) fn seconds(&self, term: &Term) -> PrologResult<Option<Duration>> {
         if term.is_atom() {
             return Ok(None);
@@ -106,7 +107,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         Ok(Duration::try_from_secs_f64(self.float(term)?).ok())
     }
 
-    /// A time in seconds, which has an end.
+    /// A finite time in seconds.
     pub(crate) fn time(&self, term: &Term) -> PrologResult<Duration> {
         match Duration::try_from_secs_f64(self.float(term)?) {
             Ok(time) => Ok(time),
@@ -133,7 +134,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// What each element of a list is; in one pass, and no vector of terms.
+    /// Converts each element of a list, in one pass and without a vector of terms.
     pub(crate) fn map_list<T>(
         &self,
         term: &Term<'a>,
@@ -147,15 +148,6 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// A list of `[X, Y]`.
-    pub(crate) fn points(&self, term: &Term<'a>) -> PrologResult<Vec<[f64; 2]>> {
-        let point = |term: &Term<'a>| match &*self.list(term)? {
-            [x, y] => Ok([self.float(x)?, self.float(y)?]),
-            _ => crate::glue::error::wrong_value(self, "point", term),
-        };
-        self.list(term)?.iter().map(point).collect()
-    }
-
     /// The arguments of a compound term.
     pub(crate) fn arguments<const N: usize>(&self, term: &Term) -> PrologResult<[Term<'a>; N]> {
         match attempt_opt(self.context.compound_terms(term))? {
@@ -164,7 +156,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }
     }
 
-    /// Name and arguments of a compound term; `None` of what is none.
+    /// Name and arguments of a compound term; `None` if the term is not compound.
     pub(crate) fn compound(&self, term: &Term) -> PrologResult<Option<(String, Vec<Term<'a>>)>> {
         let Some(arguments) = attempt_opt(self.context.compound_terms_vec(term))? else {
             return Ok(None);
@@ -172,12 +164,12 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         Ok(Some((term.get::<Functor>()?.name_string(), arguments)))
     }
 
-    /// What the driver answered; its error as an exception.
+    /// The driver's result; raises its error as an exception.
     pub(crate) fn or_throw<T>(&self, result: ev3_driver::Result<T>) -> PrologResult<T> {
         result.or_else(|error| raise(self, &error, &state::devices()))
     }
 
-    /// What the driver found; a failure if it found nothing.
+    /// The driver's result; fails if it is `None`.
     pub(crate) fn or_fail<T>(&self, result: ev3_driver::Result<Option<T>>) -> PrologResult<T> {
         self.or_throw(result)?.ok_or(PrologError::Failure)
     }
@@ -188,8 +180,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         move || context.handle_signals().is_err()
     }
 
-    /// The next solution: reads the items one after the other until `unify`
-    /// succeeds with what was read. `true` if there may be more.
+    /// The next solution: reads the items one after the other until `unify` succeeds
+    /// with the value. `true` if there may be more.
     pub(crate) fn next<T, V>(
         &self,
         items: &mut std::vec::IntoIter<T>,
@@ -226,7 +218,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         crate::glue::error::wrong_type(self, expected, term)
     }
 
-    /// An integer, not a float that is whole.
+    /// An integer; a float without decimals is no integer.
     #[expect(clippy::unused_self, reason = "reads as one of its kind")]
     fn integer_of(&self, term: &Term) -> PrologResult<i64> {
         if term.is_integer() { term.get() } else { Err(PrologError::Failure) }

@@ -1,7 +1,7 @@
 //! From the driver's errors to ISO error terms.
 //!
-//! The formal term says what is wrong in terms of the program, its context
-//! which predicate was called, the file, and the kernel's own words.
+//! The formal term says what is wrong in terms of the program. The context names the
+//! called predicate and the file, and quotes the kernel's words.
 //!
 //! | the kernel says | formal term |
 //! |---|---|
@@ -23,7 +23,7 @@ use std::error::Error as _;
 use std::path::Path;
 use swipl::prelude::*;
 
-/// Where errors come from: the public predicate that was called, by its name and arity.
+/// The origin of errors: the public predicate that was called, by name and arity.
 pub(crate) struct Origin<'a, C: QueryableContextType> {
     pub(crate) context: &'a Context<'a, C>,
     pub(crate) name: &'static str,
@@ -102,8 +102,8 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRe
 }
 
 /// Raises `error(Formal, context(Called, Message))`, as
-/// `prolog/ev3dev/private/errors.pl` does: that finds out what the program called,
-/// and has words for what has no message.
+/// `prolog/ev3dev/private/errors.pl` does: that file finds the predicate that the
+/// program called, and words an empty message.
 fn throw<T, C: QueryableContextType>(
     call: &Origin<C>,
     formal: &Term,
@@ -184,18 +184,18 @@ fn formal<'a, C: QueryableContextType>(
     }
 }
 
-/// What went wrong where, the kernel's words, and for a device that is gone
-/// what is connected.
+/// The operation, the path and the kernel's words; for a missing device also the
+/// connected devices.
 fn message(error: &Error, devices: &Registry) -> String {
     let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
-    // That a picture is missing has nothing to do with devices.
+    // The list of devices does not help if a picture is missing.
     let is_device = |path: &Path| path.starts_with(devices.tree().root());
     let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
     let connected = if is_gone { connected(devices) } else { String::new() };
     format!("{error}{source}{connected}")
 }
 
-/// The motors and sensors that are plugged in, but for servos: there are many.
+/// The connected motors and sensors. Servos are left out because there are many.
 fn connected(devices: &Registry) -> String {
     let all = [Class::TachoMotor, Class::DcMotor, Class::Sensor].map(|class| devices.all(class));
     let names: Vec<String> = all

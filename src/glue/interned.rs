@@ -1,8 +1,8 @@
-//! Words that programs use all the time, found by atom handle.
+//! Frequent words, and their atoms.
 //!
-//! Getting the text of an atom costs more than reading a sensor's file should.
-//! The atoms of the words below are made once and kept for good, so that their
-//! handles stay theirs; any other atom's text is fetched.
+//! Fetching the text of an atom, or the atom of a text, is slow compared with reading a
+//! sensor's file. So the atoms of the words below are made once and never released, and
+//! their handles stay valid. Any other text goes the long way.
 use std::borrow::Cow;
 use std::sync::OnceLock;
 use swipl::prelude::*;
@@ -13,11 +13,12 @@ const WORDS: &[&str] = &[
     "outA", "outB", "outC", "outD", "in1", "in2", "in3", "in4",
     "ev3-ports:outA", "ev3-ports:outB", "ev3-ports:outC", "ev3-ports:outD",
     "ev3-ports:in1", "ev3-ports:in2", "ev3-ports:in3", "ev3-ports:in4",
-    "tacho-motor", "lego-sensor",
+    "tacho-motor", "lego-sensor", "dc-motor", "servo-motor", "lego-port",
     "command", "max_speed", "position", "position_sp", "speed", "speed_sp", "state",
     "stop_action", "decimals", "mode", "num_values",
     "value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7",
     "run-forever", "run-to-rel-pos", "stop", "coast", "brake", "hold",
+    "running", "holding", "reached",
     "lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor",
     "lego-ev3-color", "lego-ev3-us", "lego-ev3-gyro", "lego-ev3-touch", "lego-ev3-ir",
     "lego-nxt-us", "lego-nxt-touch", "lego-nxt-light", "lego-nxt-temp", "ht-nxt-compass",
@@ -26,36 +27,107 @@ const WORDS: &[&str] = &[
     "US-LISTEN", "GYRO-ANG", "GYRO-RATE", "TOUCH", "IR-PROX",
 ];
 
-/// Handles and words, in the order of the handles.
-static BY_HANDLE: OnceLock<Box<[(usize, &str)]>> = OnceLock::new();
+/// The size of the hash tables: a power of two, at most half full.
+const SLOTS: usize = 256;
+const _: () = assert!(WORDS.len() < SLOTS / 2);
+
+/// The atoms of the words, in their order, and where to find them.
+struct Interned {
+    atoms: Vec<Atom>,
+    by_handle: Table,
+    by_text: Table,
+}
+
+static INTERNED: OnceLock<Interned> = OnceLock::new();
 
 /// Makes the atoms. Called once, when the library is loaded.
 pub(crate) fn register() {
-    BY_HANDLE.get_or_init(|| {
-        let handle = |word: &&'static str| {
-            let atom = Atom::new(word);
-            let handle = atom.atom_ptr();
-            // Kept for as long as the process lives.
-            std::mem::forget(atom);
-            (handle, *word)
-        };
-        let mut words: Box<[_]> = WORDS.iter().map(handle).collect();
-        words.sort_unstable();
-        words
+    INTERNED.get_or_init(|| {
+        let atoms: Vec<Atom> = WORDS.iter().map(|word| Atom::new(word)).collect();
+        let by_handle = Table::of(atoms.iter().map(|atom| slot_of_handle(atom.atom_ptr())));
+        let by_text = Table::of(WORDS.iter().map(|word| slot_of_text(word)));
+        Interned { atoms, by_handle, by_text }
     });
 }
 
-/// The text of an atom; `None` if the term is none.
+/// The text of an atom; `None` if the term is no atom.
 pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> {
-    let known = term.get_atom(|atom| atom.and_then(|atom| word(atom.atom_ptr())))?;
-    match known {
+    match term.get_atom(|atom| atom.and_then(|atom| word(atom.atom_ptr())))? {
         Some(word) => Ok(Some(Cow::Borrowed(word))),
         None => term.get_atom_name(|name| name.map(|name| Cow::Owned(name.to_owned()))),
     }
 }
 
+/// The texts of a list of a few atoms that are words; `None` for any other term.
+pub(crate) fn words(list: &Term) -> Option<Vec<Cow<'static, str>>> {
+    let mut atoms = [0; 8];
+    list.assert_term_handling_possible();
+    // Safety: the term is one of the engine that runs, as was just made sure.
+    let count = unsafe { swipl::fli::get_list_of_atoms(list.term_ptr(), &mut atoms) }?;
+    let mut words = Vec::with_capacity(count);
+    for atom in atoms.iter().take(count) {
+        words.push(Cow::Borrowed(word(*atom)?));
+    }
+    Some(words)
+}
+
+/// Unifies with the atom of a text.
+pub(crate) fn unify_atom(term: &Term, text: &str) -> PrologResult<()> {
+    match atom(text) {
+        Some(atom) => term.unify(atom),
+        None => term.unify(atomable(text)),
+    }
+}
+
 fn word(handle: usize) -> Option<&'static str> {
-    let words = BY_HANDLE.get()?;
-    let index = words.binary_search_by_key(&handle, |(handle, _)| *handle).ok()?;
-    words.get(index).map(|(_, word)| *word)
+    let Interned { atoms, by_handle, .. } = INTERNED.get()?;
+    let is_it = |index: usize| atoms.get(index).is_some_and(|atom| atom.atom_ptr() == handle);
+    WORDS.get(by_handle.find(slot_of_handle(handle), is_it)?).copied()
+}
+
+fn atom(text: &str) -> Option<&'static Atom> {
+    let Interned { atoms, by_text, .. } = INTERNED.get()?;
+    let is_it = |index: usize| WORDS.get(index).is_some_and(|word| *word == text);
+    atoms.get(by_text.find(slot_of_text(text), is_it)?)
+}
+
+/// A handle is the number of an atom, above seven bits of type.
+fn slot_of_handle(handle: usize) -> usize {
+    handle >> 7
+}
+
+/// Words differ in their lengths, and where these agree, at their ends.
+fn slot_of_text(text: &str) -> usize {
+    let last = text.bytes().rev().take(4);
+    last.fold(text.len(), |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()))
+}
+
+/// An open hash table of indices, each plus one: 0 is an empty slot.
+struct Table([u8; SLOTS]);
+
+impl Table {
+    /// The table of the indices from 0 on, which are to be at these slots, or
+    /// at the next ones that are empty.
+    fn of(slots: impl Iterator<Item = usize>) -> Self {
+        let mut table = Self([0; SLOTS]);
+        for (number, first) in (1..).zip(slots) {
+            let mut slots = Self::from(first);
+            if let Some(slot) = slots.find(|slot| table.0.get(*slot) == Some(&0)) {
+                table.0[slot] = number;
+            }
+        }
+        table
+    }
+
+    /// The index, from this slot on, for which `is` holds.
+    fn find(&self, first: usize, is: impl Fn(usize) -> bool) -> Option<usize> {
+        Self::from(first)
+            .map_while(|slot| usize::from(*self.0.get(slot)?).checked_sub(1))
+            .find(|index| is(*index))
+    }
+
+    /// All slots, from one on.
+    fn from(first: usize) -> impl Iterator<Item = usize> {
+        (0..SLOTS).map(move |step| first.wrapping_add(step) % SLOTS)
+    }
 }

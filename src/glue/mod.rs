@@ -1,6 +1,8 @@
-//! What all predicates share: a call and its arguments, errors, terms, and what is in use.
+//! The code that all predicates share: a call and its arguments, errors, terms, and the
+//! brick in use.
 pub(crate) mod call;
 pub(crate) mod error;
 pub(crate) mod interned;
+pub(crate) mod places;
 pub(crate) mod state;
 pub(crate) mod terms;

@@ -1,4 +1,4 @@
-//! The brick in use: the one value that holds the state of this process.
+//! The brick in use. This value holds the state of the process.
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
@@ -12,7 +12,7 @@ use std::sync::{
 /// A brick: its attribute files, its device files, and what this process knows
 /// of both.
 struct Brick {
-    /// The files in use, which may be others later.
+    /// The files in use. A program may select others later.
     files: RwLock<InUse>,
     /// The sounds that this program makes.
     sound: Sound,
@@ -30,10 +30,10 @@ struct InUse {
     is_dev_chosen: bool,
 }
 
-/// The state that belongs to one tree, and is left behind with it.
+/// The state that belongs to one tree. Another tree gets a new state.
 struct InTree {
-    /// The robot's drive, with its odometry. Made when first asked for. The first
-    /// field, as it uses the devices.
+    /// The robot's drive, with its odometry. The first use makes it. It is the first
+    /// field, so that it is dropped before the devices that it uses.
     drive: OnceLock<Arc<Drive>>,
     devices: Arc<Registry>,
 }
@@ -54,10 +54,10 @@ impl Brick {
     }
 }
 
-/// Where the kernel's own tree is.
+/// The directory of the kernel's own tree.
 const KERNEL: &str = "/sys/class";
 
-/// Where the kernel's own device files are.
+/// The directory of the kernel's own device files.
 const KERNEL_DEV: &str = "/dev";
 
 static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
@@ -76,8 +76,8 @@ pub(crate) fn devices() -> Arc<Registry> {
     Arc::clone(&BRICK.files().tree.devices)
 }
 
-/// The drive of a robot in the tree in use. There is one: for another robot it
-/// goes on from the pose it has.
+/// The drive of a robot in the tree in use. A tree has one drive: another robot
+/// continues from its pose.
 pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
     let drive = {
         let files = BRICK.files();
@@ -93,13 +93,13 @@ pub(crate) fn is_chosen() -> bool {
     BRICK.files().is_tree_chosen
 }
 
-/// The tree in use now is the one to use.
+/// Keeps the tree in use.
 pub(crate) fn chosen() {
     BRICK.change_files().is_tree_chosen = true;
 }
 
-/// Uses another tree from now on. Motors that were started in the tree in use
-/// so far are stopped: nobody would find them there any more.
+/// Uses another tree from now on. This stops the motors that were started in the old
+/// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
     let tree = InTree::new(tree);
     let before = {

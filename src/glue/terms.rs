@@ -1,4 +1,5 @@
 //! Terms of the driver's values.
+pub(crate) use crate::glue::interned::unify_atom;
 use ev3_driver::Value;
 use swipl::prelude::*;
 
@@ -9,9 +10,4 @@ pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
         Value::Float(float) => term.unify(*float),
         Value::Text(text) => unify_atom(term, text),
     }
-}
-
-/// Unifies with an atom.
-pub(crate) fn unify_atom(term: &Term, text: &str) -> PrologResult<()> {
-    term.unify(atomable(text))
 }

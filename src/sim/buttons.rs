@@ -1,4 +1,4 @@
-//! `prolog/ev3dev/sim_hand.pl`, too: the keys of the simulated brick.
+//! `prolog/ev3dev/sim_hand.pl`, too: the buttons of the simulated brick.
 use crate::facts::named;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
@@ -26,7 +26,7 @@ predicates! {
         Ok(())
     }
 
-    /// sim_plan_key_(+Button, +After, +For): seconds; an atom as For is without end.
+    /// sim_plan_key_(+Button, +After, +For): seconds; an atom as For means without end.
     #[module("ev3dev_native")]
     #[name("sim_plan_key_")]
     semidet fn sim_plan_key(context, key, after, lasts) {

@@ -1,4 +1,4 @@
-//! The simulated brick's keys, speaker and screen as a [`Dev`].
+//! The simulated brick's buttons, speaker and screen as a [`Dev`].
 use crate::sim::files::error;
 use ev3_driver::Devfs;
 use ev3_driver::devfs::{Speaker, Stream};
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Where programs see them.
+/// The directory that programs see.
 const ROOT: &str = "/dev";
 
-/// The number of the ioctl that reads which keys are down into a buffer of this
-/// many bytes (linux/input.h).
+/// The number of the ioctl that reads the pressed buttons into a buffer of this number
+/// of bytes (linux/input.h).
 fn eviocgkey(bytes: usize) -> u32 {
     let bytes = u32::try_from(bytes).unwrap_or(0) & 0x3fff;
     2 << 30 | bytes << 16 | u32::from(b'E') << 8 | 0x18
@@ -93,7 +93,7 @@ struct SimulatedStream {
     place: Mutex<Place>,
 }
 
-/// Where its next read or write is.
+/// The offset of the next read or write.
 struct Place {
     descriptor: DevDescriptor,
     offset: usize,
@@ -130,7 +130,10 @@ impl Stream for SimulatedStream {
         let place = self.place();
         let command = eviocgkey(bits.len());
         let state = self.simulation.read(|machine| place.descriptor.ioctl(machine, command));
-        bits.copy_from_slice(&state.map_err(error)?.1);
+        let (_, state) = state.map_err(error)?;
+        let (known, rest) = bits.split_at_mut(state.len());
+        known.copy_from_slice(&state);
+        rest.fill(0);
         Ok(())
     }
 

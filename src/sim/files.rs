@@ -1,5 +1,5 @@
-//! The simulated brick's attribute files as a [`Sysfs`]: the driver works on it as
-//! on files. Time passes as [`ev3_sim::Simulation`] says.
+//! The simulated brick's attribute files as a [`Sysfs`]: the driver uses them like real
+//! files. [`ev3_sim::Simulation`] is their clock.
 use ev3_driver::error::Access;
 use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
 use ev3_sim::{Errno, NodeId, Simulation};
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Where programs see the tree.
+/// The directory that programs see.
 const ROOT: &str = "/sys/class";
 
 /// The attribute files of a simulation.
@@ -24,7 +24,7 @@ impl SimulatedFiles {
         Self { simulation, root: ROOT.into(), others: SysfsDir::new("/") }
     }
 
-    /// The path below the root, if it is there.
+    /// The path below the root; `None` if the path is elsewhere.
     fn below<'a>(&self, path: &'a Path) -> Option<&'a str> {
         path.strip_prefix(&self.root).ok()?.to_str()
     }

@@ -60,13 +60,13 @@ pub(crate) fn register() {
 /// The simulation that runs.
 static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 
-/// Where the attributes and the device files are that were in use before.
+/// The directories of attributes and device files that were in use before.
 static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
 /// How much simulated time passes between two checks for signals.
 const STEP_SLICE: Duration = Duration::from_secs(1);
 
-/// A machine as it was.
+/// The saved state of a machine.
 #[arc_blob("ev3_snapshot", defaults)]
 struct Snapshot {
     machine: Mutex<Machine>,
@@ -82,8 +82,8 @@ predicates! {
     }
 
     /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
-    /// fault is `none`, or fault(Subject, Index, Why) for the fact that is to blame, counted
-    /// from 1, or 0 if one is missing.
+    /// fault is `none`, or fault(Subject, Index, Why) for the faulty fact. Index counts from
+    /// 1; 0 means that a fact is missing.
     #[module("ev3dev_native")]
     #[name("sim_start_")]
     semidet fn sim_start(context, world, robot, options, fault) {
@@ -380,8 +380,8 @@ predicates! {
     }
 }
 
-/// Ends the simulation after the program has turned to other files, unless
-/// other programs may use it through a mount.
+/// Ends the simulation after the program has selected other files, unless a mount shows
+/// it to other programs.
 pub(crate) fn end_unless_mounted() {
     if !mount::is_mounted() {
         *running() = None;
@@ -389,17 +389,17 @@ pub(crate) fn end_unless_mounted() {
     }
 }
 
-/// What runs, if something does.
+/// The running simulation, if there is one.
 fn running() -> MutexGuard<'static, Option<Arc<Simulation>>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The simulation that runs; a failure if there is none.
+/// The running simulation; fails if there is none.
 pub(crate) fn simulation() -> PrologResult<Arc<Simulation>> {
     running().clone().ok_or(PrologError::Failure)
 }
 
-/// Starts a simulation in the place of the one that runs.
+/// Starts a simulation and ends the running one.
 fn start<C: QueryableContextType>(
     call: &Call<C>,
     machine: Machine,
@@ -436,12 +436,11 @@ fn known_fact<'a, C: QueryableContextType>(
     if let Some(fact) = facts::fact(call, subject, term)? {
         return Ok(fact);
     }
-    let (domain, kind) = match subject {
-        Subject::World => ("world_fact", "world"),
-        Subject::Robot => ("robot_fact", "robot"),
+    let domain = match subject {
+        Subject::World => "world_fact",
+        Subject::Robot => "robot_fact",
     };
-    let names: Vec<_> = subject.vocabulary().iter().map(|(name, _)| *name).collect();
-    wrong_because(call, domain, term, &format!("a {kind} has: {}", names.join(", ")))
+    facts::unknown(call, domain, subject, term)
 }
 
 fn facts_of<'a, C: QueryableContextType>(
@@ -452,7 +451,7 @@ fn facts_of<'a, C: QueryableContextType>(
     call.map_list(list, |term| known_fact(call, subject, &term))
 }
 
-/// What is impossible: in which list of facts, at which place if one is to blame.
+/// An error: the list of facts, and the index of the faulty fact if there is one.
 type Fault = (&'static str, Option<usize>, SpecError);
 
 fn built(world: &[Fact], robot: &[Fact], noise: bool, options: Options) -> Result<Machine, Fault> {
@@ -506,7 +505,7 @@ fn cannot_show<T, C: QueryableContextType>(
     }
 }
 
-/// What the simulator answered; that it is impossible as an exception.
+/// The simulator's result; raises an impossible request as an exception.
 fn possible<T, C: QueryableContextType>(
     call: &Call<C>,
     result: Result<T, SpecError>,

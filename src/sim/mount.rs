@@ -13,15 +13,15 @@ use swipl::prelude::*;
 
 static MOUNTED: Mutex<Option<Mounted>> = Mutex::new(None);
 
-/// What is mounted: the classes of devices, and the device files if they are.
+/// The mounts: the classes of devices, and perhaps the device files.
 struct Mounted {
     classes: Mount,
     dev: Option<Mount>,
 }
 
 /// Mounts the tree of a machine on a directory, and its device files on
-/// another one if it is given. One mount at a time: another one before is
-/// unmounted.
+/// another one if it is given. There is one mount at a time: this unmounts an earlier
+/// one.
 pub(crate) fn mount<C: QueryableContextType>(
     call: &Call<C>,
     machine: &Arc<Shared>,
@@ -55,7 +55,7 @@ fn mounted<C: QueryableContextType>(
     }
 }
 
-/// Unmounts; fails where nothing is mounted.
+/// Unmounts; fails if nothing is mounted.
 pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
     let mounted = take().ok_or(PrologError::Failure)?;
     call.or_throw(let_go(&mounted))?;
@@ -65,7 +65,7 @@ pub(crate) fn unmount<C: QueryableContextType>(call: &Call<C>) -> PrologResult<(
     gone(call, mounted.classes)
 }
 
-/// Uses what is mounted no longer: descriptors of our own would keep it busy.
+/// Closes this process's files in the mount: open descriptors would keep it busy.
 fn let_go(mounted: &Mounted) -> ev3_driver::Result<()> {
     let used = Arc::downgrade(&devices());
     if devices().tree().root().starts_with(mounted.classes.path()) {
@@ -79,8 +79,8 @@ fn let_go(mounted: &Mounted) -> ev3_driver::Result<()> {
     Ok(())
 }
 
-/// Another thread may be in the midst of a step with these devices, as the loop of
-/// a drive. One that goes on with them for long keeps the mount busy.
+/// Another thread, for example the loop of a drive, may be using these devices. Wait
+/// for it; a thread that uses them for long keeps the mount busy.
 fn wait_until_unused(devices: &Weak<Registry>) {
     let patience = Instant::now() + Duration::from_secs(1);
     while devices.strong_count() > 0 && Instant::now() < patience {
@@ -97,10 +97,10 @@ pub(crate) fn is_mounted() -> bool {
     MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
 }
 
-/// Unmounts whatever is mounted.
+/// Unmounts everything.
 pub(crate) fn end() {
     if let Some(mounted) = take() {
-        // Motors that cannot be stopped any more do not keep it mounted.
+        // Unmount even if the motors cannot be stopped.
         let _ = let_go(&mounted);
     }
 }

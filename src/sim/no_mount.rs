@@ -1,11 +1,11 @@
-//! In the place of `mount.rs` where the library is built without FUSE.
+//! Replaces `mount.rs` if the library is built without FUSE.
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
 use ev3_sim::Shared;
 use std::sync::Arc;
 use swipl::prelude::*;
 
-/// Says that this cannot be had.
+/// Raises the error that the library has no FUSE.
 pub(crate) fn mount<C: QueryableContextType>(
     call: &Call<C>,
     _machine: &Arc<Shared>,

@@ -1,6 +1,6 @@
 //! Worker of `benches/run.py`: reads `IMPLEMENTATION CASE COUNT` lines, answers
 //! each with the seconds one call took.
-#[path = "../../../crates/sim/tests/suite/robots.rs"]
+#[path = "../../../crates/sim/tests/it/robots.rs"]
 mod robots;
 
 use ev3_driver::error::Access;

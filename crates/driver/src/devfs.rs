@@ -1,4 +1,4 @@
-//! Where the device files are: the brick's keys, its speaker and its screen.
+//! The device files: the brick's buttons, its speaker and its screen.
 //!
 //! They are no attributes of text: events are read and written in the kernel's
 //! binary layout, the screen is an array of bytes. [`DevfsDir`] is a directory of

@@ -22,7 +22,7 @@ pub enum Access {
 
 /// An operation that could not be carried out.
 ///
-/// That a device is not there is not an error but an answer (`None`).
+/// A missing device is no error: the result is `None`.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -75,7 +75,7 @@ pub enum Error {
     /// A sensor has no value of that number in its present mode.
     #[error("the sensor at {port} has no value {index} in mode {mode}")]
     NoValue {
-        /// Where the sensor is.
+        /// The port of the sensor.
         port: String,
         /// Its present mode.
         mode: String,

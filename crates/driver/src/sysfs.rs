@@ -1,4 +1,4 @@
-//! Where the attribute files are, and whose clock runs there.
+//! The attribute files, and the clock that belongs to them.
 //!
 //! [`SysfsDir`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
 //! or any directory shaped like it. A simulator may stand in for it within

@@ -85,7 +85,8 @@ fn fraction(text: &str) -> Option<f64> {
 /// text may show the rest of it on further lines for a moment.
 #[must_use]
 pub fn first_line(bytes: &[u8]) -> &[u8] {
-    bytes.split(|byte| *byte == b'\n').next().unwrap_or_default()
+    let end = bytes.iter().position(|byte| *byte == b'\n');
+    end.and_then(|end| bytes.get(..end)).unwrap_or(bytes)
 }
 
 #[cfg(test)]

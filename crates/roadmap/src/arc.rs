@@ -1,23 +1,31 @@
-//! Arcs of circles, of less than half a turn.
-use crate::geometry::{Point, Vec2, cross, distance, length, parry, rotated, unit, vec2};
+//! How far things are from arcs of less than half a turn.
+use crate::geometry::{Point, Vec2, cross, distance, length, parry, vec2};
+use ev3_motion::Segment;
 use parry2d_f64::query::PointQuery;
-use parry2d_f64::shape::Segment;
+use parry2d_f64::shape;
 
 /// An arc from `from` to `to` around `center`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arc {
-    pub(crate) from: Point,
-    pub(crate) to: Point,
-    pub(crate) center: Point,
-    pub(crate) radius: f64,
-    /// Radians, counter-clockwise positive, less than pi.
-    pub(crate) sweep: f64,
+    from: Point,
+    to: Point,
+    center: Point,
+    radius: f64,
+    /// 1 if it is counter-clockwise, else -1.
+    side: f64,
 }
 
 impl Arc {
+    /// `None` for a line.
+    pub(crate) fn of(segment: &Segment) -> Option<Self> {
+        let (radius, center) = (segment.radius()?, segment.center()?);
+        let (from, to) = (segment.from(), segment.to());
+        Some(Self { from, to, center, radius: radius.abs(), side: -radius.signum() })
+    }
+
     /// True if the arc passes the center in this direction.
     fn spans(&self, direction: Vec2) -> bool {
-        let side = self.sweep.signum();
+        let side = self.side;
         let (first, last) =
             (vec2(self.from) - vec2(self.center), vec2(self.to) - vec2(self.center));
         side * cross(first, direction) >= 0.0 && side * cross(direction, last) >= 0.0
@@ -37,7 +45,7 @@ impl Arc {
     ///
     /// They are nearest at an end of one of them, or on the line from the
     /// center that is square to the segment, or where they cross.
-    pub(crate) fn distance_to_segment(&self, segment: &Segment) -> f64 {
+    pub(crate) fn distance_to_segment(&self, segment: &shape::Segment) -> f64 {
         let (a, b) = ([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]);
         let to_segment = |at: Point| segment.distance_to_local_point(&parry(at), true);
         let mut least = to_segment(self.from).min(to_segment(self.to));
@@ -62,21 +70,5 @@ impl Arc {
             }
         }
         least
-    }
-
-    /// The point after a share of the arc, from 0 to 1.
-    pub(crate) fn at(&self, share: f64) -> Point {
-        let start = vec2(self.from) - vec2(self.center);
-        crate::geometry::point(vec2(self.center) + rotated(start, self.sweep * share))
-    }
-
-    /// The direction of going after a share of the arc.
-    pub(crate) fn direction_at(&self, share: f64) -> Vec2 {
-        let outwards = unit(vec2(self.at(share)) - vec2(self.center));
-        crate::geometry::left_of(outwards) * self.sweep.signum()
-    }
-
-    pub(crate) fn length(&self) -> f64 {
-        self.radius * self.sweep.abs()
     }
 }

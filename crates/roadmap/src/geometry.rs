@@ -1,8 +1,7 @@
 //! Points, vectors and angles.
 use parry2d_f64::math::{Point as ParryPoint, Vector};
 
-/// X and y, in cm.
-pub type Point = [f64; 2];
+pub(crate) use ev3_motion::{Point, distance};
 
 /// A vector, or a point as the vector to it.
 pub(crate) type Vec2 = Vector<f64>;
@@ -17,10 +16,6 @@ pub(crate) fn point(vector: Vec2) -> Point {
 
 pub(crate) fn parry([x, y]: Point) -> ParryPoint<f64> {
     ParryPoint::new(x, y)
-}
-
-pub(crate) fn distance(a: Point, b: Point) -> f64 {
-    length(vec2(b) - vec2(a))
 }
 
 pub(crate) fn length(vector: Vec2) -> f64 {

@@ -32,7 +32,7 @@ pub struct Bounds {
     pub high: Point,
 }
 
-/// What is impossible in a map.
+/// An impossible part of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -197,7 +197,7 @@ impl Map {
     }
 
     /// How far a point is from the nearest obstacle; 0 inside of one and
-    /// outside of the bounds, infinite if there is none.
+    /// outside of the bounds, infinite if there is no obstacle.
     #[must_use]
     pub fn clearance(&self, at: Point) -> f64 {
         if self.covers(at) {
@@ -249,9 +249,12 @@ impl Map {
 
     /// True if an arc, of which one end is outside of all obstacles, keeps a
     /// distance.
-    pub(crate) fn arc_clear(&self, arc: &Arc, keep: f64) -> bool {
-        let reach = keep + arc.length();
-        let near = |edge: &&Edge| !apart(&edge.extent, &[arc.from, arc.from], reach);
+    pub(crate) fn arc_clear(&self, segment: &ev3_motion::Segment, keep: f64) -> bool {
+        let Some(arc) = Arc::of(segment) else {
+            return self.line_clear(segment.from(), segment.to(), keep);
+        };
+        let (reach, from) = (keep + segment.length(), segment.from());
+        let near = |edge: &&Edge| !apart(&edge.extent, &[from, from], reach);
         self.circles().all(|(center, radius)| arc.distance_to(center) - radius >= keep)
             && self
                 .edges

@@ -1,9 +1,9 @@
 //! From a start to a goal.
 use crate::geometry::Point;
 use crate::map::Map;
-use crate::path::Path;
 use crate::problem::{Method, Options, Sought};
 use crate::{prm, rrt, smooth, visibility};
+use ev3_motion::Path;
 
 /// Why there is no way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -15,8 +15,8 @@ pub enum NoWay {
     /// An obstacle is too near.
     #[error("an obstacle is too near to the goal")]
     GoalBlocked,
-    /// None was found. There is none, if it is the visibility graph that says so:
-    /// at least none that keeps 2 % more.
+    /// The search found no path. If the visibility graph found none, there is no path
+    /// that keeps 2 % more distance.
     #[error("there is no way between the obstacles")]
     None,
 }
@@ -28,14 +28,14 @@ pub struct Solution {
     pub path: Path,
     /// The way along the roadmap, from corner to corner.
     pub raw: Vec<Point>,
-    /// The lines of the roadmap that were looked at and keep the distance.
+    /// The lines of the roadmap that the search checked and that keep the distance.
     pub roadmap: Vec<[Point; 2]>,
 }
 
 /// Finds a way from a start to a goal.
 ///
 /// # Errors
-/// Says why there is none.
+/// The reason why there is no path.
 pub fn plan(map: &Map, start: Point, goal: Point, options: &Options) -> Result<Solution, NoWay> {
     if !map.point_clear(start, options.keep) {
         return Err(NoWay::StartBlocked);

@@ -1,4 +1,4 @@
-//! What is to be planned: the options, the search's task, the points that it draws.
+//! A planning problem: its options, the task of the search, and its random points.
 use crate::geometry::{Point, distance};
 use crate::map::{Bounds, Map};
 use rand_pcg::Pcg32;
@@ -19,7 +19,7 @@ pub enum Method {
     RrtStar,
 }
 
-/// What to plan for.
+/// The options of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// How far the robot's center keeps from obstacles, in cm.
@@ -30,7 +30,7 @@ pub struct Options {
     pub method: Method,
     /// How many points are drawn at random.
     pub samples: u32,
-    /// Where chance starts from.
+    /// The seed of the random numbers.
     pub seed: u64,
 }
 
@@ -41,7 +41,7 @@ impl Default for Options {
     }
 }
 
-/// What a search looks for.
+/// The task of a search.
 pub(crate) struct Sought {
     pub(crate) start: Point,
     pub(crate) goal: Point,

@@ -1,4 +1,4 @@
-//! RRT*: a tree that grows from the start towards points drawn at random, and
+//! RRT*: a tree that grows from the start toward points drawn at random, and
 //! is rewired where that shortens a way.
 use crate::geometry::{Point, distance, point, vec2};
 use crate::map::Map;
@@ -26,7 +26,7 @@ pub(crate) fn search(map: &Map, sought: &Sought) -> (Vec<Point>, Searched) {
         parent: vec![0],
         cost: vec![0.0],
     };
-    // Where the goal is in the tree
+    // The index of the goal in the tree
     let mut arrived: Option<usize> = None;
     for draw in 0..sought.samples {
         let to_goal = arrived.is_none() && draw % GOAL_EVERY == 0;

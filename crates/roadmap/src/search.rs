@@ -1,4 +1,4 @@
-//! The shortest way in a graph whose edges are looked at only when needed.
+//! The shortest path in a graph. The search checks an edge only when it needs the edge.
 use crate::geometry::{Point, distance};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -24,7 +24,7 @@ impl Ord for Open {
     }
 }
 
-/// What a search has found.
+/// The result of a search.
 pub(crate) struct Searched {
     /// The nodes of the shortest way, if there is one.
     pub(crate) way: Option<Vec<usize>>,

@@ -1,14 +1,13 @@
 //! Cutting detours short, and rounding corners.
-use crate::arc::Arc;
-use crate::geometry::{Point, angle, distance, left_of, point, unit, vec2};
+use crate::geometry::{Point, angle, distance, point, vec2};
 use crate::map::Map;
-use crate::path::{Leg, Path};
+use ev3_motion::{Path, Segment};
 
 /// Number of pieces that each line is cut into. A detour may be left at each cut.
 const PIECES: u8 = 4;
 /// How often the radius is halved in the search for the widest arc that fits.
 const HALVINGS: u8 = 10;
-/// Corners of fewer radians are none.
+/// A corner with a smaller angle, in radians, is straight.
 const STRAIGHT: f64 = 1e-6;
 
 /// A way from corner to corner, without the detours.
@@ -44,7 +43,7 @@ fn length_of(corners: &[Point]) -> f64 {
 /// A way with arcs of at least a radius in the place of corners, as wide as
 /// fits between the obstacles and on half of the lines at the corner.
 pub(crate) fn rounded(map: &Map, corners: &[Point], keep: f64, arc_radius: f64) -> Path {
-    let mut legs = Vec::new();
+    let mut segments = Vec::new();
     let mut at = corners[0];
     for (index, corner) in corners.windows(3).enumerate() {
         let room = |line: usize, is_outer: bool| {
@@ -53,23 +52,23 @@ pub(crate) fn rounded(map: &Map, corners: &[Point], keep: f64, arc_radius: f64) 
         };
         let room = room(index, index == 0).min(room(index + 1, index + 3 == corners.len()));
         let arc = widest(map, [corner[0], corner[1], corner[2]], room, keep, arc_radius);
-        let until = arc.map_or(corner[1], |arc| arc.from);
-        legs.push(Leg::line(at, until));
-        legs.extend(arc.map(Leg::from));
-        at = arc.map_or(corner[1], |arc| arc.to);
+        let until = arc.map_or(corner[1], |arc| arc.from());
+        segments.push(Segment::line(at, until));
+        segments.extend(arc);
+        at = arc.map_or(corner[1], |arc| arc.to());
     }
-    legs.push(Leg::line(at, corners[corners.len() - 1]));
-    Path::new(legs)
+    segments.push(Segment::line(at, corners[corners.len() - 1]));
+    Path::new(segments)
 }
 
 /// The widest arc at a corner that keeps the distance, if there is one.
-fn widest(map: &Map, corner: [Point; 3], room: f64, keep: f64, arc_radius: f64) -> Option<Arc> {
+fn widest(map: &Map, corner: [Point; 3], room: f64, keep: f64, arc_radius: f64) -> Option<Segment> {
     let turn = angle(vec2(corner[1]) - vec2(corner[0]), vec2(corner[2]) - vec2(corner[1]));
     if turn.abs() < STRAIGHT {
         return None;
     }
     let fits =
-        |radius: f64| Some(rounding(corner, turn, radius)).filter(|a| map.arc_clear(a, keep));
+        |radius| Some(Segment::rounding(corner, radius)).filter(|arc| map.arc_clear(arc, keep));
     let mut high = room / libm::tan(turn.abs() / 2.0);
     if high < arc_radius {
         return None;
@@ -87,14 +86,4 @@ fn widest(map: &Map, corner: [Point; 3], room: f64, keep: f64, arc_radius: f64) 
         }
     }
     Some(best)
-}
-
-/// The arc of a radius that touches both lines of a corner.
-fn rounding(corner: [Point; 3], turn: f64, radius: f64) -> Arc {
-    let [before, at, after] = corner.map(vec2);
-    let (along, on) = (unit(at - before), unit(after - at));
-    let cut = radius * libm::tan(turn.abs() / 2.0);
-    let from = at - along * cut;
-    let center = from + left_of(along) * (radius * turn.signum());
-    Arc { from: point(from), to: point(at + on * cut), center: point(center), radius, sweep: turn }
 }

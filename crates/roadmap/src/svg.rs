@@ -1,7 +1,6 @@
 //! A picture of a map, a roadmap and the way along it.
 use crate::geometry::Point;
 use crate::map::{Map, Shape};
-use crate::path::Leg;
 use crate::plan::Solution;
 use std::fmt::Write;
 
@@ -80,15 +79,15 @@ impl Svg {
 
     fn way(&mut self, found: &Solution) {
         let mut d = format!("M {}", list(&found.raw[..1]));
-        for leg in found.path.legs() {
-            let to = list(&[leg.end()]);
+        for segment in found.path.segments() {
+            let to = list(&[segment.to()]);
             // Writing to a string cannot fail.
-            let _ = match *leg {
-                Leg::Arc { radius, angle, .. } => {
-                    let left = u8::from(angle < 0.0);
+            let _ = match segment.radius() {
+                Some(signed) => {
+                    let (left, radius) = (u8::from(signed < 0.0), signed.abs());
                     write!(d, " A {radius:.2} {radius:.2} 0 0 {left} {to}")
                 }
-                Leg::Line { .. } => write!(d, " L {to}"),
+                None => write!(d, " L {to}"),
             };
         }
         self.line(format_args!(

@@ -1,35 +1,34 @@
-//! What an ultrasonic sensor has seen.
+//! The echoes that an ultrasonic sensor has measured.
 //!
-//! The sensor hears the nearest thing in a cone, 15 degrees to each side, and
-//! tells how far it is, but not where in the cone. So one look says two
-//! things: nothing stands in the cone up to there, and something does at that
-//! distance, somewhere across. The first is what the robot may rely on: it
-//! goes only where it has looked. The second becomes clear with more looks
-//! from other directions. Where one of them shows nothing, nothing is, and
-//! what is left of the arc is where the thing must be.
+//! The sensor measures the distance of the nearest thing in a cone, 15 degrees to each
+//! side, but not its direction in the cone. So one look has two results: the cone is
+//! free up to that distance, and a thing stands somewhere on the arc at that distance.
+//! The robot relies on the first: it drives only where it has looked. Looks from other
+//! directions narrow the second: they show parts of the arc to be free, and the thing
+//! is on the rest of the arc.
 use crate::geometry::{
     Point, Vec2, cross, direction, distance, left_of, length, parry, point, rotated, vec2,
 };
 use crate::map::{Map, Obstacle};
-use crate::path::Path;
+use ev3_motion::Path;
 use parry2d_f64::transformation::convex_hull;
 use std::collections::BTreeMap;
 
 /// Half of the cone: what may have sent an echo, and what is surely free.
 const ECHO_HALF_ANGLE: f64 = 15.0;
 const FREE_HALF_ANGLE: f64 = 12.0;
-/// What is not counted of a measured distance, in cm and as a part of it:
-/// errors of the sensor and of where the robot believes to be.
+/// The uncertainty of a measured distance, in cm and as a part of it: errors of the
+/// sensor and of the estimated pose.
 const DOUBT: [f64; 2] = [0.5, 0.03];
 /// By how much two measured places of one thing may differ, in cm.
 const DIFFER: f64 = 2.0;
-/// Something has moved if it is nearer than what was shown to be free by more
-/// than this, in cm, and not too far away to tell.
+/// A thing has moved if its echo comes from a free place, by more than this distance,
+/// in cm, and if it is near enough to be sure.
 const MOVED: f64 = 6.0;
 const MOVED_WITHIN: f64 = 40.0;
-/// Nearer than this the sensor does not tell how near, in cm.
+/// Below this distance, in cm, the sensor does not measure the distance.
 const NEAR: f64 = 3.05;
-/// Farther than this nothing is made of an echo, in cm: the cone is too wide.
+/// Echoes from farther than this, in cm, make no obstacle: the cone is too wide.
 pub(crate) const FAR: f64 = 100.0;
 /// Echoes that may come from farther across than this wait for more looks, in cm.
 const WIDE: f64 = 12.0;
@@ -51,18 +50,18 @@ const FRONT: [f64; 17] = [
     80.0, -80.0,
 ];
 
-/// A look through the sensor.
+/// A measurement of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where the sensor was.
+    /// The place of the sensor.
     pub at: Point,
-    /// Where it looked, in degrees.
+    /// Its heading, in degrees.
     pub heading: f64,
-    /// What it measured, in cm.
+    /// The measured distance, in cm.
     pub range: f64,
 }
 
-/// What one look tells.
+/// The information of one measurement.
 #[derive(Clone, Copy, Debug)]
 struct Look {
     at: Point,
@@ -158,8 +157,7 @@ pub struct Safe {
 pub struct Views {
     hull: f64,
     seen: Vec<Seen>,
-    /// The places of so many of them are those that no look up to there shows
-    /// free.
+    /// The number of looks whose places have been compared with all looks before.
     sifted: usize,
     trail: Vec<Point>,
     blocked: Vec<Point>,
@@ -187,11 +185,11 @@ impl Views {
         self.hull
     }
 
-    /// Notes a look of a robot in a place with a heading: from where its
-    /// sensor is on it, as the robot sees that place and heading, and how far.
+    /// Adds a look of a robot at a place with a heading. The mount has place and
+    /// heading of the sensor on the robot, and the measured distance.
     ///
-    /// True if something stands where earlier looks showed that nothing does:
-    /// it has moved, or was too thin to be heard. Those looks are forgotten.
+    /// True if a thing stands where earlier looks showed a free place: it has moved, or
+    /// was too thin for an echo. This forgets those looks.
     pub fn look(&mut self, at: Point, heading: f64, mount: View) -> bool {
         let ahead = direction(heading);
         let [aside, forward] = mount.at;
@@ -273,11 +271,11 @@ impl Views {
     #[must_use]
     pub fn safe(&self, path: &Path, margin: f64) -> Safe {
         let mut safe = Safe { way: 0.0, unseen: None };
-        for (way, at, ahead) in path.samples(STEP) {
+        for (way, pose) in path.samples(STEP) {
             if way > 0.0 {
                 let front = FRONT.map(|degrees| {
-                    let out = rotated(ahead, degrees.to_radians());
-                    point(vec2(at) + out * (self.hull + margin))
+                    let out = rotated(direction(pose.heading), degrees.to_radians());
+                    point(vec2(pose.point()) + out * (self.hull + margin))
                 });
                 safe.unseen = front.into_iter().find(|place| !self.is_free(*place));
             }
@@ -312,8 +310,8 @@ impl Views {
             .collect()
     }
 
-    /// Lets all looks tell of each other's places. Those that have done so
-    /// before only hear of the new ones.
+    /// Compares the places of all looks with each other. Looks that were compared
+    /// before are compared only with the new ones.
     fn sift(&mut self) {
         let cos = self.free_cos;
         for new in self.sifted..self.seen.len() {

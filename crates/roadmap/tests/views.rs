@@ -70,9 +70,9 @@ proptest! {
         prop_assert!(safe.way <= path.length() + 1e-9);
         prop_assert_eq!(safe.unseen.is_none(), safe.way >= path.length() - 1e-9);
         let gone = path.until(safe.way);
-        for leg in gone.legs() {
+        for leg in gone.segments() {
             for step in 0..200 {
-                let at = leg.at(leg.length() * f64::from(step) / 199.0);
+                let at = leg.at(leg.length() * f64::from(step) / 199.0).point();
                 prop_assert!(pillars.iter().all(|pillar| gap(at, *pillar) > HULL), "{at:?}");
             }
         }

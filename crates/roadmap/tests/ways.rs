@@ -6,7 +6,7 @@
     reason = "small counts"
 )]
 use ev3_roadmap::{
-    Bounds, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan,
+    Bounds, Map, Method, NoWay, Obstacle, Options, Path, Point, Segment, Solution, plan,
 };
 use proptest::prelude::*;
 
@@ -90,9 +90,10 @@ const BOUNDS: Bounds = Bounds { low: [-20.0, -20.0], high: [220.0, 220.0] };
 
 /// Points along a way, at most 0.2 cm apart.
 fn along(path: &Path) -> impl Iterator<Item = Point> + '_ {
-    path.legs().iter().flat_map(|leg| {
+    path.segments().iter().flat_map(|leg| {
         let count = (leg.length() / 0.2).ceil() as u32;
-        (0..=count).map(move |i| leg.at(leg.length() * f64::from(i) / f64::from(count.max(1))))
+        (0..=count)
+            .map(move |i| leg.at(leg.length() * f64::from(i) / f64::from(count.max(1))).point())
     })
 }
 
@@ -112,10 +113,11 @@ fn distance([ax, ay]: Point, [bx, by]: Point) -> f64 {
 }
 
 /// Directions of going at the beginning and the end of a leg.
-fn directions(leg: &Leg) -> [Point; 2] {
+fn directions(leg: &Segment) -> [Point; 2] {
     let step = 1e-5 * leg.length();
     let unit = |a: Point, b: Point| [b[0] - a[0], b[1] - a[1]].map(|n| n / distance(a, b));
-    [unit(leg.at(0.0), leg.at(step)), unit(leg.at(leg.length() - step), leg.at(leg.length()))]
+    let at = |way| leg.at(way).point();
+    [unit(at(0.0), at(step)), unit(at(leg.length() - step), at(leg.length()))]
 }
 
 fn is_sound(
@@ -127,20 +129,21 @@ fn is_sound(
     let points = found.path.points();
     prop_assert!(distance(points[0], start) < 1e-9);
     prop_assert!(distance(points[points.len() - 1], goal) < 1e-9);
-    for pair in found.path.legs().windows(2) {
-        prop_assert!(distance(pair[0].end(), pair[1].start()) < 1e-6);
-        if matches!(pair[0], Leg::Line { .. }) && matches!(pair[1], Leg::Line { .. }) {
+    for pair in found.path.segments().windows(2) {
+        prop_assert!(distance(pair[0].to(), pair[1].from()) < 1e-6);
+        if pair[0].radius().is_none() && pair[1].radius().is_none() {
             continue;
         }
         let ([_, before], [after, _]) = (directions(&pair[0]), directions(&pair[1]));
         prop_assert!(distance(before, after) < 1e-3, "a kink before or after an arc: {pair:?}");
     }
-    for leg in found.path.legs() {
-        if let Leg::Arc { from, to, center, radius, .. } = *leg {
+    for leg in found.path.segments() {
+        if let (Some(radius), Some(center)) = (leg.radius(), leg.center()) {
+            let (radius, to) = (radius.abs(), leg.to());
             prop_assert!(radius >= arc_radius - 1e-9);
-            prop_assert!((distance(from, center) - radius).abs() < 1e-6);
+            prop_assert!((distance(leg.from(), center) - radius).abs() < 1e-6);
             prop_assert!((distance(to, center) - radius).abs() < 1e-6);
-            prop_assert!(distance(leg.at(leg.length()), to) < 1e-6);
+            prop_assert!(distance(leg.at(leg.length()).point(), to) < 1e-6);
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 //!
 //! `cargo run -p ev3-sim --features fuse --example mount -- DIRECTORY COMMAND ARGUMENT...`
 
-#[path = "../tests/suite/robots.rs"]
+#[path = "../tests/it/robots.rs"]
 mod robots;
 
 use robots::default_machine;

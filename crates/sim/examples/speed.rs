@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p ev3-sim --example speed [-- SECONDS]`
 
-#[path = "../tests/suite/robots.rs"]
+#[path = "../tests/it/robots.rs"]
 mod robots;
 
 use robots::default_robot;

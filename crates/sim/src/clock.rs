@@ -113,7 +113,7 @@ impl Simulation {
         self.shared.lock()
     }
 
-    /// Lets time pass, whatever the clock.
+    /// Lets time pass, with any clock.
     pub fn step(&self, time: Duration) {
         drop(self.acts.step(&self.shared, self.shared.lock(), time));
         self.shared.wake();
@@ -268,8 +268,8 @@ impl Simulation {
     }
 }
 
-/// What is done at a fixed period of the simulated time. Each act returns its next
-/// period, or `None` if it is not to be repeated.
+/// A periodic act in simulated time. It returns the time to its next run, or `None`
+/// if it ends.
 pub type Act = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// The acts, and which thread runs one.

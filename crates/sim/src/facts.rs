@@ -5,9 +5,9 @@ use crate::noise::Noise;
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
-use crate::world::{Bounds, Hull, Item, Part, SpecError, WorldSpec};
+use crate::world::{Bounds, Drawn, Hull, Item, Part, SpecError, WorldSpec};
 
-/// What a file describes.
+/// The subject of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A world.
@@ -51,6 +51,24 @@ impl Subject {
         }
     }
 
+    /// What is expected instead of a fact that is not in the vocabulary: another number of
+    /// arguments, or another name.
+    #[must_use]
+    pub fn expected(self, name: &str) -> String {
+        let vocabulary = self.vocabulary();
+        if let Some((_, arities)) = vocabulary.iter().find(|(other, _)| *other == name) {
+            let counts: Vec<_> = arities.iter().map(usize::to_string).collect();
+            let plural = if arities == &[1] { "" } else { "s" };
+            return format!("{name} has {} argument{plural}", counts.join(" or "));
+        }
+        let names: Vec<_> = vocabulary.iter().map(|(name, _)| *name).collect();
+        let kind = match self {
+            Subject::World => "world",
+            Subject::Robot => "robot",
+        };
+        format!("a {kind} has: {}", names.join(", "))
+    }
+
     /// Whether a fact with this name and number of arguments is in the vocabulary.
     #[must_use]
     pub fn has(self, name: &str, arity: usize) -> bool {
@@ -69,8 +87,7 @@ pub enum Fact {
     Loudness(f64),
     Start(Pose),
     Item(Item),
-    /// A whole world, drawn.
-    Map(WorldSpec),
+    Map(Drawn),
     LeftWheel(Wheel),
     RightWheel(Wheel),
     Axle(f64),
@@ -91,7 +108,7 @@ impl Fact {
             | (Fact::Ambient(_), Part::Ambient)
             | (Fact::Temperature(_), Part::Temperature)
             | (Fact::Loudness(_), Part::Loudness)
-            | (Fact::Start(_) | Fact::Map(_), Part::Start)
+            | (Fact::Start(_) | Fact::Map(Drawn { start: Some(_), .. }), Part::Start)
             | (Fact::LeftWheel(_), Part::LeftWheel)
             | (Fact::RightWheel(_), Part::RightWheel)
             | (Fact::Axle(_), Part::Axle)
@@ -149,7 +166,7 @@ impl WorldSpec {
                 Fact::Item(item) => world.items.push(item.clone()),
                 Fact::Map(map) => {
                     world.items.extend(map.items.iter().cloned());
-                    world.start = map.start;
+                    world.start = map.start.unwrap_or(world.start);
                 }
                 _ => {}
             }

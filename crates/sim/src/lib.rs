@@ -126,7 +126,9 @@ pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};
 pub use world::color::{Color, UnknownColor};
 pub use world::geometry::Pose;
-pub use world::{Bounds, Hull, Item, ItemId, Part, Point, SpecError, WorldSpec};
+pub use world::{
+    Bounds, Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Point, SpecError, WorldSpec,
+};
 
 /// One turn of the kernel's motor loop.
 const TICK_MS: u64 = 2;

@@ -21,7 +21,7 @@ impl Noise {
     /// No errors at all.
     pub const NONE: Noise = Noise { sigma: 0.0, bias: 0.0 };
 
-    /// What a device of this driver might plausibly show.
+    /// Plausible errors of a device of this driver.
     #[must_use]
     pub fn typical(driver_name: &str) -> Noise {
         let (sigma, bias) = match driver_name {

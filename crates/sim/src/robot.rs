@@ -1,4 +1,4 @@
-//! What the robot is made of, as plain data: the vocabulary of robot files.
+//! The parts of the robot, as plain data: the vocabulary of robot files.
 
 use crate::brick::port::Port;
 use crate::motor::MotorKind;
@@ -14,7 +14,7 @@ pub struct Wheel {
     pub port: Port,
     /// Diameter in cm.
     pub diameter: f64,
-    /// The motor is mounted the other way round: positive turns drive backwards.
+    /// The motor is mounted the other way round: positive turns drive backward.
     pub inverted: bool,
     /// Share of its way that the wheel loses by slipping: 0 none, 0.01 one per cent.
     pub slip: f64,
@@ -41,8 +41,8 @@ pub struct SensorMount {
     pub port: Port,
     /// The driver's name, such as `lego-ev3-us`.
     pub driver: String,
-    /// Where it sits, from the middle of the axle: x to the right, y ahead, in cm, and where it
-    /// looks. A color sensor sees the floor below this point, and lamps in its direction; a touch
+    /// Its place from the middle of the axle, x to the right, y ahead, in cm, and its heading. A
+    /// color sensor sees the floor below this point, and lamps in its direction; a touch
     /// sensor is an 8 cm wide bumper across its heading.
     pub pose: Pose,
     /// Its errors.

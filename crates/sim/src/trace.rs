@@ -1,4 +1,5 @@
-//! What happened: the way of the robot, collisions, commands and readings. Memory stays bounded
+//! The record of events: the path of the robot, collisions, commands and readings. Memory stays
+//! bounded
 //! however long a run is.
 
 use std::collections::VecDeque;
@@ -18,13 +19,13 @@ const FIRST_SPACING_TICKS: u64 = 50;
 pub struct Collision {
     /// Virtual time.
     pub at: Duration,
-    /// What it ran into.
+    /// The obstacle.
     pub item: ItemId,
-    /// Where the robot was.
+    /// The pose of the robot.
     pub pose: Pose,
 }
 
-/// What a program did to a file or to the speaker, and what somebody did to a key.
+/// An action of a program on a file or the speaker, or of a person on a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// It wrote the text.
@@ -50,9 +51,9 @@ pub enum Action {
 pub struct Event {
     /// Virtual time.
     pub at: Duration,
-    /// What was done.
+    /// The action.
     pub action: Action,
-    /// Path below the class directory; empty where there is none.
+    /// Path below the class directory; empty if there is no file.
     pub path: String,
     /// The text, without the newline at its end.
     pub text: String,

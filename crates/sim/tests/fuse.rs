@@ -3,7 +3,7 @@
 //! `cargo test -p ev3-sim --features fuse --test fuse`. Where there is no FUSE, these tests say
 //! so and check nothing.
 
-#[path = "suite/robots.rs"]
+#[path = "it/robots.rs"]
 mod robots;
 
 use robots::{default_machine, default_robot};
@@ -180,6 +180,24 @@ fn an_unplugged_device_says_so_on_old_descriptors() {
     assert!(wait(&state, Duration::from_secs(2)).contains(PollFlags::PRI | PollFlags::ERR));
     assert_eq!(errno(read_again(&state)), Some(Errno::ENODEV));
     assert_eq!(errno(bench.get("tacho-motor/motor1/state")), Some(Errno::ENOENT));
+}
+
+#[test]
+fn before_udev_only_root_opens_the_files_of_a_new_device() {
+    let Some(bench) = Bench::new("root") else {
+        return;
+    };
+    {
+        let mut machine = bench.shared.lock();
+        machine.plug(Port::OutD, "lego-ev3-l-motor").unwrap();
+        machine.step(Duration::from_millis(410));
+    }
+    let motor = bench.root.join("tacho-motor/motor3");
+    let speed = OpenOptions::new().write(true).open(motor.join("speed_sp"));
+    let is_root = fs::metadata(&motor).unwrap().uid() == 0;
+    assert_eq!(errno(speed), if is_root { None } else { Some(Errno::EACCES) });
+    let state = OpenOptions::new().write(true).open(motor.join("state"));
+    assert_eq!(errno(state), Some(Errno::EACCES), "not even root writes this");
 }
 
 #[test]

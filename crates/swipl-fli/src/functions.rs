@@ -1,6 +1,6 @@
 //! Functions that every version from 7.2 to 10 has.
 //!
-//! Three kinds, told apart by what the headers say:
+//! Three kinds, as the headers declare them:
 //! [`truth!`] declares those that answer `int` in old versions and `bool` in
 //! new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same
@@ -153,6 +153,26 @@ pub unsafe fn PL_put_chars(t: term_t, flags: c_int, len: usize, s: *const c_char
     }
 }
 
+/// Puts the atoms of a list into a buffer, and answers how many there are; `None`
+/// for what is no list of atoms, or does not fit. `swipl` has the same in steps, each
+/// of which checks the engine and makes terms of its own: that takes four times as
+/// long.
+pub unsafe fn get_list_of_atoms(list: term_t, atoms: &mut [atom_t]) -> Option<usize> {
+    unsafe {
+        let rest = PL_copy_term_ref(list);
+        let head = PL_new_term_ref();
+        let mut free = atoms.iter_mut();
+        let mut fits = true;
+        while fits && PL_get_list(rest, head, rest) != 0 {
+            fits = free.next().is_some_and(|atom| PL_get_atom(head, atom) != 0);
+        }
+        let is_complete = fits && PL_get_nil(rest) != 0;
+        let left = free.len();
+        PL_reset_term_refs(rest);
+        is_complete.then(|| atoms.len() - left)
+    }
+}
+
 unsafe extern "C" {
     // Atoms, functors, modules, predicates
     pub fn PL_register_atom(a: atom_t);
@@ -166,6 +186,7 @@ unsafe extern "C" {
     pub fn PL_blob_data(a: atom_t, len: *mut usize, kind: *mut *mut PL_blob_t) -> *mut c_void;
 
     // Terms
+    pub fn PL_copy_term_ref(from: term_t) -> term_t;
     pub fn PL_new_term_ref() -> term_t;
     pub fn PL_new_term_refs(n: usize) -> term_t;
     pub fn PL_reset_term_refs(t: term_t);
@@ -203,7 +224,7 @@ unsafe extern "C" {
 
 /// Declares functions that take a query, narrowing it to what C expects. (Before
 /// version 8, `PL_close_query` and `PL_cut_query` answer nothing: `swipl` does
-/// not look at what they answer.)
+/// not look at their results.)
 macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]

@@ -1,8 +1,8 @@
 //! Functions that SWI-Prolog 7.2 lacks, looked up when first used.
 //!
-//! A library that names a missing function does not load at all, so these are
-//! found by name at run time. Where there is no such function, what it does is
-//! done in another way if there is one; else the call answers 0, "failed".
+//! A library that names a missing function does not load at all, so these are found by
+//! name at run time. If a function is missing, another one replaces it if possible;
+//! else the call returns 0, "failed".
 use crate::functions::{
     PL_get_int64, PL_new_term_ref, PL_put_int64, PL_record, PL_recorded, PL_reset_term_refs,
     PL_unify_int64, ResourceData,

@@ -20,7 +20,7 @@ pub const TRUE: u32 = 1;
 pub const FALSE: u32 = 0;
 pub const EOF: c_int = -1;
 
-// What PL_term_type() answers
+// Results of PL_term_type()
 pub const PL_VARIABLE: u32 = 1;
 pub const PL_ATOM: u32 = 2;
 pub const PL_INTEGER: u32 = 3;
@@ -97,7 +97,7 @@ pub struct IOPOS {
     reserved: [isize; 2],
 }
 
-/// A stream, up to the last field that `swipl` looks at.
+/// A stream, up to the last field that `swipl` reads.
 ///
 /// In 7.2 other fields come before `encoding`, and what is read in its place is
 /// padding that is 0 (64 bit) or half of a pointer (32 bit). `swipl` then writes

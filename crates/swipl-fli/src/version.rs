@@ -1,4 +1,4 @@
-//! What changed between versions in numbers rather than in names.
+//! The numbers that changed between versions.
 //!
 //! Two changes touch what `swipl` passes or gets:
 //!
@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The first version with rational numbers as a type of their own.
 const RATIONAL_TYPES: Version = Version(8_01_22);
-/// The first version whose queries tell an exception from failure.
+/// The first version whose queries distinguish an exception from failure.
 const EXTENDED_STATUS: Version = Version(7_03_23);
 
 /// A version of SWI-Prolog: `major * 10000 + minor * 100 + patch`.
@@ -68,7 +68,7 @@ impl Version {
         self < RATIONAL_TYPES
     }
 
-    /// What `PL_term_type` answered, in the numbers of [`crate::types`].
+    /// The result of `PL_term_type`, in the numbers of [`crate::types`].
     #[inline]
     pub(crate) fn type_from(self, answered: c_int) -> c_int {
         if self.translates() { type_since(answered) } else { answered }

@@ -1,7 +1,7 @@
 :- module(ev3dev_breadth_first,
-          [ breadth_first/5,            % +Space, +Start, +Goals, -Way,
+          [ breadth_first/5,            % +Space, +Start, +Goals, -Path,
                                         % -Expanded
-            two_breadth_first/5         % +Space, +Start, +Goals, -Way,
+            two_breadth_first/5         % +Space, +Start, +Goals, -Path,
                                         % -Expanded
           ]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
@@ -15,40 +15,41 @@ Level by level: first all states that one step leads to, then those that are
 two steps away, and so on. Costs do not matter.
 */
 
-%!  breadth_first(+Space, +Start, +Goals, -Way, -Expanded) is det.
-%!  two_breadth_first(+Space, +Start, +Goals, -Way, -Expanded) is det.
+%!  breadth_first(+Space, +Start, +Goals, -Path, -Expanded) is det.
+%!  two_breadth_first(+Space, +Start, +Goals, -Path, -Expanded) is det.
 %
-%   True if Way is the list of `step(Action, Cost)` that lead from Start to
-%   one of Goals, or `none`, found after expanding so many states: from Start,
-%   or from both ends, always where the outermost level has fewer states.
+%   True if Path is the list of `step(Action, Cost)` that lead from Start to
+%   one of Goals, or `none`. Expanded is the number of expanded states.
+%   breadth_first/5 expands from Start, two_breadth_first/5 from both ends,
+%   always at the end whose outermost level has fewer states.
 %
-%   The first state that both sides reach lies on a shortest way. A shorter
-%   one would have a state on the outermost finished level of one side, which
+%   The first state that both sides reach lies on a shortest path. A shorter
+%   path would have a state on the outermost finished level of one side, which
 %   the other side had reached before.
 
 breadth_first(_, Start, Goals, [], 0) :-
     memberchk(Start, Goals),
     !.
-breadth_first(Space, Start, Goals, Way, Expanded) :-
+breadth_first(Space, Start, Goals, Path, Expanded) :-
     list_to_assoc([Start-start], Reached),
-    levels([Start], Reached, 0, Space, Goals, Way, Expanded).
+    levels([Start], Reached, 0, Space, Goals, Path, Expanded).
 
 levels([], _, Expanded, _, _, none, Expanded) :-
     !.
-levels(Level, Reached0, Expanded0, Space, Goals, Way, Expanded) :-
+levels(Level, Reached0, Expanded0, Space, Goals, Path, Expanded) :-
     level(Level, ahead(Space), in(Goals), Met, [], Reversed,
           Reached0, Reached, Expanded0, Expanded1),
     (   Met = met(State)
-    ->  way(State, Reached, [], Way),
+    ->  way(State, Reached, [], Path),
         Expanded = Expanded1
     ;   reverse(Reversed, Next),
-        levels(Next, Reached, Expanded1, Space, Goals, Way, Expanded)
+        levels(Next, Reached, Expanded1, Space, Goals, Path, Expanded)
     ).
 
 two_breadth_first(_, Start, Goals, [], 0) :-
     memberchk(Start, Goals),
     !.
-two_breadth_first(Space, Start, Goals, Way, Expanded) :-
+two_breadth_first(Space, Start, Goals, Path, Expanded) :-
     needs_way_back(Space),
     list_to_assoc([Start-start], Reached),
     findall(Goal-start, member(Goal, Goals), Pairs0),
@@ -56,55 +57,55 @@ two_breadth_first(Space, Start, Goals, Way, Expanded) :-
     pairs_keys_values(Pairs, Level, _),
     list_to_assoc(Pairs, ReachedBack),
     sides(side(ahead(Space), [Start], 1, Reached),
-          side(back(Space), Level, 1, ReachedBack), 0, Way, Expanded).
+          side(back(Space), Level, 1, ReachedBack), 0, Path, Expanded).
 
 sides(side(_, [], _, _), _, Expanded, none, Expanded) :-
     !.
 sides(_, side(_, [], _, _), Expanded, none, Expanded) :-
     !.
-sides(SideA, SideB, Expanded0, Way, Expanded) :-
+sides(SideA, SideB, Expanded0, Path, Expanded) :-
     SideA = side(_, _, SizeA, _),
     SideB = side(_, _, SizeB, _),
     (   SizeA =< SizeB
-    ->  side(SideA, SideB, Expanded0, Way, Expanded)
-    ;   side(SideB, SideA, Expanded0, Way, Expanded)
+    ->  side(SideA, SideB, Expanded0, Path, Expanded)
+    ;   side(SideB, SideA, Expanded0, Path, Expanded)
     ).
 
-side(side(Towards, Level, _, Reached0), Other, Expanded0, Way, Expanded) :-
+side(side(Direction, Level, _, Reached0), Other, Expanded0, Path, Expanded) :-
     Other = side(_, _, _, ReachedOther),
-    level(Level, Towards, among(ReachedOther), Met, [], Reversed,
+    level(Level, Direction, among(ReachedOther), Met, [], Reversed,
           Reached0, Reached, Expanded0, Expanded1),
     (   Met = met(State)
-    ->  joined(Towards, State, Reached, ReachedOther, Way),
+    ->  joined(Direction, State, Reached, ReachedOther, Path),
         Expanded = Expanded1
     ;   reverse(Reversed, Next),
         length(Next, Size),
-        sides(side(Towards, Next, Size, Reached), Other, Expanded1,
-              Way, Expanded)
+        sides(side(Direction, Next, Size, Reached), Other, Expanded1,
+              Path, Expanded)
     ).
 
-joined(ahead(_), State, Reached, ReachedBack, Way) :-
+joined(ahead(_), State, Reached, ReachedBack, Path) :-
     way(State, Reached, [], Ahead),
     way(State, ReachedBack, [], Back),
     reverse(Back, Rest),
-    append(Ahead, Rest, Way).
-joined(back(Space), State, ReachedBack, Reached, Way) :-
-    joined(ahead(Space), State, Reached, ReachedBack, Way).
+    append(Ahead, Rest, Path).
+joined(back(Space), State, ReachedBack, Reached, Path) :-
+    joined(ahead(Space), State, Reached, ReachedBack, Path).
 
-%   Expand the states of a level, until one that is Wanted is Met.
+%   Expand the states of a level until a Wanted state is Met.
 
 level([], _, _, none, Next, Next, Reached, Reached, Expanded, Expanded).
-level([State|Level], Towards, Wanted, Met, Next0, Next, Reached0, Reached,
+level([State|Level], Direction, Wanted, Met, Next0, Next, Reached0, Reached,
       Expanded0, Expanded) :-
     Expanded1 is Expanded0 + 1,
-    expand(Towards, State, Ways),
+    expand(Direction, State, Ways),
     reach(Ways, State, Wanted, Met1, Next0, Next1, Reached0, Reached1),
     (   Met1 = met(_)
     ->  Met = Met1,
         Next = Next1,
         Reached = Reached1,
         Expanded = Expanded1
-    ;   level(Level, Towards, Wanted, Met, Next1, Next, Reached1, Reached,
+    ;   level(Level, Direction, Wanted, Met, Next1, Next, Reached1, Reached,
               Expanded1, Expanded)
     ).
 
@@ -133,9 +134,9 @@ wanted(in(Goals), State) :-
 wanted(among(Reached), State) :-
     get_assoc(State, Reached, _).
 
-way(State, Reached, Way0, Way) :-
+way(State, Reached, Path0, Path) :-
     get_assoc(State, Reached, From),
     (   From = from(Before, Action, Cost)
-    ->  way(Before, Reached, [step(Action, Cost)|Way0], Way)
-    ;   Way = Way0
+    ->  way(Before, Reached, [step(Action, Cost)|Path0], Path)
+    ;   Path = Path0
     ).

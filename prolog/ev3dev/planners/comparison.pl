@@ -12,46 +12,48 @@
 :- use_module(picture).
 :- use_module(search).
 
-/** <module> Planners side by side
+/** <module> Comparison of planners
 */
 
 %!  compare_planners(+Map, +Goal, +Options) is det.
 %
-%   Let planners drive over Map, one after the other and without a robot, to
-%   the state Goal, and print a table of what each needed:
+%   Let planners drive over Map to the state Goal, one after the other and
+%   without a robot, and print a table with these columns:
 %
 %     - replans
-%       How often it planned again, since an obstacle was in its way.
+%       How often the planner planned again because of an obstacle.
 %     - expanded
-%       How many states it expanded, in all its plans together.
+%       The number of states that it expanded in all its plans together.
 %     - ms
-%       How many milliseconds that took.
+%       The time of all its searches, in milliseconds.
 %     - steps, cost
-%       How many actions it took to get there, and what they cost together.
-%       Both are missing if there is no way.
+%       The number of actions to the goal, and their total cost. Both are
+%       missing if no path leads to the goal.
 %
-%   At first the robot knows of no obstacle. Before each move it looks into
-%   the next cell, and into those beside a diagonal one. Options:
+%   At first the simulated driver knows no obstacle. Before each move it looks
+%   into the next cell, and before a diagonal move also into the two cells
+%   beside it. Options:
 %
 %     - start(+State)
-%       Where it starts: by default as drawn in the map's rows, else
+%       The first state. Default is the start drawn in the map's rows, else
 %       `state([0,0], [0,1])`.
 %     - planners(+Planners)
-%       Which are compared: by default all of planner/1.
+%       The planners to compare. Default is all of planner/1.
 %     - known(+Boolean)
-%       If `true`, the robot knows the whole map from the start. Default is
+%       If `true`, the driver knows the whole map from the start. Default is
 %       `false`.
 %     - svg(+File)
-%       Draw for each planner its way, and how often it expanded the states of
-%       each cell.
+%       Draw for each planner its path, and how often it expanded the states
+%       of each cell.
 %     - runs(-Runs)
-%       True if Runs is a list of what is printed, `run(Planner, Facts)` with
+%       Runs is the list of the results, `run(Planner, Facts)`. Facts contains
 %       replans(Count), expanded(Count), seconds(Seconds), steps(Count) and
 %       cost(Cost).
 %
 %   @error domain_error(planner, Planner)
 %   @error domain_error(grid_state, State)
-%   @error domain_error(planner_option, Option) for an option that is none
+%   @error domain_error(planner_option, Option) if Option is not an option of
+%          this predicate
 
 compare_planners(Map, Goal, Options) :-
     must_be_options(planner_option, [start, planners, known, svg, runs],
@@ -83,25 +85,26 @@ start(Options, Map, Start) :-
 planner_run(Task, Planner, run(Planner, Facts)) :-
     drive(Task, Planner, [], Facts, _).
 
-%   Counting takes time of its own: so the cells are counted in another drive,
-%   which goes the same way.
+%   Counting takes time, so a second drive over the same path counts the
+%   cells.
 
 :- thread_local
     known_obstacle/1,                   % Cell
     expanded/1.                         % Cell
 
-planner_panel(Task, run(Planner, Facts), panel(Planner, Facts, Way, Cells)) :-
+planner_panel(Task, run(Planner, Facts),
+              panel(Planner, Facts, Path, Cells)) :-
     retractall(expanded(_)),
-    drive(Task, Planner, [expanding(ev3dev_comparison:note)], _, Way),
+    drive(Task, Planner, [expanding(ev3dev_comparison:note)], _, Path),
     findall(Cell, retract(expanded(Cell)), Noted),
     msort(Noted, Cells).
 
 note(state(Cell, _)) :-
     assertz(expanded(Cell)).
 
-%   From Start to Goal over a Map that the planner does not see.
+%   Drive from Start to Goal over a Map that the planner does not know.
 
-drive(task(Map, Known, Start, Goal), Planner, Watch, Facts, Way) :-
+drive(task(Map, Known, Start, Goal), Planner, Watch, Facts, Path) :-
     retractall(known_obstacle(_)),
     (   Known == true
     ->  Seen = Map
@@ -111,30 +114,30 @@ drive(task(Map, Known, Start, Goal), Planner, Watch, Facts, Way) :-
     append(Watch, Options0, Options),
     planning(Planner, problem(Start, Goals, Options), Planning),
     Start = state(Cell, _),
-    drive_on(Planning, [], Start, Map, Seen, [Cell], Way,
+    drive_on(Planning, [], Start, Map, Seen, [Cell], Path,
              facts(-1, 0, 0, 0, 0), Facts),
     retractall(known_obstacle(_)).
 
 not_known(Cell) :-
     \+ known_obstacle(Cell).
 
-drive_on(Planning0, Found, State, Map, Seen, Way0, Way, Facts0, Facts) :-
+drive_on(Planning0, Found, State, Map, Seen, Path0, Path, Facts0, Facts) :-
     grid_changed(Map, Found, Changed),
     replan(State, Changed, Result, Planning0, Planning),
     planned(Result, Facts0, Facts1),
     (   Result = plan(Plan, _)
-    ->  follow(Plan, State, End, Map, Seen, Found1, Way0, Way1,
+    ->  follow(Plan, State, End, Map, Seen, Found1, Path0, Path1,
                Facts1, Facts2),
         (   Found1 == []
-        ->  reverse(Way1, Way),
+        ->  reverse(Path1, Path),
             Facts2 = facts(Replans, Expanded, Seconds, Steps, Cost),
             Facts = [ replans(Replans), expanded(Expanded),
                       seconds(Seconds), steps(Steps), cost(Cost)
                     ]
-        ;   drive_on(Planning, Found1, End, Map, Seen, Way1, Way,
+        ;   drive_on(Planning, Found1, End, Map, Seen, Path1, Path,
                      Facts2, Facts)
         )
-    ;   reverse(Way0, Way),
+    ;   reverse(Path0, Path),
         Facts1 = facts(Replans, Expanded, Seconds, _, _),
         Facts = [ replans(Replans), expanded(Expanded), seconds(Seconds) ]
     ).
@@ -151,8 +154,8 @@ planned(Result, facts(Plans0, Expanded0, Seconds0, Steps, Cost),
     Expanded is Expanded0 + Expanded1,
     Seconds is Seconds0 + Seconds1.
 
-follow([], State, State, _, _, [], Way, Way, Facts, Facts).
-follow([Action|Plan], State0, State, Map, Seen, Found, Way0, Way,
+follow([], State, State, _, _, [], Path, Path, Facts, Facts).
+follow([Action|Plan], State0, State, Map, Seen, Found, Path0, Path,
        Facts0, Facts) :-
     obstacles(Action, State0, Map, Found0),
     (   Found0 == []
@@ -162,16 +165,16 @@ follow([Action|Plan], State0, State, Map, Seen, Found, Way0, Way,
         Facts0 = facts(Plans, Expanded, Seconds, Steps0, Cost0),
         Steps is Steps0 + 1,
         Cost is Cost0 + Cost1,
-        follow(Plan, State1, State, Map, Seen, Found, [Cell|Way0], Way,
+        follow(Plan, State1, State, Map, Seen, Found, [Cell|Path0], Path,
                facts(Plans, Expanded, Seconds, Steps, Cost), Facts)
     ;   forall(member(Cell, Found0), assertz(known_obstacle(Cell))),
         Found = Found0,
         State = State0,
-        Way = Way0,
+        Path = Path0,
         Facts = Facts0
     ).
 
-%   What the robot sees before it acts.
+%   The obstacles that the driver sees before it acts.
 
 obstacles(move, state(Cell, Direction), Map, Found) :-
     !,

@@ -1,6 +1,6 @@
 :- module(ev3dev_d_star_lite,
           [ d_star_lite/4,              % +Space, +Start, +Goals, -Search
-            d_star_lite_replan/6        % +Start, +Changed, -Way, -Expanded,
+            d_star_lite_replan/6        % +Start, +Changed, -Path, -Expanded,
                                         % +Search0, -Search
           ]).
 :- use_module(library(assoc),
@@ -12,18 +12,18 @@
 
 /** <module> D* Lite
 
-Searches from the goal to where the robot is, and keeps what it found. When
-ways change, and the robot has gone on, only that part is searched again on
-which the change bears (Koenig, Likhachev: D* Lite, 2002).
+Searches from the goal to the robot's state, and keeps the results. When the
+map changes after the robot has moved, it searches again only the part that
+the change affects (Koenig, Likhachev: D* Lite, 2002).
 
-Each state has a G, what it costs from there to the goal as far as that has
-been worked out, and an RHS, what it costs by the G of the states after it.
-Where the two differ the state is in the heap, with `k(K1, K2)` as its key.
+Each state has a G, the cost from there to the goal as computed so far, and an
+RHS, the cost computed from the G of its successors. If the two differ, the
+state is in the heap, with `k(K1, K2)` as its key.
 */
 
 %!  d_star_lite(+Space, +Start, +Goals, -Search) is det.
 %
-%   True if Search is a search that has not begun.
+%   True if Search is the state of a search before its first plan.
 
 d_star_lite(Space, Start, Goals0, Search) :-
     needs_way_back(Space),
@@ -42,14 +42,14 @@ begin([Goal|Goals], Fixed, Heap0, Heap, Values0, Values) :-
     update(Goal, Inf, 0, Fixed, Heap0, Heap1, Values0, Values1),
     begin(Goals, Fixed, Heap1, Heap, Values1, Values).
 
-%!  d_star_lite_replan(+Start, +Changed, -Way, -Expanded,
+%!  d_star_lite_replan(+Start, +Changed, -Path, -Expanded,
 %!                     +Search0, -Search) is det.
 %
-%   True if Way is the list of `step(Action, Cost)` that lead from Start to
-%   the goal, or `none`, found after expanding so many states more. The ways
-%   from the states Changed are no longer what they were.
+%   True if Path is the list of `step(Action, Cost)` that lead from Start to
+%   the goal, or `none`. Expanded is the number of states that this call
+%   expanded. The actions in the states Changed, or their costs, have changed.
 
-d_star_lite_replan(Start, Changed, Way, Expanded,
+d_star_lite_replan(Start, Changed, Path, Expanded,
                    d_star_lite(Fixed0, Heap0, Values0), Search) :-
     Fixed0 = fixed(Space, Last, Goals, Km0),
     (   Start == Last
@@ -64,8 +64,8 @@ d_star_lite_replan(Start, Changed, Way, Expanded,
     value(Start, Values, _, Rhs),
     endless(Inf),
     (   Rhs < Inf
-    ->  descend(Start, Fixed, Values, Way)
-    ;   Way = none
+    ->  descend(Start, Fixed, Values, Path)
+    ;   Path = none
     ).
 
 look_again([], _, Heap, Heap, Values, Values).
@@ -73,7 +73,7 @@ look_again([State|States], Fixed, Heap0, Heap, Values0, Values) :-
     rate(State, Fixed, Heap0, Heap1, Values0, Values1),
     look_again(States, Fixed, Heap1, Heap, Values1, Values).
 
-%   Work the RHS of a state out from the states after it.
+%   Compute the RHS of a state from its successors.
 
 rate(State, Fixed, Heap0, Heap, Values0, Values) :-
     Fixed = fixed(Space, _, Goals, _),
@@ -86,21 +86,21 @@ rate(State, Fixed, Heap0, Heap, Values0, Values) :-
     ),
     update(State, G, Rhs, Fixed, Heap0, Heap, Values0, Values).
 
-least([], _, Least, Least, Way, Way).
-least([way(Action, Next, Cost)|Ways], Values, Least0, Least, Way0, Way) :-
+least([], _, Least, Least, Best, Best).
+least([way(Action, Next, Cost)|Ways], Values, Least0, Least, Best0, Best) :-
     value(Next, Values, G, _),
     (   Cost + G < Least0
     ->  Least1 is Cost + G,
-        least(Ways, Values, Least1, Least, way(Action, Next, Cost), Way)
-    ;   least(Ways, Values, Least0, Least, Way0, Way)
+        least(Ways, Values, Least1, Least, way(Action, Next, Cost), Best)
+    ;   least(Ways, Values, Least0, Least, Best0, Best)
     ).
 
-%   What costs more than anything. No infinity, with which SWI-Prolog 7 does
-%   not calculate; what is added to it makes no difference.
+%   A cost above all others. It is no infinity, because SWI-Prolog 7 does not
+%   calculate with that. It is so large that adding a cost does not change it.
 
 endless(1.0e300).
 
-%   What is not known yet is endlessly far.
+%   A state without values has infinite ones.
 
 value(State, Values, G, Rhs) :-
     (   get_assoc(State, Values, value(G1, Rhs1, _))
@@ -110,8 +110,8 @@ value(State, Values, G, Rhs) :-
         Rhs = G
     ).
 
-%   Note G and RHS of a state. Its older entries in the heap are passed over
-%   when their turn comes: only the one with the key noted here counts.
+%   Store G and RHS of a state. The search ignores older entries of the state
+%   in the heap: only the entry with the key stored here counts.
 
 update(State, G, Rhs, Fixed, Heap0, Heap, Values0, Values) :-
     (   G =:= Rhs
@@ -131,7 +131,7 @@ key(State, G, Rhs, fixed(Space, Start, _, Km), k(K1, K2)) :-
     K2 is min(G, Rhs),
     K1 is K2 + H + Km.
 
-%   Expand until no state in the heap can better the way from the start.
+%   Expand until no state in the heap can improve the path from the start.
 
 improve(Expanded0, Expanded, Fixed, Heap0, Heap, Values0, Values) :-
     top(Heap0, Values0, Key, State, Heap1),
@@ -156,7 +156,7 @@ improve(Expanded0, Expanded, Fixed, Heap0, Heap, Values0, Values) :-
     improve(Expanded1, Expanded, Fixed, Heap3, Heap, Values1, Values).
 improve(Expanded, Expanded, _, Heap, Heap, Values, Values).
 
-%   The first entry that counts, and the heap from there on.
+%   The first entry that counts, and the heap after it.
 
 top(Heap0, Values, Key, State, Heap) :-
     min_of_heap(Heap0, Key0, State0),
@@ -169,7 +169,7 @@ top(Heap0, Values, Key, State, Heap) :-
         top(Heap1, Values, Key, State, Heap)
     ).
 
-%   A state from which it costs less than was thought, or more.
+%   Update a state whose cost to the goal fell or rose.
 
 expand(State, G, Rhs, Fixed, Heap0, Heap, Values0, Values) :-
     Fixed = fixed(Space, _, _, _),
@@ -194,7 +194,7 @@ lower([way(_, State, Cost)|Ways], G, Fixed, Heap0, Heap, Values0, Values) :-
     ),
     lower(Ways, G, Fixed, Heap1, Heap, Values1, Values).
 
-%   Only those who went this way have to look for another one.
+%   Only states whose best action led here need another one.
 
 raise([], _, _, Heap, Heap, Values, Values).
 raise([way(_, State, Cost)|Ways], G, Fixed, Heap0, Heap, Values0, Values) :-
@@ -209,9 +209,9 @@ raise([way(_, State, Cost)|Ways], G, Fixed, Heap0, Heap, Values0, Values) :-
 descend(State, fixed(_, _, Goals, _), _, []) :-
     get_assoc(State, Goals, _),
     !.
-descend(State, Fixed, Values, [step(Action, Cost)|Way]) :-
+descend(State, Fixed, Values, [step(Action, Cost)|Path]) :-
     Fixed = fixed(Space, _, _, _),
     space_ways(Space, State, Ways),
     endless(Inf),
     least(Ways, Values, Inf, _, none, way(Action, Next, Cost)),
-    descend(Next, Fixed, Values, Way).
+    descend(Next, Fixed, Values, Path).

@@ -6,7 +6,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../private/grid/map').
 
-/** <module> A picture of what planners expanded
+/** <module> A picture of the expanded states
 */
 
 %   Widths in pixels: a cell, the gap between panels, the line of its title.
@@ -16,14 +16,14 @@ title(36).
 
 %!  draw_panels(+File, +Map, +Start, +Goal, +Panels) is det.
 %
-%   Write a picture, as SVG, with a panel for each
-%   `panel(Planner, Facts, Way, Cells)`: the map, a cell the more blue the
-%   more often it is in the sorted list Cells, and the way of the robot. How
-%   blue goes by the logarithm, the same in all panels.
+%   Write an SVG picture with a panel for each
+%   `panel(Planner, Facts, Path, Cells)`. A panel shows the map and the path
+%   of the robot. The more often a cell is in the sorted list Cells, the
+%   darker blue it is, on a logarithmic scale that all panels share.
 
 draw_panels(File, Map, Start, Goal, Panels0) :-
-    findall(panel(Planner, Facts, Way, Counts, Most),
-            ( member(panel(Planner, Facts, Way, Cells), Panels0),
+    findall(panel(Planner, Facts, Path, Counts, Most),
+            ( member(panel(Planner, Facts, Path, Cells), Panels0),
               count(Cells, Counts),
               pairs_values(Counts, Numbers),
               largest(Numbers, 1, Most)
@@ -75,7 +75,7 @@ draw(Out, Map, Start, Goal, Panels, Most) :-
            )),
     format(Out, "</svg>~n", []).
 
-%   A title takes some room, however narrow the map.
+%   A narrow map still needs room for the title.
 
 size(Map, Width, Height) :-
     grid_bounds(Map, X1, Y1, X2, Y2),
@@ -85,7 +85,7 @@ size(Map, Width, Height) :-
     Height is (Y2 - Y1 + 1) * Cell + Title.
 
 draw_panel(Out, Map, Start, Goal, Panel, Most) :-
-    Panel = panel(Planner, Facts, Way, Counts, _),
+    Panel = panel(Planner, Facts, Path, Counts, _),
     option(expanded(Expanded), Facts, 0),
     option(cost(Cost), Facts, none),
     (   Cost == none
@@ -98,7 +98,7 @@ draw_panel(Out, Map, Start, Goal, Panel, Most) :-
            [Expanded, Found]),
     forall(grid_cell(Map, Cell),
            draw_cell(Out, Map, Cell, Counts, Most)),
-    draw_way(Out, Map, Way),
+    draw_path(Out, Map, Path),
     Start = state(StartCell, _),
     Goal = state(GoalCell, _),
     draw_mark(Out, Map, StartCell, '#2a2'),
@@ -109,37 +109,37 @@ draw_cell(Out, Map, Cell, Counts, Most) :-
     cell(Size),
     (   free_cell(Map, Cell)
     ->  (   member(Cell-Count, Counts)
-        ->  shade(Count, Most, Colour)
-        ;   Colour = '#fff'
+        ->  shade(Count, Most, Color)
+        ;   Color = '#fff'
         )
-    ;   Colour = '#444'
+    ;   Color = '#444'
     ),
     Left is X - Size // 2,
     Top is Y - Size // 2,
     format(Out, "<rect x=\"~d\" y=\"~d\" width=\"~d\" height=\"~d\" \c
                  fill=\"~w\" stroke=\"#bbb\" stroke-width=\"0.5\"/>~n",
-           [Left, Top, Size, Size, Colour]).
+           [Left, Top, Size, Size, Color]).
 
 %   From pale to deep blue.
 
-shade(Count, Most, Colour) :-
+shade(Count, Most, Color) :-
     Depth is log(1 + Count) / log(1 + Most),
     Red is round(222 - 190 * Depth),
     Green is round(238 - 130 * Depth),
     Blue is round(255 - 60 * Depth),
-    format(atom(Colour), "rgb(~d,~d,~d)", [Red, Green, Blue]).
+    format(atom(Color), "rgb(~d,~d,~d)", [Red, Green, Blue]).
 
-draw_way(Out, Map, Way) :-
+draw_path(Out, Map, Path) :-
     format(Out, "<polyline fill=\"none\" stroke=\"#d80\" \c
                  stroke-width=\"3\" stroke-linejoin=\"round\" points=\"", []),
-    forall(member(Cell, Way),
+    forall(member(Cell, Path),
            ( middle(Map, Cell, X, Y), format(Out, "~d,~d ", [X, Y]) )),
     format(Out, "\"/>~n", []).
 
-draw_mark(Out, Map, Cell, Colour) :-
+draw_mark(Out, Map, Cell, Color) :-
     middle(Map, Cell, X, Y),
     format(Out, "<circle cx=\"~d\" cy=\"~d\" r=\"6\" fill=\"~w\"/>~n",
-           [X, Y, Colour]).
+           [X, Y, Color]).
 
 middle(Map, [CX, CY], X, Y) :-
     grid_bounds(Map, X1, _, _, Y2),

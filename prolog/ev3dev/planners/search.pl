@@ -9,7 +9,7 @@
           ]).
 :- use_module('../private/errors',
               [domain_error/2, must_be/2]).
-:- use_module('../private/arguments', [finite/1]).
+:- use_module('../private/domains', [finite/1]).
 :- use_module(best_first).
 :- use_module(breadth_first).
 :- use_module(d_star_lite).
@@ -34,25 +34,27 @@
 %     - iterative_deepening
 %       Depth first to a limit that grows step by step.
 %     - dijkstra
-%       The cheapest state next.
+%       Expands the state with the least cost from the start next.
 %     - a_star
-%       The same with what is still to come, as the heuristic estimates it.
+%       Like dijkstra, but adds the heuristic's estimate of the cost to the
+%       goal.
 %     - weighted_a_star(Weight)
-%       A* that trusts the heuristic Weight times as much, at least once.
+%       Like a_star, but multiplies the estimate by Weight, which is at least
+%       1.
 %     - greedy_best_first
-%       Always what seems nearest to the goal.
+%       Expands the state with the least estimate next.
 %     - ida_star
 %       Depth first to a limit for the cost, with the heuristic.
 %     - bidirectional_breadth_first
 %     - bidirectional_a_star
-%       From both ends at once. They need the option `predecessor`; and the
-%       heuristic has to be consistent.
+%       Search from both ends at once. They need the option `predecessor` and
+%       a consistent heuristic.
 %     - d_star_lite
-%       From the goal to the start; when ways change it repairs its last plan
-%       with replan/5. It needs the option `predecessor` and a consistent
+%       Searches from the goal to the start. After a change, replan/5 repairs
+%       its last plan. It needs the option `predecessor` and a consistent
 %       heuristic.
 %
-%   An unbound Planner is each of these in turn, with 2 for the weight.
+%   An unbound Planner enumerates these, with the weight 2.
 
 planner(Planner) :-
     (   var(Planner)
@@ -71,17 +73,16 @@ known(weighted_a_star(Weight)) :-
 
 %!  planner_claim(?Planner, ?Claim) is nondet.
 %
-%   True if that is what a planner promises of its plans. Claim is one of
+%   True if Planner promises Claim of its plans. Claim is one of
 %
 %     - least_cost
-%       There is no cheaper one.
+%       No plan is cheaper.
 %     - fewest_steps
-%       There is none of fewer actions.
+%       No plan has fewer actions.
 %     - cost_within(Factor)
-%       None is cheaper than by that factor.
+%       The plan costs at most Factor times the least cost.
 %     - any
-%       Only that there is one, if there is one at all. This is promised by
-%       all.
+%       The planner finds a plan if one exists. All planners promise this.
 
 planner_claim(Planner, Claim) :-
     nonvar(Planner),
@@ -108,42 +109,44 @@ claim(greedy_best_first,           any).
 %!  plan(+Planner, :Problem, -Plan, -Facts) is semidet.
 %
 %   True if Plan is the list of actions by which Planner solves Problem. Fails
-%   if the goal cannot be reached. Problem is `problem(Start, Goal, Options)`:
-%   two states, which are any ground terms, or for one goal of several
-%   `any(Goals)`. Options:
+%   if no plan reaches the goal. Problem is `problem(Start, Goal, Options)`.
+%   Start and Goal are states, which are any ground terms. The Goal
+%   `any(Goals)` stands for any state of a list. Options:
 %
 %     - successor(:Closure)
 %       Required. call(Closure, State, Action, Next, Cost) is true, on
 %       backtracking for each, if Action leads from State to the state Next.
 %       Cost is a number above 0.
 %     - predecessor(:Closure)
-%       The way back: call(Closure, State, Action, Previous, Cost) is true if
+%       The reverse: call(Closure, State, Action, Previous, Cost) is true if
 %       Action leads from Previous to State.
 %     - heuristic(:Closure)
-%       call(Closure, From, To, Estimate) is true if it costs at least
-%       Estimate to get from one state to another. More than that makes plans
-%       that are no longer optimal; it is consistent if no way costs less than
-%       the estimate falls along it. By default 0.
+%       call(Closure, From, To, Estimate) is true if a path from state From to
+%       state To costs at least Estimate. If an estimate is too high, plans
+%       may not be optimal. A heuristic is consistent if no action costs less
+%       than the estimate falls by it. By default Estimate is 0.
 %     - expanding(:Closure)
-%       call(Closure, State) is called, once, for each state that is expanded.
+%       The search calls call(Closure, State) once for each expanded state.
 %
-%   Facts tells about the plan and the search:
+%   Facts describes the plan and the search:
 %
 %     - cost(Cost)
-%       What the plan costs.
+%       The cost of the plan.
 %     - steps(Count)
-%       How many actions it has.
+%       The number of actions.
 %     - expanded(Count)
-%       How often a state was expanded, that is, asked for those next to it.
+%       The number of expansions. To expand a state is to ask for its
+%       successors.
 %     - seconds(Seconds)
-%       How long it took.
+%       The time of the search.
 %
-%   A search ends if finitely many states can be reached.
+%   A search ends if the number of reachable states is finite.
 %
 %   @error domain_error(planner, Planner)
 %   @error domain_error(planning_problem, Problem)
 %   @error existence_error(problem_option, Name) if the planner needs it
-%   @error domain_error(problem_option, Option) for an option that is none
+%   @error domain_error(problem_option, Option) if Option is not an option of
+%          this predicate
 %   @error domain_error(positive_number, Cost)
 
 plan(Planner, Problem, Plan) :-
@@ -157,16 +160,17 @@ plan(Planner, Problem, Plan, Facts) :-
 %!  planning(+Planner, :Problem, -Planning) is det.
 %!  replan(+Start, +Changed, -Result, +Planning0, -Planning) is det.
 %
-%   Solve Problem again and again while the robot goes on and learns. Planning
-%   is what Planner knows before its first search; replan/5 searches for a
-%   plan from Start, after ways from the states Changed have come, gone, or
-%   got other costs, which the problem's closures already tell. Result is
-%   `plan(Plan, Facts)` as in plan/4, or `no_plan(Facts)` with only `expanded`
-%   and `seconds`. A later Planning replaces the one before.
+%   Solve Problem again and again while the robot moves and learns. Planning
+%   is the state of Planner before its first search. replan/5 searches for a
+%   plan from Start. Changed is the list of states whose actions appeared,
+%   disappeared or changed their costs; the closures of the problem already
+%   return the new actions. Result is `plan(Plan, Facts)` as in plan/4, or
+%   `no_plan(Facts)` with only `expanded` and `seconds`. Each Planning
+%   replaces the one before.
 %
-%   The planner d_star_lite uses what it found before. All others start again.
-%   So Changed may be more than what has really changed, and has no meaning in
-%   a first search.
+%   The planner d_star_lite uses its earlier results. All others start again.
+%   Changed may also contain states that have not changed. In the first search
+%   it has no meaning.
 
 planning(Planner, Problem, planning(Planner, Start, Goals, Space, State)) :-
     must_be_planner(Planner),
@@ -194,42 +198,42 @@ replan(Start, Changed, Result, Planning0, Planning) :-
     ;   domain_error(planning, Planning0)
     ),
     get_time(Before),
-    search(Planner, Space, Start, Goals, Changed, Way, Expanded,
+    search(Planner, Space, Start, Goals, Changed, Path, Expanded,
            State0, State),
     get_time(After),
     Seconds is After - Before,
     Planning = planning(Planner, Start, Goals, Space, State),
-    result(Way, [expanded(Expanded), seconds(Seconds)], Result).
+    result(Path, [expanded(Expanded), seconds(Seconds)], Result).
 
-search(d_star_lite, _, Start, _, Changed, Way, Expanded, State0, State) :-
+search(d_star_lite, _, Start, _, Changed, Path, Expanded, State0, State) :-
     !,
-    d_star_lite_replan(Start, Changed, Way, Expanded, State0, State).
-search(Planner, Space, Start, Goals, _, Way, Expanded, State, State) :-
-    search(Planner, Space, Start, Goals, Way, Expanded).
+    d_star_lite_replan(Start, Changed, Path, Expanded, State0, State).
+search(Planner, Space, Start, Goals, _, Path, Expanded, State, State) :-
+    search(Planner, Space, Start, Goals, Path, Expanded).
 
-search(breadth_first, Space, Start, Goals, Way, Expanded) :-
-    breadth_first(Space, Start, Goals, Way, Expanded).
-search(bidirectional_breadth_first, Space, Start, Goals, Way, Expanded) :-
-    two_breadth_first(Space, Start, Goals, Way, Expanded).
-search(iterative_deepening, Space, Start, Goals, Way, Expanded) :-
-    deepening(steps, Space, Start, Goals, Way, Expanded).
-search(ida_star, Space, Start, Goals, Way, Expanded) :-
-    deepening(cost, Space, Start, Goals, Way, Expanded).
-search(bidirectional_a_star, Space, Start, Goals, Way, Expanded) :-
-    two_a_star(Space, Start, Goals, Way, Expanded).
-search(dijkstra, Space, Start, Goals, Way, Expanded) :-
-    best_first(rule(1, 0), Space, Start, Goals, Way, Expanded).
-search(a_star, Space, Start, Goals, Way, Expanded) :-
-    best_first(rule(1, 1), Space, Start, Goals, Way, Expanded).
-search(weighted_a_star(Weight), Space, Start, Goals, Way, Expanded) :-
-    best_first(rule(1, Weight), Space, Start, Goals, Way, Expanded).
-search(greedy_best_first, Space, Start, Goals, Way, Expanded) :-
-    best_first(rule(0, 1), Space, Start, Goals, Way, Expanded).
+search(breadth_first, Space, Start, Goals, Path, Expanded) :-
+    breadth_first(Space, Start, Goals, Path, Expanded).
+search(bidirectional_breadth_first, Space, Start, Goals, Path, Expanded) :-
+    two_breadth_first(Space, Start, Goals, Path, Expanded).
+search(iterative_deepening, Space, Start, Goals, Path, Expanded) :-
+    deepening(steps, Space, Start, Goals, Path, Expanded).
+search(ida_star, Space, Start, Goals, Path, Expanded) :-
+    deepening(cost, Space, Start, Goals, Path, Expanded).
+search(bidirectional_a_star, Space, Start, Goals, Path, Expanded) :-
+    two_a_star(Space, Start, Goals, Path, Expanded).
+search(dijkstra, Space, Start, Goals, Path, Expanded) :-
+    best_first(rule(1, 0), Space, Start, Goals, Path, Expanded).
+search(a_star, Space, Start, Goals, Path, Expanded) :-
+    best_first(rule(1, 1), Space, Start, Goals, Path, Expanded).
+search(weighted_a_star(Weight), Space, Start, Goals, Path, Expanded) :-
+    best_first(rule(1, Weight), Space, Start, Goals, Path, Expanded).
+search(greedy_best_first, Space, Start, Goals, Path, Expanded) :-
+    best_first(rule(0, 1), Space, Start, Goals, Path, Expanded).
 
 result(none, Facts, no_plan(Facts)) :-
     !.
-result(Way, Facts, plan(Plan, [cost(Cost), steps(Count)|Facts])) :-
-    actions(Way, Plan, 0, Cost),
+result(Path, Facts, plan(Plan, [cost(Cost), steps(Count)|Facts])) :-
+    actions(Path, Plan, 0, Cost),
     length(Plan, Count).
 
 actions([], [], Cost, Cost).

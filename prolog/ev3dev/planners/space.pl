@@ -12,25 +12,27 @@
               ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/3]).
-:- use_module('../private/arguments', [finite/1, must_be_options/3]).
+:- use_module('../private/arguments', [must_be_options/3]).
+:- use_module('../private/domains', [finite/1]).
 
 /** <module> The space that a planner searches
 
-What planners ask of a problem: which states follow a state, which come
-before it, and how far it is to the goal at least. Each answer of the
-problem's closures is checked here, once for all planners.
+Planners ask a problem for the successors of a state, its predecessors, and
+the estimated cost to the goal. This module checks each answer of the
+problem's closures, for all planners.
 */
 
 :- meta_predicate search_space(:, -, -, -).
 
 %!  search_space(:Problem, -Start, -Goals, -Space) is det.
 %
-%   True if Problem, as plan/3 describes it, is to get from Start to one of
-%   the list Goals through Space.
+%   True if Problem, as plan/3 describes it, asks for a path from Start to one
+%   of the list Goals through Space.
 %
 %   @error domain_error(planning_problem, Problem)
 %   @error existence_error(problem_option, successor)
-%   @error domain_error(problem_option, Option) for an option that is none
+%   @error domain_error(problem_option, Option) if Option is not an option of
+%          this predicate
 
 search_space(Module:Problem, Start, Goals, Space) :-
     must_be(nonvar, Problem),
@@ -66,7 +68,7 @@ goals(Goal, [Goal]).
 
 %!  needs_way_back(+Space)
 %
-%   Throw unless Space tells which states come before one.
+%   Throw unless Space can return the predecessors of a state.
 %
 %   @error existence_error(problem_option, predecessor)
 
@@ -79,8 +81,8 @@ needs_way_back(_).
 %!  space_previous(+Space, +State, -Previous) is det.
 %
 %   Expand a state: true if Nexts is the list of `way(Action, Next, Cost)`
-%   that lead from State to Next, or from Previous to State. Whoever watches
-%   is told.
+%   that lead from State to Next, or from Previous to State. Calls the option
+%   `expanding` of the problem.
 
 space_next(Space, State, Nexts) :-
     watched(Space, State),
@@ -98,7 +100,7 @@ watched(space(_, _, _, Watcher), State) :-
 
 %!  space_ways(+Space, +State, -Nexts) is det.
 %
-%   As space_next/3, to look only.
+%   Like space_next/3, but without calling the option `expanding`.
 
 space_ways(space(Successor, _, _, _), State, Nexts) :-
     ways(Successor, State, Nexts).
@@ -125,8 +127,8 @@ check_way(Next, Cost) :-
 
 %!  space_estimate(+Space, +From, +Goals, -Estimate) is det.
 %
-%   True if the problem says that it costs Estimate at least to get from a
-%   state to any of Goals.
+%   True if a path from the state From to any of Goals costs at least Estimate
+%   by the problem's heuristic.
 
 space_estimate(space(_, _, none, _), _, _, 0) :-
     !.

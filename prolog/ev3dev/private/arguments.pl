@@ -1,13 +1,18 @@
 :- module(ev3dev_arguments,
           [ must_be_options/3,          % +Domain, +Names, +Options
             take_options/4,             % +Names, +Options, -Taken, -Rest
-            must_be_timeout/1,          % +Seconds
+            option/2,                   % ?Option, +Options
+            option/3,                   % ?Option, +Options, +Default
+            number_value/2,             % +Expression, -Number
+            number_value/3,             % +Domain, +Expression, -Number
+            number_option/4,            % ?Option, +Domain, +Options, +Default
+            timeout_option/2,           % +Options, -Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
-            finite/1,                   % +Number
             motor_options/5,            % +Options, +Stop, +Stops, +Ramp, -O
             motor_runs/2,               % +Runs, -Evaluated
             motor_moves/2               % +Moves, -Evaluated
           ]).
+:- use_module(domains, [in_range/2]).
 :- use_module(errors,
               [domain_error/2, evaluated/2, must_be/2, throw_error/3]).
 
@@ -15,6 +20,9 @@
 
 An option that a predicate does not have is an error: it is most likely one
 that is misspelt.
+
+A measure, as a length, an angle, a speed or a time, may be an arithmetic
+expression, as an argument and as an option. A count is an integer.
 */
 
 %!  must_be_options(+Domain, +Names, +Options) is det.
@@ -73,20 +81,83 @@ taken([Option|Options], Names, Taken, Rest) :-
     ),
     taken(Options, Names, Taken1, Rest1).
 
-%!  must_be_timeout(+Seconds) is det.
+%!  option(?Option, +Options) is semidet.
+%!  option(?Option, +Options, +Default) is semidet.
 %
-%   True if Seconds is a time to wait, or `infinite`.
+%   True if Option, a term as Name(Value), is the first of its name in
+%   Options; where there is none, Value is Default. Options are such as
+%   must_be_options/3 accepts. (Not by library(option): with all that it loads
+%   it takes a brick longer than the pack.)
+
+option(Option, Options) :-
+    given(Options, Option, Given),
+    !,
+    Option = Given.
+
+option(Option, Options, Default) :-
+    (   given(Options, Option, Given)
+    ->  Option = Given
+    ;   arg(1, Option, Default)
+    ).
+
+given(Options, Option, Given) :-
+    functor(Option, Name, Arity),
+    functor(Given, Name, Arity),
+    first(Options, Given).
+
+first([Option|Options], Given) :-
+    (   Option = Given
+    ->  true
+    ;   Option = (Name=Value),
+        functor(Given, Name, 1)
+    ->  arg(1, Given, Value)
+    ;   first(Options, Given)
+    ).
+
+%!  number_value(+Expression, -Number) is det.
+%!  number_value(+Domain, +Expression, -Number) is det.
+%
+%   Number is the value of an arithmetic Expression. It is in the range of
+%   Domain, see in_range/2, which is `finite_number` by default.
+%
+%   @error domain_error(Domain, Number)
+%   @error as is/2
+
+number_value(Expression, Number) :-
+    number_value(finite_number, Expression, Number).
+
+number_value(Domain, Expression, Number) :-
+    evaluated(Expression, Number),
+    (   in_range(Domain, Number)
+    ->  true
+    ;   domain_error(Domain, Number)
+    ).
+
+%!  number_option(?Option, +Domain, +Options, +Default) is det.
+%
+%   True if Option, Name(Number), is in Options with an expression of that
+%   value, as for number_value/3; else Number is the value of Default.
+
+number_option(Option, Domain, Options, Default) :-
+    functor(Option, Name, 1),
+    functor(Given, Name, 1),
+    arg(1, Option, Number),
+    arg(1, Given, Expression),
+    option(Given, Options, Default),
+    number_value(Domain, Expression, Number).
+
+%!  timeout_option(+Options, -Seconds) is det.
+%
+%   True if the option `timeout` in Options is an expression of that value, or
+%   `infinite`, which is the default.
 %
 %   @error domain_error(timeout, Seconds) if it is negative
 
-must_be_timeout(Seconds) :-
-    Seconds == infinite,
-    !.
-must_be_timeout(Seconds) :-
-    must_be(number, Seconds),
-    (   Seconds >= 0
-    ->  true
-    ;   domain_error(timeout, Seconds)
+timeout_option(Options, Seconds) :-
+    option(timeout(Expression), Options, infinite),
+    (   Expression == infinite
+    ->  Seconds = infinite
+    ;   number_value(timeout, Expression, Seconds)
     ).
 
 %!  must_be_within(+Lowest, +Highest, +Domain, +Integer) is det.
@@ -104,14 +175,6 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
         throw_error(domain_error(Domain, Integer), _, Message)
     ).
 
-%!  finite(+Number) is semidet.
-%
-%   True if Number is neither infinite nor undefined. (The functions `inf` and
-%   `nan` came with SWI-Prolog 7.3.15.)
-
-finite(Number) :-
-    abs(Number) =< 1.7976931348623157e308.
-
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %
 %   Term is what native predicates take for the options of a move: motor_run/4
@@ -127,10 +190,9 @@ motor_options(Options, Stop, Stops, Ramp,
     option(ramp_up(RampUp), Options, default),
     option(ramp_down(RampDown), Options, default),
     option(wait(Wait), Options, true),
-    option(timeout(Timeout), Options, infinite),
+    timeout_option(Options, Timeout),
     must_be_stop_action(Stops, Action),
     must_be(boolean, Wait),
-    must_be_timeout(Timeout),
     must_be_ramp(ramp_up_sp, Ramp, RampUp),
     must_be_ramp(ramp_down_sp, Ramp, RampDown).
 
@@ -153,7 +215,7 @@ must_be_ramp(Attribute, Longest, Milliseconds) :-
 %   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as
 %   those of motors_run/1.
 %
-%   @error domain_error(motor_run, Run) if one of Runs is none
+%   @error domain_error(motor_run, Run) if Run has another form
 
 motor_runs(Runs, Evaluated) :-
     (   is_list(Runs)
@@ -174,7 +236,7 @@ runs([Run|Runs], [run(Port, Percent)|Evaluated]) :-
 %
 %   Evaluated is a list of Moves as those of motors_turn/2, with numbers.
 %
-%   @error domain_error(motor_move, Move) if one of Moves is none
+%   @error domain_error(motor_move, Move) if Move has another form
 
 motor_moves([], []).
 motor_moves([Move|Moves], [Evaluated|Rest]) :-

@@ -14,17 +14,16 @@
 %   Read an attribute, or write it if Value is bound.
 
 attribute(Class, Port, Attribute, Value) :-
-    var(Value),
-    !,
-    attribute_(Class, Port, Attribute, Value).
-attribute(Class, Port, Attribute, Value) :-
-    attribute_write_(Class, Port, Attribute, Value).
+    (   var(Value)
+    ->  attribute_(Class, Port, Attribute, Value)
+    ;   attribute_write_(Class, Port, Attribute, Value)
+    ).
 
 %!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
 %
-%   True if Words are those of an attribute's text, with spaces between; a
-%   single number, as a mode called 50, is a word, too. For the pack's own
-%   modules.
+%   True if Words is the list of the words of an attribute's text. Spaces
+%   separate them. A single number, for example a mode with the name 50, is a
+%   word, too.
 
 attribute_words(Class, Port, Attribute, Words) :-
     attribute_(Class, Port, Attribute, Text),
@@ -36,7 +35,7 @@ attribute_words(Class, Port, Attribute, Words) :-
 
 %!  value_attribute(+Index, -Attribute) is det.
 %
-%   Attribute is that of a sensor's value of this Index.
+%   Attribute is the name of the file of a sensor's value number Index.
 
 value_attribute(Index, Attribute) :-
     must_be(nonneg, Index),

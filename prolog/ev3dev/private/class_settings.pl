@@ -2,32 +2,33 @@
           [ class_settings/3,           % +Class, ?Port, +Settings
             class_polarity/3            % +Class, ?Port, ?Polarity
           ]).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(errors, [domain_error/2, must_be/2]).
 :- use_module('../driver', []).
 :- use_module(arguments, [must_be_within/4]).
 :- use_module(attributes, [attribute/4]).
-:- use_module(native, [attribute_/4, attribute_write_/4, device_/4]).
+:- use_module(native, [attribute_/4, attribute_write_/4, device_/3]).
+:- use_module(one_of).
 
-/** <module> What motors of any class are set to
+/** <module> Settings of motors of any class
 */
 
 %!  class_settings(+Class, ?Port, +Settings) is nondet.
 %
-%   Read attributes of a device if all their values are unbound, else write
-%   them, after all values were looked at. Settings is a list of
+%   Read attributes of a device if all values are unbound. Else check all
+%   values, then write them. Settings is a list of
 %   setting(Attribute, Lowest, Highest, Value), where Value is an integer.
 %
-%   @error domain_error(Attribute, Value) if a Value is out of its range
+%   @error domain_error(Attribute, Value) if Value is not between Lowest and
+%          Highest
 
 class_settings(Class, Port, Settings) :-
-    maplist(is_unbound, Settings),
+    forall(one_of(Settings, Setting), is_unbound(Setting)),
     !,
-    device_(Class, Port, _, _),
-    maplist(setting_read(Class, Port), Settings).
+    device_(Class, Port, _),
+    settings_read(Settings, Class, Port).
 class_settings(Class, Port, Settings) :-
-    maplist(must_be_setting, Settings),
-    maplist(setting_write(Class, Port), Settings).
+    forall(one_of(Settings, Setting), must_be_setting(Setting)),
+    forall(one_of(Settings, Setting), setting_write(Class, Port, Setting)).
 
 is_unbound(setting(_, _, _, Value)) :-
     var(Value).
@@ -35,8 +36,10 @@ is_unbound(setting(_, _, _, Value)) :-
 must_be_setting(setting(Attribute, Lowest, Highest, Value)) :-
     must_be_within(Lowest, Highest, Attribute, Value).
 
-setting_read(Class, Port, setting(Attribute, _, _, Value)) :-
-    attribute_(Class, Port, Attribute, Value).
+settings_read([], _, _).
+settings_read([setting(Attribute, _, _, Value)|Settings], Class, Port) :-
+    attribute_(Class, Port, Attribute, Value),
+    settings_read(Settings, Class, Port).
 
 setting_write(Class, Port, setting(Attribute, _, _, Value)) :-
     attribute_write_(Class, Port, Attribute, Value).

@@ -6,8 +6,6 @@
 :- use_module(errors, [existence_error/2, in_own_name/1, must_be/2]).
 
 /** <module> Directories that a program or its environment names
-
-Where the trees of devices and of device files are.
 */
 
 %!  file_path(+File, -Path) is det.
@@ -20,9 +18,9 @@ file_path(File, Path) :-
 
 %!  directory_path(+Directory, -Path) is det.
 %
-%   True if Path is the absolute name of a Directory that exists. It is
-%   relative to the working directory, also while a file is being loaded,
-%   where absolute_file_name/3 would look beside that file first.
+%   True if Path is the absolute name of a Directory that exists. Directory is
+%   relative to the working directory, also while a file is being loaded:
+%   absolute_file_name/3 alone would then look beside that file first.
 %
 %   @error existence_error(directory, Directory)
 
@@ -41,7 +39,8 @@ directory_path(Directory, Path) :-
 
 %!  environment_directory(+Variable, -Directory) is semidet.
 %
-%   True if Variable is set in the environment, and not to nothing.
+%   True if the environment variable Variable is set to Directory, and not to
+%   the empty text.
 
 environment_directory(Variable, Directory) :-
     getenv(Variable, Directory),

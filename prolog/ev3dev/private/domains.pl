@@ -1,22 +1,62 @@
 :- module(ev3dev_domains,
-          [ allowed/2                   % ?Domain, ?What
+          [ in_range/2,                 % +Domain, +Number
+            finite/1,                   % +Number
+            allowed/2                   % ?Domain, ?What
           ]).
 
-/** <module> What may stand where a domain_error is thrown
+/** <module> The allowed values of each domain
 
-For the messages of errors, in one table.
+The ranges of numbers, and for the messages of errors what is allowed.
 */
+
+%!  in_range(+Domain, +Number) is semidet.
+%
+%   True if Number is one of the numbers that Domain stands for. Only a
+%   timeout may be infinite.
+
+in_range(timeout, Number) :-
+    !,
+    Number >= 0.
+in_range(Domain, Number) :-
+    finite(Number),
+    range(Domain, Number).
+
+range(finite_number, _).
+range(positive_number, Number) :-
+    Number > 0.
+range(nonnegative_number, Number) :-
+    Number >= 0.
+range(direction, Number) :-
+    abs(Number) =< 100.
+range(seconds, Number) :-
+    Number >= 0.
+range(speed, Number) :-
+    Number =\= 0,
+    abs(Number) =< 100.
+range(speed_ahead, Number) :-
+    Number > 0,
+    Number =< 100.
+
+%!  finite(+Number) is semidet.
+%
+%   True if Number is neither infinite nor undefined. (The functions `inf` and
+%   `nan` came with SWI-Prolog 7.3.15.)
+
+finite(Number) :-
+    abs(Number) =< 1.7976931348623157e308.
 
 %!  allowed(?Domain, ?What) is nondet.
 %
-%   What may stand where domain_error(Domain, _) is thrown: a list of all
-%   values, or a text.
+%   What describes the allowed values of domain_error(Domain, _): a list of
+%   all values, or a text.
 
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).
 allowed(button_event,       [pressed, released]).
 allowed(calibration,        [wheels, axle]).
 allowed(clock,              [realtime, scaled('Factor'), virtual]).
+allowed(color,
+        [black, blue, green, yellow, red, white, brown, '#rrggbb']).
 allowed(direction,          'a direction is a number from -100 to 100').
 allowed(distinct_ports,     'two different ports are expected').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
@@ -24,6 +64,8 @@ allowed(eopd_range,         [long, short]).
 allowed(finite_number,      'a finite number is expected').
 allowed(font,               [tiny, small, medium, large]).
 allowed(frequency,          'a tone has from 100 to 10000 Hz').
+allowed(hull,
+        [circle('Radius'), rectangle('Width', 'Length', 'Offset')]).
 allowed(ir_channel,         'a channel is a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
 allowed(led_color,
@@ -33,13 +75,14 @@ allowed(milliseconds,       'a time in milliseconds is a number from 0 on').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).
 allowed(neighbours,         [4, 8]).
+allowed(nonnegative_number, 'a number from 0 on is expected').
 allowed(note,               'a note is named like c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).
 allowed(pid,                'a term pid(P, I, D) is expected').
 allowed(pixels,             'a number from -10000 to 10000 is expected').
+allowed(place,              'a place X-Y is expected').
 allowed(polarity,           [normal, inversed]).
 allowed(positive_number,    'a number above 0 is expected').
-allowed(radius,             'a radius is a number above 0').
 allowed(roadmap_method,     [visibility, prm, rrt_star]).
 allowed(screen_bits,        [1, 32]).
 allowed(screen_color,       [black, dark_gray, light_gray, white]).
@@ -47,6 +90,7 @@ allowed(seconds,            'a time in seconds is a number from 0 on').
 allowed(sensor_value_index, 'the index of a value is an integer from 0 to 7').
 allowed(side,               [left, right]).
 allowed(speed,              'a speed in percent from -100 to 100, not 0').
+allowed(speed_ahead,        'a speed in percent above 0, at most 100').
 allowed(stop_action,        [coast, brake, hold]).
 allowed(tempo,              'a tempo, in quarters a minute, is above 0').
 allowed(text_align,         [left, center, right]).
@@ -55,3 +99,4 @@ allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
 allowed(volume,             'a volume is a number from 0 to 100').
+allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).

@@ -1,26 +1,45 @@
 :- module(ev3dev_drive_moves,
           [ move/3,                     % +Percent, +Course, +Options
-            drive_wait/2,               % +Options, -Reason
+            move_straight/3,            % +Percent, +Distance, +Options
+            move_turn/3,                % +Percent, +Angle, +Options
             must_be_move_options/1,     % +Options
-            speed_option/2,             % +Options, -Percent
-            backwards/2,                % +Direction, -Backwards
-            not_nothing/1               % +Number
+            backwards/2                 % +Direction, -Backwards
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(arguments, [must_be_options/3, must_be_timeout/1]).
-:- use_module('../odometry',
-              [ drive_option/2, number_value/2,
-                valid_drive_option/3
+:- use_module(explain).
+:- use_module(arguments,
+              [ must_be_options/3, number_option/4, option/2, option/3,
+                timeout_option/2
               ]).
-:- use_module(robot_state, [robot/4, robot_description/1]).
-:- use_module(native, [drive_/4, drive_wait_/3]).
+:- use_module(robot_state,
+              [drive_default/2, robot/4, robot_description/1]).
+:- use_module(native, [drive_/4]).
 
 /** <module> How a move is carried out
 
-What all moves of library(ev3dev/drive) have in common.
+What the moves of library(ev3dev/robot) and of library(ev3dev/drive) have in
+common.
 */
+
+%!  move_straight(+Percent, +Distance, +Options) is semidet.
+%
+%   Go straight on for Distance cm. The signs of both make the direction.
+
+move_straight(Percent, Distance, Options) :-
+    (   sign(Percent) =:= sign(Distance)
+    ->  Backwards = false
+    ;   Backwards = true
+    ),
+    Length is abs(Distance),
+    move(Percent, legs([arc(Length, 0)], Backwards), Options).
+
+%!  move_turn(+Percent, +Angle, +Options) is semidet.
+%
+%   Turn on the spot by Angle degrees. The signs of both make the direction.
+
+move_turn(Percent, Angle, Options) :-
+    Turn is Angle * sign(Percent),
+    move(Percent, legs([turn(Turn)], false), Options).
 
 %!  move(+Percent, +Course, +Options) is semidet.
 %
@@ -53,8 +72,8 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   debug(ev3dev, "the robot cannot move by ~p at ~w %",
-              [Course, Percent]),
+    ;   explain("the robot cannot move by ~p at ~w %",
+                [Course, Percent]),
         fail
     ).
 
@@ -62,17 +81,16 @@ move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-
     must_be_move_options(Options),
     evaluated(abs(Percent), Speed),
-    drive_option(acceleration, Default),
-    option(acceleration(Acceleration0), Options, Default),
-    valid_drive_option(acceleration, Acceleration0, Acceleration),
+    drive_default(acceleration, Default),
+    number_option(acceleration(Acceleration), positive_number, Options,
+                  Default),
     option(stop_action(Action), Options, hold),
-    drive_option(use_gyro, Default1),
+    drive_default(use_gyro, Default1),
     option(use_gyro(UseGyro), Options, Default1),
     must_be(boolean, UseGyro),
     option(wait(Wait0), Options, true),
     must_be(boolean, Wait0),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
+    timeout_option(Options, Timeout),
     (   Course = legs(_, _)
     ->  Wait = Wait0
     ;   Wait = false
@@ -85,27 +103,22 @@ ended(stalled, _) :-
     robot(_, _, Left, Right),
     print_message(warning, ev3dev(stalled([Left, Right]))),
     fail.
+ended(astray, _) :-
+    !,
+    robot(_, _, Left, Right),
+    print_message(warning, ev3dev(astray([Left, Right]))),
+    fail.
 ended(Reason, Course) :-
-    debug(ev3dev, "~p ended early: ~w", [Course, Reason]),
+    explain("~p ended early: ~w", [Course, Reason]),
     fail.
 
-%!  drive_wait(+Options, -Reason) is semidet.
-%
-%   Wait until the move under way ends, as one that was started with
-%   `wait(false)`, and tell why it did, as the option `reason(Reason)` does.
-%   Stops nothing. At once `reached` if there is none. Options:
-%
-%     - timeout(+Seconds)
-%       Wait for so long at most.
+:- multifile prolog:message//1.
 
-drive_wait(Options, Reason) :-
-    must_be_options(drive_option, [timeout], Options),
-    option(timeout(Timeout), Options, infinite),
-    must_be_timeout(Timeout),
-    robot_description(Robot),
-    catch(drive_wait_(Robot, Timeout, Reason),
-          error(existence_error(_, _), _),
-          Reason = unplugged).
+prolog:message(ev3dev(astray([Left, Right]))) -->
+    [ 'the gyro does not follow the wheels at ~w and ~w. '-[Left, Right],
+      'Is it mounted upside down, are left and right motor swapped, '-[],
+      'or do the wheels spin on the spot?'-[]
+    ].
 
 %!  must_be_move_options(+Options) is det.
 %
@@ -118,16 +131,6 @@ must_be_move_options(Options) :-
                       timeout, reason ],
                     Options).
 
-%!  speed_option(+Options, -Percent) is det.
-%
-%   The speed of a move that is not told one.
-
-speed_option(Options, Percent) :-
-    must_be(list, Options),
-    drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    number_value(Speed, Percent).
-
 %!  backwards(+Direction, -Backwards) is det.
 %
 %   Backwards is `true` if Direction is negative, else `false`.
@@ -136,15 +139,4 @@ backwards(Direction, Backwards) :-
     (   Direction < 0
     ->  Backwards = true
     ;   Backwards = false
-    ).
-
-%!  not_nothing(+Number) is semidet.
-%
-%   Fails, and says so, if a distance or an angle is 0.
-
-not_nothing(Number) :-
-    (   Number =\= 0
-    ->  true
-    ;   debug(ev3dev, "a distance or an angle of 0 moves nothing", []),
-        fail
     ).

@@ -13,19 +13,20 @@
 
 /** <module> Errors that name what was called
 
-Every error of the pack is thrown here. Its context names the predicate that
-the program called, not one further in, and says in words what is wrong; where
-only some values are allowed, which these are. The predicates have the names
-and meanings of those in library(error), which the pack does not load: that
-takes a tenth of the time of loading all of it.
+This module throws every error of the pack. The context of an error names the
+predicate that the program called, not one that this predicate calls. It says
+in words what is wrong, and lists the allowed values of a closed set. The
+predicates have the names and meanings of those in library(error). The pack
+does not load that library, because loading it would take a tenth of the time
+of loading the pack.
 
-What was called is found when an error is thrown, so that a call that succeeds
-costs nothing: from the frame of the error outwards it is the last exported
-predicate of the pack before the program's own code. Prolog gives a frame up
-before the last call of a clause. So a module with public predicates imports
-term_expansion/2 from here, which puts `true` behind the last call of each
-clause of an exported predicate. (With `swipl -O`, which leaves `true` out, an
-error names a predicate further in.)
+throw_error/3 finds the called predicate when it throws, so a call that
+succeeds costs nothing. It walks from the frame of the error outward to the
+program's own code and takes the last exported predicate of the pack. Prolog
+drops a frame before the last call of a clause. So a module with public
+predicates imports term_expansion/2 from here, which adds `true` after the
+last call of each clause of an exported predicate. (`swipl -O` removes this
+`true`; then an error names an inner predicate.)
 */
 
 :- meta_predicate in_own_name(0).
@@ -102,7 +103,7 @@ partial_list(Term) :-
 %
 %   Number is the value of an arithmetic Expression.
 %
-%   @error as is/2
+%   @error the errors of is/2
 
 evaluated(Expression, Number) :-
     (   number(Expression)
@@ -112,8 +113,8 @@ evaluated(Expression, Number) :-
 
 %!  in_own_name(:Goal) is nondet.
 %
-%   Call a Goal of Prolog's own library. Its errors name what the program
-%   called.
+%   Call a Goal of Prolog's own library. Its errors name the predicate that
+%   the program called.
 
 in_own_name(Goal) :-
     catch(Goal, error(Formal, _), throw_formal(Formal)).
@@ -123,7 +124,7 @@ in_own_name(Goal) :-
 %!  existence_error(+Kind, +Name).
 %!  instantiation_error(+Term).
 %
-%   Throw that error.
+%   Throw this error.
 
 type_error(Type, Term) :-
     throw_formal(type_error(Type, Term)).
@@ -142,10 +143,10 @@ throw_formal(Formal) :-
 
 %!  throw_error(+Formal, +Called, +Message).
 %
-%   Throw error(Formal, context(Name/Arity, Text)). Called is what was called
-%   if no frame tells. Text is Message; where that is empty, what is known of
-%   Formal; where it is one_of(Term, Values), that Term is not one of them.
-%   The foreign library throws by this predicate, too.
+%   Throw error(Formal, context(Name/Arity, Text)). Name/Arity is Called if no
+%   frame has an exported predicate. Text is Message. If Message is empty,
+%   Text explains Formal; if it is one_of(Term, Values), Text says that Term
+%   is not one of Values. The foreign library also throws by this predicate.
 
 throw_error(Formal, Called0, Message) :-
     prolog_current_frame(Frame),
@@ -164,7 +165,7 @@ throw_error(Formal, Called0, Message) :-
     ),
     throw(error(Formal, context(Called, Text))).
 
-%   The last exported predicate of the pack on the way out to the program.
+%   The last exported predicate of the pack between Frame and the program.
 
 called(Frame, Called0, Called) :-
     prolog_frame_attribute(Frame, predicate_indicator, Indicator),
@@ -188,8 +189,8 @@ outwards(Frame, Called0, Called) :-
 in_pack(Module:Predicate, Module, Predicate) :-
     sub_atom(Module, 0, _, _, ev3dev).
 
-%   A library for programs exports the predicate, its own or that of a private
-%   module.
+%   True if a public library exports the predicate. It may import it from a
+%   private module.
 
 is_public(Module, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -299,7 +300,7 @@ note_exports([Name/Arity|Exports], Module) :-
 
 %!  term_expansion(+Clause0, -Clause) is semidet.
 %
-%   Keep the frames of exported predicates: `true` behind the last call.
+%   Keep the frames of exported predicates by `true` after the last call.
 
 term_expansion((Head :- Body), (Head :- Body, true)) :-
     prolog_load_context(module, Module),

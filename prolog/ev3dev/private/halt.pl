@@ -6,12 +6,12 @@
                           [keep(true), type(boolean)]),
        now).
 
-/** <module> Nothing moves when the program has ended
+/** <module> Stops the motors when the program ends
 
-The kernel goes on running a motor whose program is over. So every motor, of
-any class, that the program has started is stopped when Prolog halts, or is
-ended by SIGINT, SIGTERM or SIGHUP, unless the flag `ev3dev_stop_at_halt` is
-`false`. A servo floats then.
+The kernel keeps a motor running after its program has ended. So when Prolog
+halts, or SIGINT, SIGTERM or SIGHUP ends it, this module stops every motor, of
+any class, that the program started, unless the flag `ev3dev_stop_at_halt` is
+`false`. It lets servos float.
 */
 
 :- initialization(at_halt(stop_at_halt), now).
@@ -22,8 +22,8 @@ stop_at_halt :-
     ;   true
     ).
 
-% SIGTERM, and SIGINT where nobody debugs, end Prolog at once and without its
-% at_halt/1 goals. Handlers of the program's own are left alone.
+% SIGTERM, and SIGINT without a debugger, end Prolog at once and without its
+% at_halt/1 goals. This does not replace handlers of the program.
 halt_on(Signal) :-
     on_signal(Signal, Handler, Handler),
     (   ends_at_once(Signal, Handler)
@@ -31,9 +31,9 @@ halt_on(Signal) :-
     ;   true
     ).
 
-% Before version 9 SIGINT is for the debugger even where nobody is there to
-% answer it. Version 7.2.3 shows the debugger's handler as a C function, is at
-% its end of input then, and halts as it should: leave it.
+% Before version 9 SIGINT starts the debugger even if there is no terminal.
+% Version 7.2.3 shows the debugger's handler as a C function. It reads the end
+% of its input then and halts as it should, so this leaves that handler.
 ends_at_once(_, default).
 ends_at_once(int, debug) :-
     \+ stream_property(user_input, tty(true)).
@@ -48,8 +48,8 @@ status(term, 143).
 
 :- initialization(( halt_on(term), halt_on(int) ), now).
 
-% The thread that collects garbage takes such a signal now and then, and then
-% nothing comes of it. A brick has one core, and no use for that thread.
+% The thread that collects garbage sometimes receives such a signal, and then
+% the signal is lost. A brick has one core and does not need that thread.
 without_gc_thread :-
     (   current_prolog_flag(gc_thread, true)
     ->  set_prolog_flag(gc_thread, false)

@@ -1,14 +1,14 @@
 :- module(ev3dev_help, []).
 
-/** <module> apropos/1 knows the pack
+/** <module> apropos/1 finds the pack's predicates
 
-help/1 finds the comments of loaded libraries by itself. apropos/1 looks only
-into the index of the manual. When that index is loaded, at the first call of
-help/1 or apropos/1, the pack's predicates are added (see `help_index.pl`).
-Loading the pack costs no more than this file.
+help/1 finds the comments of loaded libraries. apropos/1 reads only the index
+of the manual. Prolog loads that index at the first call of help/1 or
+apropos/1; then this module adds the pack's predicates (see `help_index.pl`).
+So loading the pack costs no more than this file.
 
-In versions before 9, help/1 knows the manual alone; those before 8.2, such as
-the brick's 7.2.3, have another apropos/1.
+In versions before 9, help/1 finds only the manual. Versions before 8.2, such
+as the brick's 7.2.3, have another apropos/1.
 */
 
 :- if((current_prolog_flag(version, Version), Version >= 80200)).

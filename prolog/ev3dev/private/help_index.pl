@@ -10,14 +10,14 @@
 
 /** <module> The pack's predicates in the index of the manual
 
-Loading this file puts them there, for apropos/1. The comments are read from
-the files of the libraries, which need not be loaded.
+Loading this file adds them to the index, for apropos/1. It reads the comments
+from the files of the libraries, and does not load these.
 */
 
 %   extend_manual_index
 %
 %   Add each documented predicate of the pack. Does nothing in a version of
-%   Prolog that keeps its index otherwise.
+%   Prolog that stores its index in another way.
 
 extend_manual_index :-
     (   predicate_property(prolog_manual_index:man_index(_, _, _, _, _),
@@ -35,8 +35,8 @@ extend_manual_index :-
 %
 %   True if the comment of a predicate in File, a public library, starts with
 %   Summary. Object is `ev3dev:PI` if library(ev3dev) exports the predicate,
-%   else `'ev3dev/drive':PI` and the like. It does not name the module that
-%   defines it: help/1 would take File for a page of the manual.
+%   else for example `'ev3dev/drive':PI`. Object does not name the module that
+%   defines the predicate: help/1 would take File for a page of the manual.
 
 documented(File, Where:PI, Summary) :-
     public_file(Library, File),

@@ -7,29 +7,30 @@
 :- dynamic loaded/0.
 :- volatile loaded/0.
 
-/** <module> Which of the pack's foreign libraries is for this machine
+/** <module> Chooses the foreign library for this machine
 
-`make` puts the library where SWI-Prolog wants it, `lib/<arch>/ev3dev.so`. A
-binary pack has one for each kind of machine below `native`. It cannot go by
-the Prolog flag `arch`: of Debian's SWI-Prologs that answer `armv7l-linux`,
-one is for the EV3 (`armel`: floats are passed in integer registers) and
-another for the Raspberry Pi (`armhf`: in those of a floating point unit); and
-before version 8, Debian's answered `armel` and `armhf`. The ELF headers tell:
-that of the running program is compared with that of each library.
+`make` puts the library into the place where SWI-Prolog expects it,
+`lib/<arch>/ev3dev.so`. A binary pack has a library for each kind of machine
+below `native`. The Prolog flag `arch` does not tell these apart: two of
+Debian's SWI-Prologs report `armv7l-linux`, one for the EV3 (`armel`, which
+passes floats in integer registers) and one for the Raspberry Pi (`armhf`,
+which passes floats in registers of a floating point unit). Before version 8,
+Debian's reported `armel` and `armhf`. So this module compares the ELF header
+of the running program with that of each library.
 
-A saved state (`swipl -c`) holds nothing of what a module does while it is
-loaded. So what each process needs is a goal of `initialization(Goal, now)`,
-which is called when a state starts, too. A state finds the foreign library
-where the pack was when the state was made.
+A saved state (`swipl -c`) does not repeat the directives of a module. So each
+action that every process needs is a goal of `initialization(Goal, now)`,
+which Prolog also calls when a state starts. A state looks for the foreign
+library in the directory of the pack at the time when the state was made.
 */
 
 %!  load_library is det.
 %
 %   Load the pack's foreign library for this machine, unless it is loaded. It
-%   has the native predicates of all modules. (Not by library(shlib): to load
-%   that takes longer than all else here.)
+%   has the native predicates of all modules. Does not use library(shlib),
+%   because loading that takes longer than the rest of this file.
 %
-%   @error existence_error(foreign_library, ev3dev) as library_file/1
+%   @error existence_error(foreign_library, ev3dev) like library_file/1
 
 load_library :-
     with_mutex(ev3dev_library_file, load_once).
@@ -40,18 +41,22 @@ load_once :-
 load_once :-
     library_file(File),
     open_shared_object(File, Library),
-    call_shared_object_function(Library, install),
+    current_prolog_flag(access_level, Level),
+    setup_call_cleanup(
+        set_prolog_flag(access_level, system),  % no tracer shows them
+        call_shared_object_function(Library, install),
+        set_prolog_flag(access_level, Level)),
     assertz(loaded).
 
 %!  library_file(-File) is det.
 %
-%   File is the pack's foreign library for this machine: the built one,
+%   File is the pack's foreign library for this machine: the built library,
 %   `lib/<arch>/ev3dev.so`, if it suits the running program, else the first
-%   below `native` that does. Where the program cannot be looked at (no
-%   `/proc`), only the built one counts.
+%   library below `native` that suits it. If the program's header cannot be
+%   read (no `/proc`), File is the built library.
 %
-%   @error existence_error(foreign_library, ev3dev) if there is none. The
-%   message tells what was looked for, and which files are there.
+%   @error existence_error(foreign_library, ev3dev) if no library suits. The
+%   message names the wanted kind and the existing files.
 
 library_file(File) :-
     pack_folder(Pack),
@@ -181,5 +186,5 @@ machine_text(62, _, 'x86-64').
 machine_text(183, _, 'AArch64').
 machine_text(243, _, 'RISC-V').
 
-% Everything above is needed for it.
+% This directive stands last because it needs all predicates above.
 :- initialization(load_library, now).

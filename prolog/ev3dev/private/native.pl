@@ -1,11 +1,13 @@
 :- module(ev3dev_native,
           [ attribute_/4,
             attribute_write_/4,
+            device_/3,
             device_/4,
             dev_/1,
             dev_use_/1,
             file_read_/2,
             file_write_/2,
+            now_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
@@ -31,7 +33,7 @@
             sensor_value_/5,
             sensor_values_/5,
             led_/3,
-            led_set_colour_/2,
+            led_set_color_/2,
             led_set_delays_/3,
             led_set_trigger_/2,
             button_event_/4,
@@ -56,7 +58,6 @@
             port_device_/2,
             port_set_device_/2,
             port_set_mode_/2,
-            turn_by_gyro_/5,
             drive_/4,
             drive_pause_/1,
             drive_wait_/3,
@@ -65,6 +66,7 @@
             pose_/5,
             pose_uncertainty_/3,
             set_pose_/5,
+            grid_drawn_/2,
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
@@ -118,6 +120,7 @@ missing.
 
 %!  attribute_(+Class, ?Port, +Attribute, ?Value) is nondet.
 %!  attribute_write_(+Class, +Port, +Attribute, +Value) is semidet.
+%!  device_(+Class, ?Port, ?Type) is nondet.
 %!  device_(+Class, ?Port, ?Type, ?Path) is nondet.
 %
 %   `src/driver.rs`
@@ -128,6 +131,7 @@ missing.
 %!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
+%!  now_(-Seconds) is det.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
@@ -178,7 +182,7 @@ missing.
 % Lights
 
 %!  led_(?Light, +What, -Value) is nondet.
-%!  led_set_colour_(+Light, +Color) is semidet.
+%!  led_set_color_(+Light, +Color) is semidet.
 %!  led_set_delays_(+Light, +On, +Off) is semidet.
 %!  led_set_trigger_(+Light, +Trigger) is semidet.
 %
@@ -231,12 +235,6 @@ missing.
 %
 %   `src/ports.rs`
 
-% Turns by a gyro
-
-%!  turn_by_gyro_(+Gyro, +Wheels, +Percent, +Degrees, -Ended) is semidet.
-%
-%   `src/robot.rs`
-
 % Driving and odometry
 
 %!  drive_(+Robot, +Course, +Options, -Reason) is semidet.
@@ -250,6 +248,12 @@ missing.
 %
 %   `src/drive.rs`
 
+% Grids
+
+%!  grid_drawn_(+Rows, -Drawn) is det.
+%
+%   `src/grid.rs`
+
 % Roadmaps
 
 %!  roadmap_(+Facts, +Start, +Goal, +Options, -Way) is semidet.
@@ -260,7 +264,7 @@ missing.
 % Navigation
 
 %!  steer_(+Way, +Pose, +Before, -Gone, -DegreesPerCm) is semidet.
-%!  views_block_(+Views, +Point) is semidet.
+%!  views_block_(+Views, +Place) is semidet.
 %!  views_forget_(+Views) is semidet.
 %!  views_look_(+Views, +Pose, +Sensor, +Range, -Moved) is semidet.
 %!  views_new_(+Radius, -Views) is semidet.

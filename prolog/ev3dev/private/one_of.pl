@@ -4,13 +4,14 @@
 
 /** <module> member/2 without library(lists)
 
-To load that library takes a brick a fifth of a second, and in its SWI-Prolog
-nothing else that the pack loads needs it.
+Loading that library takes a fifth of a second on a brick, and in its
+SWI-Prolog no other file of the pack needs it.
 */
 
 %!  one_of(+List, ?Element) is nondet.
 %
-%   True if Element is one of List. The last one leaves no choice.
+%   True if Element is an element of List. The last element leaves no choice
+%   point.
 
 one_of([Element0|Elements], Element) :-
     one_of(Elements, Element0, Element).

@@ -3,27 +3,33 @@
             robot_set/4,                % -WheelDiameter, -Axle, -Left, -Right
             robot_description/1,        % -Robot
             store_robot/2,              % +Robot, +Built
-            robot_hook/0,
-            move_hook/2                 % +Move, -Done
+            drive_default/2,            % ?Name, ?Value
+            store_drive_default/2       % +Name, +Value
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(explain, [explain/2]).
 
 /** <module> The robot that is set
 */
 
 :- dynamic
     robot/4,
-    built/3.                            % Diameters, Inverted, Offset
+    built/3,                            % Diameters, Inverted, Offset
+    drive_default/2.                    % Name, Value
 
-:- multifile
-    robot_hook/0,
-    move_hook/2.
-
-%!  robot_hook is det.
-%!  move_hook(+Move, -Done) is semidet.
+%!  drive_default(?Name, ?Value) is nondet.
 %
-%   Hooks: library(ev3dev/odometry) is told of the robot, and
-%   library(ev3dev/drive) makes the moves, once they are loaded.
+%   True if moves that are not given the option Name have this Value of it.
+
+drive_default(use_gyro, true).
+drive_default(speed, 40).
+drive_default(acceleration, 50).
+
+%!  store_drive_default(+Name, +Value) is det.
+
+store_drive_default(Name, Value) :-
+    with_mutex(ev3dev_robot,
+               ( retractall(drive_default(Name, _)),
+                 assertz(drive_default(Name, Value)) )).
 
 %!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
 %
@@ -36,7 +42,7 @@
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
     (   robot(WheelDiameter, AxleLength, Left, Right)
     ->  true
-    ;   debug(ev3dev, "no robot is set: see set_robot/4", []),
+    ;   explain("no robot is set: see set_robot/4", []),
         fail
     ).
 
@@ -67,5 +73,4 @@ store_robot(Robot, Built) :-
                ( retractall(robot(_, _, _, _)),
                  retractall(built(_, _, _)),
                  assertz(Built),
-                 asserta(Robot) )),
-    forall(robot_hook, true).
+                 asserta(Robot) )).

@@ -1,11 +1,11 @@
 :- module(ev3dev_scripts, []).
 
-/** <module> Programs as scripts, in old versions, too
+/** <module> initialization(main, main) for old versions of Prolog
 
-A program that starts by `:- initialization(main, main).` calls main/0 when
-it is loaded, and then ends: with status 1 if main/0 failed or 2 if it threw.
-Versions before 7.5.8, such as the brick's 7.2.3, refuse that directive; here
-they learn it. As in later versions, nothing is called if the program is
+A program with `:- initialization(main, main).` calls main/0 after loading,
+and then ends: with status 1 if main/0 failed or 2 if it threw. Versions
+before 7.5.8, such as the brick's 7.2.3, refuse that directive; this module
+adds it. As in later versions, Prolog does not call main/0 if the program is
 loaded into a session, or with a toplevel of its own (`swipl -t`).
 */
 
@@ -31,7 +31,7 @@ is_program :-
     '$cmd_option_val'(toplevel, prolog),
     \+ is_compiled.
 
-%   By `swipl -c`: the state calls main/0 when it starts.
+%   True while `swipl -c` compiles: the state calls main/0 when it starts.
 
 is_compiled :-
     prolog_current_frame(Frame),

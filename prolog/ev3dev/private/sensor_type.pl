@@ -10,7 +10,7 @@
 %!  sensor_of(?Port, +Types, -Type) is nondet.
 %
 %   True if a sensor of Type, one of Types, is plugged into Port. The last
-%   leaves no choice.
+%   solution leaves no choice point.
 
 sensor_of(Port, Types, Type) :-
     nonvar(Port),

@@ -10,7 +10,7 @@ motor(outA, 'lego-ev3-m-motor').
 motor(outB, 'lego-ev3-l-motor').
 motor(outC, 'lego-ev3-l-motor').
 
-% Eyes on the left and on the right; each looks aside.
+% A color sensor on the left and one on the right; each points aside.
 sensor(in1, 'lego-ev3-us',     0, 7,     0).
 sensor(in2, 'lego-ev3-color', -3, 6.5, -30).
 sensor(in3, 'lego-ev3-color',  3, 6.5,  30).

@@ -1,5 +1,5 @@
-% A dim hall with a lamp in it, for Braitenberg's vehicles. The robot sees the
-% lamp ahead and a little to its right.
+% A dim hall with a lamp, for Braitenberg's vehicles. The lamp is ahead of the
+% robot and a little to its right.
 
 bounds(0, 0, 300, 300).
 ambient(5).

@@ -1,5 +1,5 @@
-% A maze, drawn: # is a wall, ^ the start and its heading, and at the exit
-% the floor is red. Corridors are 30 cm wide.
+% A drawn maze: # is a wall, ^ the start and its heading. The floor at the
+% exit is red. Corridors are 30 cm wide.
 
 map(30, [ "###########",
           "#r#.......#",

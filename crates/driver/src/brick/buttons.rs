@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Where the buttons of the boards are: EV3 with ev3dev-stretch and with jessie,
+/// The paths of the buttons of each board: EV3 with ev3dev-stretch and with jessie,
 /// EVB, `PiStorms`, whose only button is enter.
 const DEVICES: [&str; 4] = [
     "input/by-path/platform-gpio_keys-event",

@@ -114,7 +114,7 @@ fn present_lights(registry: &Registry) -> Result<Vec<Light>> {
     Ok(sides.chain(lights.into_iter().map(|(_, light)| light)).collect())
 }
 
-/// The light of that name, `left`, `right` or a port; `None` where there is none.
+/// The light of that name, `left`, `right` or a port; `None` if there is no such light.
 ///
 /// # Errors
 /// The kernel's.

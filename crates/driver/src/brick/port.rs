@@ -2,7 +2,7 @@
 //!
 //! Most devices are detected when they are plugged in. The others, as a motor
 //! without rotation sensor, appear when their port is put into a *mode*; and a
-//! program may tell the kernel which of several types is plugged in. Both make a
+//! program may set which of several types is plugged in. Both make a
 //! new device, even where nothing changes. So these functions write only where
 //! something changes, and wait for the device.
 use crate::brick::light;
@@ -34,7 +34,7 @@ const ON_PORTS: [Class; 4] = [Class::TachoMotor, Class::DcMotor, Class::ServoMot
 const MOTOR_TYPES: [&str; 5] =
     ["lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor", "act-l12-ev3-50", "act-l12-ev3-100"];
 
-/// The class of the device that a mode of a port makes, whatever is plugged in.
+/// The class of the device that a mode of a port always makes.
 /// In other modes it depends on the detected device, or on the one that was set.
 fn made_by(mode: &str) -> Option<Class> {
     match mode {
@@ -123,7 +123,7 @@ fn detects(registry: &Registry, port: &str, interrupted: Interrupted) -> Result<
     })
 }
 
-/// Tells a port which device is plugged in, if another one is there, and waits
+/// Sets the device of a port, if another one is there, and waits
 /// until that one is there and can be written. `None` where there is no such
 /// port, `false` if the device does not appear.
 ///

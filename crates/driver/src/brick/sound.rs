@@ -23,7 +23,7 @@ use std::time::Duration;
 /// The frequencies that the speaker can do, in Hz.
 pub const FREQUENCIES: std::ops::RangeInclusive<u32> = 100..=10000;
 
-/// Where the tone generator is: ev3dev-stretch, jessie.
+/// The paths of the tone generator: ev3dev-stretch, jessie.
 const DEVICES: [&str; 2] =
     ["input/by-path/platform-sound-event", "input/by-path/platform-snd-legoev3-event"];
 
@@ -58,7 +58,8 @@ pub struct Sound {
 
 impl Sound {
     /// Plays tones one after the other, and waits until they are over; `None`
-    /// where there is no speaker. Silence follows however this ends.
+    /// where there is no speaker. The speaker is silent afterwards, also after an
+    /// error.
     ///
     /// # Errors
     /// The kernel's, as EACCES for a user who is not in the group `input`;
@@ -259,7 +260,7 @@ impl Drop for Generator<'_> {
     }
 }
 
-/// Where a plain file stands for the device, it keeps all that was written.
+/// A plain file in place of the device keeps all writes.
 fn append(stream: &dyn Stream, path: &Path) -> Result<()> {
     stream.skip().map_err(|source| Error::Open {
         path: path.to_owned(),

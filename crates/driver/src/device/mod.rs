@@ -306,6 +306,23 @@ impl Device {
         Ok(look(word))
     }
 
+    /// Whether a short attribute, as `mode`, is that word.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where the text is not UTF-8, else the kernel's.
+    pub(crate) fn is_word(&self, attribute: &str, word: &str) -> Result<bool> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let text = attribute.read(self.tree(), &mut buffer)?;
+        let rest = text.strip_prefix(word.as_bytes());
+        if rest.is_some_and(|rest| matches!(rest, [] | [b'\n', ..])) {
+            return Ok(true);
+        }
+        let other = first_line(text);
+        std::str::from_utf8(other).map_err(|_| attribute.malformed(other, "a word"))?;
+        Ok(false)
+    }
+
     /// The text of an attribute.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use crate::held::Held;
 use crate::port_name;
 use crate::sysfs::Sysfs;
 use rustix::io::Errno;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
@@ -33,7 +33,7 @@ struct Listing {
     made: Option<Duration>,
     /// In the order of ports.
     devices: Arc<[Arc<Device>]>,
-    by_port: HashMap<String, Arc<Device>>,
+    by_port: BTreeMap<Box<str>, Arc<Device>>,
 }
 
 impl Registry {
@@ -61,7 +61,7 @@ impl Registry {
         Ok(Arc::clone(&listing.devices))
     }
 
-    /// The devices of a class that were seen when it was last looked at.
+    /// The devices of a class at the last listing.
     pub(crate) fn known(&self, class: Class) -> Arc<[Arc<Device>]> {
         Arc::clone(&self.listing(class).devices)
     }
@@ -74,14 +74,16 @@ impl Registry {
     pub fn find(&self, class: Class, port: &str) -> Result<Option<Arc<Device>>> {
         let port = port_name::short(port);
         let mut listing = self.listing(class);
-        let is_fresh = self.is_fresh(&listing);
-        if !is_fresh || !listing.by_port.contains_key(port) {
-            match self.list(class, &mut listing) {
-                // If the class cannot be listed, trust the last listing: a robot
-                // can still be stopped.
-                Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
-                listed => listed?,
+        if self.is_fresh(&listing) {
+            if let Some(device) = listing.by_port.get(port) {
+                return Ok(Some(Arc::clone(device)));
             }
+        }
+        match self.list(class, &mut listing) {
+            // If the class cannot be listed, trust the last listing: a robot
+            // can still be stopped.
+            Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
+            listed => listed?,
         }
         Ok(listing.by_port.get(port).cloned())
     }
@@ -95,7 +97,7 @@ impl Registry {
         Ok(present.is_some_and(|present| std::ptr::eq(Arc::as_ptr(&present), device)))
     }
 
-    /// Does something with the device at a port; `None` where there is none.
+    /// Calls a closure with the device at a port; `None` if there is no device.
     ///
     /// # Errors
     /// As `act`, or as [`all`](Self::all).
@@ -247,8 +249,8 @@ impl Registry {
             let ((a_port, a_name), (b_port, b_name)) = (key(a), key(b));
             port_name::order(&a_port, &b_port).then_with(|| port_name::order(&a_name, &b_name))
         });
-        // A port has one device of a class. Where two directories say they are
-        // at it, the one with the lower number is about to vanish.
+        // A port has one device of a class. If two directories name the same port, the
+        // one with the lower number is about to vanish.
         devices.reverse();
         devices.dedup_by(|earlier, later| earlier.port() == later.port());
         devices.reverse();
@@ -257,7 +259,7 @@ impl Registry {
         let in_socket = in_socket.map(|device| (port_name::socket(device.port()), device));
         let at_port = devices.iter().map(|device| (device.port(), device));
         let all = in_socket.chain(at_port);
-        listing.by_port = all.map(|(port, it)| (port.to_owned(), Arc::clone(it))).collect();
+        listing.by_port = all.map(|(port, it)| (port.into(), Arc::clone(it))).collect();
         listing.devices = devices.into();
         Ok(())
     }

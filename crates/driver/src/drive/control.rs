@@ -1,14 +1,16 @@
 //! Odometry and control of one robot, one period at a time.
 use crate::class::Class;
 use crate::device::registry::Registry;
+use crate::drive::agreement::Agreement;
 use crate::drive::devices::{DriveDevices, Robot, angle, counts};
 use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD};
-use crate::drive::odometry::{Estimate, Pose};
+use crate::drive::odometry::Estimate;
 use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::error::{Error, Result};
 use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
 use crate::motor::{self, Ramps, Speed, StopAction};
+use ev3_motion::Pose;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -20,6 +22,10 @@ const REST_PERIOD: Duration = Duration::from_millis(100);
 
 /// How long that takes at most; then nothing is done until a motor is started.
 const MEASURED: Duration = Duration::from_secs(30);
+
+/// The farthest that a wheel can be told to turn, in counts: the kernel counts
+/// with 32 bits.
+const MOST_COUNTS: f64 = 2_147_483_647.0;
 
 /// A command to the drive.
 #[derive(Clone, Debug)]
@@ -57,6 +63,8 @@ pub(super) struct Inner {
     /// When the wheels last turned.
     pub(super) moved: Duration,
     pub(super) estimate: Estimate,
+    /// Whether the gyro follows the wheels in the motion under way.
+    agreement: Agreement,
     /// The end of the previous motion.
     pub(super) goal: Option<Pose>,
     pub(super) active: Option<ActiveMotion>,
@@ -73,6 +81,7 @@ impl Inner {
             now: Duration::ZERO,
             moved: Duration::ZERO,
             estimate: Estimate::default(),
+            agreement: Agreement::default(),
             goal: None,
             active: None,
             last: None,
@@ -139,7 +148,11 @@ impl Inner {
         }
         self.estimate.predict(&self.robot.wheels, ways, seconds);
         match devices.gyro.as_ref().filter(|_| self.use_gyro).map(angle) {
-            Some(Ok(Some(angle))) => self.estimate.observe_gyro(angle),
+            Some(Ok(Some(angle))) => {
+                let (_, turned) = self.robot.wheels.twist(ways);
+                self.agreement.sample(now, turned.to_degrees(), angle);
+                self.estimate.observe_gyro(angle);
+            }
             Some(Ok(None)) => self.estimate.gyro_lost(),
             Some(Err(error)) => {
                 self.estimate.gyro_lost();
@@ -156,8 +169,10 @@ impl Inner {
     }
 
     /// The motor that is missing.
-    pub(super) fn absent(&self) -> Error {
-        let port = crate::port_name::short(&self.robot.ports[0]).to_owned();
+    pub(super) fn absent(&self, registry: &Registry) -> Error {
+        let [left, right] = &self.robot.ports;
+        let is_left = !matches!(registry.find(Class::TachoMotor, left), Ok(Some(_)));
+        let port = crate::port_name::short(if is_left { left } else { right }).to_owned();
         Error::Unplugged { class: Class::TachoMotor, port }
     }
 
@@ -182,6 +197,21 @@ impl Inner {
         command: &Command,
         options: &DriveOptions,
     ) -> Result<Option<Arc<Outcome>>> {
+        let Some(steering) = self.steering(command, options)? else {
+            return Ok(None);
+        };
+        if let Command::Change(..) = command {
+            return Ok(Some(self.change(steering)));
+        }
+        self.install(steering, options.stop_action).map(Some)
+    }
+
+    /// How to carry out a command; `None` if it is impossible.
+    pub(super) fn steering(
+        &self,
+        command: &Command,
+        options: &DriveOptions,
+    ) -> Result<Option<Steering>> {
         let Some(devices) = &self.devices else {
             return Ok(None);
         };
@@ -200,7 +230,7 @@ impl Inner {
         let speed = left.abs().min(right.abs());
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let limits = Limits { speed: speed as f64 * slowest, acceleration: options.acceleration };
-        let steering = match command {
+        Ok(Some(match command {
             Command::Wheels(shares) => {
                 let (way, turn) = wheels.twist(shares.map(|share| share * limits.speed));
                 Steering::cruise(wheels, limits, way, turn.to_degrees())
@@ -214,17 +244,16 @@ impl Inner {
                 Steering::cruise(wheels, limits, *speed, *rate)
             }
             Command::Legs(legs, is_backwards) => {
-                if speed == 0 {
+                let from = self.estimate.pose();
+                let longest = legs.iter().map(|leg| leg.wheels_roll(&wheels, from));
+                let is_possible = longest.fold(0.0, f64::max) / slowest <= MOST_COUNTS;
+                if speed == 0 || !is_possible {
                     return Ok(None);
                 }
-                let from = (self.estimate.pose(), self.goal);
+                let from = (from, self.goal);
                 Steering::along(wheels, limits, *is_backwards, legs.clone(), from)
             }
-        };
-        if let Command::Change(..) = command {
-            return Ok(Some(self.change(steering)));
-        }
-        self.install(steering, options.stop_action).map(Some)
+        }))
     }
 
     /// Changes the motion under way. A motion that has ended stays ended: the
@@ -265,6 +294,7 @@ impl Inner {
         }
         self.last = Some(Arc::clone(&outcome));
         self.goal = None;
+        self.agreement = Agreement::default();
         self.active = Some(ActiveMotion {
             claim,
             motors: devices.motors.clone(),
@@ -288,6 +318,11 @@ impl Inner {
         };
         let passed = self.now.saturating_sub(active.controlled).min(LONGEST_LOOK);
         active.controlled = self.now;
+        if self.agreement.is_broken() {
+            // It has learned from the gyro what is not so.
+            self.estimate.forget_gyro();
+            return Ok(Some(Reason::Astray));
+        }
         let pose = self.estimate.pose();
         let order = match &mut active.landing {
             Some(landing) => match landing.look(devices.counts, passed) {

@@ -10,18 +10,19 @@
 //! The kernel takes a new `speed_sp` only with the next command, so each change
 //! is both; `run-forever` over `run-forever` keeps the regulator's memory
 //! (`tacho_motor_class.c`). The wheels end a motion at a position.
+mod agreement;
 mod control;
 mod devices;
 mod motion;
 pub mod odometry;
-pub mod path;
 pub mod steering;
-pub mod turn;
 
 use crate::device::MotionObserver;
 use crate::device::registry::Registry;
+use crate::device::retry::while_permissions_settle;
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
+use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor;
 use crate::sysfs::sleep;
@@ -29,8 +30,8 @@ use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
 use devices::{GYRO_MODE, counts};
+use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
-use odometry::Pose;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::time::{Duration, Instant};
 
@@ -155,12 +156,20 @@ impl Drive {
         interrupted: Interrupted,
     ) -> Result<Option<Arc<Outcome>>> {
         self.use_gyro(options.use_gyro);
-        let is_there =
-            self.registry.retry_after_relisting(|| self.lock().integrate(&self.registry))?;
-        if !is_there {
+        let prepare = || {
+            let mut inner = self.lock();
+            let is_there = inner.integrate(&self.registry)?;
+            let is_possible = is_there && inner.steering(command, options)?.is_some();
+            let Some(devices) = inner.devices.as_ref().filter(|_| is_possible) else {
+                return Ok(None);
+            };
+            motor::prepare(&devices.motors)?;
+            Ok(Some(devices.gyro.clone()))
+        };
+        let Some(gyro) = while_permissions_settle(&self.registry, &mut *interrupted, prepare)?
+        else {
             return Ok(None);
-        }
-        let gyro = self.lock().devices.as_ref().and_then(|devices| devices.gyro.clone());
+        };
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
             sensor::set_mode(&self.registry, &gyro, GYRO_MODE, interrupted)?;
         }
@@ -259,7 +268,7 @@ impl Drive {
         let integrated = inner.integrate(&self.registry);
         let stepped = match integrated {
             Ok(true) => inner.control(),
-            Ok(false) => Err(inner.absent()),
+            Ok(false) => Err(inner.absent(&self.registry)),
             Err(error) => Err(error),
         };
         inner.conclude(stepped);

@@ -16,6 +16,7 @@
 //! Gaussian error: the measurement is the mean and variance of the predicted
 //! distribution truncated to that interval. Consecutive readings at rest share
 //! their error, so only one every 100 ms counts.
+use ev3_motion::{Pose, sinc};
 
 /// Half of a gyro's resolution, in radians.
 const HALF_STEP: f64 = 0.5 * DEGREE;
@@ -95,36 +96,6 @@ const AXLE: usize = 5;
 const ZERO: usize = 6;
 const RATE: usize = 7;
 const STATES: usize = 8;
-
-/// A position in cm and a heading in degrees: 0 looks along y, clockwise is
-/// positive, and full turns count.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pose {
-    /// To the right.
-    pub x: f64,
-    /// Ahead at heading 0.
-    pub y: f64,
-    /// Degrees.
-    pub heading: f64,
-}
-
-impl Pose {
-    /// The pose `ahead` cm further on.
-    #[must_use]
-    pub fn ahead(self, ahead: f64) -> Self {
-        let (sin, cos) = self.heading.to_radians().sin_cos();
-        Self { x: self.x + ahead * sin, y: self.y + ahead * cos, ..self }
-    }
-
-    /// The pose after an arc: `way` cm long, turning by `turn` degrees.
-    #[must_use]
-    pub fn along_arc(self, way: f64, turn: f64) -> Self {
-        let half = turn.to_radians() / 2.0;
-        let chord = way * sinc(half);
-        let (sin, cos) = (self.heading.to_radians() + half).sin_cos();
-        Self { x: self.x + chord * sin, y: self.y + chord * cos, heading: self.heading + turn }
-    }
-}
 
 /// The geometry of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -231,7 +202,7 @@ impl Estimate {
         }
     }
 
-    fn reset_certainty(&mut self, states: [usize; 3]) {
+    fn reset_certainty<const N: usize>(&mut self, states: [usize; N]) {
         for known in states {
             for other in 0..STATES {
                 self.covariance[known][other] = 0.0;
@@ -353,6 +324,17 @@ impl Estimate {
         self.has_zero = false;
     }
 
+    /// The gyro contradicts the wheels: forgets all that it has taught, but for the
+    /// pose.
+    pub fn forget_gyro(&mut self) {
+        self.gyro_lost();
+        self.forget_wheels();
+        self.state[RATE] = 0.0;
+        self.reset_certainty([ZERO, RATE]);
+        self.covariance[RATE][RATE] = DRIFT * DRIFT;
+        self.begin_rest();
+    }
+
     /// Sets the gyro's zero so that this angle agrees with the heading.
     fn zero_at(&mut self, angle: f64) {
         self.has_zero = true;
@@ -427,18 +409,6 @@ impl Estimate {
             }
         }
     }
-}
-
-/// An angle between -180 and 180 degrees, the latter included.
-#[must_use]
-pub fn wrapped(degrees: f64) -> f64 {
-    let wrapped = degrees.rem_euclid(360.0);
-    if wrapped > 180.0 { wrapped - 360.0 } else { wrapped }
-}
-
-/// sin(x) / x.
-fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
 /// A Gaussian around 0, truncated to a gyro's step around `off`: its mean, and its

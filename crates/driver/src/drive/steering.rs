@@ -14,8 +14,8 @@
 //!
 //! The motors' own regulator takes some 50 ms to follow; with these gains the
 //! loop around it has no overshoot worth mentioning.
-use crate::drive::odometry::{Pose, Wheels, wrapped};
-use crate::drive::path::{Segment, direction, rounded};
+use crate::drive::odometry::Wheels;
+use ev3_motion::{Pose, Segment, direction, rounded, wrapped};
 use std::collections::VecDeque;
 
 /// Rate of turn for each radian off the heading, per second.
@@ -82,6 +82,26 @@ pub enum Leg {
     Through(Vec<[f64; 2]>, f64),
     /// A path without corners.
     Pieces(Vec<Segment>),
+}
+
+impl Leg {
+    /// How far a wheel rolls at most, in cm, from a pose that is not far away;
+    /// infinite if that is no number.
+    #[must_use]
+    pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
+        let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle / 2.0;
+        let way = |[x, y]: [f64; 2]| (x - from.x).hypot(y - from.y);
+        let roll = match self {
+            Self::Turn(degrees) => turn(*degrees),
+            Self::Heading(heading) => turn(heading - from.heading),
+            Self::Face(heading) => turn(wrapped(*heading)),
+            Self::Towards(place) | Self::To(place) | Self::Reach(place) => way(*place),
+            Self::Arc(length, curvature) => length.abs() + turn((length * curvature).to_degrees()),
+            Self::Through(places, _) => places.iter().map(|place| way(*place)).sum(),
+            Self::Pieces(path) => path.iter().map(Segment::length).sum(),
+        };
+        if roll.is_nan() { f64::INFINITY } else { roll }
+    }
 }
 
 /// How fast.
@@ -271,15 +291,15 @@ impl Steering {
             Leg::To([x, y]) | Leg::Reach([x, y]) => {
                 let mut line = Segment::line([pose.x, pose.y], [x, y]);
                 if matches!(leg, Leg::Reach(_)) {
-                    line.length = (line.length + self.lead()).max(0.0);
+                    line = line.with_length((line.length() + self.lead()).max(0.0));
                 }
-                let turn = wrapped(self.travel(line.start.heading) - pose.heading);
+                let turn = wrapped(self.travel(line.start().heading) - pose.heading);
                 self.follow(vec![line], pose.heading + turn)
             }
             Leg::Arc(length, curvature) => {
                 let start = Pose { heading: self.travel(self.goal.heading), ..self.goal };
-                let turn = (length * curvature).to_degrees();
-                self.follow(vec![Segment { start, length, curvature }], self.goal.heading + turn)
+                let arc = Segment::arc(start, length, curvature);
+                self.follow(vec![arc], self.goal.heading + arc.turn())
             }
             Leg::Through(mut points, radius) => {
                 points.insert(0, [pose.x, pose.y]);
@@ -313,8 +333,8 @@ impl Steering {
                 let Some(first) = path.first() else {
                     return;
                 };
-                let turn = wrapped(self.travel(first.start.heading) - pose.heading);
-                let turns = path.iter().map(|part| (part.length * part.curvature).to_degrees());
+                let turn = wrapped(self.travel(first.start().heading) - pose.heading);
+                let turns = path.iter().map(Segment::turn);
                 let heading = pose.heading + turn + turns.sum::<f64>();
                 self.follow(path, heading)
             }
@@ -367,14 +387,14 @@ impl Steering {
     ) -> Order {
         let sign = if self.is_backwards { -1.0 } else { 1.0 };
         let mut place = path[index].locate([pose.x, pose.y], along);
-        while place.along > path[index].length && index + 1 < path.len() {
-            along = place.along - path[index].length;
+        while place.along > path[index].length() && index + 1 < path.len() {
+            along = place.along - path[index].length();
             index += 1;
             place = path[index].locate([pose.x, pose.y], along);
         }
         along = place.along;
-        let left = path[index + 1..].iter().map(|part| part.length).sum::<f64>()
-            + path[index].length
+        let left = path[index + 1..].iter().map(Segment::length).sum::<f64>()
+            + path[index].length()
             - along;
         let speed = self.speed * sign;
         if left - speed * LAG < LANDING && index + 1 == path.len() {
@@ -384,15 +404,15 @@ impl Steering {
             return Order::Land(self.wheels.ways(left * sign, turn));
         }
         let part = path[index];
-        let turns = 1.0 + part.curvature.abs() * self.wheels.axle / 2.0;
+        let turns = 1.0 + part.curvature().abs() * self.wheels.axle / 2.0;
         let braking = BRAKING * self.limits.acceleration;
         let mut most = self.limits.speed / turns;
         most = most.min((2.0 * braking * (left - speed * LAG).max(0.0)).sqrt().max(2.0));
         if let Some(next) = path.get(index + 1) {
             // Slow down for a tighter part before it comes.
-            let next_turns = 1.0 + next.curvature.abs() * self.wheels.axle / 2.0;
+            let next_turns = 1.0 + next.curvature().abs() * self.wheels.axle / 2.0;
             let limit = self.limits.speed / next_turns;
-            let room = (part.length - along).max(0.0);
+            let room = (part.length() - along).max(0.0);
             most = most.min((limit * limit + 2.0 * braking * room).sqrt());
         }
         let speed = approach(speed, most, self.limits.acceleration * seconds)
@@ -400,13 +420,13 @@ impl Steering {
         // Where the robot is when the motors have followed.
         let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
         let place = part.locate([soon.x, soon.y], along);
-        let ahead = place.along.clamp(0.0, part.length);
-        let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(1.0 / part.curvature.abs().max(1e-3));
+        let ahead = place.along.clamp(0.0, part.length());
+        let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(1.0 / part.curvature().abs().max(1e-3));
         let back = (place.aside / aim).clamp(-1.0, 1.0).asin().to_degrees();
         let heading = self.travel(part.at(ahead).heading) - back;
         let off = wrapped(heading - soon.heading).to_radians();
         self.speed = speed * sign;
-        self.rate = speed * part.curvature + HEADING_GAIN * off;
+        self.rate = speed * part.curvature() + HEADING_GAIN * off;
         self.set_phase(Phase::Following { path, index, along });
         Order::Roll(self.ways())
     }

@@ -1,6 +1,6 @@
 //! The claim of a coordinated motion to its motors.
 //!
-//! A drive or a turn commands its motors again and again. Another thread may
+//! A drive commands its motors again and again. Another thread may
 //! stop one of them, or give it another command, at any time. From then on the
 //! motor is no longer claimed, and the motion must leave it alone. Each write
 //! here is made under the lock of the motor's run, so that a motion cannot
@@ -8,9 +8,8 @@
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::error::Result;
-use crate::motor::command::{StopAction, best_effort};
+use crate::motor::command::StopAction;
 use std::num::NonZeroU32;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A process-wide unique id for a coordinated motion.
@@ -49,13 +48,6 @@ impl Claim {
         Ok(true)
     }
 
-    /// Brakes a claimed motor, which stays claimed; `false` if it is no longer.
-    /// A motor that cannot brake just stops.
-    pub(crate) fn brake(self, motor: &Device) -> Result<bool> {
-        best_effort(motor.write("stop_action", StopAction::Brake.word()))?;
-        self.start(motor, "stop", End::Never)
-    }
-
     /// Stops a claimed motor and gives up the claim. Does nothing if the motor
     /// is no longer claimed.
     pub(crate) fn stop(self, motor: &Device, action: StopAction) -> Result<()> {
@@ -67,20 +59,6 @@ impl Claim {
         motor.write("command", "stop")?;
         *present = None;
         chosen
-    }
-
-    /// Stops all of these motors that are still claimed, even where one fails. A
-    /// motor that was unplugged counts as stopped, and one that does not have
-    /// the action just stops.
-    ///
-    /// # Errors
-    /// The first that occurred.
-    pub(crate) fn stop_all(self, motors: &[Arc<Device>], action: StopAction) -> Result<()> {
-        let mut result = Ok(());
-        for motor in motors {
-            result = result.and(best_effort(self.stop(motor, action)));
-        }
-        result
     }
 
     fn is_of(self, run: Option<MotorRun>) -> bool {

@@ -35,7 +35,7 @@ impl StopAction {
     }
 }
 
-/// Writes a command to one motor, whatever its set-points are.
+/// Writes a command to one motor and leaves its set-points as they are.
 ///
 /// # Errors
 /// The kernel's, as EINVAL for a command the motor does not have.

@@ -13,12 +13,12 @@ pub struct Move<'a> {
     pub port: &'a str,
     /// The speed; its sign is a direction.
     pub speed: Speed,
-    /// Where the move ends.
+    /// The target of the move.
     pub extent: Extent,
 }
 
 /// How far a move goes. Angles are in degrees of the output shaft, or, of a
-/// linear actuator, in millimetres.
+/// linear actuator, in millimeters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
     /// By an angle; its sign and that of the speed make the direction.
@@ -141,7 +141,7 @@ fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
     Ok((counts.abs() <= f64::from(i32::MAX)).then_some(counts as i64))
 }
 
-/// Tacho counts for a degree of the shaft, or a millimetre of a linear actuator.
+/// Tacho counts for a degree of the shaft, or a millimeter of a linear actuator.
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
 fn counts_per_unit(motor: &Device) -> Result<f64> {
     Ok(if motor.is_linear() {
@@ -176,8 +176,8 @@ pub(crate) fn duty(percent: f64) -> Option<i64> {
     (whole.abs() <= 100.0).then_some(whole as i64)
 }
 
-/// Where a motor is, in degrees, or millimetres of a linear actuator: an
-/// integer where a tacho count is one, else a float.
+/// The position of a motor in degrees, or millimeters of a linear actuator: an integer
+/// if a tacho count is one of these, else a float.
 ///
 /// # Errors
 /// The kernel's.

@@ -3,7 +3,7 @@
 //! The kernel announces a change of `state` every 50 ms, on the EV3 only, and
 //! a state that comes and goes between two announcements never. Other boards
 //! announce nothing, and plain files cannot. So a wait here sleeps in poll(2),
-//! but never for longer than [`SLICE`], then samples again; towards the end that
+//! but never for longer than [`SLICE`], then samples again; toward the end that
 //! position and speed predict it samples every [`SHORT_SLICE`].
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
@@ -58,6 +58,8 @@ pub enum Reason {
     Unplugged,
     /// Another command stopped a motor before it got there.
     Stopped,
+    /// The gyro contradicts the wheels; only of a drive.
+    Astray,
 }
 
 impl Reason {
@@ -70,6 +72,7 @@ impl Reason {
             Self::Timeout => "timeout",
             Self::Unplugged => "unplugged",
             Self::Stopped => "stopped",
+            Self::Astray => "astray",
         }
     }
 }
@@ -151,8 +154,7 @@ pub fn wait_for_flag(
             return Ok(Some(SHORT_SLICE));
         }
         progress.has_run |= is_there && flag == "running";
-        // That nothing runs yet right after a command does not mean that
-        // nothing runs any more.
+        // Right after a command the motor may not run yet; this is not its end.
         if is_there == present && (present || flag != "running" || progress.is_over(now)?) {
             return Ok(None);
         }
@@ -286,8 +288,8 @@ impl<'a> Progress<'a> {
         Ok(was_quiet || !self.is_plain()?)
     }
 
-    /// Whether the motor is nothing but plain files. Where nothing ever moves,
-    /// a motor that does not run is taken to be there, as in the paper.
+    /// Whether the motor consists of plain files. There no motor ever moves, so a motor
+    /// that does not run counts as arrived, as in the paper.
     fn is_plain(&self) -> Result<bool> {
         self.motor.attribute("state").is_plain(self.motor.tree())
     }

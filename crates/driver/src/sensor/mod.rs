@@ -67,15 +67,11 @@ pub fn read_all<const N: usize>(
     indices: [usize; N],
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
-    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        let using = in_use(registry, sensor, interrupted)?;
-        sensor.check_present()?;
-        ensure_settled(registry, sensor, mode, interrupted)?;
+    in_mode(registry, sensor, mode, interrupted, |sensor| {
         let mut values = [const { Value::Integer(0) }; N];
         for (value, index) in values.iter_mut().zip(indices) {
             *value = read_value(sensor, mode, index)?;
         }
-        drop(using);
         Ok(values)
     })
 }
@@ -93,14 +89,7 @@ pub fn read_several(
     count: Option<usize>,
     interrupted: Interrupted,
 ) -> Result<Option<Vec<Value>>> {
-    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        let using = in_use(registry, sensor, interrupted)?;
-        sensor.check_present()?;
-        ensure_settled(registry, sensor, Some(mode), interrupted)?;
-        let values = values_in(sensor, mode, count)?;
-        drop(using);
-        Ok(values)
-    })
+    in_mode(registry, sensor, Some(mode), interrupted, |sensor| values_in(sensor, mode, count))
 }
 
 /// The first values of a sensor that is in that mode.
@@ -144,10 +133,7 @@ pub fn set_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        let _using = in_use(registry, sensor, interrupted)?;
-        ensure_settled(registry, sensor, Some(mode), interrupted)
-    })
+    in_mode(registry, sensor, Some(mode), interrupted, |_| Ok(()))
 }
 
 /// Restarts a sensor in a mode, be it in that mode already or not. A gyro's
@@ -162,7 +148,6 @@ pub fn restart(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        let _using = in_use(registry, sensor, interrupted)?;
         write_mode(sensor, mode)?;
         settle(registry, sensor, interrupted).map(drop)
     })
@@ -226,9 +211,7 @@ fn ensure_settled(
 
 fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
     match mode {
-        Some(mode) if !sensor.with_word("mode", |present| present == mode)? => {
-            write_mode(sensor, mode)
-        }
+        Some(mode) if !sensor.is_word("mode", mode)? => write_mode(sensor, mode),
         _ => Ok(()),
     }
 }
@@ -271,9 +254,25 @@ fn in_use<'a>(
     }
 }
 
-/// Does something with a sensor, and repeats it while the sensor is getting into
-/// contact, or udev has not opened its files yet. `None` where the sensor is
-/// gone.
+/// Does something with a sensor that is in a mode, if one is given, and shows values
+/// of it. `None` where the sensor is gone.
+fn in_mode<T>(
+    registry: &Registry,
+    sensor: &Arc<Device>,
+    mode: Option<&str>,
+    interrupted: Interrupted,
+    mut act: impl FnMut(&Device) -> Result<T>,
+) -> Result<Option<T>> {
+    while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
+        sensor.check_present()?;
+        ensure_settled(registry, sensor, mode, interrupted)?;
+        act(sensor)
+    })
+}
+
+/// Does something with a sensor that no other thread uses meanwhile, and repeats it
+/// while the sensor is getting into contact, or udev has not opened its files yet.
+/// `None` where the sensor is gone.
 fn while_it_connects<T>(
     registry: &Registry,
     sensor: &Arc<Device>,
@@ -284,7 +283,9 @@ fn while_it_connects<T>(
     let mut connecting = Connecting::default();
     until_some(registry.tree(), interrupted, |interrupted| {
         loop {
-            let error = match act(&sensor, &mut *interrupted) {
+            let done = in_use(registry, &sensor, &mut *interrupted)
+                .and_then(|_using| act(&sensor, &mut *interrupted));
+            let error = match done {
                 Ok(value) => return Ok(Some(Some(value))),
                 Err(error) => error,
             };

@@ -1,5 +1,5 @@
-//! What is built into the brick: status LEDs, battery, the note that says which board it is, and
-//! that which says how the screen is laid out.
+//! The parts of the brick: status LEDs, battery, the file that names the board, and the files that
+//! describe the screen.
 
 pub(crate) mod panel;
 pub(crate) mod port;
@@ -151,7 +151,7 @@ impl Battery {
     const OPEN_VOLTS: f64 = 8.0;
     /// Inner resistance with its wiring, in ohms.
     const OHMS: f64 = 0.15;
-    /// What the brick itself draws, in A.
+    /// The current that the brick itself draws, in A.
     const IDLE_AMPERES: f64 = 0.17;
     pub(crate) const NAME: &'static str = "lego-ev3-battery";
 

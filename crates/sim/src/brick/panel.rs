@@ -77,7 +77,7 @@ pub(crate) struct ButtonEvent {
     pub(crate) is_press: bool,
 }
 
-/// What the panel shows, plays and has seen.
+/// The state of buttons, speaker and screen.
 #[derive(Clone, Debug)]
 pub(crate) struct Panel {
     down: Vec<Button>,
@@ -91,7 +91,7 @@ pub(crate) struct Panel {
     tone: u32,
     /// In percent.
     pub(crate) volume: u8,
-    /// What the screen shows. Shared between snapshots until it changes.
+    /// The content of the screen. Snapshots share it until it changes.
     pub(crate) screen: Arc<Vec<u8>>,
 }
 

@@ -118,7 +118,7 @@ const OUT_MODES: [&str; 5] = ["auto", "tacho-motor", "dc-motor", "led", "raw"];
 pub(crate) struct LegoPort {
     pub(crate) port: Port,
     pub(crate) mode: usize,
-    /// What detection says, as `status` shows it while the mode is `auto`.
+    /// The result of detection, as `status` shows it while the mode is `auto`.
     pub(crate) detected: &'static str,
 }
 

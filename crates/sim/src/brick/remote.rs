@@ -15,11 +15,12 @@ pub enum RemoteButton {
     BlueUp,
     /// Lower right.
     BlueDown,
-    /// The grey one in the middle.
+    /// The gray one in the middle.
     Beacon,
 }
 
-/// What is held down on a channel: one button, or two that the sensor can tell from others.
+/// The pressed buttons of a channel: one button, or two that the sensor can distinguish from
+/// others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Remote(u8);
 
@@ -38,7 +39,7 @@ const CODES: [&[RemoteButton]; 12] = [
     &[RemoteButton::RedUp, RemoteButton::RedDown],
     &[RemoteButton::BlueUp, RemoteButton::BlueDown],
 ];
-/// What `IR-REM-A` shows with nothing pressed, what else its bits are, and which is whose.
+/// The value of `IR-REM-A` with no button pressed, its constant bits, and the bit of each button.
 const IDLE_BITS: i32 = 384;
 const BASE_BITS: i32 = 256;
 const BITS: [(RemoteButton, i32); 4] = [
@@ -52,7 +53,7 @@ impl Remote {
     pub(crate) const NONE: Remote = Remote(0);
     pub(crate) const BEACON: Remote = Remote(9);
 
-    /// These buttons, in any order; `None` if no sensor could tell them.
+    /// These buttons, in any order; `None` if no sensor can report this combination.
     pub(crate) fn holding(buttons: &[RemoteButton]) -> Option<Remote> {
         let is_it = |held: &&[RemoteButton]| {
             held.len() == buttons.len() && held.iter().all(|button| buttons.contains(button))
@@ -61,12 +62,12 @@ impl Remote {
         u8::try_from(code).ok().map(Remote)
     }
 
-    /// What `IR-REMOTE` shows.
+    /// The value of `IR-REMOTE`.
     pub(crate) fn code(self) -> i32 {
         self.0.into()
     }
 
-    /// What `IR-REM-A` shows.
+    /// The value of `IR-REM-A`.
     pub(crate) fn bits(self) -> i32 {
         let held = CODES[usize::from(self.0)];
         let bits = BITS.iter().filter(|(button, _)| held.contains(button));

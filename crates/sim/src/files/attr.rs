@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::files::errno::Errno;
 
-/// What may be done with an attribute. Sysfs refuses anything else at `open`, even for root.
+/// The allowed access to an attribute. Sysfs refuses anything else at `open`, even for root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
     /// 0444
@@ -34,7 +34,7 @@ impl Access {
     }
 }
 
-/// What a successful write asks of the machine around the device.
+/// The request of a successful write to the machine around the device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Effect {
     /// Nothing more.
@@ -45,7 +45,7 @@ pub(crate) enum Effect {
     TimesOut(Duration),
     /// A port's mode was written (perhaps the same one): its device goes, another may come.
     PortMode(usize),
-    /// A port was told which device is behind it.
+    /// A program set the device of a port.
     PortDevice(String),
     /// Files appeared that udev has yet to open to the group.
     Appeared,
@@ -92,7 +92,7 @@ impl<D> Attr<D> {
         }
     }
 
-    /// What `stat` says of the size; 4096 is for texts.
+    /// The size that `stat` reports; 4096 is for texts.
     pub(crate) const fn size(mut self, size: u32) -> Self {
         self.size = size;
         self
@@ -179,8 +179,8 @@ pub(crate) fn text(value: impl Display) -> Result<Vec<u8>, Errno> {
     Ok(format!("{value}\n").into_bytes())
 }
 
-/// What a device's `uevent` says: the only way to find driver and address without opening two
-/// files. Writing an action word makes udev look again; here it has nobody to wake.
+/// The text of a device's `uevent`, which has driver and address in one file. Writing an action
+/// word makes udev read the device again; here it has no effect.
 pub(crate) fn uevent(driver: &str, address: &str) -> Result<Vec<u8>, Errno> {
     text(format_args!("LEGO_DRIVER_NAME={driver}\nLEGO_ADDRESS={address}"))
 }

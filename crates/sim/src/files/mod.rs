@@ -1,4 +1,4 @@
-//! What attribute files have in common: tables of attributes, error numbers, parsers of texts.
+//! The common parts of attribute files: tables of attributes, error numbers, parsers of texts.
 
 pub(crate) mod attr;
 pub(crate) mod errno;

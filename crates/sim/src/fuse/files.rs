@@ -79,13 +79,13 @@ impl<F: Served> Files<F> {
         self.stat(node, request)
     }
 
-    fn open_file(&self, node: NodeId, flags: OpenFlags) -> Result<u64, Errno> {
+    fn open_file(&self, node: NodeId, flags: OpenFlags, is_root: bool) -> Result<u64, Errno> {
         let access = match flags.acc_mode() {
             OpenAccMode::O_RDONLY => Access::ReadOnly,
             OpenAccMode::O_WRONLY => Access::WriteOnly,
             OpenAccMode::O_RDWR => Access::ReadWrite,
         };
-        let file = F::open(&self.shared.lock(), node, access)?;
+        let file = F::open(&self.shared.lock(), node, access, is_root)?;
         Ok(locked(&self.open).insert(file))
     }
 
@@ -188,8 +188,8 @@ impl<F: Served> Filesystem for Files<F> {
         reply.error(F::REFUSAL.into());
     }
 
-    fn open(&self, _: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
-        match self.open_file(NodeId(ino.0), flags) {
+    fn open(&self, request: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
+        match self.open_file(NodeId(ino.0), flags, request.uid() == 0) {
             Ok(handle) => reply.opened(FileHandle(handle), FopenFlags::FOPEN_DIRECT_IO),
             Err(errno) => reply.error(errno.into()),
         }

@@ -1,9 +1,10 @@
 //! The tree as real files: any program in any language can use the simulated brick.
 //!
-//! The kernel asks, this answers from a [`Shared`] machine whose clock belongs to somebody else.
+//! The kernel asks; this module answers from a [`Shared`] machine, whose clock belongs to its
+//! caller.
 //! Reads go straight to the drivers (direct I/O), a write is one call, truncation is harmless, as
-//! in sysfs. A second thread wakes whenever time passes, for poll(2), which wants to be told of a
-//! changed `state`, and for calls that block: they are answered when their time is over. Entries of
+//! in sysfs. A second thread wakes whenever time passes. It reports a changed `state` to poll(2),
+//! and answers blocking calls when their time is over. Entries of
 //! class directories are plain directories here, not symbolic links.
 
 mod files;
@@ -31,11 +32,12 @@ use served::Served;
 
 const DEVICE: &str = "/dev/fuse";
 
-/// How long files may be busy that were closed.
-const FREE_WITHIN: Duration = Duration::from_secs(1);
+/// How long files may be busy that were closed: seconds, where three times as many threads want to
+/// run as there are processors.
+const FREE_WITHIN: Duration = Duration::from_secs(5);
 
 /// How long unmounting may take.
-const UNMOUNTED_WITHIN: Duration = Duration::from_secs(2);
+const UNMOUNTED_WITHIN: Duration = Duration::from_secs(10);
 
 /// Why a tree could not be mounted.
 #[derive(Debug, thiserror::Error)]
@@ -115,7 +117,7 @@ impl Mount {
         Ok(Mount { session: Some(session), watcher, shared, stop, path: path.to_owned() })
     }
 
-    /// Where it is mounted.
+    /// The directory of the mount.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -124,8 +126,8 @@ impl Mount {
     /// Unmounts, and says whether that went well.
     ///
     /// # Errors
-    /// What the kernel answers, as EBUSY; [`ResourceBusy`](io::ErrorKind::ResourceBusy), too, where
-    /// it is unmounted only once the last open file in it is closed.
+    /// The error of the kernel, such as EBUSY; also [`ResourceBusy`](io::ErrorKind::ResourceBusy)
+    /// if the unmount happens only when the last open file is closed.
     pub fn unmount(mut self) -> io::Result<()> {
         self.end()
     }
@@ -151,7 +153,7 @@ impl Mount {
                 Some(number) if is_unmounted && number == Errno::INVAL.raw_os_error() => Ok(()),
                 _ => Err(error),
             });
-            // Where nobody waits any more, it has been told that this may take long.
+            // If the receiver is gone, the caller knows that this may take long.
             let _ = sender.send(ended);
         })?;
         match ended.recv_timeout(UNMOUNTED_WITHIN) {
@@ -164,8 +166,8 @@ impl Mount {
 }
 
 /// Unmounts as root. A file that was just closed is busy a little longer, on a machine with much to
-/// do for a long time. What goes wrong otherwise is left to the session, which tries again and
-/// without root asks `fusermount3`.
+/// do for a long time. Other errors are left to the session: it tries again, and without root asks
+/// `fusermount3`.
 fn unmount_when_free(path: &Path) -> bool {
     let start = Instant::now();
     loop {

@@ -1,4 +1,4 @@
-//! What is open in a mount, and who waits for it.
+//! The open files of a mount, and the programs that wait for them.
 //!
 //! A process that waits for an answer cannot even be killed. So a reader is sent back every now and
 //! then as if by a signal (EINTR); programs and libraries then ask again. A writer is answered after
@@ -16,7 +16,7 @@ use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::shared::Shared;
 
-/// [`watch`] looks this often, even if nobody wakes it, in wall time.
+/// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// How long a reader waits, in wall time, before it is sent back.
@@ -30,7 +30,7 @@ const WRITERS_PATIENCE: Duration = Duration::from_secs(2);
 pub(super) struct Open<F> {
     next: u64,
     files: HashMap<u64, F>,
-    /// Who waits in poll(2), by file handle.
+    /// The programs that wait in poll(2), by file handle.
     polls: HashMap<u64, PollHandle>,
     blocked: Vec<Blocked>,
 }
@@ -104,7 +104,7 @@ impl<F: Served> Open<F> {
         self.blocked.push(Blocked::Write { until, latest, outcome, reply });
     }
 
-    /// Tells by its handle when there is something to read.
+    /// Reports by its handle when there is something to read.
     pub(super) fn poll_later(&mut self, handle: u64, poll: PollHandle) {
         self.polls.insert(handle, poll);
     }
@@ -160,7 +160,7 @@ pub(super) fn written(outcome: Result<usize, Errno>, reply: ReplyWrite) {
     }
 }
 
-/// What is behind a lock. A thread that panicked with it in its hand leaves it in order.
+/// Locks a mutex. A thread that panicked while it held the lock has left the value in order.
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -183,10 +183,10 @@ pub(super) fn watch<F: Served>(
             machine = shared.wait(machine, LOOK);
             continue;
         }
-        // The kernel may ask again at once, so it is told without the lock.
+        // The kernel may ask again at once, so the report is made without the lock.
         drop(machine);
         for handle in polls {
-            // A program that has gone away need not be told.
+            // The program may have ended: ignore the error.
             let _ = notifier.poll(handle);
         }
         machine = shared.lock();

@@ -1,4 +1,4 @@
-//! The device files: what is below `/dev` on a brick.
+//! The device files, which are below `/dev` on a brick.
 //!
 //! ```text
 //! fb0
@@ -6,7 +6,7 @@
 //! input/event1    input/by-path/platform-gpio_keys-event
 //! ```
 //! The paths by which programs find an event device are links on a brick; here they are names of
-//! the same file. What the calls do and answer is the kernel's evdev and fbmem (known in general,
+//! the same file. The calls behave like the kernel's evdev and fbmem (known in general,
 //! not read in their source).
 
 use std::sync::Arc;
@@ -83,7 +83,7 @@ impl Machine {
         found.map(|(_, node)| node).ok_or(Errno::ENOENT)
     }
 
-    /// What is in a directory below `/dev`.
+    /// The entries of a directory below `/dev`.
     ///
     /// # Errors
     /// ENOTDIR.
@@ -234,25 +234,31 @@ impl DevDescriptor {
                 (Device::Sound, Some((EV_SND, SND_BELL, on))) => {
                     machine.set_tone(if on == 0 { 0 } else { BELL_HERTZ });
                 }
-                // What a device cannot do it passes over.
+                // The device ignores what it does not have.
                 _ => {}
             }
         }
         Ok(taken)
     }
 
-    /// What an ioctl answers: its result, and the bytes for the caller. Served are those that
-    /// tell about an event device, whose numbers hold their size.
+    /// The answer to an ioctl: its result, and the bytes for the caller. This serves the ioctls
+    /// that describe an event device; their numbers hold their size.
     ///
     /// # Errors
     /// ENOTTY for a device that has none, EINVAL for one that is not served.
     pub fn ioctl(&self, machine: &Machine, command: u32) -> Result<(i32, Vec<u8>), Errno> {
+        /// The clock of events.
+        const EVIOCSCLOCKID: u32 = 1 << 30 | 4 << 16 | (b'E' as u32) << 8 | 0xa0;
         /// For reading, of the group `E`.
         const READ_E: u32 = 2 << 30 | (b'E' as u32) << 8;
         if self.device == Device::Screen {
             return Err(Errno::ENOTTY);
         }
         let room = (command >> 16 & 0x3fff) as usize;
+        if command == EVIOCSCLOCKID {
+            // Events have the time of the brick, whichever clock that is.
+            return Ok((0, Vec::new()));
+        }
         if command & 0xc000_ff00 != READ_E {
             return Err(Errno::EINVAL);
         }
@@ -267,8 +273,11 @@ impl DevDescriptor {
             // EVIOCGVERSION, EVIOCGID: the version of evdev; bus, vendor, product, version.
             0x01 => 0x0001_0001_i32.to_ne_bytes().to_vec(),
             0x02 => [0x19_u16, 1, 1, 0x100].map(u16::to_ne_bytes).concat(),
-            // EVIOCGEFFECTS: of force feedback there is none.
+            // EVIOCGEFFECTS: the device has no force feedback.
             0x84 => 0_i32.to_ne_bytes().to_vec(),
+            // EVIOCGUNIQ, EVIOCGPROP: it has no serial number, and no properties.
+            0x08 => return Err(Errno::ENOENT),
+            0x09 => vec![0; WORD],
             // EVIOCGNAME, EVIOCGPHYS, EVIOCGKEY
             0x06 => name.into(),
             0x07 => place.into(),
@@ -283,11 +292,7 @@ impl DevDescriptor {
         let fixed = matches!(command & 0xff, 0x01 | 0x02 | 0x84);
         let answer = &answer[..answer.len().min(room)];
         let result = if fixed { 0 } else { i32::try_from(answer.len()).unwrap_or(i32::MAX) };
-        // The kernel wants all the bytes of the number's size; it leaves the rest alone, here it
-        // is zero.
-        let mut bytes = answer.to_vec();
-        bytes.resize(room, 0);
-        Ok((result, bytes))
+        Ok((result, answer.to_vec()))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a program does with the tree: look up, open, read, write, poll.
+//! The accesses of a program to the tree: look up, open, read, write, poll.
 
 use std::time::Duration;
 
@@ -15,7 +15,7 @@ use crate::sensor::{Reading, Sensor};
 use crate::trace::Action;
 use crate::world::geometry::Pose;
 
-/// Where a sensor sits on a port for which the robot names none.
+/// The place of a sensor at a port without a place in the robot's facts.
 const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);
 
 impl Machine {
@@ -35,7 +35,7 @@ impl Machine {
         self.tree.lookup(directory, name)
     }
 
-    /// What is in a directory.
+    /// The entries of a directory.
     ///
     /// # Errors
     /// ENOTDIR; ENODEV if its device is gone.
@@ -75,6 +75,14 @@ impl Machine {
     /// As [`Machine::open`].
     pub fn open_node(&self, node: NodeId, access: Access) -> Result<(), Errno> {
         self.tree.may_open(node, access, self.tick)
+    }
+
+    /// The same for a program of root, which does not wait for udev.
+    ///
+    /// # Errors
+    /// As [`Machine::open`].
+    pub fn open_node_as_root(&self, node: NodeId, access: Access) -> Result<(), Errno> {
+        self.tree.may_open(node, access, u64::MAX)
     }
 
     /// Reads an attribute: its driver is called and makes a new text. A [`Descriptor`] decides
@@ -161,7 +169,7 @@ impl Machine {
 
     // ---- sensors --------------------------------------------------------------------------
 
-    /// Lets a sensor look at the world, if its values are not fresh.
+    /// Lets a sensor sample the world, if its values are not fresh.
     pub(super) fn look(&mut self, serial: u64) {
         let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
             return;

@@ -1,7 +1,7 @@
-//! The whole: brick, robot and world, and what is true of them.
+//! The whole: brick, robot and world, and their state.
 //!
-//! What a program does with the files is in `files`, how wires come and go in `plugs`, how time
-//! passes in `time`.
+//! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
+//! time pass.
 
 mod descriptor;
 mod dev;
@@ -40,7 +40,7 @@ use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Where noise starts from.
+    /// The seed of the noise.
     pub seed: u64,
     /// A plug that is moved is noticed at once, its files are open at once, and a sensor changes
     /// its mode at once and settled. Real bricks take their time: 0.4 s for a motor, 1.3 s for a
@@ -56,7 +56,7 @@ impl Default for Options {
     }
 }
 
-/// What a write did that a driver did not refuse at once.
+/// The effect of a write that a driver did not refuse at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written {
     /// Bytes taken, all of them; or the error with which the call ends.
@@ -153,7 +153,7 @@ impl Machine {
 
     // ---- ground truth ---------------------------------------------------------------------
 
-    /// Where the robot really is. The heading is not reduced to a full turn.
+    /// The true pose of the robot. The heading is not reduced to a full turn.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.body.pose
@@ -240,15 +240,14 @@ impl Machine {
         &self.robot
     }
 
-    /// Goes back to a snapshot. What is plugged in from now on gets numbers that no device has had
-    /// in the meantime, either: a program that still knows that device would mistake the new one for
-    /// it.
+    /// Goes back to a snapshot. A device that is plugged in later gets a number that no device has
+    /// had in the meantime, so that a program does not mistake it for a device that it still knows.
     pub fn restore(&mut self, snapshot: Machine) {
         let before = std::mem::replace(self, snapshot);
         self.tree.count_on_from(&before.tree);
     }
 
-    /// What happened so far.
+    /// The events so far.
     #[must_use]
     pub fn trace(&self) -> &Trace {
         &self.trace

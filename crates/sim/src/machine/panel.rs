@@ -1,4 +1,4 @@
-//! What a person does to the brick and notices of it: buttons, tones, speech.
+//! The actions and observations of a person at the brick: buttons, tones, speech.
 
 use std::time::Duration;
 
@@ -59,7 +59,7 @@ impl Machine {
         }
     }
 
-    /// What the tone generator plays now, in Hz; 0 is silence.
+    /// The present tone of the tone generator, in Hz; 0 is silence.
     #[must_use]
     pub fn tone(&self) -> u32 {
         self.panel.tone()

@@ -211,9 +211,9 @@ impl Machine {
         true
     }
 
-    /// Makes an attribute of the device at a port show a text, whatever the device is about, until
-    /// [`Machine::unshow`] or until it is unplugged. What is written to the attribute is taken as
-    /// ever. Only that file is changed: a sensor whose `value0` is shown has its own `bin_data`.
+    /// Makes an attribute of the device at a port show a text in place of its own, until
+    /// [`Machine::unshow`] or until it is unplugged. The attribute accepts writes as usual. Only
+    /// that file changes: a sensor whose `value0` is shown has its own `bin_data`.
     ///
     /// # Errors
     /// ENODEV without a device, ENOENT without such an attribute, EACCES if it cannot be read,

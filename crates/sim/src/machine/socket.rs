@@ -1,4 +1,4 @@
-//! What is plugged into a socket, and which device the kernel has registered for it.
+//! The thing in a socket, and the device that the kernel has registered for it.
 //!
 //! The two differ for a while after a plug was moved: the port samples its pins every 10 ms and
 //! wants 350 ms of the same reading before it acts and 100 ms before it removes a device. A motor
@@ -22,7 +22,7 @@ const I2C_BOOT_MS: i32 = 1000;
 const REMOVE_MS: i32 = 100;
 /// A port whose detection starts again waits for its pins to settle first.
 const SETTLE_MS: i32 = 20;
-/// What a voltage on pin 1 comes up as.
+/// The device of an unknown voltage on pin 1.
 const GENERIC: &str = "nxt-analog";
 /// Its driver exists, but the kernel's table of names lacks it.
 const UNLOADABLE: &str = "di-dflex";
@@ -73,7 +73,7 @@ impl Plug {
         matches!(self, Plug::Sensor(SensorKind { link: Link::NxtAnalog { .. }, .. }))
     }
 
-    /// True if the brick cannot tell it from others of that kind.
+    /// True if the brick cannot distinguish it from others of that kind.
     fn is_unrecognized(self) -> bool {
         let Plug::Sensor(kind) = self else {
             return false;
@@ -81,7 +81,7 @@ impl Plug {
         kind.link == Link::NxtAnalog { recognized: false }
     }
 
-    /// What `status` of the port calls it.
+    /// Its name in `status` of the port.
     pub(crate) fn detected(plug: Option<Plug>, port: Port) -> &'static str {
         match plug {
             None if port.is_output() => "no-motor",
@@ -158,7 +158,7 @@ impl Socket {
             return named(name).filter(fits).filter(|_| name != UNLOADABLE);
         }
         match (mode, self.plug) {
-            // The brick tells medium motors from others only.
+            // The brick only distinguishes medium motors from others.
             ("auto", Some(Plug::Motor(kind))) if kind.driver_name != "lego-ev3-m-motor" => {
                 named("lego-ev3-l-motor")
             }

@@ -221,7 +221,7 @@ impl Machine {
 
     // ---- ground truth ---------------------------------------------------------------------
 
-    /// How far a motor's shaft has turned since boot, in degrees, whoever counts.
+    /// The angle that a motor's shaft has turned since boot, in degrees.
     #[must_use]
     pub fn shaft_angle(&self, port: Port) -> f64 {
         if port.is_output() { self.shafts[port.slot()].angle } else { 0.0 }
@@ -241,7 +241,7 @@ impl Machine {
                 .sum::<f64>()
     }
 
-    /// Where a sensor is in the world and which way it looks.
+    /// The place of a sensor in the world, and its heading.
     #[must_use]
     pub fn sensor_pose(&self, port: Port) -> Pose {
         self.body.pose.compose(&self.mount(port).0)

@@ -23,7 +23,7 @@ impl NodeId {
     pub const ROOT: NodeId = NodeId(1);
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// A directory.
@@ -32,7 +32,7 @@ pub enum FileKind {
     File,
 }
 
-/// What `stat(2)` says.
+/// The result of `stat(2)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stat {
     /// Inode number.
@@ -186,7 +186,7 @@ pub(crate) struct Device {
     pub(crate) hardware: Hardware,
 }
 
-/// What a node number stands for.
+/// The meaning of a node number.
 enum Place<'a> {
     Root,
     Class(Class),
@@ -376,7 +376,7 @@ impl Tree {
         Ok(Stat { node, kind: FileKind::File, mode, size: files.size(row) })
     }
 
-    /// What `open(2)` checks.
+    /// The check of `open(2)`.
     pub(crate) fn may_open(&self, node: NodeId, access: Access, now: u64) -> Result<(), Errno> {
         let (device, row) = self.attribute(node)?;
         let allowed = device.hardware.files().access(row).allows(access);

@@ -24,7 +24,7 @@ const CONTACT_OVER: f64 = 0.5;
 const REST: f64 = 1e-7;
 const ROUNDS: usize = 16;
 
-/// What acts on one motor shaft during a tick.
+/// The influences on one motor shaft during a tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Load {
     /// Torque that does not depend on speed, N m.

@@ -38,7 +38,7 @@ impl Shaft {
         }
     }
 
-    /// What the bridge makes of the battery's voltage: torques on the shaft, and the current it
+    /// The effect of the bridge at the battery's voltage: torques on the shaft, and the current it
     /// draws. `strength` is the motor's own error, 1 for none; `jitter` is in % duty.
     pub(crate) fn load(
         &self,

@@ -1,4 +1,4 @@
-//! What each command does, at once: `docs/ev3dev-sysfs.md`, 3.3. First the class, which knows
+//! The immediate effect of each command: `docs/ev3dev-sysfs.md`, 3.3. First the class, which knows
 //! commands, times and ramps; then the driver below it, which knows the wheel and the bridge.
 
 use super::output::Pins;

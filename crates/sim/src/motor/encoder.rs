@@ -56,7 +56,7 @@ impl Encoder {
         Encoder { edges: 0, teeth, stamps, written: RING, speed: 0 }
     }
 
-    /// Counts since boot, truncated towards zero as the driver's integer division does. All that
+    /// Counts since boot, truncated toward zero as the driver's integer division does. All that
     /// looks at a position gets it from here, with the errors of the teeth.
     #[expect(clippy::cast_possible_truncation, reason = "an angle of 32 bits and a small error")]
     pub(crate) fn count(&self) -> i32 {

@@ -98,7 +98,7 @@ impl MotorKind {
     }
 }
 
-/// What the H-bridge does with a motor's two wires.
+/// The state of the H-bridge at a motor's two wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bridge {
     /// Both pins low: the motor coasts.

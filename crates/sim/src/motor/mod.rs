@@ -71,7 +71,7 @@ impl StopAction {
         [("coast", StopAction::Coast), ("brake", StopAction::Brake), ("hold", StopAction::Hold)];
 }
 
-/// What a program sets before it writes a command.
+/// The set-points of a program before it writes a command.
 #[derive(Clone, Copy, Debug)]
 struct Setpoints {
     speed: i32,
@@ -95,7 +95,7 @@ impl Setpoints {
     };
 }
 
-/// What the driver does with the bridge.
+/// The way in which the driver uses the bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drive {
     /// Nothing, after coast or brake.

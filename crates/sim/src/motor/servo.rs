@@ -29,9 +29,9 @@ pub(crate) struct Servo {
     pulses: [i32; 3],
     position: i32,
     inversed: bool,
-    /// What the controller was told as speed: 0 is the fastest.
+    /// The speed setting of the controller: 0 is the fastest.
     rate: u32,
-    /// What the controller sends: µs, 0 for none.
+    /// The pulse that the controller sends: µs, 0 for no pulse.
     pulse: i32,
 }
 

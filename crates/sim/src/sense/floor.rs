@@ -1,4 +1,4 @@
-//! What sensors that are not LEGO's see of the floor.
+//! Readings of the floor by sensors that are not LEGO's.
 
 use super::{View, whole};
 use crate::sensor::{Parts, Reading};
@@ -6,7 +6,7 @@ use crate::world::geometry::Pose;
 
 /// Below these a color is black, or without color, or pale; each from 0 to 1.
 const DARK: f64 = 0.2;
-const GREY: f64 = 0.15;
+const GRAY: f64 = 0.15;
 const PALE: f64 = 0.5;
 /// `HiTechnic`'s numbers: the first hue, in degrees, that is not any more that color.
 const HUES: [(f64, i32); 11] = [
@@ -109,7 +109,7 @@ fn number([red, green, blue]: [f64; 3]) -> i32 {
     if high < DARK {
         return 0;
     }
-    if span < GREY * high {
+    if span < GRAY * high {
         return if high < PALE { 0 } else { WHITE_NUMBER };
     }
     let sixth = if high <= red {

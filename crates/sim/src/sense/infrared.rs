@@ -1,4 +1,4 @@
-//! What infrared sensors see of beacons, and hear of remote controls.
+//! Readings of beacons and remote controls by infrared sensors.
 
 use super::{View, whole};
 use crate::brick::remote::{CHANNELS, Remote};
@@ -16,7 +16,7 @@ const SEEK_NOTHING: i32 = -128;
 const DIRECTION_STEP: f64 = 30.0;
 const DIRECTION_AHEAD: f64 = 5.0;
 const DIRECTIONS: std::ops::RangeInclusive<f64> = 1.0..=9.0;
-/// Where its five eyes look; each sees half the room.
+/// The directions of its five eyes; each sees half the room.
 const EYES: [f64; 5] = [-120.0, -60.0, 0.0, 60.0, 120.0];
 
 /// A beacon as it is seen: degrees to the right, and cm.
@@ -60,7 +60,8 @@ impl View<'_> {
         reading
     }
 
-    /// What is pressed on the four channels. A beacon in sight counts as one whose button is on.
+    /// The pressed buttons on the four channels. A beacon in sight counts as one whose button is
+    /// on.
     pub(super) fn remotes(&self) -> Reading {
         let mut reading = [0; 8];
         for (index, value) in reading.iter_mut().take(CHANNELS).enumerate() {

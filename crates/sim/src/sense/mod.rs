@@ -1,4 +1,4 @@
-//! What each sensor would measure, here and now.
+//! The measurement of each sensor at this place and time.
 
 mod floor;
 mod infrared;
@@ -25,7 +25,7 @@ const LAMP_HEIGHT: f64 = 30.0;
 const LAMP_DISTANCE: f64 = 100.0;
 /// A raw RGB part of white paper; the sensor is not calibrated.
 const RAW_WHITE: f64 = 420.0;
-/// What REF-RAW shows in the dark with its LED off.
+/// The value of REF-RAW in the dark with its LED off.
 const RAW_DARK: f64 = 560.0;
 /// A bumper: half its width, and how far it gives way, in cm.
 const BUMPER_HALF: f64 = 4.0;
@@ -33,17 +33,17 @@ const BUMPER_TRAVEL: f64 = 0.5;
 
 /// The NXT's sonar: nothing there is 255 cm.
 const NXT_SONAR_NOTHING: f64 = 255.0;
-/// The range of the sensor that measures how long light takes: two metres in a narrow beam.
+/// The range of the sensor that measures how long light takes: two meters in a narrow beam.
 const TIME_OF_FLIGHT_FAR: f64 = 200.0;
 /// How far `HiTechnic`'s proximity detector sees its own light come back, in cm.
 const REFLECTOR_FAR: f64 = 25.0;
 /// `HiTechnic`'s accelerometer counts this many to the g, by its data sheet.
 const COUNTS_PER_G: i32 = 200;
 
-/// A look at the world through one sensor.
+/// The world as one sensor sees it.
 pub(crate) struct View<'a> {
     pub(crate) scene: &'a Scene,
-    /// Where the sensor is in the world and which way it looks.
+    /// The place of the sensor in the world, and its heading.
     pub(crate) pose: Pose,
     /// Degrees since the last reset, for a gyro.
     pub(crate) angle: f64,
@@ -51,7 +51,7 @@ pub(crate) struct View<'a> {
     pub(crate) rate: f64,
     /// The share of the voltage that each output port gives a lamp.
     pub(crate) power: [f64; 4],
-    /// What an angle sensor sits on.
+    /// The state of the axle that an angle sensor measures.
     pub(crate) axle: Axle,
     pub(crate) noise: Source,
 }
@@ -126,7 +126,7 @@ impl View<'_> {
                 reading[5] = COUNTS_PER_G & 3;
             }
             Sense::AxesRate => reading[2] = whole(self.rate * 10.0),
-            Sense::Millimetres => {
+            Sense::Millimeters => {
                 let distance = self.cone(INFRARED_HALF_ANGLE, INFRARED_RAYS, TIME_OF_FLIGHT_FAR);
                 let seen = self.noise.disturb(distance.unwrap_or(TIME_OF_FLIGHT_FAR));
                 reading[0] = whole(seen.clamp(SONAR_NEAR, TIME_OF_FLIGHT_FAR) * 10.0);

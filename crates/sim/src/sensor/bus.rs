@@ -12,7 +12,7 @@ use crate::files::errno::Errno;
 use crate::files::text::signed;
 use crate::{TICK_MS, ticks_from_ms};
 
-/// What one message on the I2C bus takes, and what passes until the answer to the next is there.
+/// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;
 /// How often the kernel polls sensors on the I2C bus, and the servo controller.
 const POLL_MS: u32 = 100;

@@ -35,7 +35,7 @@ impl Format {
         }
     }
 
-    /// What a value becomes when it has to fit.
+    /// Limits a value to the range of its format.
     pub(crate) fn fit(self, value: i32) -> i32 {
         match self {
             Format::U8 => value.clamp(0, 255),
@@ -59,7 +59,7 @@ impl Format {
     }
 }
 
-/// What `value<N>` shows of the raw data.
+/// The number that `value<N>` shows for the raw data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scale {
     /// The raw data.

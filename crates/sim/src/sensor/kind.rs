@@ -1,4 +1,4 @@
-//! What types of sensors there are, as data: how each is connected, and what it shows in each of
+//! The types of sensors, as data: how each is connected, and what it shows in each of
 //! its modes. The tables are in `ev3`, `nxt` and `others` below.
 
 mod ev3;
@@ -12,7 +12,7 @@ use super::format::{Format, Scale};
 pub enum Link {
     /// Over a serial line, by LEGO's protocol: changing the mode takes a moment.
     Uart,
-    /// As a voltage on pin 6, sampled every 10 ms; a resistor tells the type.
+    /// As a voltage on pin 6, sampled every 10 ms; a resistor identifies the type.
     Analog,
     /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light and
     /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until the port is
@@ -33,7 +33,7 @@ impl Link {
     }
 }
 
-/// The colors of the floor that a sensor tells.
+/// The colors of the floor that a sensor distinguishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Parts {
     /// 0 to 255 each.
@@ -44,7 +44,7 @@ pub(crate) enum Parts {
     Wide,
 }
 
-/// What a mode measures, in the numbers that `value<N>` shows.
+/// The quantity that a mode measures, in the numbers that `value<N>` shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sense {
     Reflection,
@@ -115,12 +115,12 @@ pub(crate) enum Sense {
     /// Tenths of a degree per second about x, y and z.
     AxesRate,
     /// The nearest thing ahead, by the time that light takes.
-    Millimetres,
+    Millimeters,
     /// Light that comes back from something ahead: this over its distance in cm.
     Reflector {
         reach: i32,
     },
-    /// What the left wheel's axle does: degrees from 0 to 359.
+    /// The angle of the left wheel's axle: degrees from 0 to 359.
     AxleAngle,
     /// Degrees since the last reset, times this.
     AxleTurned {
@@ -134,7 +134,7 @@ pub(crate) enum Sense {
     Row {
         times: i32,
     },
-    /// Where the row sees a dark line: steering, and perhaps more.
+    /// The place of a dark line below the row: steering, and perhaps more.
     LineSteering,
     /// Always these.
     Fixed(&'static [i32]),

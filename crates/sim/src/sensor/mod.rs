@@ -1,10 +1,9 @@
-//! Sensors: what stands between a measurement and the files of `lego-sensor`.
+//! Sensors: from a measurement to the files of `lego-sensor`.
 //!
 //! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
 //! arrive, everything shows the old one; for the settling time after that the numbers are still
 //! those that the new mode showed last, if it was ever read. An analog sensor has none of this.
-//! What a sensor sees is not decided here: [`crate::sense`] looks at the world and hands in a
-//! [`Reading`].
+//! This module does not measure: [`crate::sense`] samples the world and passes a [`Reading`].
 
 mod attrs;
 mod bus;
@@ -37,7 +36,7 @@ const RESYNC_MS: i32 = 500;
 const SELECT_TRIES: u64 = 10;
 const SELECT_JIFFIES: u64 = 6;
 
-/// What a sensor measured, in whole numbers as the files show them.
+/// A measurement of a sensor, in whole numbers as the files show them.
 pub(crate) type Reading = [i32; 8];
 
 /// A sensor as the driver sees it.
@@ -66,7 +65,7 @@ pub(crate) struct Sensor {
     poll_ms: u32,
     /// The raw data, as they lie in `bin_data`.
     reading: Reading,
-    /// What each mode measured last: shown again until the mode has settled.
+    /// The last measurement of each mode: the files show it until the mode has settled.
     left_over: Vec<Option<Reading>>,
     /// Tick of the reading; the world need not be looked at twice in one tick.
     read_at: Option<u64>,
@@ -122,7 +121,7 @@ impl Sensor {
         self.port
     }
 
-    /// True if who polls `value0` is told of a change: a touch sensor's.
+    /// True if a change wakes a program that polls `value0`: only a touch sensor's does.
     pub(crate) fn notifies(&self) -> bool {
         self.mode().sense == Sense::Touch
     }

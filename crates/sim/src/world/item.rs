@@ -189,11 +189,10 @@ struct Points<'a>(&'a [Point]);
 
 impl fmt::Display for Points<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [] => f.write_str("[]"),
-            [[x, y]] => write!(f, "[[{x}, {y}]]"),
-            [[x, y], ..] => write!(f, "[[{x}, {y}]|...]"),
-        }
+        let [[x, y], rest @ ..] = self.0 else { return f.write_str("[]") };
+        let minus = if y.is_sign_negative() { "- " } else { "-" };
+        let more = if rest.is_empty() { "" } else { "|..." };
+        write!(f, "[{x}{minus}{y}{more}]")
     }
 }
 

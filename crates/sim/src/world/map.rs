@@ -1,4 +1,4 @@
-//! Worlds drawn with characters.
+//! Maps that are drawn with characters: worlds, and grids of cells.
 //!
 //! ```text
 //! #########
@@ -24,59 +24,141 @@ const FLOORS: [(char, &str); 7] = [
 /// How bright an `L` is: see [`Item::Lamp`].
 const LAMP_INTENSITY: f64 = 12.0;
 
-impl WorldSpec {
-    /// Reads a map. A character is a square of `cell` cm; the lower left corner of the last row
-    /// is the origin.
+/// A cell by its column and its row, both counted from 0, the row from below.
+pub type Cell = [usize; 2];
+
+/// A map whose characters are all known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawing {
+    /// From above.
+    rows: Vec<Vec<char>>,
+    start: Option<(Cell, u16)>,
+}
+
+impl Drawing {
+    /// Reads a drawing, a character for each cell, from above.
     ///
     /// # Errors
-    /// An unknown character, a second start, or a cell without size, by row and column from 1.
-    pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
-        if !(cell.is_finite() && cell > 0.0) {
-            return Err(SpecError::new("cell", "needs a size above 0"));
-        }
-        let rows: Vec<Vec<char>> =
-            map.trim_matches('\n').lines().map(|line| line.trim_end().chars().collect()).collect();
-        let mut world = WorldSpec::default();
-        let mut started = false;
-        let height = rows.len();
+    /// An unknown character or a second start, by row and column from 1.
+    pub fn read<S: AsRef<str>>(rows: &[S]) -> Result<Drawing, SpecError> {
+        let rows: Vec<Vec<char>> = rows.iter().map(|row| row.as_ref().chars().collect()).collect();
+        let mut start = None;
         for (row, line) in rows.iter().enumerate() {
-            for (column, character) in line.iter().enumerate() {
-                let place = || format!("map row {} column {}", row + 1, column + 1);
-                let center = corner(column, height - 1 - row, 0.5, cell);
-                match *character {
-                    '#' | '.' | ' ' => {}
-                    'O' => world.items.push(Item::Circle { center, radius: cell * 0.4 }),
-                    'L' => world.items.push(Item::Lamp { at: center, intensity: LAMP_INTENSITY }),
-                    other => {
-                        if let Some(heading) = start_heading(other) {
-                            if std::mem::replace(&mut started, true) {
-                                return Err(SpecError::new(place(), "is a second start")
-                                    .in_part(Part::MapRow(row)));
-                            }
-                            world.start = Pose::new(center[0], center[1], heading);
-                        } else if let Some(color) = floor_color(other) {
-                            let low = corner(column, height - 1 - row, 0.0, cell);
-                            let high = corner(column, height - 1 - row, 1.0, cell);
-                            world.items.push(Item::rectangle(low, high, color));
-                        } else {
-                            let reason = format!("has an unknown character: {other:?}");
-                            return Err(SpecError::new(place(), reason).in_part(Part::MapRow(row)));
-                        }
+            for (column, &character) in line.iter().enumerate() {
+                let wrong = |reason: String| {
+                    let place = format!("map row {} column {}", row + 1, column + 1);
+                    Err(SpecError::new(place, reason).in_part(Part::MapRow(row)))
+                };
+                if let Some(heading) = start_heading(character) {
+                    if start.replace(([column, rows.len() - 1 - row], heading)).is_some() {
+                        return wrong("is a second start".to_owned());
                     }
+                } else if !is_known(character) {
+                    let shown = character.escape_default();
+                    let shown = if character.is_control() {
+                        shown.collect()
+                    } else {
+                        character.to_string()
+                    };
+                    return wrong(format!("has an unknown character: {shown}"));
                 }
             }
         }
-        add_walls(&mut world, rows, cell);
-        Ok(world)
+        Ok(Drawing { rows, start })
+    }
+
+    /// How many cells it is wide, at its widest row, and how many high.
+    #[must_use]
+    pub fn size(&self) -> Cell {
+        [self.rows.iter().map(Vec::len).max().unwrap_or_default(), self.rows.len()]
+    }
+
+    /// Where a robot starts, and its heading in degrees clockwise from above.
+    #[must_use]
+    pub fn start(&self) -> Option<(Cell, u16)> {
+        self.start
+    }
+
+    /// The cells that a robot cannot enter.
+    pub fn obstructed(&self) -> impl Iterator<Item = Cell> {
+        self.cells().filter(|(character, _)| matches!(character, '#' | 'O')).map(|(_, cell)| cell)
+    }
+
+    /// The same as a part of a world, with cells of `size` cm; the lower left corner of the last
+    /// row is the origin.
+    ///
+    /// # Errors
+    /// Cells without size.
+    pub fn drawn(&self, size: f64) -> Result<Drawn, SpecError> {
+        if !(size.is_finite() && size > 0.0) {
+            return Err(SpecError::new("cell", "needs a size above 0"));
+        }
+        let mut items: Vec<Item> =
+            self.cells().filter_map(|(character, cell)| item(character, cell, size)).collect();
+        add_walls(&mut items, self.rows.clone(), size);
+        let start = self.start.map(|(cell, heading)| {
+            let [x, y] = corner(cell, 0.5, size);
+            Pose::new(x, y, f64::from(heading))
+        });
+        Ok(Drawn { items, start })
+    }
+
+    /// The characters with their cells, row by row from above.
+    fn cells(&self) -> impl Iterator<Item = (char, Cell)> {
+        let height = self.rows.len();
+        self.rows.iter().enumerate().flat_map(move |(row, line)| {
+            let from_below = height - 1 - row;
+            line.iter()
+                .enumerate()
+                .map(move |(column, character)| (*character, [column, from_below]))
+        })
     }
 }
 
-fn start_heading(character: char) -> Option<f64> {
+/// What a drawing adds to a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// What stands and lies there.
+    pub items: Vec<Item>,
+    /// Where the robot starts, if the drawing says so.
+    pub start: Option<Pose>,
+}
+
+impl WorldSpec {
+    /// The world that a text draws, a line for each row.
+    ///
+    /// # Errors
+    /// As [`Drawing::read`] and [`Drawing::drawn`].
+    pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
+        let rows: Vec<&str> = map.trim_matches('\n').lines().collect();
+        let Drawn { items, start } = Drawing::read(&rows)?.drawn(cell)?;
+        Ok(WorldSpec { items, start: start.unwrap_or_default(), ..WorldSpec::default() })
+    }
+}
+
+fn is_known(character: char) -> bool {
+    matches!(character, '#' | '.' | ' ' | 'O' | 'L') || floor_color(character).is_some()
+}
+
+/// What a cell holds, but for walls.
+fn item(character: char, cell: Cell, size: f64) -> Option<Item> {
+    let center = corner(cell, 0.5, size);
     match character {
-        'S' | '^' => Some(0.0),
-        '>' => Some(90.0),
-        'v' => Some(180.0),
-        '<' => Some(270.0),
+        'O' => Some(Item::Circle { center, radius: size * 0.4 }),
+        'L' => Some(Item::Lamp { at: center, intensity: LAMP_INTENSITY }),
+        other => {
+            let color = floor_color(other)?;
+            Some(Item::rectangle(corner(cell, 0.0, size), corner(cell, 1.0, size), color))
+        }
+    }
+}
+
+fn start_heading(character: char) -> Option<u16> {
+    match character {
+        'S' | '^' => Some(0),
+        '>' => Some(90),
+        'v' => Some(180),
+        '<' => Some(270),
         _ => None,
     }
 }
@@ -88,12 +170,12 @@ fn floor_color(character: char) -> Option<Color> {
 
 /// A point of a cell, `share` of the way from its lower left to its upper right corner.
 #[expect(clippy::cast_precision_loss, reason = "rows and columns of a drawing")]
-fn corner(column: usize, row_from_below: usize, share: f64, cell: f64) -> Point {
-    [(column as f64 + share) * cell, (row_from_below as f64 + share) * cell]
+fn corner([column, row]: Cell, share: f64, size: f64) -> Point {
+    [(column as f64 + share) * size, (row as f64 + share) * size]
 }
 
 /// Joins wall cells to rectangles: first as wide, then as high as they go.
-fn add_walls(world: &mut WorldSpec, mut rows: Vec<Vec<char>>, cell: f64) {
+fn add_walls(items: &mut Vec<Item>, mut rows: Vec<Vec<char>>, size: f64) {
     let height = rows.len();
     let is_wall = |rows: &[Vec<char>], row: usize, columns: std::ops::Range<usize>| {
         rows.get(row)
@@ -116,9 +198,9 @@ fn add_walls(world: &mut WorldSpec, mut rows: Vec<Vec<char>>, cell: f64) {
             for line in &mut rows[row..below] {
                 line[column..end].fill('.');
             }
-            let low = corner(column, height - below, 0.0, cell);
-            let high = corner(end, height - row, 0.0, cell);
-            world.items.push(Item::Box {
+            let low = corner([column, height - below], 0.0, size);
+            let high = corner([end, height - row], 0.0, size);
+            items.push(Item::Box {
                 pose: Pose::new(
                     f64::midpoint(low[0], high[0]),
                     f64::midpoint(low[1], high[1]),
@@ -149,10 +231,24 @@ mod tests {
     }
 
     #[test]
+    fn each_row_is_a_row_of_cells() {
+        let drawing = Drawing::read(&["O", "#.<", ""]).unwrap();
+        assert_eq!(drawing.size(), [3, 3]);
+        assert_eq!(drawing.start(), Some(([2, 1], 270)));
+        assert_eq!(drawing.obstructed().collect::<Vec<_>>(), [[0, 2], [0, 1]]);
+        assert_eq!(drawing.drawn(10.0).unwrap().start, Some(Pose::new(25.0, 15.0, 270.0)));
+        assert_eq!(Drawing::read(&[""; 0]).unwrap().size(), [0, 0]);
+    }
+
+    #[test]
     fn errors_name_row_and_column() {
         let error = WorldSpec::from_map("###\n#X#", 20.0).unwrap_err();
-        assert_eq!(error.to_string(), "map row 2 column 2 has an unknown character: 'X'");
-        assert!(WorldSpec::from_map("SS", 20.0).is_err());
+        assert_eq!(error.to_string(), "map row 2 column 2 has an unknown character: X");
+        let error = Drawing::read(&["#\t"]).unwrap_err();
+        assert_eq!(error.to_string(), "map row 1 column 2 has an unknown character: \\t");
+        let error = Drawing::read(&["", "S.", ".>"]).unwrap_err();
+        assert_eq!(error.to_string(), "map row 3 column 2 is a second start");
+        assert_eq!(error.parts, [Part::MapRow(2)]);
         assert!(WorldSpec::from_map("S", 0.0).is_err());
     }
 }

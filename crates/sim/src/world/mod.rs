@@ -12,4 +12,5 @@ mod spec;
 
 pub use hull::Hull;
 pub use item::{Item, ItemId, Part, Point, SpecError};
+pub use map::{Cell, Drawing, Drawn};
 pub use spec::{Bounds, WorldSpec};

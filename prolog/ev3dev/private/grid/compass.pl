@@ -1,6 +1,6 @@
 :- module(ev3dev_grid_compass,
           [ grid_directions/2,          % +Neighbours, -Directions
-            direction_heading/2,        % +Direction, -Heading
+            direction_heading/2,        % ?Direction, ?Heading
             direction_turned/4,         % ?Turn, +Neighbours, +Direction,
                                         % -Next
             grid_ahead/3,               % +Cell, +Direction, -Ahead
@@ -22,15 +22,17 @@ grid_directions(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
              [-1,1]
            ]).
 
-%!  direction_heading(+Direction, -Heading) is det.
+%!  direction_heading(+Direction, -Heading) is semidet.
+%!  direction_heading(-Direction, +Heading) is semidet.
 %
 %   True if Heading is that angle clockwise from up, from 0 to 315 degrees.
 
 direction_heading(Direction, Heading) :-
     grid_directions(8, Directions),
     nth0(Eighth, Directions, Direction),
-    !,
-    Heading is Eighth * 45.
+    Angle is Eighth * 45,
+    Heading = Angle,
+    !.
 
 %!  direction_turned(?Turn, +Neighbours, +Direction, -Next) is nondet.
 %

@@ -8,11 +8,12 @@
             saw_free/1,                 % +Cell
             known_free/1                % +Cell
           ]).
+:- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../driver', []).
 :- use_module(map, [must_be_cell/1]).
-:- use_module('../native', [sim_time_/1]).
+:- use_module('../native', [now_/1]).
 
 /** <module> What a robot knows of its grid
 
@@ -24,11 +25,9 @@ takes, and a robot does not go to and fro between two obstacles without end.
 */
 
 :- dynamic
-    obstacle/3,                         % Cell, State, Seconds
-    free/2,                             % Cell, State
-    fading/1.                           % Seconds or `never`
-
-fading(never).
+    obstacle/4,                         % Brick, Cell, State, Seconds
+    free/3,                             % Brick, Cell, State
+    fading/2.                           % Brick, Seconds or `never`
 
 %   State is `until(Time)`, `ever`, or `faded`, after which it is only known
 %   how long the obstacle was remembered.
@@ -39,11 +38,13 @@ fading(never).
 %   now on fades after Seconds, or `never`.
 
 forget_all(Seconds, Obstructed) :-
-    retractall(obstacle(_, _, _)),
-    retractall(free(_, _)),
-    retractall(fading(_)),
-    assertz(fading(Seconds)),
-    forall(member(Cell, Obstructed), assertz(obstacle(Cell, ever, never))).
+    brick(Brick),
+    retractall(obstacle(Brick, _, _, _)),
+    retractall(free(Brick, _, _)),
+    retractall(fading(Brick, _)),
+    assertz(fading(Brick, Seconds)),
+    forall(member(Cell, Obstructed),
+           assertz(obstacle(Brick, Cell, ever, never))).
 
 %!  obstructed(?Cell) is nondet.
 %
@@ -53,27 +54,19 @@ forget_all(Seconds, Obstructed) :-
 obstructed(Cell) :-
     ground(Cell),
     !,
-    obstacle(Cell, State, _),
+    brick(Brick),
+    obstacle(Brick, Cell, State, _),
     !,
     lasts(State).
 obstructed(Cell) :-
-    obstacle(Cell, State, _),
+    brick(Brick),
+    obstacle(Brick, Cell, State, _),
     lasts(State).
 
 lasts(ever).
 lasts(until(Time)) :-
-    now(Now),
+    now_(Now),
     Now < Time.
-
-%   In the simulator its time counts.
-
-now(Seconds) :-
-    predicate_property(sim_time_(_), foreign),
-    sim_time_(Simulated),
-    !,
-    Seconds = Simulated.
-now(Seconds) :-
-    get_time(Seconds).
 
 %!  obstacle_add(+Cell) is det.
 %
@@ -83,14 +76,21 @@ now(Seconds) :-
 
 obstacle_add(Cell) :-
     must_be_cell(Cell),
-    (   obstacle(Cell, State0, Seconds0)
+    brick(Brick),
+    (   obstacle(Brick, Cell, State0, Seconds0)
     ->  longer(State0, Seconds0, Seconds)
-    ;   fading(Seconds)
+    ;   fades_after(Brick, Seconds)
     ),
     for_long(Seconds, State),
-    retractall(free(Cell, _)),
-    retractall(obstacle(Cell, _, _)),
-    assertz(obstacle(Cell, State, Seconds)).
+    retractall(free(Brick, Cell, _)),
+    retractall(obstacle(Brick, Cell, _, _)),
+    assertz(obstacle(Brick, Cell, State, Seconds)).
+
+fades_after(Brick, Seconds) :-
+    (   fading(Brick, Seconds0)
+    ->  Seconds = Seconds0
+    ;   Seconds = never
+    ).
 
 longer(State, Seconds0, Seconds) :-
     (   lasts(State)
@@ -101,7 +101,7 @@ longer(State, Seconds0, Seconds) :-
 for_long(never, ever) :-
     !.
 for_long(Seconds, until(Time)) :-
-    now(Now),
+    now_(Now),
     Time is Now + Seconds.
 
 %!  obstacle_remove(+Cell) is semidet.
@@ -113,7 +113,8 @@ for_long(Seconds, until(Time)) :-
 obstacle_remove(Cell) :-
     must_be_cell(Cell),
     obstructed(Cell),
-    retractall(obstacle(Cell, _, _)).
+    brick(Brick),
+    retractall(obstacle(Brick, Cell, _, _)).
 
 %!  obstacles_fade(-Cells) is det.
 %
@@ -121,16 +122,17 @@ obstacle_remove(Cell) :-
 %   where that changed something.
 
 obstacles_fade(Cells) :-
+    brick(Brick),
     findall(Cell-Seconds,
-            ( obstacle(Cell, State, Seconds),
+            ( obstacle(Brick, Cell, State, Seconds),
               State \== faded,
               \+ lasts(State)
             ),
             Faded),
     findall(Cell,
             ( member(Cell-Seconds, Faded),
-              retractall(obstacle(Cell, _, _)),
-              assertz(obstacle(Cell, faded, Seconds))
+              retractall(obstacle(Brick, Cell, _, _)),
+              assertz(obstacle(Brick, Cell, faded, Seconds))
             ),
             Cells).
 
@@ -141,7 +143,8 @@ obstacles_fade(Cells) :-
 %   may not change while it searches.
 
 unblocked(Cell) :-
-    \+ ( obstacle(Cell, State, _),
+    brick(Brick),
+    \+ ( obstacle(Brick, Cell, State, _),
          State \== faded
        ).
 
@@ -152,13 +155,15 @@ unblocked(Cell) :-
 %   faded.
 
 saw_free(Cell) :-
-    fading(Seconds),
+    brick(Brick),
+    fades_after(Brick, Seconds),
     for_long(Seconds, State),
-    retractall(obstacle(Cell, _, _)),
-    retractall(free(Cell, _)),
-    assertz(free(Cell, State)).
+    retractall(obstacle(Brick, Cell, _, _)),
+    retractall(free(Brick, Cell, _)),
+    assertz(free(Brick, Cell, State)).
 
 known_free(Cell) :-
-    free(Cell, State),
+    brick(Brick),
+    free(Brick, Cell, State),
     !,
     lasts(State).

@@ -20,8 +20,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).
 :- use_module(compass).
-:- use_module(drawing).
 :- use_module('../arguments', [must_be_options/3]).
+:- use_module('../native', [grid_drawn_/2]).
 
 /** <module> Maps of grids
 
@@ -49,14 +49,14 @@ eight. A diagonal move also needs the two cells beside its way.
 %       Its lower left and its upper right cell, by default those of Rows, or
 %       0, 0, 7, 7.
 %     - rows(+Rows)
-%       Draw it as a world of the simulator: strings or atoms, a character for
-%       each cell, the first of the last row for the cell [0,0]. What is `#`
-%       or `O` is obstructed; `^`, `>`, `v` or `<` is the start.
+%       Draw it as the fact map/2 of a world: strings or atoms, a character
+%       for each cell, the first of the last row for the cell [0,0]. What is
+%       `#` or `O` is obstructed; `^`, `>`, `v`, `<` or `S` is the start.
 %     - obstacles(+Cells)
 %       These cells are obstructed.
 %     - free(:Goal)
-%       A cell is free only if call(Goal, Cell) is true. It is asked each time
-%       anew, so that the map may change.
+%       A cell is free only if call(Goal, Cell) is true. It is called each
+%       time, so that the map may change.
 %     - neighbours(+Count)
 %       4 (default) or 8.
 %     - move_cost(+Cost)
@@ -66,10 +66,11 @@ eight. A diagonal move also needs the two cells beside its way.
 %       direction: positive integers. By default 20, 28, and 10 or, with eight
 %       neighbours, 5: tenths of a second, about, for cells of 20 cm.
 %
-%   @error domain_error(map_row, Row)
+%   @error domain_error(map_row, Row) for an unknown character or a second
+%          start
 %   @error domain_error(neighbours, Count)
 %   @error domain_error(bounds, Bounds) if they hold no cell
-%   @error domain_error(grid_option, Option) for an option that is none
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 grid_map(Module:Options0, Map) :-
     must_be_options(grid_option,
@@ -78,7 +79,7 @@ grid_map(Module:Options0, Map) :-
                     Options0),
     meta_options(closure, Module:Options0, Options),
     option(rows(Rows), Options, []),
-    grid_drawn(Rows, Drawn, Start, Bounds0),
+    drawn(Rows, Drawn, Start, Bounds0),
     option(obstacles(Cells), Options, []),
     must_be_cells(Cells),
     findall(Cell-true, ( member(Cell, Cells) ; member(Cell, Drawn) ), Pairs0),
@@ -95,6 +96,23 @@ grid_map(Module:Options0, Map) :-
     Map = map(Bounds, Neighbours, Costs, Obstacles, Free, Start).
 
 closure(free).
+
+%   Without rows there are 8 by 8 cells.
+
+drawn(Rows, Obstacles, Start, Bounds) :-
+    must_be(list, Rows),
+    grid_drawn_(Rows, drawn(Width, Height, Obstacles, Start0)),
+    (   Rows == []
+    ->  Bounds = bounds(0, 0, 7, 7)
+    ;   X2 is max(0, Width - 1),
+        Y2 is Height - 1,
+        Bounds = bounds(0, 0, X2, Y2)
+    ),
+    (   Start0 = start(Cell, Heading)
+    ->  direction_heading(Direction, Heading),
+        Start = state(Cell, Direction)
+    ;   Start = none
+    ).
 
 must_be_cells(Cells) :-
     must_be(list, Cells),

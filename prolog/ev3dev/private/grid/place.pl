@@ -6,14 +6,16 @@
             set_state/2,                % +Cell, +Direction
             cell_place/4                % +Metric, +Cell, -X, -Y
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module('../errors', [domain_error/2, must_be/2, term_expansion/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module('../brick', [brick/1]).
+:- use_module('../errors', [term_expansion/2]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).
-:- use_module('../arguments', [finite/1, take_options/4]).
+:- use_module('../arguments',
+              [ number_option/4, number_value/2, number_value/3, option/2,
+                option/3, take_options/4
+              ]).
 
 /** <module> A robot on a grid
 
@@ -21,15 +23,15 @@ Which grid it is on, and where on it the robot is.
 */
 
 :- dynamic
-    state_position/2,                   % Cell, Direction
-    grid/2.                             % Map, Metric
+    stands/3,                           % Brick, Cell, Direction
+    on_grid/3.                          % Brick, Map, Metric
 
 %!  set_grid(+Options) is semidet.
 %
-%   Begin anew on a grid of which nothing is known, the robot in the middle of
-%   a cell. Fails if no robot is set, or a motor is not connected. Options are
-%   those of grid_map/2, where `rows` and `obstacles` are what is known from
-%   the start, and
+%   Begin with an unknown grid and the robot in the middle of a cell. Fails if
+%   no robot is set, or a motor is not connected. Options are those of
+%   grid_map/2, where `rows` and `obstacles` are what is known from the start,
+%   and
 %
 %     - start(+Cell, +Direction)
 %       Where the robot is, by default as drawn in `rows`, or in [0,0] with
@@ -47,8 +49,12 @@ Which grid it is on, and where on it the robot is.
 %       After so long an obstacle that was found is forgotten, and longer each
 %       time it is found again. By default `never`.
 %
-%   @error domain_error(Option, Value)
-%   @error domain_error(grid_option, Option) for an option that is none
+%   Numbers may be arithmetic expressions.
+%
+%   @error domain_error(positive_number, Number) for `cell_cm` and `fade`
+%   @error domain_error(speed_ahead, Percent) if it is not above 0, or above
+%          100
+%   @error domain_error(grid_option, Option) if Option is not an option here
 
 set_grid(Options) :-
     take_options([start/2, cell_cm, origin/2, eye, speed, fade], Options,
@@ -60,15 +66,12 @@ set_grid(Options) :-
     grid_unknown(Map0, ev3dev_grid_knowledge:unblocked, Map),
     start(Own, Map0, Cell, Direction),
     metric(Own, Metric),
-    option(fade(Fade), Own, never),
-    (   Fade == never
-    ->  true
-    ;   must_be_positive(fade, Fade)
-    ),
+    fade(Own, Fade),
     set_pose_in(Metric, Cell, Direction),
     forget_all(Fade, Obstructed),
-    retractall(grid(_, _)),
-    assertz(grid(Map, Metric)),
+    brick(Brick),
+    retractall(on_grid(Brick, _, _)),
+    assertz(on_grid(Brick, Map, Metric)),
     set_state(Cell, Direction).
 
 start(Options, Map, Cell, Direction) :-
@@ -82,29 +85,21 @@ start(Options, Map, Cell, Direction) :-
     must_be_state(Map, state(Cell, Direction)).
 
 metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
-    option(cell_cm(Cm), Options, 20),
-    must_be_positive(cell_cm, Cm),
-    (   option(origin(X, Y), Options)
-    ->  true
+    number_option(cell_cm(Cm), positive_number, Options, 20),
+    (   option(origin(X0, Y0), Options)
+    ->  number_value(X0, X),
+        number_value(Y0, Y)
     ;   X = 0,
         Y = 0
     ),
-    maplist(must_be(number), [X, Y]),
-    option(eye(Eye), Options, 7),
-    must_be(number, Eye),
-    option(speed(Speed), Options, 20),
-    must_be_positive(speed, Speed),
-    (   Speed =< 100
-    ->  true
-    ;   domain_error(speed, Speed)
-    ).
+    number_option(eye(Eye), finite_number, Options, 7),
+    number_option(speed(Speed), speed_ahead, Options, 20).
 
-must_be_positive(Option, Number) :-
-    must_be(number, Number),
-    (   Number > 0,
-        finite(Number)
-    ->  true
-    ;   domain_error(Option, Number)
+fade(Options, Fade) :-
+    option(fade(Expression), Options, never),
+    (   Expression == never
+    ->  Fade = never
+    ;   number_value(positive_number, Expression, Fade)
     ).
 
 %!  grid_place(+Cell, +Direction) is semidet.
@@ -138,16 +133,25 @@ cell_place(metric(Cm, X0, Y0, _, _), [CX, CY], X, Y) :-
 %   The robot is in Cell now and looks in Direction.
 
 set_state(Cell, Direction) :-
-    retractall(state_position(_, _)),
-    assertz(state_position(Cell, Direction)).
+    brick(Brick),
+    retractall(stands(Brick, _, _)),
+    assertz(stands(Brick, Cell, Direction)).
 
 %!  state_position(?Cell, ?Direction) is semidet.
 %
 %   True if the robot is in Cell and looks in Direction. If a move ended early
 %   it is still in the cell from which it started, as far as one can tell.
 
+state_position(Cell, Direction) :-
+    brick(Brick),
+    stands(Brick, Cell, Direction).
+
 %!  grid(-Map, -Metric) is semidet.
 %
 %   True if Map is that of the grid that was set. Metric is `metric(Cm, X, Y,
 %   Eye, Speed)`: how wide its cells are, where [0,0] is, and what set_grid/1
 %   was told of the robot's sensor and its moves.
+
+grid(Map, Metric) :-
+    brick(Brick),
+    on_grid(Brick, Map, Metric).

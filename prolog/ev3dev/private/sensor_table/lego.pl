@@ -1,4 +1,5 @@
 :- module(ev3dev_lego_sensors, []).
+:- use_module('../one_of', [one_of/2]).
 
 /** <module> LEGO's sensors and their modes
 
@@ -13,24 +14,13 @@ Loaded when library(ev3dev/sensor_info) is first asked for it.
 
 :- public type/2.
 
-type('lego-ev3-color', 'EV3 colour sensor').
+type('lego-ev3-color', 'EV3 color sensor').
 type('lego-ev3-us', 'EV3 ultrasonic sensor').
 type('lego-ev3-gyro', 'EV3 gyro').
 type('lego-ev3-ir', 'EV3 infrared sensor').
 type('lego-ev3-touch', 'EV3 touch sensor').
-type('ev3-analog-01', 'EV3 sensor that is a voltage').
-type('ev3-analog-03', 'EV3 sensor that is a voltage').
-type('ev3-analog-04', 'EV3 sensor that is a voltage').
-type('ev3-analog-05', 'EV3 sensor that is a voltage').
-type('ev3-analog-06', 'EV3 sensor that is a voltage').
-type('ev3-analog-07', 'EV3 sensor that is a voltage').
-type('ev3-analog-08', 'EV3 sensor that is a voltage').
-type('ev3-analog-09', 'EV3 sensor that is a voltage').
-type('ev3-analog-10', 'EV3 sensor that is a voltage').
-type('ev3-analog-11', 'EV3 sensor that is a voltage').
-type('ev3-analog-12', 'EV3 sensor that is a voltage').
-type('ev3-analog-13', 'EV3 sensor that is a voltage').
-type('ev3-analog-14', 'EV3 sensor that is a voltage').
+type(Type, 'EV3 sensor that is a voltage') :-
+    ev3_analog(Type).
 type('nxt-analog', 'any NXT sensor that is a voltage').
 type('lego-nxt-touch', 'NXT touch sensor').
 type('lego-nxt-light', 'NXT light sensor').
@@ -38,6 +28,14 @@ type('lego-nxt-sound', 'NXT sound sensor').
 type('lego-nxt-us', 'NXT ultrasonic sensor').
 type('lego-nxt-temp', 'NXT temperature sensor').
 type('lego-power-storage', 'LEGO energy meter').
+
+%   Named by a resistor; that of 02 is the touch sensor's.
+
+ev3_analog(Type) :-
+    one_of([ '01', '03', '04', '05', '06', '07', '08', '09', '10', '11', '12',
+             '13', '14' ], Number),
+    atom_concat('ev3-analog-', Number, Analog),
+    Type = Analog.
 
 %!  mode(?Type, ?Mode, ?Count, ?Decimals, ?Units, ?Meaning) is nondet.
 %
@@ -106,44 +104,8 @@ mode('lego-ev3-ir', 'IR-CAL', 2, 0, '',
 mode('lego-ev3-touch', 'TOUCH', 1, 0, '',
      '1 while it is pressed, else 0').
 
-mode('ev3-analog-01', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-03', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-04', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-05', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-06', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-07', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-08', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-09', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-10', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-11', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-12', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-13', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
-
-mode('ev3-analog-14', 'ANALOG', 1, 3, 'V',
-     'voltage on pin 6, 0 to 5').
+mode(Type, 'ANALOG', 1, 3, 'V', 'voltage on pin 6, 0 to 5') :-
+    ev3_analog(Type).
 
 mode('nxt-analog', 'ANALOG-0', 1, 3, 'V',
      'voltage on pin 1, 0 to 5, with pin 5 low').

@@ -20,8 +20,8 @@ type('ht-nxt-mag', 'HiTechnic magnetic sensor').
 type('ht-nxt-gyro', 'HiTechnic gyro').
 type('ms-nxt-touch-mux', 'mindsensors multiplexer of touch sensors').
 type('ht-nxt-compass', 'HiTechnic compass').
-type('ht-nxt-color', 'HiTechnic colour sensor').
-type('ht-nxt-color-v2', 'HiTechnic colour sensor V2').
+type('ht-nxt-color', 'HiTechnic color sensor').
+type('ht-nxt-color-v2', 'HiTechnic color sensor V2').
 type('ht-nxt-ir-seek-v2', 'HiTechnic infrared seeker V2').
 type('ht-nxt-angle', 'HiTechnic angle sensor').
 type('ht-nxt-accel', 'HiTechnic acceleration sensor').
@@ -78,7 +78,7 @@ mode('ht-nxt-compass', 'COMPASS', 1, 0, deg,
      'degrees from north, clockwise, 0 to 359').
 
 mode('ht-nxt-color', 'COLOR', 1, 0, '',
-     'colour number, 0 black to 17 white').
+     'color number, 0 black to 17 white').
 mode('ht-nxt-color', 'RED', 1, 0, '',
      'red, 0 to 255').
 mode('ht-nxt-color', 'GREEN', 1, 0, '',
@@ -90,10 +90,10 @@ mode('ht-nxt-color', 'RAW', 3, 0, '',
 mode('ht-nxt-color', 'NORM', 4, 0, '',
      'red, green, blue, the strongest 255, and another').
 mode('ht-nxt-color', 'ALL', 4, 0, '',
-     'colour number, red, green, blue').
+     'color number, red, green, blue').
 
 mode('ht-nxt-color-v2', 'COLOR', 1, 0, '',
-     'colour number, 0 black to 17 white').
+     'color number, 0 black to 17 white').
 mode('ht-nxt-color-v2', 'RGB', 4, 0, '',
      'red, green, blue, white, 0 to 255').
 mode('ht-nxt-color-v2', 'NORM', 4, 0, '',
@@ -211,13 +211,13 @@ mode('ms-ev3-smux', 'MUX', 1, 0, '',
      'nothing; its sensors are devices of their own').
 
 mode('ms-nxtcam', 'TRACK', 6, 0, '',
-     'objects in sight; of the first: colour, x and y of two corners').
+     'objects in sight; of the first: color, x and y of two corners').
 
 mode('ms-nxtcam5', 'TRACK', 6, 0, '',
-     'objects in sight; of the first: colour, x and y of two corners').
+     'objects in sight; of the first: color, x and y of two corners').
 
 mode('ms-pixy-adapter', 'TRACK', 6, 0, '',
-     'objects in sight; of the first: colour, x and y of two corners').
+     'objects in sight; of the first: color, x and y of two corners').
 
 mode('pixy-lego', 'ALL', 6, 0, '',
      'signature (two bytes), x, y, width, height of the largest object').

@@ -122,7 +122,7 @@ impl Font {
     }
 }
 
-/// Where a text is, from the point that is given.
+/// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// Right of it.

@@ -31,7 +31,7 @@ impl Picture {
         picture.map_err(|reason| Error::Format { path: path.to_owned(), format, reason })
     }
 
-    /// Where its pixels are, from the upper left corner, and their shades.
+    /// Its pixels, from the upper left corner, and their shades.
     pub(crate) fn pixels(&self) -> impl Iterator<Item = ([i32; 2], u8)> {
         let at = |index: usize| {
             let index = u32::try_from(index).ok()?;
@@ -154,7 +154,7 @@ pub fn to_png(width: u32, height: u32, shades: &[u8]) -> Vec<u8> {
     let mut header = Vec::new();
     header.extend(width.to_be_bytes());
     header.extend(height.to_be_bytes());
-    // Grey, and the only compression, filters and order there are.
+    // Gray, and the only compression, filters and order there are.
     header.extend([bits, 0, 0, 0, 0]);
     chunk(&mut file, *b"IHDR", &header);
     let mut data = Vec::new();

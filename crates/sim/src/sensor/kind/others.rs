@@ -18,7 +18,7 @@ const fn temperature(name: &'static str, per_degree: i32, fahrenheit: bool) -> M
     Mode::new(name, 1, decimals, units, format, Sense::Temperature { per_degree, fahrenheit })
 }
 
-/// The voltage of a box with motors or servos: 6 V, as far as its byte can tell.
+/// The voltage of a box with motors or servos: 6 V, within the steps of its byte.
 const fn supply(name: &'static str, raw: [i32; 2], shown: [i32; 2]) -> Mode {
     Mode::new(name, 1, 3, "V", Format::U8, Sense::Fixed(&[6000])).scaled(raw, shown)
 }
@@ -33,7 +33,7 @@ const fn pressure(
     Mode::new(name, 1, 0, units, format, Sense::Fixed(fixed))
 }
 
-/// A camera that sees nothing it was told to look for.
+/// A camera that sees none of its objects.
 const fn camera(name: &'static str, values: usize) -> Mode {
     byte(name, values, Sense::Nothing)
 }
@@ -273,7 +273,7 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ms-tof",
         1,
         &[
-            Mode::new("DIST", 1, 0, "mm", Format::S16, Sense::Millimetres),
+            Mode::new("DIST", 1, 0, "mm", Format::S16, Sense::Millimeters),
             Mode::new("VOLT", 1, 0, "mV", Format::S16, Sense::Fixed(&[5000])),
         ],
     )

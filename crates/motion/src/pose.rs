@@ -1,0 +1,65 @@
+//! Positions and headings.
+
+/// X and y, in cm.
+pub type Point = [f64; 2];
+
+/// A position in cm and a heading in degrees: 0 looks along y, clockwise is
+/// positive, and full turns count.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// To the right.
+    pub x: f64,
+    /// Ahead at heading 0.
+    pub y: f64,
+    /// Degrees.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// The pose `ahead` cm further on.
+    #[must_use]
+    pub fn ahead(self, ahead: f64) -> Self {
+        let (sin, cos) = libm::sincos(self.heading.to_radians());
+        Self { x: self.x + ahead * sin, y: self.y + ahead * cos, ..self }
+    }
+
+    /// The pose after an arc: `way` cm long, turning by `turn` degrees.
+    #[must_use]
+    pub fn along_arc(self, way: f64, turn: f64) -> Self {
+        let half = turn.to_radians() / 2.0;
+        let chord = way * sinc(half);
+        let (sin, cos) = libm::sincos(self.heading.to_radians() + half);
+        Self { x: self.x + chord * sin, y: self.y + chord * cos, heading: self.heading + turn }
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn point(self) -> Point {
+        [self.x, self.y]
+    }
+}
+
+/// The compass direction from one place to another, in degrees.
+#[must_use]
+pub fn direction([x0, y0]: Point, [x1, y1]: Point) -> f64 {
+    libm::atan2(x1 - x0, y1 - y0).to_degrees()
+}
+
+/// How far one place is from another, in cm.
+#[must_use]
+pub fn distance([x0, y0]: Point, [x1, y1]: Point) -> f64 {
+    libm::hypot(x1 - x0, y1 - y0)
+}
+
+/// An angle between -180 and 180 degrees, the latter included.
+#[must_use]
+pub fn wrapped(degrees: f64) -> f64 {
+    let wrapped = degrees.rem_euclid(360.0);
+    if wrapped > 180.0 { wrapped - 360.0 } else { wrapped }
+}
+
+/// sin(x) / x: the chord of an arc by its length, for half of its turn in radians.
+#[must_use]
+pub fn sinc(x: f64) -> f64 {
+    if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { libm::sin(x) / x }
+}

@@ -1,0 +1,148 @@
+//! Ground truth: items, collisions, snapshots, trace, picture.
+
+use crate::robots::default_robot;
+use ev3_sim::facts::{Fact, culprit};
+use ev3_sim::{
+    Action, Bounds, Drawing, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
+    RobotSpec, WorldSpec,
+};
+
+use crate::desk::{B, C, Desk, furnished};
+
+#[test]
+fn impossible_worlds_and_robots_are_named() {
+    let build = |world: &WorldSpec, robot: &RobotSpec| {
+        Machine::new(world, robot, Options::default()).map(|_| ()).unwrap_err().to_string()
+    };
+    let robot = default_robot();
+    let mut world = furnished();
+    world.items.push(Item::Circle { center: [0.0, 0.0], radius: 0.0 });
+    assert!(build(&world, &robot).contains("needs a radius"), "{}", build(&world, &robot));
+    let world = WorldSpec {
+        bounds: Some(Bounds { low: [10.0, 0.0], high: [0.0, 10.0] }),
+        ..WorldSpec::default()
+    };
+    assert!(build(&world, &robot).starts_with("bounds"));
+    let mut world = furnished();
+    world.start = Pose::new(3.0, 3.0, 0.0);
+    assert!(build(&world, &robot).contains("inside the walls"), "{}", build(&world, &robot));
+
+    let world = WorldSpec::default();
+    let mut robot = default_robot();
+    robot.sensors[1].port = robot.sensors[0].port;
+    assert!(build(&world, &robot).contains("in1"), "{}", build(&world, &robot));
+    let mut robot = default_robot();
+    "lego-ev3-radar".clone_into(&mut robot.sensors[2].driver);
+    assert!(build(&world, &robot).contains("lego-ev3-radar"));
+    let mut robot = default_robot();
+    robot.left.port = robot.right.port;
+    assert!(build(&world, &robot).contains("wheel"));
+    let robot = RobotSpec { axle: -1.0, ..default_robot() };
+    assert!(build(&world, &robot).contains("axle"));
+}
+
+#[test]
+fn errors_are_put_to_the_fact_that_is_to_blame() {
+    let circle = |x: f64| Fact::Item(Item::Circle { center: [x, 0.0], radius: 3.0 });
+    let drawn = Fact::Map(Drawing::read(&["#.", ".#"]).unwrap().drawn(20.0).unwrap());
+    let start = |x: f64| Fact::Start(Pose::new(x, 0.0, 0.0));
+    let blamed = |facts: &[Fact]| {
+        let world = WorldSpec::from_facts(facts);
+        let error = Machine::new(&world, &default_robot(), Options::default()).unwrap_err();
+        culprit(facts, &error)
+    };
+    assert_eq!(blamed(&[circle(50.0), drawn.clone(), circle(1.0), start(0.0)]), Some(3));
+    assert_eq!(
+        blamed(&[circle(50.0), circle(1.0)]),
+        Some(1),
+        "without a start, what is in the way"
+    );
+    assert_eq!(
+        blamed(&[circle(1.0), start(0.0), drawn.clone()]),
+        Some(1),
+        "a drawing without a start sets none"
+    );
+    assert_eq!(blamed(&[start(0.0), Fact::Ambient(1.0), Fact::Ambient(-1.0)]), Some(2));
+    let tiny = Fact::Item(Item::Circle { center: [0.0, 90.0], radius: 0.0 });
+    assert_eq!(blamed(&[circle(50.0), drawn, tiny]), Some(2), "items of a drawing count");
+
+    let motor = |port| {
+        let driver = "lego-ev3-l-motor".to_owned();
+        Fact::Motor(MotorMount { port, driver, noise: Noise::NONE, encoder_noise: 0.0 })
+    };
+    let facts = [Fact::Axle(9.0), motor(Port::OutB), motor(Port::OutB)];
+    let error = RobotSpec::from_facts(&facts).unwrap_err();
+    assert_eq!(culprit(&facts, &error), Some(2));
+    let error = RobotSpec::from_facts(&facts[..2]).unwrap_err();
+    assert_eq!(error.to_string(), "robot has no left_wheel, no right_wheel, no hull, no mass");
+    assert_eq!(culprit(&facts, &error), None);
+}
+
+#[test]
+fn items_come_and_go_but_not_onto_the_robot() {
+    let mut desk = Desk::new();
+    let on_top = Item::Box { pose: Pose::new(5.0, 5.0, 0.0), width: 4.0, depth: 4.0 };
+    assert!(desk.0.add_item(on_top.clone()).is_err());
+    assert!(desk.0.items().is_empty());
+    desk.0.place(Pose::new(50.0, 50.0, 0.0)).unwrap();
+    let id = desk.0.add_item(on_top).unwrap();
+    let error = desk.0.place(Pose::default()).unwrap_err();
+    assert_eq!(error.to_string(), "robot at 0, 0 is inside box(5, 5, 4, 4, 0)");
+    assert!(desk.0.remove_item(id) && !desk.0.remove_item(id));
+    desk.0.place(Pose::default()).unwrap();
+    let lamp = desk.0.add_item(Item::Lamp { at: [0.0, 0.0], intensity: 5.0 }).unwrap();
+    assert!(lamp > id, "numbers are not used again");
+}
+
+fn drive_into_a_wall() -> Desk {
+    let mut desk = Desk::with(&furnished(), &default_robot());
+    for motor in [B, C] {
+        desk.run(motor, &[("speed_sp", 500)], "run-forever");
+    }
+    desk.step(2000);
+    desk.number("lego-sensor/sensor0/value0");
+    desk.step(8000);
+    desk
+}
+
+#[test]
+fn collisions_and_events_are_recorded() {
+    let mut desk = drive_into_a_wall();
+    let trace = desk.0.trace();
+    assert!(trace.collision_count() >= 1);
+    let first = trace.collisions().next().unwrap();
+    assert!(first.item == ItemId(1) && first.pose.y > 80.0, "{first:?}");
+    let events = trace.events();
+    assert_eq!(events[1].path, "tacho-motor/motor1/command");
+    assert_eq!((events[1].action, events[1].text.as_str()), (Action::Written, "run-forever"));
+    assert_eq!(events[4].action, Action::Read);
+    assert!(trace.path().len() > 20);
+    let svg = desk.0.svg();
+    for part in [
+        "<svg",
+        "</svg>",
+        "class=\"path\"",
+        "class=\"robot\"",
+        "id=\"item1\"",
+        "class=\"collision\"",
+    ] {
+        assert!(svg.contains(part), "{part} in {svg}");
+    }
+    desk.step(1_200_000);
+    assert!(desk.0.trace().path().len() <= 2048, "memory stays flat");
+}
+
+#[test]
+fn a_snapshot_goes_on_exactly_as_the_original() {
+    let mut desk = drive_into_a_wall();
+    desk.run(B, &[("speed_sp", -300), ("position_sp", -500)], "run-to-rel-pos");
+    desk.step(123);
+    let snapshot = desk.0.clone();
+    let mut run = |machine: Machine| {
+        desk.0 = machine;
+        desk.step(3000);
+        (desk.0.pose(), desk.position(B), desk.number("lego-sensor/sensor0/value0"))
+    };
+    let first = run(snapshot.clone());
+    assert_eq!(first, run(snapshot));
+}

@@ -1,0 +1,41 @@
+//! `prolog/ev3dev/private/grid/map.pl`: maps of cells that are drawn.
+use crate::facts::drawing;
+use crate::glue::call::Call;
+use swipl::prelude::*;
+
+/// Registers the predicate below.
+pub(crate) fn register() {
+    register_grid_drawn();
+}
+
+predicates! {
+    /// grid_drawn_(+Rows, -Drawn): drawn(Width, Height, Obstructed, Start), where start is
+    /// start(Cell, Heading) or `none`, and a cell is `[X, Y]`.
+    #[module("ev3dev_native")]
+    #[name("grid_drawn_")]
+    semidet fn grid_drawn(context, rows, drawn) {
+        let call = Call::of(context, "grid_map", 2);
+        let drawing = drawing(&call, rows)?;
+        let cells = drawing.obstructed().map(|cell| cell_term(&call, cell));
+        let obstructed = context.new_term_ref();
+        obstructed.unify(cells.collect::<PrologResult<Vec<_>>>()?.as_slice())?;
+        let start = match drawing.start() {
+            None => term! {context: none}?,
+            Some((cell, heading)) => {
+                let (cell, heading) = (cell_term(&call, cell)?, u64::from(heading));
+                term! {context: start(#&cell, #heading)}?
+            }
+        };
+        let [width, height] = drawing.size().map(|count| count as u64);
+        drawn.unify(&term! {context: drawn(#width, #height, #&obstructed, #&start)}?)
+    }
+}
+
+fn cell_term<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    at: [usize; 2],
+) -> PrologResult<Term<'a>> {
+    let term = call.context.new_term_ref();
+    term.unify(at.map(|count| count as u64).as_slice())?;
+    Ok(term)
+}

@@ -1,0 +1,154 @@
+% Errors of the libraries beside library(ev3dev) name what was called, and say
+% what would be right. (Those of library(ev3dev) itself: test_bad_input.pl.)
+
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(lists)).
+
+% A call, and its wrong, unbound and impossible arguments: each is tried alone.
+bad(go_cm(30, 10, []), [foo-1, _-1, 101-none, foo-2, _-3, [sped(5)]-3, [wait(1)]-3]).
+bad(turn(30, 90, []), [foo-1, _-2, a-3, [radius(1)]-3]).
+bad(arc_cm(30, 10, 90), [foo-1, _-2, far-3]).
+bad(arc_cm(30, 10, 90, []), [foo-1, _-2, far-3, x-4]).
+bad(arc(30, 10), [foo-1, _-2]).
+bad(arc(30, 10, []), [foo-1, _-2, [x]-3]).
+bad(steer(30, 10), [foo-1, _-2, 101-2]).
+bad(steer(30, 10, []), [foo-1, 101-2, [x]-3]).
+bad(drive_cm(10, 0), [foo-1, _-2]).
+bad(drive_cm(10, 0, []), [foo-1, _-2, [wait]-3]).
+bad(go_to(10-10), [far-1, _-1, point(1, 2)-1]).
+bad(go_to(10, 10), [far-1, _-2]).
+bad(go_to(10, 10, []), [far-1, _-2, north-3, [x(1)]-3]).
+bad(go_to(10, 10, 0, []), [far-1, _-2, north-3, [x(1)]-4]).
+bad(face(0), [north-1, _-1]).
+bad(face(0, []), [north-1, _-1, [sped(5)]-2]).
+bad(follow([]), [a-1, _-1, [a]-1]).
+bad(follow([], []), [a-1, _-1, [radius(-1)]-2, [raduis(1)]-2]).
+bad(set_pose(0, 0, 0), [a-1, _-2, a-3]).
+bad(heading_wrapped(0, _), [a-1, _-1]).
+bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
+bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
+bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
+bad(set_grid([]), [a-1, [neighbours(5)]-1, [colour(red)]-1]).
+bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
+bad(roadmap_path([], 0-0, 10-10, _, []), [a-1, foo-2, foo-3, [speed(1)]-5, [method(x)]-5]).
+bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
+bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
+bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).
+bad(sim_jam(outA, true), [1-1, 7-2]).
+bad(sim_wait(0.1), [a-1, _-1, -1-1]).
+bad(sim_step(0.1), [a-1, _-1, -1-1]).
+bad(sim_press(enter), [space-1, _-1]).
+bad(sim_press(enter, []), [space-1, [soon]-2]).
+bad(sim_remote(1, []), [5-1, a-2, [green]-2]).
+bad(sim_restore(_), [a-1, _-1]).
+
+:- begin_tests(errors).
+
+test(name_what_was_called, [forall(bad_call(Goal))]) :-
+    functor(Goal, Name, Arity),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(( ignore(Goal), E = none ), E, true) )),
+    assertion(( E == none ; subsumes_term(error(_, context(_, _)), E) )),
+    (   E = error(_, context(Called, Message))
+    ->  assertion(Called == Name/Arity),
+        assertion(atom(Message)),
+        assertion(\+ sub_atom(Message, _, _, _, ' { '))
+    ;   true
+    ).
+test(refuse_what_is_wrong, true(Accepted == [])) :-
+    findall(Goal,
+            ( bad_call(Goal),
+              \+ wrongly(Goal) ),
+            Accepted).
+test(a_measure_may_be_an_expression, [ forall(measure(2*3, Goal)) ]) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC), ignore(Goal) )).
+test(what_is_no_measure_is_the_same_error_everywhere,
+     [ forall(measure(a, Goal)),
+       error(type_error(evaluable, a/0), context(_, 'a number is expected, not a')) ]) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC), Goal )).
+test(list_what_is_allowed,
+     [ forall(member(Goal-Words,
+                     [ led(left, blu)-"off, on, red",
+                       motor_run(outB, 5, 5, [stop_action(jump)])
+                           -"coast, brake, hold",
+                       motor_run(outB, 5, 5, [spot_action(hold)])
+                           -"stop_action, ramp_up",
+                       battery(volts, _)-"voltage, current",
+                       button_wait(space, _)-"up, down, left",
+                       motor_polarity(outB, upside)-"normal, inversed",
+                       calibrate(all, [], _)-"wheels, axle",
+                       sim_start(room, [clock(slow)])-"realtime" ])) ]) :-
+    with_sim(room, catch(Goal, error(_, context(_, Message)), true)),
+    assertion(sub_atom(Message, _, _, _, Words)).
+
+:- end_tests(errors).
+
+%   Goal has X for a length, an angle, a speed or a time.
+
+measure(X, set_robot(X, 10.6, outB, outC)).
+measure(X, set_robot(5.6, X, outB, outC)).
+measure(X, set_robot(5.6, 10.6, outB, outC, [Option])) :-
+    member(Name, [left_diameter, right_diameter, axle_offset]),
+    Option =.. [Name, X].
+measure(X, go(20, X)).
+measure(X, go_cm(20, X)).
+measure(X, go_cm(X, 1, [])).
+measure(X, go_cm(20, 1, [Option])) :-
+    member(Name, [acceleration, timeout]),
+    Option =.. [Name, X].
+measure(X, go_to(X, 1, [])).
+measure(X, go_to(1, X, 0, [])).
+measure(X, go_to(X-1)).
+measure(X, face(1, [speed(X)])).
+measure(X, follow([1-X])).
+measure(X, follow([], [radius(X)])).
+measure(X, set_pose(0, 0, X)).
+measure(X, drive_option(speed, X)).
+measure(X, drive_option(acceleration, X)).
+measure(X, drive_wait([timeout(X)], _)).
+measure(X, calibrate(wheels, [distance(X), measured(none)], _)).
+measure(X, motor_run(outA, 50, X, [wait(false)])).
+measure(X, motor_run(outA, 50, 9, [timeout(X)])).
+measure(X, motor_wait(outA, [timeout(X)], _)).
+measure(X, button_wait(up, pressed, [timeout(X)])).
+measure(X, set_grid([Option])) :-
+    member(Name, [cell_cm, eye, speed, fade]),
+    Option =.. [Name, X].
+measure(X, set_grid([origin(0, X)])).
+measure(X, roadmap_path([], X-0, 9-9, _)).
+measure(X, roadmap_path([], 0-0, 9-9, _, [Option])) :-
+    member(Name, [radius, margin, arc_radius]),
+    Option =.. [Name, X].
+measure(X, navigate_to([], 1-1, [Option])) :-
+    member(Name, [speed, tolerance, radius]),
+    Option =.. [Name, X].
+measure(X, navigate_to([], 1-1, [sensor(0, 7, X)])).
+measure(X, sim_place(40, 40, X)).
+measure(X, sim_wait(X)).
+measure(X, sim_press(up, [after(X)])).
+measure(X, sim_press(up, [for(X)])).
+
+none(_, _) :-
+    fail.
+
+bad_call(Goal) :-
+    bad(Call, Wrongs),
+    member(Wrong-Position, Wrongs),
+    Position \== none,
+    Call =.. [Name|Arguments0],
+    nth1(Position, Arguments0, _, Rest),
+    nth1(Position, Arguments, Wrong, Rest),
+    Goal =.. [Name|Arguments].
+
+wrongly(Goal) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(( ignore(Goal), fail ), error(_, _), true) )).

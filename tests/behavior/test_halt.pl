@@ -1,0 +1,142 @@
+:- use_module('../support/trees').
+:- use_module('../support/child').
+:- use_module(library(ev3dev)).
+:- use_module(library(lists)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+
+% What the motors were told last, once a program is over.
+
+% The program, run on a tree of its own, ends with Status; then outB has had
+% the command B and outC the command C.
+after_program(Tree, Text, Options, Status, B-C) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( program_in_tree(Text, Program, TreeOptions),
+                append(TreeOptions, Options, AllOptions),
+                run_program(Program, AllOptions, Status, Output),
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
+
+:- begin_tests(halt).
+
+test(motors_that_were_started_are_stopped,
+     [ forall(( tree(Tree),
+                member(Start, [ "motor_run(outB, 20)",
+                                "motor_run(outB, 20, 360, [wait(false)])",
+                                "run_forever(outB, 200)",
+                                "(speed_sp(outB, 200), motor_start(outB))",
+                                "command(outB, 'run-direct')" ]) )),
+       true(Status-C == exit(0)-(stop-'')) ]) :-
+    format(string(Text), "main :- ~s.", [Start]),
+    after_program(Tree, Text, [goal(main)], Status, C).
+test(motors_that_were_stopped_are_left_alone,
+     [forall(tree(Tree)), true(C == 'run-timed'-'')]) :-
+    % As another program's doing
+    after_program(Tree, "main :- motor_run(outB, 20), motor_stop(outB),
+                                 command_file(outB, F), file_write(F, 'run-timed').",
+                  [goal(main)], exit(0), C).
+test(the_flag_leaves_them_running,
+     [forall(tree(Tree)), true(C == 'run-forever'-'')]) :-
+    after_program(Tree, "main :- set_prolog_flag(ev3dev_stop_at_halt, false),
+                                 motor_run(outB, 20).",
+                  [goal(main)], exit(0), C).
+test(the_flag_may_be_set_before_loading,
+     [forall(tree(Tree)), true(C == 'run-forever')]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor'],
+              ( program_in_tree("main :- motor_run(outB, 20).", Program, Options),
+                string_concat(":- create_prolog_flag(ev3dev_stop_at_halt, false, []).\n",
+                              Program, Before),
+                run_program(Before, [goal(main)|Options], _, Output),
+                left(outB, command, Output, C) )).
+test(an_uncaught_error_stops_them,
+     [forall(tree(Tree)), true(Failed-C == failed-(stop-''))]) :-
+    after_program(Tree, "main :- motor_run(outB, 20), atom_length(_, _).",
+                  [goal(main)], Status, C),
+    ( Status == exit(0) -> Failed = Status ; Failed = failed ).
+test(one_that_has_no_descriptors_left_stops_them,
+     [forall(tree(Tree)), true(C == stop-'')]) :-
+    after_program(Tree, ":- use_module(library(rlimit)).
+                         main :- motor_run(outB, 20), rlimit(nofile, _, 40),
+                                 sleep(0.2), leak.
+                         leak :- open('/dev/null', read, _), leak.",
+                  [goal(main)], _, C).
+test(without_descriptors_a_motor_can_be_stopped,
+     [forall(tree(Tree)), true(C == stop-'')]) :-
+    after_program(Tree, ":- use_module(library(rlimit)).
+                         main :- motor_run(outB, 20), rlimit(nofile, _, 40),
+                                 catch(leak, error(resource_error(_), _), true),
+                                 sleep(0.2), motor_stop(outB),
+                                 set_prolog_flag(ev3dev_stop_at_halt, false).
+                         leak :- open('/dev/null', read, _), leak.",
+                  [goal(main)], _, C).
+test(a_failed_goal_stops_them, [forall(tree(Tree)), true(C == stop-'')]) :-
+    after_program(Tree, "main :- motor_run(outB, 20), fail.", [goal(main)], _, C).
+test(halt_within_the_program_stops_them,
+     [forall(tree(Tree)), true(Status-C == exit(3)-(stop-''))]) :-
+    after_program(Tree, "main :- motor_run(outB, 20), halt(3).", [goal(main)], Status, C).
+test(halt_in_a_thread_while_another_waits_stops_them,
+     [forall(tree(Tree)), true(C == stop-'')]) :-
+    after_program(Tree, "main :- shows_running,
+                                 thread_create(motor_run(outB, 20, 360000), _, []),
+                                 wait, halt.
+                         % A plain file has to be told.
+                         shows_running :- state_file(outB, F),
+                                 catch(file_write(F, running),
+                                       error(permission_error(_, _, _), _), true).
+                         wait :- repeat, is_told, !.
+                         is_told :- command_file(outB, F),
+                                 catch(file_read(F, 'run-to-rel-pos'),
+                                       error(permission_error(_, _, _), _),
+                                       motor_states(outB, [running|_])).",
+                  [goal(main)], _, C).
+test(a_robot_that_is_driven_is_stopped,
+     [ forall(( tree(Tree),
+                member(Goal, [ "steer(30, 20)", "go_to(0, 50, [wait(false)])" ]) )),
+       true(Status-C == exit(0)-(stop-stop)) ]) :-
+    format(string(Text),
+           ":- use_module(library(ev3dev/drive)).
+            main :- set_robot(5.6, 10.6, outB, outC), ~s.", [Goal]),
+    after_program(Tree, Text, [goal(main)], Status, C).
+
+:- end_tests(halt).
+
+:- begin_tests(signals).
+
+test(a_program_that_is_told_to_end_stops_its_motors,
+     [ forall(( tree(Tree),
+                member(Signal, [term, int, hup]),
+                member(Wait, [ "repeat, sleep(0.01), fail",
+                               "motor_wait([outB, outC], [], _)",
+                               "use_module(library(ev3dev/drive)),
+                                set_robot(5.6, 10.6, outB, outC),
+                                ev3dev_drive:go_to(0, 50)" ]) )),
+       true(B-C == stop-stop) ]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( runs(outB),
+                runs(outC),
+                format(string(Text),
+                       "main :- motors_run([run(outB, 20), run(outC, 20)]),
+                                format(\"started~~n\"), flush_output, ~s.",
+                       [Wait]),
+                program_in_tree(Text, Program, Options),
+                start_program(Program, [goal(main)|Options], Child),
+                Child = child(Pid, Out, _),
+                repeat,
+                read_line_to_string(Out, Line),
+                Line == "started",
+                !,
+                % Prolog's thread for atoms may swallow one: it asks again.
+                call_cleanup(
+                    eventually(( catch(process_kill(Pid, Signal), _, true),
+                                 sleep(0.2),
+                                 is_over(Pid) )),
+                    catch(process_kill(Pid, kill), _, true)),
+                end_output(Child, Output),
+                left(outB, command, Output, B),
+                left(outC, command, Output, C) )).
+
+is_over(Pid) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    Status \== timeout.
+
+:- end_tests(signals).

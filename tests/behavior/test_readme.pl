@@ -1,0 +1,148 @@
+% Every query in README.md and docs/*.md succeeds, in the order in which they
+% stand in each; docs/predicates.md has all predicates, and files that the papers
+% name are there.
+
+:- use_module('../support/simulation').
+:- use_module('../support/dev', [bytes_of/2]).
+% They run in another directory.
+:- working_directory(Home, Home),
+   atom_concat(Home, prolog, Library),
+   asserta(user:file_search_path(library, Library)).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(readutil)).
+
+:- begin_tests(readme).
+
+test(their_queries_succeed, [forall(paper(File)), true(Failed == [])]) :-
+    queries(File, Queries),
+    with_sim(room,
+             in_temporary_directory(
+                 findall(Query,
+                         ( member(Query, Queries),
+                           \+ succeeds(Query)
+                         ),
+                         Failed))).
+test(they_have_queries, true(Without == [])) :-
+    findall(File,
+            ( member(File, ['README.md', 'docs/predicates.md',
+                            'docs/worlds.md']),
+              queries(File, Queries),
+              length(Queries, Count),
+              Count < 5 ),
+            Without).
+test(the_face_is_the_picture_beside_it, true(Drawn == Kept)) :-
+    read_file_to_string('docs/predicates.md', Text, []),
+    sub_string(Text, Start, _, _, "face :-"),
+    sub_string(Text, Start, _, 0, Rest),
+    setup_call_cleanup(open_string(Rest, In), read(In, (face :- Face)), close(In)),
+    !,
+    with_sim(room,
+             ( call(Face),
+               picture(Drawn),
+               screen_clear, screen_image(0, 0, 'tests/pictures/face.png'),
+               screen_show,
+               picture(Kept) )).
+test(the_readme_is_short) :-
+    read_file_to_string('README.md', Text, []),
+    split_string(Text, "\n", "", Lines),
+    length(Lines, Count),
+    assertion(Count =< 151).
+test(each_example_it_names_is_there, [forall(named_example(File))]) :-
+    exists_file(File).
+test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
+    ( exists_file(File) ; exists_directory(File) ),
+    !.
+test(each_predicate_is_in_the_table, true(Missing == [])) :-
+    read_file_to_string('docs/predicates.md', Text, []),
+    findall(Name/Arity,
+            ( member(Library, [ev3dev, drive, odometry, calibrate, grid,
+                               planners, roadmap, navigation, sim]),
+              ( Library == ev3dev -> Alias = ev3dev ; Alias = ev3dev/Library ),
+              absolute_file_name(library(Alias), File,
+                                 [file_type(prolog), access(read)]),
+              load_files(File, [if(not_loaded), imports([])]),
+              module_property(Module, file(File)),
+              module_property(Module, exports(Exports)),
+              member(Name/Arity, Exports),
+              \+ named(Text, Name)
+            ),
+            Missing).
+
+paper('README.md').
+paper(File) :-
+    expand_file_name('docs/*.md', Files),
+    member(File, Files).
+
+%   Name stands there, not as a part of another one.
+
+named(Text, Name) :-
+    sub_string(Text, Before, Length, _, Name),
+    After is Before + Length,
+    \+ ( Before > 0, B is Before - 1, sub_atom(Text, B, 1, _, C),
+         char_type(C, csym) ),
+    \+ ( sub_atom(Text, After, 1, _, C), char_type(C, csym) ),
+    !.
+
+%   [text](file) in Markdown, from the folder of the file it stands in.
+
+linked(Target) :-
+    (   paper(Paper)
+    ;   member(Paper, ['ARCHITECTURE.md', 'CONTRIBUTING.md'])
+    ),
+    read_file_to_string(Paper, Text, []),
+    sub_string(Text, Start, _, _, "]("),
+    From is Start + 2,
+    sub_string(Text, From, _, 0, Rest),
+    split_string(Rest, ")#", "", [Link|_]),
+    Link \== "",
+    \+ sub_string(Link, 0, _, _, "http"),
+    file_directory_name(Paper, Directory),
+    atomic_list_concat([Directory, /, Link], Target).
+
+:- meta_predicate in_temporary_directory(0).
+
+in_temporary_directory(Goal) :-
+    working_directory(Here, Here),
+    tmp_file(readme, Directory),
+    make_directory(Directory),
+    setup_call_cleanup(
+        working_directory(_, Directory),
+        once(Goal),
+        ( working_directory(_, Here),
+          delete_directory_and_contents(Directory) )).
+
+succeeds(Query) :-
+    term_string(Goal, Query),
+    with_output_to(string(_), user:Goal).
+
+%   Lines of the code blocks that ask something, less what follows them.
+
+queries(File, Queries) :-
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    findall(Query,
+            ( member(Line, Lines),
+              string_concat("?- ", Rest, Line),
+              sub_string(Rest, Before, _, _, "."),
+              End is Before + 1,
+              sub_string(Rest, End, _, 0, After),
+              normalize_space(string(Comment), After),
+              ( Comment == "" ; sub_string(Comment, 0, _, _, "%") ),
+              sub_string(Rest, 0, Before, _, Query)
+            ),
+            Queries).
+
+picture(Bytes) :-
+    tmp_file(picture, File),
+    setup_call_cleanup(screen_png(File), bytes_of(File, Bytes), delete_file(File)).
+
+named_example(File) :-
+    read_file_to_string('README.md', Text, []),
+    sub_string(Text, Start, _, _, "EXAMPLE="),
+    From is Start + 8,
+    sub_string(Text, From, _, 0, Rest),
+    split_string(Rest, "` \n", "", [Name|_]),
+    atomic_list_concat(['examples/', Name, '.pl'], File).
+
+:- end_tests(readme).

@@ -1,0 +1,376 @@
+:- use_module('../support/simulation').
+:- use_module('../support/trees', [with_tree/3]).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(filesex)).
+
+stopped(Goal) :-
+    ignore(sim_stop),
+    call(Goal).
+
+empty([start(0, 0, 0)]).
+
+:- begin_tests(sim_start).
+
+test(starts_each_shipped_world,
+     [forall(member(World, [room, lights, line, grid, maze]))]) :-
+    with_sim(World, sim_collisions([])).
+test(shows_the_robot_of_the_paper) :-
+    with_sim(room, findall(P-T, ( tacho_motor(P, T) ; lego_sensor(P, T) ), Devices)),
+    Devices == [ outA-'lego-ev3-m-motor',
+                 outB-'lego-ev3-l-motor',
+                 outC-'lego-ev3-l-motor',
+                 in1-'lego-ev3-us',
+                 in2-'lego-ev3-color',
+                 in3-'lego-ev3-color',
+                 in4-'lego-ev3-gyro'
+               ].
+test(takes_another_robot) :-
+    with_sim(room, [robot(touch)],
+             ( touch_sensor(in4), touch(in4, 0), \+ gyro_sensor(_) )).
+test(is_at_sys_class) :-
+    with_sim(room, ev3_sysfs('/sys/class')).
+test(replaces_the_one_that_runs) :-
+    empty(World),
+    with_sim(room, ( sim_start(World, [clock(virtual)]), sim_pose(X, Y, _) )),
+    X =:= 0,
+    Y =:= 0.
+test(takes_a_file) :-
+    with_file("start(3, 4, 90).\n", File,
+              with_sim(File, sim_pose(X, Y, H))),
+    X =:= 3,
+    Y =:= 4,
+    H =:= 90.
+test(needs_no_suffix) :-
+    with_file("start(3, 4, 90).\n", File,
+              ( atom_concat(File, '.pl', Long),
+                setup_call_cleanup(
+                    copy_file(File, Long),
+                    with_sim(File, sim_pose(_, _, _)),
+                    delete_file(Long)) )).
+test(takes_a_list_of_facts) :-
+    with_sim([start(3, 4, 90)], sim_pose(3.0, 4.0, 90.0)).
+test(takes_a_drawn_world) :-
+    with_sim([map(20, ["#####", "#.>.#", "#####"])],
+             sim_pose(50.0, 30.0, 90.0)).
+test(takes_all_facts) :-
+    with_sim([ bounds(-100, -100, 100, 100),
+               wall(50, -50, 50, 50),
+               wall(-50, -50, -50, 50, 2),
+               box(0, 60, 20, 10),
+               box(0, -60, 20, 10, 45),
+               circle(70, 70, 5),
+               floor(yellow),
+               patch(blue, [-9-(-9), 9- -9, 9-9, [-9, 9]]),
+               line('#102030', 2, [20-20, 30-30]),
+               lamp(10, 10, 12),
+               ambient(3),
+               start(0, 0, 0)
+             ],
+             [robot([ left_wheel(outB, 5.6, [inverted(false), slip(0.01)]),
+                      right_wheel(outC, 5.6),
+                      axle(10.6),
+                      hull(rectangle(12, 18, 2)),
+                      mass(0.75),
+                      motor(outB, 'lego-ev3-l-motor'),
+                      motor(outC, 'lego-ev3-l-motor'),
+                      sensor(in1, 'lego-ev3-ir', 0, 7, 0),
+                      sensor(in2, 'lego-ev3-color', 0, 6, 0),
+                      noise(in1, 1, 0)
+                    ])],
+             col_color(in2, 2)).
+test(fails_for_no_goal_without_a_simulation,
+     [ forall(member(Goal, [ sim_stop, sim_pose(_, _, _), sim_place(0, 0, 0),
+                             sim_add(circle(0, 0, 1)), sim_remove(1),
+                             sim_plug(in1, 'lego-ev3-us'), sim_unplug(in1),
+                             sim_jam(outA, true), sim_show(outA, state, x),
+                             sim_unshow(outA, state), sim_wait(1),
+                             sim_step(1), sim_time(_),
+                             sim_snapshot(_), sim_collisions(_), sim_trace(_),
+                             sim_svg('/dev/null'), sim_unmount
+                           ])),
+       fail
+     ]) :-
+    stopped(Goal).
+
+test(no_such_world, error(existence_error(world, rome), _)) :-
+    sim_start(rome).
+test(no_such_robot, error(existence_error(robot, marvin), _)) :-
+    sim_start(room, [robot(marvin)]).
+test(unbound_world, error(instantiation_error, _)) :-
+    sim_start(_).
+test(no_such_clock, error(domain_error(clock, sand), _)) :-
+    sim_start(room, [clock(sand)]).
+test(clock_that_stands, error(domain_error(clock, scaled(0)), _)) :-
+    sim_start(room, [clock(scaled(0))]).
+test(seed_that_is_no_number, error(type_error(integer, corn), _)) :-
+    sim_start(room, [seed(corn)]).
+test(noise_that_is_no_boolean, error(type_error(_, loud), _)) :-
+    sim_start(room, [noise(loud)]).
+test(options_that_are_no_list, error(type_error(list, _), _)) :-
+    sim_start(room, virtual).
+test(a_refused_world_leaves_the_old_one) :-
+    with_sim([start(3, 4, 0)],
+             ( catch(sim_start([wal(0, 0, 1, 1)]), error(_, _), true),
+               sim_pose(3.0, 4.0, _) )).
+
+:- end_tests(sim_start).
+
+:- begin_tests(sim_files).
+
+%   The message that is printed for what is wrong in a file.
+complaint(Text, Options, Formal, Message) :-
+    with_file(Text, File,
+              ( catch(sim_start(File, Options), error(Formal, Context), true),
+                message_to_codes(error(Formal, Context), File, Message) )).
+
+message_to_codes(Term, File, Message) :-
+    message_to_lines(Term, Lines),
+    with_output_to(string(Message0),
+                   print_message_lines(current_output, '', Lines)),
+    atomic_list_concat(Parts, File, Message0),
+    atomic_list_concat(Parts, 'FILE', Message).
+
+message_to_lines(Term, Lines) :-
+    phrase('$messages':translate_message(Term), Lines).
+
+says(Message, Part) :-
+    (   sub_atom(Message, _, _, _, Part)
+    ->  true
+    ;   format(user_error, "~w~n", [Message]),
+        fail
+    ).
+
+test(unknown_fact_with_file_and_line) :-
+    complaint("start(1, 1, 0).\n\n  wal(0, 0, 1, 1).\n", [],
+              Formal, Message),
+    Formal == domain_error(world_fact, wal(0, 0, 1, 1)),
+    says(Message, 'FILE:3:2: '),
+    says(Message, 'a world has: bounds, wall, ').
+test(fact_with_too_many_arguments) :-
+    complaint("circle(0, 0, 1, 2).\n", [], Formal, Message),
+    Formal == domain_error(world_fact, circle(0, 0, 1, 2)),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'circle has 3 arguments').
+test(robot_fact_in_a_world) :-
+    complaint("start(1, 1, 0).\naxle(10).\n", [], Formal, Message),
+    Formal == domain_error(world_fact, axle(10)),
+    says(Message, 'FILE:2:0: ').
+test(impossible_geometry) :-
+    complaint("\nbox(30, 30, 0, 5).\n", [], Formal, Message),
+    Formal == domain_error(possible_geometry, box(30, 30, 0, 5)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'needs a width and a depth above 0').
+test(start_inside_something) :-
+    complaint("box(30, 30, 10, 10).\nstart(30, 30, 0).\n", [],
+              Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'is inside ').
+test(a_box_where_the_robot_starts_by_default) :-
+    complaint("floor(red).\nbox(0, 0, 10, 10).\n", [], Formal, Message),
+    Formal == domain_error(possible_geometry, box(0, 0, 10, 10)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'robot at 0, 0 is inside box(0, 0, 10, 10, 0)').
+test(two_starts_in_a_map) :-
+    complaint("map(20, [\"\", \"S#\", \"v.\", \"^.\"]).\n", [], Formal, Message),
+    Formal == domain_error(map_row, "v."),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'second start').
+test(wrong_type) :-
+    complaint("wall(0, 0, ten, 1).\n", [], Formal, Message),
+    Formal == type_error(number, ten),
+    says(Message, 'FILE:1:0: ').
+test(no_such_colour) :-
+    complaint("floor(mauve).\n", [], Formal, Message),
+    Formal == domain_error(color, mauve),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'mauve is not one of: black, blue').
+test(unknown_character_in_a_map) :-
+    complaint("map(20, [\"##\", \"#X\"]).\n", [], Formal, Message),
+    Formal = domain_error(map_row, "#X"),
+    says(Message, 'FILE:1:0: '),
+    says(Message, 'unknown character').
+test(variable) :-
+    complaint("wall(0, 0, X, 1).\n", [], Formal, Message),
+    nonvar(Formal),
+    says(Message, 'FILE:1:0: ').
+test(a_directive_is_not_run) :-
+    nb_setval(ran, no),
+    complaint(":- nb_setval(ran, yes).\n", [], Formal, _),
+    Formal = domain_error(world_fact, (:- _)),
+    nb_getval(ran, no).
+test(syntax_error) :-
+    complaint("start(1, 1, 0).\nwall(0, 0.\n", [], Formal, Message),
+    Formal = syntax_error(_),
+    says(Message, 'FILE:2:').
+test(a_world_must_be_text, error(domain_error(world_fact, 17), _)) :-
+    sim_start([17]).
+
+robot_complaint(Text, Formal, Message) :-
+    with_file(Text, File,
+              complaint("start(1, 1, 0).\n", [robot(File)], Formal, Message0, File)),
+    Message = Message0.
+
+complaint(World, Options, Formal, Message, File) :-
+    with_file(World, WorldFile,
+              ( catch(sim_start(WorldFile, Options), error(Formal, Context), true),
+                message_to_codes(error(Formal, Context), File, Message) )).
+
+test(unknown_robot_fact) :-
+    robot_complaint("axle(10).\nwings(2).\n", Formal, Message),
+    Formal == domain_error(robot_fact, wings(2)),
+    says(Message, 'FILE:2:0: ').
+test(axle_without_length) :-
+    robot_complaint("mass(1).\naxle(-1).\n", Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+test(each_wrong_robot_fact_is_explained,
+     [ forall(member(Fact-Words,
+                     [ "left_wheel(outB, 5, [inverted(maybe)])"-'true or false',
+                       "left_wheel(outB, 5, [inverted(_)])"-'unbound',
+                       "left_wheel(outB, 5, [grip(1)])"-'inverted(Boolean), slip(Share)',
+                       "left_wheel(outB)"-'left_wheel has 2 or 3 arguments',
+                       "hull(box(1))"-'circle(Radius), rectangle(Width',
+                       "mass(x)"-'a number is expected, not x',
+                       "motor(outB, steam)"-'is of no known type' ])) ]) :-
+    atomics_to_string(["mass(1).\n\n", Fact, ".\n"], Text),
+    robot_complaint(Text, _, Message),
+    says(Message, 'FILE:3:0: '),
+    says(Message, Words),
+    \+ sub_atom(Message, _, _, _, ' { ').
+test(a_robot_without_parts, error(domain_error(possible_geometry, []), context(_, Why))) :-
+    catch(sim_start([], [robot([])]), error(Formal, context(Where, Why)), true),
+    says(Why, 'robot has no left_wheel, no right_wheel, no axle'),
+    throw(error(Formal, context(Where, Why))).
+test(a_robot_file_without_a_hull) :-
+    robot_complaint("left_wheel(outB, 5).\nright_wheel(outC, 5).\naxle(9).\nmass(1).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE: '),
+    says(Message, 'robot has no hull').
+atomics_to_string(Atomics, Text) :-
+    atomic_list_concat(Atomics, Atom),
+    atom_string(Atom, Text).
+
+test(unknown_motor) :-
+    robot_complaint("mass(1).\nmotor(outA, steam).\n", Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+test(an_encoder_that_is_more_than_exact) :-
+    robot_complaint("motor(outB, 'lego-ev3-l-motor').\nencoder_noise(outA, 1).\nencoder_noise(outB, -1).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:3:0: '),
+    says(Message, 'must not be below 0').
+test(encoder_noise_without_a_number) :-
+    robot_complaint("mass(1).\nencoder_noise(outB).\n", Formal, Message),
+    Formal == domain_error(robot_fact, encoder_noise(outB)),
+    says(Message, 'FILE:2:0: '),
+    says(Message, 'encoder_noise').
+test(two_sensors_at_a_port) :-
+    robot_complaint("sensor(in1, 'lego-ev3-us', 0, 7, 0).\nsensor(in1, 'lego-ev3-us', 0, 7, 90).\n",
+                    Formal, Message),
+    Formal = domain_error(possible_geometry, _),
+    says(Message, 'FILE:2:0: ').
+
+:- end_tests(sim_files).
+
+:- begin_tests(sim_chance).
+
+readings(Seed, Noise, Readings) :-
+    with_sim(room, [seed(Seed), noise(Noise)],
+             findall(D, ( between(1, 20, _), sim_step(0.1), us_dist_cm(in1, D) ),
+                     Readings)).
+
+test(no_noise_by_default) :-
+    readings(1, false, Readings),
+    sort(Readings, [_]).
+test(noise_differs_from_reading_to_reading) :-
+    readings(1, true, Readings),
+    sort(Readings, [_, _|_]).
+test(the_same_seed_makes_the_same_noise) :-
+    readings(7, true, Readings),
+    readings(7, true, Readings).
+test(another_seed_makes_other_noise) :-
+    readings(7, true, Readings7),
+    readings(8, true, Readings8),
+    Readings7 \== Readings8.
+test(encoders_err_if_asked_for, true(Wrong \== Right)) :-
+    positions([], Right),
+    positions([encoder_noise(outA, 2)], Wrong).
+test(the_same_seed_makes_the_same_errors_of_encoders, true(A == B)) :-
+    positions([encoder_noise(outA, 2)], A),
+    positions([encoder_noise(outA, 2)], B).
+
+%   What a motor shows that turns by a fixed duty.
+positions(Errors, Positions) :-
+    Robot = [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
+              hull(circle(8)), mass(0.75), motor(outA, 'lego-ev3-m-motor'),
+              motor(outB, 'lego-ev3-l-motor'), motor(outC, 'lego-ev3-l-motor')
+            | Errors ],
+    with_sim([], [robot(Robot)],
+             ( motor_attribute(outA, duty_cycle_sp, 20),
+               command(outA, 'run-direct'),
+               findall(Position,
+                       ( between(1, 50, _), sim_step(0.02),
+                         position(outA, Position) ),
+                       Positions) )).
+
+:- end_tests(sim_chance).
+
+:- begin_tests(sim_screen).
+
+test(no_such_depth, error(domain_error(screen_bits, 16), _)) :-
+    sim_start(room, [screen(16)]).
+test(depth_that_is_no_number, error(type_error(integer, deep), _)) :-
+    sim_start(room, [screen(deep)]).
+test(its_layout_is_told_beside_the_motors,
+     [ forall(member(Bits-Stride, [32-712, 1-24])),
+       true(Read == ['178,128', Bits, Stride])
+     ]) :-
+    with_sim(room, [screen(Bits)],
+             findall(Value,
+                     ( member(Name, [virtual_size, bits_per_pixel, stride]),
+                       atom_concat('/sys/class/graphics/fb0/', Name, File),
+                       file_read(File, Value)
+                     ),
+                     Read)).
+
+:- end_tests(sim_screen).
+
+:- begin_tests(sim_stop).
+
+test(stop_is_the_end) :-
+    sim_start(room, [clock(virtual)]),
+    sim_stop,
+    \+ sim_pose(_, _, _),
+    \+ sim_stop.
+
+test(another_directory_is_the_end) :-
+    with_sim([], ( motor_run(outA, 20),
+                   with_tree(plain, [outA-'lego-ev3-l-motor'],
+                             ( \+ sim_pose(_, _, _),
+                               \+ sim_stop,
+                               tacho_motor(outA, 'lego-ev3-l-motor') )) )).
+test(a_refused_directory_is_not) :-
+    with_sim([], ( catch(ev3_sysfs('/nowhere'), error(existence_error(_, _), _), true),
+                   sim_pose(_, _, _),
+                   tacho_motor(outA) )).
+test(a_mounted_one_goes_on_in_another_directory, [condition(can_mount)]) :-
+    with_sim([],
+             with_directory(Directory,
+                 ( sim_mount(Directory),
+                   ev3_sysfs(Directory),
+                   max_speed(outA, 1560),
+                   with_tree(plain, [], ( \+ tacho_motor(_), sim_pose(_, _, _) )),
+                   ev3_sysfs(Directory),
+                   max_speed(outA, 1560),
+                   sim_unmount ))).
+test(stop_goes_back_to_the_directory_in_use_before) :-
+    with_tree(plain, [],
+              ( ev3_sysfs(Directory),
+                with_sim(room, ev3_sysfs('/sys/class')),
+                ev3_sysfs(Directory) )).
+
+:- end_tests(sim_stop).

@@ -1,0 +1,175 @@
+% Checks over the pack's Prolog files; run by `make lint`.
+
+:- use_module(trees).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/private/sensor_table/lego)).
+:- use_module(library(ev3dev/private/sensor_table/other)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/roadmap)).
+:- use_module(library(check)).
+:- use_module(library(prolog_xref)).
+:- use_module(library(pldoc)).
+:- use_module(library(pldoc/doc_process)).
+:- doc_collect(true).
+
+:- dynamic complaint/0.
+
+main :-
+    self_test,
+    load_again,
+    check,
+    forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
+    forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
+    forall(without_partner(File), complain(no_test_or_no_module(File))),
+    forall(( page(File), line_of(File, Line, Text), banned_in(Text, Word) ),
+           complain(line(File, Line, banned(Word)))),
+    (   complaint
+    ->  halt(1)
+    ;   halt(0)
+    ).
+
+% Documentation is kept only of what is loaded after doc_collect/1.
+load_again :-
+    forall(library_module(Module),
+           ( module_property(Module, file(File)),
+             load_files(File, [if(true), imports([])])
+           )).
+
+complain(What) :-
+    assertz(complaint),
+    print_message(error, format("~p", [What])).
+
+% Warnings of check/0 count, too.
+user:message_hook(_, Kind, _) :-
+    memberchk(Kind, [warning, error]),
+    assertz(complaint),
+    fail.
+
+library_module(Module) :-
+    current_module(Module),
+    sub_atom(Module, 0, _, _, ev3dev),
+    module_property(Module, file(_)).
+
+%!  undocumented(-Module, -PI) is nondet.
+%
+%   An export without a PlDoc comment in the module that defines it.
+
+undocumented(Module, Name/Arity) :-
+    library_module(Module),
+    module_property(Module, exports(Exports)),
+    member(Name/Arity, Exports),
+    functor(Head, Name, Arity),
+    \+ predicate_property(Module:Head, imported_from(_)),
+    \+ doc_comment(Module:Name/Arity, _, _, _).
+
+%!  without_partner(-File) is nondet.
+%
+%   A public module has a test file of its name, and the other way round: what
+%   is about no single module is in tests/behavior.
+
+without_partner(File) :-
+    named('prolog/ev3dev/*.pl', '', Name, File),
+    \+ named('tests/prolog/*.pl', test_, Name, _).
+without_partner(File) :-
+    named('tests/prolog/*.pl', test_, Name, File),
+    \+ named('prolog/ev3dev/*.pl', '', Name, _).
+
+named(Pattern, Prefix, Name, File) :-
+    expand_file_name(Pattern, Files),
+    member(File, Files),
+    file_base_name(File, Base),
+    file_name_extension(Stem, _, Base),
+    atom_concat(Prefix, Name, Stem).
+
+source(File) :-
+    member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
+                     'prolog/*/*/*.pl', 'prolog/*/*/*/*.pl',
+                     'examples/*.pl']),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+page(File) :-
+    member(Pattern, ['README.md', 'docs/*.md']),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+bad_line(File, Number, Why) :-
+    line_of(File, Number, Line),
+    bad(Line, Why).
+
+line_of(File, Number, Line) :-
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    nth1(Number, Lines, Line).
+
+bad(Line, tab) :-
+    sub_string(Line, _, _, _, "\t").
+bad(Line, trailing_space) :-
+    sub_string(Line, _, 1, 0, " ").
+bad(Line, too_long) :-
+    string_length(Line, Length),
+    Length > 78.
+bad(Line, banned(Word)) :-
+    banned_in(Line, Word).
+
+%!  banned_in(+Line, -Word) is nondet.
+%
+%   True if Line uses a banned Word: one that CONTRIBUTING.md replaces, or one
+%   in British spelling. A name such as `grid_center` is a word of its own.
+
+banned_in(Line, Word) :-
+    string_lower(Line, Lower),
+    banned(Word),
+    sub_string(Lower, Before, _, After, Word),
+    \+ continues(Lower, Before, -1),
+    string_length(Lower, Length),
+    Next is Length - After,
+    \+ continues(Lower, Next, 0),
+    \+ excused(Word, Lower, Before).
+
+% A letter or an underscore stands there.
+continues(Line, Position, Offset) :-
+    Index is Position + Offset,
+    Index >= 0,
+    sub_string(Line, Index, 1, _, Char),
+    char_type(Char, csym).
+
+banned("anew").
+banned("is none").
+banned("are none").
+banned("so many").
+banned("whoever").
+banned(Word) :-
+    member(Stem, ["colour", "metre", "centimetre", "millimetre", "centre",
+                  "neighbour", "behaviour", "recognise", "tyre"]),
+    member(Ending, ["", "s", "d"]),
+    string_concat(Stem, Ending, Word),
+    Word \== "neighbours".             % an option of grid_map/2
+banned("coloured").
+banned("grey").
+banned("greys").
+banned("licence").
+banned("cancelled").
+
+% "if there is none" is plain English.
+excused(Word, Line, Before) :-
+    memberchk(Word, ["is none", "are none"]),
+    sub_string(Line, 0, Before, _, Start),
+    sub_string(Start, _, _, 0, "there ").
+
+% The check of words can fail, and does not fail on good words.
+self_test :-
+    forall(( member(Bad, [ "% Plans anew.", "%   for an option that is none",
+                           "an actuator, in millimetres", "led(?Light, ?Colour)",
+                           "% the centre, whoever asks", "So many times" ]),
+             \+ banned_in(Bad, _)
+           ),
+           complain(not_found(Bad))),
+    forall(( member(Good, [ "% fails if there is none", "set_grid([neighbours(8)])",
+                            "in centimeters", "a_grey_name", "the center" ]),
+             banned_in(Good, Word)
+           ),
+           complain(found(Word, Good))).
