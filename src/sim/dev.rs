@@ -130,7 +130,10 @@ impl Stream for SimulatedStream {
         let place = self.place();
         let command = eviocgkey(bits.len());
         let state = self.simulation.read(|machine| place.descriptor.ioctl(machine, command));
-        bits.copy_from_slice(&state.map_err(error)?.1);
+        let (_, state) = state.map_err(error)?;
+        let (known, rest) = bits.split_at_mut(state.len());
+        known.copy_from_slice(&state);
+        rest.fill(0);
         Ok(())
     }
 

@@ -105,11 +105,11 @@ impl AttributeFile for SimulatedFile {
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
         let written = self.simulation.write(|machine| machine.write(self.node, text));
-        let blocks = written.map_err(error)?.blocks;
-        if !blocks.is_zero() && !self.simulation.is_acting() {
-            self.simulation.pause(blocks);
+        let written = written.map_err(error)?;
+        if !written.blocks.is_zero() && !self.simulation.is_acting() {
+            self.simulation.pause(written.blocks);
         }
-        Ok(())
+        written.outcome.map(drop).map_err(error)
     }
 }
 

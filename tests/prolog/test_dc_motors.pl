@@ -181,7 +181,7 @@ test(at_the_end_of_the_program,
 test(polarity, [forall(tree(Tree)), true([P1, P2] == [normal, inversed])]) :-
     in_tree(Tree, ( dc_motor_polarity(outA, P1), dc_motor_polarity(outA, inversed),
                     dc_motor_polarity(_, P2) )).
-test(polarity_turns_it_round, [forall(behaving(Tree)), true(D == -50)]) :-
+test(polarity_shows_the_sign_of_the_program, [forall(behaving(Tree)), true(D == 50)]) :-
     in_tree(Tree, ( dc_motor_polarity(outA, inversed), dc_motor_run(outA, 50),
                     dc_motor_duty(outA, D) )).
 test(ramps, [forall(tree(Tree)), true(Rs == [outA-300-400])]) :-

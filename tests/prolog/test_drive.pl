@@ -257,11 +257,12 @@ pull(At, Port) :-
                 *            MOVES             *
                 *******************************/
 
+% Either direction of a half turn is right.
 at(X, Y, Heading) :-
     sim_pose(X0, Y0, H0),
-    near(X0, X, 0.5),
-    near(Y0, Y, 0.5),
-    near(H0, Heading, 1).
+    near(X0, X, 0.6),
+    near(Y0, Y, 0.6),
+    ( Heading =:= 180, H0 < 0 -> near(H0, -180, 1) ; near(H0, Heading, 1) ).
 
 :- begin_tests(moves).
 

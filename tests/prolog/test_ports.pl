@@ -179,12 +179,12 @@ test(a_motor_that_was_just_plugged_in_is_waited_for,
                             motor_run_timed(outD, 50, 0.1),
                             motor_position(outD, 0),
                             command(outD, stop) ]))]) :-
-    on(simulator, ( sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.38),
+    on(simulator, ( sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.41),
                     tacho_motor(outD), sim_time(T0),
                     call(Goal),
                     sim_time(T), T - T0 > 0.3 )).
 test(others_do_not_run_before_it) :-
-    on(simulator, ( sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.38),
+    on(simulator, ( sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.41),
                     motors_run([run(outB, 20), run(outD, 50)]),
                     sim_trace(Trace),
                     findall(T, member(T-written(_, 'run-forever'), Trace), [T1, T2]),
@@ -192,7 +192,7 @@ test(others_do_not_run_before_it) :-
 test(the_wait_can_be_interrupted, true(E == time_limit_exceeded)) :-
     on(simulator,
        ( sim_stop, sim_start(room, [clock(scaled(0.1))]),
-         sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.38),
+         sim_plug(outD, 'lego-ev3-l-motor'), sim_step(0.41),
          catch(call_with_time_limit(0.2, motor_run(outD, 50)), E, true) )).
 test(what_can_never_be_written_is_told_at_once,
      [forall(behaving(Tree)), error(permission_error(write, attribute, _), _)]) :-

@@ -48,9 +48,14 @@ test(each_reading_is_of_a_mode,
     once(sensor_mode(Type, Mode, Count, _, _, _)),
     Index < Count.
 
-% The table here, and that of the simulator, were written apart.
+% The table here, and that of the simulator, were written apart. The simulator is a
+% brick with ev3dev-stretch: it cannot load di-dflex, and knows fewer modes of one.
+later('ht-super-pro', 'LED').
+later('ht-super-pro', 'AOUT-0').
+later('ht-super-pro', 'AOUT-1').
+
 test(each_is_as_the_simulator_has_it,
-     [ forall(( sensor_type(Type, _), Type \== 'my-scale' )),
+     [ forall(( sensor_type(Type, _), \+ memberchk(Type, ['my-scale', 'di-dflex']) )),
        true(Says == Known) ]) :-
     with_sensor(simulator, Type, [],
                 ( sensor_attribute(in1, modes, Text),
@@ -65,7 +70,8 @@ test(each_is_as_the_simulator_has_it,
                             sensor_attribute(in1, units, Units) ),
                           Says) )),
     findall(Name/Count/Decimals/Units,
-            sensor_mode(Type, Name, Count, Decimals, Units, _),
+            ( sensor_mode(Type, Name, Count, Decimals, Units, _),
+              \+ later(Type, Name) ),
             Known).
 
 :- end_tests(sensor_mode).

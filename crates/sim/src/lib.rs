@@ -104,6 +104,7 @@ mod sense;
 mod sensor;
 mod shared;
 mod trace;
+mod wheel;
 mod world;
 
 pub use brick::panel::{Button, UnknownButton};
@@ -135,8 +136,6 @@ const TICK_US: u64 = TICK_MS * 1000;
 const TICK_SECONDS: f64 = 0.002;
 /// Kernel timers fire on a grid of 10 ms (HZ = 100).
 const JIFFY_TICKS: u64 = 5;
-/// The motor class looks at its flags every 50 ms.
-const NOTIFY_TICKS: u64 = 25;
 
 /// The number of ticks that take at least this long. No time is negative here.
 fn ticks_from_ms(ms: i32) -> u64 {

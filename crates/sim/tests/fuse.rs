@@ -183,6 +183,24 @@ fn an_unplugged_device_says_so_on_old_descriptors() {
 }
 
 #[test]
+fn before_udev_only_root_opens_the_files_of_a_new_device() {
+    let Some(bench) = Bench::new("root") else {
+        return;
+    };
+    {
+        let mut machine = bench.shared.lock();
+        machine.plug(Port::OutD, "lego-ev3-l-motor").unwrap();
+        machine.step(Duration::from_millis(410));
+    }
+    let motor = bench.root.join("tacho-motor/motor3");
+    let speed = OpenOptions::new().write(true).open(motor.join("speed_sp"));
+    let is_root = fs::metadata(&motor).unwrap().uid() == 0;
+    assert_eq!(errno(speed), if is_root { None } else { Some(Errno::EACCES) });
+    let state = OpenOptions::new().write(true).open(motor.join("state"));
+    assert_eq!(errno(state), Some(Errno::EACCES), "not even root writes this");
+}
+
+#[test]
 fn a_mode_write_blocks_for_its_time() {
     let Some(bench) = Bench::new("mode") else {
         return;

@@ -20,6 +20,12 @@ use std::time::Duration;
 /// udev may take another second.
 pub const APPEARS_WITHIN: Duration = Duration::from_secs(4);
 
+/// How long a port takes to detect what is plugged in: 0.4 s.
+const DETECTED_WITHIN: Duration = Duration::from_millis(600);
+
+/// What a port's status is while nothing is detected.
+const NOTHING: [&str; 2] = ["no-motor", "no-sensor"];
+
 /// The classes of devices that are on ports.
 const ON_PORTS: [Class; 4] = [Class::TachoMotor, Class::DcMotor, Class::ServoMotor, Class::Sensor];
 
@@ -65,7 +71,8 @@ fn device_at(registry: &Registry, port: &str) -> Result<Option<Arc<Device>>> {
 }
 
 /// Puts a port into a mode, if it is in another, and waits until the device that
-/// the mode makes is there and can be written. `None` where there is no such
+/// the mode makes is there and can be written. The mode `auto` makes none, but
+/// looks for one: what is detected is waited for. `None` where there is no such
 /// port, `false` if that device does not appear.
 ///
 /// # Errors
@@ -78,14 +85,19 @@ pub fn set_mode(
     interrupted: Interrupted,
 ) -> Result<Option<bool>> {
     let written = retry::with(registry, Class::Port, port, &mut *interrupted, |port| {
-        if !port.with_word("mode", |present| present == mode)? {
+        let is_new = !port.with_word("mode", |present| present == mode)?;
+        if is_new {
             port.write("mode", mode)?;
             registry.forget_listings();
         }
-        Ok(())
+        Ok(is_new)
     })?;
-    if written.is_none() {
+    let Some(is_new) = written else {
         return Ok(None);
+    };
+    if mode == "auto" && is_new && detects(registry, port, &mut *interrupted)? {
+        let find = || device_at(registry, port);
+        return wait_for(registry, find, interrupted).map(|_| Some(true));
     }
     let Some(class) = made_by(mode) else { return Ok(Some(true)) };
     let find = || match class {
@@ -93,6 +105,22 @@ pub fn set_mode(
         class => registry.find(class, port),
     };
     wait_for(registry, find, interrupted).map(Some)
+}
+
+/// Waits until a port has detected something; `false` if there is nothing, or no
+/// device that could come of it.
+fn detects(registry: &Registry, port: &str, interrupted: Interrupted) -> Result<bool> {
+    let Some(port) = registry.find(Class::Port, port)? else {
+        return Ok(false);
+    };
+    let latest = registry.tree().now().saturating_add(DETECTED_WITHIN);
+    until_some(registry.tree(), interrupted, |_| {
+        let (is_empty, makes) = port.with_word("status", |status| {
+            (NOTHING.contains(&status), !matches!(status, "error" | "nxt-color"))
+        })?;
+        let is_late = registry.tree().now() >= latest;
+        Ok((!is_empty || is_late).then_some(!is_empty && makes))
+    })
 }
 
 /// Sets the device of a port, if another one is there, and waits

@@ -6,6 +6,7 @@
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::error::{Error, Result};
+use crate::motor::ramped::Ramped;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -75,6 +76,8 @@ pub(crate) fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> 
 }
 
 fn start_as(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
+    let mut ramped = Ramped::before(motor, end)?;
+    let word = ramped.as_ref().map_or(word, |ramped| ramped.word(word));
     let run = end.map(|end| run(motor, word, end));
     // Write the command under the lock: a drive must not restart a motor that was
     // just stopped.
@@ -84,8 +87,22 @@ fn start_as(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
         // we stop a motor that never started, rather than leave one running.
         *present = run;
     }
+    if let Some(ramped) = &mut ramped {
+        ramped.prepare()?;
+    }
     motor.write("command", word)?;
     *present = run;
+    Ok(())
+}
+
+/// Stops a motor, unless it got another command after this run began. The stop
+/// action is that of the set-points.
+pub(super) fn stop_run(motor: &Device, run: MotorRun) -> Result<()> {
+    let mut present = motor.run();
+    if *present == Some(run) {
+        motor.write("command", "stop")?;
+        *present = None;
+    }
     Ok(())
 }
 

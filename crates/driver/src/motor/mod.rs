@@ -11,6 +11,7 @@ pub(crate) mod claim;
 pub(crate) mod command;
 pub mod dc;
 pub(crate) mod plan;
+mod ramped;
 pub mod servo;
 pub mod wait;
 
@@ -21,14 +22,14 @@ use crate::device::registry::Registry;
 use crate::device::retry::{self, while_permissions_settle};
 use crate::error::{Error, Interrupted, Result};
 pub use command::{StopAction, command, reset, stop, stop_all};
-use command::{best_effort, start_all, stop_best_effort};
+use command::{best_effort, start_all, stop_best_effort, stop_run};
 pub(crate) use command::{prepare, runs_on, start};
 use plan::plan;
 pub use plan::{Extent, Move, Speed, position, set_position};
 pub(crate) use plan::{duty, milliseconds};
 use std::sync::Arc;
 use std::time::Duration;
-use wait::{Reason, wait_for};
+use wait::{Reason, wait_and_end};
 
 /// A motor and the speed at which to run.
 #[derive(Clone, Debug)]
@@ -178,7 +179,7 @@ pub(crate) fn finish(
     if !options.wait {
         return Ok(Reason::Reached);
     }
-    let result = wait_for(registry, motors, options.timeout, interrupted);
+    let result = wait_to_the_end(registry, motors, options, interrupted);
     if !matches!(result, Ok(Reason::Reached)) {
         // No motor may keep turning, however the wait ended. The result already says
         // that a motor was unplugged, so the error of stopping it is ignored.
@@ -188,6 +189,25 @@ pub(crate) fn finish(
         (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
         (reason, _) => Ok(reason),
     }
+}
+
+/// Waits, and ends timed runs at their time: the kernel's timer is late, by up to an
+/// eighth of it (docs/ev3dev-sysfs.md, 0.5).
+fn wait_to_the_end(
+    registry: &Registry,
+    motors: &[Arc<Device>],
+    options: &MoveOptions,
+    interrupted: Interrupted,
+) -> Result<Reason> {
+    let mut end = |motor: &Arc<Device>, run| {
+        // A stop with a ramp up only would take a step of it.
+        let has_ramp_up = ramped::ramps(motor)?[0] > 0;
+        let ramp_up_ms = has_ramp_up.then_some(0);
+        let mut ramps = Ramps::default();
+        ramps.set(motor, &MoveOptions { ramp_up_ms, ..*options })?;
+        stop_run(motor, run)
+    };
+    wait_and_end(registry, motors, options.timeout, interrupted, &mut end)
 }
 
 /// Starts the motors of a move; `None` if one is absent or cannot make it.
@@ -227,16 +247,11 @@ fn start_moves(
     Ok(Some(motors))
 }
 
-/// Makes the next relative move count from where the motor is.
-///
-/// Since ev3dev-stretch one that comes right after another counts from where
-/// that was to end, even if the position was written meanwhile or the motor
-/// turned by hand (`tacho_motor_class.c`); on jessie it does not. Any other
-/// command in between makes them agree. The last command of an earlier program is
-/// unknown, so the first relative move may need one, too.
+/// Makes the first relative move count from where the motor is: the last command
+/// of an earlier program is unknown, and may be another relative move. See
+/// `plan_by`.
 fn count_from_here(motor: &Device) -> Result<()> {
-    let may_follow_relative = motor.run().is_none_or(|run| run.is_relative);
-    if may_follow_relative { motor.write("command", "stop") } else { Ok(()) }
+    if motor.run().is_none() { motor.write("command", "stop") } else { Ok(()) }
 }
 
 /// The ramps that the motors had before a move with its own. The command

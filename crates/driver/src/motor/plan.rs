@@ -104,6 +104,12 @@ pub(super) fn plan(motor: &Device, one: &Move) -> Result<Option<Plan>> {
 
 /// The kernel ignores the sign of `speed_sp` in position moves, so that of the
 /// speed goes into the distance.
+///
+/// Since ev3dev-stretch a relative move that comes right after another counts from
+/// where that was to end, even if the position was written meanwhile or the motor
+/// turned by hand (`tacho_motor_class.c`); on jessie it does not. So that one is
+/// made a move to the target. A stop in between would also make them agree, but a
+/// stop that holds leaves the bridge as it is, and the motor creeps on by a count.
 fn plan_by(motor: &Device, speed: i64, angle: f64) -> Result<Option<Plan>> {
     let Some(counts) = counts(motor, angle)? else {
         return Ok(None);
@@ -115,12 +121,15 @@ fn plan_by(motor: &Device, speed: i64, angle: f64) -> Result<Option<Plan>> {
     let distance = target.saturating_sub(position);
     // The kernel counts in 32 bits.
     let is_possible = i32::try_from(target).is_ok() && i32::try_from(distance).is_ok();
+    let follows_relative = motor.run().is_some_and(|run| run.is_relative);
+    let (command, value) =
+        if follows_relative { ("run-to-abs-pos", target) } else { ("run-to-rel-pos", distance) };
     Ok(is_possible.then_some(Plan {
-        command: "run-to-rel-pos",
+        command,
         end: End::Position { from, target },
         speed: speed.abs(),
         set_point: "position_sp",
-        value: distance,
+        value,
     }))
 }
 

@@ -87,12 +87,30 @@ pub fn wait_for(
     timeout: Option<Duration>,
     interrupted: Interrupted,
 ) -> Result<Reason> {
+    wait_and_end(registry, motors, timeout, interrupted, &mut |_, _| Ok(()))
+}
+
+/// Ends a timed run.
+pub(super) type EndRun<'a> = &'a mut dyn FnMut(&Arc<Device>, MotorRun) -> Result<()>;
+
+/// The same, and lets a run that still goes on after its time be ended.
+pub(super) fn wait_and_end(
+    registry: &Registry,
+    motors: &[Arc<Device>],
+    timeout: Option<Duration>,
+    interrupted: Interrupted,
+    end: EndRun,
+) -> Result<Reason> {
     let mut all: Vec<Progress> = motors.iter().map(|motor| Progress::new(motor)).collect();
     let mut reason = Reason::Reached;
     let waited = until(registry, motors, timeout, interrupted, |now| {
         let mut nearest = None;
-        for progress in all.iter_mut().filter(|progress| !progress.is_done) {
+        for (motor, progress) in motors.iter().zip(&mut all).filter(|(_, one)| !one.is_done) {
             match progress.sample(now)? {
+                Sample::Runs(_) if progress.is_overdue(now) => {
+                    progress.run.map_or(Ok(()), |run| end(motor, run))?;
+                    nearest = Some(SHORT_SLICE);
+                }
                 Sample::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
                 Sample::Blocked => {
                     reason = Reason::Stalled;
@@ -299,6 +317,16 @@ impl<'a> Progress<'a> {
             End::Time(time) => now.saturating_add(TICK) >= run.started.saturating_add(time),
             End::Never => false,
         })
+    }
+
+    /// Whether a timed run is to be ended: its time is up, and the motor got no other
+    /// command.
+    fn is_overdue(&self, now: Duration) -> bool {
+        let end = self.run.and_then(|run| match run.end {
+            End::Time(time) => Some(run.started.saturating_add(time)),
+            End::Position { .. } | End::Never => None,
+        });
+        end.is_some_and(|end| now >= end) && *self.motor.run() == self.run
     }
 
     /// How long `stalled` must last to be believed, at the motor's speed.

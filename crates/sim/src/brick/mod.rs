@@ -8,7 +8,8 @@ pub(crate) mod screen;
 
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
 use crate::files::errno::Errno;
-use crate::files::text::{lenient_unsigned, word};
+use crate::files::text::{strict_unsigned, word};
+use crate::motor::output::{Output, Pins};
 use screen::{Depth, HEIGHT, WIDTH};
 
 /// The EV3's four status lights; a left and a right pair of red and green.
@@ -36,6 +37,8 @@ pub(crate) struct Led {
     trigger: usize,
     delay_on: u32,
     delay_off: u32,
+    /// Of a light on an output port: the bridge, whose PWM is its brightness.
+    pub(crate) output: Option<Output>,
 }
 
 impl Led {
@@ -48,22 +51,32 @@ impl Led {
             trigger: NONE,
             delay_on: 500,
             delay_off: 500,
+            output: None,
         }
     }
 
-    /// A light on an output port in the mode `led`.
-    pub(crate) fn on_port(address: &str) -> Self {
-        Led { full: FULL_ON_PORT, ..Led::new(&format!("{address}::brick-status"), 0) }
+    /// A light on an output port in the mode `led`. It is lit with the PWM that it finds there.
+    pub(crate) fn on_port(address: &str, output: Output) -> Self {
+        let name = format!("{address}::brick-status");
+        let output = Some(Output { pins: Pins::Forward, ..output });
+        Led { full: FULL_ON_PORT, output, ..Led::new(&name, 0) }
     }
 
-    /// How bright it is, from 0 to 1.
-    pub(crate) fn level(&self) -> f64 {
-        f64::from(self.brightness) / f64::from(self.full)
+    fn brightness(&self) -> u32 {
+        self.output.map_or(self.brightness, |output| output.percent.unsigned_abs())
+    }
+
+    fn shine(&mut self, brightness: u32) {
+        self.brightness = brightness;
+        if let Some(output) = &mut self.output {
+            output.percent = i32::try_from(brightness).unwrap_or(0);
+        }
     }
 
     fn set_brightness(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
-        self.brightness = lenient_unsigned(bytes)?.min(self.full);
-        if self.brightness == 0 {
+        let brightness = strict_unsigned(bytes)?.min(self.full);
+        self.shine(brightness);
+        if brightness == 0 {
             self.trigger = NONE;
         }
         Ok(Effect::Done)
@@ -73,12 +86,12 @@ impl Led {
         let before = self.trigger;
         self.trigger = word(bytes, TRIGGERS.into_iter())?;
         match self.trigger {
-            NONE => self.brightness = 0,
-            DEFAULT_ON => self.brightness = self.full,
+            NONE => self.shine(0),
+            DEFAULT_ON => self.shine(self.full),
             TIMER if before != TIMER => {
                 (self.delay_on, self.delay_off) = (500, 500);
-                if self.brightness == 0 {
-                    self.brightness = self.full;
+                if self.brightness() == 0 {
+                    self.shine(self.full);
                 }
                 return Ok(Effect::Appeared);
             }
@@ -97,12 +110,12 @@ impl Led {
 
 impl Table for Led {
     const ATTRS: &'static [Attr<Led>] = &[
-        Attr::rw("brightness", |l| text(l.brightness), Led::set_brightness),
+        Attr::rw("brightness", |l| text(l.brightness()), Led::set_brightness),
         Attr::rw(
             "delay_off",
             |l: &Led| text(l.delay_off),
             |l, bytes| {
-                l.delay_off = lenient_unsigned(bytes)?;
+                l.delay_off = strict_unsigned(bytes)?;
                 Ok(Effect::Done)
             },
         )
@@ -112,7 +125,7 @@ impl Table for Led {
             "delay_on",
             |l: &Led| text(l.delay_on),
             |l, bytes| {
-                l.delay_on = lenient_unsigned(bytes)?;
+                l.delay_on = strict_unsigned(bytes)?;
                 Ok(Effect::Done)
             },
         )

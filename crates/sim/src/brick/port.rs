@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
 use crate::files::errno::Errno;
-use crate::files::text::word;
+use crate::files::text::{name, word};
 
 /// A socket: four inputs, four outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -120,15 +120,18 @@ pub(crate) struct LegoPort {
     pub(crate) mode: usize,
     /// The result of detection, as `status` shows it while the mode is `auto`.
     pub(crate) detected: &'static str,
-    /// The kind of device at the port now, which decides whether the port accepts `set_device`.
-    pub(crate) has_tacho: bool,
-    pub(crate) has_nxt_analog: bool,
 }
 
 impl LegoPort {
     pub(crate) fn new(port: Port) -> Self {
-        let detected = if port.is_output() { "no-motor" } else { "no-sensor" };
-        LegoPort { port, mode: 0, detected, has_tacho: false, has_nxt_analog: false }
+        let mut port = LegoPort { port, mode: 0, detected: "" };
+        port.forget();
+        port
+    }
+
+    /// Nothing is detected.
+    pub(crate) fn forget(&mut self) {
+        self.detected = if self.port.is_output() { "no-motor" } else { "no-sensor" };
     }
 
     fn modes(&self) -> &'static [&'static str] {
@@ -143,15 +146,20 @@ impl LegoPort {
         if self.port.is_output() { "ev3-output-port" } else { "ev3-input-port" }
     }
 
-    /// Outputs show what the mode makes of the port; inputs what was detected, even in forced
-    /// modes, except those that switch detection off.
+    /// What was detected, or what a mode makes of the port. The modes that switch detection off
+    /// for another program leave an input without a sensor.
     fn status(&self) -> &'static str {
         match self.mode_name() {
             "auto" => self.detected,
-            mode if self.port.is_output() => mode,
-            "other-i2c" | "other-uart" | "raw" => "no-sensor",
-            _ => self.detected,
+            "other-i2c" | "other-uart" => "no-sensor",
+            "raw" if !self.port.is_output() => "no-sensor",
+            mode => mode,
         }
+    }
+
+    /// True if the port can be told which device it has: it knows the kind, but not the type.
+    fn takes_device(&self) -> bool {
+        matches!(self.status(), "tacho-motor" | "nxt-analog")
     }
 }
 
@@ -166,13 +174,10 @@ impl Table for LegoPort {
         ),
         Attr::ro("modes", |p| text(p.modes().join(" "))),
         Attr::wo("set_device", |p, bytes| {
-            let allowed = if p.port.is_output() { p.has_tacho } else { p.has_nxt_analog };
-            if !allowed {
+            if !p.takes_device() {
                 return Err(Errno::EOPNOTSUPP);
             }
-            let name = std::str::from_utf8(bytes).map_err(|_| Errno::EINVAL)?;
-            let name = name.strip_suffix('\n').unwrap_or(name);
-            Ok(Effect::PortDevice(name.to_owned()))
+            Ok(Effect::PortDevice(name(bytes)))
         }),
         Attr::ro("status", |p| text(p.status())),
         Attr::rw(

@@ -11,12 +11,12 @@ use fuser::{
     ReplyIoctl, ReplyOpen, ReplyPoll, ReplyWrite, Request, TimeOrNow, WriteFlags,
 };
 
-use super::open::{Open, locked};
+use super::open::{Open, locked, written};
 use super::served::Served;
 use crate::files::attr::Access;
 use crate::files::errno::Errno;
-use crate::machine::Machine;
 use crate::machine::tree::{FileKind, NodeId, Stat};
+use crate::machine::{Machine, Written};
 use crate::shared::Shared;
 
 /// Nothing may be remembered by the kernel: devices come and go.
@@ -79,13 +79,13 @@ impl<F: Served> Files<F> {
         self.stat(node, request)
     }
 
-    fn open_file(&self, node: NodeId, flags: OpenFlags) -> Result<u64, Errno> {
+    fn open_file(&self, node: NodeId, flags: OpenFlags, is_root: bool) -> Result<u64, Errno> {
         let access = match flags.acc_mode() {
             OpenAccMode::O_RDONLY => Access::ReadOnly,
             OpenAccMode::O_WRONLY => Access::WriteOnly,
             OpenAccMode::O_RDWR => Access::ReadWrite,
         };
-        let file = F::open(&self.shared.lock(), node, access)?;
+        let file = F::open(&self.shared.lock(), node, access, is_root)?;
         Ok(locked(&self.open).insert(file))
     }
 
@@ -188,8 +188,8 @@ impl<F: Served> Filesystem for Files<F> {
         reply.error(F::REFUSAL.into());
     }
 
-    fn open(&self, _: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
-        match self.open_file(NodeId(ino.0), flags) {
+    fn open(&self, request: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
+        match self.open_file(NodeId(ino.0), flags, request.uid() == 0) {
             Ok(handle) => reply.opened(FileHandle(handle), FopenFlags::FOPEN_DIRECT_IO),
             Err(errno) => reply.error(errno.into()),
         }
@@ -231,15 +231,10 @@ impl<F: Served> Filesystem for Files<F> {
         let mut open = locked(&self.open);
         let offset = usize::try_from(offset).unwrap_or(usize::MAX);
         match open.file(fh.0).and_then(|file| file.write(&mut machine, offset, data)) {
-            Ok(written) => {
-                let length = u32::try_from(written.length).unwrap_or(u32::MAX);
-                if written.blocks.is_zero() {
-                    reply.written(length);
-                } else {
-                    open.written_at(machine.now() + written.blocks, length, reply);
-                }
+            Ok(Written { outcome, blocks }) if !blocks.is_zero() => {
+                open.written_at(machine.now() + blocks, outcome, reply);
             }
-            Err(errno) => reply.error(errno.into()),
+            result => written(result.and_then(|result| result.outcome), reply),
         }
         drop((machine, open));
         self.shared.wake();

@@ -40,8 +40,8 @@ pub(super) struct Open<F> {
 enum Blocked {
     /// Until there is something to read, or this wall time.
     Read { handle: u64, size: u32, until: Instant, reply: ReplyData },
-    /// Until this virtual time, or that wall time. `length` bytes were taken.
-    Write { until: Duration, latest: Instant, length: u32, reply: ReplyWrite },
+    /// Until this virtual time, or that wall time.
+    Write { until: Duration, latest: Instant, outcome: Result<usize, Errno>, reply: ReplyWrite },
 }
 
 impl<F> Default for Open<F> {
@@ -94,9 +94,14 @@ impl<F: Served> Open<F> {
     }
 
     /// Answers a write at a virtual time.
-    pub(super) fn written_at(&mut self, until: Duration, length: u32, reply: ReplyWrite) {
+    pub(super) fn written_at(
+        &mut self,
+        until: Duration,
+        outcome: Result<usize, Errno>,
+        reply: ReplyWrite,
+    ) {
         let latest = Instant::now() + WRITERS_PATIENCE;
-        self.blocked.push(Blocked::Write { until, latest, length, reply });
+        self.blocked.push(Blocked::Write { until, latest, outcome, reply });
     }
 
     /// Reports by its handle when there is something to read.
@@ -118,10 +123,10 @@ impl<F: Served> Open<F> {
                         Err(errno) => reply.error(errno.into()),
                     }
                 }
-                Blocked::Write { until, latest, length, reply }
+                Blocked::Write { until, latest, outcome, reply }
                     if until <= machine.now() || latest <= now =>
                 {
-                    reply.written(length);
+                    written(outcome, reply);
                 }
                 waiting => self.blocked.push(waiting),
             }
@@ -133,7 +138,7 @@ impl<F: Served> Open<F> {
         for call in std::mem::take(&mut self.blocked) {
             match call {
                 Blocked::Read { reply, .. } => reply.error(Errno::ENODEV.into()),
-                Blocked::Write { length, reply, .. } => reply.written(length),
+                Blocked::Write { outcome, reply, .. } => written(outcome, reply),
             }
         }
     }
@@ -144,6 +149,14 @@ impl<F: Served> Open<F> {
         let ready = handles.into_iter().filter(|handle| self.is_ready(*handle, machine));
         let ready: Vec<u64> = ready.collect();
         ready.iter().filter_map(|handle| self.polls.remove(handle)).collect()
+    }
+}
+
+/// Answers a write.
+pub(super) fn written(outcome: Result<usize, Errno>, reply: ReplyWrite) {
+    match outcome {
+        Ok(length) => reply.written(u32::try_from(length).unwrap_or(u32::MAX)),
+        Err(errno) => reply.error(errno.into()),
     }
 }
 

@@ -32,8 +32,8 @@ pub(super) trait Served: Debug + Send + Sized + 'static {
     /// The entries of a directory.
     fn read_dir(machine: &Machine, directory: NodeId) -> Result<Vec<Entry>, Errno>;
 
-    /// Opens a node.
-    fn open(machine: &Machine, node: NodeId, access: Access) -> Result<Self, Errno>;
+    /// Opens a node, for a program of root or another one.
+    fn open(machine: &Machine, node: NodeId, access: Access, is_root: bool) -> Result<Self, Errno>;
 
     /// Reads into a buffer. EAGAIN if there will be something only later.
     fn read(
@@ -77,8 +77,18 @@ impl Served for Descriptor {
         machine.read_dir(directory)
     }
 
-    fn open(machine: &Machine, node: NodeId, access: Access) -> Result<Descriptor, Errno> {
-        machine.open_node(node, access).map(|()| Descriptor::new(node))
+    fn open(
+        machine: &Machine,
+        node: NodeId,
+        access: Access,
+        is_root: bool,
+    ) -> Result<Descriptor, Errno> {
+        let opened = if is_root {
+            machine.open_node_as_root(node, access)
+        } else {
+            machine.open_node(node, access)
+        };
+        opened.map(|()| Descriptor::new(node))
     }
 
     fn read(
@@ -121,7 +131,12 @@ impl Served for DevDescriptor {
         machine.dev_read_dir(directory)
     }
 
-    fn open(machine: &Machine, node: NodeId, _: Access) -> Result<DevDescriptor, Errno> {
+    fn open(
+        machine: &Machine,
+        node: NodeId,
+        _: Access,
+        _is_root: bool,
+    ) -> Result<DevDescriptor, Errno> {
         DevDescriptor::open_node(machine, node)
     }
 
@@ -141,7 +156,7 @@ impl Served for DevDescriptor {
         data: &[u8],
     ) -> Result<Written, Errno> {
         let length = DevDescriptor::write(self, machine, offset, data)?;
-        Ok(Written { length, blocks: Duration::ZERO })
+        Ok(Written { outcome: Ok(length), blocks: Duration::ZERO })
     }
 
     fn is_ready(&self, machine: &Machine) -> bool {

@@ -77,6 +77,14 @@ impl Machine {
         self.tree.may_open(node, access, self.tick)
     }
 
+    /// The same for a program of root, which does not wait for udev.
+    ///
+    /// # Errors
+    /// As [`Machine::open`].
+    pub fn open_node_as_root(&self, node: NodeId, access: Access) -> Result<(), Errno> {
+        self.tree.may_open(node, access, u64::MAX)
+    }
+
     /// Reads an attribute: its driver is called and makes a new text. A [`Descriptor`] decides
     /// which part of it a `pread` gets.
     ///
@@ -99,7 +107,7 @@ impl Machine {
     /// # Errors
     /// ENODEV if its device is gone; EACCES if it cannot be written; what the driver answers.
     pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
-        let mut written = Written { length: bytes.len(), blocks: Duration::ZERO };
+        let mut written = Written { outcome: Ok(bytes.len()), blocks: Duration::ZERO };
         if bytes.is_empty() {
             return Ok(written);
         }
@@ -108,6 +116,9 @@ impl Machine {
         let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
         match (effect, port) {
             (Effect::Blocks(time), _) => written.blocks = time,
+            (Effect::TimesOut(time), _) => {
+                (written.blocks, written.outcome) = (time, Err(Errno::ETIMEDOUT));
+            }
             (Effect::Appeared, _) => {
                 let open_at = self.tick + self.udev_ticks();
                 self.tree.appeared(Tree::owner(node), open_at);
@@ -159,7 +170,7 @@ impl Machine {
     // ---- sensors --------------------------------------------------------------------------
 
     /// Lets a sensor sample the world, if its values are not fresh.
-    fn look(&mut self, serial: u64) {
+    pub(super) fn look(&mut self, serial: u64) {
         let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
             return;
         };

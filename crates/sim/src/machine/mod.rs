@@ -24,10 +24,12 @@ use crate::brick::port::{LegoPort, Port};
 use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
+use crate::files::errno::Errno;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
 use crate::mechanics::shaft::Shaft;
+use crate::motor::output::Output;
 use crate::noise::Teeth;
 use crate::robot::RobotSpec;
 use crate::trace::{Collision, Trace};
@@ -54,11 +56,11 @@ impl Default for Options {
     }
 }
 
-/// The effect of a successful write.
+/// The effect of a write that a driver did not refuse at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Bytes taken: all of them.
-    pub length: usize,
+    /// Bytes taken, all of them; or the error with which the call ends.
+    pub outcome: Result<usize, Errno>,
     /// The real call returns only after this time. There is no clock here to wait for, so an
     /// adapter that has one lets this time pass before it returns to its caller.
     pub blocks: Duration,
@@ -104,11 +106,13 @@ impl Machine {
         let socket = |(port, lego_port)| Socket {
             port,
             plug: None,
+            noticed: None,
             due: None,
             device: None,
             servos: Vec::new(),
             lego_port,
             forced: None,
+            output: Output::default(),
         };
         let shafts = std::array::from_fn(|slot| {
             let mount = robot.motors.iter().find(|mount| mount.port.slot() == slot);
@@ -140,6 +144,7 @@ impl Machine {
             if let Some(Plug::Motor(kind)) = machine.sockets[port as usize].plug {
                 machine.shafts[port.slot()].connect(kind);
             }
+            machine.notice(port);
             machine.register(port, true);
         }
         machine.trace.tick(0, Duration::ZERO, world.start);

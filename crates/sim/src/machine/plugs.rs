@@ -3,13 +3,14 @@
 use std::time::Duration;
 
 use crate::brick::Led;
-use crate::brick::port::Port;
+use crate::brick::port::{LegoPort, Port};
 use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
+use crate::motor::output::{Output, Pins};
 use crate::motor::servo::{self, Servo};
 use crate::sensor::Sensor;
 use crate::world::SpecError;
@@ -19,6 +20,7 @@ use crate::{TICK_US, ticks_from_ms};
 const UDEV_MS: i32 = 500;
 /// Writing `nxt-i2c` to a port's mode waits for sensors to boot.
 const I2C_PROBE: Duration = Duration::from_secs(1);
+const NXT_TOUCH: &str = "lego-nxt-touch";
 
 impl Machine {
     /// Plugs a motor or sensor in, by its driver's name. A motor on the port of a wheel drives
@@ -48,82 +50,129 @@ impl Machine {
     }
 
     fn change_plug(&mut self, port: Port, plug: Option<Plug>) {
-        let instant = self.options.instant;
-        self.sockets[port as usize].change(plug, self.tick, instant);
-        if instant {
-            self.detect(port);
+        self.sockets[port as usize].change(plug, self.tick);
+        self.if_instant(port);
+    }
+
+    /// Where nothing takes time, what is to come is there.
+    fn if_instant(&mut self, port: Port) {
+        if self.options.instant {
+            self.look_at_plug(port, u64::MAX);
         }
     }
 
-    /// The kernel notices what is plugged in now. Only the mode `auto` acts on it.
-    pub(crate) fn detect(&mut self, port: Port) {
+    /// What the kernel has noticed of a plug by that tick: first `status` changes, then the
+    /// device. Only the mode `auto` acts on it, and a serial line on the sensor that it awaits.
+    pub(crate) fn look_at_plug(&mut self, port: Port, now: u64) {
         let socket = &mut self.sockets[port as usize];
-        socket.due = None;
-        let detected = Plug::detected(socket.plug, port);
-        let lego_port = socket.lego_port;
-        if let Some(Hardware::Port(device)) = self.tree.hardware_mut(lego_port) {
-            device.detected = detected;
-            if device.mode_name() != "auto" {
-                return;
+        let noticed = socket.noticed.take_if(|due| *due <= now).is_some();
+        let due = socket.due.take_if(|due| *due <= now).is_some();
+        let mode = self.lego_port(port).map_or("", |device| device.mode_name());
+        if mode == "auto" {
+            if noticed {
+                self.notice(port);
             }
+            if due {
+                self.sockets[port as usize].forced = None;
+                self.register(port, false);
+            }
+        } else if due && mode == "ev3-uart" {
+            self.register(port, false);
         }
-        self.sockets[port as usize].forced = None;
-        self.register(port, false);
+    }
+
+    pub(crate) fn notice(&mut self, port: Port) {
+        let detected = Plug::detected(self.sockets[port as usize].plug, port);
+        if let Some(device) = self.lego_port(port) {
+            device.detected = detected;
+        }
+    }
+
+    fn lego_port(&mut self, port: Port) -> Option<&mut LegoPort> {
+        match self.tree.hardware_mut(self.sockets[port as usize].lego_port) {
+            Some(Hardware::Port(device)) => Some(device),
+            _ => None,
+        }
     }
 
     /// A port's mode was written, maybe the same one: its device goes and, where the mode implies
-    /// one, another comes, before the call returns.
+    /// one, another comes before the call returns. `auto` implies none, and looks again.
     pub(crate) fn port_mode(&mut self, port: Port, mode: usize) -> Duration {
+        let now = self.tick;
+        self.remove_device(port);
+        let Some(device) = self.lego_port(port) else {
+            return Duration::ZERO;
+        };
+        let before = device.mode_name();
+        device.mode = mode;
+        device.forget();
+        let name = device.mode_name();
         let socket = &mut self.sockets[port as usize];
-        socket.forced = None;
-        socket.due = None;
-        let lego_port = socket.lego_port;
-        let mut blocks = Duration::ZERO;
-        if let Some(Hardware::Port(device)) = self.tree.hardware_mut(lego_port) {
-            device.mode = mode;
-            if device.mode_name() == "nxt-i2c" {
-                blocks = I2C_PROBE;
-            }
+        (socket.forced, socket.noticed, socket.due) = (None, None, None);
+        if before == "raw" || name == "auto" {
+            socket.output.pins = Pins::Coast;
         }
-        self.register(port, false);
-        blocks
+        match name {
+            "auto" => {
+                socket.look_again(now);
+                self.if_instant(port);
+            }
+            "ev3-uart" if socket.plug.is_some_and(Plug::is_serial) => {
+                socket.await_introduction(now);
+                self.if_instant(port);
+            }
+            _ => self.register(port, false),
+        }
+        if name == "nxt-i2c" { I2C_PROBE } else { Duration::ZERO }
+    }
+
+    /// Takes the device of a port away. An output port keeps what its bridge does, until the port
+    /// looks for motors again; only a light goes off.
+    fn remove_device(&mut self, port: Port) {
+        let socket = &mut self.sockets[port as usize];
+        for serial in socket.device.take().into_iter().chain(socket.servos.drain(..)) {
+            if let Some(hardware) = self.tree.hardware(serial) {
+                let output = hardware.output().unwrap_or_default();
+                let is_light = matches!(hardware, Hardware::Led(_));
+                socket.output = if is_light { Output::default() } else { output };
+            }
+            self.tree.remove(serial);
+        }
     }
 
     /// Takes the device of a port away and registers the one that belongs there.
     pub(crate) fn register(&mut self, port: Port, at_boot: bool) {
+        self.remove_device(port);
+        let mode = self.lego_port(port).map_or("auto", |device| device.mode_name());
         let socket = &mut self.sockets[port as usize];
-        for serial in socket.device.take().into_iter().chain(socket.servos.drain(..)) {
-            self.tree.remove(serial);
+        if mode == "auto" && socket.forced.is_none() {
+            socket.output.pins = Pins::Coast;
         }
-        let lego_port = socket.lego_port;
-        let mode = match self.tree.hardware_mut(lego_port) {
-            Some(Hardware::Port(device)) => {
-                device.detected = Plug::detected(socket.plug, port);
-                device.mode_name()
-            }
-            _ => "auto",
-        };
+        let output = socket.output;
         let plug = socket.driver(mode);
         let hardware = match (mode, plug) {
-            ("dc-motor", _) => Some(Hardware::DcMotor(DcMotor::new(port, self.tick))),
-            ("led", _) => Some(Hardware::Led(Led::on_port(port.address()))),
+            ("dc-motor", _) => Some(Hardware::DcMotor(DcMotor::new(port, output, self.tick))),
+            ("led", _) => Some(Hardware::Led(Led::on_port(port.address(), output))),
             (_, plug) => plug.map(|plug| self.driver(port, plug, at_boot)),
         };
+        let hardware = hardware.filter(|hardware| mode != "auto" || !self.is_unknown(hardware));
         let closed = if at_boot { 0 } else { self.tick + self.udev_ticks() };
-        let has_tacho = matches!(plug, Some(Plug::Motor(_))) || mode == "tacho-motor";
-        let plugged = self.sockets[port as usize].plug;
-        let has_nxt_analog =
-            mode == "nxt-analog" || (mode == "auto" && plugged.is_some_and(Plug::is_nxt_analog));
         self.sockets[port as usize].device =
             hardware.map(|hardware| self.tree.add(hardware, closed));
         if matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == servo::DRIVER) {
             let add = |servo| self.tree.add(Hardware::Servo(servo), closed);
             self.sockets[port as usize].servos = Servo::all(port).map(add).collect();
         }
-        if let Some(Hardware::Port(device)) = self.tree.hardware_mut(lego_port) {
-            device.has_tacho = has_tacho;
-            device.has_nxt_analog = has_nxt_analog;
-        }
+    }
+
+    /// True for an NXT touch sensor that is pressed while it is looked at: the port does not know
+    /// it then, and makes no device of it.
+    fn is_unknown(&self, hardware: &Hardware) -> bool {
+        let Hardware::Sensor(sensor) = hardware else {
+            return false;
+        };
+        let is_told = self.sockets[sensor.port() as usize].forced.is_some();
+        !is_told && sensor.kind.driver_name == NXT_TOUCH && self.measure(sensor)[0] != 0
     }
 
     /// How long udev takes to open new files to the group.
@@ -136,7 +185,8 @@ impl Machine {
         match plug {
             Plug::Motor(kind) => {
                 let count = self.shafts[port.slot()].encoder.count();
-                Hardware::Tacho(Box::new(Tacho::new(kind, port, count, at_boot, self.tick)))
+                let output = self.sockets[port as usize].output;
+                Hardware::Tacho(Box::new(Tacho::new(kind, port, count, at_boot, output, self.tick)))
             }
             Plug::Sensor(kind) => {
                 let instant = self.options.instant;
@@ -145,17 +195,19 @@ impl Machine {
         }
     }
 
-    /// Cuts the line to a serial sensor for a while: it stays registered, but has no values
-    /// (ENXIO) and takes no mode (ENODEV) until it has introduced itself again. False if there is
-    /// no such sensor.
+    /// Silences a serial sensor for a while. It stays registered and shows its old values. If the
+    /// silence is long, the sensor then has to introduce itself again: meanwhile it has no mode
+    /// and no values (ENXIO). False if there is no such sensor.
     pub fn lose_contact(&mut self, port: Port, time: Duration) -> bool {
-        let serial = self.sockets[port as usize].device;
-        let hardware = serial.and_then(|serial| self.tree.hardware_mut(serial));
-        let Some(Hardware::Sensor(sensor)) = hardware else {
+        let Some(serial) = self.sockets[port as usize].device else {
+            return false;
+        };
+        self.look(serial);
+        let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) else {
             return false;
         };
         let ticks = time.as_micros().div_ceil(TICK_US.into());
-        sensor.lose_contact(u64::try_from(ticks).unwrap_or(u64::MAX / 2));
+        sensor.fall_silent(u64::try_from(ticks).unwrap_or(u64::MAX / 2));
         true
     }
 

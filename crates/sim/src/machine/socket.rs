@@ -1,20 +1,31 @@
 //! The thing in a socket, and the device that the kernel has registered for it.
 //!
-//! The two differ for a while after a plug was moved: the port samples its pins every 10 ms, wants
-//! 350 ms of the same reading (after 20 ms of settling) before it adds a device and 100 ms before
-//! it removes one; a serial sensor then introduces itself at 2400 baud, which takes about a second.
+//! The two differ for a while after a plug was moved: the port samples its pins every 10 ms and
+//! wants 350 ms of the same reading before it acts and 100 ms before it removes a device. A motor
+//! port then looks at single pins for some samples more. An I2C sensor gets a second to boot; a
+//! serial sensor introduces itself at 2400 baud, which takes about as long
+//! (`docs/ev3dev-sysfs.md`, 1).
 
 use crate::brick::port::Port;
 use crate::motor::MotorKind;
+use crate::motor::output::Output;
 use crate::sensor::{Link, SensorKind};
 use crate::ticks_from_ms;
 
-const ADD_MS: i32 = 370;
-const REMOVE_MS: i32 = 120;
-const INTRODUCTION_MS: i32 = 900;
+/// From the plug to a new `status`.
+const NOTICE_SENSOR_MS: i32 = 360;
+const NOTICE_MOTOR_MS: i32 = 390;
+/// From the status to the device.
+const REGISTER_MOTOR_MS: i32 = 10;
+const INTRODUCTION_MS: i32 = 1000;
 const I2C_BOOT_MS: i32 = 1000;
+const REMOVE_MS: i32 = 100;
+/// A port whose detection starts again waits for its pins to settle first.
+const SETTLE_MS: i32 = 20;
 /// The device of an unknown voltage on pin 1.
 const GENERIC: &str = "nxt-analog";
+/// Its driver exists, but the kernel's table of names lacks it.
+const UNLOADABLE: &str = "di-dflex";
 
 /// A thing with a plug.
 #[derive(Clone, Copy, Debug)]
@@ -33,17 +44,28 @@ impl Plug {
         }
     }
 
-    /// How long the kernel takes to register it.
-    fn delay(self) -> u64 {
-        match self {
-            Plug::Sensor(kind) if kind.link == Link::Uart => {
-                ticks_from_ms(ADD_MS) + ticks_from_ms(INTRODUCTION_MS)
-            }
-            Plug::Sensor(SensorKind { link: Link::I2c(_), .. }) => {
-                ticks_from_ms(ADD_MS) + ticks_from_ms(I2C_BOOT_MS)
-            }
-            _ => ticks_from_ms(ADD_MS),
-        }
+    /// How long the kernel takes to notice it.
+    fn notice(self) -> u64 {
+        ticks_from_ms(match self {
+            Plug::Motor(_) => NOTICE_MOTOR_MS,
+            Plug::Sensor(_) => NOTICE_SENSOR_MS,
+        })
+    }
+
+    /// How long it then takes to register its device.
+    fn register(self) -> u64 {
+        ticks_from_ms(match self {
+            Plug::Motor(_) => REGISTER_MOTOR_MS,
+            Plug::Sensor(kind) => match kind.link {
+                Link::Uart => INTRODUCTION_MS,
+                Link::I2c(_) => I2C_BOOT_MS,
+                Link::Analog | Link::NxtAnalog { .. } => 0,
+            },
+        })
+    }
+
+    pub(crate) fn is_serial(self) -> bool {
+        matches!(self, Plug::Sensor(SensorKind { link: Link::Uart, .. }))
     }
 
     /// True if it is a sensor that is a voltage on pin 1.
@@ -80,7 +102,9 @@ impl Plug {
 pub(crate) struct Socket {
     pub(crate) port: Port,
     pub(crate) plug: Option<Plug>,
-    /// Tick at which the kernel notices the change.
+    /// Tick at which the kernel notices what is plugged in now.
+    pub(crate) noticed: Option<u64>,
+    /// Tick at which the device of that comes, or goes.
     pub(crate) due: Option<u64>,
     /// Serial number of the registered device.
     pub(crate) device: Option<u64>,
@@ -90,18 +114,39 @@ pub(crate) struct Socket {
     pub(crate) lego_port: u64,
     /// Name given through `set_device`.
     pub(crate) forced: Option<String>,
+    /// Of an output port: its bridge, while no driver has it.
+    pub(crate) output: Output,
 }
 
 impl Socket {
     /// A plug is put in or pulled out.
-    pub(crate) fn change(&mut self, plug: Option<Plug>, now: u64, instant: bool) {
+    pub(crate) fn change(&mut self, plug: Option<Plug>, now: u64) {
         self.plug = plug;
-        let delay = match plug {
-            _ if instant => 0,
-            Some(plug) => plug.delay(),
-            None => ticks_from_ms(REMOVE_MS),
-        };
-        self.due = Some(now + delay);
+        if let Some(plug) = plug {
+            self.await_plug(plug, now);
+        } else {
+            self.noticed = Some(now + ticks_from_ms(REMOVE_MS));
+            self.due = self.noticed;
+        }
+    }
+
+    /// Detection starts again, with nothing.
+    pub(crate) fn look_again(&mut self, now: u64) {
+        (self.noticed, self.due) = (None, None);
+        if let Some(plug) = self.plug {
+            self.await_plug(plug, now + ticks_from_ms(SETTLE_MS));
+        }
+    }
+
+    fn await_plug(&mut self, plug: Plug, now: u64) {
+        let noticed = now + plug.notice();
+        self.noticed = Some(noticed);
+        self.due = Some(noticed + plug.register());
+    }
+
+    /// A serial line was attached: the sensor on it introduces itself.
+    pub(crate) fn await_introduction(&mut self, now: u64) {
+        self.due = Some(now + ticks_from_ms(INTRODUCTION_MS));
     }
 
     /// The driver that the port would load in a mode.
@@ -109,7 +154,8 @@ impl Socket {
         let named = |name: &str| Plug::named(name, self.port);
         if let Some(name) = &self.forced {
             // An input takes the names of sensors that are a voltage on pin 1.
-            return named(name).filter(|plug| self.port.is_output() || plug.is_nxt_analog());
+            let fits = |plug: &Plug| self.port.is_output() || plug.is_nxt_analog();
+            return named(name).filter(fits).filter(|_| name != UNLOADABLE);
         }
         match (mode, self.plug) {
             // The brick only distinguishes medium motors from others.

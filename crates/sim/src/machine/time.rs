@@ -8,11 +8,14 @@ use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::mechanics::Load;
 use crate::motor::Bridge;
+use crate::motor::output::Output;
 use crate::noise::{Noise, Source};
 use crate::world::geometry::Pose;
-use crate::{JIFFY_TICKS, NOTIFY_TICKS, TICK_US};
+use crate::{JIFFY_TICKS, TICK_US};
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
+/// A clock that jumps is not asked to jump farther than this.
+const FARTHEST_TICKS: u64 = 25;
 
 impl Machine {
     /// Virtual time since boot.
@@ -31,17 +34,17 @@ impl Machine {
     }
 
     /// A time, after now, before which nothing happens that a waiting program could be woken by:
-    /// the next 50 ms look at the motors' flags, the end of a sensor's mode change, a plug being
+    /// the next look of the class at a motor's flags, the end of a sensor's mode change, a plug being
     /// noticed, the 10 ms sample of a touch sensor on a moving robot, a planned key. A virtual clock
     /// may jump there with `step(next_event() - now())` and look again.
     #[must_use]
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
-        let mut next = next_on_grid(NOTIFY_TICKS);
+        let mut next = next_on_grid(FARTHEST_TICKS);
         let moving = self.shafts.iter().any(|shaft| shaft.omega != 0.0);
         for hardware in self.tree.all() {
             let due = match hardware {
-                Hardware::Tacho(motor) => motor.next_timer(),
+                Hardware::Tacho(motor) => Some(motor.next_timer()),
                 Hardware::DcMotor(motor) => motor.next_timer(),
                 Hardware::Sensor(sensor) if sensor.kind.link.is_analog() && moving => {
                     Some(next_on_grid(JIFFY_TICKS))
@@ -52,7 +55,7 @@ impl Machine {
             next = next.min(due.unwrap_or(next).max(self.tick + 1));
         }
         next = next.min(self.panel.next_tick().unwrap_or(next).max(self.tick + 1));
-        for due in self.sockets.iter().filter_map(|socket| socket.due) {
+        for due in self.sockets.iter().flat_map(|s| s.noticed.into_iter().chain(s.due)) {
             next = next.min(due.max(self.tick + 1));
         }
         Duration::from_micros(next * TICK_US)
@@ -65,9 +68,7 @@ impl Machine {
         self.turn_shafts(start_us);
         self.run_drivers();
         for port in Port::ALL {
-            if self.sockets[port as usize].due.is_some_and(|due| due <= self.tick) {
-                self.detect(port);
-            }
+            self.look_at_plug(port, self.tick);
         }
         self.apply_planned_buttons();
         let at = Duration::from_micros(self.tick * TICK_US);
@@ -79,28 +80,22 @@ impl Machine {
         matches!(self.sockets[port as usize].plug, Some(Plug::Motor(_)))
     }
 
-    fn bridge(&self, port: Port) -> Bridge {
-        let device = self.sockets[port as usize].device.filter(|_| self.wired(port));
-        match device.and_then(|serial| self.tree.hardware(serial)) {
-            Some(Hardware::Tacho(motor)) => motor.bridge(),
-            Some(Hardware::DcMotor(motor)) => motor.bridge(),
-            _ => Bridge::Float,
-        }
+    /// The bridge of an output port: with its driver, or left by the last one.
+    fn output(&self, port: Port) -> Output {
+        let socket = &self.sockets[port as usize];
+        let hardware = socket.device.and_then(|serial| self.tree.hardware(serial));
+        hardware.and_then(Hardware::output).unwrap_or(socket.output)
     }
 
-    /// The share of the battery's voltage that each output port gives what is plugged in: 0 where
-    /// the port has no driver that simply does so.
+    fn bridge(&self, port: Port) -> Bridge {
+        if self.wired(port) { self.output(port).bridge() } else { Bridge::Float }
+    }
+
+    /// The share of the battery's voltage that each output port gives what is plugged in.
     pub(crate) fn power(&self) -> [f64; 4] {
-        OUTPUTS.map(|port| {
-            let device = self.sockets[port as usize].device;
-            match device.and_then(|serial| self.tree.hardware(serial)) {
-                Some(Hardware::DcMotor(motor)) => match motor.bridge() {
-                    Bridge::Driven(duty) => f64::from(duty.abs()) / 100.0,
-                    Bridge::Float | Bridge::Short => 0.0,
-                },
-                Some(Hardware::Led(led)) => led.level(),
-                _ => 0.0,
-            }
+        OUTPUTS.map(|port| match self.output(port).bridge() {
+            Bridge::Driven(duty) => f64::from(duty.abs()) / 100.0,
+            Bridge::Float | Bridge::Short => 0.0,
         })
     }
 
@@ -136,9 +131,8 @@ impl Machine {
         if at_rest && OUTPUTS.into_iter().all(undriven) {
             self.set_current(0.0);
             self.body.turn_rate = 0.0;
-            for port in OUTPUTS {
-                let wired = self.wired(port);
-                self.shafts[port.slot()].rest(wired, start_us);
+            for shaft in &mut self.shafts {
+                shaft.rest(start_us);
             }
             return;
         }
@@ -179,19 +173,13 @@ impl Machine {
     /// The kernel's share of a tick: motor loops, sensors' clocks, samples, notifications.
     fn run_drivers(&mut self) {
         let tick = self.tick;
-        let notify = tick % NOTIFY_TICKS == 0;
         for port in OUTPUTS {
             let encoder = &self.shafts[port.slot()].encoder;
             let (count, speed) = (encoder.count(), encoder.speed());
             let device = self.sockets[port as usize].device;
             let hardware = device.and_then(|serial| self.tree.hardware_mut(serial));
             match hardware {
-                Some(Hardware::Tacho(motor)) => {
-                    motor.sample(tick, count, speed);
-                    if notify {
-                        motor.notify();
-                    }
-                }
+                Some(Hardware::Tacho(motor)) => motor.sample(tick, count, speed),
                 Some(Hardware::DcMotor(motor)) => motor.sample(tick),
                 _ => {}
             }

@@ -10,6 +10,7 @@ use crate::files::attr::{Access, Effect, Files};
 use crate::files::errno::Errno;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
+use crate::motor::output::Output;
 use crate::motor::servo::Servo;
 use crate::sensor::Sensor;
 
@@ -137,6 +138,16 @@ impl Hardware {
             Hardware::Battery(device) => device,
             Hardware::Board(device) => device,
             Hardware::Framebuffer(device) => device,
+        }
+    }
+
+    /// The bridge of the output port that this drives.
+    pub(crate) fn output(&self) -> Option<Output> {
+        match self {
+            Hardware::Tacho(motor) => Some(motor.output),
+            Hardware::DcMotor(motor) => Some(motor.output),
+            Hardware::Led(led) => led.output,
+            _ => None,
         }
     }
 

@@ -77,14 +77,14 @@ impl Shaft {
         }
         if wired {
             self.encoder.turn(self.angle, next, tick_start_us);
+        } else {
+            self.encoder.rest(tick_start_us);
         }
         self.angle = next;
     }
 
     /// Time passes without any motion.
-    pub(crate) fn rest(&mut self, wired: bool, tick_start_us: u64) {
-        if wired && self.encoder.speed() != 0 {
-            self.encoder.turn(self.angle, self.angle, tick_start_us);
-        }
+    pub(crate) fn rest(&mut self, tick_start_us: u64) {
+        self.encoder.rest(tick_start_us);
     }
 }

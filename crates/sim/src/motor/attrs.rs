@@ -4,7 +4,7 @@ use super::kind::COUNT_PER_M;
 use super::{Command, StopAction, Tacho};
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
 use crate::files::errno::Errno;
-use crate::files::text::{strict_int, strict_int_in, word};
+use crate::files::text::{strict_int, strict_int_in, strict_int_to, word};
 
 const POLARITIES: [&str; 2] = ["normal", "inversed"];
 const LONGEST_RAMP_MS: i32 = 60_000;
@@ -49,7 +49,8 @@ impl Table for Tacho {
             |m| text(m.sign(m.set.duty)),
             |m, bytes| {
                 m.set.duty = m.sign(strict_int_in(bytes, -100, 100)?);
-                if m.last_command == Some(Command::RunDirect) {
+                if m.command == Command::RunDirect {
+                    m.active.duty = m.set.duty;
                     m.run_direct(m.set.duty);
                 }
                 Ok(Effect::Done)
@@ -122,8 +123,8 @@ impl Table for Tacho {
             "speed_sp",
             |m| text(m.sign(m.set.speed)),
             |m, bytes| {
-                let limit = m.kind.max_speed;
-                store!(m.set.speed = m.sign(strict_int_in(bytes, -limit, limit)?))
+                let speed = strict_int_to(bytes, m.kind.max_speed)?;
+                store!(m.set.speed = m.sign(speed))
             },
         ),
         Attr::ro("state", |m| text(m.state())),

@@ -1,116 +1,152 @@
-//! The immediate effect of each command: `docs/ev3dev-sysfs.md`, 3.3.
+//! The immediate effect of each command: `docs/ev3dev-sysfs.md`, 3.3. First the class, which knows
+//! commands, times and ramps; then the driver below it, which knows the wheel and the bridge.
 
-use super::{Command, Drive, Goal, Pid, Setpoints, StopAction, Tacho};
-use crate::ticks_from_ms;
+use super::output::Pins;
+use super::{Command, Drive, Pid, Setpoints, StopAction, Tacho};
+use crate::wheel::{Timer, jiffies_from_ms, jiffy};
+
+// ---- the class ----------------------------------------------------------------------------
 
 impl Tacho {
     /// Takes a command over, at once: the next read of `state` shows it.
     pub(crate) fn command(&mut self, command: Command) {
-        let previous = self.last_command.replace(command);
-        self.timer = None;
-        self.ramp = None;
-        self.active = self.set;
+        self.stop_timer = None;
+        self.ramp_timer = None;
+        if command == Command::Reset {
+            self.set = Setpoints::DEFAULT;
+            self.inversed = false;
+        }
+        let previous = self.written.replace(command);
+        let mut next = self.set;
+        let mut act = command;
+        if command == Command::RunToRelPos {
+            if next.position == 0 {
+                act = Command::Stop;
+            }
+            // A chain of relative moves counts from target to target, whether reached or not.
+            let base = match previous {
+                Some(Command::RunToRelPos) => self.active.position,
+                _ => self.position(),
+            };
+            next.position = base.wrapping_add(next.position);
+        }
+        if matches!(act, Command::Stop | Command::Reset) {
+            (next.duty, next.speed) = (0, 0);
+        }
+        self.active = next;
+        self.command = command;
+        self.carry_out(act);
+    }
+
+    fn carry_out(&mut self, command: Command) {
+        let ramps = self.active.ramp_up_ms > 0 || self.active.ramp_down_ms > 0;
         match command {
-            Command::RunForever => self.begin(self.active.speed, None, false),
-            Command::RunTimed => self.run_timed(),
-            Command::RunToAbsPos => self.run_to(self.active.position),
-            Command::RunToRelPos => self.run_relative(previous),
             Command::RunDirect => self.run_direct(self.active.duty),
-            Command::Stop => self.begin_stop(),
             Command::Reset => self.reset(),
+            _ if ramps => self.start_ramp(),
+            Command::RunForever | Command::RunTimed => self.run_regulated(self.active.speed),
+            Command::RunToAbsPos | Command::RunToRelPos => {
+                self.run_to(self.active.position, self.active.speed);
+            }
+            Command::Stop => self.stop(),
+        }
+        if command == Command::RunTimed {
+            if self.active.time_ms == 0 {
+                self.time_is_up();
+            } else {
+                let length = jiffies_from_ms(self.active.time_ms);
+                self.stop_timer = Some(Timer::new(jiffy(self.now), length));
+            }
         }
     }
 
+    /// The end of run-timed. A step of a ramp up that is still scheduled is not canceled: it
+    /// starts the motor again.
+    pub(super) fn time_is_up(&mut self) {
+        self.command = Command::Stop;
+        if self.active.ramp_down_ms > 0 {
+            self.active.speed = 0;
+            self.start_ramp();
+        } else {
+            self.stop();
+        }
+    }
+
+    /// The driver reached the target of a position move. The flag of a ramp that this ends stays.
+    fn target_is_reached(&mut self) {
+        self.stop_timer = None;
+        self.ramp_timer = None;
+        self.active.speed = 0;
+        self.ramp.last = 0;
+    }
+}
+
+// ---- the driver ---------------------------------------------------------------------------
+
+impl Tacho {
     pub(super) fn run_direct(&mut self, duty: i32) {
-        self.goal = None;
-        self.overloaded = false;
-        self.duty = duty;
-        self.drive = Drive::Direct(duty);
-    }
-
-    fn run_timed(&mut self) {
-        self.begin(self.active.speed, None, false);
-        self.timer = Some(self.now + ticks_from_ms(self.active.time_ms));
-        if self.active.time_ms == 0 {
-            self.time_is_up();
-        }
-    }
-
-    fn run_to(&mut self, target: i32) {
-        let upwards = target >= self.position();
-        let speed = self.active.speed.abs();
-        let goal = Goal { at: target, upwards };
-        self.begin(if upwards { speed } else { -speed }, Some(goal), false);
-    }
-
-    /// A chain of relative moves counts from target to target, whether reached or not.
-    fn run_relative(&mut self, previous: Option<Command>) {
-        let base = match previous {
-            Some(Command::RunToRelPos) => self.relative_target,
-            _ => self.position(),
-        };
-        self.relative_target = base.wrapping_add(self.active.position);
-        if self.active.position != 0 {
-            self.run_to(self.relative_target);
-        } else if self.active.ramps() {
-            self.begin(0, None, false);
-        } else {
-            self.stop_now();
-        }
-    }
-
-    fn begin_stop(&mut self) {
-        if self.active.ramps() {
-            self.start_ramp(0, None, true);
-        } else {
-            self.stop_now();
-        }
-    }
-
-    fn begin(&mut self, speed: i32, goal: Option<Goal>, then_stop: bool) {
-        if self.active.ramps() {
-            self.start_ramp(speed, goal, then_stop);
-        } else {
-            self.regulate(speed, goal);
-        }
+        self.drive = Drive::Direct;
+        self.drive_bridge(duty);
     }
 
     /// Puts the speed regulator to work. Its memory is kept from a motion that it replaces.
-    pub(super) fn regulate(&mut self, speed: i32, goal: Option<Goal>) {
-        if !self.running() {
-            self.overloaded = false;
-        }
-        self.goal = goal;
-        self.drive = Drive::Speed(speed);
+    pub(super) fn run_regulated(&mut self, speed: i32) {
+        self.drive = Drive::Speed;
+        self.speed_pid.setpoint = speed;
+    }
+
+    /// The same towards a target. The sign of the speed does not count.
+    pub(super) fn run_to(&mut self, target: i32, speed: i32) {
+        let speed = speed.wrapping_abs();
+        self.drive = Drive::Position;
+        self.target = target;
+        self.end_action = self.active.stop_action;
+        self.speed_pid.setpoint =
+            if self.position() > target { speed.wrapping_neg() } else { speed };
     }
 
     /// Carries out the stop action where the motor is.
-    pub(super) fn stop_now(&mut self) {
-        self.end(self.position());
+    pub(super) fn stop(&mut self) {
+        self.stop_as(self.active.stop_action, self.position());
     }
 
-    pub(super) fn end(&mut self, hold_at: i32) {
+    /// Ends a position move, and holds at its target.
+    pub(super) fn arrive(&mut self) {
+        self.stop_as(self.end_action, self.target);
+        self.braking = false;
+        self.target_is_reached();
+    }
+
+    /// To coast and to brake changes the pins only, and to hold not even these: the bridge keeps
+    /// its PWM until a regulator writes another duty than the 0 that the driver notes here.
+    fn stop_as(&mut self, action: StopAction, hold_at: i32) {
         self.speed_pid.clear();
         self.hold_pid.clear();
-        self.goal = None;
-        self.overloaded = false;
-        self.zero_speed_ticks = 0;
         self.duty = 0;
-        self.drive = match self.active.stop_action {
-            StopAction::Coast => Drive::Coast,
-            StopAction::Brake => Drive::Brake,
-            StopAction::Hold => Drive::Hold(hold_at),
-        };
+        self.drive = Drive::Stopped;
+        match action {
+            StopAction::Coast => self.output.pins = Pins::Coast,
+            StopAction::Brake => self.output.pins = Pins::Brake,
+            StopAction::Hold => {
+                self.hold_pid.setpoint = hold_at;
+                self.drive = Drive::Hold;
+            }
+        }
+    }
+
+    pub(super) fn drive_bridge(&mut self, duty: i32) {
+        self.duty = duty;
+        self.output.drive(if duty > 0 { Pins::Forward } else { Pins::Reverse }, duty);
     }
 
     fn reset(&mut self) {
-        self.set = Setpoints::DEFAULT;
-        self.active = Setpoints::DEFAULT;
-        self.inversed = false;
+        self.stop_as(StopAction::Coast, 0);
+        self.target = 0;
+        self.zero = self.count;
+        self.stalled = false;
+        self.zero_speed_ticks = 0;
         self.speed_pid = Pid::new(1000, 60, 0);
         self.hold_pid = Pid::new(self.kind.hold_kp, 0, 0);
-        self.stop_now();
-        self.zero = self.count;
     }
 
     /// A write to `position`: the numbers change, and the driver's target with them, so that a
@@ -118,8 +154,6 @@ impl Tacho {
     /// numbers, so that a holding motor is driven through the difference.
     pub(super) fn redefine_position(&mut self, position: i32) {
         self.zero = self.count.wrapping_sub(position);
-        if let Some(goal) = &mut self.goal {
-            goal.at = position;
-        }
+        self.target = position;
     }
 }

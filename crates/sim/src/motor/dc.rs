@@ -1,15 +1,17 @@
 //! A plain motor without a counter (`dc-motor`, driver `rcx-motor`): it gets a duty, and its
 //! speed is not measured. It appears when `dc-motor` is written to an output port's mode.
 //!
-//! Every change of the duty goes through a ramp with steps of 100 ms, even one without length.
-//! While a step is scheduled, a command or a new duty waits for it: up to 100 ms
-//! (`docs/ev3dev-sysfs.md`, 4.1).
+//! Every change of the duty goes through a ramp with steps of 110 ms, even one without length.
+//! While a step is scheduled, a command or a new duty waits for it
+//! (`docs/ev3dev-sysfs.md`, 4.1). The class has a duty of its own, 0 at first; what the files show
+//! is that of the port, which outlives the motor.
 
 use crate::brick::port::Port;
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
-use crate::files::text::{lenient_unsigned, strict_int_in, word};
-use crate::motor::Bridge;
-use crate::{Errno, JIFFY_TICKS, ticks_from_ms};
+use crate::files::text::{lenient_unsigned, strict_int_in, strict_int_to, word};
+use crate::motor::output::{Output, Pins};
+use crate::wheel::{Timer, jiffies_from_ms, jiffy};
+use crate::{Errno, JIFFY_TICKS};
 
 const DRIVER: &str = "rcx-motor";
 const COMMANDS: [&str; 4] = ["run-forever", "run-timed", "run-direct", "stop"];
@@ -18,24 +20,19 @@ const DIRECT: usize = 2;
 const STOP: usize = 3;
 const STOP_ACTIONS: [&str; 2] = ["coast", "brake"];
 const POLARITIES: [&str; 2] = ["normal", "inversed"];
-const LONGEST_RAMP_MS: u32 = 10_000;
+const LONGEST_RAMP_MS: i32 = 10_000;
 const LONGEST_TIME_MS: i32 = 60_000;
-const STEP_MS: i32 = 100;
+/// Jiffies from one step of a ramp to the next.
+const PERIOD: u64 = 10;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Setpoints {
     duty: i32,
     time_ms: i32,
-    ramp_up_ms: u32,
-    ramp_down_ms: u32,
+    ramp_up_ms: i32,
+    ramp_down_ms: i32,
     brake: bool,
     inversed: bool,
-}
-
-impl Setpoints {
-    fn signed_duty(&self) -> i32 {
-        if self.inversed { -self.duty } else { self.duty }
-    }
 }
 
 /// A motor as the driver sees it.
@@ -43,84 +40,109 @@ impl Setpoints {
 pub(crate) struct DcMotor {
     port: Port,
     set: Setpoints,
+    /// Their duty has the physical sign, and is 0 for a stop.
     active: Setpoints,
     command: usize,
-    bridge: Bridge,
+    /// What the last step set.
     duty: i32,
-    target: i32,
-    stopping: bool,
-    next_step: Option<u64>,
-    timer: Option<u64>,
+    change: i32,
+    duration: u64,
+    ends: u64,
+    stepped: u64,
+    step_timer: Option<Timer>,
+    stop_timer: Option<Timer>,
+    pub(crate) output: Output,
     now: u64,
 }
 
 impl DcMotor {
-    pub(crate) fn new(port: Port, now: u64) -> Self {
+    pub(crate) fn new(port: Port, output: Output, now: u64) -> Self {
         DcMotor {
             port,
             set: Setpoints::default(),
             active: Setpoints::default(),
             command: STOP,
-            bridge: Bridge::Float,
             duty: 0,
-            target: 0,
-            stopping: true,
-            next_step: None,
-            timer: None,
+            change: 0,
+            duration: 0,
+            ends: 0,
+            stepped: 0,
+            step_timer: None,
+            stop_timer: None,
+            output,
             now,
         }
     }
 
-    pub(crate) fn bridge(&self) -> Bridge {
-        self.bridge
-    }
-
     /// The tick of the next timer or ramp step.
     pub(crate) fn next_timer(&self) -> Option<u64> {
-        let due = self.timer.into_iter().chain(self.next_step).min();
-        due.map(|due| due.next_multiple_of(JIFFY_TICKS))
+        self.stop_timer.into_iter().chain(self.step_timer).map(Timer::tick).min()
     }
 
     fn start(&mut self, command: usize) {
-        self.command = command;
         self.active = self.set;
-        self.timer = None;
+        self.command = command;
+        self.aim(if command == STOP { 0 } else { self.set.duty });
+        self.stop_timer = None;
         if command == TIMED {
-            self.timer = Some(self.now + ticks_from_ms(self.active.time_ms));
+            if self.active.time_ms == 0 {
+                self.time_is_up();
+            } else {
+                let length = jiffies_from_ms(self.active.time_ms);
+                self.stop_timer = Some(Timer::new(jiffy(self.now), length));
+            }
         }
-        self.stopping = command == STOP;
-        self.aim(if self.stopping { 0 } else { self.active.signed_duty() });
     }
 
-    fn aim(&mut self, target: i32) {
-        self.target = target;
-        if self.next_step.is_none() {
+    fn time_is_up(&mut self) {
+        self.command = STOP;
+        self.aim(0);
+    }
+
+    /// Heads for a duty. Rising, in the physical sign, follows the ramp up, falling the other.
+    fn aim(&mut self, duty: i32) {
+        self.active.duty = if self.active.inversed { duty.wrapping_neg() } else { duty };
+        self.change = self.active.duty.wrapping_sub(self.duty);
+        let is_up = self.change > 0;
+        let full = if is_up { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
+        self.duration = jiffies_from_ms(full) * u64::from(self.change.unsigned_abs()) / 100;
+        self.stepped = jiffy(self.now);
+        self.ends = self.stepped + self.duration;
+        if self.step_timer.is_none() {
             self.step();
         }
     }
 
-    /// One step of the ramp. Rising, in the signed duty, follows the ramp up, falling the other.
+    /// One step. A run with the duty that it has already does nothing at all.
     fn step(&mut self) {
-        let rising = self.target > self.duty;
-        let full_ms = if rising { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
-        let most = 100 * STEP_MS.unsigned_abs() / full_ms.max(1);
-        let way = (self.target - self.duty).unsigned_abs();
-        let arrived = full_ms == 0 || way <= most;
-        let scheduled = self.next_step.is_some();
-        let unchanged = way == 0;
-        let part = i32::try_from(most.min(way)).unwrap_or(0);
-        self.duty = match (arrived, rising) {
-            (true, _) => self.target,
-            (false, true) => self.duty + part,
-            (false, false) => self.duty - part,
+        let runs = self.command != STOP;
+        if runs && self.active.duty == self.duty {
+            return;
+        }
+        let now = jiffy(self.now);
+        let left = self.ends.saturating_sub(now);
+        self.duty = self.active.duty;
+        if self.duration != 0 && left != 0 {
+            let left = i128::from(self.change) * i128::from(left) / i128::from(self.duration);
+            let duty = i128::from(self.duty) - left;
+            self.duty = i32::try_from(duty.clamp(-100, 100)).unwrap_or(0);
+        }
+        let pins = match (runs || self.duty != 0, self.duty >= 0) {
+            (true, true) => Pins::Forward,
+            (true, false) => Pins::Reverse,
+            (false, _) if self.active.brake => Pins::Brake,
+            (false, _) => Pins::Coast,
         };
-        self.bridge = Bridge::Driven(self.duty);
-        self.next_step = Some(self.now + ticks_from_ms(STEP_MS));
-        if arrived && self.stopping {
-            self.bridge = if self.active.brake { Bridge::Short } else { Bridge::Float };
-            self.next_step = None;
-        } else if scheduled && unchanged {
-            self.next_step = None;
+        self.output.drive(pins, self.duty);
+        if !runs && !self.output.is_driving() {
+            return;
+        }
+        let passed = now - self.stepped;
+        self.stepped = now;
+        if passed < PERIOD {
+            self.step_timer = Some(Timer::new(now, PERIOD - passed));
+        } else {
+            self.step();
         }
     }
 
@@ -130,26 +152,31 @@ impl DcMotor {
         if now % JIFFY_TICKS != 0 {
             return;
         }
-        if self.next_step.is_some_and(|due| due <= now) {
+        if self.step_timer.is_some_and(|timer| timer.is_due(jiffy(now))) {
+            self.step_timer = None;
             self.step();
         }
-        if self.timer.is_some_and(|due| due <= now) {
-            self.timer = None;
-            self.stopping = true;
-            self.aim(0);
+        if self.stop_timer.is_some_and(|timer| timer.is_due(jiffy(now))) {
+            self.stop_timer = None;
+            self.time_is_up();
         }
     }
 
+    /// The duty of the port, in the sign of the program.
+    fn shown_duty(&self) -> i32 {
+        if self.active.inversed { -self.output.duty() } else { self.output.duty() }
+    }
+
     fn state(&self) -> String {
-        let running = matches!(self.bridge, Bridge::Driven(_)).then_some("running");
-        let ramping = self.next_step.is_some().then_some("ramping");
+        let running = self.output.is_driving().then_some("running");
+        let ramping = self.step_timer.is_some().then_some("ramping");
         running.into_iter().chain(ramping).collect::<Vec<_>>().join(" ")
     }
 }
 
-fn ramp(bytes: &[u8]) -> Result<u32, Errno> {
-    lenient_unsigned(bytes)
-        .and_then(|ms| if ms <= LONGEST_RAMP_MS { Ok(ms) } else { Err(Errno::EINVAL) })
+fn ramp(bytes: &[u8]) -> Result<i32, Errno> {
+    let ms = i32::try_from(lenient_unsigned(bytes)?).ok();
+    ms.filter(|ms| *ms <= LONGEST_RAMP_MS).ok_or(Errno::EINVAL)
 }
 
 impl Table for DcMotor {
@@ -161,15 +188,14 @@ impl Table for DcMotor {
         }),
         Attr::ro("commands", |_| text(COMMANDS.join(" "))),
         Attr::ro("driver_name", |_| text(DRIVER)),
-        Attr::ro("duty_cycle", |m| text(m.duty)),
+        Attr::ro("duty_cycle", |m| text(m.shown_duty())),
         Attr::rw(
             "duty_cycle_sp",
             |m| text(m.set.duty),
             |m, bytes| {
-                m.set.duty = strict_int_in(bytes, -100, 100)?;
+                m.set.duty = strict_int_to(bytes, 100)?;
                 if m.command == DIRECT {
-                    m.active.duty = m.set.duty;
-                    m.aim(m.active.signed_duty());
+                    m.aim(m.set.duty);
                 }
                 Ok(Effect::Done)
             },

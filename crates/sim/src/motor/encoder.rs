@@ -2,9 +2,10 @@
 //!
 //! On the EV3 a co-processor counts and time-stamps the edges of two light barriers: 720 edges a
 //! turn, which the driver halves to counts (1 count = 1 degree). A stamp is also written every
-//! 50 ms without an edge. Speed is distance over time across the newest stamps, going back four
-//! at a time until 20 ms are covered, at most 64. So it lags, is coarse when slow, and takes
-//! about 200 ms to reach zero after the wheel has stopped. Teeth that are not quite where they
+//! 50 ms without an edge, from boot on. Speed is distance over time across the newest stamps,
+//! going back four at a time until 20 ms are covered, at most 64; it is zero as soon as the count
+//! so far back is the same. So it lags, is coarse when slow, reads too little just after a start,
+//! and takes about 200 ms to reach zero after the wheel has stopped. Teeth that are not quite where they
 //! should be shift the counts; in the speed that cancels out, as four edges are a whole tooth.
 
 use crate::TICK_US;
@@ -14,13 +15,14 @@ use crate::noise::Teeth;
 const RING: usize = 128;
 const STEP_BACK: usize = 4;
 const MOST_BACK: usize = 64;
-const WINDOW_US: u64 = 20_000;
-const IDLE_STAMP_US: u64 = 50_000;
+const WINDOW_US: i64 = 20_000;
+const IDLE_STAMP_US: i64 = 50_000;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Stamp {
     edges: i32,
-    at_us: u64,
+    /// Since boot, as the program sees it. The co-processor was on before.
+    at_us: i64,
 }
 
 /// The number of edges below an angle in degrees: two for each. A motor starts in the middle
@@ -28,6 +30,11 @@ struct Stamp {
 #[expect(clippy::cast_possible_truncation, reason = "a shaft does not turn 10^15 times")]
 fn edge(angle: f64) -> i64 {
     libm::floor(angle * 2.0 + 0.5) as i64
+}
+
+/// A time since boot, among which there are those before.
+fn signed(us: u64) -> i64 {
+    i64::try_from(us).unwrap_or(i64::MAX)
 }
 
 /// A counter of edges with its newest time stamps.
@@ -42,8 +49,11 @@ pub(crate) struct Encoder {
 
 impl Encoder {
     pub(crate) fn new(teeth: Teeth) -> Self {
-        let stamps = Box::new([Stamp::default(); RING]);
-        Encoder { edges: 0, teeth, stamps, written: 1, speed: 0 }
+        let mut stamps = Box::new([Stamp::default(); RING]);
+        for (stamp, back) in stamps.iter_mut().rev().zip(0..) {
+            stamp.at_us = -IDLE_STAMP_US * back;
+        }
+        Encoder { edges: 0, teeth, stamps, written: RING, speed: 0 }
     }
 
     /// Counts since boot, truncated toward zero as the driver's integer division does. All that
@@ -61,14 +71,28 @@ impl Encoder {
     /// Follows the shaft through one tick, from and to an angle in degrees.
     pub(crate) fn turn(&mut self, from: f64, to: f64, tick_start_us: u64) {
         let crossed = edge(to).wrapping_sub(edge(from));
-        if crossed != 0 {
-            self.stamp_edges(from, to, crossed, tick_start_us);
-        } else if tick_start_us + TICK_US >= self.newest(0).at_us + IDLE_STAMP_US {
-            self.push(tick_start_us + TICK_US);
+        if crossed == 0 {
+            self.rest(tick_start_us);
         } else {
-            return;
+            self.stamp_edges(from, to, crossed, tick_start_us);
+            self.speed = self.measure();
         }
-        self.speed = self.measure();
+    }
+
+    /// One tick without an edge.
+    pub(crate) fn rest(&mut self, tick_start_us: u64) {
+        if self.stamp_idle(signed(tick_start_us + TICK_US)) {
+            self.speed = self.measure();
+        }
+    }
+
+    /// Stamps that nothing happened until then; false if that is not long.
+    fn stamp_idle(&mut self, until_us: i64) -> bool {
+        let at_us = self.newest(0).at_us + IDLE_STAMP_US;
+        if at_us <= until_us {
+            self.push(at_us);
+        }
+        at_us <= until_us
     }
 
     /// Stamps each edge at the moment at which a shaft of even speed crosses it.
@@ -76,22 +100,23 @@ impl Encoder {
         let upwards = crossed > 0;
         for nth in 0..crossed.abs() {
             let line = if upwards { edge(from) + 1 + nth } else { edge(from) - nth };
-            self.edges = self.edges.wrapping_add(if upwards { 1 } else { -1 });
             #[expect(
                 clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
                 clippy::cast_precision_loss,
                 reason = "a share of 2000 microseconds"
             )]
             let after_us = {
                 let share = ((line as f64 - 0.5) / 2.0 - from) / (to - from);
-                (share.clamp(0.0, 1.0) * TICK_US as f64) as u64
+                (share.clamp(0.0, 1.0) * TICK_US as f64) as i64
             };
-            self.push(start_us + after_us);
+            let at_us = signed(start_us) + after_us;
+            self.stamp_idle(at_us);
+            self.edges = self.edges.wrapping_add(if upwards { 1 } else { -1 });
+            self.push(at_us);
         }
     }
 
-    fn push(&mut self, at_us: u64) {
+    fn push(&mut self, at_us: i64) {
         self.stamps[self.written % RING] = Stamp { edges: self.edges, at_us };
         self.written += 1;
     }
@@ -102,18 +127,19 @@ impl Encoder {
 
     fn measure(&self) -> i32 {
         let newest = self.newest(0);
-        let most = MOST_BACK.min(self.written - 1);
-        let mut back = STEP_BACK.min(most);
-        while back + STEP_BACK <= most && newest.at_us - self.newest(back).at_us < WINDOW_US {
-            back += STEP_BACK;
+        let (mut edges, mut span) = (0, 0);
+        for back in (STEP_BACK..=MOST_BACK).step_by(STEP_BACK) {
+            let oldest = self.newest(back);
+            edges = newest.edges.wrapping_sub(oldest.edges);
+            span = newest.at_us - oldest.at_us;
+            if edges == 0 {
+                return 0;
+            }
+            if span >= WINDOW_US {
+                break;
+            }
         }
-        let oldest = self.newest(back);
-        let span = i64::try_from(newest.at_us - oldest.at_us).unwrap_or(i64::MAX);
-        if span == 0 {
-            return 0;
-        }
-        let edges = i64::from(newest.edges.wrapping_sub(oldest.edges));
-        i32::try_from(edges * 500_000 / span).unwrap_or(0)
+        i32::try_from(i64::from(edges) * 500_000 / span.max(1)).unwrap_or(0)
     }
 }
 

@@ -10,6 +10,7 @@ mod command;
 pub(crate) mod dc;
 mod encoder;
 mod kind;
+pub(crate) mod output;
 mod pid;
 mod ramp;
 mod sample;
@@ -18,14 +19,17 @@ pub(crate) mod servo;
 pub(crate) use encoder::Encoder;
 pub(crate) use kind::{Bridge, RATED_VOLTS};
 pub use kind::{MOTOR_KINDS, MotorKind};
+use output::{Output, Pins};
 use pid::Pid;
 use ramp::Ramp;
 
-use crate::JIFFY_TICKS;
 use crate::brick::port::Port;
+use crate::wheel::{Timer, jiffy};
 
-/// A blocked motor shows `stalled` after more than 100 ms at speed 0.
-const STALL_TICKS: u32 = 50;
+/// A blocked motor shows `stalled` after more than 100 ms at speed 0: the first sample begins them.
+const STALL_TICKS: u32 = 51;
+/// The class looks at the flags of `state` every 50 ms, which the wheel makes 60 ms.
+const NOTIFY_JIFFIES: u64 = 5;
 
 /// The words of `command`, in the order of `commands`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +53,10 @@ impl Command {
         ("stop", Command::Stop),
         ("reset", Command::Reset),
     ];
+
+    fn is_position_move(self) -> bool {
+        matches!(self, Command::RunToAbsPos | Command::RunToRelPos)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,43 +93,24 @@ impl Setpoints {
         ramp_down_ms: 0,
         stop_action: StopAction::Coast,
     };
-
-    fn ramps(&self) -> bool {
-        self.ramp_up_ms > 0 || self.ramp_down_ms > 0
-    }
-}
-
-/// The target of a position move: the test is one-sided, in the direction chosen at its start.
-#[derive(Clone, Copy, Debug)]
-struct Goal {
-    at: i32,
-    upwards: bool,
-}
-
-impl Goal {
-    fn reached(self, position: i32) -> bool {
-        if self.upwards { position >= self.at } else { position <= self.at }
-    }
-
-    fn passed_by(self, end: i64) -> bool {
-        if self.upwards { end > i64::from(self.at) } else { end < i64::from(self.at) }
-    }
 }
 
 /// The way in which the driver uses the bridge.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drive {
-    Coast,
-    Brake,
+    /// Nothing, after coast or brake.
+    Stopped,
     /// Hold PID around a position.
-    Hold(i32),
+    Hold,
     /// A fixed duty, no regulation.
-    Direct(i32),
+    Direct,
     /// Speed PID around a speed.
-    Speed(i32),
+    Speed,
+    /// The same, towards a target.
+    Position,
 }
 
-/// A motor as the driver sees it.
+/// A motor as the class and its driver see it.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own in the kernel, too")]
 pub(crate) struct Tacho {
@@ -130,26 +119,33 @@ pub(crate) struct Tacho {
     set: Setpoints,
     active: Setpoints,
     inversed: bool,
+    /// The word that was written to `command` last.
+    written: Option<Command>,
+    /// What is being done: that word, until the time of a timed run is up.
+    command: Command,
+    stop_timer: Option<Timer>,
+    ramp: Ramp,
+    ramp_timer: Option<Timer>,
+    /// Sticky: only the end of a ramp clears it (3.5).
+    ramping: bool,
     speed_pid: Pid,
     hold_pid: Pid,
     drive: Drive,
-    goal: Option<Goal>,
-    last_command: Option<Command>,
-    relative_target: i32,
-    timer: Option<u64>,
-    ramp: Option<Ramp>,
-    /// Sticky: only the end of a ramp clears it (3.5).
-    ramping: bool,
-    ramp_value: i32,
+    /// Where a position move ends, and how.
+    target: i32,
+    end_action: StopAction,
     /// Sticky, too: the driver's own slowing down before a target.
     braking: bool,
-    overloaded: bool,
+    stalled: bool,
     zero_speed_ticks: u32,
+    /// The duty that the driver last wrote to the bridge, or 0 since it stopped.
     duty: i32,
+    pub(crate) output: Output,
     count: i32,
     zero: i32,
     speed: i32,
     now: u64,
+    notify_timer: Timer,
     seen_flags: u8,
     pub(crate) events: u32,
 }
@@ -162,6 +158,7 @@ impl Tacho {
         port: Port,
         count: i32,
         at_boot: bool,
+        output: Output,
         now: u64,
     ) -> Self {
         Tacho {
@@ -170,35 +167,29 @@ impl Tacho {
             set: Setpoints::DEFAULT,
             active: Setpoints::DEFAULT,
             inversed: false,
+            written: None,
+            command: Command::RunForever,
+            stop_timer: None,
+            ramp: Ramp::default(),
+            ramp_timer: None,
+            ramping: false,
             speed_pid: Pid::new(1000, 60, 0),
             hold_pid: Pid::new(kind.hold_kp, 0, 0),
-            drive: Drive::Coast,
-            goal: None,
-            last_command: None,
-            relative_target: 0,
-            timer: None,
-            ramp: None,
-            ramping: false,
-            ramp_value: 0,
+            drive: Drive::Stopped,
+            target: 0,
+            end_action: StopAction::Coast,
             braking: false,
-            overloaded: false,
+            stalled: false,
             zero_speed_ticks: 0,
             duty: 0,
+            output: Output { pins: Pins::Coast, ..output },
             count,
             zero: if at_boot { count } else { 0 },
             speed: 0,
             now,
+            notify_timer: Timer::new(jiffy(now), NOTIFY_JIFFIES),
             seen_flags: 0,
             events: 0,
-        }
-    }
-
-    /// The state of the bridge at the wires of the motor.
-    pub(crate) fn bridge(&self) -> Bridge {
-        match self.drive {
-            Drive::Coast => Bridge::Float,
-            Drive::Brake => Bridge::Short,
-            Drive::Hold(_) | Drive::Direct(_) | Drive::Speed(_) => Bridge::Driven(self.duty),
         }
     }
 
@@ -207,24 +198,29 @@ impl Tacho {
     }
 
     fn running(&self) -> bool {
-        matches!(self.drive, Drive::Direct(_) | Drive::Speed(_))
+        matches!(self.drive, Drive::Direct | Drive::Speed | Drive::Position)
     }
 
-    /// The tick of the next timer or ramp step.
-    pub(crate) fn next_timer(&self) -> Option<u64> {
-        let ramp = self.ramp.as_ref().map(|ramp| ramp.due);
-        self.timer.into_iter().chain(ramp).min().map(|due| due.next_multiple_of(JIFFY_TICKS))
+    /// The tick of the next timer, ramp step or look at the flags.
+    pub(crate) fn next_timer(&self) -> u64 {
+        let timers = [self.stop_timer, self.ramp_timer].into_iter().flatten();
+        timers.fold(self.notify_timer.tick(), |next, timer| next.min(timer.tick()))
     }
 
     /// The flags of `state`, in their order, as bits.
     fn flags(&self) -> u8 {
-        let stalled = self.running() && self.zero_speed_ticks > STALL_TICKS;
+        let running = self.running();
+        let overloaded = match self.drive {
+            Drive::Speed | Drive::Position => self.speed_pid.overloaded,
+            Drive::Hold => self.hold_pid.overloaded,
+            Drive::Stopped | Drive::Direct => false,
+        };
         [
-            self.running(),
-            self.ramping || self.braking,
-            matches!(self.drive, Drive::Hold(_)),
-            self.overloaded,
-            stalled,
+            running,
+            self.ramping || (running && self.braking),
+            self.drive == Drive::Hold,
+            overloaded,
+            running && self.stalled,
         ]
         .into_iter()
         .enumerate()

@@ -1,98 +1,92 @@
 //! Class ramps: `docs/ev3dev-sysfs.md`, 3.5.
 //!
-//! The speed setpoint walks from the present speed to the wanted one in steps of 100 ms. The
-//! first step comes at once, as if 50 ms had passed, the second 50 ms later. A change of sign is
-//! split into one leg down to zero and one up.
+//! The class walks the speed that it gives to the driver from the measured speed to the wanted
+//! one. A ramp whose ends have different signs has two legs, one to zero and one from there. All
+//! times are in jiffies. A step comes 100 ms after the time of the one before the last, so that
+//! they are 50 to 60 ms apart.
 
-use super::{Goal, Tacho};
-use crate::{TICK_MS, ticks_from_ms};
+use super::{Command, Tacho};
+use crate::wheel::{Timer, jiffies_from_ms, jiffy};
 
-#[derive(Clone, Debug)]
+const PERIOD: u64 = 10;
+const HALF_PERIOD: i64 = 5;
+
+/// The leg under way, or the last one.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Ramp {
-    from: i32,
-    to: i32,
+    /// The speed that was set last.
+    pub(super) last: i32,
     end: i32,
-    duration_ms: i64,
-    started: u64,
-    steps: u32,
-    goal: Option<Goal>,
-    /// Tick of the next step.
-    pub(crate) due: u64,
-    /// The stop action follows.
-    pub(crate) then_stop: bool,
+    change: i32,
+    duration: u32,
+    /// Since when the leg is counted: half a period before it began.
+    started: i64,
+    stepped: i64,
 }
 
 impl Tacho {
-    /// Starts to ramp. If the speed does not change, a stop takes effect at once, and any other
-    /// command has no effect, as in the kernel.
-    pub(super) fn start_ramp(&mut self, end: i32, goal: Option<Goal>, then_stop: bool) {
-        let from = if self.ramping { self.ramp_value } else { self.speed };
-        if from == end {
-            if then_stop {
-                self.ramping = false;
-                self.stop_now();
-            }
-            return;
+    /// The present jiffy. It is counted from boot, and a leg may count from before that.
+    fn jiffy(&self) -> i64 {
+        i64::try_from(jiffy(self.now)).unwrap_or(i64::MAX)
+    }
+
+    /// Begins a leg. It starts at the measured speed, or at the last step of a ramp that is still
+    /// flagged; and it heads for the speed of the active setpoints, whose sign is that of the
+    /// motion only if the program chose it so.
+    pub(super) fn start_ramp(&mut self) {
+        if !self.ramping {
+            self.ramp.last = self.speed;
         }
+        let (from, wanted) = (self.ramp.last, self.active.speed);
+        let end = if from.wrapping_mul(wanted) < 0 { 0 } else { wanted };
+        let change = end.wrapping_sub(from);
+        let is_up = from.wrapping_mul(change) >= 0;
+        let full = if is_up { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
+        let full = u32::try_from(jiffies_from_ms(full)).unwrap_or(u32::MAX);
+        let most = self.kind.max_speed.unsigned_abs();
+        let duration = full.wrapping_mul(change.unsigned_abs()) / most;
+        let started = self.jiffy() - HALF_PERIOD;
+        self.ramp = Ramp { last: from, end, change, duration, started, stepped: started };
         self.ramping = true;
-        let mut ramp = Ramp {
-            from,
-            to: end,
-            end,
-            duration_ms: 0,
-            started: self.now,
-            steps: 0,
-            goal,
-            due: self.now,
-            then_stop,
-        };
-        if i64::from(from) * i64::from(end) < 0 {
-            ramp.to = 0;
-        }
-        ramp.duration_ms = self.leg_duration_ms(ramp.from, ramp.to);
-        self.ramp = Some(ramp);
         self.ramp_step();
     }
 
-    fn leg_duration_ms(&self, from: i32, to: i32) -> i64 {
-        let up = to.unsigned_abs() > from.unsigned_abs();
-        let full = if up { self.active.ramp_up_ms } else { self.active.ramp_down_ms };
-        let difference = (i64::from(to) - i64::from(from)).abs();
-        i64::from(full) * difference / i64::from(self.kind.max_speed)
-    }
-
+    /// One step. If the last one set the wanted speed, the ramp is done, and the driver is told
+    /// nothing: also when no step came before, as the measured speed was the wanted one.
     pub(super) fn ramp_step(&mut self) {
-        let Some(mut ramp) = self.ramp.take() else {
-            return;
-        };
-        let passed = i64::try_from((self.now - ramp.started) * TICK_MS).unwrap_or(i64::MAX);
-        let elapsed = passed.saturating_add(50);
-        let arrived = elapsed >= ramp.duration_ms;
-        let value = if arrived {
-            ramp.to
-        } else {
-            let way = (i64::from(ramp.to) - i64::from(ramp.from)) * elapsed / ramp.duration_ms;
-            ramp.from + i32::try_from(way).unwrap_or(0)
-        };
-        self.ramp_value = value;
-        self.regulate(value, ramp.goal);
-        if !arrived || ramp.steps == 0 {
-            ramp.due = self.now + ticks_from_ms(if ramp.steps == 0 { 50 } else { 100 });
-            ramp.steps += 1;
-            self.ramp = Some(ramp);
-        } else if ramp.to != ramp.end {
-            ramp.from = ramp.to;
-            ramp.to = ramp.end;
-            ramp.duration_ms = self.leg_duration_ms(ramp.from, ramp.to);
-            ramp.started = self.now;
-            ramp.steps = 0;
-            self.ramp = Some(ramp);
-            self.ramp_step();
-        } else {
+        if self.ramp.last == self.active.speed {
             self.ramping = false;
-            if ramp.then_stop {
-                self.stop_now();
+            if self.command == Command::Stop {
+                self.stop();
             }
+            return;
+        }
+        if self.ramp.last == self.ramp.end {
+            self.start_ramp();
+            return;
+        }
+        let now = self.jiffy();
+        let left = (self.ramp.started + i64::from(self.ramp.duration) - now).max(0);
+        self.ramp.last = if self.ramp.duration == 0 {
+            self.ramping = false;
+            self.ramp.end
+        } else {
+            let left = i64::from(self.ramp.change) * left / i64::from(self.ramp.duration);
+            self.ramp.end.wrapping_sub(i32::try_from(left).unwrap_or(0))
+        };
+        if self.command.is_position_move() {
+            self.run_to(self.active.position, self.ramp.last);
+        } else {
+            self.run_regulated(self.ramp.last);
+        }
+        let passed = (now - self.ramp.stepped).unsigned_abs();
+        self.ramp.stepped = now;
+        if self.ramp_timer.is_some() {
+            // A step that is scheduled already stays where it is.
+        } else if passed < PERIOD {
+            self.ramp_timer = Some(Timer::new(jiffy(self.now), PERIOD - passed));
+        } else {
+            self.ramp_step();
         }
     }
 }

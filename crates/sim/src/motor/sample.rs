@@ -1,7 +1,8 @@
-//! The periodic work of the driver: every 2 ms, at its timers, and when it samples its flags.
+//! What the driver does by itself: every 2 ms, and at its timers.
 
-use super::{Drive, Tacho};
+use super::{Drive, NOTIFY_JIFFIES, STALL_TICKS, Tacho};
 use crate::JIFFY_TICKS;
+use crate::wheel::{Timer, jiffy};
 
 impl Tacho {
     /// One turn of the driver's loop: position, speed, stall test, PID, target test; then, every
@@ -12,77 +13,83 @@ impl Tacho {
         self.speed = speed;
         let still = self.running() && speed == 0;
         self.zero_speed_ticks = if still { self.zero_speed_ticks.saturating_add(1) } else { 0 };
-        self.regulate_sample();
-        self.approach_goal();
+        self.stalled = self.zero_speed_ticks > STALL_TICKS;
+        self.regulate();
+        if self.drive == Drive::Position {
+            self.approach_target();
+        }
         if now % JIFFY_TICKS == 0 {
             self.run_timers();
         }
     }
 
-    fn regulate_sample(&mut self) {
-        let output = match self.drive {
-            Drive::Speed(0) => {
+    /// Writes to the bridge only what differs from the duty that the driver last wrote.
+    fn regulate(&mut self) {
+        let duty = match self.drive {
+            Drive::Speed | Drive::Position if self.speed_pid.setpoint == 0 => {
                 self.speed_pid.clear();
-                self.overloaded = false;
-                self.duty = 0;
-                return;
+                0
             }
-            Drive::Speed(setpoint) => self.speed_pid.update(setpoint.wrapping_sub(self.speed)),
-            Drive::Hold(at) => self.hold_pid.update(at.wrapping_sub(self.position())),
-            Drive::Coast | Drive::Brake | Drive::Direct(_) => return,
+            Drive::Speed | Drive::Position => self.speed_pid.update(self.speed),
+            Drive::Hold => self.hold_pid.update(self.position()),
+            Drive::Stopped | Drive::Direct => return,
         };
-        self.duty = output.duty;
-        self.overloaded = output.overloaded;
+        if duty != self.duty {
+            self.drive_bridge(duty);
+        }
     }
 
-    fn approach_goal(&mut self) {
-        let (Some(goal), Drive::Speed(_)) = (self.goal, self.drive) else {
-            return;
+    /// Foresees where the motor would be after a ramp down, slows it if that is behind the target,
+    /// and ends the move at or behind it. The direction is that of the present setpoint; without
+    /// one the move ends only exactly at the target. All in 32 bits, as in the kernel.
+    fn approach_target(&mut self) {
+        let (position, target) = (self.position(), self.target);
+        let time = self.speed.wrapping_abs().wrapping_mul(self.active.ramp_down_ms)
+            / (1 + self.kind.max_speed);
+        let end = position.wrapping_add(self.speed.wrapping_mul(time) / 2000);
+        let slower = target.wrapping_sub(position).wrapping_mul(2000) / (1 + time);
+        let (is_beyond, is_reached) = match self.speed_pid.setpoint.signum() {
+            1 => (end > target, position >= target),
+            -1 => (end < target, position <= target),
+            _ => (false, position == target),
         };
-        let position = self.position();
-        if goal.reached(position) {
-            self.ramp = None;
-            self.braking = false;
-            self.end(goal.at);
-            return;
+        if is_beyond {
+            self.speed_pid.setpoint = slower;
+            self.braking = true;
         }
-        if self.active.ramp_down_ms > 0 {
-            let speed = i64::from(self.speed);
-            let down = i64::from(self.active.ramp_down_ms);
-            let time = speed.abs() * down / (i64::from(self.kind.max_speed) + 1);
-            if goal.passed_by(i64::from(position) + speed * time / 2000) {
-                let left = i64::from(goal.at) - i64::from(position);
-                self.braking = true;
-                self.drive = Drive::Speed(i32::try_from(2000 * left / (time + 1)).unwrap_or(0));
-            }
+        if is_reached {
+            self.arrive();
         }
     }
 
     fn run_timers(&mut self) {
-        if self.ramp.as_ref().is_some_and(|ramp| ramp.due <= self.now) {
-            self.ramp_step();
+        let now = jiffy(self.now);
+        let due = |timer: Option<Timer>| timer.filter(|timer| timer.is_due(now));
+        let both = due(self.stop_timer).zip(due(self.ramp_timer));
+        let ramp_first = both.is_some_and(|(stop, ramp)| ramp.is_before(stop));
+        if ramp_first {
+            self.run_ramp_timer(now);
         }
-        if self.timer.is_some_and(|due| due <= self.now) {
+        if due(self.stop_timer).is_some() {
+            self.stop_timer = None;
             self.time_is_up();
         }
-    }
-
-    pub(super) fn time_is_up(&mut self) {
-        self.timer = None;
-        if self.active.ramp_down_ms > 0 {
-            self.ramp = None;
-            self.start_ramp(0, None, true);
-        } else {
-            // A ramp up that is still under way is not canceled: it restarts the motor (3.5).
-            if let Some(ramp) = &mut self.ramp {
-                ramp.then_stop = true;
-            }
-            self.stop_now();
+        self.run_ramp_timer(now);
+        if self.notify_timer.is_due(now) {
+            self.notify_timer = Timer::new(now, NOTIFY_JIFFIES);
+            self.notify();
         }
     }
 
-    /// The class's 50 ms look at the flags, which wakes those who poll `state`.
-    pub(crate) fn notify(&mut self) {
+    fn run_ramp_timer(&mut self, now: u64) {
+        if self.ramp_timer.is_some_and(|timer| timer.is_due(now)) {
+            self.ramp_timer = None;
+            self.ramp_step();
+        }
+    }
+
+    /// The class's look at the flags, which wakes those who poll `state`.
+    fn notify(&mut self) {
         let flags = self.flags();
         if flags != self.seen_flags {
             self.seen_flags = flags;

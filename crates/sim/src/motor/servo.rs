@@ -124,7 +124,7 @@ impl Table for Servo {
             |s| text(RATE_MS.checked_div(s.rate).unwrap_or(0)),
             |s, bytes| {
                 let ms = lenient_unsigned(bytes)?;
-                s.rate = if ms < FASTEST_MS { 0 } else { RATE_MS / ms };
+                s.rate = if ms < FASTEST_MS { 0 } else { (RATE_MS / ms).max(1) };
                 Ok(Effect::Done)
             },
         ),

@@ -1,7 +1,6 @@
 //! The files of a sensor: `docs/ev3dev-sysfs.md`, 5.1.
 
 use super::Sensor;
-use super::bus::VERSION;
 use crate::files::attr::{Attr, Table, text, uevent, write_uevent};
 use crate::files::errno::Errno;
 use crate::files::text::{lenient_unsigned, word};
@@ -26,14 +25,10 @@ impl Table for Sensor {
         Attr::ro("decimals", |s| text(s.mode().decimals)),
         Attr::rw("direct", Sensor::registers, Sensor::direct).size(255),
         Attr::ro("driver_name", |s| text(s.kind.driver_name)),
-        Attr::ro("fw_version", |s| text(if s.is_on_bus() { VERSION } else { "" })),
-        Attr::rw(
-            "mode",
-            |s| text(if s.out_of_contact() { "" } else { s.mode().name }),
-            |s, bytes| s.select(word(bytes, s.kind.modes())?),
-        ),
-        Attr::ro("modes", |s| text(s.kind.modes().collect::<Vec<_>>().join(" "))),
-        Attr::ro("num_values", |s| text(if s.out_of_contact() { 0 } else { s.mode().values })),
+        Attr::ro("fw_version", |s| text(s.version())),
+        Attr::rw("mode", |s| text(s.mode().name), |s, bytes| s.select(word(bytes, s.modes())?)),
+        Attr::ro("modes", |s| text(s.modes().collect::<Vec<_>>().join(" "))),
+        Attr::ro("num_values", |s| text(s.mode().values)),
         Attr::rw(
             "poll_ms",
             |s| text(s.poll_ms()?),

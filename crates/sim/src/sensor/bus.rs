@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::{Link, Sensor, SensorKind};
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
+use crate::files::text::signed;
 use crate::{TICK_MS, ticks_from_ms};
 
 /// The time of one message on the I2C bus, and the time until the next answer.
@@ -16,11 +17,15 @@ const BUS_MS: i32 = 4;
 /// How often the kernel polls sensors on the I2C bus, and the servo controller.
 const POLL_MS: u32 = 100;
 const SERVO_POLL_MS: u32 = 1000;
-/// The version texts of the sensors on the I2C bus, and the registers of these texts and of the
-/// data.
-pub(super) const VERSION: &str = "V1.0";
+/// What the sensors on the I2C bus say of their version, and where it, who made them, what they
+/// are and their data lie.
+const VERSION: &str = "V1.0";
 const VERSION_REGISTER: usize = 0x00;
+const VENDOR_REGISTER: usize = 0x08;
+const PRODUCT_REGISTER: usize = 0x10;
 const DATA_REGISTER: usize = 0x42;
+/// Numbers of errors are at most this.
+const LAST_ERRNO: i32 = 4095;
 /// How many registers the file `direct` shows.
 const REGISTERS: usize = 255;
 
@@ -50,9 +55,9 @@ impl Axle {
     }
 }
 
-/// How often a sensor is polled at first.
+/// How often a sensor is polled at first. Motors and servos behind it need no values.
 pub(super) fn poll_ms(kind: &SensorKind) -> u32 {
-    if kind.driver_name == "ms-8ch-servo" { SERVO_POLL_MS } else { POLL_MS }
+    if matches!(kind.driver_name, "ms-8ch-servo" | "ms-nxtmmx") { SERVO_POLL_MS } else { POLL_MS }
 }
 
 impl Sensor {
@@ -68,8 +73,13 @@ impl Sensor {
         matches!(self.kind.link, Link::I2c(_))
     }
 
-    /// True at the times when the kernel polls it. The kernel does not poll a mode that measures
-    /// once.
+    /// What a sensor on the bus says of its version. LEGO's thermometer says nothing.
+    pub(super) fn version(&self) -> &'static str {
+        let has_one = self.is_on_bus() && self.kind.driver_name != "lego-nxt-temp";
+        if has_one { VERSION } else { "" }
+    }
+
+    /// True at the times when the kernel polls it. What measures once is not polled.
     pub(super) fn is_polled_now(&self) -> bool {
         let period = u64::from(self.poll_ms).div_ceil(TICK_MS);
         let is_due = period > 0 && (self.now - self.plugged_at) % period == 0;
@@ -111,12 +121,22 @@ impl Sensor {
         Effect::Done
     }
 
+    /// A period that is negative as a number with a sign is taken for an error.
     pub(super) fn poll_ms(&self) -> Result<u32, Errno> {
-        if self.is_on_bus() { Ok(self.poll_ms) } else { Err(Errno::EOPNOTSUPP) }
+        if !self.is_on_bus() {
+            return Err(Errno::EOPNOTSUPP);
+        }
+        match signed(self.poll_ms) {
+            0.. => Ok(self.poll_ms),
+            error if error >= -LAST_ERRNO => Err(Errno(-error)),
+            _ => Err(Errno::EINVAL),
+        }
     }
 
     pub(super) fn set_poll_ms(&mut self, poll_ms: u32) -> Result<Effect, Errno> {
-        self.poll_ms()?;
+        if !self.is_on_bus() {
+            return Err(Errno::EOPNOTSUPP);
+        }
         self.poll_ms = poll_ms;
         Ok(Effect::Done)
     }
@@ -127,7 +147,14 @@ impl Sensor {
             return Err(Errno::EOPNOTSUPP);
         }
         let mut registers = vec![0; REGISTERS];
-        registers[VERSION_REGISTER..VERSION.len()].copy_from_slice(VERSION.as_bytes());
+        let [vendor, product] = self.kind.identity();
+        for (at, text) in [
+            (VERSION_REGISTER, self.version()),
+            (VENDOR_REGISTER, vendor),
+            (PRODUCT_REGISTER, product),
+        ] {
+            registers[at..at + text.len()].copy_from_slice(text.as_bytes());
+        }
         let data = self.bin_data();
         registers[DATA_REGISTER..DATA_REGISTER + data.len()].copy_from_slice(&data);
         Ok(registers)

@@ -14,9 +14,9 @@ pub enum Link {
     Uart,
     /// As a voltage on pin 6, sampled every 10 ms; a resistor identifies the type.
     Analog,
-    /// As a voltage on pin 1, sampled every 10 ms. The brick recognizes only the light sensor among
-    /// these: `recognized`. The others appear as `nxt-analog` until a program sets the device of
-    /// the port.
+    /// As a voltage on pin 1, sampled every 10 ms. Of these the brick can tell only the light and
+    /// the touch sensor from the others: `recognized`. The others come up as `nxt-analog` until the port is
+    /// told what it has.
     NxtAnalog {
         /// Whether the brick knows it when it is plugged in.
         recognized: bool,
@@ -194,6 +194,9 @@ impl Mode {
     }
 }
 
+/// What the driver knows of the mode of a sensor that introduces itself.
+pub(super) static BLANK: Mode = Mode::new("", 0, 0, "", Format::U8, Sense::Nothing);
+
 /// A type of sensor.
 #[derive(Debug)]
 pub struct SensorKind {
@@ -243,6 +246,42 @@ impl SensorKind {
     /// Every sensor type that a simulated port can have.
     pub fn all() -> impl Iterator<Item = &'static SensorKind> {
         ev3::KINDS.iter().chain(nxt::KINDS).chain(others::KINDS)
+    }
+
+    /// What a sensor on the I2C bus says of who made it and what it is, by the kernel's
+    /// `nxt_i2c_sensor_defs.c`. LEGO's thermometer and energy meter say nothing, and the
+    /// XG1300L neither.
+    pub(crate) fn identity(&self) -> [&'static str; 2] {
+        match self.driver_name {
+            "lego-nxt-us" => ["LEGO", "Sonar"],
+            "ht-nxt-pir" => ["HITECHNC", "PIR"],
+            "ht-nxt-barometric" => ["HiTechnc", "Barometr"],
+            "ht-nxt-ir-seek-v2" => ["HiTechnc", "NewIRDir"],
+            "ht-nxt-color" => ["HiTechnc", "Color"],
+            "ht-nxt-color-v2" => ["HiTechnc", "ColorPD"],
+            "ht-nxt-angle" => ["HITECHNC", "AnglSnsr"],
+            "ht-nxt-compass" => ["HITECHNC", "Compass"],
+            "ht-nxt-ir-receiver" => ["HiTechnc", "IRRecv"],
+            "ht-nxt-accel" => ["HITECHNC", "Accel."],
+            "ht-nxt-ir-link" => ["HiTechnc", "IRLink"],
+            "ht-super-pro" => ["HiTechnc", "SuperPro"],
+            "ht-nxt-smux" => ["HiTechnc", "SensrMUX"],
+            "ms-8ch-servo" => ["mndsnsrs", "NXTServo"],
+            "ms-absolute-imu" => ["mndsnsrs", "AbsIMU"],
+            "ms-angle" => ["mndsnsrs", "AngSens"],
+            "ms-ir-thermometer" => ["mndsnsrs", "IRThermo"],
+            "ms-ev3-smux" => ["mndsnsrs", "Ev3SMux"],
+            "ms-light-array" => ["mndsnsrs", "LSArray"],
+            "ms-line-leader" => ["mndsnsrs", "LineLdr"],
+            "ms-nxtmmx" => ["mndsnsrs", "NxTMMX"],
+            "ms-nxtcam" => ["mndsnsrs", "NXTCAM"],
+            "ms-nxtcam5" => ["mndsnsrs", "NXTcam5"],
+            "ms-pixy-adapter" => ["mndsnsrs", "PixyAdpt"],
+            "ms-pps58-nx" => ["mndsnsrs", "PPS58"],
+            "ms-tof" => ["mndsnsrs", "DIST-ToF"],
+            "pixy-lego" => ["Pixy", "Pixy"],
+            _ => ["", ""],
+        }
     }
 
     /// True if it shows angles that drift.

@@ -19,6 +19,7 @@ use std::time::Duration;
 use crate::brick::port::Port;
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
+use crate::wheel::jiffy;
 use crate::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
 
 /// From a mode message to the first data of the new mode.
@@ -27,10 +28,13 @@ const MODE_LATENCY_MS: i32 = 4;
 const FIRST_DATA_MS: i32 = 20;
 /// Ultrasonic single shots must be this far apart, else the sensor locks up.
 const SINGLE_SHOT_MS: i32 = 250;
-/// More than six keep-alive intervals without an answer: contact is lost.
+/// More than six keep-alive intervals without data: the driver gives the contact up.
 const MUTE_MS: i32 = 700;
 /// Going back to 2400 baud and introducing oneself again.
 const RESYNC_MS: i32 = 500;
+/// How often the driver sends the message that selects a mode, and how many jiffies pass between.
+const SELECT_TRIES: u64 = 10;
+const SELECT_JIFFIES: u64 = 6;
 
 /// A measurement of a sensor, in whole numbers as the files show them.
 pub(crate) type Reading = [i32; 8];
@@ -47,7 +51,12 @@ pub(crate) struct Sensor {
     first_data_at: u64,
     mode_since: u64,
     plugged_at: u64,
-    lost_until: u64,
+    /// The sensor sends nothing from one tick to before the other.
+    silent: [u64; 2],
+    /// It introduces itself again until this tick, if the driver gave it up.
+    introduced_at: u64,
+    /// A write of the mode is waiting in vain.
+    selecting_until: u64,
     locked: bool,
     last_single_shot: Option<u64>,
     /// A measurement that a write of the mode asked for is still to be taken.
@@ -90,7 +99,9 @@ impl Sensor {
             first_data_at,
             mode_since: now,
             plugged_at: now,
-            lost_until: 0,
+            silent: [0; 2],
+            introduced_at: 0,
+            selecting_until: 0,
             locked: false,
             last_single_shot: None,
             wanted: matches!(kind.link, Link::I2c(_)),
@@ -116,31 +127,51 @@ impl Sensor {
     }
 
     pub(crate) fn mode(&self) -> &'static Mode {
-        &self.kind.modes[self.mode]
+        if self.is_introducing_itself() { &kind::BLANK } else { &self.kind.modes[self.mode] }
     }
 
-    /// True while the line to the sensor is down and being brought up again.
-    fn out_of_contact(&self) -> bool {
-        self.now < self.lost_until
+    /// The names of its modes as far as the driver knows them, the default first.
+    fn modes(&self) -> impl Iterator<Item = &'static str> {
+        let blank = self.is_introducing_itself().then_some(kind::BLANK.name);
+        let known = blank.is_none().then(|| self.kind.modes());
+        blank.into_iter().chain(known.into_iter().flatten())
+    }
+
+    fn is_silent(&self) -> bool {
+        (self.silent[0]..self.silent[1]).contains(&self.now)
+    }
+
+    /// True once it was silent for so long that the driver awaits an introduction.
+    fn is_given_up(&self) -> bool {
+        self.is_silent() && self.now >= self.silent[0] + ticks_from_ms(MUTE_MS)
+    }
+
+    fn is_introducing_itself(&self) -> bool {
+        (self.silent[1]..self.introduced_at).contains(&self.now)
     }
 
     fn has_data(&self) -> bool {
-        !self.out_of_contact() && self.now >= self.first_data_at
+        !self.is_introducing_itself() && self.now >= self.first_data_at
     }
 
-    /// Cuts the line for a number of ticks. The sensor then has to introduce itself again.
-    pub(crate) fn lose_contact(&mut self, ticks: u64) {
+    /// Silences the sensor for a number of ticks. Nothing shows that its values are old. It has to
+    /// introduce itself again if the driver gave it up meanwhile.
+    pub(crate) fn fall_silent(&mut self, ticks: u64) {
         self.pending = None;
-        self.lost_until = self.now + ticks;
-        self.first_data_at = self.lost_until;
-        self.settled_at = self.lost_until;
-        self.mode_since = self.lost_until;
+        self.silent = [self.now, self.now + ticks];
+        self.introduced_at = self.silent[1];
+        if ticks >= ticks_from_ms(MUTE_MS) {
+            self.introduced_at += ticks_from_ms(RESYNC_MS);
+        }
+        self.settled_at = self.introduced_at;
+        self.mode_since = self.introduced_at;
     }
 
     /// The next tick at which something happens by itself.
     pub(crate) fn next_event(&self) -> Option<u64> {
-        let due = [self.pending.map(|(_, due)| due), Some(self.settled_at), Some(self.lost_until)];
-        due.into_iter().flatten().filter(|tick| *tick > self.now).min()
+        let pending = self.pending.map_or(0, |(_, due)| due);
+        let due = [pending, self.settled_at, self.silent[1], self.introduced_at];
+        due.into_iter().filter(|tick| *tick > self.now).min()
     }
 
     // ---- time -----------------------------------------------------------------------------
@@ -159,8 +190,12 @@ impl Sensor {
                 self.enter(mode);
             }
         }
-        if self.mode().mute && now >= self.mode_since + ticks_from_ms(MUTE_MS) {
-            self.lose_contact(ticks_from_ms(RESYNC_MS));
+        if self.mode().mute && !self.is_silent() && now >= self.mode_since + ticks_from_ms(MUTE_MS)
+        {
+            self.silent = [now; 2];
+            self.introduced_at = now + ticks_from_ms(RESYNC_MS);
+            self.settled_at = self.introduced_at;
+            self.mode_since = self.introduced_at;
         }
     }
 
@@ -189,7 +224,7 @@ impl Sensor {
     pub(crate) fn wants_reading(&self) -> bool {
         let stale = self.read_at != Some(self.now) && self.now >= self.settled_at;
         let at_will = !self.is_on_bus() && !self.measures_once();
-        stale && self.has_data() && (at_will || self.wanted)
+        stale && self.has_data() && !self.is_silent() && (at_will || self.wanted)
     }
 
     fn measures_once(&self) -> bool {
@@ -248,22 +283,19 @@ impl Sensor {
         if self.is_on_bus() {
             return Ok(self.select_on_bus(mode));
         }
-        if self.out_of_contact() {
+        if self.is_given_up() {
             return Err(Errno::ENODEV);
         }
-        if self.locked {
-            return Err(Errno::ETIMEDOUT);
-        }
-        if self.pending.is_some() || self.now < self.first_data_at {
+        if self.pending.is_some() || self.now < self.selecting_until.max(self.first_data_at) {
             return Err(Errno::EBUSY);
         }
-        if self.kind.modes[mode].is_single() {
+        if self.kind.modes[mode].is_single() && !self.locked && !self.is_silent() {
             let ready = self.last_single_shot.map(|at| at + ticks_from_ms(SINGLE_SHOT_MS));
-            if !self.instant && ready.is_some_and(|ready| self.now < ready) {
-                self.locked = true;
-                return Err(Errno::ETIMEDOUT);
-            }
+            self.locked = !self.instant && ready.is_some_and(|ready| self.now < ready);
             self.last_single_shot = Some(self.now);
+        }
+        if self.locked || self.is_silent() {
+            return Ok(self.select_in_vain());
         }
         if self.instant {
             self.enter(mode);
@@ -271,6 +303,14 @@ impl Sensor {
         }
         self.pending = Some((mode, self.now + ticks_from_ms(MODE_LATENCY_MS)));
         Ok(Effect::Blocks(Duration::from_millis(MODE_LATENCY_MS.unsigned_abs().into())))
+    }
+
+    /// The driver sends its message again and again, and nothing comes.
+    fn select_in_vain(&mut self) -> Effect {
+        let jiffies = jiffy(self.now) + SELECT_TRIES * SELECT_JIFFIES;
+        self.selecting_until = jiffies * JIFFY_TICKS;
+        let ticks = self.selecting_until - self.now;
+        Effect::TimesOut(Duration::from_millis(ticks * TICK_MS))
     }
 
     /// A message to the sensor itself. The one that does something: 0x11 zeroes the gyro's angle.

@@ -58,7 +58,7 @@ fn files_after_the_mode_was_written() {
 }
 
 #[test]
-fn ramping_shows_for_100_ms_and_makes_others_wait() {
+fn ramping_shows_for_110_ms_and_makes_others_wait() {
     let mut desk = desk();
     desk.put(&file("duty_cycle_sp"), 60);
     assert_eq!(desk.get(&file("state")), "");
@@ -70,8 +70,12 @@ fn ramping_shows_for_100_ms_and_makes_others_wait() {
     desk.step(110);
     assert_eq!(desk.get(&file("state")), "");
     desk.put(&file("command"), "run-forever");
-    desk.step(110);
+    desk.step(108);
+    assert_eq!(desk.get(&file("state")), "running ramping");
+    desk.step(2);
     assert_eq!(desk.get(&file("state")), "running");
+    desk.put(&file("command"), "run-direct");
+    assert_eq!(desk.get(&file("state")), "running", "no step for the same duty");
     desk.put(&file("command"), "stop");
     assert_eq!(desk.get(&file("state")), "", "at once when no step is scheduled");
 }
@@ -85,7 +89,7 @@ fn it_turns_the_motor_that_is_plugged_in() {
     desk.put(&file("command"), "run-timed");
     desk.step(490);
     assert_eq!(desk.get(&file("state")), "running");
-    assert_eq!(desk.number(&file("duty_cycle")), -50);
+    assert_eq!(desk.number(&file("duty_cycle")), 50, "in the sign of the program");
     assert!(desk.0.shaft_angle(Port::OutA) < -100.0);
     desk.step(20);
     assert_eq!(desk.get(&file("state")), "");
@@ -97,9 +101,11 @@ fn ramps_follow_the_signed_duty() {
     desk.put(&file("ramp_down_sp"), 1000);
     desk.put(&file("duty_cycle_sp"), -50);
     desk.put(&file("command"), "run-direct");
-    assert_eq!(desk.number(&file("duty_cycle")), -10, "backwards is down");
-    desk.step(250);
-    assert_eq!(desk.number(&file("duty_cycle")), -30);
+    assert_eq!(desk.number(&file("duty_cycle")), 0, "the first step comes at once");
+    desk.step(120);
+    assert_eq!(desk.number(&file("duty_cycle")), -11, "backwards is down");
+    desk.step(110);
+    assert_eq!(desk.number(&file("duty_cycle")), -22);
     desk.put(&file("duty_cycle_sp"), 0);
     desk.step(110);
     assert_eq!(desk.number(&file("duty_cycle")), 0, "up has no ramp");
@@ -131,7 +137,10 @@ fn a_lamp_on_a_port_is_seen_as_bright_as_the_port_drives_it() {
     desk.put("dc-motor/motor0/command", "run-forever");
     assert_eq!(light(&mut desk), 38);
     desk.put("lego-port/port7/mode", "led");
-    assert_eq!(light(&mut desk), 0);
+    assert_eq!(light(&mut desk), 38, "lit with the PWM that the motor left");
+    assert_eq!(desk.number("leds/ev3-ports:outD::brick-status/brightness"), 100);
+    desk.put("lego-port/port7/mode", "led");
+    assert_eq!(light(&mut desk), 0, "a light leaves none");
     desk.step(500);
     desk.put("leds/ev3-ports:outD::brick-status/brightness", 50);
     assert_eq!(light(&mut desk), 19);
@@ -148,4 +157,29 @@ fn a_port_can_be_a_light() {
     desk.step(500);
     desk.put(light, 255);
     assert_eq!(desk.number(light), 100);
+}
+
+#[test]
+fn a_run_that_does_not_change_the_duty_is_no_run() {
+    let mut desk = desk();
+    desk.put(&file("command"), "run-forever");
+    assert_eq!(desk.get(&file("state")), "");
+    desk.put(&file("duty_cycle_sp"), i32::MIN);
+    assert_eq!(desk.number(&file("duty_cycle_sp")), i32::MIN);
+}
+
+#[test]
+fn the_bridge_outlives_the_motor_that_drove_it() {
+    let mut desk = Desk::new();
+    desk.run("tacho-motor/motor0/", &[("duty_cycle_sp", -40)], "run-direct");
+    desk.put("lego-port/port4/mode", "dc-motor");
+    assert_eq!(desk.get(&file("state")), "running");
+    assert_eq!(desk.number(&file("duty_cycle")), -40);
+    desk.step(500);
+    assert!(desk.0.shaft_angle(Port::OutA) < -50.0, "it turns on");
+    desk.put("lego-port/port4/mode", "tacho-motor");
+    desk.step(2000);
+    let at = desk.0.shaft_angle(Port::OutA);
+    desk.step(1000);
+    assert!((desk.0.shaft_angle(Port::OutA) - at).abs() < 1e-9, "the tacho driver lets go");
 }

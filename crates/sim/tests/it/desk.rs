@@ -4,7 +4,7 @@ use crate::robots::default_robot;
 use std::fmt::Display;
 use std::time::Duration;
 
-use ev3_sim::{Bounds, Errno, Item, Machine, Options, Pose, RobotSpec, WorldSpec};
+use ev3_sim::{Bounds, Errno, Item, Machine, Options, Pose, RobotSpec, WorldSpec, Written};
 
 /// outA, outB (left), outC (right) of the default robot.
 pub(crate) const A: &str = "tacho-motor/motor0/";
@@ -55,8 +55,10 @@ impl Desk {
         text.parse().unwrap_or_else(|_| panic!("{path}: {text:?} is no number"))
     }
 
+    /// Writes. A call that fails after some time is waited for.
     pub(crate) fn try_put(&mut self, path: &str, text: &str) -> Result<Duration, Errno> {
-        self.0.write_path(path, text).map(|written| written.blocks)
+        let Written { outcome, blocks } = self.0.write_path(path, text)?;
+        outcome.map(|_| blocks).inspect_err(|_| self.0.step(blocks))
     }
 
     /// Writes, and waits as long as the call blocks.

@@ -132,7 +132,14 @@ fn the_state_of_keys_is_asked_as_the_kernel_is() {
     let set: Vec<_> = (0..95 * 8).filter(|bit| bits[bit / 8] >> (bit % 8) & 1 == 1).collect();
     assert_eq!(set, [28, 106]);
     let name = file.ioctl(&machine, read_number(256, 6)).unwrap();
-    assert_eq!((name.0, &name.1[..18]), (18, &b"EV3 Brick Buttons\0"[..]));
+    assert_eq!(name, (18, b"EV3 Brick Buttons\0".to_vec()), "no more than there is");
+    let (length, bits) = state(&machine, 767);
+    assert_eq!((length, bits.len()), (96, 96), "never as much as the caller has room for");
+    let unique = file.ioctl(&machine, read_number(256, 8));
+    assert_eq!(unique, Err(Errno::ENOENT));
+    let (_, properties) = file.ioctl(&machine, read_number(32, 9)).unwrap();
+    assert_eq!(properties, [0; size_of::<usize>()]);
+    assert_eq!(file.ioctl(&machine, 0x4004_45a0), Ok((0, vec![])), "the clock of events");
     let unknown = file.ioctl(&machine, 0x4004_5480);
     assert_eq!(unknown, Err(Errno::EINVAL));
     let screen = DevDescriptor::open(&machine, "fb0").unwrap();

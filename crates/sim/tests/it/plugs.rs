@@ -126,14 +126,17 @@ fn what_cannot_be_shown_is_refused() {
 fn plugging_takes_the_time_it_takes() {
     let mut desk = Desk::new();
     desk.0.unplug(Port::OutB);
-    desk.step(100);
+    desk.step(90);
     assert!(desk.try_get(&format!("{B}state")).is_ok(), "not noticed yet");
-    desk.step(30);
+    desk.step(20);
     assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
     desk.0.plug(Port::OutB, "lego-ev3-l-motor").unwrap();
-    desk.step(360);
+    desk.step(380);
+    assert_eq!(desk.get("lego-port/port5/status"), "no-motor");
+    desk.step(14);
+    assert_eq!(desk.get("lego-port/port5/status"), "tacho-motor");
     assert!(desk.try_get("tacho-motor/motor3/state").is_err());
-    desk.step(20);
+    desk.step(10);
     assert_eq!(desk.state("tacho-motor/motor3/"), "");
     // udev has not come by yet.
     let speed = "tacho-motor/motor3/speed_sp";
@@ -147,9 +150,10 @@ fn plugging_takes_the_time_it_takes() {
     desk.0.unplug(Port::In2);
     desk.step(200);
     desk.0.plug(Port::In2, "lego-ev3-us").unwrap();
-    desk.step(1200);
+    desk.step(1350);
+    assert_eq!(desk.get("lego-port/port1/status"), "ev3-uart");
     assert!(desk.try_get("lego-sensor/sensor4/mode").is_err());
-    desk.step(72);
+    desk.step(12);
     assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "lego-ev3-us");
     assert_eq!(desk.try_get("lego-sensor/sensor4/value0"), Err(Errno::ENXIO), "no data yet");
     desk.step(600);
@@ -196,4 +200,63 @@ fn an_nxt_motor_is_taken_for_a_large_one() {
     let mut desk = instant();
     desk.0.plug(Port::OutD, "lego-nxt-motor").unwrap();
     assert_eq!(desk.get("tacho-motor/motor3/driver_name"), "lego-ev3-l-motor");
+}
+
+#[test]
+fn auto_looks_for_what_is_there_again() {
+    let mut desk = Desk::new();
+    desk.run(B, &[("speed_sp", 300)], "run-forever");
+    desk.step(500);
+    desk.put("lego-port/port5/mode", "auto");
+    assert_eq!(desk.try_get(&format!("{B}state")), Err(Errno::ENOENT));
+    assert_eq!(desk.get("lego-port/port5/status"), "no-motor");
+    let set_device = "lego-port/port5/set_device";
+    assert_eq!(desk.try_put(set_device, "lego-nxt-motor"), Err(Errno::EOPNOTSUPP));
+    desk.step(380);
+    assert!(desk.try_get("tacho-motor/motor3/state").is_err());
+    desk.step(60);
+    assert_eq!(desk.state("tacho-motor/motor3/"), "");
+    desk.put(set_device, " lego-nxt-motor\t\n");
+    assert_eq!(desk.get("tacho-motor/motor4/driver_name"), "lego-nxt-motor");
+    desk.put("lego-port/port3/mode", "auto");
+    assert_eq!(desk.get("lego-port/port3/status"), "no-sensor");
+    desk.step(400);
+    assert_eq!(desk.get("lego-port/port3/status"), "ev3-uart");
+    desk.step(600);
+    assert!(desk.try_get("lego-sensor/sensor4/mode").is_err(), "it introduces itself");
+    desk.step(500);
+    assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "lego-ev3-gyro");
+    desk.put("lego-port/port3/mode", "ev3-uart");
+    assert_eq!(desk.try_get("lego-sensor/sensor4/mode"), Err(Errno::ENOENT));
+    desk.step(900);
+    assert!(desk.try_get("lego-sensor/sensor5/mode").is_err());
+    desk.step(200);
+    assert_eq!(desk.get("lego-sensor/sensor5/driver_name"), "lego-ev3-gyro");
+}
+
+#[test]
+fn the_status_in_a_forced_mode_is_that_mode() {
+    let mut desk = Desk::new();
+    for (mode, status) in [
+        ("nxt-analog", "nxt-analog"),
+        ("nxt-color", "nxt-color"),
+        ("nxt-i2c", "nxt-i2c"),
+        ("other-i2c", "no-sensor"),
+        ("ev3-analog", "ev3-analog"),
+        ("ev3-uart", "ev3-uart"),
+        ("other-uart", "no-sensor"),
+        ("raw", "no-sensor"),
+    ] {
+        desk.put("lego-port/port3/mode", mode);
+        assert_eq!(desk.get("lego-port/port3/status"), status, "{mode}");
+    }
+}
+
+#[test]
+fn what_the_kernel_cannot_load_leaves_no_sensor() {
+    let mut desk = instant();
+    desk.put("lego-port/port3/mode", "nxt-analog");
+    assert_eq!(desk.get("lego-sensor/sensor4/driver_name"), "nxt-analog");
+    desk.put("lego-port/port3/set_device", "di-dflex");
+    assert_eq!(desk.try_get("lego-sensor/sensor5/mode"), Err(Errno::ENOENT));
 }

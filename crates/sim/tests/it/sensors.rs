@@ -313,11 +313,24 @@ fn a_mode_change_takes_a_moment_and_leaves_stale_values() {
 fn a_lost_contact_comes_back() {
     let mut desk = Desk::new();
     mode(&mut desk, LEFT, "COL-COLOR");
-    assert!(desk.0.lose_contact(Port::In2, Duration::from_millis(500)));
-    assert_eq!(desk.try_get(&format!("{LEFT}value0")), Err(Errno::ENXIO));
+    assert!(desk.0.lose_contact(Port::In2, Duration::from_secs(1)));
+    let black = Item::rectangle([-50.0, -50.0], [50.0, 50.0], ev3_sim::Color::BLACK);
+    let id = desk.0.add_item(black).unwrap();
+    assert_eq!(value(&mut desk, LEFT, 0), 6, "the old value, and no error");
+    let before = desk.0.now();
+    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "COL-AMBIENT"), Err(Errno::ETIMEDOUT));
+    let took = desk.0.now().abs_diff(before).as_millis();
+    assert!((500..=600).contains(&took), "it tries ten times: {took} ms");
+    desk.step(300);
+    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "COL-AMBIENT"), Err(Errno::ENODEV));
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-COLOR");
+    assert_eq!(value(&mut desk, LEFT, 0), 6);
+    desk.step(120);
+    assert_eq!(desk.try_get(&format!("{LEFT}value0")), Err(Errno::ENXIO), "introduces itself");
     assert_eq!(desk.number(&format!("{LEFT}num_values")), 0);
     assert_eq!(desk.get(&format!("{LEFT}mode")), "");
-    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "COL-COLOR"), Err(Errno::ENODEV));
+    assert_eq!(desk.try_put(&format!("{LEFT}mode"), "COL-COLOR"), Err(Errno::EINVAL));
+    assert!(desk.0.remove_item(id));
     desk.step(600);
     assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-COLOR", "the last mode is restored");
     assert_eq!(value(&mut desk, LEFT, 0), 6);
@@ -330,4 +343,16 @@ fn the_calibration_mode_loses_contact_by_itself() {
     desk.put(&format!("{LEFT}mode"), "COL-CAL");
     desk.step(800);
     assert_eq!(desk.try_get(&format!("{LEFT}value0")), Err(Errno::ENXIO));
+}
+
+#[test]
+fn a_short_silence_needs_no_introduction() {
+    let mut desk = Desk::new();
+    assert!(desk.0.lose_contact(Port::In2, Duration::from_millis(300)));
+    for _ in 0..200 {
+        desk.step(2);
+        assert_eq!(value(&mut desk, LEFT, 0), 92);
+    }
+    desk.put(&format!("{LEFT}mode"), "COL-COLOR");
+    assert_eq!(desk.get(&format!("{LEFT}mode")), "COL-COLOR");
 }

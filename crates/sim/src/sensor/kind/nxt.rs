@@ -45,7 +45,13 @@ pub(super) static KINDS: &[SensorKind] = &[
         "nxt-analog",
         &[analog("ANALOG-0", 1, 3, "V", Sense::Volts), analog("ANALOG-1", 1, 3, "V", Sense::Volts)],
     ),
-    SensorKind::nxt_analog("lego-nxt-touch", &[analog("TOUCH", 1, 0, "", Sense::Touch)]),
+    SensorKind {
+        driver_name: "lego-nxt-touch",
+        link: Link::NxtAnalog { recognized: true },
+        settling_ms: 0,
+        commands: &[],
+        modes: &[analog("TOUCH", 1, 0, "", Sense::Touch)],
+    },
     SensorKind {
         driver_name: "lego-nxt-light",
         link: Link::NxtAnalog { recognized: true },

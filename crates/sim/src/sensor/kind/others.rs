@@ -142,9 +142,6 @@ pub(super) static KINDS: &[SensorKind] = &[
             byte("DOUT", 1, Sense::Nothing),
             byte("DCTRL", 1, Sense::Nothing),
             byte("STROBE", 1, Sense::Nothing),
-            byte("LED", 1, Sense::Nothing),
-            byte("AOUT-0", 5, Sense::Nothing),
-            byte("AOUT-1", 5, Sense::Nothing),
         ],
     ),
     // It runs, and has nothing on its sockets.
@@ -154,7 +151,7 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ms-absolute-imu",
         17,
         &[
-            Mode::new("TILT", 3, 0, "deg", Format::S8, Sense::Fixed(&[0, 0, 90])),
+            Mode::new("TILT", 3, 0, "deg", Format::U8, Sense::Fixed(&[0, 0, 90])),
             Mode::new("ACCEL", 3, 3, "g", Format::S16, Sense::Gravity { per_g: 1000 }),
             Mode::new("COMPASS", 1, 0, "deg", Format::U16, Sense::Compass),
             Mode::new("MAG", 3, 0, "", Format::S16, Sense::Fixed(&[0, 300, -400])),

@@ -1,0 +1,53 @@
+//! The H-bridge of an output port. It belongs to the port and not to the motor's driver: pins and
+//! PWM stay as they are when one driver goes and another comes, and a driver writes only one of
+//! them when it has nothing to say about the other.
+
+use super::Bridge;
+
+/// The two pins that give the direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Pins {
+    /// Both low.
+    #[default]
+    Coast,
+    /// Both high.
+    Brake,
+    Forward,
+    Reverse,
+}
+
+/// What a port gives to its wires.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Output {
+    pub(crate) pins: Pins,
+    /// The PWM, 0 to 100 %. Without a direction it has no effect.
+    pub(crate) percent: i32,
+}
+
+impl Output {
+    /// Sets the pins, and the PWM to a duty whose sign is theirs. The PWM does not take a duty
+    /// beyond 100 %.
+    pub(crate) fn drive(&mut self, pins: Pins, duty: i32) {
+        self.pins = pins;
+        if (-100..=100).contains(&duty) {
+            self.percent = duty.abs();
+        }
+    }
+
+    pub(crate) fn is_driving(self) -> bool {
+        matches!(self.pins, Pins::Forward | Pins::Reverse)
+    }
+
+    /// The PWM with the sign of the direction.
+    pub(crate) fn duty(self) -> i32 {
+        if self.pins == Pins::Reverse { -self.percent } else { self.percent }
+    }
+
+    pub(crate) fn bridge(self) -> Bridge {
+        match self.pins {
+            Pins::Coast => Bridge::Float,
+            Pins::Brake => Bridge::Short,
+            Pins::Forward | Pins::Reverse => Bridge::Driven(self.duty()),
+        }
+    }
+}
