@@ -22,12 +22,12 @@ map([ "............",
     ]).
 
 start :-
-    start([neighbours(4)]).
+    start([neighbors(4)]).
 
 %!  start(+Options) is det.
 %
 %   Compare the planners on a map with Options, for example
-%   `[neighbours(8)]` or `[turn_cost(1)]`.
+%   `[neighbors(8)]` or `[turn_cost(1)]`.
 
 start(Options) :-
     map(Rows),

@@ -43,7 +43,7 @@ matter of an option.
 
 The middle of the cell `[X, Y]` is at `20*X, 20*Y` for pose/3, if cells are
 20 cm wide. Each move goes to such a place, so that errors do not add up. With
-eight neighbours the robot also looks into the two cells beside a diagonal
+eight neighbors the robot also looks into the two cells beside a diagonal
 move, unless it knows already that they are free.
 */
 

@@ -33,7 +33,7 @@ bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
-bad(set_grid([]), [a-1, [neighbours(5)]-1, [colour(red)]-1]).
+bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
 bad(roadmap_path([], 0-0, 10-10, _, []), [a-1, foo-2, foo-3, [speed(1)]-5, [method(x)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).

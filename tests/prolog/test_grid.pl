@@ -24,9 +24,9 @@ robot :-
 %   somewhere in it. Between a robot in the middle of a cell and a box in the
 %   next column, or the walls around, there are 5 cm.
 
-grid(Seed, Neighbours, Cells, Goal, World) :-
+grid(Seed, Neighbors, Cells, Goal, World) :-
     set_random(seed(Seed)),
-    random_member(Neighbours, [4, 8]),
+    random_member(Neighbors, [4, 8]),
     random(R),
     Share is 0.35 * R,
     findall([X, Y],
@@ -48,8 +48,8 @@ boxes(Cells, Boxes) :-
 
 %   How it should end, by who knows the map.
 
-expected(Neighbours, Cells, Goal, Reason) :-
-    grid_map([neighbours(Neighbours), obstacles(Cells)], Map),
+expected(Neighbors, Cells, Goal, Reason) :-
+    grid_map([neighbors(Neighbors), obstacles(Cells)], Map),
     grid_problem(Map, state([0, 0], [0, 1]), state(Goal, _), Problem),
     (   ev3dev_planners:plan(dijkstra, Problem, _)
     ->  Reason = reached
@@ -89,15 +89,15 @@ noisy_robot(Seed,
 %   in another cell than it says.
 
 wrong(Noise, Seed, Why) :-
-    grid(Seed, Neighbours, Cells, Goal, World),
-    expected(Neighbours, Cells, Goal, Expected),
+    grid(Seed, Neighbors, Cells, Goal, World),
+    expected(Neighbors, Cells, Goal, Expected),
     (   Noise == true
     ->  noisy_robot(Seed, Robot)
     ;   Robot = default
     ),
     with_sim(World, [robot(Robot), seed(Seed)],
              ( robot,
-               set_grid([neighbours(Neighbours)]),
+               set_grid([neighbors(Neighbors)]),
                plan_and_go_to(Goal, _, [reason(Reason)]),
                state_position([X, Y], Direction),
                findall(Cell, obstructed(Cell), Obstructed),
@@ -134,10 +134,10 @@ test(does_so_with_noise_and_unequal_wheels, true(Wrong == [])) :-
             ( case(200, Seed), wrong(true, Seed, Why) ),
             Wrong).
 test(the_worlds_are_a_fair_lot) :-
-    findall(Reason-Neighbours,
+    findall(Reason-Neighbors,
             ( between(1, 200, Seed),
-              grid(Seed, Neighbours, Cells, Goal, _),
-              expected(Neighbours, Cells, Goal, Reason)
+              grid(Seed, Neighbors, Cells, Goal, _),
+              expected(Neighbors, Cells, Goal, Reason)
             ),
             Kinds),
     forall(member(Kind, [ reached-4, reached-8, no_way-4, no_way-8 ]),
@@ -146,11 +146,11 @@ test(the_worlds_are_a_fair_lot) :-
            )).
 test(any_planner_will_do, [forall(planner(Planner))]) :-
     forall(case(5, Seed),
-           ( grid(Seed, Neighbours, Cells, Goal, World),
-             expected(Neighbours, Cells, Goal, Expected),
+           ( grid(Seed, Neighbors, Cells, Goal, World),
+             expected(Neighbors, Cells, Goal, Expected),
              with_sim(World,
                       ( robot,
-                        set_grid([neighbours(Neighbours)]),
+                        set_grid([neighbors(Neighbors)]),
                         plan_and_go_to(Goal, [0, 1],
                                        [ planner(Planner), reason(Reason) ])
                       )),
@@ -291,7 +291,7 @@ test(the_robot_may_be_put_elsewhere, X-Y == 40-60) :-
 
 % Right of the corner stands a box; the robot may not cut it.
 test(no_corner_is_cut, Collisions == []) :-
-    in_room([[1,0]], [neighbours(8)],
+    in_room([[1,0]], [neighbors(8)],
             ( plan_and_go_to([1,1], _),
               obstructed([1,0]),
               sim_collisions(Collisions)
@@ -341,7 +341,7 @@ test(fails_and_says_why) :-
            once(sub_string(Text, _, _, _, Part))).
 test(tells_the_reason, [forall(member(N, [4, 8])), Reason == no_way]) :-
     retractall(said(_)),
-    in_room([neighbours(N)],
+    in_room([neighbors(N)],
             ( plan_and_go_to([3,3], _, [reason(Reason)]),
               state_position([0,0], _)
             )),
@@ -581,7 +581,7 @@ bad([speed(0)],                 domain_error(speed_ahead, 0)).
 bad([speed(101)],               domain_error(speed_ahead, 101)).
 bad([fade(-1)],                 domain_error(positive_number, -1)).
 bad([fade(soon)],               type_error(evaluable, soon/0)).
-bad([neighbours(5)],            domain_error(neighbours, 5)).
+bad([neighbors(5)],            domain_error(neighbors, 5)).
 bad([bounds(0, 0, -1, 0)],      domain_error(bounds, bounds(0, 0, -1, 0))).
 bad([obstacles([here])],        domain_error(grid_cell, here)).
 bad([rows([1.5])],              type_error(atom, 1.5)).

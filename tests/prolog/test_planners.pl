@@ -21,12 +21,12 @@ task(Seed, Options, task(Map, Start, Goal)) :-
     random_between(2, 9, Y2),
     random(R),
     Share is 0.45 * R,
-    random_member(Neighbours, [4, 8]),
+    random_member(Neighbors, [4, 8]),
     findall([X, Y],
             ( between(0, X2, X), between(0, Y2, Y), maybe(Share) ),
             Cells),
     grid_map([ bounds(0, 0, X2, Y2), obstacles(Cells),
-               neighbours(Neighbours)
+               neighbors(Neighbors)
              | Options
              ], Map),
     random_state(Map, Start),
@@ -519,18 +519,18 @@ test(bounds_may_go_below_0, true(Cells == [[-1,-1], [0,-1]])) :-
     grid_map([bounds(-1, -1, 0, -1)], Map),
     findall(Cell, grid_cell(Map, Cell), Cells).
 test(turning_right_goes_round, [forall(member(N, [4, 8])), Passed == All]) :-
-    grid_map([neighbours(N)], Map),
+    grid_map([neighbors(N)], Map),
     findall(D, grid_direction(Map, D), All),
     round(N, Map, right, [0, 1], Passed).
 test(turning_left_goes_back, [forall(member(N, [4, 8]))]) :-
-    grid_map([neighbours(N)], Map),
+    grid_map([neighbors(N)], Map),
     forall(grid_direction(Map, D),
            ( grid_step(Map, right, state([0,0], D), S),
              grid_step(Map, left, S, state([0,0], D))
            )).
 test(headings_are_clockwise,
      Headings == [0, 45, 90, 135, 180, 225, 270, 315]) :-
-    grid_map([neighbours(8)], Map),
+    grid_map([neighbors(8)], Map),
     findall(H, ( grid_direction(Map, D), direction_heading(D, H) ), Headings).
 test(beside_a_diagonal, [Left, Right] == [[0,1], [1,0]]) :-
     grid_beside([0,0], [1,1], Left, Right).
@@ -538,12 +538,12 @@ test(beside_another, [Left, Right] == [[6,5], [5,4]]) :-
     grid_beside([5,5], [1,-1], Left, Right).
 test(nothing_beside_a_straight_move, fail) :-
     grid_beside([0,0], [1,0], _, _).
-% From the middle of a map: which moves are there with one neighbour blocked?
+% From the middle of a map: which moves are there with one neighbor blocked?
 test(no_diagonal_past_a_corner, [Moves == [4-3, 8-5]]) :-
     findall(N-Count,
             ( member(N, [4, 8]),
               grid_map([bounds(0, 0, 2, 2), obstacles([[2,1]]),
-                        neighbours(N)], Map),
+                        neighbors(N)], Map),
               grid_problem(Map, state([1,1], [0,1]), state([0,0], _),
                            problem(_, _, Options)),
               option(successor(Next_4), Options),
@@ -566,7 +566,7 @@ test(changed_is_what_changes, [forall(member(N, [4, 8])), Told == Real]) :-
             ),
             Real0),
     sort(Real0, Real),
-    grid_map([bounds(0, 0, 4, 4), neighbours(N)], Map),
+    grid_map([bounds(0, 0, 4, 4), neighbors(N)], Map),
     grid_changed(Map, [Cell], Told0),
     % A move off the map is none, be the cell free or not.
     findall(State, ( member(State, Told0), memberchk(State, Real) ), Told1),
@@ -574,8 +574,8 @@ test(changed_is_what_changes, [forall(member(N, [4, 8])), Told == Real]) :-
     length(Real, CountReal),
     CountTold - CountReal =< N,
     sort(Told1, Told).
-test(neighbours_are_4_or_8, error(domain_error(neighbours, 6), _)) :-
-    grid_map([neighbours(6)], _).
+test(neighbors_are_4_or_8, error(domain_error(neighbors, 6), _)) :-
+    grid_map([neighbors(6)], _).
 test(bounds_hold_a_cell, error(domain_error(bounds, bounds(1,0,0,0)), _)) :-
     grid_map([bounds(1, 0, 0, 0)], _).
 test(bounds_are_integers, error(type_error(integer, a), _)) :-
@@ -601,7 +601,7 @@ test(options_are_those_of_a_map,
      [ forall(member(Option, [fade(3), bounds(7, 7), neighbors(8)])),
        error(domain_error(grid_option, Option), _) ]) :-
     grid_map([Option], _).
-test(no_diagonal_state_with_four_neighbours,
+test(no_diagonal_state_with_four_neighbors,
      error(domain_error(grid_state, state([0,0], [1,1])), _)) :-
     grid_map([], Map),
     grid_problem(Map, state([0,0], [1,1]), state([1,1], _), _).
@@ -620,7 +620,7 @@ round(N, Map, Turn, Direction, [Direction|Rest]) :-
     round(N1, Map, Turn, Next, Rest).
 
 ways(N, Cells, Ways) :-
-    grid_map([bounds(0, 0, 4, 4), neighbours(N), obstacles(Cells)], Map),
+    grid_map([bounds(0, 0, 4, 4), neighbors(N), obstacles(Cells)], Map),
     grid_problem(Map, state([0,0], [0,1]), state([4,4], _),
                  problem(_, _, Options)),
     option(successor(Next_4), Options),

@@ -74,7 +74,7 @@ allowed(led_color,
 allowed(milliseconds,       'a time in milliseconds is a number from 0 on').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).
-allowed(neighbours,         [4, 8]).
+allowed(neighbors,         [4, 8]).
 allowed(nonnegative_number, 'a number from 0 on is expected').
 allowed(note,               'a note is named like c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).

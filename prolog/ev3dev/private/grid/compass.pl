@@ -1,7 +1,7 @@
 :- module(ev3dev_grid_compass,
-          [ grid_directions/2,          % +Neighbours, -Directions
+          [ grid_directions/2,          % +Neighbors, -Directions
             direction_heading/2,        % ?Direction, ?Heading
-            direction_turned/4,         % ?Turn, +Neighbours, +Direction,
+            direction_turned/4,         % ?Turn, +Neighbors, +Direction,
                                         % -Next
             grid_ahead/3,               % +Cell, +Direction, -Ahead
             grid_beside/4               % +Cell, +Direction, -Left, -Right
@@ -12,10 +12,10 @@
 /** <module> Directions on a grid
 */
 
-%!  grid_directions(+Neighbours, -Directions) is det.
+%!  grid_directions(+Neighbors, -Directions) is det.
 %
 %   True if Directions, clockwise from `[0,1]` on, are those of a grid whose
-%   cells have 4 or 8 neighbours.
+%   cells have 4 or 8 neighbors.
 
 grid_directions(4, [[0,1], [1,0], [0,-1], [-1,0]]).
 grid_directions(8, [ [0,1], [1,1], [1,0], [1,-1], [0,-1], [-1,-1], [-1,0],
@@ -34,7 +34,7 @@ direction_heading(Direction, Heading) :-
     Heading = Angle,
     !.
 
-%!  direction_turned(?Turn, +Neighbours, +Direction, -Next) is nondet.
+%!  direction_turned(?Turn, +Neighbors, +Direction, -Next) is nondet.
 %
 %   True if Turn, `left` or `right`, leads from one direction to the next.
 

@@ -8,7 +8,7 @@
             grid_turn/4,                % +Map, ?Turn, +Direction, -Next
             grid_cost/4,                % +Map, +State, +Action, -Cost
             grid_costs/4,               % +Map, -Straight, -Diagonal, -Turn
-            grid_neighbours/2,          % +Map, -Count
+            grid_neighbors/2,          % +Map, -Count
             grid_bounds/5,              % +Map, -X1, -Y1, -X2, -Y2
             grid_unknown/3,             % +Map0, :Free_1, -Map
             must_be_cell/1,             % +Cell
@@ -29,11 +29,11 @@ A map of square cells, some of them obstructed, for a robot that goes from
 cell to cell and turns on the spot.
 
 A cell is `[X, Y]`, two integers. A direction is `[DX, DY]`, the way to the
-next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbours also
+next cell: `[0,1]` up, `[1,0]` to the right, and with eight neighbors also
 `[1,1]` and the like. A state is `state(Cell, Direction)`.
 
 The actions are `move`, to the next cell ahead, and `left` and `right`, to the
-next direction: by a right angle with four neighbours, by half of one with
+next direction: by a right angle with four neighbors, by half of one with
 eight. A diagonal move also needs the two cells beside its way.
 */
 
@@ -57,24 +57,24 @@ eight. A diagonal move also needs the two cells beside its way.
 %     - free(:Goal)
 %       A cell is free only if call(Goal, Cell) is true. It is called each
 %       time, so that the map may change.
-%     - neighbours(+Count)
+%     - neighbors(+Count)
 %       4 (default) or 8.
 %     - move_cost(+Cost)
 %     - diagonal_cost(+Cost)
 %     - turn_cost(+Cost)
 %       What a move costs, straight or diagonal, and a turn to the next
 %       direction: positive integers. By default 20, 28, and 10 or, with eight
-%       neighbours, 5: tenths of a second, about, for cells of 20 cm.
+%       neighbors, 5: tenths of a second, about, for cells of 20 cm.
 %
 %   @error domain_error(map_row, Row) for an unknown character or a second
 %          start
-%   @error domain_error(neighbours, Count)
+%   @error domain_error(neighbors, Count)
 %   @error domain_error(bounds, Bounds) if they hold no cell
 %   @error domain_error(grid_option, Option) if Option is not an option here
 
 grid_map(Module:Options0, Map) :-
     must_be_options(grid_option,
-                    [ bounds/4, rows, obstacles, free, neighbours, move_cost,
+                    [ bounds/4, rows, obstacles, free, neighbors, move_cost,
                       diagonal_cost, turn_cost ],
                     Options0),
     meta_options(closure, Module:Options0, Options),
@@ -91,9 +91,9 @@ grid_map(Module:Options0, Map) :-
     ),
     must_be_bounds(Bounds),
     option(free(Free), Options, any),
-    option(neighbours(Neighbours), Options, 4),
-    costs(Neighbours, Options, Costs),
-    Map = map(Bounds, Neighbours, Costs, Obstacles, Free, Start).
+    option(neighbors(Neighbors), Options, 4),
+    costs(Neighbors, Options, Costs),
+    Map = map(Bounds, Neighbors, Costs, Obstacles, Free, Start).
 
 closure(free).
 
@@ -142,11 +142,11 @@ must_be_bounds(Bounds) :-
     ;   domain_error(bounds, Bounds)
     ).
 
-costs(Neighbours, Options, costs(Move, Diagonal, Turn)) :-
-    must_be(nonvar, Neighbours),
-    (   turn_default(Neighbours, Turn0)
+costs(Neighbors, Options, costs(Move, Diagonal, Turn)) :-
+    must_be(nonvar, Neighbors),
+    (   turn_default(Neighbors, Turn0)
     ->  true
-    ;   domain_error(neighbours, Neighbours)
+    ;   domain_error(neighbors, Neighbors)
     ),
     option(move_cost(Move), Options, 20),
     must_be(positive_integer, Move),
@@ -164,8 +164,8 @@ turn_default(8, 5).
 %   True if Map is like Map0, but only call(Free_1, Cell) tells which of its
 %   cells are free.
 
-grid_unknown(map(Bounds, Neighbours, Costs, _, _, Start), Free,
-             map(Bounds, Neighbours, Costs, None, Free, Start)) :-
+grid_unknown(map(Bounds, Neighbors, Costs, _, _, Start), Free,
+             map(Bounds, Neighbors, Costs, None, Free, Start)) :-
     empty_assoc(None).
 
 %!  grid_start(+Map, -State) is semidet.
@@ -184,11 +184,11 @@ grid_cell(map(bounds(X1, Y1, X2, Y2), _, _, _, _, _), [X, Y]) :-
     between(Y1, Y2, Y),
     between(X1, X2, X).
 
-%!  grid_neighbours(+Map, -Count) is det.
+%!  grid_neighbors(+Map, -Count) is det.
 %
-%   True if each cell of Map has 4 or 8 neighbours.
+%   True if each cell of Map has 4 or 8 neighbors.
 
-grid_neighbours(map(_, Neighbours, _, _, _, _), Neighbours).
+grid_neighbors(map(_, Neighbors, _, _, _, _), Neighbors).
 
 %!  grid_bounds(+Map, -X1, -Y1, -X2, -Y2) is det.
 %
@@ -214,8 +214,8 @@ free_cell(Map, Cell) :-
 %
 %   True if Direction is one of the map's, clockwise from `[0,1]` on.
 
-grid_direction(map(_, Neighbours, _, _, _, _), Direction) :-
-    grid_directions(Neighbours, Directions),
+grid_direction(map(_, Neighbors, _, _, _, _), Direction) :-
+    grid_directions(Neighbors, Directions),
     (   ground(Direction)
     ->  memberchk(Direction, Directions)
     ;   member(Direction, Directions)
@@ -241,8 +241,8 @@ grid_step(Map, Action, state(Cell, Direction), Next) :-
 %
 %   True if Turn, `left` or `right`, leads from one direction to the next.
 
-grid_turn(map(_, Neighbours, _, _, _, _), Turn, Direction, Next) :-
-    direction_turned(Turn, Neighbours, Direction, Next).
+grid_turn(map(_, Neighbors, _, _, _, _), Turn, Direction, Next) :-
+    direction_turned(Turn, Neighbors, Direction, Next).
 
 %!  grid_costs(+Map, -Straight, -Diagonal, -Turn) is det.
 %

@@ -85,14 +85,14 @@ way(Map, From, To, Direction, Cost) :-
 
 estimate(Map, state([X1, Y1], Direction1), state([X2, Y2], Direction2),
          Estimate) :-
-    grid_neighbours(Map, Neighbours),
+    grid_neighbors(Map, Neighbors),
     grid_costs(Map, Straight, Diagonal, Turn),
     DX is abs(X2 - X1),
     DY is abs(Y2 - Y1),
     SX is sign(X2 - X1),
     SY is sign(Y2 - Y1),
     fewest_turns(Map, Direction1, [SX, SY], Direction2, Turns),
-    (   Neighbours =:= 4
+    (   Neighbors =:= 4
     ->  Estimate is Straight * (DX+DY) + Turn * Turns
     ;   Both is min(DX, DY),
         Estimate is min(Diagonal, 2*Straight) * Both
@@ -103,11 +103,11 @@ estimate(Map, state([X1, Y1], Direction1), state([X2, Y2], Direction2),
 :- dynamic known_turns/2.               % Key, Turns
 
 fewest_turns(Map, Direction1, Way, Direction2, Turns) :-
-    grid_neighbours(Map, Neighbours),
+    grid_neighbors(Map, Neighbors),
     code(Direction1, Code1),
     code(Way, Code2),
     code(Direction2, Code3),
-    Key is ((Neighbours * 9 + Code1) * 9 + Code2) * 9 + Code3,
+    Key is ((Neighbors * 9 + Code1) * 9 + Code2) * 9 + Code3,
     (   known_turns(Key, Known)
     ->  Turns = Known
     ;   count_turns(Map, Direction1, Way, Direction2, Turns),
@@ -119,7 +119,7 @@ code([DX, DY], Code) :-
 
 count_turns(Map, Direction1, [SX, SY], Direction2, Turns) :-
     findall(Direction, grid_direction(Map, Direction), All),
-    length(All, Neighbours),
+    length(All, Neighbors),
     nth0(From, All, Direction1),
     nth0(To, All, Direction2),
     findall(Count,
@@ -127,8 +127,8 @@ count_turns(Map, Direction1, [SX, SY], Direction2, Turns) :-
               ( SX =:= 0 -> true ; DXA =:= SX ),
               nth0(B, All, [_, DYB]),
               ( SY =:= 0 -> true ; DYB =:= SY ),
-              (   turns([From, A, B, To], Neighbours, 0, Count)
-              ;   turns([From, B, A, To], Neighbours, 0, Count)
+              (   turns([From, A, B, To], Neighbors, 0, Count)
+              ;   turns([From, B, A, To], Neighbors, 0, Count)
               )
             ),
             Counts),
@@ -137,10 +137,10 @@ count_turns(Map, Direction1, [SX, SY], Direction2, Turns) :-
 
 turns([_], _, Count, Count) :-
     !.
-turns([A, B|Rest], Neighbours, Count0, Count) :-
-    Right is (B - A) mod Neighbours,
-    Count1 is Count0 + min(Right, Neighbours - Right),
-    turns([B|Rest], Neighbours, Count1, Count).
+turns([A, B|Rest], Neighbors, Count0, Count) :-
+    Right is (B - A) mod Neighbors,
+    Count1 is Count0 + min(Right, Neighbors - Right),
+    turns([B|Rest], Neighbors, Count1, Count).
 
 %!  grid_changed(+Map, +Cells, -States) is det.
 %
