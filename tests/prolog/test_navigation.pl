@@ -2,7 +2,7 @@
 
 :- use_module('../support/rooms').
 :- use_module('../support/cases').
-:- use_module('../support/trees/simulated', [hold_clock/0, release_clock/0]).
+:- use_module('../support/trees/simulated', [simulated_pause/1]).
 :- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
@@ -12,6 +12,8 @@
 :- use_module(library(sgml)).
 
 :- initialization(load_files(room_example:example(room_navigation), [])).
+
+:- dynamic driving/0.
 
 :- begin_tests(navigation).
 
@@ -100,10 +102,13 @@ test(an_exception_stops_it) :-
                      stands([outB, outC]) )),
     sqrt((X - 260)^2 + (Y - 210)^2) > 50.
 test(another_thread_stops_it, [forall(between(1, 8, At)), true(Reason == stopped)]) :-
-    with_sim(room, ( robot_at(40, 40, 40),
-                     meanwhile(stop_running(At),
-                               navigate_to([], 260-210, [reason(Reason)])),
-                     stands([outB, outC]) )).
+    on(simulator, ( robot_at(40, 40, 40),
+                    setup_call_cleanup(
+                        assertz(driving),
+                        ( later(At, stop_running),
+                          navigate_to([], 260-210, [reason(Reason)]) ),
+                        retractall(driving)),
+                    stands([outB, outC]) )).
 % Slowly and where there is nothing: on a busy machine it looks and stops late,
 % sees things where they are not and is some way off.
 test(through_fuse_in_real_time, [forall(tree(mount)), true(Reason == reached)]) :-
@@ -138,22 +143,19 @@ test(the_example_draws) :-
           load_xml(File, [element(svg, _, _)|_], []) ),
         delete_file(File)).
 
-%   Stop the robot once, when it moves after so many seconds: while it waits
-%   for time to pass, since it may stand by itself right after that.
+%   Stop the robot until it gives up: a stop has no effect if it comes just as
+%   a move ends by itself.
 
-stop_running(At) :-
-    repeat,
-    sleep(0.001),
-    sim_time(Now),
-    Now >= At,
-    setup_call_cleanup(
-        hold_clock,
-        ( sleep(0.02), motor_states(outB, [running|_]), stop ),
-        release_clock),
+stop_running :-
+    driving,
     !,
-    repeat,
-    sleep(1),
-    fail.
+    (   motor_states(outB, [running|_])
+    ->  stop
+    ;   true
+    ),
+    simulated_pause(0.02),
+    stop_running.
+stop_running.
 
 :- end_tests(navigation).
 
