@@ -48,5 +48,5 @@ fn run() -> Vec<u8> {
 fn a_golden_run() {
     let bytes = run();
     assert_eq!(bytes, run(), "twice the same");
-    assert_eq!(format!("{:016x}", digest(&bytes)), "3280df3993d6c5b5");
+    assert_eq!(format!("{:016x}", digest(&bytes)), "c06f2d31280f4a51");
 }
