@@ -517,6 +517,27 @@ polled_until(Port, Position) :-
 
 :- begin_tests(sim_snapshot).
 
+polls(Count) :-
+    motor_run(outB, 20),
+    motor_run(outC, -20),
+    forall(between(1, Count, _),
+           ( speed_sp(outB, 200),
+             us_dist_cm(in1, _) )).
+
+snapshots(Count, Snapshots) :-
+    findall(Snapshot,
+            ( between(1, Count, _), sim_snapshot(Snapshot) ),
+            Snapshots).
+
+%   The memory of this process in kB.
+resident(KiloBytes) :-
+    read_file_to_codes('/proc/self/status', Codes, []),
+    atom_codes(Text, Codes),
+    atomic_list_concat([_, Line|_], 'VmRSS:', Text),
+    atomic_list_concat([Number|_], kB, Line),
+    normalize_space(atom(Word), Number),
+    atom_number(Word, KiloBytes).
+
 test(restore_puts_everything_back) :-
     with_sim([],
              ( set_robot(5.6, 10.6, outB, outC),
@@ -567,6 +588,23 @@ test(what_is_plugged_in_after_a_restore_is_another_device,
                sim_step(2),
                tacho_motor(outD, Type),
                max_speed(outD, Speed) )).
+test(is_small_however_far_the_robot_has_driven,
+     [ condition(exists_file('/proc/self/status')),
+       true(Size < 40)
+     ]) :-
+    with_sim(room,
+             ( polls(5000),
+               snapshots(100, _),
+               resident(Before),
+               snapshots(500, Snapshots),
+               resident(After),
+               is_list(Snapshots) )),
+    Size is (After - Before) / 500.
+test(garbage_is_collected) :-
+    with_sim(room,
+             forall(between(1, 3000, _), sim_snapshot(_))),
+    ev3dev_native:sim_snapshots_(Count),
+    Count =< 2500.
 test(restores_no_other_things, error(domain_error(simulator_snapshot, 1), _)) :-
     with_sim([], sim_restore(1)).
 test(restores_nothing_unbound, error(instantiation_error, _)) :-

@@ -111,7 +111,7 @@ fn collisions_and_events_are_recorded() {
     assert_eq!(events[1].path, "tacho-motor/motor1/command");
     assert_eq!((events[1].action, events[1].text.as_str()), (Action::Written, "run-forever"));
     assert_eq!(events[4].action, Action::Read);
-    assert!(trace.path().len() > 20);
+    assert!(trace.path().count() > 20);
     let svg = desk.0.svg();
     for part in [
         "<svg",
@@ -124,7 +124,7 @@ fn collisions_and_events_are_recorded() {
         assert!(svg.contains(part), "{part} in {svg}");
     }
     desk.step(1_200_000);
-    assert!(desk.0.trace().path().len() <= 2048, "memory stays flat");
+    assert!(desk.0.trace().path().count() <= 2048, "memory stays flat");
 }
 
 #[test]
