@@ -513,6 +513,23 @@ polled_until(Port, Position) :-
     ;   polled_until(Port, Position)
     ).
 
+test(a_wait_beside_a_thread_that_holds_the_clock_can_be_interrupted,
+     throws(time_limit_exceeded)) :-
+    with_sim(room,
+             setup_call_cleanup(
+                 ( thread_self(Me), thread_create(hold(Me), Id, []),
+                   thread_get_message(holding)
+                 ),
+                 call_with_time_limit(0.2, sim_wait(1)),
+                 ( thread_send_message(Id, done), thread_join(Id, _) ))).
+test(steps_can_be_interrupted, throws(time_limit_exceeded)) :-
+    with_sim(room, call_with_time_limit(0.2, sim_step(1.0e8))).
+
+hold(Other) :-
+    ev3dev_native:sim_hold_,
+    thread_send_message(Other, holding),
+    thread_get_message(done).
+
 :- end_tests(sim_time).
 
 :- begin_tests(sim_snapshot).

@@ -104,10 +104,14 @@ impl AttributeFile for SimulatedFile {
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
-        let written = self.simulation.write(|machine| machine.write(self.node, text));
-        let blocks = written.map_err(error)?.blocks;
-        if !blocks.is_zero() && !self.simulation.is_acting() {
-            self.simulation.pause(blocks);
+        let written = self.simulation.write(|machine| {
+            machine.write(self.node, text).map(|written| (written.blocks, machine.now()))
+        });
+        let (blocks, start) = written.map_err(error)?;
+        let mut left = blocks;
+        while !left.is_zero() && !self.simulation.is_acting() {
+            self.simulation.pause(left);
+            left = (start + blocks).saturating_sub(self.simulation.machine().now());
         }
         Ok(())
     }

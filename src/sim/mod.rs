@@ -65,8 +65,9 @@ static RUNNING: Mutex<Option<Arc<Simulation>>> = Mutex::new(None);
 /// Where the attributes and the device files are that were in use before.
 static BEFORE: Mutex<Option<[PathBuf; 2]>> = Mutex::new(None);
 
-/// How much simulated time passes between two checks for signals.
-const STEP_SLICE: Duration = Duration::from_secs(1);
+/// How much simulated time passes between two checks for signals. A slow machine
+/// takes some ms for it.
+const STEP_SLICE: Duration = Duration::from_millis(100);
 
 /// A machine as it was.
 #[arc_blob("ev3_snapshot", defaults)]
