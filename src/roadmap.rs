@@ -4,7 +4,8 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, plan, svg,
+    Bounds, Fault, Leg, Map, Method, NoWay, Obstacle, Options, Path, Point, Solution, is_in_range,
+    plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -47,7 +48,13 @@ fn solve<'a, C: QueryableContextType>(
     [facts, start, goal, options]: [&Term<'a>; 4],
 ) -> PrologResult<(Map, Result<Solution, NoWay>)> {
     let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
-    let found = plan(&map, point(call, start)?, point(call, goal)?, &options);
+    let (from, to) = (point(call, start)?, point(call, goal)?);
+    for (at, term) in [(from, start), (to, goal)] {
+        if !at.into_iter().all(is_in_range) {
+            return wrong_because(call, "point", term, "has a number beyond 1000000");
+        }
+    }
+    let found = plan(&map, from, to, &options);
     Ok((map, found))
 }
 

@@ -50,7 +50,7 @@ mod views;
 mod visibility;
 
 pub use explore::Step;
-pub use geometry::Point;
+pub use geometry::{FARTHEST, Point, is_in_range};
 pub use map::{Bounds, Fault, Map, Obstacle};
 pub use path::{Leg, Path};
 pub use plan::{NoWay, Solution, plan};

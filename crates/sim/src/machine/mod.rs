@@ -32,7 +32,7 @@ use crate::mechanics::shaft::Shaft;
 use crate::noise::Teeth;
 use crate::robot::RobotSpec;
 use crate::trace::{Collision, Trace};
-use crate::world::geometry::Pose;
+use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::scene::Scene;
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
 
@@ -161,8 +161,8 @@ impl Machine {
     /// # Errors
     /// If something is in the way there.
     pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
-        if !pose.is_finite() {
-            return Err(SpecError::new("robot", "has a number that is not finite"));
+        if !pose.is_in_range() {
+            return Err(SpecError::new("robot", OUT_OF_RANGE));
         }
         self.check_free(&pose)?;
         self.body.place(pose);

@@ -9,7 +9,7 @@
 //! ```
 
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
+use crate::world::geometry::{Pose, is_in_range};
 use crate::world::{Item, Part, Point, SpecError, WorldSpec};
 
 const FLOORS: [(char, &str); 7] = [
@@ -31,7 +31,7 @@ impl WorldSpec {
     /// # Errors
     /// An unknown character, a second start, or a cell without size, by row and column from 1.
     pub fn from_map(map: &str, cell: f64) -> Result<WorldSpec, SpecError> {
-        if !(cell.is_finite() && cell > 0.0) {
+        if !(is_in_range(cell) && cell > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
         }
         let rows: Vec<Vec<char>> =
