@@ -64,7 +64,7 @@ fn sleeper(simulation: &Arc<Simulation>, time: Duration) -> JoinHandle<Duration>
         simulation.hold();
         held.wait();
         while now(&simulation) < time {
-            simulation.pause(time - now(&simulation));
+            simulation.pause(time.saturating_sub(now(&simulation)));
         }
         let end = now(&simulation);
         simulation.release();
