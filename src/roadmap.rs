@@ -5,7 +5,8 @@ use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, plan, svg,
+    Bounds, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, is_in_range,
+    plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -48,7 +49,13 @@ fn solve<'a, C: QueryableContextType>(
     [facts, start, goal, options]: [&Term<'a>; 4],
 ) -> PrologResult<(Map, Result<Solution, NoWay>)> {
     let (map, options) = (map_of(call, facts)?, options_of(call, options)?);
-    let found = plan(&map, place(call, start)?, place(call, goal)?, &options);
+    let (from, to) = (place(call, start)?, place(call, goal)?);
+    for (at, term) in [(from, start), (to, goal)] {
+        if !at.into_iter().all(is_in_range) {
+            return wrong_because(call, "place", term, "has a number beyond 1000000");
+        }
+    }
+    let found = plan(&map, from, to, &options);
     Ok((map, found))
 }
 

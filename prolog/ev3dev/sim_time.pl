@@ -11,7 +11,7 @@
               ]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
-              [ sim_restore_/1, sim_snapshot_/1,
+              [ sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
                 sim_step_/1, sim_time_/1, sim_wait_/1 ]).
 
 /** <module> Simulated time
@@ -55,9 +55,11 @@ sim_time(Seconds) :-
 %
 %   Save the state of the simulation, and restore it: the robot, its motors
 %   and sensors, the world and the time. A program can restore a Snapshot any
-%   number of times, and so compare what different actions do.
+%   number of times, and so compare what different actions do. A Snapshot
+%   takes about 20 kB.
 
 sim_snapshot(snapshot(State, Added)) :-
+    collect_snapshots,
     sim_snapshot_(State),
     added_facts(Added).
 
@@ -69,3 +71,23 @@ sim_restore(Snapshot) :-
     ),
     sim_restore_(State),
     set_added_facts(Added).
+
+%   Prolog counts the atoms that may be garbage, and collects after 10000. It
+%   cannot be told that a snapshot is larger than an atom; so those are counted
+%   here.
+
+:- dynamic collection_at/1.
+
+collection_at(1000).
+
+collect_snapshots :-
+    sim_snapshots_(Count),
+    collection_at(Limit),
+    Count >= Limit,
+    !,
+    garbage_collect_atoms,
+    sim_snapshots_(Left),
+    Next is max(1000, 2*Left),
+    retractall(collection_at(_)),
+    assertz(collection_at(Next)).
+collect_snapshots.

@@ -104,10 +104,14 @@ impl AttributeFile for SimulatedFile {
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
-        let written = self.simulation.write(|machine| machine.write(self.node, text));
-        let written = written.map_err(error)?;
-        if !written.blocks.is_zero() && !self.simulation.is_acting() {
-            self.simulation.pause(written.blocks);
+        let written = self.simulation.write(|machine| {
+            machine.write(self.node, text).map(|written| (written, machine.now()))
+        });
+        let (written, start) = written.map_err(error)?;
+        let mut left = written.blocks;
+        while !left.is_zero() && !self.simulation.is_acting() {
+            self.simulation.pause(left);
+            left = (start + written.blocks).saturating_sub(self.simulation.machine().now());
         }
         written.outcome.map(drop).map_err(error)
     }

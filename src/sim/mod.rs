@@ -23,6 +23,7 @@ use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
 };
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
@@ -50,6 +51,7 @@ pub(crate) fn register() {
     register_sim_step();
     register_sim_time();
     register_sim_snapshot();
+    register_sim_snapshots();
     register_sim_restore();
     register_sim_collisions();
     register_sim_trace();
@@ -58,13 +60,30 @@ pub(crate) fn register() {
     register_sim_unmount();
 }
 
-/// How much simulated time passes between two checks for signals.
-const STEP_SLICE: Duration = Duration::from_secs(1);
+/// How much simulated time passes between two checks for signals. A slow machine
+/// takes some ms for it.
+const STEP_SLICE: Duration = Duration::from_millis(100);
 
 /// The saved state of a machine.
 #[arc_blob("ev3_snapshot", defaults)]
 struct Snapshot {
     machine: Mutex<Machine>,
+}
+
+/// How many snapshots there are.
+static SNAPSHOTS: AtomicUsize = AtomicUsize::new(0);
+
+impl Snapshot {
+    fn of(machine: Machine) -> Snapshot {
+        SNAPSHOTS.fetch_add(1, Ordering::Relaxed);
+        Snapshot { machine: Mutex::new(machine) }
+    }
+}
+
+impl Drop for Snapshot {
+    fn drop(&mut self) {
+        SNAPSHOTS.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 predicates! {
@@ -286,7 +305,14 @@ predicates! {
     #[name("sim_snapshot_")]
     semidet fn sim_snapshot(_context, snapshot) {
         let machine = simulation()?.machine().clone();
-        snapshot.unify(Arc::new(Snapshot { machine: Mutex::new(machine) }))
+        snapshot.unify(Arc::new(Snapshot::of(machine)))
+    }
+
+    /// sim_snapshots_(-Count): how many there are, those that are garbage included.
+    #[module("ev3dev_native")]
+    #[name("sim_snapshots_")]
+    semidet fn sim_snapshots(_context, count) {
+        count.unify(SNAPSHOTS.load(Ordering::Relaxed) as u64)
     }
 
     /// sim_restore_(+Snapshot)
@@ -318,7 +344,7 @@ predicates! {
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
         let seen = simulation()?.machine().trace().clone();
-        let poses = seen.path().iter().map(|(at, pose)| {
+        let poses = seen.path().map(|(at, pose)| {
             let seconds = at.as_secs_f64();
             let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
             Ok((*at, entry?))

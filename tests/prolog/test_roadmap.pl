@@ -147,12 +147,22 @@ impossible(box(0, 0, 0, 10)).
 impossible(wall(5, 5, 5, 5)).
 impossible(circle(0, 0, -1)).
 impossible(bounds(10, 0, 0, 10)).
+impossible(circle(1.0e20, 0, 1)).
 impossible(circle(X, 0, 1)) :- evaluated(inf, X).
 
 test(impossible, [ forall(impossible(Fact)),
                    error(domain_error(possible_geometry, _)) ]) :-
     roadmap_path([Fact], 100-100, 200-200, _).
 
+far(1.0e20-0, place).
+far(0-(-2000000), place).
+far(X-0, finite_number) :- evaluated(nan, X).
+far(X-0, finite_number) :- evaluated(inf, X).
+
+test(a_start_beyond_10_km, [ forall(far(Place, Domain)), error(domain_error(Domain, _)) ]) :-
+    roadmap_path([], Place, 200-200, _).
+test(a_goal_beyond_10_km, [ forall(far(Place, Domain)), error(domain_error(Domain, _)) ]) :-
+    roadmap_path([], 200-200, Place, _).
 test(a_drawing_with_an_unknown_character, error(domain_error(map_row, "#?#"))) :-
     roadmap_path([map(20, ["#?#"])], 100-100, 200-200, _).
 test(a_drawing_with_two_starts, error(domain_error(map_row, "^.S"))) :-

@@ -49,6 +49,23 @@ polled_until(Port, Position) :-
     ;   polled_until(Port, Position)
     ).
 
+test(a_wait_beside_a_thread_that_holds_the_clock_can_be_interrupted,
+     throws(time_limit_exceeded)) :-
+    with_sim(room,
+             setup_call_cleanup(
+                 ( thread_self(Me), thread_create(hold(Me), Id, []),
+                   thread_get_message(holding)
+                 ),
+                 call_with_time_limit(0.2, sim_wait(1)),
+                 ( thread_send_message(Id, done), thread_join(Id, _) ))).
+test(steps_can_be_interrupted, throws(time_limit_exceeded)) :-
+    with_sim(room, call_with_time_limit(0.2, sim_step(1.0e8))).
+
+hold(Other) :-
+    ev3dev_native:sim_hold_,
+    thread_send_message(Other, holding),
+    thread_get_message(done).
+
 :- end_tests(sim_time).
 
 :- begin_tests(sim_wait).
@@ -83,6 +100,27 @@ test(a_time_that_is_none_throws,
 :- end_tests(sim_wait).
 
 :- begin_tests(sim_snapshot).
+
+polls(Count) :-
+    motor_run(outB, 20),
+    motor_run(outC, -20),
+    forall(between(1, Count, _),
+           ( speed_sp(outB, 200),
+             us_dist_cm(in1, _) )).
+
+snapshots(Count, Snapshots) :-
+    findall(Snapshot,
+            ( between(1, Count, _), sim_snapshot(Snapshot) ),
+            Snapshots).
+
+%   The memory of this process in kB.
+resident(KiloBytes) :-
+    read_file_to_codes('/proc/self/status', Codes, []),
+    atom_codes(Text, Codes),
+    atomic_list_concat([_, Line|_], 'VmRSS:', Text),
+    atomic_list_concat([Number|_], kB, Line),
+    normalize_space(atom(Word), Number),
+    atom_number(Word, KiloBytes).
 
 test(restore_puts_everything_back) :-
     with_sim([],
@@ -134,6 +172,23 @@ test(what_is_plugged_in_after_a_restore_is_another_device,
                sim_step(2),
                tacho_motor(outD, Type),
                max_speed(outD, Speed) )).
+test(is_small_however_far_the_robot_has_driven,
+     [ condition(exists_file('/proc/self/status')),
+       true(Size < 40)
+     ]) :-
+    with_sim(room,
+             ( polls(5000),
+               snapshots(100, _),
+               resident(Before),
+               snapshots(500, Snapshots),
+               resident(After),
+               is_list(Snapshots) )),
+    Size is (After - Before) / 500.
+test(garbage_is_collected) :-
+    with_sim(room,
+             forall(between(1, 3000, _), sim_snapshot(_))),
+    ev3dev_native:sim_snapshots_(Count),
+    Count =< 2500.
 test(restores_no_other_things, error(domain_error(simulator_snapshot, 1), _)) :-
     with_sim([], sim_restore(1)).
 test(restores_nothing_unbound, error(instantiation_error, _)) :-

@@ -3,6 +3,15 @@ use parry2d_f64::math::{Point as ParryPoint, Vector};
 
 pub(crate) use ev3_motion::{Point, distance};
 
+/// The largest coordinate, in cm: 10 km, as in the simulator.
+pub const FARTHEST: f64 = 1e6;
+
+/// False for what is too large, and what is no number.
+#[must_use]
+pub fn is_in_range(number: f64) -> bool {
+    number.abs() <= FARTHEST
+}
+
 /// A vector, or a point as the vector to it.
 pub(crate) type Vec2 = Vector<f64>;
 

@@ -1,7 +1,8 @@
 //! Obstacles, and how far a way is from them.
 use crate::arc::Arc;
 use crate::geometry::{
-    Point, apart, around, cross, direction, distance, left_of, parry, point, unit, vec2,
+    Point, apart, around, cross, direction, distance, is_in_range, left_of, parry, point, unit,
+    vec2,
 };
 use parry2d_f64::math::{Isometry, Point as ParryPoint};
 use parry2d_f64::query::PointQuery;
@@ -39,9 +40,9 @@ pub enum Fault {
     /// A polygon of a point or a line.
     #[error("needs at least three corners")]
     TooFewCorners,
-    /// Not a number, or infinite.
-    #[error("has a number that is not finite")]
-    NotFinite,
+    /// A number beyond [`FARTHEST`](crate::FARTHEST), or none.
+    #[error("has a number beyond 1000000")]
+    OutOfRange,
     /// Two edges meet that are not neighbors, or neighbors that lie on one another.
     #[error("its edges cross or touch")]
     SelfIntersecting,
@@ -59,7 +60,7 @@ impl Obstacle {
     /// # Errors
     /// If it has fewer than three corners or crosses or touches itself.
     pub fn polygon(mut corners: Vec<Point>) -> Result<Obstacle, Fault> {
-        finite(corners.iter().flatten())?;
+        in_range(corners.iter().flatten())?;
         if corners.len() < 3 {
             return Err(Fault::TooFewCorners);
         }
@@ -82,7 +83,7 @@ impl Obstacle {
         depth: f64,
         heading: f64,
     ) -> Result<Obstacle, Fault> {
-        finite(&[middle[0], middle[1], heading])?;
+        in_range(&[middle[0], middle[1], heading])?;
         positive(&[width, depth])?;
         let ahead = direction(heading) * (depth / 2.0);
         let aside = -left_of(direction(heading)) * (width / 2.0);
@@ -95,7 +96,7 @@ impl Obstacle {
     /// # Errors
     /// If it has no length or thickness.
     pub fn wall(from: Point, to: Point, thickness: f64) -> Result<Obstacle, Fault> {
-        finite(from.iter().chain(&to))?;
+        in_range(from.iter().chain(&to))?;
         positive(&[distance(from, to), thickness])?;
         let aside = left_of(unit(vec2(to) - vec2(from))) * (thickness / 2.0);
         let (from, to) = (vec2(from), vec2(to));
@@ -107,7 +108,7 @@ impl Obstacle {
     /// # Errors
     /// If it has no size.
     pub fn circle(center: Point, radius: f64) -> Result<Obstacle, Fault> {
-        finite(&center)?;
+        in_range(&center)?;
         positive(&[radius])?;
         Ok(Obstacle(Shape::Circle { center, radius }))
     }
@@ -159,7 +160,7 @@ impl Map {
     pub fn new(obstacles: Vec<Obstacle>, bounds: Option<Bounds>) -> Result<Map, Fault> {
         let mut map = Map { bounds, ..Map::default() };
         if let Some(Bounds { low, high }) = bounds {
-            finite(low.iter().chain(&high))?;
+            in_range(low.iter().chain(&high))?;
             if low[0] >= high[0] || low[1] >= high[1] {
                 return Err(Fault::NoInside);
             }
@@ -314,16 +315,16 @@ fn folds([from, to]: [Point; 2], next: Point) -> bool {
     turn.abs() < 1e-9 && before.dot(&after) < 0.0
 }
 
-fn finite<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Result<(), Fault> {
-    if numbers.into_iter().all(|number| number.is_finite()) {
+fn in_range<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Result<(), Fault> {
+    if numbers.into_iter().all(|number| is_in_range(*number)) {
         Ok(())
     } else {
-        Err(Fault::NotFinite)
+        Err(Fault::OutOfRange)
     }
 }
 
 fn positive(lengths: &[f64]) -> Result<(), Fault> {
-    finite(lengths)?;
+    in_range(lengths)?;
     if lengths.iter().all(|length| *length > 0.0) { Ok(()) } else { Err(Fault::NoSize) }
 }
 
@@ -344,7 +345,7 @@ mod tests {
         let touching = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]];
         assert_eq!(fault(&touching), Some(Fault::SelfIntersecting));
         let endless = [[0.0, 0.0], [f64::NAN, 0.0], [1.0, 1.0]];
-        assert_eq!(fault(&endless), Some(Fault::NotFinite));
+        assert_eq!(fault(&endless), Some(Fault::OutOfRange));
         let concave = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]];
         assert_eq!(fault(&concave), None);
         assert_eq!(Obstacle::circle([0.0, 0.0], 0.0), Err(Fault::NoSize));

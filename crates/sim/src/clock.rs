@@ -209,8 +209,9 @@ impl Simulation {
         }
     }
 
-    /// Lets time pass. By the wall clock it returns after 20 ms at the latest, so
-    /// that the caller can handle signals.
+    /// Lets time pass. By the wall clock, and while another thread keeps the virtual
+    /// clock from passing, it returns after 20 ms at the latest, so that the caller
+    /// can handle signals.
     pub fn pause(&self, time: Duration) {
         match self.clock {
             Clock::Wall(_) => self.pause_by_wall(time),
@@ -238,14 +239,17 @@ impl Simulation {
         let me = std::thread::current().id();
         let mut machine = self.shared.lock();
         let until = machine.now().saturating_add(time);
+        let latest = Instant::now() + SLICE;
         self.threads().waits.insert(me, until);
         while machine.now() < until {
             if self.is_next(me, until) {
                 let left = until.saturating_sub(machine.now());
                 machine = self.acts.step(&self.shared, machine, left);
                 self.shared.wake();
-            } else {
+            } else if Instant::now() < latest {
                 machine = self.shared.wait(machine, BUSY_FOR);
+            } else {
+                break;
             }
         }
         let mut threads = self.threads();

@@ -84,6 +84,7 @@
 //! - [`facts`]: the vocabulary of world and robot files;
 //! - `mechanics`: shafts, wheels and the body;
 //! - `sense`: what the sensors notice of the world;
+//! - `log.rs`, `trace.rs`: what has happened;
 //! - `machine`: all of these as one value, its file tree, and time;
 //! - `shared.rs`, `clock.rs`: a machine that several threads use, and how time passes for it;
 //! - `fuse`: the tree as real files.
@@ -95,6 +96,7 @@ pub mod facts;
 mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
+mod log;
 mod machine;
 mod mechanics;
 mod motor;

@@ -1,11 +1,18 @@
 //! The parts of the robot, as plain data: the vocabulary of robot files.
 
+use std::ops::RangeInclusive;
+
 use crate::brick::port::Port;
 use crate::motor::MotorKind;
 use crate::noise::{Noise, TYPICAL_TEETH};
 use crate::sensor::SensorKind;
-use crate::world::geometry::Pose;
+use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::{Hull, Part, SpecError};
+
+/// Lengths of a robot, in cm, and its mass, in kg.
+const LENGTHS: RangeInclusive<f64> = 0.01..=1000.0;
+const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
+const DIAMETER: &str = "needs a diameter from 0.01 to 1000 cm";
 
 /// A driven wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,14 +121,14 @@ impl Chassis {
     /// Checks the parts that are there.
     pub(crate) fn validate(&self) -> Result<(), SpecError> {
         let diameter = |wheel: Option<Wheel>| wheel.map(|wheel| wheel.diameter);
-        let lengths = [
-            (Part::LeftWheel, "left wheel", diameter(self.left), "needs a diameter above 0"),
-            (Part::RightWheel, "right wheel", diameter(self.right), "needs a diameter above 0"),
-            (Part::Axle, "axle", self.axle, "needs a length above 0"),
-            (Part::Mass, "mass", self.mass, "must be above 0"),
+        let numbers = [
+            (Part::LeftWheel, "left wheel", diameter(self.left), LENGTHS, DIAMETER),
+            (Part::RightWheel, "right wheel", diameter(self.right), LENGTHS, DIAMETER),
+            (Part::Axle, "axle", self.axle, LENGTHS, "needs a length from 0.01 to 1000 cm"),
+            (Part::Mass, "mass", self.mass, MASSES, "must be from 0.001 to 1000 kg"),
         ];
-        for (part, name, number, reason) in lengths {
-            if number.is_some_and(|number| !(number.is_finite() && number > 0.0)) {
+        for (part, name, number, range, reason) in numbers {
+            if number.is_some_and(|number| !range.contains(&number)) {
                 return Err(SpecError::new(name, reason).in_part(part));
             }
         }
@@ -143,8 +150,9 @@ impl Chassis {
             }
         }
         let reach = self.hull.map(|hull| hull.reach());
-        if reach.is_some_and(|reach| !(reach.is_finite() && reach > 0.0)) {
-            return Err(SpecError::new("hull", "needs an extent above 0").in_part(Part::Hull));
+        if reach.is_some_and(|reach| !LENGTHS.contains(&reach)) {
+            let error = SpecError::new("hull", "needs an extent from 0.01 to 1000 cm");
+            return Err(error.in_part(Part::Hull));
         }
         Ok(())
     }
@@ -211,8 +219,8 @@ fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<()
         if port.is_output() || used.contains(port) {
             return fault("needs an input port of its own");
         }
-        if !pose.is_finite() {
-            return fault("has a number that is not finite");
+        if !pose.is_in_range() {
+            return fault(OUT_OF_RANGE);
         }
         used.push(*port);
     }

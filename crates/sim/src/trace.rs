@@ -2,9 +2,9 @@
 //! bounded
 //! however long a run is.
 
-use std::collections::VecDeque;
 use std::time::Duration;
 
+use crate::log::Log;
 use crate::world::ItemId;
 use crate::world::geometry::Pose;
 
@@ -59,42 +59,41 @@ pub struct Event {
     pub text: String,
 }
 
-/// The record of a run.
+/// The record of a run. Copies share what they have in common.
 #[derive(Clone, Debug)]
 pub struct Trace {
-    path: Vec<(Duration, Pose)>,
+    path: Log<(Duration, Pose)>,
     spacing: u64,
     /// Apart, so that a program that polls does not push its own commands out; with their order.
-    written: VecDeque<(u64, Event)>,
-    read: VecDeque<(u64, Event)>,
+    written: Log<(u64, Event)>,
+    read: Log<(u64, Event)>,
     event_count: u64,
-    collisions: VecDeque<Collision>,
+    collisions: Log<Collision>,
     collision_count: u32,
 }
 
 impl Trace {
     pub(crate) fn new() -> Trace {
         Trace {
-            path: Vec::new(),
+            path: Log::new(PATH_POINTS),
             spacing: FIRST_SPACING_TICKS,
-            written: VecDeque::new(),
-            read: VecDeque::new(),
+            written: Log::new(EVENTS),
+            read: Log::new(EVENTS),
             event_count: 0,
-            collisions: VecDeque::new(),
+            collisions: Log::new(COLLISIONS),
             collision_count: 0,
         }
     }
 
     /// The way of the robot from the start, oldest first. On long runs points are farther apart.
-    #[must_use]
-    pub fn path(&self) -> &[(Duration, Pose)] {
-        &self.path
+    pub fn path(&self) -> impl Iterator<Item = &(Duration, Pose)> {
+        self.path.iter()
     }
 
     /// The newest accesses to files, oldest first: 4096 writes and 4096 reads.
     #[must_use]
     pub fn events(&self) -> Vec<&Event> {
-        let mut events: Vec<_> = self.written.iter().chain(&self.read).collect();
+        let mut events: Vec<_> = self.written.iter().chain(self.read.iter()).collect();
         events.sort_unstable_by_key(|(order, _)| *order);
         events.into_iter().map(|(_, event)| event).collect()
     }
@@ -114,49 +113,43 @@ impl Trace {
         if tick % self.spacing != 0 {
             return;
         }
-        let still = |(_, old): &(Duration, Pose)| *old == pose;
-        if self.path.len() >= 2 && self.path[self.path.len() - 2..].iter().all(still) {
+        if self.path.newest().take(2).filter(|(_, old)| *old == pose).count() == 2 {
             self.path.pop();
         }
-        self.path.push((at, pose));
+        self.path.push(|_| (at, pose));
         if self.path.len() >= PATH_POINTS {
-            let mut index = 0;
-            self.path.retain(|_| {
-                index += 1;
-                index % 2 == 1
-            });
+            self.path.thin_out();
             self.spacing *= 2;
         }
     }
 
     /// Notes an event. The path is given in its parts.
     pub(crate) fn event(&mut self, at: Duration, action: Action, path: &[&str], text: &str) {
-        let ring = match action {
+        let log = match action {
             Action::Read => &mut self.read,
             _ => &mut self.written,
         };
-        // The strings of the one that is forgotten serve again.
-        let forgotten = if ring.len() == EVENTS { ring.pop_front() } else { None };
-        let (mut old_path, mut old_text) =
-            forgotten.map_or_else(Default::default, |(_, event)| (event.path, event.text));
-        old_path.clear();
-        for (index, part) in path.iter().enumerate() {
-            if index > 0 {
-                old_path.push('/');
-            }
-            old_path.push_str(part);
-        }
-        old_text.clear();
-        old_text.push_str(text);
-        ring.push_back((self.event_count, Event { at, action, path: old_path, text: old_text }));
+        let order = self.event_count;
         self.event_count += 1;
+        log.push(|forgotten| {
+            // The strings of one that is forgotten serve again.
+            let (mut old_path, mut old_text) =
+                forgotten.map_or_else(Default::default, |(_, event)| (event.path, event.text));
+            old_path.clear();
+            for (index, part) in path.iter().enumerate() {
+                if index > 0 {
+                    old_path.push('/');
+                }
+                old_path.push_str(part);
+            }
+            old_text.clear();
+            old_text.push_str(text);
+            (order, Event { at, action, path: old_path, text: old_text })
+        });
     }
 
     pub(crate) fn collision(&mut self, collision: Collision) {
         self.collision_count = self.collision_count.saturating_add(1);
-        if self.collisions.len() == COLLISIONS {
-            self.collisions.pop_front();
-        }
-        self.collisions.push_back(collision);
+        self.collisions.push(|_| collision);
     }
 }

@@ -92,6 +92,7 @@
             sim_restore_/1,
             sim_show_/3,
             sim_snapshot_/1,
+            sim_snapshots_/1,
             sim_start_/4,
             sim_step_/1,
             sim_stop_/0,
@@ -291,6 +292,7 @@ missing.
 %!  sim_restore_(+Snapshot) is semidet.
 %!  sim_show_(+Port, +Attribute, +Text) is semidet.
 %!  sim_snapshot_(-Snapshot) is semidet.
+%!  sim_snapshots_(-Count) is semidet.
 %!  sim_start_(+World, +Robot, +Options, -Fault) is semidet.
 %!  sim_step_(+Seconds) is semidet.
 %!  sim_stop_ is semidet.

@@ -16,6 +16,7 @@ pub(crate) mod tree;
 pub use descriptor::Descriptor;
 pub use dev::DevDescriptor;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::TICK_US;
@@ -33,7 +34,7 @@ use crate::motor::output::Output;
 use crate::noise::Teeth;
 use crate::robot::RobotSpec;
 use crate::trace::{Collision, Trace};
-use crate::world::geometry::Pose;
+use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::scene::Scene;
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
 
@@ -66,7 +67,8 @@ pub struct Written {
     pub blocks: Duration,
 }
 
-/// A brick with its robot in its world. `clone` is a snapshot.
+/// A brick with its robot in its world. `clone` is a snapshot: 20 kB, as it shares the world and
+/// what has happened.
 #[derive(Clone, Debug)]
 pub struct Machine {
     options: Options,
@@ -76,9 +78,9 @@ pub struct Machine {
     sockets: Vec<Socket>,
     shafts: [Shaft; 4],
     battery: u64,
-    robot: RobotSpec,
+    robot: Arc<RobotSpec>,
     body: Body,
-    scene: Scene,
+    scene: Arc<Scene>,
     panel: Panel,
     trace: Trace,
 }
@@ -127,9 +129,9 @@ impl Machine {
             sockets: Port::ALL.into_iter().zip(lego_ports).map(socket).collect(),
             shafts,
             battery,
-            robot: robot.clone(),
+            robot: Arc::new(robot.clone()),
             body: Body::new(robot, world.start),
-            scene,
+            scene: Arc::new(scene),
             panel: Panel::new(options.depth),
             trace: Trace::new(),
         };
@@ -164,8 +166,8 @@ impl Machine {
     /// # Errors
     /// If something is in the way there.
     pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
-        if !pose.is_finite() {
-            return Err(SpecError::new("robot", "has a number that is not finite"));
+        if !pose.is_in_range() {
+            return Err(SpecError::new("robot", OUT_OF_RANGE));
         }
         self.check_free(&pose)?;
         self.body.place(pose);
@@ -202,9 +204,10 @@ impl Machine {
     /// If the item is impossible, or the robot is where it should stand.
     pub fn add_item(&mut self, item: Item) -> Result<ItemId, SpecError> {
         let name = item.to_string();
-        let id = self.scene.add(item)?;
-        if self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
-            self.scene.remove(id);
+        let scene = Arc::make_mut(&mut self.scene);
+        let id = scene.add(item)?;
+        if scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
+            scene.remove(id);
             return Err(SpecError::new(name, "is where the robot stands"));
         }
         self.body.world_changed();
@@ -214,7 +217,7 @@ impl Machine {
     /// Takes something out of the world; false if there is no such item.
     pub fn remove_item(&mut self, id: ItemId) -> bool {
         self.body.world_changed();
-        self.scene.remove(id)
+        Arc::make_mut(&mut self.scene).remove(id)
     }
 
     /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until
@@ -226,7 +229,7 @@ impl Machine {
     pub fn hold_buttons(&mut self, channel: u8, buttons: &[RemoteButton]) -> Result<(), SpecError> {
         let item = || format!("remote control on channel {channel}");
         let index = usize::from(channel).wrapping_sub(1);
-        let Some(remote) = self.scene.remotes.get_mut(index) else {
+        let Some(remote) = Arc::make_mut(&mut self.scene).remotes.get_mut(index) else {
             return Err(SpecError::new(item(), "needs a channel from 1 to 4"));
         };
         let held = Remote::holding(buttons);

@@ -55,7 +55,7 @@ impl Machine {
         let pose = self.pose();
         let mut frame = Frame { low: [pose.x, pose.y], high: [pose.x, pose.y] };
         frame.include([pose.x, pose.y], self.robot.hull.reach());
-        self.trace.path().iter().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
+        self.trace.path().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
         self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
         if let Some(bounds) = self.scene.bounds {
             frame.include(bounds.low, 0.0);
@@ -76,8 +76,7 @@ impl Machine {
         for (id, item) in self.scene.items() {
             draw_item(&mut svg, id.0, item);
         }
-        let path =
-            list(self.trace.path().iter().map(|(_, p)| [p.x, p.y]).chain([[pose.x, pose.y]]));
+        let path = list(self.trace.path().map(|(_, p)| [p.x, p.y]).chain([[pose.x, pose.y]]));
         line(
             &mut svg,
             format_args!(

@@ -41,7 +41,7 @@ impl Machine {
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
         let mut next = next_on_grid(FARTHEST_TICKS);
-        let moving = self.shafts.iter().any(|shaft| shaft.omega != 0.0);
+        let moving = self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0);
         for hardware in self.tree.all() {
             let due = match hardware {
                 Hardware::Tacho(motor) => Some(motor.next_timer()),
@@ -125,7 +125,7 @@ impl Machine {
     }
 
     fn turn_shafts(&mut self, start_us: u64) {
-        let at_rest = self.shafts.iter().all(|shaft| shaft.omega == 0.0);
+        let at_rest = self.body.slip == 0.0 && self.shafts.iter().all(|shaft| shaft.omega == 0.0);
         let undriven =
             |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
         if at_rest && OUTPUTS.into_iter().all(undriven) {

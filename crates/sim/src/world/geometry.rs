@@ -9,6 +9,18 @@ pub(crate) type Vec2 = Vector<f64>;
 /// A frame of reference in the world.
 pub(crate) type Frame = Isometry<f64>;
 
+/// The largest coordinate, in cm, and heading, in degrees: 10 km. Up to there sums of lengths keep
+/// a thousand millionth of a cm.
+const FARTHEST: f64 = 1e6;
+
+/// What is wrong with a larger one.
+pub(crate) const OUT_OF_RANGE: &str = "has a number beyond 1000000";
+
+/// False for what is too large, and what is no number.
+pub(crate) fn is_in_range(number: f64) -> bool {
+    number.abs() <= FARTHEST
+}
+
 /// Where something is and which way it looks: centimeters and degrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -27,8 +39,8 @@ impl Pose {
         Pose { x, y, heading }
     }
 
-    pub(crate) fn is_finite(&self) -> bool {
-        self.x.is_finite() && self.y.is_finite() && self.heading.is_finite()
+    pub(crate) fn is_in_range(&self) -> bool {
+        [self.x, self.y, self.heading].into_iter().all(is_in_range)
     }
 
     /// The frame whose x is to the right of this pose and whose y lies ahead of it.

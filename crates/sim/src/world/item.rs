@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::brick::port::Port;
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
+use crate::world::geometry::{OUT_OF_RANGE, Pose, is_in_range};
 
 /// A point in cm.
 pub type Point = [f64; 2];
@@ -120,37 +120,37 @@ impl Item {
     pub fn validate(&self) -> Result<(), SpecError> {
         let fault = match self {
             Item::Wall { from, to, thickness } => first_fault([
-                (finite(&[*from, *to]), NOT_FINITE),
+                (in_range(&[*from, *to]), OUT_OF_RANGE),
                 (positive(libm::hypot(to[0] - from[0], to[1] - from[1])), "has no length"),
                 (positive(*thickness), "needs a thickness above 0"),
             ]),
             Item::Box { pose, width, depth } => first_fault([
-                (pose.is_finite(), NOT_FINITE),
+                (pose.is_in_range(), OUT_OF_RANGE),
                 (positive(*width) && positive(*depth), "needs a width and a depth above 0"),
             ]),
             Item::Circle { center, radius } => first_fault([
-                (finite(&[*center]), NOT_FINITE),
+                (in_range(&[*center]), OUT_OF_RANGE),
                 (positive(*radius), "needs a radius above 0"),
             ]),
             Item::Patch { corners, .. } => first_fault([
-                (finite(corners), NOT_FINITE),
+                (in_range(corners), OUT_OF_RANGE),
                 (corners.len() >= 3, "needs at least three corners"),
             ]),
             Item::Line { points, width, .. } => first_fault([
-                (finite(points), NOT_FINITE),
+                (in_range(points), OUT_OF_RANGE),
                 (positive(*width) && points.len() >= 2, "needs two points and a width above 0"),
             ]),
             Item::Lamp { at, intensity } => first_fault([
-                (finite(&[*at]), NOT_FINITE),
+                (in_range(&[*at]), OUT_OF_RANGE),
                 (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
             ]),
             Item::Bulb { at, intensity, port } => first_fault([
-                (finite(&[*at]), NOT_FINITE),
+                (in_range(&[*at]), OUT_OF_RANGE),
                 (intensity.is_finite() && *intensity >= 0.0, "needs an intensity of 0 or more"),
                 (port.is_output(), "needs an output port"),
             ]),
             Item::Beacon { at, channel } => first_fault([
-                (finite(&[*at]), NOT_FINITE),
+                (in_range(&[*at]), OUT_OF_RANGE),
                 ((1..=4).contains(channel), "needs a channel from 1 to 4"),
             ]),
         };
@@ -196,18 +196,16 @@ impl fmt::Display for Points<'_> {
     }
 }
 
-pub(crate) const NOT_FINITE: &str = "has a number that is not finite";
-
 fn first_fault<const N: usize>(checks: [(bool, &'static str); N]) -> Option<&'static str> {
     checks.into_iter().find(|(fine, _)| !fine).map(|(_, reason)| reason)
 }
 
-pub(crate) fn finite(points: &[Point]) -> bool {
-    points.iter().flatten().all(|number| number.is_finite())
+pub(crate) fn in_range(points: &[Point]) -> bool {
+    points.iter().flatten().copied().all(is_in_range)
 }
 
 fn positive(number: f64) -> bool {
-    number.is_finite() && number > 0.0
+    is_in_range(number) && number > 0.0
 }
 
 /// A part of a world or a robot, as its file's facts name them.

@@ -9,7 +9,7 @@
 //! ```
 
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
+use crate::world::geometry::{Pose, is_in_range};
 use crate::world::{Item, Part, Point, SpecError, WorldSpec};
 
 const FLOORS: [(char, &str); 7] = [
@@ -90,7 +90,7 @@ impl Drawing {
     /// # Errors
     /// Cells without size.
     pub fn drawn(&self, size: f64) -> Result<Drawn, SpecError> {
-        if !(size.is_finite() && size > 0.0) {
+        if !(is_in_range(size) && size > 0.0) {
             return Err(SpecError::new("cell", "needs a size above 0"));
         }
         let mut items: Vec<Item> =

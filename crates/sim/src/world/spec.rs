@@ -1,8 +1,8 @@
 //! A whole world, as plain data.
 
 use crate::world::color::Color;
-use crate::world::geometry::Pose;
-use crate::world::item::{Item, NOT_FINITE, Part, Point, SpecError, finite};
+use crate::world::geometry::{OUT_OF_RANGE, Pose};
+use crate::world::item::{Item, Part, Point, SpecError, in_range};
 
 /// Temperatures that there can be, in degrees Celsius.
 const ABSOLUTE_ZERO: f64 = -273.15;
@@ -24,7 +24,7 @@ impl Bounds {
     /// If the rectangle has no inside.
     pub fn validate(&self) -> Result<(), SpecError> {
         let Bounds { low, high } = *self;
-        if finite(&[low, high]) && low[0] < high[0] && low[1] < high[1] {
+        if in_range(&[low, high]) && low[0] < high[0] && low[1] < high[1] {
             return Ok(());
         }
         Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
@@ -84,8 +84,8 @@ impl WorldSpec {
         if !(0.0..=100.0).contains(&self.loudness) {
             return Err(SpecError::new("loudness", "must be from 0 to 100").in_part(Part::Loudness));
         }
-        if !self.start.is_finite() {
-            return Err(SpecError::new("start", NOT_FINITE).in_part(Part::Start));
+        if !self.start.is_in_range() {
+            return Err(SpecError::new("start", OUT_OF_RANGE).in_part(Part::Start));
         }
         if let Some(bounds) = self.bounds {
             bounds.validate()?;

@@ -63,7 +63,9 @@ fn sleeper(simulation: &Arc<Simulation>, time: Duration) -> JoinHandle<Duration>
     let thread = thread::spawn(move || {
         simulation.hold();
         held.wait();
-        simulation.pause(time);
+        while now(&simulation) < time {
+            simulation.pause(time.saturating_sub(now(&simulation)));
+        }
         let end = now(&simulation);
         simulation.release();
         end
@@ -95,6 +97,19 @@ fn a_held_clock_passes_only_while_its_holder_waits() {
     assert_eq!(now(&simulation), ms(40));
     simulation.release();
     assert_eq!(sleeper.join().unwrap(), ms(100));
+}
+
+#[test]
+fn a_pause_returns_for_signals_while_another_thread_holds_the_clock() {
+    let simulation = simulation(Clock::Virtual);
+    simulation.hold();
+    let waiter = Arc::clone(&simulation);
+    let end = thread::spawn(move || {
+        waiter.pause(ms(100));
+        now(&waiter)
+    });
+    assert_eq!(end.join().unwrap(), Duration::ZERO);
+    simulation.release();
 }
 
 #[test]

@@ -18,4 +18,5 @@ mod properties;
 mod robots;
 mod sensors;
 mod servos;
+mod walls;
 mod world;

@@ -3,7 +3,7 @@
 use crate::robots::default_robot;
 use ev3_sim::facts::{Fact, culprit};
 use ev3_sim::{
-    Action, Bounds, Drawing, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
+    Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
     RobotSpec, WorldSpec,
 };
 
@@ -39,6 +39,45 @@ fn impossible_worlds_and_robots_are_named() {
     assert!(build(&world, &robot).contains("wheel"));
     let robot = RobotSpec { axle: -1.0, ..default_robot() };
     assert!(build(&world, &robot).contains("axle"));
+}
+
+#[test]
+fn numbers_are_within_10_km() {
+    let build = |world: &WorldSpec, robot: &RobotSpec| {
+        Machine::new(world, robot, Options::default()).map(|_| ()).map_err(|e| e.to_string())
+    };
+    let robot = default_robot();
+    for number in [1e20, -1e20, 1.1e6, f64::NAN, f64::INFINITY] {
+        let start = Pose::new(0.0, number, 0.0);
+        let turned = Pose::new(0.0, 0.0, number);
+        let worlds = [
+            WorldSpec { start, ..WorldSpec::default() },
+            WorldSpec { start: turned, ..WorldSpec::default() },
+            WorldSpec {
+                items: vec![Item::wall([20.0, 0.0], [20.0, number])],
+                ..WorldSpec::default()
+            },
+            WorldSpec {
+                bounds: Some(Bounds { low: [-50.0, -50.0], high: [50.0, number] }),
+                ..WorldSpec::default()
+            },
+        ];
+        for world in &worlds {
+            assert!(build(world, &robot).is_err(), "{world:?}");
+        }
+        let robots = [
+            RobotSpec { axle: number, ..default_robot() },
+            RobotSpec { mass: number, ..default_robot() },
+            RobotSpec { hull: Hull::Circle { radius: number }, ..default_robot() },
+        ];
+        for robot in &robots {
+            assert!(build(&WorldSpec::default(), robot).is_err(), "{robot:?}");
+        }
+        assert!(Desk::new().0.place(start).is_err());
+    }
+    let start = Pose::new(1e6, -1e6, 1e6);
+    assert!(build(&WorldSpec { start, ..WorldSpec::default() }, &robot).is_ok());
+    assert!(build(&WorldSpec::default(), &RobotSpec { axle: 1e-300, ..robot }).is_err());
 }
 
 #[test]
@@ -116,7 +155,7 @@ fn collisions_and_events_are_recorded() {
     assert_eq!(events[1].path, "tacho-motor/motor1/command");
     assert_eq!((events[1].action, events[1].text.as_str()), (Action::Written, "run-forever"));
     assert_eq!(events[4].action, Action::Read);
-    assert!(trace.path().len() > 20);
+    assert!(trace.path().count() > 20);
     let svg = desk.0.svg();
     for part in [
         "<svg",
@@ -129,7 +168,7 @@ fn collisions_and_events_are_recorded() {
         assert!(svg.contains(part), "{part} in {svg}");
     }
     desk.step(1_200_000);
-    assert!(desk.0.trace().path().len() <= 2048, "memory stays flat");
+    assert!(desk.0.trace().path().count() <= 2048, "memory stays flat");
 }
 
 #[test]
