@@ -72,8 +72,8 @@ sim_restore(Snapshot) :-
     sim_restore_(State),
     set_added_facts(Added).
 
-%   Prolog counts the atoms that may be garbage, and collects after 10000. It
-%   cannot be told that a snapshot is larger than an atom; so those are counted
+%   Prolog counts the atoms that may be garbage and collects after 10000. It
+%   cannot learn that a snapshot is larger than others. So those are counted
 %   here.
 
 :- dynamic collection_at/1.
