@@ -598,7 +598,7 @@ test(costs_are_positive, error(type_error(_, 0), _)) :-
 test(options_are_a_list, error(type_error(list, x), _)) :-
     grid_map(x, _).
 test(options_are_those_of_a_map,
-     [ forall(member(Option, [fade(3), bounds(7, 7), neighbors(8)])),
+     [ forall(member(Option, [fade(3), bounds(7, 7), neighbor(8)])),
        error(domain_error(grid_option, Option), _) ]) :-
     grid_map([Option], _).
 test(no_diagonal_state_with_four_neighbors,
