@@ -156,10 +156,7 @@ pub unsafe fn PL_put_chars(t: term_t, flags: c_int, len: usize, s: *const c_char
 /// Calls `act` with each atom of a list, until it answers `None`; `None` then, and
 /// for what is no list of atoms. The two terms that this takes live as long as the
 /// others of the call.
-pub unsafe fn for_each_atom(
-    list: term_t,
-    mut act: impl FnMut(atom_t) -> Option<()>,
-) -> Option<()> {
+pub unsafe fn for_each_atom(list: term_t, mut act: impl FnMut(atom_t) -> Option<()>) -> Option<()> {
     unsafe {
         let head = PL_new_term_refs(2);
         let (mut from, rest, mut atom) = (list, head + 1, 0);
