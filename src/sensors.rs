@@ -71,10 +71,10 @@ predicates! {
     #[name("sensor_restart_")]
     semidet fn sensor_restart(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
-        let (port, types, mode) = (call.text(port)?, types_of(&call, types)?, call.text(mode)?);
+        let (port, mode) = (call.text(port)?, call.text(mode)?);
         let devices = call.devices()?;
         let device = call.or_fail(devices.find(Class::Sensor, &port))?;
-        into_prolog_result(types.iter().any(|kind| kind == device.driver()))?;
+        with_types(&call, types, |types| into_prolog_result(types.contains(&device.driver())))?;
         let interrupted = &mut call.interrupted();
         call.or_fail(sensor::restart(&devices, &device, &mode, interrupted))
     }
@@ -110,24 +110,28 @@ fn readings<'a, C: QueryableContextType>(
     mode: &Term<'a>,
     index: usize,
 ) -> PrologResult<Readings> {
-    let (mode, types) = (call.text(mode)?, types_of(call, types)?);
+    let mode = call.text(mode)?;
     let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
-    let found = call.or_throw(match &port {
-        Some(port) => sensor::at(&devices, port, &types),
-        None => sensor::with_mode(&devices, &types, &mode),
+    let found = with_types(call, types, |types| {
+        call.or_throw(match &port {
+            Some(port) => sensor::at(&devices, port, types),
+            None => sensor::with_mode(&devices, types, &mode),
+        })
     })?;
     Ok(Readings { devices, sensors: found.into_iter(), names_port: port.is_none(), mode, index })
 }
 
-/// A list of types; the empty list admits all.
-fn types_of<'a, C: QueryableContextType>(
+/// Calls a closure with a list of types; the empty list admits all.
+fn with_types<'a, C: QueryableContextType, T>(
     call: &Call<'a, C>,
     types: &Term<'a>,
-) -> PrologResult<Vec<Text>> {
-    match words(types) {
-        Some(words) => Ok(words),
-        None => call.map_list(types, |kind| call.text(&kind)),
+    act: impl FnOnce(&[&str]) -> PrologResult<T>,
+) -> PrologResult<T> {
+    if let Some(words) = words(types) {
+        return act(&words);
     }
+    let types = call.map_list(types, |kind| call.text(&kind))?;
+    act(&types.iter().map(AsRef::as_ref).collect::<Vec<_>>())
 }
 
 /// The number of a value: sensors have `value0` to `value7`.

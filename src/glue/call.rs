@@ -35,10 +35,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
     /// one.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
-        if !state::is_chosen() {
-            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
-            state::chosen();
+        if let Some(devices) = state::chosen_devices() {
+            return Ok(devices);
         }
+        self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+        state::chosen();
         Ok(state::devices())
     }
 

@@ -4,7 +4,9 @@
 //! sensor's file. So the atoms of the words below are made once and never released, and
 //! their handles stay valid. Any other text goes the long way.
 use std::borrow::Cow;
+use std::ops::Deref;
 use std::sync::OnceLock;
+use swipl::fli::for_each_atom;
 use swipl::prelude::*;
 
 /// Ports, attributes, modes and types of the EV3's own devices, and of a few others.
@@ -58,16 +60,30 @@ pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> 
     }
 }
 
-/// The texts of a list of a few atoms that are words; `None` for any other term.
-pub(crate) fn words(list: &Term) -> Option<Vec<Cow<'static, str>>> {
-    let mut atoms = [0; 8];
-    list.assert_term_handling_possible();
-    // Safety: the term is one of the engine that runs, as was just made sure.
-    let count = unsafe { swipl::fli::get_list_of_atoms(list.term_ptr(), &mut atoms) }?;
-    let mut words = Vec::with_capacity(count);
-    for atom in atoms.iter().take(count) {
-        words.push(Cow::Borrowed(word(*atom)?));
+/// A few words.
+#[derive(Default)]
+pub(crate) struct Words {
+    words: [&'static str; 8],
+    count: usize,
+}
+
+impl Deref for Words {
+    type Target = [&'static str];
+
+    fn deref(&self) -> &Self::Target {
+        self.words.get(..self.count).unwrap_or_default()
     }
+}
+
+/// The texts of a list of a few atoms that are words; `None` for any other term.
+pub(crate) fn words(list: &Term) -> Option<Words> {
+    let mut words = Words::default();
+    for_each_atom!(list, |atom| {
+        let free = words.words.get_mut(words.count)?;
+        *free = word(atom)?;
+        words.count += 1;
+        Some(())
+    })?;
     Some(words)
 }
 

@@ -88,9 +88,10 @@ pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
     drive
 }
 
-/// Whether it is settled which tree is in use.
-pub(crate) fn is_chosen() -> bool {
-    BRICK.files().is_tree_chosen
+/// The devices of the tree in use, if it is settled which one that is.
+pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
+    let files = BRICK.files();
+    files.is_tree_chosen.then(|| Arc::clone(&files.tree.devices))
 }
 
 /// Keeps the tree in use.

@@ -153,24 +153,36 @@ pub unsafe fn PL_put_chars(t: term_t, flags: c_int, len: usize, s: *const c_char
     }
 }
 
-/// Puts the atoms of a list into a buffer, and answers how many there are; `None`
-/// for what is no list of atoms, or does not fit. `swipl` has the same in steps, each
-/// of which checks the engine and makes terms of its own: that takes four times as
-/// long.
-pub unsafe fn get_list_of_atoms(list: term_t, atoms: &mut [atom_t]) -> Option<usize> {
+/// Calls `act` with each atom of a list, until it answers `None`; `None` then, and
+/// for what is no list of atoms. The two terms that this takes live as long as the
+/// others of the call.
+pub unsafe fn for_each_atom(list: term_t, mut act: impl FnMut(atom_t) -> Option<()>) -> Option<()> {
     unsafe {
-        let rest = PL_copy_term_ref(list);
-        let head = PL_new_term_ref();
-        let mut free = atoms.iter_mut();
-        let mut fits = true;
-        while fits && PL_get_list(rest, head, rest) != 0 {
-            fits = free.next().is_some_and(|atom| PL_get_atom(head, atom) != 0);
+        let head = PL_new_term_refs(2);
+        let (mut from, rest, mut atom) = (list, head + 1, 0);
+        while PL_get_list(from, head, rest) != 0 {
+            if PL_get_atom(head, &raw mut atom) == 0 {
+                return None;
+            }
+            act(atom)?;
+            from = rest;
         }
-        let is_complete = fits && PL_get_nil(rest) != 0;
-        let left = free.len();
-        PL_reset_term_refs(rest);
-        is_complete.then(|| atoms.len() - left)
+        (PL_get_nil(from) != 0).then_some(())
     }
+}
+
+/// Calls a closure with each atom of a list, see [`for_each_atom`](fn@for_each_atom).
+/// The list is a term of `swipl`, which panics if it is not one of the engine that
+/// runs. With the functions of `swipl`, which make sure of that at each step, it takes
+/// four times as long.
+#[macro_export]
+macro_rules! for_each_atom {
+    ($list:expr, $act:expr) => {{
+        let (list, act) = ($list, $act);
+        list.assert_term_handling_possible();
+        // Safety: the term is one of the engine that runs, as was just made sure.
+        unsafe { $crate::functions::for_each_atom(list.term_ptr(), act) }
+    }};
 }
 
 unsafe extern "C" {
