@@ -141,13 +141,21 @@ class Client(unittest.TestCase):
         motor.stop_action = "brake"
         motor.run_timed()
         self.assertIn("running", motor.state)
-        self.assertEqual(motor.duty_cycle, -40)
+        # In the sign that the program gave, inversed or not
+        self.assertEqual(motor.duty_cycle, 40)
         until(lambda: motor.state == [])
         self.assertEqual(motor.duty_cycle, 0)
         with self.assertRaises(DeviceNotFound):
             MediumMotor("ev3-ports:outA")
-        port.mode = "auto"
+        self.detect(port)
         MediumMotor("ev3-ports:outA")
+
+    def detect(self, port):
+        """Back to what is plugged in, which the brick takes a moment to see."""
+        port.mode = "auto"
+        until(lambda: "ev3-ports:outA\n" in [
+            open(entry.path + "/address").read()
+            for entry in os.scandir(ROOT + "/tacho-motor")])
 
     def test_lego_port_is_told_of_another_motor(self):
         port = LegoPort("ev3-ports:outA")
@@ -156,7 +164,7 @@ class Client(unittest.TestCase):
         names = [open(entry.path + "/driver_name").read()
                  for entry in os.scandir(ROOT + "/tacho-motor")]
         self.assertIn("lego-nxt-motor\n", names)
-        port.mode = "auto"
+        self.detect(port)
 
     def test_servo_motor_runs_and_floats(self):
         servo = ServoMotor("ev3-ports:in3:i2c88:sv1")
