@@ -105,6 +105,7 @@ mod robot;
 mod sense;
 mod sensor;
 mod shared;
+mod ticks;
 mod trace;
 mod wheel;
 mod world;
@@ -118,8 +119,10 @@ pub use files::attr::Access;
 pub use files::errno::Errno;
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
+pub use machine::descriptor::Descriptor;
+pub use machine::dev::DevDescriptor;
 pub use machine::tree::{Entry, FileKind, NodeId, Stat};
-pub use machine::{Descriptor, DevDescriptor, Machine, Options, Written};
+pub use machine::{Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
 pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel};
@@ -131,15 +134,3 @@ pub use world::geometry::Pose;
 pub use world::{
     Bounds, Cell, Drawing, Drawn, Hull, Item, ItemId, Part, Point, SpecError, WorldSpec,
 };
-
-/// One turn of the kernel's motor loop.
-const TICK_MS: u64 = 2;
-const TICK_US: u64 = TICK_MS * 1000;
-const TICK_SECONDS: f64 = 0.002;
-/// Kernel timers fire on a grid of 10 ms (HZ = 100).
-const JIFFY_TICKS: u64 = 5;
-
-/// The number of ticks that take at least this long. No time is negative here.
-fn ticks_from_ms(ms: i32) -> u64 {
-    u64::from(ms.unsigned_abs()).div_ceil(TICK_MS)
-}

@@ -4,7 +4,7 @@
 //! the one before, and rounds up: a timer fires in the jiffy after the one that was asked for, a
 //! long one up to an eighth of its length later.
 
-use crate::JIFFY_TICKS;
+use crate::ticks::JIFFY_TICKS;
 
 const JIFFY_MS: u32 = 10;
 /// A level has 64 slots and begins where 63 slots of the level before end.

@@ -1,15 +1,16 @@
 //! The parts of the brick: status LEDs, battery, the file that names the board, and the files that
 //! describe the screen.
 
+pub(crate) mod output;
 pub(crate) mod panel;
 pub(crate) mod port;
 pub(crate) mod remote;
 pub(crate) mod screen;
 
+use crate::brick::output::{Output, Pins};
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
 use crate::files::errno::Errno;
 use crate::files::text::{strict_unsigned, word};
-use crate::motor::output::{Output, Pins};
 use screen::{Depth, HEIGHT, WIDTH};
 
 /// The EV3's four status lights; a left and a right pair of red and green.

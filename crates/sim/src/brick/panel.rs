@@ -6,8 +6,8 @@ use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::TICK_US;
 use crate::brick::screen::{Depth, HEIGHT};
+use crate::ticks::TICK_US;
 
 /// How many events a reader may be behind; evdev keeps about as many.
 const EVENTS: usize = 64;

@@ -2,16 +2,16 @@
 
 use std::time::Duration;
 
-use crate::JIFFY_TICKS;
 use crate::brick::port::Port;
 use crate::files::attr::{Access, Effect};
 use crate::files::errno::Errno;
-use crate::machine::Descriptor;
+use crate::machine::descriptor::Descriptor;
 use crate::machine::tree::{Entry, Hardware, NodeId, Stat, Tree};
 use crate::machine::{Machine, Written};
 use crate::noise::{Noise, Source};
 use crate::sense::View;
 use crate::sensor::{Reading, Sensor};
+use crate::ticks::JIFFY_TICKS;
 use crate::trace::Action;
 use crate::world::geometry::Pose;
 

@@ -3,8 +3,8 @@
 //! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
 //! time pass.
 
-mod descriptor;
-mod dev;
+pub(crate) mod descriptor;
+pub(crate) mod dev;
 mod files;
 mod panel;
 mod plugs;
@@ -13,13 +13,10 @@ mod svg;
 mod time;
 pub(crate) mod tree;
 
-pub use descriptor::Descriptor;
-pub use dev::DevDescriptor;
-
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::TICK_US;
+use crate::brick::output::Output;
 use crate::brick::panel::Panel;
 use crate::brick::port::{LegoPort, Port};
 use crate::brick::remote::{Remote, RemoteButton};
@@ -30,9 +27,9 @@ use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
 use crate::mechanics::shaft::Shaft;
-use crate::motor::output::Output;
 use crate::noise::Teeth;
 use crate::robot::RobotSpec;
+use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::scene::Scene;

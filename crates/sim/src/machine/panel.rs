@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use crate::TICK_US;
 use crate::brick::panel::{Button, ButtonEvent};
 use crate::machine::Machine;
+use crate::ticks::TICK_US;
 use crate::trace::Action;
 
 /// How long speech takes, a letter; espeak says some 15 of them a second.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::brick::Led;
+use crate::brick::output::{Output, Pins};
 use crate::brick::port::{LegoPort, Port};
 use crate::files::errno::Errno;
 use crate::machine::Machine;
@@ -10,11 +11,10 @@ use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
-use crate::motor::output::{Output, Pins};
 use crate::motor::servo::{self, Servo};
 use crate::sensor::Sensor;
+use crate::ticks::{TICK_US, ticks_from_ms};
 use crate::world::SpecError;
-use crate::{TICK_US, ticks_from_ms};
 
 /// udev needs about half a second to open the files of a new device to the group.
 const UDEV_MS: i32 = 500;

@@ -6,11 +6,11 @@
 //! serial sensor introduces itself at 2400 baud, which takes about as long
 //! (`docs/ev3dev-sysfs.md`, 1).
 
+use crate::brick::output::Output;
 use crate::brick::port::Port;
 use crate::motor::MotorKind;
-use crate::motor::output::Output;
 use crate::sensor::{Link, SensorKind};
-use crate::ticks_from_ms;
+use crate::ticks::ticks_from_ms;
 
 /// From the plug to a new `status`.
 const NOTICE_SENSOR_MS: i32 = 360;

@@ -2,16 +2,15 @@
 
 use std::time::Duration;
 
+use crate::brick::output::{Bridge, Output};
 use crate::brick::port::Port;
 use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::mechanics::Load;
-use crate::motor::Bridge;
-use crate::motor::output::Output;
 use crate::noise::{Noise, Source};
+use crate::ticks::{JIFFY_TICKS, TICK_US};
 use crate::world::geometry::Pose;
-use crate::{JIFFY_TICKS, TICK_US};
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 /// A clock that jumps is not asked to jump farther than this.

@@ -4,13 +4,13 @@
 //! used again, and the row of the attribute in its class's table; so nothing has to be stored, and
 //! a node of a device that is gone stays gone when another comes to the same port.
 
+use crate::brick::output::Output;
 use crate::brick::port::LegoPort;
 use crate::brick::{Battery, Board, Framebuffer, Led};
 use crate::files::attr::{Access, Effect, Files};
 use crate::files::errno::Errno;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
-use crate::motor::output::Output;
 use crate::motor::servo::Servo;
 use crate::sensor::Sensor;
 

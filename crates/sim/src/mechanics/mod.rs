@@ -13,11 +13,12 @@
 
 pub(crate) mod shaft;
 
+use crate::ItemId;
 use crate::robot::{RobotSpec, Wheel};
+use crate::ticks::TICK_SECONDS;
 use crate::world::geometry::{Pose, Vec2, direction, sin_cos};
 use crate::world::obstacle::Contact;
 use crate::world::scene::Scene;
-use crate::{ItemId, TICK_SECONDS};
 
 /// The hull keeps this far from obstacles, in cm, so that it never quite touches them.
 const SKIN: f64 = 0.02;

@@ -1,9 +1,10 @@
 //! A motor's output shaft: where it is, how fast it turns, what its motor does to it.
 
-use crate::TICK_SECONDS;
+use crate::brick::output::Bridge;
 use crate::mechanics::Load;
-use crate::motor::{Bridge, Encoder, MOTOR_KINDS, MotorKind, RATED_VOLTS};
+use crate::motor::{Encoder, MOTOR_KINDS, MotorKind, RATED_VOLTS};
 use crate::noise::Teeth;
+use crate::ticks::TICK_SECONDS;
 
 /// One of the four shafts. It is there even when no wire is plugged in.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@
 //! and takes about 200 ms to reach zero after the wheel has stopped. Teeth that are not quite where they
 //! should be shift the counts; in the speed that cancels out, as four edges are a whole tooth.
 
-use crate::TICK_US;
 use crate::noise::Teeth;
+use crate::ticks::TICK_US;
 
 /// Room for the 64 steps back; a power of two.
 const RING: usize = 128;

@@ -97,14 +97,3 @@ impl MotorKind {
         (self.stall_torque - self.friction) / f64::from(self.max_speed).to_radians()
     }
 }
-
-/// The state of the H-bridge at a motor's two wires.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bridge {
-    /// Both pins low: the motor coasts.
-    Float,
-    /// Both pins high: the winding is shorted and brakes.
-    Short,
-    /// PWM, −100…100 %. 0 % brakes like a short here; what the real bridge does is not known.
-    Driven(i32),
-}

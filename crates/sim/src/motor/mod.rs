@@ -10,19 +10,17 @@ mod command;
 pub(crate) mod dc;
 mod encoder;
 mod kind;
-pub(crate) mod output;
 mod pid;
 mod ramp;
 mod sample;
 pub(crate) mod servo;
 
 pub(crate) use encoder::Encoder;
-pub(crate) use kind::{Bridge, RATED_VOLTS};
+pub(crate) use kind::RATED_VOLTS;
 pub use kind::{MOTOR_KINDS, MotorKind};
-use output::{Output, Pins};
 use pid::Pid;
-use ramp::Ramp;
 
+use crate::brick::output::{Output, Pins};
 use crate::brick::port::Port;
 use crate::wheel::{Timer, jiffy};
 
@@ -108,6 +106,19 @@ enum Drive {
     Speed,
     /// The same, towards a target.
     Position,
+}
+
+/// The leg of a ramp that is under way, or the last one: `ramp.rs`.
+#[derive(Clone, Debug, Default)]
+struct Ramp {
+    /// The speed that was set last.
+    last: i32,
+    end: i32,
+    change: i32,
+    duration: u32,
+    /// Since when the leg is counted: half a period before it began.
+    started: i64,
+    stepped: i64,
 }
 
 /// A motor as the class and its driver see it.

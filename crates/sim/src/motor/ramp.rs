@@ -5,24 +5,11 @@
 //! times are in jiffies. A step comes 100 ms after the time of the one before the last, so that
 //! they are 50 to 60 ms apart.
 
-use super::{Command, Tacho};
+use super::{Command, Ramp, Tacho};
 use crate::wheel::{Timer, jiffies_from_ms, jiffy};
 
 const PERIOD: u64 = 10;
 const HALF_PERIOD: i64 = 5;
-
-/// The leg under way, or the last one.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Ramp {
-    /// The speed that was set last.
-    pub(super) last: i32,
-    end: i32,
-    change: i32,
-    duration: u32,
-    /// Since when the leg is counted: half a period before it began.
-    started: i64,
-    stepped: i64,
-}
 
 impl Tacho {
     /// The present jiffy. It is counted from boot, and a leg may count from before that.

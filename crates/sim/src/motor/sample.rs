@@ -1,7 +1,7 @@
 //! What the driver does by itself: every 2 ms, and at its timers.
 
 use super::{Drive, NOTIFY_JIFFIES, STALL_TICKS, Tacho};
-use crate::JIFFY_TICKS;
+use crate::ticks::JIFFY_TICKS;
 use crate::wheel::{Timer, jiffy};
 
 impl Tacho {

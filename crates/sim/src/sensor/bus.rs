@@ -6,17 +6,14 @@
 
 use std::time::Duration;
 
-use super::{Link, Sensor, SensorKind};
+use super::{Link, Sensor};
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
 use crate::files::text::signed;
-use crate::{TICK_MS, ticks_from_ms};
+use crate::ticks::{TICK_MS, ticks_from_ms};
 
 /// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;
-/// How often the kernel polls sensors on the I2C bus, and the servo controller.
-const POLL_MS: u32 = 100;
-const SERVO_POLL_MS: u32 = 1000;
 /// What the sensors on the I2C bus say of their version, and where it, who made them, what they
 /// are and their data lie.
 const VERSION: &str = "V1.0";
@@ -28,37 +25,6 @@ const DATA_REGISTER: usize = 0x42;
 const LAST_ERRNO: i32 = 4095;
 /// How many registers the file `direct` shows.
 const REGISTERS: usize = 255;
-
-/// An axle that an angle sensor sits on, in degrees and degrees per second.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Axle {
-    angle: f64,
-    zero: f64,
-    counted_from: f64,
-    pub(crate) rate: f64,
-}
-
-impl Axle {
-    /// Since the sensor was plugged in, or calibrated.
-    pub(crate) fn angle(&self) -> f64 {
-        self.angle - self.zero
-    }
-
-    /// Since the last reset.
-    pub(crate) fn turned(&self) -> f64 {
-        self.angle - self.counted_from
-    }
-
-    pub(super) fn turn(&mut self, rate: f64, seconds: f64) {
-        self.rate = rate;
-        self.angle += rate * seconds;
-    }
-}
-
-/// How often a sensor is polled at first. Motors and servos behind it need no values.
-pub(super) fn poll_ms(kind: &SensorKind) -> u32 {
-    if matches!(kind.driver_name, "ms-8ch-servo" | "ms-nxtmmx") { SERVO_POLL_MS } else { POLL_MS }
-}
 
 impl Sensor {
     /// The address that the files show: on the I2C bus, with that of the sensor.
@@ -109,12 +75,11 @@ impl Sensor {
     pub(super) fn command(&mut self, index: usize) -> Effect {
         match self.kind.commands[index] {
             "RESET" => {
-                self.axle.counted_from = self.axle.angle;
+                self.axle.reset();
                 self.angle = 0.0;
             }
             "CAL" => {
-                self.axle.counted_from = self.axle.angle;
-                self.axle.zero = self.axle.angle;
+                self.axle.calibrate();
             }
             _ => {}
         }

@@ -1,9 +1,5 @@
 //! The types of sensors, as data: how each is connected, and what it shows in each of
-//! its modes. The tables are in `ev3`, `nxt` and `others` below.
-
-mod ev3;
-mod nxt;
-mod others;
+//! its modes. `kinds` has the tables.
 
 use super::format::{Format, Scale};
 
@@ -157,7 +153,7 @@ pub(crate) struct Mode {
 }
 
 impl Mode {
-    const fn new(
+    pub(super) const fn new(
         name: &'static str,
         values: usize,
         decimals: u8,
@@ -168,18 +164,18 @@ impl Mode {
         Mode { name, values, decimals, units, format, scale: Scale::None, sense, mute: false }
     }
 
-    const fn mute(mut self) -> Self {
+    pub(super) const fn mute(mut self) -> Self {
         self.mute = true;
         self
     }
 
     /// The raw data from one number to another are shown as from one to another.
-    const fn scaled(mut self, raw: [i32; 2], shown: [i32; 2]) -> Self {
+    pub(super) const fn scaled(mut self, raw: [i32; 2], shown: [i32; 2]) -> Self {
         self.scale = Scale::Linear { raw, shown };
         self
     }
 
-    const fn halves(mut self) -> Self {
+    pub(super) const fn halves(mut self) -> Self {
         self.scale = Scale::Halves;
         self
     }
@@ -213,39 +209,49 @@ pub struct SensorKind {
 }
 
 impl SensorKind {
-    const fn uart(driver_name: &'static str, settling_ms: u32, modes: &'static [Mode]) -> Self {
+    pub(super) const fn uart(
+        driver_name: &'static str,
+        settling_ms: u32,
+        modes: &'static [Mode],
+    ) -> Self {
         SensorKind { driver_name, link: Link::Uart, settling_ms, commands: &[], modes }
     }
 
-    const fn analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
+    pub(super) const fn analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
         SensorKind { driver_name, link: Link::Analog, settling_ms: 0, commands: &[], modes }
     }
 
-    const fn nxt_analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
+    pub(super) const fn nxt_analog(driver_name: &'static str, modes: &'static [Mode]) -> Self {
         let link = Link::NxtAnalog { recognized: false };
         SensorKind { driver_name, link, settling_ms: 0, commands: &[], modes }
     }
 
-    const fn i2c(driver_name: &'static str, address: u8, modes: &'static [Mode]) -> Self {
+    pub(super) const fn i2c(
+        driver_name: &'static str,
+        address: u8,
+        modes: &'static [Mode],
+    ) -> Self {
         SensorKind { driver_name, link: Link::I2c(address), settling_ms: 0, commands: &[], modes }
     }
 
-    const fn with_commands(mut self, commands: &'static [&'static str]) -> Self {
+    pub(super) const fn with_commands(mut self, commands: &'static [&'static str]) -> Self {
         self.commands = commands;
         self
     }
 }
 
-impl SensorKind {
-    /// The sensor with this driver name.
-    #[must_use]
-    pub fn named(driver_name: &str) -> Option<&'static SensorKind> {
-        SensorKind::all().find(|kind| kind.driver_name == driver_name)
-    }
+/// How often the kernel polls sensors on the I2C bus, and the servo controller.
+const POLL_MS: u32 = 100;
+const SERVO_POLL_MS: u32 = 1000;
 
-    /// Every sensor type that a simulated port can have.
-    pub fn all() -> impl Iterator<Item = &'static SensorKind> {
-        ev3::KINDS.iter().chain(nxt::KINDS).chain(others::KINDS)
+impl SensorKind {
+    /// How often a sensor is polled at first. Motors and servos behind it need no values.
+    pub(super) fn poll_ms(&self) -> u32 {
+        if matches!(self.driver_name, "ms-8ch-servo" | "ms-nxtmmx") {
+            SERVO_POLL_MS
+        } else {
+            POLL_MS
+        }
     }
 
     /// What a sensor on the I2C bus says of who made it and what it is, by the kernel's

@@ -6,11 +6,13 @@
 //! This module does not measure: [`crate::sense`] samples the world and passes a [`Reading`].
 
 mod attrs;
+mod axle;
 mod bus;
 mod format;
 mod kind;
+mod kinds;
 
-pub(crate) use bus::Axle;
+pub(crate) use axle::Axle;
 pub use kind::{Link, SensorKind};
 pub(crate) use kind::{Mode, Parts, Sense};
 
@@ -19,8 +21,8 @@ use std::time::Duration;
 use crate::brick::port::Port;
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
+use crate::ticks::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
 use crate::wheel::jiffy;
-use crate::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
 
 /// From a mode message to the first data of the new mode.
 const MODE_LATENCY_MS: i32 = 4;
@@ -105,7 +107,7 @@ impl Sensor {
             locked: false,
             last_single_shot: None,
             wanted: matches!(kind.link, Link::I2c(_)),
-            poll_ms: bus::poll_ms(kind),
+            poll_ms: kind.poll_ms(),
             reading: [0; 8],
             left_over: vec![None; kind.modes.len()],
             read_at: None,

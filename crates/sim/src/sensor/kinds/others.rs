@@ -2,7 +2,8 @@
 //! Addresses, commands and how each mode shows the raw data are from the kernel's
 //! `nxt_i2c_sensor_defs.c`. A sensor of something that this world lacks always shows the same.
 
-use super::{Format, Mode, Parts, Sense, SensorKind};
+use crate::sensor::format::Format;
+use crate::sensor::kind::{Mode, Parts, Sense, SensorKind};
 
 const fn byte(name: &'static str, values: usize, sense: Sense) -> Mode {
     Mode::new(name, values, 0, "", Format::U8, sense)

@@ -2,7 +2,16 @@
 //! PWM stay as they are when one driver goes and another comes, and a driver writes only one of
 //! them when it has nothing to say about the other.
 
-use super::Bridge;
+/// The state of the H-bridge at a motor's two wires.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bridge {
+    /// Both pins low: the motor coasts.
+    Float,
+    /// Both pins high: the winding is shorted and brakes.
+    Short,
+    /// PWM, −100…100 %. 0 % brakes like a short here; what the real bridge does is not known.
+    Driven(i32),
+}
 
 /// The two pins that give the direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! The sensors of the EV3 sets: `docs/ev3dev-sysfs.md`, 5.4.
 
-use super::{Format, Mode, Sense, SensorKind};
+use crate::sensor::format::Format;
+use crate::sensor::kind::{Mode, Sense, SensorKind};
 
 const ANALOG: &[Mode] = &[Mode::new("ANALOG", 1, 3, "V", Format::S32, Sense::Volts)];
 

@@ -2,7 +2,8 @@
 //! How each mode shows the raw data is from the kernel's `nxt_analog_sensor_defs.c` and
 //! `nxt_i2c_sensor_defs.c`.
 
-use super::{Format, Link, Mode, Sense, SensorKind};
+use crate::sensor::format::Format;
+use crate::sensor::kind::{Link, Mode, Sense, SensorKind};
 
 /// A mode of 32 bits, as the analog drivers have them.
 const fn analog(
