@@ -21,7 +21,7 @@
 main :-
     sim_start(room, [clock(virtual)]),
     % It never ends by itself.
-    call_with_inference_limit(user:start, 500000, Ended),
+    call_with_inference_limit(user:start, 2000000, Ended),
     Ended == inference_limit_exceeded,
     stop,
     sim_time(Seconds),

@@ -148,13 +148,6 @@ use_sources :-
                 *           LOADING            *
                 *******************************/
 
-:- multifile user:prolog_load_file/2.
-:- dynamic user:prolog_load_file/2.
-
-user:prolog_load_file(_:Spec, _) :-
-    ev3dev_compiled:load_unit_of(Spec),
-    fail.
-
 load_unit_of(Spec) :-
     name_of(Spec, Name),
     unit_with(Name, _, _),
@@ -213,3 +206,12 @@ load_needed([Needed|More]) :-
     load_needed(More).
 
 :- use_compiled.
+
+%   Last: another thread may call it as soon as it is there.
+
+:- multifile user:prolog_load_file/2.
+:- dynamic user:prolog_load_file/2.
+
+user:prolog_load_file(_:Spec, _) :-
+    ev3dev_compiled:load_unit_of(Spec),
+    fail.

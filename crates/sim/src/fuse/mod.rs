@@ -23,8 +23,8 @@ use fuser::{BackgroundSession, Config, MountOption, Session};
 use rustix::io::Errno;
 use rustix::mount::{UnmountFlags, unmount};
 
-use crate::machine::Descriptor;
-use crate::machine::DevDescriptor;
+use crate::machine::descriptor::Descriptor;
+use crate::machine::dev::DevDescriptor;
 use crate::shared::Shared;
 use files::Files;
 use open::Open;

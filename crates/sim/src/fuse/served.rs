@@ -7,8 +7,8 @@ use fuser::PollEvents;
 
 use crate::files::attr::Access;
 use crate::files::errno::Errno;
-use crate::machine::Descriptor;
-use crate::machine::DevDescriptor;
+use crate::machine::descriptor::Descriptor;
+use crate::machine::dev::DevDescriptor;
 use crate::machine::tree::{Entry, NodeId, Stat};
 use crate::machine::{Machine, Written};
 
