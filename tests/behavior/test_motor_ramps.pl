@@ -146,4 +146,18 @@ test(a_timed_run_ends_before_its_ramp_is_done) :-
                rests,
                motor_ramps(outA, 0, 0) )).
 
+% The motor still turns when each begins.
+test(short_moves_in_a_row_are_all_over_soon, true(Late == [])) :-
+    with_sim(room,
+             ( motor_ramps(outB, 80, 7),
+               findall(Angle-Seconds,
+                       ( between(1, 40, _),
+                         member(Angle, [7, -7, 1.5, 97, -0.0]),
+                         sim_time(T0),
+                         motor_run(outB, 80, Angle, [timeout(20)]),
+                         sim_time(T),
+                         Seconds is T - T0,
+                         Seconds > 10 ),
+                       Late) )).
+
 :- end_tests(motor_ramps_end).

@@ -50,16 +50,16 @@ polled_until(Port, Position) :-
     ).
 
 test(a_wait_beside_a_thread_that_holds_the_clock_can_be_interrupted,
-     throws(time_limit_exceeded)) :-
+     true(E == time_limit_exceeded)) :-
     with_sim(room,
              setup_call_cleanup(
                  ( thread_self(Me), thread_create(hold(Me), Id, []),
                    thread_get_message(holding)
                  ),
-                 call_with_time_limit(0.2, sim_wait(1)),
+                 catch(call_with_time_limit(0.2, sim_wait(1)), E, true),
                  ( thread_send_message(Id, done), thread_join(Id, _) ))).
-test(steps_can_be_interrupted, throws(time_limit_exceeded)) :-
-    with_sim(room, call_with_time_limit(0.2, sim_step(1.0e8))).
+test(steps_can_be_interrupted, true(E == time_limit_exceeded)) :-
+    with_sim(room, catch(call_with_time_limit(0.2, sim_step(1.0e8)), E, true)).
 
 hold(Other) :-
     ev3dev_native:sim_hold_,

@@ -3,9 +3,9 @@
 //!
 //! A ramp begins at the measured speed. If that is `speed_sp` already, the
 //! kernel takes the ramp as done and tells the motor nothing: a move to a position
-//! is ignored, and a motor that turned turns on. So a motor that may turn gets the
-//! move without ramps first, which is never ignored, and then with them: even if
-//! the second command is ignored, the motor is on its way.
+//! is ignored, and a motor that turned turns on. It may also lead the motor away
+//! from its target, if it turns the other way when the ramp begins. So a motor that
+//! may turn gets a move to a position without ramps, which does neither.
 //!
 //! A timed run that is over before its ramp up is, starts again: the kernel
 //! forgets to cancel the ramp. With a ramp down, however short, it does not.
@@ -51,8 +51,8 @@ impl<'a> Ramped<'a> {
         Ok(is_treacherous.then_some(Ramped { motor, target, changed: Vec::new() }))
     }
 
-    /// The command to write. The target of a relative one would change by the
-    /// first of the two commands.
+    /// The command to write. A relative one would count from where the motor has got
+    /// by now.
     pub(super) fn word<'w>(&self, word: &'w str) -> &'w str {
         if self.target.is_some() { "run-to-abs-pos" } else { word }
     }
@@ -63,29 +63,22 @@ impl<'a> Ramped<'a> {
             return self.set("ramp_down_sp", 1);
         };
         self.set("position_sp", target)?;
-        let first = self.changed.len();
         self.set("ramp_up_sp", 0)?;
-        self.set("ramp_down_sp", 0)?;
-        self.motor.write("command", self.word(""))?;
-        self.put_back(first)
+        self.set("ramp_down_sp", 0)
     }
 
     fn set(&mut self, attribute: &'static str, value: i64) -> Result<()> {
         self.changed.push((attribute, self.motor.number(attribute)?));
         self.motor.write_number(attribute, value)
     }
-
-    fn put_back(&mut self, first: usize) -> Result<()> {
-        let write = |(attribute, value)| self.motor.write_number(attribute, value);
-        // All of them, even if one fails.
-        self.changed.drain(first..).rev().map(write).fold(Ok(()), Result::and)
-    }
 }
 
 impl Drop for Ramped<'_> {
     fn drop(&mut self) {
-        // An error is ignored: the motor was unplugged.
-        let _ = self.put_back(0);
+        for (attribute, value) in self.changed.drain(..).rev() {
+            // An error is ignored: the motor was unplugged.
+            let _ = self.motor.write_number(attribute, value);
+        }
     }
 }
 
