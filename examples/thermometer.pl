@@ -29,7 +29,7 @@ thermometer(Count, Before) :-
     format("~t~1f~6| C ~w ~w~n", [Celsius, Trend, Bar]),
     (   Count == 1                      % never true from 0 down: forever
     ->  true
-    ;   sleep(1),
+    ;   wait(1),
         Left is Count - 1,
         thermometer(Left, Celsius)
     ).

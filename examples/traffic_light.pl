@@ -23,22 +23,17 @@ start :-
 
 turn_green :-
     tone(880, 100),
-    pause(900),
+    wait(0.9),
     show(amber),
-    pause(1000),
+    wait(1),
     show(green),
     forall(between(1, 5, _), tick),
     show(amber),
-    pause(1000).
+    wait(1).
 
 tick :-
     tone(1200, 50),
-    pause(450).
-
-%   On a brick sleep/1 would also work, but it lets no simulated time pass.
-pause(Milliseconds) :-
-    Tempo is 60000 / Milliseconds,
-    tones([rest(quarter)], [tempo(Tempo)]).
+    wait(0.45).
 
 %!  show(+Color) is semidet.
 %

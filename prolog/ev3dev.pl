@@ -13,6 +13,7 @@ A program loads this module. It offers all predicates of
   - library(ev3dev/lights), library(ev3dev/battery), library(ev3dev/ports)
   - library(ev3dev/buttons), library(ev3dev/sound) and library(ev3dev/screen):
     the brick's own buttons, speaker and screen
+  - library(ev3dev/time): waiting, the clock, stopwatches
   - library(ev3dev/driver), library(ev3dev/device_table) and
     library(ev3dev/files): devices and the files that ev3dev shows of them
 

@@ -9,7 +9,6 @@ use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
 use ev3_driver::motor::wait::Reason;
-use ev3_driver::sysfs::sleep;
 use ev3_motion::{Pose, wrapped};
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,7 +23,6 @@ pub(crate) fn register() {
     register_heading_wrapped();
     register_drive();
     register_drive_wait();
-    register_drive_pause();
 }
 
 predicates! {
@@ -101,15 +99,6 @@ predicates! {
         let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
         let ended = drive.wait_last(timeout, &mut call.interrupted());
         unify_atom(reason, call.or_throw(ended)?.word())
-    }
-
-    /// drive_pause_(+Seconds): waits by the clock of the tree.
-    #[module("ev3dev_native")]
-    #[name("drive_pause_")]
-    semidet fn drive_pause(context, seconds) {
-        let call = Call::of(context, "calibrate", 3);
-        let (devices, seconds) = (call.devices()?, call.seconds(seconds)?.unwrap_or_default());
-        call.or_throw(sleep(devices.tree(), seconds, &mut call.interrupted()))
     }
 }
 

@@ -18,7 +18,6 @@ pub(crate) fn register() {
     register_sysfs_use();
     register_dev();
     register_dev_use();
-    register_now();
 }
 
 predicates! {
@@ -48,14 +47,6 @@ predicates! {
         let path = call.text(file)?;
         let read = call.or_throw(read_value(call.devices()?.tree(), Path::new(&*path)))?;
         unify_value(value, &read)
-    }
-
-    /// now_(-Seconds): by the clock of the tree in use, since some fixed moment.
-    #[module("ev3dev_native")]
-    #[name("now_")]
-    semidet fn now(context, seconds) {
-        let call = Call::of(context, "obstructed", 1);
-        seconds.unify(call.devices()?.tree().now().as_secs_f64())
     }
 
     /// file_write_(+File, +Value)

@@ -28,6 +28,7 @@ mod servo_motors;
 #[cfg(feature = "sim")]
 mod sim;
 mod sound;
+mod time;
 
 /// Registers all predicates; SWI-Prolog calls it when it loads the library.
 // Safety: SWI-Prolog defines the name and looks it up in this library only.
@@ -44,6 +45,7 @@ pub extern "C" fn install() {
     ports::register();
     sensors::register();
     files::register();
+    time::register();
     buttons::register();
     sound::register();
     screen::register();

@@ -38,7 +38,7 @@ task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
 task('Ask sensors', [sensors, infrared, nxt_sensors, sensor_info]).
 task('Use the brick itself',
-     [lights, buttons, sound, screen, battery, ports, compile]).
+     [lights, buttons, sound, screen, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).

@@ -11,7 +11,7 @@
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/robot_state, [robot_description/1]).
-:- use_module(private/native, [drive_pause_/1]).
+:- use_module(private/native, [wait_/1]).
 
 /** <module> Calibration: the true size of wheels and axle
 
@@ -180,7 +180,7 @@ rest_angle(Gyro, Angle) :-
     Angle is Sum / 50.0.
 
 pause_ang(Gyro, Angle) :-
-    drive_pause_(0.01),
+    wait_(0.01),
     gyro_ang(Gyro, Angle).
 
 %   The call that describes a robot, to a hundredth of a millimeter.

@@ -162,7 +162,7 @@ When a predicate of library(ev3dev) waits, for example go_cm/2, time jumps to
 the end of the wait; so a minute's drive takes milliseconds. Each read of a
 file takes 0.5 ms and each write 0.1 ms, so time also passes for a program
 that polls a sensor in a loop. sleep/1 lets no simulated time pass;
-sim_wait/1 does. While a program waits for a button that no sim_press/2 will
+wait/1 does. While a program waits for a button that no sim_press/2 will
 press, time passes at most 20 times as fast as real time. Several threads may
 wait at once; time advances when each thread waits or uses no device. The same
 program with the same seed does the same each time.

@@ -22,7 +22,8 @@ All predicates fail if no simulation runs.
 
 %!  sim_wait(+Seconds) is semidet.
 %
-%   Wait until Seconds of simulated time have passed, like sleep/1 on a brick.
+%   Wait until Seconds of simulated time have passed, like wait/1 of
+%   library(ev3dev/time), which also works on a brick.
 %   With the virtual clock, time jumps to the end of the wait as soon as no
 %   other thread uses devices. Seconds may be an arithmetic expression.
 %

@@ -37,6 +37,9 @@ sensible(runs, [run(outB, 20)]).
 sensible(moves, [move(outB, 20, 9)]).
 sensible(reading, touch).
 sensible(seconds, 1).
+sensible(moment, 0.01).
+sensible(watch, Watch) :-
+    stopwatch(Watch).
 sensible(polarity, inversed).
 sensible(pid, pid(1, 2, 3)).
 sensible(dc, outD).
@@ -185,6 +188,10 @@ call_of(servo_motor_polarity(servo, polarity)).
 call_of(servo_motor_rate(servo, number)).
 call_of(servo_motor_pulses(servo, number, number, number)).
 call_of(servo_motor_attribute(servo, attribute, number)).
+call_of(ev3_time(out)).
+call_of(wait(moment)).
+call_of(stopwatch(out)).
+call_of(elapsed(watch, out)).
 call_of(led(light)).
 call_of(led(light, colour)).
 call_of(led_trigger(light, trigger)).

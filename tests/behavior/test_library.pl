@@ -69,6 +69,7 @@ exported(battery, [ battery/2 ]).
 exported(ports,
          [ lego_port/1, port_mode/2, port_modes/2, port_status/2,
            port_device/2 ]).
+exported(time, [ ev3_time/1, wait/1, stopwatch/1, elapsed/2 ]).
 exported(buttons,
          [ button/1, button_wait/2, button_wait/3, button_events/1 ]).
 exported(sound,

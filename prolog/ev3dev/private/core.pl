@@ -20,6 +20,7 @@
 :- reexport('../lights').
 :- reexport('../battery').
 :- reexport('../ports').
+:- reexport('../time').
 :- reexport('../buttons').
 :- reexport('../sound').
 :- reexport('../screen').

@@ -89,6 +89,7 @@ allowed(screen_color,       [black, dark_gray, light_gray, white]).
 allowed(seconds,            'a time in seconds is a number from 0 on').
 allowed(sensor_value_index, 'the index of a value is an integer from 0 to 7').
 allowed(side,               [left, right]).
+allowed(stopwatch,          'a stopwatch of stopwatch/1 is expected').
 allowed(speed,              'a speed in percent from -100 to 100, not 0').
 allowed(speed_ahead,        'a speed in percent above 0, at most 100').
 allowed(stop_action,        [coast, brake, hold]).

@@ -7,10 +7,11 @@
             dev_use_/1,
             file_read_/2,
             file_write_/2,
-            now_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
+            now_/1,
+            wait_/1,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
@@ -59,7 +60,6 @@
             port_set_device_/2,
             port_set_mode_/2,
             drive_/4,
-            drive_pause_/1,
             drive_wait_/3,
             heading_wrapped_/2,
             odometry_/1,
@@ -132,12 +132,18 @@ missing.
 %!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
-%!  now_(-Seconds) is det.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
 %
 %   `src/files.rs`
+
+% Time
+
+%!  now_(-Seconds) is det.
+%!  wait_(+Seconds) is semidet.
+%
+%   `src/time.rs`
 
 % Motors
 
@@ -239,7 +245,6 @@ missing.
 % Driving and odometry
 
 %!  drive_(+Robot, +Course, +Options, -Reason) is semidet.
-%!  drive_pause_(+Seconds) is semidet.
 %!  drive_wait_(+Robot, +Timeout, -Reason) is semidet.
 %!  heading_wrapped_(+Heading, -Wrapped) is semidet.
 %!  odometry_(+Robot) is semidet.
