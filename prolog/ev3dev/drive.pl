@@ -63,8 +63,8 @@ ends when the motors rest.
 
 The gyro, if one is connected, tells the heading, unless
 `drive_option(use_gyro, false)`. Its drift is measured while the robot rests.
-A move puts it into the mode GYRO-ANG; while another mode is read, it does not
-count.
+A move puts it into the mode GYRO-ANG, unless it is in GYRO-G&A; while another
+mode is read, it does not count.
 
 ## Options of moves {#drive-options}
 

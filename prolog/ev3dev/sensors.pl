@@ -14,6 +14,7 @@
             us_listen/2,                % ?Port, -Heard
             gyro_ang/2,                 % ?Port, -Degrees
             gyro_rate/2,                % ?Port, -DegreesPerSecond
+            gyro_ang_rate/3,            % ?Port, -Degrees, -DegreesPerSecond
             gyro_reset/1,               % +Port
             touch/2,                    % ?Port, -Pressed
             ir_prox/2,                  % ?Port, -Percent
@@ -94,7 +95,7 @@ reading(us_dist_cm,         ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-CM', 0).
 reading(us_dist_inches,     ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-IN', 0).
 reading(us_listen,          ['lego-ev3-us', 'lego-nxt-us'], 'US-LISTEN', 0).
 reading(gyro_ang,           ['lego-ev3-gyro'], 'GYRO-ANG', 0).
-reading(gyro_rate,          ['lego-ev3-gyro'], 'GYRO-RATE', 0).
+reading(gyro_rate,          ['lego-ev3-gyro'], 'GYRO-G&A', 1).
 reading(touch,              ['lego-ev3-touch', 'lego-nxt-touch'], 'TOUCH', 0).
 reading(ir_prox,            ['lego-ev3-ir'], 'IR-PROX', 0).
 reading(nxt_light,          ['lego-nxt-light'], 'REFLECT', 0).
@@ -223,10 +224,22 @@ gyro_ang(Port, Degrees) :-
 %!  gyro_rate(?Port, -DegreesPerSecond) is nondet.
 %
 %   True if the gyro turns at DegreesPerSecond, up to 440, clockwise positive.
-%   This call changes the mode of the gyro, so the angle restarts from 0.
+%   The first call puts the gyro into its mode for angle and rate, where it
+%   stays: gyro_ang/2 and moves read the angle there, too, and the angle goes
+%   on from where it was. In this mode the oldest gyros ignore gyro_reset/1,
+%   which then throws.
 
 gyro_rate(Port, DegreesPerSecond) :-
     sensor_reading(gyro_rate, Port, DegreesPerSecond).
+
+%!  gyro_ang_rate(?Port, -Degrees, -DegreesPerSecond) is nondet.
+%
+%   True if the gyro has turned by Degrees and turns at DegreesPerSecond, both
+%   of the same moment: gyro_ang/2 and gyro_rate/2 in one reading.
+
+gyro_ang_rate(Port, Degrees, DegreesPerSecond) :-
+    sensor_values_(Port, ['lego-ev3-gyro'], 'GYRO-G&A', 2,
+                   [Degrees, DegreesPerSecond]).
 
 %!  gyro_reset(+Port) is semidet.
 %

@@ -26,7 +26,7 @@ const WORDS: &[&str] = &[
     "lego-nxt-us", "lego-nxt-touch", "lego-nxt-light", "lego-nxt-temp", "ht-nxt-compass",
     "ms-absolute-imu", "IR-SEEK", "IR-REMOTE", "REFLECT", "AMBIENT", "NXT-TEMP-C", "COMPASS",
     "COL-REFLECT", "COL-AMBIENT", "COL-COLOR", "RGB-RAW", "US-DIST-CM", "US-DIST-IN",
-    "US-LISTEN", "GYRO-ANG", "GYRO-RATE", "TOUCH", "IR-PROX",
+    "US-LISTEN", "GYRO-ANG", "GYRO-G&A", "TOUCH", "IR-PROX",
 ];
 
 /// The size of the hash tables: a power of two, at most half full.

@@ -111,6 +111,7 @@ call_of(us_dist_inches(sensor, out)).
 call_of(us_listen(sensor, out)).
 call_of(gyro_ang(sensor, out)).
 call_of(gyro_rate(sensor, out)).
+call_of(gyro_ang_rate(sensor, out, out)).
 call_of(gyro_reset(sensor)).
 call_of(touch(sensor, out)).
 call_of(ir_prox(sensor, out)).

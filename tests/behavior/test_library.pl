@@ -28,7 +28,7 @@ exported(sensors,
          [ light_sensor/1, ultrasonic_sensor/1, gyro_sensor/1, touch_sensor/1,
            infrared_sensor/1, col_ambient/2, col_reflect/2, col_color/2,
            col_rgb_raw/2, col_rgb_raw/4, us_dist_cm/2, us_dist_inches/2,
-           us_listen/2, gyro_ang/2, gyro_rate/2, gyro_reset/1, touch/2,
+           us_listen/2, gyro_ang/2, gyro_rate/2, gyro_ang_rate/3, gyro_reset/1, touch/2,
            ir_prox/2, sensor_reading/3, sensor_value/4, sensor_values/3,
            adjust_val/3 ]).
 exported(infrared,

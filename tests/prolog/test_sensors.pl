@@ -1,5 +1,7 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 :- use_module(library(time)).
@@ -66,7 +68,8 @@ reading(col_rgb_raw(in1, V),    'lego-ev3-color', 'RGB-RAW',     42, V, rgb(42, 
 reading(us_dist_cm(in1, V),     'lego-ev3-us',    'US-DIST-CM',  843, V, 84.3).
 reading(us_dist_inches(in1, V), 'lego-ev3-us',    'US-DIST-IN',  332, V, 33.2).
 reading(gyro_ang(in1, V),       'lego-ev3-gyro',  'GYRO-ANG',    -30, V, -30).
-reading(gyro_rate(in1, V),      'lego-ev3-gyro',  'GYRO-RATE',   -30, V, -30).
+reading(gyro_ang_rate(in1, V, _), 'lego-ev3-gyro', 'GYRO-G&A',  -30, V, -30).
+reading(gyro_rate(in1, V),      'lego-ev3-gyro',  'GYRO-G&A',    0,   V, 0).
 reading(touch(in1, V),          'lego-ev3-touch', 'TOUCH',       1, V, 1).
 reading(ir_prox(in1, V),        'lego-ev3-ir',    'IR-PROX',     35, V, 35).
 
@@ -124,6 +127,58 @@ test(a_port_is_no_number,
     with_tree(Tree, Goal).
 
 :- end_tests(readings).
+
+:- begin_tests(gyro).
+
+test(shows_angle_and_rate_at_once, [forall(tree(Tree)), all(P-A-R == [in4-90-7])]) :-
+    with_tree(Tree, ( put_attribute(in4, mode, 'GYRO-G&A'),
+                      put_attribute(in4, value0, 90),
+                      put_attribute(in4, value1, 7),
+                      gyro_ang_rate(P, A, R) )).
+test(the_angle_goes_on_when_the_rate_is_read, true(Off =< 2)) :-
+    with_tree(simulator,
+              ( set_robot(5.6, 10.6, outB, outC),
+                turn(20, 90),
+                gyro_ang(in4, A),
+                gyro_rate(in4, _),
+                gyro_ang(in4, B),
+                gyro_ang_rate(in4, C, _),
+                mode(in4, M), M == 'GYRO-G&A',
+                sensor_reading(gyro_ang, in4, D) )),
+    Off is max(abs(A - 90), max(abs(B - 90), max(abs(C - 90), abs(D - 90)))).
+test(a_reset_makes_the_angle_0_in_either_mode, true(As == [0, 0, 0])) :-
+    with_tree(simulator,
+              ( set_robot(5.6, 10.6, outB, outC),
+                turn(20, 90),
+                gyro_reset(in4), gyro_ang(in4, A0),
+                turn(20, -90),
+                gyro_rate(in4, _),
+                gyro_reset(in4), gyro_ang(in4, A1),
+                gyro_ang_rate(in4, A2, _) )),
+    As = [A0, A1, A2].
+test(a_turn_is_as_exact_in_the_mode_of_angle_and_rate) :-
+    with_tree(simulator,
+              ( set_robot(5.6, 10.0, outB, outC),
+                gyro_rate(in4, _),
+                turn(20, 90),
+                mode(in4, 'GYRO-G&A'),
+                gyro_ang(in4, A) )),
+    assertion(abs(A - 90) =< 2).
+test(a_turn_is_as_exact_if_the_rate_is_read_meanwhile) :-
+    with_tree(simulator,
+              ( set_robot(5.6, 10.0, outB, outC),
+                sim_place(150, 150, 0),
+                turn(20, 90, [wait(false)]),
+                wait(0.4),
+                gyro_rate(in4, R), R > 5,
+                drive_wait([], reached),
+                gyro_ang(in4, A) )),
+    assertion(abs(A - 90) =< 3).
+test(its_own_mode_shows_no_second_value, error(domain_error(sensor_value_index, 1), _)) :-
+    with_tree(simulator, ( put_attribute(in4, mode, 'GYRO-G&A'),
+                      sensor_value(in4, 'GYRO-ANG', 1, _) )).
+
+:- end_tests(gyro).
 
 :- begin_tests(sensor_reading).
 

@@ -49,6 +49,17 @@ pub struct Device {
     user: Mutex<Option<ThreadId>>,
     /// When its values will have settled in that mode; zero once they have.
     settled_at: Mutex<Duration>,
+    /// What a gyro had turned by before its mode changed.
+    turned: Mutex<Turned>,
+}
+
+/// What a gyro had turned by before its mode changed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Turned {
+    /// To be added to the angle.
+    pub(crate) offset: i64,
+    /// The angle before a change of mode, until the angle after it is known.
+    pub(crate) before: Option<i64>,
 }
 
 /// A number that cannot change while the device is plugged in.
@@ -93,6 +104,7 @@ impl Device {
             observer: Arc::clone(observer),
             user: Mutex::default(),
             settled_at: Mutex::default(),
+            turned: Mutex::default(),
         })
     }
 
@@ -225,6 +237,11 @@ impl Device {
     /// When the sensor's values will have settled; zero once they have.
     pub(crate) fn settled_at(&self) -> MutexGuard<'_, Duration> {
         self.settled_at.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What a gyro had turned by before its mode changed.
+    pub(crate) fn turned(&self) -> MutexGuard<'_, Turned> {
+        self.turned.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// An integer attribute.

@@ -5,19 +5,13 @@ use crate::device::registry::Registry;
 use crate::drive::odometry::Wheels;
 use crate::error::Result;
 use crate::motor::find_all;
-use crate::sensor;
+use crate::sensor::{self, gyro};
 use crate::value::Value;
 use std::sync::Arc;
 
 /// Tolerance, in counts, beyond the fastest that a wheel can turn. A larger
 /// difference means that the counter was written.
 const MARGIN: f64 = 30.0;
-
-/// The gyro's mode in which it measures its angle.
-pub(super) const GYRO_MODE: &str = "GYRO-ANG";
-
-/// The type of a gyro.
-const GYRO: &str = "lego-ev3-gyro";
 
 /// A robot: where its motors are, and how it is built.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +50,7 @@ impl DriveDevices {
         let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
         let counts = counts(&motors)?;
         let sensors = registry.all(Class::Sensor)?;
-        let gyro = sensors.iter().find(|sensor| sensor.driver() == GYRO).cloned();
+        let gyro = sensors.iter().find(|sensor| sensor.driver() == gyro::DRIVER).cloned();
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let fastest = fastest as f64;
         Ok(Some(Self { motors, gyro, counts, cm_per_count, fastest }))
@@ -93,13 +87,13 @@ pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
     Ok(counts)
 }
 
-/// The gyro's angle in degrees; `None` if the gyro is in another mode.
+/// The gyro's angle in degrees; `None` while the gyro does not measure it.
 pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
     gyro.check_present()?;
-    if !gyro.with_word("mode", |mode| mode == GYRO_MODE)? {
+    let Some(mode) = gyro::angle_mode(gyro)? else {
         return Ok(None);
-    }
-    Ok(match sensor::read_value(gyro, Some(GYRO_MODE), 0)? {
+    };
+    Ok(match sensor::read_value(gyro, Some(mode), 0)? {
         #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
         Value::Integer(degrees) => Some(degrees as f64),
         Value::Float(degrees) => Some(degrees),

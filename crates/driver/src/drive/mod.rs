@@ -24,12 +24,12 @@ use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor;
 use crate::motor::wait::Reason;
-use crate::sensor;
+use crate::sensor::gyro;
 use crate::sysfs::sleep;
 use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
-use devices::{GYRO_MODE, counts};
+use devices::counts;
 use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
@@ -171,7 +171,7 @@ impl Drive {
             return Ok(None);
         };
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::set_mode(&self.registry, &gyro, GYRO_MODE, interrupted)?;
+            gyro::measure_angle(&self.registry, &gyro, interrupted)?;
         }
         let mut inner = self.lock();
         inner.integrate(&self.registry)?;

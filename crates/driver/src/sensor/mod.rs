@@ -6,6 +6,7 @@
 //! values are still those of the old mode: the first read waits until they have
 //! settled.
 mod bin_data;
+pub(crate) mod gyro;
 
 use crate::class::Class;
 use crate::device::registry::Registry;
@@ -51,6 +52,7 @@ pub fn read(
     index: usize,
     interrupted: Interrupted,
 ) -> Result<Option<Value>> {
+    let mode = mode.map(|mode| if index == 0 { gyro::mode_for(sensor, mode) } else { mode });
     let [value] =
         read_all(registry, sensor, mode, [index], interrupted)?.map_or([None], |all| all.map(Some));
     Ok(value)
@@ -100,7 +102,9 @@ fn values_in(sensor: &Device, mode: &str, count: Option<usize>) -> Result<Vec<Va
     };
     if let Some(decimals) = sensor.known_in("decimals", mode) {
         if let Some(raw) = bin_data::values::<{ VALUES.len() }>(sensor, mode, decimals, count)? {
-            return Ok(raw.iter().take(count).map(|raw| Value::scaled(*raw, decimals)).collect());
+            let shown = |(index, raw)| gyro::shown(sensor, Some(mode), index, raw);
+            let raw = raw.into_iter().take(count).enumerate().map(shown);
+            return Ok(raw.map(|raw| Value::scaled(raw, decimals)).collect());
         }
     }
     let values: Result<_> = (0..count).map(|index| read_value(sensor, Some(mode), index)).collect();
@@ -136,8 +140,9 @@ pub fn set_mode(
     in_mode(registry, sensor, Some(mode), interrupted, |_| Ok(()))
 }
 
-/// Restarts a sensor in a mode, be it in that mode already or not. A gyro's
-/// angle is 0 afterwards. `None` where the sensor is gone.
+/// Restarts a sensor in a mode, be it in that mode already or not; in the present
+/// one, if that shows the same. A gyro's angle is 0 afterwards. `None` where the
+/// sensor is gone.
 ///
 /// # Errors
 /// As [`read`].
@@ -148,7 +153,8 @@ pub fn restart(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        write_mode(sensor, mode)?;
+        write_mode(sensor, gyro::mode_for(sensor, mode))?;
+        gyro::restart(sensor);
         settle(registry, sensor, interrupted).map(drop)
     })
 }
@@ -164,7 +170,7 @@ pub fn scale(sensor: &Device, raw: i64) -> Result<Value> {
 /// Reads value `index` once, as it is now; the mode is that which the sensor is
 /// known to be in.
 pub(crate) fn read_value(sensor: &Device, mode: Option<&str>, index: usize) -> Result<Value> {
-    let raw = raw_value(sensor, index)?;
+    let raw = gyro::shown(sensor, mode, index, raw_value(sensor, index)?);
     let decimals = match mode {
         Some(mode) => sensor.constant_in("decimals", mode)?,
         None => sensor.number("decimals")?,
@@ -217,6 +223,7 @@ fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
 }
 
 fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
+    gyro::leave(sensor, mode);
     sensor.write("mode", mode)?;
     let settling = match sensor.driver() {
         "lego-ev3-ir" => SETTLING_INFRARED,
@@ -235,6 +242,7 @@ fn settle(registry: &Registry, sensor: &Device, interrupted: Interrupted) -> Res
         return Ok(false);
     }
     sleep(registry.tree(), settled_at.saturating_sub(registry.tree().now()), interrupted)?;
+    gyro::go_on(sensor)?;
     *sensor.settled_at() = Duration::ZERO;
     Ok(true)
 }

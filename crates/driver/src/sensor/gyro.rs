@@ -1,0 +1,78 @@
+//! The gyro's angle, which goes on when its mode changes.
+//!
+//! Two modes measure the angle: one it alone, the other the rate, too. Older
+//! gyros cannot leave the latter (docs/ev3dev-sysfs.md, 5.4). So a gyro gets into
+//! it only when the rate is asked for, and stays there. A change of mode restarts
+//! the angle at 0; then what the gyro had turned by before is added.
+use crate::device::{Device, Turned};
+use crate::device::registry::Registry;
+use crate::error::{Interrupted, Result};
+use crate::sensor::{raw_value, set_mode};
+use std::sync::Arc;
+
+/// The type of a gyro.
+pub(crate) const DRIVER: &str = "lego-ev3-gyro";
+
+/// The mode that measures the angle.
+const ANGLE: &str = "GYRO-ANG";
+
+/// The mode that measures angle and rate.
+const ANGLE_AND_RATE: &str = "GYRO-G&A";
+
+/// The mode for a first value in `mode`: the present one, if that shows the same.
+pub(super) fn mode_for<'a>(sensor: &Device, mode: &'a str) -> &'a str {
+    if mode == ANGLE && is_in(sensor, ANGLE_AND_RATE) { ANGLE_AND_RATE } else { mode }
+}
+
+/// The mode in which a gyro measures its angle now, if it is in one and its values
+/// have settled.
+pub(crate) fn angle_mode(gyro: &Device) -> Result<Option<&'static str>> {
+    if !gyro.settled_at().is_zero() {
+        return Ok(None);
+    }
+    gyro.with_word("mode", |mode| [ANGLE, ANGLE_AND_RATE].into_iter().find(|word| *word == mode))
+}
+
+/// Lets a gyro measure its angle, and waits until its values are that. `None` where
+/// the gyro is gone.
+pub(crate) fn measure_angle(
+    registry: &Registry,
+    gyro: &Arc<Device>,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    set_mode(registry, gyro, mode_for(gyro, ANGLE), interrupted)
+}
+
+/// Puts a gyro's angle down before it changes into a mode.
+pub(super) fn leave(sensor: &Device, mode: &str) {
+    if sensor.driver() == DRIVER {
+        let goes_on = mode == ANGLE_AND_RATE && is_in(sensor, ANGLE);
+        let before = if goes_on { raw_value(sensor, 0).ok() } else { None };
+        *sensor.turned() = Turned { offset: 0, before };
+    }
+}
+
+/// Lets the angle go on from where it was, once the values have settled.
+pub(super) fn go_on(sensor: &Device) -> Result<()> {
+    let before = sensor.turned().before;
+    if let Some(before) = before {
+        let offset = before - raw_value(sensor, 0)?;
+        *sensor.turned() = Turned { offset, before: None };
+    }
+    Ok(())
+}
+
+/// Makes the angle 0 after the sensor has been restarted.
+pub(super) fn restart(sensor: &Device) {
+    *sensor.turned() = Turned::default();
+}
+
+/// A value as the program is to see it.
+pub(super) fn shown(sensor: &Device, mode: Option<&str>, index: usize, raw: i64) -> i64 {
+    let is_angle = index == 0 && mode == Some(ANGLE_AND_RATE);
+    if is_angle { raw.saturating_add(sensor.turned().offset) } else { raw }
+}
+
+fn is_in(sensor: &Device, mode: &str) -> bool {
+    sensor.is_word("mode", mode).unwrap_or(false)
+}
