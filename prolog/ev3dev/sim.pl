@@ -1,23 +1,30 @@
 :- module(ev3dev_sim,
           [ sim_start/1,                % +World
             sim_start/2,                % +World, +Options
-            sim_stop/0
+            sim_stop/0,
+            with_sim/2,                 % +World, :Goal
+            with_sim/3                  % +World, :Goal, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, must_be/2,
+              [ domain_error/2, existence_error/2, goal_of_program/1, must_be/2,
                 term_expansion/2
               ]).
-:- use_module(library(lists), [nth1/3]).
+:- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
-:- reexport(sim_time).
+:- use_module(sim_time, [forget_plans/0]).
+:- reexport(sim_time, except([forget_plans/0, run_due_goals/0])).
 :- reexport(sim_views).
 :- use_module(private/native, [sim_active_/0, sim_start_/4, sim_stop_/0]).
+
+:- meta_predicate
+    with_sim(+, 0),
+    with_sim(+, 0, +).
 
 /** <module> A simulated robot in a simulated world
 
@@ -37,7 +44,7 @@ X = 52.9, Y = 55.4, Heading = 40.0.
 Lengths are in centimeters and angles in degrees. X goes to the right and y
 up; heading 0 looks along y, and clockwise is positive, as in turn/2.
 
-All predicates but sim_start/1,2 fail if no simulation runs.
+All predicates but sim_start/1,2 and with_sim/2,3 fail if no simulation runs.
 
 ## Worlds {#sim-worlds}
 
@@ -231,7 +238,8 @@ sim_start(World, Options) :-
                Fault),
     must_be_faultless(Fault, world(World, LocatedWorld),
                       robot(Robot, LocatedRobot)),
-    set_added_facts([]).
+    set_added_facts([]),
+    forget_plans.
 
 must_be_built :-
     (   predicate_property(sim_active_, foreign)
@@ -281,4 +289,41 @@ throw_fault(Kind, Source, _, _, Why) :-
 
 sim_stop :-
     sim_stop_,
-    set_added_facts([]).
+    set_added_facts([]),
+    forget_plans.
+
+%!  with_sim(+World, :Goal) is semidet.
+%!  with_sim(+World, :Goal, +Options) is semidet.
+%
+%   Call Goal once in a simulation of its own, which ends with it, however it
+%   ends. So a test starts from the same state each time:
+%
+%   ```
+%   :- use_module(library(ev3dev)).
+%   :- use_module(library(ev3dev/sim)).
+%
+%   :- begin_tests(robot).
+%
+%   test(square, true(Collisions == [])) :-
+%       with_sim(room, ( square, sim_collisions(Collisions) )).
+%
+%   :- end_tests(robot).
+%   ```
+%
+%   Options are those of sim_start/2, but the default clock is `virtual`. Ends
+%   a simulation that runs already.
+%
+%   @error as sim_start/2
+
+with_sim(World, Goal) :-
+    with_sim(World, Goal, []).
+
+with_sim(World, Goal, Options) :-
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain),
+    must_be(list, Options),
+    append(Options, [clock(virtual)], WithClock),
+    setup_call_cleanup(
+        sim_start(World, WithClock),
+        once(goal_of_program(Goal)),
+        ignore(sim_stop)).

@@ -159,10 +159,12 @@ sim_remote(Channel, Buttons) :-
 %!  sim_release(+Key) is semidet.
 %
 %   Press a button of the brick and hold it, or release it: `up`, `down`,
-%   `left`, `right`, `enter` or `back`. Does nothing if the button is pressed,
-%   or released, already.
+%   `left`, `right`, `enter` or `back`. Key may also be the port of a touch
+%   sensor; a bumper that touches a wall is pressed anyway. Does nothing if
+%   the key is pressed, or released, already. Fails if there is no touch
+%   sensor at the port.
 %
-%   @error domain_error(button, Key)
+%   @error domain_error(key, Key)
 
 sim_press(Key) :-
     sim_key_(Key, true).
@@ -172,7 +174,7 @@ sim_release(Key) :-
 
 %!  sim_press(+Key, +Options) is semidet.
 %
-%   Press a button at a later time. Does not wait. So a test can run a program
+%   Press a button or a touch sensor at a later time. Does not wait. So a test can run a program
 %   that waits for a button:
 %
 %   ```
@@ -187,7 +189,7 @@ sim_release(Key) :-
 %       The time from press to release. Default is 0.2. With `infinite`,
 %       sim_release/1 releases the button.
 %
-%   @error domain_error(button, Key)
+%   @error domain_error(key, Key)
 %   @error domain_error(seconds, Seconds)
 %   @error domain_error(sim_option, Option) if Option is not an option of this
 %          predicate

@@ -3,16 +3,26 @@
             sim_step/1,                 % +Seconds
             sim_time/1,                 % -Seconds
             sim_snapshot/1,             % -Snapshot
-            sim_restore/1               % +Snapshot
+            sim_restore/1,              % +Snapshot
+            sim_at/2,                   % +Seconds, :Goal
+            for_seconds/2,              % +Seconds, :Goal
+            forget_plans/0,
+            run_due_goals/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              [ domain_error/2, evaluated/2, goal_of_program/1, must_be/2,
+                term_expansion/2
               ]).
+:- use_module(private/arguments, [number_value/3]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
-              [ sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
+              [ sim_plan_/1, sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
                 sim_step_/1, sim_time_/1, sim_wait_/1 ]).
+
+:- meta_predicate
+    sim_at(+, 0),
+    for_seconds(+, 0).
 
 /** <module> Simulated time
 
@@ -92,3 +102,113 @@ collect_snapshots :-
     retractall(collection_at(_)),
     assertz(collection_at(Next)).
 collect_snapshots.
+
+%!  sim_at(+Seconds, :Goal) is semidet.
+%
+%   Plan to call Goal once at a simulated time, as sim_time/1 tells it. Does
+%   not wait. So a test lets something happen to a program:
+%
+%   ```
+%   ?- sim_at(3, sim_unplug(outB)), go_cm(20, 200).
+%   ```
+%
+%   Goal runs in the thread that planned it, as soon as this thread waits for
+%   a move, a sound or a button, or uses a device, and the time has come; so
+%   it may come a little late, and not at all while the thread only computes.
+%   An exception of Goal ends what the thread was doing, and a Goal that fails
+%   prints a warning. The plans end with the simulation. sim_restore/1 does
+%   not plan again what has run. For keys and touch sensors, sim_press/2 is
+%   more exact.
+%
+%   @error domain_error(seconds, Seconds)
+
+sim_at(Seconds0, Goal) :-
+    number_value(seconds, Seconds0, Seconds),
+    must_be_goal(Goal),
+    plan(Seconds, Goal, _).
+
+:- dynamic planned/4.                   % Seconds, Id, Thread, Goal
+
+plan(Seconds, Goal, Id) :-
+    sim_time_(Now),
+    thread_self(Me),
+    flag(ev3dev_sim_plan, Id, Id + 1),
+    assertz(planned(Seconds, Id, Me, Goal)),
+    After is max(0, Seconds - Now),
+    sim_plan_(After).
+
+%!  run_due_goals is det.
+%
+%   Call the goals that this thread has planned and whose time has come. The
+%   native code calls this when a plan of this thread is due.
+
+run_due_goals :-
+    thread_self(Me),
+    sim_time_(Now),
+    findall(Seconds-Id, planned(Seconds, Id, Me, _), Planned0),
+    msort(Planned0, Planned),
+    run_due(Planned, Now, Me),
+    !.
+run_due_goals.
+
+%   The clock counts nanoseconds.
+run_due([Seconds-Id|Planned], Now, Me) :-
+    Seconds =< Now + 1.0e-6,
+    !,
+    (   retract(planned(Seconds, Id, Me, Goal))
+    ->  run_planned(Goal)
+    ;   true
+    ),
+    run_due(Planned, Now, Me).
+run_due([Seconds-_|_], Now, _) :-
+    % An earlier one was due, or sim_restore/1 went back in time.
+    After is Seconds - Now,
+    sim_plan_(After).
+
+run_planned(Goal) :-
+    (   goal_of_program(Goal)
+    ->  true
+    ;   print_message(warning, ev3dev(planned_goal_failed(Goal)))
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(planned_goal_failed(Goal))) -->
+    [ 'A goal planned by sim_at/2 failed: ~p'-[Goal] ].
+
+%!  forget_plans is det.
+%
+%   Forget what sim_at/2 has planned: the simulation ends.
+
+forget_plans :-
+    retractall(planned(_, _, _, _)).
+
+must_be_goal(Goal) :-
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain).
+
+%!  for_seconds(+Seconds, :Goal) is semidet.
+%
+%   Call Goal once, and leave it when Seconds of simulated time have passed:
+%   so a test runs a program that does not end by itself. Succeeds when the
+%   time is over, or earlier if Goal succeeds; fails if Goal fails before. A
+%   move that Goal is making is stopped; motors that run without end go on.
+%   As for sim_at/2, Goal must wait or use devices. It is left by an exception
+%   that it must not catch.
+%
+%   @error domain_error(seconds, Seconds)
+
+for_seconds(Seconds0, Goal) :-
+    number_value(seconds, Seconds0, Seconds),
+    must_be_goal(Goal),
+    sim_time_(Now),
+    End is Now + Seconds,
+    catch(setup_call_cleanup(
+              plan(End, ev3dev_sim_time:time_is_up(Id), Id),
+              once(goal_of_program(Goal)),
+              retractall(planned(_, Id, _, _))),
+          ev3dev_time_is_up(Id),
+          true).
+
+time_is_up(Id) :-
+    throw(ev3dev_time_is_up(Id)).

@@ -1,4 +1,5 @@
 //! One call of a native predicate: its arguments, its answers.
+use crate::glue::due::has_rung;
 use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
@@ -33,8 +34,9 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
-    /// one.
+    /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
+        run_due_goals(self.context)?;
         if let Some(devices) = state::chosen_devices() {
             return Ok(devices);
         }
@@ -175,10 +177,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         self.or_throw(result)?.ok_or(PrologError::Failure)
     }
 
-    /// Handles signals; `true` if that raised an exception.
+    /// Handles signals and runs planned goals that are due; `true` if that raised an
+    /// exception.
     pub(crate) fn interrupted(&self) -> impl FnMut() -> bool + use<'a, C> {
         let context = self.context;
-        move || context.handle_signals().is_err()
+        move || context.handle_signals().is_err() || run_due_goals(context).is_err()
     }
 
     /// The next solution: reads the items one after the other until `unify` succeeds
@@ -224,4 +227,12 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     fn integer_of(&self, term: &Term) -> PrologResult<i64> {
         if term.is_integer() { term.get() } else { Err(PrologError::Failure) }
     }
+}
+
+/// Runs the goals that this thread has planned and that are due.
+fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
+    if has_rung() {
+        context.call_once(pred!("ev3dev_sim_time:run_due_goals/0"), [])?;
+    }
+    Ok(())
 }

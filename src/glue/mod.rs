@@ -1,6 +1,7 @@
 //! The code that all predicates share: a call and its arguments, errors, terms, and the
 //! brick in use.
 pub(crate) mod call;
+pub(crate) mod due;
 pub(crate) mod error;
 pub(crate) mod interned;
 pub(crate) mod places;

@@ -1,10 +1,10 @@
-//! `prolog/ev3dev/sim_hand.pl`, too: the buttons of the simulated brick.
+//! `prolog/ev3dev/sim_hand.pl`, too: what a hand can press.
 use super::running::simulation;
-use crate::facts::named;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
-use ev3_sim::{Button, Machine};
-use std::time::Duration;
+use ev3_driver::port_name;
+use ev3_sim::{Button, Machine, Port};
+use std::sync::Arc;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -13,35 +13,76 @@ pub(crate) fn register() {
     register_sim_plan_key();
 }
 
+/// What a hand can press.
+#[derive(Clone, Copy)]
+enum Key {
+    Button(Button),
+    /// The touch sensor at a port.
+    Touch(Port),
+}
+
+impl Key {
+    fn of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Self> {
+        let text = call.text(term)?;
+        if let Ok(button) = text.parse() {
+            return Ok(Self::Button(button));
+        }
+        match port_name::socket(&text).parse::<Port>() {
+            Ok(port) if !port.is_output() => Ok(Self::Touch(port)),
+            _ => wrong_value(call, "key", term),
+        }
+    }
+
+    /// Presses or releases it now; false if there is no such sensor.
+    fn set(self, machine: &mut Machine, is_press: bool) -> bool {
+        match self {
+            Self::Button(button) if is_press => machine.press(button),
+            Self::Button(button) => machine.release(button),
+            Self::Touch(port) => return machine.press_touch(port, is_press),
+        }
+        true
+    }
+}
+
 predicates! {
-    /// sim_key_(+Button, +IsPress)
+    /// sim_key_(+Key, +IsPress)
     #[module("ev3dev_native")]
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
-        let key: Button = named(&Call::of(context, "sim_press", 1), "button", key)?;
+        let key = Key::of(&Call::of(context, "sim_press", 1), key)?;
         let (simulation, is_press) = (simulation()?, is_press.get_ex()?);
-        let act = if is_press { Machine::press } else { Machine::release };
-        act(&mut simulation.machine(), key);
+        let is_there = key.set(&mut simulation.machine(), is_press);
         simulation.shared().wake();
-        Ok(())
+        into_prolog_result(is_there)
     }
 
-    /// sim_plan_key_(+Button, +After, +For): seconds; an atom as For means without end.
+    /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For means without end.
     #[module("ev3dev_native")]
     #[name("sim_plan_key_")]
     semidet fn sim_plan_key(context, key, after, lasts) {
         let call = Call::of(context, "sim_press", 2);
-        let (key, at) = (named::<Button, _>(&call, "button", key)?, time(&call, after)?);
-        let lasts = if lasts.is_atom() { None } else { Some(time(&call, lasts)?) };
+        let (key, at) = (Key::of(&call, key)?, call.time(after)?);
+        let lasts = if lasts.is_atom() { None } else { Some(call.time(lasts)?) };
         let simulation = simulation()?;
-        simulation.machine().plan_button(key, true, at);
+        let plan = |is_press, at| match key {
+            Key::Button(button) => {
+                simulation.machine().plan_button(button, is_press, at);
+            }
+            Key::Touch(_) => {
+                let shared = Arc::downgrade(&simulation.shared());
+                let act = move || {
+                    let shared = shared.upgrade()?;
+                    key.set(&mut shared.lock(), is_press);
+                    shared.wake();
+                    None
+                };
+                simulation.repeat(at, Box::new(act));
+            }
+        };
+        plan(true, at);
         if let Some(lasts) = lasts {
-            simulation.machine().plan_button(key, false, at.saturating_add(lasts));
+            plan(false, at.saturating_add(lasts));
         }
         Ok(())
     }
-}
-
-fn time<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Duration> {
-    Duration::try_from_secs_f64(call.float(term)?).or_else(|_| wrong_value(call, "seconds", term))
 }

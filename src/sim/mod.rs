@@ -15,6 +15,7 @@ use self::files::SimulatedFiles;
 use self::running::{simulation, start};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
+use crate::glue::due::Bell;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
@@ -45,6 +46,7 @@ pub(crate) fn register() {
     register_sim_show();
     register_sim_unshow();
     register_sim_wait();
+    register_sim_plan();
     register_sim_hold();
     register_sim_release();
     register_sim_remote();
@@ -243,6 +245,20 @@ predicates! {
         };
         let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
         call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
+    }
+
+    /// sim_plan_(+Seconds): runs the due goals of this thread after some time.
+    #[module("ev3dev_native")]
+    #[name("sim_plan_")]
+    semidet fn sim_plan(context, after) {
+        let after = Call::of(context, "sim_at", 2).time(after)?;
+        let bell = Bell::of_this_thread();
+        let ring = move || {
+            bell.ring();
+            None
+        };
+        simulation()?.repeat(after, Box::new(ring));
+        Ok(())
     }
 
     /// sim_hold_

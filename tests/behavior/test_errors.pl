@@ -41,6 +41,11 @@ bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
 bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).
 bad(sim_jam(outA, true), [1-1, 7-2]).
 bad(sim_wait(0.1), [a-1, _-1, -1-1]).
+bad(with_sim([], true), [nowhere-1, 7-2, _-2]).
+bad(with_sim([], true, []), [nowhere-1, 7-2, x-3, [colour(red)]-3]).
+bad(sim_at(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
+bad(for_seconds(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
+bad(sim_press(in4, []), [outA-1, [soon]-2]).
 bad(sim_step(0.1), [a-1, _-1, -1-1]).
 bad(sim_press(enter), [space-1, _-1]).
 bad(sim_press(enter, []), [space-1, [soon]-2]).
@@ -133,6 +138,9 @@ measure(X, navigate_to([], 1-1, [Option])) :-
 measure(X, navigate_to([], 1-1, [sensor(0, 7, X)])).
 measure(X, sim_place(40, 40, X)).
 measure(X, sim_wait(X)).
+measure(X, wait(X)).
+measure(X, sim_at(X, true)).
+measure(X, for_seconds(X, true)).
 measure(X, sim_press(up, [after(X)])).
 measure(X, sim_press(up, [for(X)])).
 

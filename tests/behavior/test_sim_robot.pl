@@ -210,7 +210,7 @@ program :-
     motor_run(outA, 60, 720, [ramp_up(300), ramp_down(300)]).
 
 digest(Digest) :-
-    with_sim(room, [seed(42), noise(true)], ( program, sim_trace(Trace) )),
+    with_sim(room, ( program, sim_trace(Trace) ), [seed(42), noise(true)]),
     with_output_to(string(Text),
                    forall(member(Time-Event, Trace),
                           format("~4f ~w~n", [Time, Event]))),

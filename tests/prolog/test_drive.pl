@@ -573,20 +573,22 @@ test(nothing_is_called_when_the_robot_rests, true(T1 == T0)) :-
 
 test(square_returns_to_its_start,
      [forall(member(Options, [[], [noise(true)]]))]) :-
-    with_sim([], Options,
+    with_sim([],
              ( with_output_to(string(Said), square:start),
-               sim_pose(X, Y, H) )),
+               sim_pose(X, Y, H) ),
+             Options),
     near(X, 0, 2),
     near(Y, 0, 2),
     near(H, 0, 2),
     split_string(Said, "\n", "", [_, _, ""]).
 test(slalom_passes_the_poles_on_either_side, true(Collisions == [])) :-
     findall(circle(0, Y, 3), ( between(0, 3, I), Y is 60*I + 30 ), Poles),
-    with_sim(Poles, [noise(true)],
+    with_sim(Poles,
              ( slalom:start,
                sim_collisions(Collisions),
                sim_trace(Trace),
-               sim_pose(X, Y1, H) )),
+               sim_pose(X, Y1, H) ),
+             [noise(true)]),
     near(X, 0, 3),
     near(Y1, 240, 3),
     near(H, 0, 2),
@@ -595,10 +597,11 @@ test(slalom_passes_the_poles_on_either_side, true(Collisions == [])) :-
              beside_pole(Trace, Y, Side),
              near(Side, -17.3 * (1 - 2 * (I mod 2)), 3) )).
 test(line_following_gets_around) :-
-    with_sim(line, [noise(true)],
+    with_sim(line,
              ( for_seconds(60, line_following:start),
                sim_trace(Trace),
-               sim_collisions([]) )),
+               sim_collisions([]) ),
+             [noise(true)]),
     forall(member([X0, Y0],
                   [[190, 90], [110, 100], [60, 150], [30, 90], [60, 40]]),
            ( aggregate_all(min(D),

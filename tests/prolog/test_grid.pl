@@ -95,7 +95,7 @@ wrong(Noise, Seed, Why) :-
     ->  noisy_robot(Seed, Robot)
     ;   Robot = default
     ),
-    with_sim(World, [robot(Robot), seed(Seed)],
+    with_sim(World,
              ( robot,
                set_grid([neighbors(Neighbors)]),
                plan_and_go_to(Goal, _, [reason(Reason)]),
@@ -103,7 +103,8 @@ wrong(Noise, Seed, Why) :-
                findall(Cell, obstructed(Cell), Obstructed),
                sim_pose(XCm, YCm, Heading),
                sim_collisions(Collisions)
-             )),
+             ),
+             [robot(Robot), seed(Seed)]),
     direction_heading(Direction, Meant),
     Off is max(abs(XCm - 20*X), abs(YCm - 20*Y)),
     Turned is Heading - Meant,
@@ -361,14 +362,15 @@ test(without_eyes, Reason == no_sensor) :-
             )),
     near(Y, 0, 0.5).
 test(a_robot_that_is_stopped_by_another_thread, Reason == stopped) :-
-    with_sim([], [clock(realtime)],
+    with_sim([],
              ( robot,
                set_grid([]),
                setup_call_cleanup(
                    thread_create(stop_when_moving, Id, []),
                    plan_and_go_to([0,7], _, [reason(Reason)]),
                    thread_join(Id, _))
-             )).
+             ),
+             [clock(realtime)]).
 
 %   Stopped while it is between two cells.
 stop_when_moving :-

@@ -17,7 +17,7 @@ on_screen(plain, Bits, Goal) :-
     memberchk(Bits-Size, [32-91136, 1-3072]),
     with_dev([fb0-zero(Size)], Goal).
 on_screen(simulator, Bits, Goal) :-
-    with_sim(room, [screen(Bits)], Goal).
+    with_sim(room, Goal, [screen(Bits)]).
 on_screen(mount, 32, Goal) :-
     on_dev(mount, Goal).
 

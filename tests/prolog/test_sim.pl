@@ -26,8 +26,9 @@ test(shows_the_robot_of_the_paper) :-
                  in4-'lego-ev3-gyro'
                ].
 test(takes_another_robot) :-
-    with_sim(room, [robot(touch)],
-             ( touch_sensor(in4), touch(in4, 0), \+ gyro_sensor(_) )).
+    with_sim(room,
+             ( touch_sensor(in4), touch(in4, 0), \+ gyro_sensor(_) ),
+             [robot(touch)]).
 test(is_at_sys_class) :-
     with_sim(room, ev3_sysfs('/sys/class')).
 test(replaces_the_one_that_runs) :-
@@ -67,6 +68,7 @@ test(takes_all_facts) :-
                ambient(3),
                start(0, 0, 0)
              ],
+             col_color(in2, 2),
              [robot([ left_wheel(outB, 5.6, [inverted(false), slip(0.01)]),
                       right_wheel(outC, 5.6),
                       axle(10.6),
@@ -77,8 +79,7 @@ test(takes_all_facts) :-
                       sensor(in1, 'lego-ev3-ir', 0, 7, 0),
                       sensor(in2, 'lego-ev3-color', 0, 6, 0),
                       noise(in1, 1, 0)
-                    ])],
-             col_color(in2, 2)).
+                    ])]).
 test(fails_for_no_goal_without_a_simulation,
      [ forall(member(Goal, [ sim_stop, sim_pose(_, _, _), sim_place(0, 0, 0),
                              sim_add(circle(0, 0, 1)), sim_remove(1),
@@ -279,9 +280,10 @@ test(two_sensors_at_a_port) :-
 :- begin_tests(sim_chance).
 
 readings(Seed, Noise, Readings) :-
-    with_sim(room, [seed(Seed), noise(Noise)],
+    with_sim(room,
              findall(D, ( between(1, 20, _), sim_step(0.1), us_dist_cm(in1, D) ),
-                     Readings)).
+                     Readings),
+             [seed(Seed), noise(Noise)]).
 
 test(no_noise_by_default) :-
     readings(1, false, Readings),
@@ -309,13 +311,14 @@ positions(Errors, Positions) :-
               hull(circle(8)), mass(0.75), motor(outA, 'lego-ev3-m-motor'),
               motor(outB, 'lego-ev3-l-motor'), motor(outC, 'lego-ev3-l-motor')
             | Errors ],
-    with_sim([], [robot(Robot)],
+    with_sim([],
              ( motor_attribute(outA, duty_cycle_sp, 20),
                command(outA, 'run-direct'),
                findall(Position,
                        ( between(1, 50, _), sim_step(0.02),
                          position(outA, Position) ),
-                       Positions) )).
+                       Positions) ),
+             [robot(Robot)]).
 
 :- end_tests(sim_chance).
 
@@ -329,13 +332,14 @@ test(its_layout_is_told_beside_the_motors,
      [ forall(member(Bits-Stride, [32-712, 1-24])),
        true(Read == ['178,128', Bits, Stride])
      ]) :-
-    with_sim(room, [screen(Bits)],
+    with_sim(room,
              findall(Value,
                      ( member(Name, [virtual_size, bits_per_pixel, stride]),
                        atom_concat('/sys/class/graphics/fb0/', Name, File),
                        file_read(File, Value)
                      ),
-                     Read)).
+                     Read),
+             [screen(Bits)]).
 
 :- end_tests(sim_screen).
 

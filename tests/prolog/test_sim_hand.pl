@@ -55,7 +55,7 @@ test(add_something_unheard_of, error(domain_error(_, unicorn(0, 50)), _)) :-
 test(add_an_atom, error(domain_error(world_or_robot_fact, unicorn), _)) :-
     with_sim([], sim_add(unicorn)).
 test(a_hull_without_size, error(domain_error(hull, circle), _)) :-
-    with_sim([], [robot([hull(circle)])], true).
+    with_sim([], true, [robot([hull(circle)])]).
 test(add_no_thing, error(domain_error(world_item, start(0, 0, 0)), _)) :-
     with_sim([], sim_add(start(0, 0, 0))).
 
@@ -205,7 +205,7 @@ test(is_put_back_with_a_snapshot, true(A-B == true-false)) :-
                sim_restore(Snapshot), down(up, B) )).
 test(no_such_key,
      [ forall(member(Goal, [sim_press(go), sim_press(go, []), sim_release(go)])),
-       error(domain_error(button, go), _)
+       error(domain_error(key, go), _)
      ]) :-
     with_sim(room, Goal).
 test(unbound_key,
@@ -248,3 +248,38 @@ events(Events) :-
             Events).
 
 :- end_tests(sim_press).
+
+:- begin_tests(touched).
+
+test(a_touch_sensor_is_pressed_and_let_go, true(Seen == [0, 1, 0])) :-
+    with_sim([],
+             ( touch(in4, A), sim_press(in4), sim_wait(0.05), touch(in4, B),
+               sim_release('ev3-ports:in4'), sim_wait(0.05), touch(in4, C) ),
+             [robot(touch)]),
+    Seen = [A, B, C].
+test(a_press_may_be_planned, true(Seen == [0, 1, 0])) :-
+    with_sim([],
+             ( sim_press(in4, [after(1), for(0.5)]),
+               sim_wait(0.9), touch(in4, A),
+               sim_wait(0.2), touch(in4, B),
+               sim_wait(0.5), touch(in4, C) ),
+             [robot(touch)]),
+    Seen = [A, B, C].
+test(a_press_is_in_the_trace, true(Events == [pressed(in4), released(in4)])) :-
+    with_sim([],
+             ( sim_press(in4), sim_press(in4), sim_release(in4), sim_trace(Trace),
+               findall(E, ( member(_-E, Trace),
+                            memberchk(E, [pressed(_), released(_)]) ), Events) ),
+             [robot(touch)]).
+test(unplugging_lets_go, true(Pressed == 0)) :-
+    with_sim([],
+             ( sim_press(in4), sim_unplug(in4), sim_wait(1),
+               sim_plug(in4, 'lego-ev3-touch'), sim_wait(2), touch(in4, Pressed) ),
+             [robot(touch)]).
+test(there_must_be_a_touch_sensor, [ forall(member(Port, [in1, in4])), fail ]) :-
+    with_sim([], sim_press(Port)).
+test(other_keys_are_refused,
+     [ forall(member(Key, [outA, space, in5])), error(domain_error(key, Key), _) ]) :-
+    with_sim([], sim_press(Key)).
+
+:- end_tests(touched).

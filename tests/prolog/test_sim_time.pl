@@ -34,13 +34,15 @@ test(several_threads_wait_at_once) :-
 % On a busy machine it falls behind.
 test(real_time_passes_by_itself) :-
     get_time(Before),
-    with_sim([], [clock(realtime)],
-             ( eventually(( sim_time(T), T > 0.1 )), get_time(After) )),
+    with_sim([],
+             ( eventually(( sim_time(T), T > 0.1 )), get_time(After) ),
+             [clock(realtime)]),
     T < After - Before.
 test(scaled_time_is_faster) :-
     get_time(Before),
-    with_sim([], [clock(scaled(50))],
-             eventually(( sim_time(T), get_time(Now), T > 5 * (Now - Before) ))).
+    with_sim([],
+             eventually(( sim_time(T), get_time(Now), T > 5 * (Now - Before) )),
+             [clock(scaled(50))]).
 
 polled_until(Port, Position) :-
     position(Port, P),
@@ -76,7 +78,7 @@ test(lets_time_pass_on_the_virtual_clock) :-
     T - T0 < 3601.
 test(takes_its_time_on_another,
      [forall(member(Clock, [realtime, scaled(4)]))]) :-
-    with_sim([], [clock(Clock)], ( sim_time(T0), sim_wait(0.2), sim_time(T) )),
+    with_sim([], ( sim_time(T0), sim_wait(0.2), sim_time(T) ), [clock(Clock)]),
     T - T0 >= 0.2.
 test(several_threads_wait_at_once) :-
     with_sim([], ( findall(Id, ( member(S, [0.3, 0.1, 0.2]),
@@ -88,8 +90,9 @@ test(several_threads_wait_at_once) :-
                    forall(member(Id, Ids), thread_join(Id, true)) )),
     msort(Ss, [0.1, 0.2, 0.3]).
 test(a_time_limit_gets_through, true(Ball == time_limit_exceeded)) :-
-    with_sim([], [clock(realtime)],
-             catch(call_with_time_limit(0.05, sim_wait(3600)), Ball, true)).
+    with_sim([],
+             catch(call_with_time_limit(0.05, sim_wait(3600)), Ball, true),
+             [clock(realtime)]).
 test(a_time_that_is_none_throws,
      [ forall(member(Goal-Error, [ sim_wait(-1)-domain_error(seconds, -1),
                                    sim_wait(_)-instantiation_error,
@@ -195,3 +198,108 @@ test(restores_nothing_unbound, error(instantiation_error, _)) :-
     with_sim([], sim_restore(_)).
 
 :- end_tests(sim_snapshot).
+
+:- begin_tests(planned).
+
+test(a_goal_runs_at_its_time) :-
+    with_sim([], ( sim_at(1+1, note_time), sim_wait(3), noted(T) )),
+    near(T, 2, 0.03).
+test(goals_run_in_the_order_of_their_times, true(Words == [a, b, c])) :-
+    with_sim([], ( nb_setval(said, []),
+                   sim_at(3, say_word(c)), sim_at(1, say_word(a)), sim_at(2, say_word(b)),
+                   sim_wait(4),
+                   nb_getval(said, Said), reverse(Said, Words) )).
+test(a_goal_runs_during_a_move, true(Reason == unplugged)) :-
+    with_sim([], ( sim_at(1, sim_unplug(outB)),
+                   motor_run(outB, 20, 3600, [wait(false)]),
+                   motor_wait(outB, [], Reason) )).
+test(a_goal_runs_for_a_program_that_polls, true(D < 30)) :-
+    with_sim([], ( us_dist_cm(in1, 255.0),
+                   sim_at(0.2, sim_add(wall(-50, 30, 50, 30))),
+                   repeat, us_dist_cm(in1, D), D < 255, ! )).
+test(an_exception_of_a_goal_ends_the_wait_and_stops_the_motors) :-
+    with_sim([], ( sim_at(1, throw(enough)),
+                   catch(motor_run(outB, 20, 3600), enough, true),
+                   sim_time(T), near(T, 1, 0.05),
+                   at_rest )).
+test(a_plan_of_the_past_runs_at_once) :-
+    with_sim([], ( sim_step(5), sim_at(1, note_time), sim_wait(1), noted(T) )),
+    near(T, 5, 0.05).
+test(a_plan_ends_with_the_simulation, true(Noted == none)) :-
+    nb_setval(noted, none),
+    with_sim([], sim_at(1, note_time)),
+    with_sim([], sim_wait(2)),
+    nb_getval(noted, Noted).
+test(a_plan_waits_for_its_time_after_a_restore) :-
+    with_sim([], ( sim_snapshot(Start), sim_wait(2),
+                   sim_at(3, note_time), sim_restore(Start),
+                   sim_wait(4), noted(T) )),
+    near(T, 3, 0.05).
+test(only_the_thread_that_planned_runs_it, true(Ran == Me)) :-
+    thread_self(Me),
+    with_sim([], ( sim_at(1, ( thread_self(Here), nb_setval(ran, Here) )),
+                   thread_create(sim_wait(2), Id, []),
+                   thread_join(Id, _),
+                   sim_wait(1),
+                   nb_getval(ran, Ran) )).
+test(is_refused_if_it_is_no_plan,
+     [ forall(member(Goal-Error, [ sim_at(-1, true)-domain_error(seconds, -1),
+                                   sim_at(soon, true)-type_error(evaluable, _),
+                                   sim_at(1, _)-instantiation_error,
+                                   sim_at(1, 7)-type_error(_, _) ])),
+       error(Error, context(sim_at/2, _)) ]) :-
+    with_sim([], Goal).
+test(fails_without_a_simulation, fail) :-
+    ignore(sim_stop),
+    sim_at(1, true).
+
+note_time :-
+    sim_time(T),
+    nb_setval(noted, T).
+
+noted(T) :-
+    nb_getval(noted, T).
+
+say_word(Word) :-
+    nb_getval(said, Said),
+    nb_setval(said, [Word|Said]).
+
+:- end_tests(planned).
+
+:- begin_tests(for_seconds).
+
+test(leaves_a_program_that_does_not_end) :-
+    with_sim([], ( for_seconds(5, ever), sim_time(T) )),
+    near(T, 5, 0.05).
+test(leaves_a_program_that_polls) :-
+    with_sim([], ( for_seconds(2, ( repeat, us_dist_cm(in1, D), D < 0 )),
+                   sim_time(T) )),
+    near(T, 2, 0.05).
+test(ends_with_a_goal_that_ends) :-
+    with_sim([], ( for_seconds(5, sim_wait(1)), sim_wait(10), sim_time(T) )),
+    near(T, 11, 0.05).
+test(fails_with_a_goal_that_fails, fail) :-
+    with_sim([], for_seconds(5, ( sim_wait(1), fail ))).
+test(passes_an_exception_on, throws(oops)) :-
+    with_sim([], for_seconds(5, throw(oops))).
+test(one_may_contain_another, true(Outer-Inner == over-over)) :-
+    with_sim([], ( for_seconds(4, ( for_seconds(2, ever), Inner = over, sim_time(T0),
+                                    nb_setval(inner, T0), ever )),
+                   Outer = over,
+                   nb_getval(inner, T1), near(T1, 2, 0.05),
+                   sim_time(T), near(T, 4, 0.05) )),
+    Inner = over.
+test(works_on_a_clock_that_follows_the_wall) :-
+    with_sim([], ( for_seconds(0.2, ever), sim_time(T), T >= 0.2 ),
+             [clock(scaled(4))]).
+test(is_refused_if_the_time_is_none,
+     [ forall(member(S-E, [ -1-domain_error(seconds, -1), _-instantiation_error ])),
+       error(E, context(for_seconds/2, _)) ]) :-
+    with_sim([], for_seconds(S, true)).
+
+ever :-
+    repeat,
+    sim_wait(0.3),
+    fail.
+
+:- end_tests(for_seconds).

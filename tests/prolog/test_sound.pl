@@ -304,13 +304,14 @@ test(does_nothing_in_silence) :-
     on_dev(plain, sound_stop).
 test(ends_speech_of_the_simulator, true(Events == [said(Text), silenced])) :-
     Text = 'and so on, and so on, and so on, and so on, and so on, and so on',
-    with_sim(room, [clock(realtime)],
+    with_sim(room,
              ( thread_create(say(Text), Id, []),
                eventually(( sim_trace(T0), memberchk(_-said(_), T0) )),
                sound_stop,
                thread_join(Id, true),
                sim_trace(Trace),
-               findall(Event, ( member(_-Event, Trace), heard_event(Event) ), Events) )).
+               findall(Event, ( member(_-Event, Trace), heard_event(Event) ), Events) ),
+             [clock(realtime)]).
 test(nothing_sounds_after_halt, true(Status-Tones == exit(0)-[440, 0])) :-
     on_dev(plain,
            ( ev3_dev(Dev),

@@ -23,8 +23,9 @@ test(no_wait_is_over_at_once) :-
     with_sim([], ( ev3_time(T0), wait(0), ev3_time(T) )),
     near(T, T0, 0.001).
 test(a_time_limit_ends_a_wait, true(Ball == time_limit_exceeded)) :-
-    with_sim([], [clock(realtime)],
-             catch(call_with_time_limit(0.05, wait(3600)), Ball, true)).
+    with_sim([],
+             catch(call_with_time_limit(0.05, wait(3600)), Ball, true),
+             [clock(realtime)]).
 test(a_time_that_is_none_throws,
      [ forall(( tree(Tree),
                 member(Seconds-Error, [ -1-domain_error(seconds, -1),

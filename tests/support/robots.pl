@@ -83,9 +83,10 @@ biased(Seed, Bias) :-
 
 drives(Seed, Robot, Goal) :-
     set_random(seed(Seed)),
-    with_sim([], [seed(Seed), robot(Robot)],
+    with_sim([],
              ( set_robot(5.6, 10.6, outB, outC),
-               Goal )).
+               Goal ),
+             [seed(Seed), robot(Robot)]).
 
 noisy(Seed, Gyro, Goal) :-
     biased(Seed, Noise),

@@ -79,12 +79,13 @@ room_map(room(Known, Unknown, _, _), Map) :-
 drive_room(Room, Options, Reason, outcome(Collisions, Error, Found)) :-
     Room = room(Known, _, (X-Y)/Heading, GoalX-GoalY),
     room_map(Room, All),
-    with_sim([start(X, Y, Heading)|All], Options,
+    with_sim([start(X, Y, Heading)|All],
              ( set_robot(5.6, 10.6, outB, outC),
                set_pose(X, Y, Heading),
                navigate_to(Known, GoalX-GoalY,
                            [reason(Reason), obstacles(Found)]),
                sim_pose(AtX, AtY, _),
-               sim_collisions(Hits) )),
+               sim_collisions(Hits) ),
+             Options),
     length(Hits, Collisions),
     Error is sqrt((AtX - GoalX)**2 + (AtY - GoalY)**2).

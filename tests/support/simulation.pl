@@ -1,8 +1,5 @@
 :- module(simulation,
-          [ with_sim/2,                 % +World, :Goal
-            with_sim/3,                 % +World, +Options, :Goal
-            for_seconds/2,              % +Seconds, :Goal
-            at_rest/0,
+          [ at_rest/0,
             with_file/3,                % +Text, -File, :Goal
             with_directory/2,           % -Directory, :Goal
             can_mount/0,
@@ -12,63 +9,14 @@
 :- asserta(user:file_search_path(example, examples)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- reexport(library(ev3dev/sim), [with_sim/2, with_sim/3, for_seconds/2]).
 
 /** <module> Runs in the simulator
 */
 
 :- meta_predicate
-    with_sim(+, 0),
-    with_sim(+, +, 0),
-    for_seconds(+, 0),
     with_file(+, -, 0),
     with_directory(-, 0).
-
-%!  with_sim(+World, :Goal)
-%!  with_sim(+World, +Options, :Goal)
-%
-%   Call Goal once in a simulation, on the virtual clock unless Options say
-%   otherwise.
-
-with_sim(World, Goal) :-
-    with_sim(World, [], Goal).
-
-with_sim(World, Options, Goal) :-
-    append(Options, [clock(virtual)], All),
-    setup_call_cleanup(
-        sim_start(World, All),
-        once(Goal),
-        ignore(sim_stop)).
-
-%!  for_seconds(+Seconds, :Goal)
-%
-%   Call a Goal that does not end for so many simulated seconds, or a little
-%   longer.
-
-for_seconds(Seconds, Goal) :-
-    sim_time(Start),
-    End is Start + Seconds,
-    thread_self(Me),
-    catch(setup_call_cleanup(
-              thread_create(interrupt_at(End, Me), Id, []),
-              Goal,
-              ( thread_send_message(Id, stop),
-                thread_join(Id, _)
-              )),
-          time_is_up,
-          true).
-
-interrupt_at(End, Thread) :-
-    (   thread_get_message_within(0.002)
-    ->  true
-    ;   sim_time(Now),
-        Now < End
-    ->  interrupt_at(End, Thread)
-    ;   thread_signal(Thread, throw(time_is_up))
-    ).
-
-thread_get_message_within(Seconds) :-
-    thread_self(Me),
-    thread_get_message(Me, stop, [timeout(Seconds)]).
 
 %!  at_rest
 %

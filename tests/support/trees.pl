@@ -244,8 +244,9 @@ with_sensor(plain, Type, _, Goal) :-
 with_sensor(simulator, Type, World, Goal) :-
     robot_with(Type, Robot),
     in_tree(simulator,
-            with_sim(World, [robot(Robot)],
-                     ( tell_port(simulator, Type), Goal ))).
+            with_sim(World,
+                     ( tell_port(simulator, Type), Goal ),
+                     [robot(Robot)])).
 with_sensor(mount, Type, World, Goal) :-
     robot_with(Type, Robot),
     in_tree(mount,

@@ -68,6 +68,9 @@ allowed(hull,
         [circle('Radius'), rectangle('Width', 'Length', 'Offset')]).
 allowed(ir_channel,         'a channel is a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
+allowed(key,
+        [ up, down, left, right, enter, back,
+          'the port of a touch sensor' ]).
 allowed(led_color,
         [ off, on, red, green, blue, amber, orange, yellow, 'Percent',
           levels('Red', 'Green'), levels('Red', 'Green', 'Blue') ]).

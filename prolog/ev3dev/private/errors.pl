@@ -2,6 +2,7 @@
           [ must_be/2,                  % +Type, ?Term
             evaluated/2,                % +Expression, -Number
             in_own_name/1,              % :Goal
+            goal_of_program/1,          % :Goal
             type_error/2,               % +Type, +Term
             domain_error/2,             % +Domain, +Term
             existence_error/2,          % +Kind, +Name
@@ -29,7 +30,9 @@ last call of each clause of an exported predicate. (`swipl -O` removes this
 `true`; then an error names an inner predicate.)
 */
 
-:- meta_predicate in_own_name(0).
+:- meta_predicate
+    in_own_name(0),
+    goal_of_program(0).
 
 %!  must_be(+Type, ?Term) is det.
 %
@@ -119,6 +122,15 @@ evaluated(Expression, Number) :-
 in_own_name(Goal) :-
     catch(Goal, error(Formal, _), throw_formal(Formal)).
 
+%!  goal_of_program(:Goal) is nondet.
+%
+%   Call a Goal of the program. Its errors name the predicate that Goal called,
+%   and not the one that calls Goal.
+
+goal_of_program(Goal) :-
+    call(Goal),
+    true.
+
 %!  type_error(+Type, +Term).
 %!  domain_error(+Domain, +Term).
 %!  existence_error(+Kind, +Name).
@@ -169,7 +181,9 @@ throw_error(Formal, Called0, Message) :-
 
 called(Frame, Called0, Called) :-
     prolog_frame_attribute(Frame, predicate_indicator, Indicator),
-    (   in_pack(Indicator, Module, Predicate)
+    (   Indicator == goal_of_program/1  % of this module
+    ->  Called = Called0
+    ;   in_pack(Indicator, Module, Predicate)
     ->  (   is_public(Module, Predicate)
         ->  Called1 = Predicate
         ;   Called1 = Called0

@@ -84,6 +84,7 @@
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
+            sim_plan_/1,
             sim_plug_/2,
             sim_pose_/3,
             sim_release_/0,
@@ -289,6 +290,7 @@ missing.
 %!  sim_jam_(+Port, +Bool) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.
 %!  sim_place_(+X, +Y, +Heading) is semidet.
+%!  sim_plan_(+Seconds) is semidet.
 %!  sim_plug_(+Port, +Type) is semidet.
 %!  sim_pose_(-X, -Y, -Heading) is semidet.
 %!  sim_release_ is semidet.

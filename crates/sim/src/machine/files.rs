@@ -194,6 +194,7 @@ impl Machine {
             rate: sensor.rate,
             power: self.power(),
             axle: sensor.axle,
+            is_held: self.held[port as usize],
             noise: Source::new(noise, self.options.seed, port as usize, sample),
         };
         view.measure(sensor.mode().sense)

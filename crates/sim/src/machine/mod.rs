@@ -79,6 +79,8 @@ pub struct Machine {
     body: Body,
     scene: Arc<Scene>,
     panel: Panel,
+    /// Which touch sensors a hand holds down, by port.
+    held: [bool; Port::ALL.len()],
     trace: Trace,
 }
 
@@ -130,6 +132,7 @@ impl Machine {
             body: Body::new(robot, world.start),
             scene: Arc::new(scene),
             panel: Panel::new(options.depth),
+            held: Default::default(),
             trace: Trace::new(),
         };
         machine.check_free(&world.start)?;

@@ -12,8 +12,9 @@ use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
 use crate::motor::servo::{self, Servo};
-use crate::sensor::Sensor;
+use crate::sensor::{Sensor, Sense};
 use crate::ticks::{TICK_US, ticks_from_ms};
+use crate::trace::Action;
 use crate::world::SpecError;
 
 /// udev needs about half a second to open the files of a new device to the group.
@@ -49,7 +50,23 @@ impl Machine {
         was_there
     }
 
+    /// Presses the touch sensor that is plugged in, and holds it, or lets go of it; false if there
+    /// is none.
+    pub fn press_touch(&mut self, port: Port, is_press: bool) -> bool {
+        let is_touch = match self.sockets[port as usize].plug {
+            Some(Plug::Sensor(kind)) => kind.modes.iter().any(|mode| mode.sense == Sense::Touch),
+            _ => false,
+        };
+        if is_touch && self.held[port as usize] != is_press {
+            self.held[port as usize] = is_press;
+            let action = if is_press { Action::Pressed } else { Action::Released };
+            self.trace.event(self.now, action, &[], port.name());
+        }
+        is_touch
+    }
+
     fn change_plug(&mut self, port: Port, plug: Option<Plug>) {
+        self.held[port as usize] = false;
         self.sockets[port as usize].change(plug, self.tick);
         self.if_instant(port);
     }

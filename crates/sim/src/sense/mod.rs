@@ -53,6 +53,8 @@ pub(crate) struct View<'a> {
     pub(crate) power: [f64; 4],
     /// The state of the axle that an angle sensor measures.
     pub(crate) axle: Axle,
+    /// Whether a hand presses the sensor.
+    pub(crate) is_held: bool,
     pub(crate) noise: Source,
 }
 
@@ -264,7 +266,7 @@ impl View<'_> {
 
     fn pressed(&self) -> bool {
         let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
-        self.scene.near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
+        self.is_held || self.scene.near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
     }
 }
 

@@ -1,0 +1,36 @@
+//! Goals that are planned for a simulated time, and run in the thread that planned them.
+use std::cell::OnceCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether a bell has ever rung. A program that plans nothing pays for one load.
+static ANY: AtomicBool = AtomicBool::new(false);
+
+thread_local! {
+    static MINE: OnceCell<Bell> = const { OnceCell::new() };
+}
+
+/// Rings when a goal of a thread is due.
+#[derive(Clone, Default)]
+pub(crate) struct Bell(Arc<AtomicBool>);
+
+impl Bell {
+    /// The bell of this thread.
+    #[cfg(feature = "sim")]
+    pub(crate) fn of_this_thread() -> Self {
+        MINE.with(|mine| mine.get_or_init(Self::default).clone())
+    }
+
+    /// A goal is due.
+    #[cfg(feature = "sim")]
+    pub(crate) fn ring(&self) {
+        self.0.store(true, Ordering::Release);
+        ANY.store(true, Ordering::Release);
+    }
+}
+
+/// Whether this thread's bell has rung since the last call.
+pub(crate) fn has_rung() -> bool {
+    ANY.load(Ordering::Acquire)
+        && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
+}
