@@ -28,12 +28,12 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// motor_run_(+Port, +Percent)
+    /// motor_run_(+Port, +Speed): a percentage, or dps(DegreesPerSecond).
     #[module("ev3dev_native")]
     #[name("motor_run_")]
     semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
-        let (port, speed) = (call.text(port)?, Speed::Percent(call.float(percent)?));
+        let (port, speed) = (call.text(port)?, speed_of(&call, percent)?);
         let (run, devices) = (Run { port: &port, speed }, call.devices()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
@@ -50,14 +50,14 @@ predicates! {
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
-    /// motors_run_(+Runs): a list of run(Port, Percent), started together.
+    /// motors_run_(+Runs): a list of run(Port, Speed), started together.
     #[module("ev3dev_native")]
     #[name("motors_run_")]
     semidet fn motors_run(context, runs) {
         let call = Call::of(context, "motors_run", 1);
         let run = |run: &Term<'a>| -> PrologResult<_> {
             let [port, percent] = call.arguments(run)?;
-            Ok((call.text(&port)?, Speed::Percent(call.float(&percent)?)))
+            Ok((call.text(&port)?, speed_of(&call, &percent)?))
         };
         let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
@@ -67,8 +67,8 @@ predicates! {
     }
 
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
-    /// move(Port, Percent, Degrees), to(Port, Percent, Degrees) and
-    /// for(Port, Percent, Seconds), options is
+    /// move(Port, Speed, Degrees), to(Port, Speed, Degrees) and
+    /// for(Port, Speed, Seconds), options is
     /// options(StopAction, RampUp, RampDown, Wait, Timeout).
     #[module("ev3dev_native")]
     #[name("motor_turn_")]
@@ -76,7 +76,7 @@ predicates! {
         let call = Call::of(context, "motor_run", 4);
         let turn = |turn: &Term<'a>| -> PrologResult<_> {
             let [port, percent, way] = call.arguments(turn)?;
-            let speed = Speed::Percent(call.float(&percent)?);
+            let speed = speed_of(&call, &percent)?;
             Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
         };
         let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
@@ -187,6 +187,14 @@ predicates! {
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);
         let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
         into_prolog_result(call.or_fail(set)?)
+    }
+}
+
+/// A percentage, or `dps(DegreesPerSecond)`.
+fn speed_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Speed> {
+    match attempt_opt(call.context.compound_terms::<1>(term))? {
+        Some([degrees]) => call.float(&degrees).map(Speed::DegreesPerSecond),
+        None => call.float(term).map(Speed::Percent),
     }
 }
 

@@ -24,13 +24,13 @@
               [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
-                number_value/3, take_options/4, timeout_option/2
+                number_value/3, option/3, take_options/4, timeout_option/2
               ]).
 :- use_module(private/explain).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
-                must_be_move_options/1
+                must_be_move_options/1, robot_speed/2
               ]).
 :- reexport(odometry).
 :- reexport(calibrate).
@@ -54,7 +54,8 @@ Lengths are in centimeters, angles in degrees, both any arithmetic expression.
 X goes to the right and y ahead of where the robot started; heading 0 looks
 along y, clockwise is positive, and full turns count. A place is `X-Y`, or
 `[X, Y]` where a program gives one. Speeds are in percent of what the motors
-can, and are those of the faster wheel.
+can, and are those of the faster wheel; also `cm_per_s(N)`, and `dps(N)`,
+`rps(N)` or `rpm(N)` of the wheel.
 
 While the robot moves, a native loop reads wheels and gyro every 20 ms, keeps
 the pose, and keeps the robot on its course; Prolog may do something else
@@ -110,7 +111,7 @@ takes the place of one that is under way.
 %   direction. Fails for a Distance of 0, as go/2 does for an angle of 0.
 
 go_cm(Speed, Distance, Options) :-
-    number_value(Speed, Percent),
+    speed(Speed, Percent),
     number_value(Distance, Way),
     not_nothing(Way),
     move_straight(Percent, Way, Options).
@@ -129,7 +130,7 @@ not_nothing(Number) :-
 %   direction, clockwise positive. A turn by 0 is `reached` at once.
 
 turn(Speed, Angle, Options) :-
-    number_value(Speed, Percent),
+    speed(Speed, Percent),
     number_value(Angle, Degrees),
     move_turn(Percent, Degrees, Options).
 
@@ -144,7 +145,7 @@ arc_cm(Speed, Radius, Angle) :-
     arc_cm(Speed, Radius, Angle, []).
 
 arc_cm(Speed, Radius, Angle, Options) :-
-    number_value(Speed, Percent),
+    speed(Speed, Percent),
     number_value(Radius, R),
     number_value(Angle, Degrees),
     not_nothing(Degrees),
@@ -166,7 +167,7 @@ arc(Speed, Radius) :-
     arc(Speed, Radius, []).
 
 arc(Speed, Radius, Options) :-
-    number_value(Speed, Percent),
+    speed(Speed, Percent),
     number_value(Radius, R),
     robot_description(Robot),
     arg(7, Robot, Axle),
@@ -189,7 +190,7 @@ steer(Speed, Direction) :-
     steer(Speed, Direction, []).
 
 steer(Speed, Direction, Options) :-
-    number_value(Speed, Percent),
+    speed(Speed, Percent),
     number_value(direction, Direction, D),
     Inner is 1 - abs(D) / 50.0,
     (   D >= 0
@@ -272,7 +273,12 @@ travel(Legs, Options) :-
 speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
-    number_option(speed(Percent), finite_number, Options, Default).
+    option(speed(Speed), Options, Default),
+    speed(Speed, Percent).
+
+speed(Speed, Percent) :-
+    robot_speed(Speed, Value),
+    number_value(Value, Percent).
 
 %!  face(+Heading) is semidet.
 %!  face(+Heading, +Options) is semidet.

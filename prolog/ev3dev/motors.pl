@@ -29,8 +29,8 @@
               [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
-              [ motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, timeout_option/2
+              [ angle_value/2, motor_moves/2, motor_options/5, motor_runs/2,
+                must_be_options/3, speed_value/2, timeout_option/2
               ]).
 :- use_module(private/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
@@ -43,7 +43,9 @@
 /** <module> Motors
 
 Speeds are in percent of the motor's highest speed, angles in degrees of its
-shaft. Both may be arithmetic expressions. If a move has an angle, the signs
+shaft. Both may be arithmetic expressions. A speed may also be `dps(N)`,
+`rps(N)` or `rpm(N)`: degrees or rotations a second, or rotations a minute. An
+angle may also be `rotations(N)`. If a move has an angle, the signs
 of angle and speed together give the direction. For a linear actuator an angle
 is a length in millimeters.
 
@@ -68,12 +70,12 @@ angle. Nothing moves then. `debug(ev3dev)` explains why.
 
 motor_run(Port, Speed) :-
     (   number(Speed)
-    ->  Percent = Speed
-    ;   evaluated(Speed, Percent)
+    ->  Value = Speed
+    ;   speed_value(Speed, Value)
     ),
-    (   motor_run_(Port, Percent)
+    (   motor_run_(Port, Value)
     ->  true
-    ;   explain_failure([run(Port, Percent)])
+    ;   explain_failure([run(Port, Value)])
     ).
 
 %!  motors_run(+Runs) is semidet.
@@ -125,9 +127,9 @@ motor_run(Port, Speed, Angle) :-
     motor_run(Port, Speed, Angle, []).
 
 motor_run(Port, Speed, Angle, Options) :-
-    evaluated(Speed, Percent),
-    evaluated(Angle, Degrees),
-    motors_turn([move(Port, Percent, Degrees)], Options).
+    speed_value(Speed, Value),
+    angle_value(Angle, Degrees),
+    motors_turn([move(Port, Value, Degrees)], Options).
 
 %!  motors_turn(+Moves, +Options) is semidet.
 %
@@ -180,10 +182,9 @@ explain_failure(Runs) :-
     ;   Missing == [],
         one_of(Runs, Run),
         arg(1, Run, Port),
-        arg(2, Run, Percent),
         max_speed(Port, Max),
-        explain("~w cannot run at ~w % of its ~w counts/s as ~p asks",
-                [Port, Percent, Max, Run])
+        explain("~w, with at most ~w counts/s, cannot run as ~p asks",
+                [Port, Max, Run])
     ),
     fail.
 
@@ -334,11 +335,11 @@ motor_run_timed(Port, Speed, Seconds) :-
     motor_run_timed(Port, Speed, Seconds, []).
 
 motor_run_timed(Port, Speed, Seconds0, Options0) :-
-    evaluated(Speed, Percent),
+    speed_value(Speed, Value),
     evaluated(Seconds0, Seconds),
     must_be(list, Options0),
     or_brake(Options0, Options),
-    motors_turn([for(Port, Percent, Seconds)], Options).
+    motors_turn([for(Port, Value, Seconds)], Options).
 
 or_brake([], [stop_action(brake)]).
 or_brake([Option|Options0], [Option|Options]) :-
@@ -357,9 +358,9 @@ motor_run_to(Port, Speed, Angle) :-
     motor_run_to(Port, Speed, Angle, []).
 
 motor_run_to(Port, Speed, Angle, Options) :-
-    evaluated(Speed, Percent),
-    evaluated(Angle, Degrees),
-    motors_turn([to(Port, Percent, Degrees)], Options).
+    speed_value(Speed, Value),
+    angle_value(Angle, Degrees),
+    motors_turn([to(Port, Value, Degrees)], Options).
 
 %!  motor_run_direct(+Port, +Percent) is semidet.
 %

@@ -16,9 +16,10 @@
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1]).
 :- use_module(private/arguments,
-              [must_be_options/3, number_option/4, number_value/3]).
+              [ angle_value/2, must_be_options/3, number_option/4, number_value/3
+              ]).
 :- use_module(private/domains, [finite/1]).
-:- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
+:- use_module(private/drive_moves, [move_straight/3, move_turn/3, robot_speed/2]).
 :- use_module(private/robot_state,
               [ robot_description/1, robot_set/4, store_robot/2 ]).
 :- reexport(private/robot_state, [robot/4]).
@@ -34,7 +35,8 @@ of most building instructions. It is described once:
 ```
 
 Speeds are in percent of the motors' highest speed, distances in centimeters,
-angles in degrees; they may be any arithmetic expression. The sign of a speed
+angles in degrees; they may be any arithmetic expression. A speed may also be
+`cm_per_s(N)`, or `dps(N)`, `rps(N)` or `rpm(N)` of the wheels. The sign of a speed
 and that of a distance or angle together make the direction; clockwise is
 positive.
 
@@ -167,7 +169,7 @@ stop :-
 
 go(Speed) :-
     robot_set(_, _, Left, Right),
-    evaluated(Speed, Percent),
+    robot_speed(Speed, Percent),
     moves(Percent),
     wheels_run(Left, Percent, Right, Percent).
 
@@ -186,8 +188,8 @@ wheels_run(Left, LeftPercent0, Right, RightPercent0) :-
 
 go(Speed, Angle) :-
     robot_set(WheelDiameter, _, _, _),
-    evaluated(Speed, Percent),
-    evaluated(Angle, Degrees),
+    robot_speed(Speed, Percent),
+    angle_value(Angle, Degrees),
     moves(Percent),
     moves(Degrees),
     Distance is Degrees * (pi * WheelDiameter / 360),
@@ -201,7 +203,7 @@ go(Speed, Angle) :-
 
 go_cm(Speed, Distance) :-
     robot_set(_, _, _, _),
-    evaluated(Speed, Percent),
+    robot_speed(Speed, Percent),
     evaluated(Distance, Cm),
     moves(Percent),
     moves(Cm),
@@ -213,7 +215,7 @@ go_cm(Speed, Distance) :-
 
 turn(Speed) :-
     robot_set(_, _, Left, Right),
-    evaluated(Speed, Percent),
+    robot_speed(Speed, Percent),
     Reverse is -Percent,
     wheels_run(Left, Percent, Right, Reverse).
 
@@ -228,7 +230,7 @@ turn(Speed) :-
 
 turn(Speed, Angle) :-
     robot_set(_, _, _, _),
-    evaluated(Speed, Percent),
+    robot_speed(Speed, Percent),
     evaluated(Angle, Degrees),
     moves(Percent),
     possible(Degrees),

@@ -667,3 +667,21 @@ test(the_thread_takes_no_signals,
     Bits is Mask /\ (Int + Term).
 
 :- end_tests(cost).
+
+:- begin_tests(units).
+
+test(moves_and_their_speed_option_take_units,
+     [ forall(member(Goal, [ arc_cm(cm_per_s(10), 10, 90), go_cm(rps(1), 20, []),
+                             go_to(0, 20, [speed(cm_per_s(12))]), face(90, [speed(rpm(20))]) ])) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
+test(a_speed_in_cm_is_kept) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   steer(cm_per_s(10), 0), wait(2),
+                   sim_pose(_, Y0, _), wait(2), sim_pose(_, Y1, _), stop )),
+    near(Y1 - Y0, 20, 0.3).
+test(what_is_no_number_throws,
+     [ forall(member(Goal, [ go_cm(rps(a), 20, []), go_to(0, 20, [speed(cm_per_s(a))]) ])),
+       error(type_error(evaluable, a/0), _) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
+
+:- end_tests(units).

@@ -808,3 +808,46 @@ test(millimetres_become_counts, true(D-P == '40'-10.0)) :-
                     put_attribute(outD, position, 20), motor_position(outD, P) )).
 
 :- end_tests(linear_actuator).
+
+:- begin_tests(units).
+
+test(a_speed_may_have_a_unit,
+     [ forall(( tree(Tree),
+                member(Speed-Counts, [ dps(90)-90, rps(1/2)-180, rpm(20+10)-180,
+                                       dps(-90)-(-90), dps(33.4)-33 ]) )),
+       true(Written == Counts) ]) :-
+    with_tree(Tree, ( motor_run(outB, Speed), motor_attribute(outB, speed_sp, Written) )).
+test(an_angle_may_be_in_rotations,
+     [ forall(tree(Tree)), true([A, B, V] == [720, -180, 360]) ]) :-
+    with_tree(Tree, ( motor_run(outB, 20, rotations(1+1), [wait(false)]),
+                      motor_attribute(outB, position_sp, A),
+                      motor_run_to(outC, rps(1), rotations(-0.5), [wait(false)]),
+                      motor_attribute(outC, position_sp, B),
+                      motor_attribute(outC, speed_sp, V) )).
+test(each_of_several_may_have_its_own,
+     [ forall(tree(Tree)), true([A, B] == [180, 525]) ]) :-
+    with_tree(Tree, ( motors_run([run(outB, rpm(30)), run(outC, 50)]),
+                      motor_attribute(outB, speed_sp, A),
+                      motor_attribute(outC, speed_sp, B) )).
+test(a_timed_run_has_one, [ forall(tree(Tree)), true(A == 180) ]) :-
+    with_tree(Tree, ( motor_run_timed(outB, rpm(30), 0.1, [wait(false)]),
+                      motor_attribute(outB, speed_sp, A) )).
+test(beyond_what_the_motor_can_nothing_moves,
+     [ forall(( tree(Tree), member(Speed, [dps(1051), rps(-3), rpm(176)]) )),
+       true(W == []) ]) :-
+    with_tree(Tree, ( \+ motor_run(outB, Speed), \+ motor_run(outB, Speed, 90),
+                      written(W) )).
+test(what_is_no_number_throws,
+     [ forall(( tree(Tree),
+                member(Goal-Error,
+                       [ motor_run(outB, rpm(fast))-type_error(evaluable, fast/0),
+                         motor_run(outB, rpm(_))-instantiation_error,
+                         motor_run(outB, mph(1))-type_error(evaluable, mph/1),
+                         motor_run(outB, cm_per_s(1))-type_error(evaluable, cm_per_s/1),
+                         motor_run(outB, 20, rotations(a))-type_error(evaluable, a/0),
+                         motors_turn([for(outB, 20, rotations(1))], [])
+                             -type_error(evaluable, rotations/1) ]) )),
+       error(Error, _) ]) :-
+    with_tree(Tree, Goal).
+
+:- end_tests(units).

@@ -1,6 +1,7 @@
 :- use_module('../support/trees').
 :- use_module('../support/child').
 :- use_module('../support/simulation', [near/3]).
+:- use_module(library(ev3dev/sim)).
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 :- use_module(library(lists)).
@@ -393,3 +394,29 @@ test(what_was_driven_before_the_library_was_loaded_counts) :-
     Status-Output == exit(0)-"18".
 
 :- end_tests(one_drive).
+
+:- begin_tests(units).
+
+test(a_speed_in_cm_per_second_is_that_of_the_robot) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   go(cm_per_s(10)), wait(1),
+                   sim_pose(_, Y0, _), wait(2), sim_pose(_, Y1, _), stop )),
+    near(Y1 - Y0, 20, 0.3).
+test(go_cm_and_turn_take_units, [ forall(member(Speed, [cm_per_s(10), rps(0.5), rpm(30)])) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   go_cm(Speed, 20), turn(Speed, 90),
+                   sim_pose(X, Y, H) )),
+    near(X, 0, 0.5), near(Y, 20, 0.5), near(H, 90, 2).
+test(go_takes_rotations_of_the_wheels) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   go(30, rotations(2)), sim_pose(_, Y, _) )),
+    near(Y, 2 * pi * 5.6, 0.5).
+test(too_fast_is_impossible,
+     [ forall(member(Goal, [go(cm_per_s(60)), go_cm(cm_per_s(60), 10), turn(rps(3), 90)])), fail ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
+test(what_is_no_number_throws,
+     [ forall(member(Goal, [go(cm_per_s(a)), go_cm(cm_per_s(a), 10), turn(rps(a)), turn(rps(a), 9)])),
+       error(type_error(evaluable, a/0), _) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
+
+:- end_tests(units).

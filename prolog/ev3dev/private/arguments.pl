@@ -5,6 +5,8 @@
             option/3,                   % ?Option, +Options, +Default
             number_value/2,             % +Expression, -Number
             number_value/3,             % +Domain, +Expression, -Number
+            speed_value/2,              % +Speed, -Value
+            angle_value/2,              % +Angle, -Degrees
             number_option/4,            % ?Option, +Domain, +Options, +Default
             timeout_option/2,           % +Options, -Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
@@ -133,6 +135,37 @@ number_value(Domain, Expression, Number) :-
     ;   domain_error(Domain, Number)
     ).
 
+%!  speed_value(+Speed, -Value) is det.
+%
+%   Value is a number, the percentage that Speed is an expression of, or
+%   dps(Number) if Speed is dps(Expression), rps(Expression) or
+%   rpm(Expression): degrees or rotations a second, or rotations a minute.
+
+speed_value(Speed, Value) :-
+    (   nonvar(Speed),
+        speed_unit(Speed, Expression, Factor)
+    ->  evaluated(Expression, Number),
+        Degrees is Factor * Number,
+        Value = dps(Degrees)
+    ;   evaluated(Speed, Value)
+    ).
+
+speed_unit(dps(Expression), Expression, 1).
+speed_unit(rps(Expression), Expression, 360).
+speed_unit(rpm(Expression), Expression, 6).
+
+%!  angle_value(+Angle, -Degrees) is det.
+%
+%   Degrees is the value of an expression Angle, or of rotations(Expression).
+
+angle_value(Angle, Degrees) :-
+    (   nonvar(Angle),
+        Angle = rotations(Expression)
+    ->  evaluated(Expression, Number),
+        Degrees is 360 * Number
+    ;   evaluated(Angle, Degrees)
+    ).
+
 %!  number_option(?Option, +Domain, +Options, +Default) is det.
 %
 %   True if Option, Name(Number), is in Options with an expression of that
@@ -212,8 +245,8 @@ must_be_ramp(Attribute, Longest, Milliseconds) :-
 
 %!  motor_runs(+Runs, -Evaluated) is det.
 %
-%   Evaluated is a list of `run(Port, Percent)` with numbers, for Runs as
-%   those of motors_run/1.
+%   Evaluated is a list of `run(Port, Value)` with values of speed_value/2, for
+%   Runs as those of motors_run/1.
 %
 %   @error domain_error(motor_run, Run) if Run has another form
 
@@ -227,30 +260,36 @@ runs([], []).
 runs([Run|Runs], [run(Port, Percent)|Evaluated]) :-
     (   nonvar(Run),
         Run = run(Port, Speed)
-    ->  evaluated(Speed, Percent)
+    ->  speed_value(Speed, Percent)
     ;   none_of(motor_run, Run)
     ),
     runs(Runs, Evaluated).
 
 %!  motor_moves(+Moves, -Evaluated) is det.
 %
-%   Evaluated is a list of Moves as those of motors_turn/2, with numbers.
+%   Evaluated is a list of Moves as those of motors_turn/2, with numbers, and
+%   values of speed_value/2.
 %
 %   @error domain_error(motor_move, Move) if Move has another form
 
 motor_moves([], []).
 motor_moves([Move|Moves], [Evaluated|Rest]) :-
     (   nonvar(Move),
-        move(Move, Speed, Way, Evaluated, Percent, Number)
-    ->  evaluated(Speed, Percent),
-        evaluated(Way, Number)
+        move(Move, Speed, Way, Evaluated, Value, Number)
+    ->  speed_value(Speed, Value),
+        way_value(Way, Number)
     ;   none_of(motor_move, Move)
     ),
     motor_moves(Moves, Rest).
 
-move(move(Port, S, Angle), S, Angle, move(Port, P, N), P, N).
-move(to(Port, S, Angle), S, Angle, to(Port, P, N), P, N).
-move(for(Port, S, Time), S, Time, for(Port, P, N), P, N).
+move(move(Port, S, Angle), S, angle(Angle), move(Port, V, N), V, N).
+move(to(Port, S, Angle), S, angle(Angle), to(Port, V, N), V, N).
+move(for(Port, S, Time), S, time(Time), for(Port, V, N), V, N).
+
+way_value(angle(Angle), Degrees) :-
+    angle_value(Angle, Degrees).
+way_value(time(Time), Seconds) :-
+    evaluated(Time, Seconds).
 
 none_of(Domain, Term) :-
     must_be(nonvar, Term),

@@ -2,6 +2,7 @@
           [ move/3,                     % +Percent, +Course, +Options
             move_straight/3,            % +Percent, +Distance, +Options
             move_turn/3,                % +Percent, +Angle, +Options
+            robot_speed/2,              % +Speed, -Percent
             must_be_move_options/1,     % +Options
             backwards/2                 % +Direction, -Backwards
           ]).
@@ -9,11 +10,11 @@
 :- use_module(explain).
 :- use_module(arguments,
               [ must_be_options/3, number_option/4, option/2, option/3,
-                timeout_option/2
+                speed_value/2, timeout_option/2
               ]).
 :- use_module(robot_state,
-              [drive_default/2, robot/4, robot_description/1]).
-:- use_module(native, [drive_/4]).
+              [drive_default/2, robot/4, robot_description/1, robot_set/4]).
+:- use_module(native, [attribute_/4, drive_/4]).
 
 /** <module> How a move is carried out
 
@@ -116,6 +117,33 @@ prolog:message(ev3dev(astray([Left, Right]))) -->
       'Is it mounted upside down, are left and right motor swapped, '-[],
       'or do the wheels spin on the spot?'-[]
     ].
+
+%!  robot_speed(+Speed, -Percent) is semidet.
+%
+%   Percent is the speed of the faster wheel in percent of what its motor can.
+%   Speed is an expression of it, or dps(N), rps(N) or rpm(N) of the wheel, or
+%   cm_per_s(N). Fails for these if no robot is set or its left motor is not
+%   connected.
+
+robot_speed(Speed, Percent) :-
+    wheel_speed(Speed, Value),
+    (   Value = dps(Degrees)
+    ->  robot_set(_, _, Left, _),
+        attribute_('tacho-motor', Left, max_speed, Max),
+        attribute_('tacho-motor', Left, count_per_rot, Counts),
+        Percent is Degrees * Counts / 3.6 / Max
+    ;   Percent = Value
+    ).
+
+wheel_speed(Speed, Value) :-
+    (   nonvar(Speed),
+        Speed = cm_per_s(Expression)
+    ->  evaluated(Expression, Cm),
+        robot_set(WheelDiameter, _, _, _),
+        Degrees is Cm * 360 / (pi * WheelDiameter),
+        Value = dps(Degrees)
+    ;   speed_value(Speed, Value)
+    ).
 
 %!  must_be_move_options(+Options) is det.
 %

@@ -150,7 +150,7 @@ missing.
 
 %!  motor_position_(?Port, -Position) is nondet.
 %!  motor_reset_(+Port) is semidet.
-%!  motor_run_(+Port, +Percent) is semidet.
+%!  motor_run_(+Port, +Speed) is semidet.
 %!  motor_run_direct_(+Class, +Port, +Percent) is semidet.
 %!  motor_set_position_(+Port, +Position) is semidet.
 %!  motor_stop_(+Class, +Port, +StopAction) is semidet.
@@ -165,7 +165,7 @@ missing.
 
 % Motors without rotation sensor
 
-%!  dc_motor_run_(+Port, +Percent) is semidet.
+%!  dc_motor_run_(+Port, +Speed) is semidet.
 %!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is semidet.
 %
 %   `src/dc_motors.rs`

@@ -35,12 +35,14 @@ pub enum Extent {
 pub enum Speed {
     /// In percent of `max_speed`.
     Percent(f64),
+    /// In degrees of the output shaft per second.
+    DegreesPerSecond(f64),
     /// In tacho counts per second.
     CountsPerSecond(i64),
 }
 
 impl Speed {
-    /// Tacho counts per second, `floor(percent / 100 * max_speed)`, or `None`
+    /// Tacho counts per second, `floor(percent / 100 * max_speed)` of a percentage, or `None`
     /// beyond what the motor accepts.
     ///
     /// # Errors
@@ -52,13 +54,16 @@ impl Speed {
     )]
     pub fn in_counts(self, motor: &Device) -> Result<Option<i64>> {
         let max = motor.constant("max_speed")?;
+        // Also false for NaN.
+        let within = |counts: f64| (counts.abs() <= max as f64).then_some(counts as i64);
         let counts = match self {
             Self::Percent(percent) => {
                 // Multiplied first: most percentages are no binary fractions.
-                let counts = (percent * max as f64 / 100.0).floor();
-                // Also false for NaN.
-                (counts.abs() <= max as f64).then_some(counts as i64)
+                within((percent * max as f64 / 100.0).floor())
             }
+            // A linear actuator does not turn.
+            Self::DegreesPerSecond(_) if motor.is_linear() => None,
+            Self::DegreesPerSecond(degrees) => within((degrees * counts_per_unit(motor)?).round()),
             Self::CountsPerSecond(counts) => Some(counts),
         };
         Ok(counts.filter(|counts| counts.unsigned_abs() <= max.unsigned_abs()))
