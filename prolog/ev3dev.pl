@@ -6,8 +6,9 @@ A program loads this module. It offers all predicates of
 
   - library(ev3dev/robot): a robot with two wheels that goes and turns
   - library(ev3dev/motors) and library(ev3dev/motor_settings): single motors
-  - library(ev3dev/sensors), library(ev3dev/infrared),
-    library(ev3dev/nxt_sensors) and library(ev3dev/sensor_info): sensors
+  - library(ev3dev/sensors), library(ev3dev/sensor_wait),
+    library(ev3dev/infrared), library(ev3dev/nxt_sensors) and
+    library(ev3dev/sensor_info): sensors
   - library(ev3dev/dc_motors) and library(ev3dev/servo_motors): motors without
     rotation sensor and RC servos
   - library(ev3dev/lights), library(ev3dev/battery), library(ev3dev/ports)

@@ -3,7 +3,8 @@ use crate::driver::unify_asked;
 use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::interned::words;
-use crate::glue::terms::unify_value;
+use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::sensor::wait::{Until, wait_until};
 use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
 use swipl::prelude::*;
@@ -13,6 +14,7 @@ pub(crate) fn register() {
     register_sensor_value();
     register_sensor_values();
     register_sensor_restart();
+    register_sensor_wait();
     register_sensor_scale();
 }
 
@@ -79,6 +81,21 @@ predicates! {
         call.or_fail(sensor::restart(&devices, &device, &mode, interrupted))
     }
 
+    /// sensor_wait_(+Port, +Types, +Mode, +Index, +Test, +Timeout, -Ended): test is
+    /// test(Operator, Number) or `bumped`.
+    #[module("ev3dev_native")]
+    #[name("sensor_wait_")]
+    semidet fn sensor_wait(context, port, types, mode, index, test, timeout, ended) {
+        let call = Call::of(context, "sensor_wait", 2);
+        let (index, until) = (index_of(&call, index)?, until(&call, test)?);
+        let timeout = call.seconds(timeout)?;
+        let Readings { devices, mut sensors, mode, .. } = readings(&call, port, types, mode, index)?;
+        let sensor = sensors.next().ok_or(PrologError::Failure)?;
+        let interrupted = &mut call.interrupted();
+        let waited = wait_until(&devices, &sensor, &mode, index, until, timeout, interrupted);
+        unify_atom(ended, call.or_throw(waited)?.word())
+    }
+
     /// sensor_scale_(+Port, +Raw, -Value)
     #[module("ev3dev_native")]
     #[name("sensor_scale_")]
@@ -99,6 +116,23 @@ struct Readings {
     mode: Text,
     /// The index of a value, or the number of values.
     index: usize,
+}
+
+/// What to wait for.
+fn until<'a, C: QueryableContextType>(call: &Call<'a, C>, test: &Term<'a>) -> PrologResult<Until> {
+    let Some([operator, number]) = attempt_opt(call.context.compound_terms::<2>(test))? else {
+        return Ok(Until::Bumped);
+    };
+    let number = call.float(&number)?;
+    Ok(match &*call.text(&operator)? {
+        "<" => Until::Less(number),
+        "=<" => Until::AtMost(number),
+        ">" => Until::Greater(number),
+        ">=" => Until::AtLeast(number),
+        "=:=" => Until::Equal(number),
+        "=\\=" => Until::Unequal(number),
+        _ => return wrong_value(call, "sensor_condition", test),
+    })
 }
 
 /// The sensors of a call: at a port, or all; of the given types, or, if there are none,

@@ -36,7 +36,7 @@
 task('Drive a robot with two wheels', [robot, drive, odometry, calibrate]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
-task('Ask sensors', [sensors, infrared, nxt_sensors, sensor_info]).
+task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors ]).
 task('Use the brick itself',
      [lights, buttons, sound, screen, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).

@@ -182,11 +182,19 @@ explain_failure(Runs) :-
     ;   Missing == [],
         one_of(Runs, Run),
         arg(1, Run, Port),
+        arg(2, Run, Speed),
+        speed_in_words(Speed, Words),
         max_speed(Port, Max),
-        explain("~w, with at most ~w counts/s, cannot run as ~p asks",
-                [Port, Max, Run])
+        explain("~w cannot run at ~w of its ~w counts/s as ~p asks",
+                [Port, Words, Max, Run])
     ),
     fail.
+
+speed_in_words(Speed, Words) :-
+    (   number(Speed)
+    ->  format(atom(Words), '~w %', [Speed])
+    ;   Words = Speed
+    ).
 
 %!  motor_start(+Port) is semidet.
 %

@@ -22,7 +22,8 @@
             sensor_value/4,             % ?Port, +Mode, +Index, -Value
             sensor_values/3,            % ?Port, +Mode, -Values
             adjust_val/3,               % +Port, +Raw, -Value
-            reading_types/2             % ?Reading, ?Types
+            reading_types/2,            % ?Reading, ?Types
+            reading_of/4                % ?Reading, ?Types, ?Mode, ?Index
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
@@ -83,6 +84,13 @@ ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 
 reading_types(Reading, Types) :-
     reading(Reading, Types, _, _).
+
+%!  reading_of(?Reading, ?Types, ?Mode, ?Index) is nondet.
+%
+%   True if the sensors of Types show Reading as value Index of Mode.
+
+reading_of(Reading, Types, Mode, Index) :-
+    reading(Reading, Types, Mode, Index).
 
 %!  reading(?Reading, ?Types, ?Mode, ?Index) is nondet.
 %

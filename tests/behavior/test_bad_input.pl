@@ -38,6 +38,7 @@ sensible(moves, [move(outB, 20, 9)]).
 sensible(reading, touch).
 sensible(seconds, 1).
 sensible(moment, 0.01).
+sensible(condition, us_dist_cm(in1) < 25).
 sensible(watch, Watch) :-
     stopwatch(Watch).
 sensible(polarity, inversed).
@@ -189,6 +190,7 @@ call_of(servo_motor_polarity(servo, polarity)).
 call_of(servo_motor_rate(servo, number)).
 call_of(servo_motor_pulses(servo, number, number, number)).
 call_of(servo_motor_attribute(servo, attribute, number)).
+call_of(sensor_wait(condition, at_once)).
 call_of(ev3_time(out)).
 call_of(wait(moment)).
 call_of(stopwatch(out)).

@@ -90,6 +90,9 @@ allowed(roadmap_method,     [visibility, prm, rrt_star]).
 allowed(screen_bits,        [1, 32]).
 allowed(screen_color,       [black, dark_gray, light_gray, white]).
 allowed(seconds,            'a time in seconds is a number from 0 on').
+allowed(sensor_condition,
+        [ 'Reading(Port) < Number', '=<', '>', '>=', '=:=', '=\\=',
+          'touch(Port) = pressed', released, bumped ]).
 allowed(sensor_value_index, 'the index of a value is an integer from 0 to 7').
 allowed(side,               [left, right]).
 allowed(stopwatch,          'a stopwatch of stopwatch/1 is expected').

@@ -33,6 +33,7 @@
             sensor_scale_/3,
             sensor_value_/5,
             sensor_values_/5,
+            sensor_wait_/7,
             led_/3,
             led_set_color_/2,
             led_set_delays_/3,
@@ -184,6 +185,8 @@ missing.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
+%!  sensor_wait_(+Port, +Types, +Mode, +Index, +Test, +Timeout, -Ended)
+%   is semidet.
 %
 %   `src/sensors.rs`
 

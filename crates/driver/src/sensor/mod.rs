@@ -7,6 +7,7 @@
 //! settled.
 mod bin_data;
 pub(crate) mod gyro;
+pub mod wait;
 
 use crate::class::Class;
 use crate::device::registry::Registry;
