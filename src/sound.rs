@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
 use crate::glue::call::Call;
-use crate::glue::state::{dev, sound};
+use crate::glue::state::{dev, devices, sound};
 use ev3_driver::brick::sound::{self, Tone};
 use std::path::Path;
 use std::time::Duration;
@@ -13,37 +13,50 @@ pub(crate) fn register() {
     register_play();
     register_volume();
     register_volume_set();
+    register_sound_wait();
     register_sound_stop();
 }
 
 predicates! {
-    /// tones_(+Tones): a list of tone(Hertz, Milliseconds); 0 Hz is silence.
+    /// tones_(+Tones, +Wait): a list of tone(Hertz, Milliseconds); 0 Hz is silence.
     #[module("ev3dev_native")]
     #[name("tones_")]
-    semidet fn tones(context, tones) {
+    semidet fn tones(context, tones, wait) {
         let call = Call::of(context, "tones", 2);
         let tones = call.list(tones)?;
         let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
         let dev = call.dev()?;
-        call.or_fail(sound().play_tones(&*dev, &tones, &mut call.interrupted()))
+        call.or_fail(if wait.get_ex()? {
+            sound().play_tones(&*dev, &tones, &mut call.interrupted())
+        } else {
+            sound().begin_tones(devices().tree(), &*dev, tones)
+        })
     }
 
-    /// say_(+Text)
+    /// say_(+Text, +Wait)
     #[module("ev3dev_native")]
     #[name("say_")]
-    semidet fn say(context, text) {
+    semidet fn say(context, text, wait) {
         let call = Call::of(context, "say", 1);
         let (text, dev) = (call.text(text)?, call.dev()?);
-        call.or_throw(sound().say(&*dev, &text, &mut call.interrupted()))
+        call.or_throw(if wait.get_ex()? {
+            sound().say(&*dev, &text, &mut call.interrupted())
+        } else {
+            sound().begin_saying(devices().tree(), &*dev, &text)
+        })
     }
 
-    /// play_(+File)
+    /// play_(+File, +Wait)
     #[module("ev3dev_native")]
     #[name("play_")]
-    semidet fn play(context, file) {
+    semidet fn play(context, file, wait) {
         let call = Call::of(context, "play", 1);
         let (file, dev) = (call.text(file)?, call.dev()?);
-        call.or_throw(sound().play(&*dev, Path::new(&*file), &mut call.interrupted()))
+        call.or_throw(if wait.get_ex()? {
+            sound().play(&*dev, Path::new(&*file), &mut call.interrupted())
+        } else {
+            sound().begin_playing(devices().tree(), &*dev, Path::new(&*file))
+        })
     }
 
     /// volume_(-Percent)
@@ -61,6 +74,14 @@ predicates! {
         let call = Call::of(context, "volume", 1);
         let percent = u8::try_from(call.integer(percent)?).map_err(|_| PrologError::Failure)?;
         call.or_fail(sound::set_volume(&*call.dev()?, percent))
+    }
+
+    /// sound_wait_
+    #[module("ev3dev_native")]
+    #[name("sound_wait_")]
+    semidet fn sound_wait(context) {
+        let call = Call::of(context, "sound_wait", 0);
+        call.or_throw(sound().wait(&*dev(), &mut call.interrupted()))
     }
 
     /// sound_stop_

@@ -1,10 +1,14 @@
 :- module(ev3dev_sound,
           [ tone/2,                     % +Hertz, +Milliseconds
+            tone/3,                     % +Hertz, +Milliseconds, +Options
             tones/1,                    % +Tones
             tones/2,                    % +Tones, +Options
             say/1,                      % +Text
+            say/2,                      % +Text, +Options
             play/1,                     % +File
+            play/2,                     % +File, +Options
             volume/1,                   % ?Percent
+            sound_wait/0,
             sound_stop/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -16,14 +20,18 @@
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
-              [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
-                volume_set_/1 ]).
+              [ play_/2, say_/2, sound_stop_/0, sound_wait_/0, tones_/2,
+                volume_/1, volume_set_/1 ]).
 
 /** <module> The speaker
 
-tone/2, tones/1,2, say/1 and play/1 wait until the sound is over. If an
+tone/2, tones/1, say/1 and play/1 wait until the sound is over. If an
 exception, for example Ctrl-C, ends a call, its sound stops first. When Prolog
 halts, all sounds of the program stop.
+
+With the option `wait(false)` of tone/3, tones/2, say/2 and play/2 a sound
+plays while the program goes on. It takes the place of all other sounds. Then
+sound_wait/0 waits until it is over, and sound_stop/0 ends it.
 
 Tones fail if there is no speaker. Speech needs the program `espeak`, and
 speech and recordings need `aplay` of the package `alsa-utils`; the user may
@@ -36,17 +44,39 @@ have to install both.
 */
 
 %!  tone(+Hertz, +Milliseconds) is semidet.
+%!  tone(+Hertz, +Milliseconds, +Options) is semidet.
 %
 %   Play a tone from 100 to 10000 Hz, and wait until it is over. Both
 %   arguments may be arithmetic expressions. While a recording plays, the
-%   speaker plays no tone.
+%   speaker plays no tone. Options:
+%
+%     - wait(+Boolean)
+%       If `false`, return as soon as the tone plays. Default is `true`.
 %
 %   @error domain_error(frequency, Hertz)
 %   @error domain_error(milliseconds, Milliseconds) if Milliseconds is
 %          negative
 
 tone(Hertz, Milliseconds) :-
-    tones([tone(Hertz, Milliseconds)]).
+    tone(Hertz, Milliseconds, []).
+
+tone(Hertz, Milliseconds, Options) :-
+    wait_option([], Options, Wait),
+    native_tones([tone(Hertz, Milliseconds)], 500, Native),
+    tones_or_explain(Native, Wait).
+
+%   Wait is the value of the option `wait`, which has company in Names.
+wait_option(Names, Options, Wait) :-
+    must_be_options(sound_option, [wait|Names], Options),
+    option(wait(Wait), Options, true),
+    must_be(boolean, Wait).
+
+tones_or_explain(Native, Wait) :-
+    (   tones_(Native, Wait)
+    ->  true
+    ;   explain("tone: there is no speaker", []),
+        fail
+    ).
 
 %!  tones(+Tones) is semidet.
 %!  tones(+Tones, +Options) is semidet.
@@ -70,12 +100,14 @@ tone(Hertz, Milliseconds) :-
 %
 %     - tempo(+QuartersPerMinute)
 %       Default is 120.
+%     - wait(+Boolean)
+%       If `false`, return as soon as the first tone plays. Default is `true`.
 %
 %   @error domain_error(tone, Tone)
 %   @error domain_error(note, Pitch)
 %   @error domain_error(note_length, Length)
 %   @error domain_error(tempo, QuartersPerMinute)
-%   @error domain_error(tone_option, Option) if Option is not an option of
+%   @error domain_error(sound_option, Option) if Option is not an option of
 %          this predicate
 
 tones(Tones) :-
@@ -83,7 +115,7 @@ tones(Tones) :-
 
 tones(Tones, Options) :-
     must_be(list, Tones),
-    must_be_options(tone_option, [tempo], Options),
+    wait_option([tempo], Options, Wait),
     option(tempo(Tempo), Options, 120),
     must_be(number, Tempo),
     (   Tempo > 0
@@ -91,11 +123,7 @@ tones(Tones, Options) :-
     ;   domain_error(tempo, Tempo)
     ),
     native_tones(Tones, Quarter, Native),
-    (   tones_(Native)
-    ->  true
-    ;   explain("tone: there is no speaker", []),
-        fail
-    ).
+    tones_or_explain(Native, Wait).
 
 %   Native are terms tone(Hertz, Milliseconds), 0 Hz for silence.
 
@@ -182,19 +210,28 @@ quarters(triplet(Length), Quarters) :-
     Quarters is 2 * Quarters0 / 3.
 
 %!  say(+Text) is semidet.
+%!  say(+Text, +Options) is semidet.
 %
-%   Say a text and wait until it is said. Text is an atom or a string.
+%   Say a text and wait until it is said. Text is an atom or a string. The
+%   option `wait` is that of tone/3.
 %
 %   @error existence_error(program, Program) if Program, `espeak` or `aplay`,
 %          is missing: the message names the package to install
 %   @error system_error(Words) if one of these programs reports an error
 
 say(Text) :-
-    say_(Text).
+    say(Text, []).
+
+say(Text, Options) :-
+    must_be(text, Text),
+    wait_option([], Options, Wait),
+    say_(Text, Wait).
 
 %!  play(+File) is semidet.
+%!  play(+File, +Options) is semidet.
 %
-%   Play a WAV file, and wait until it is over.
+%   Play a WAV file, and wait until it is over. The option `wait` is that of
+%   tone/3.
 %
 %   @error existence_error(file, File)
 %   @error syntax_error(wav) if File is no WAV file
@@ -203,9 +240,13 @@ say(Text) :-
 %   @error system_error(Words) if `aplay` reports an error
 
 play(File) :-
+    play(File, []).
+
+play(File, Options) :-
     must_be(nonvar, File),
+    wait_option([], Options, Wait),
     file_path(File, Path),
-    play_(Path).
+    play_(Path, Wait).
 
 %!  volume(?Percent) is semidet.
 %
@@ -229,6 +270,16 @@ volume(Percent0) :-
     ->  volume_set_(Percent)
     ;   domain_error(volume, Percent0)
     ).
+
+%!  sound_wait is det.
+%
+%   Wait until the sounds that were started with `wait(false)` are over. Does
+%   not wait if there is none.
+%
+%   @error system_error(Words) if `espeak` or `aplay` reported an error
+
+sound_wait :-
+    sound_wait_.
 
 %!  sound_stop is det.
 %

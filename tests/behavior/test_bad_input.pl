@@ -211,6 +211,8 @@ call_of(button(button)).
 call_of(button_wait(button, event, at_once)).
 call_of(button_events(out)).
 call_of(play(file)).
+call_of(play(file, options)).
+call_of(sound_wait).
 call_of(volume(number)).
 call_of(sound_stop).
 call_of(screen_clear).
@@ -309,6 +311,9 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
 % test_buttons.pl, test_sound.pl and test_screen.pl.
 called_elsewhere(button_wait/2).
 called_elsewhere(tone/2).
+called_elsewhere(tone/3).
+called_elsewhere(say/2).
+called_elsewhere(sensor_wait/1).
 called_elsewhere(tones/1).
 called_elsewhere(tones/2).
 called_elsewhere(say/1).

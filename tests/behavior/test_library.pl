@@ -74,7 +74,8 @@ exported(time, [ ev3_time/1, wait/1, stopwatch/1, elapsed/2 ]).
 exported(buttons,
          [ button/1, button_wait/2, button_wait/3, button_events/1 ]).
 exported(sound,
-         [ tone/2, tones/1, tones/2, say/1, play/1, volume/1, sound_stop/0 ]).
+         [ tone/2, tone/3, tones/1, tones/2, say/1, say/2, play/1, play/2,
+           volume/1, sound_wait/0, sound_stop/0 ]).
 exported(screen,
          [ screen_clear/0, screen_point/2, screen_point/3, screen_line/4,
            screen_line/5, screen_rectangle/4, screen_rectangle/5,

@@ -93,7 +93,7 @@ test(are_no_list, error(type_error(list, c4), _)) :-
     tones(c4).
 test(have_no_such_tempo, error(domain_error(tempo, 0), _)) :-
     tones([], [tempo(0)]).
-test(have_no_such_option, error(domain_error(tone_option, speed(60)), _)) :-
+test(have_no_such_option, error(domain_error(sound_option, speed(60)), _)) :-
     tones([], [speed(60)]).
 test(fail_without_a_speaker, fail) :-
     with_dev([], tones([note(c4, quarter)])).
@@ -349,3 +349,48 @@ test(speech_and_recordings_are_traced_and_take_time,
     ).
 
 :- end_tests(simulated_sound).
+
+:- begin_tests(without_waiting).
+
+test(tones_play_while_the_program_goes_on, true(Heard-T0 == [0-440, 1-880, 2-0]-0)) :-
+    with_sim(room, ( tones([tone(440, 1000), tone(880, 1000)], [wait(false)]),
+                     sim_time(T1), T0 is round(T1),
+                     wait(3), heard_at(Heard) )).
+test(its_end_can_be_waited_for,
+     [ forall(member(Goal, [tone(440, 2000, [wait(false)]), tones([tone(440, 2000)], [wait(false)])])) ]) :-
+    with_sim(room, ( Goal, sound_wait, sim_time(T), sound_wait, sim_time(T1) )),
+    near(T, 2, 0.05),
+    near(T1, 2, 0.06).
+test(it_can_be_stopped, true(Heard == [0-440, 1-0])) :-
+    with_sim(room, ( tone(440, 5000, [wait(false)]), wait(1), sound_stop,
+                     sound_wait, wait(7), heard_at(Heard) )).
+test(the_next_takes_its_place, true(Heard == [0-440, 1-0, 1-880, 3-0])) :-
+    with_sim(room, ( tone(440, 5000, [wait(false)]), wait(1),
+                     tone(880, 2000, [wait(false)]), sound_wait, wait(3), heard_at(Heard) )).
+test(speech_does_not_wait_either) :-
+    with_sim(room, ( say(hello, [wait(false)]), sim_time(T0), sound_wait, sim_time(T) )),
+    near(T0, 0, 0.05),
+    T > 0.2.
+test(speech_can_be_stopped, true(Events == [said(hello), silenced])) :-
+    with_sim(room, ( say(hello, [wait(false)]), wait(0.1), sound_stop, sound_wait,
+                     sim_time(T), T < 0.2,
+                     sim_trace(Trace),
+                     findall(E, ( member(_-E, Trace), memberchk(E, [said(_), silenced]) ), Events) )).
+test(a_move_goes_on_meanwhile) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   tone(440, 1000, [wait(false)]), go_cm(30, 40), sim_time(T), sim_pose(_, Y, _) )),
+    near(Y, 40, 0.5),
+    T > 1.
+test(options_are_checked,
+     [ forall(( member(Option-Error, [ wait(1)-type_error(bool, 1), wayt(true)-domain_error(sound_option, _) ]),
+                member(Goal, [ tone(440, 10, [Option]), tones([], [Option]), say(a, [Option]),
+                               play('x.wav', [Option]) ]) )),
+       error(Error, _) ]) :-
+    with_sim(room, Goal).
+
+%   When, in whole seconds, the tone generator changed to which tone.
+heard_at(Heard) :-
+    sim_trace(Trace),
+    findall(S-Hertz, ( member(T-tone(Hertz), Trace), S is round(T) ), Heard).
+
+:- end_tests(without_waiting).

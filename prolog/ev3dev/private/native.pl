@@ -44,10 +44,11 @@
             buttons_/1,
             sim_key_/2,
             sim_plan_key_/3,
-            play_/1,
-            say_/1,
+            play_/2,
+            say_/2,
             sound_stop_/0,
-            tones_/1,
+            sound_wait_/0,
+            tones_/2,
             volume_/1,
             volume_set_/1,
             screen_clear_/0,
@@ -212,10 +213,11 @@ missing.
 
 % Sound
 
-%!  play_(+File) is semidet.
-%!  say_(+Text) is semidet.
+%!  play_(+File, +Wait) is semidet.
+%!  say_(+Text, +Wait) is semidet.
 %!  sound_stop_ is semidet.
-%!  tones_(+Tones) is semidet.
+%!  sound_wait_ is semidet.
+%!  tones_(+Tones, +Wait) is semidet.
 %!  volume_(-Percent) is semidet.
 %!  volume_set_(+Percent) is semidet.
 %

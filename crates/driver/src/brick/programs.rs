@@ -122,13 +122,34 @@ impl Programs {
         start: impl FnOnce() -> Result<[Started; N]>,
         interrupted: Interrupted,
     ) -> Result<()> {
-        let number = self.next.fetch_add(1, Ordering::SeqCst);
-        let mut running = self.running();
-        running.extend(start()?.map(|program| (number, program)));
-        drop(running);
+        let number = self.begin(start)?;
         let over = until(dev, None, None, interrupted, || self.are_over(number));
         self.running().retain(|(other, _)| *other != number);
         over.map(drop)
+    }
+
+    /// Starts programs, in the order of the pipe between them, and does not
+    /// wait. Returns their number.
+    pub(crate) fn begin<const N: usize>(
+        &self,
+        start: impl FnOnce() -> Result<[Started; N]>,
+    ) -> Result<u32> {
+        let number = self.next.fetch_add(1, Ordering::SeqCst);
+        let mut running = self.running();
+        running.extend(start()?.map(|program| (number, program)));
+        Ok(number)
+    }
+
+    /// Whether all that run have ended; `None` if not. An error is reported once.
+    pub(crate) fn are_all_over(&self) -> Result<Option<()>> {
+        let Some(number) = self.running().first().map(|(number, _)| *number) else {
+            return Ok(Some(()));
+        };
+        let over = self.are_over(number);
+        if !matches!(over, Ok(None)) {
+            self.running().retain(|(other, _)| *other != number);
+        }
+        over.map(|_| None)
     }
 
     /// Whether all have ended. If several failed, the error is that of the first one

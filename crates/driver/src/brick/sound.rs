@@ -8,16 +8,17 @@
 //! The kernel's driver (`legoev3_sound.c`) makes tones of 100 to 10000 Hz, and
 //! none while a recording plays.
 use crate::brick::buttons::EVENT_BYTES;
-use crate::brick::programs::{Program, Programs};
+use crate::brick::programs::{Program, Programs, Started};
 use crate::devfs::{Devfs, Speaker, Stream, open, open_first, until};
 use crate::error::{Access, Error, Interrupted, Result};
+use crate::sysfs::{Repeated, Sysfs};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// The frequencies that the speaker can do, in Hz.
@@ -54,6 +55,10 @@ pub struct Sound {
     on: Mutex<Vec<PathBuf>>,
     /// The programs that play.
     programs: Programs,
+    /// A sound that plays while nobody waits for it holds this, too.
+    in_background: Mutex<Arc<()>>,
+    /// Whether the simulated speaker speaks in the background.
+    speaks: AtomicBool,
 }
 
 impl Sound {
@@ -74,7 +79,7 @@ impl Sound {
             return Ok(None);
         };
         append(&*stream, &path)?;
-        let stops = self.stops.load(Ordering::SeqCst);
+        let stops = self.stops();
         let generator = Generator { sound: self, stream: &*stream, path: &path };
         let mut end = dev.now();
         for tone in tones {
@@ -89,6 +94,61 @@ impl Sound {
         Ok(Some(()))
     }
 
+    /// Starts to play tones one after the other, in the place of all other sounds;
+    /// `None` where there is no speaker.
+    ///
+    /// # Errors
+    /// As [`play_tones`](Self::play_tones).
+    pub fn begin_tones(
+        &'static self,
+        tree: &dyn Sysfs,
+        dev: &dyn Devfs,
+        tones: Vec<Tone>,
+    ) -> Result<Option<()>> {
+        let Some((stream, path)) = open_first(dev, &DEVICES, Access::Write)? else {
+            return Ok(None);
+        };
+        append(&*stream, &path)?;
+        self.stop(dev)?;
+        let (stops, playing) = (self.stops(), Arc::clone(&self.in_background()));
+        let mut tones = tones.into_iter();
+        let mut next = move || {
+            let _ = &playing;
+            if self.stops() != stops {
+                return Ok(None);
+            }
+            let tone = tones.next();
+            self.set_tone(&*stream, &path, tone.map_or(0, |tone| tone.hertz))?;
+            Ok(tone.map(|tone| tone.lasts))
+        };
+        if let Some(lasts) = next()? {
+            // Nobody is there to report a later error to.
+            begin(tree, lasts, Box::new(move || next().unwrap_or_default()))?;
+        }
+        Ok(Some(()))
+    }
+
+    fn in_background(&self) -> MutexGuard<'_, Arc<()>> {
+        self.in_background.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn stops(&self) -> u32 {
+        self.stops.load(Ordering::SeqCst)
+    }
+
+    fn set_tone(&self, stream: &dyn Stream, path: &Path, hertz: u32) -> Result<()> {
+        let mut on = self.on();
+        if hertz == 0 && on.iter().all(|other| other != path) {
+            return Ok(());
+        }
+        write_tone(stream, path, hertz)?;
+        on.retain(|other| other != path);
+        if hertz > 0 {
+            on.push(path.to_owned());
+        }
+        Ok(())
+    }
+
     /// Waits; `true` if the sounds were stopped meanwhile.
     fn pause(
         &self,
@@ -98,7 +158,7 @@ impl Sound {
         interrupted: Interrupted,
     ) -> Result<bool> {
         let stopped = until(dev, None, Some(time), interrupted, || {
-            Ok((self.stops.load(Ordering::SeqCst) != stops).then_some(()))
+            Ok((self.stops() != stops).then_some(()))
         });
         Ok(stopped?.is_some())
     }
@@ -112,14 +172,24 @@ impl Sound {
         if let Some(speaker) = dev.speaker() {
             return self.let_speak(dev, speaker, || speaker.say(text), interrupted);
         }
-        let start = || {
-            let arguments = ["--stdout", "--", text].map(OsStr::new);
-            let mut voice = Program::ESPEAK.start(&arguments, Stdio::null(), Stdio::piped())?;
-            let quietly = ["-q"].map(OsStr::new);
-            let player = Program::APLAY.start(&quietly, voice.printed(), Stdio::null())?;
-            Ok([voice, player])
-        };
-        self.programs.run(dev, start, interrupted)
+        self.programs.run(dev, || speaking(text), interrupted)
+    }
+
+    /// Starts to say a text, in the place of all other sounds.
+    ///
+    /// # Errors
+    /// As [`say`](Self::say), if a program cannot be started.
+    pub fn begin_saying(
+        &'static self,
+        tree: &dyn Sysfs,
+        dev: &dyn Devfs,
+        text: &str,
+    ) -> Result<()> {
+        self.stop(dev)?;
+        match dev.speaker() {
+            Some(speaker) => self.begin_speaking(tree, speaker.say(text)),
+            None => self.programs.begin(|| speaking(text)).map(drop),
+        }
     }
 
     /// Plays a recording, a WAV file, and waits until it is over.
@@ -136,11 +206,53 @@ impl Sound {
             };
             return self.let_speak(dev, speaker, start, interrupted);
         }
-        let start = || {
-            let arguments = [OsStr::new("-q"), OsStr::new("--"), path.as_os_str()];
-            Ok([Program::APLAY.start(&arguments, Stdio::null(), Stdio::null())?])
+        self.programs.run(dev, || playing(path), interrupted)
+    }
+
+    /// Starts to play a recording, in the place of all other sounds.
+    ///
+    /// # Errors
+    /// As [`play`](Self::play), if the program cannot be started.
+    pub fn begin_playing(
+        &'static self,
+        tree: &dyn Sysfs,
+        dev: &dyn Devfs,
+        path: &Path,
+    ) -> Result<()> {
+        let lasts = length_of(path)?;
+        self.stop(dev)?;
+        match dev.speaker() {
+            Some(speaker) => {
+                speaker.play(&path.to_string_lossy());
+                self.begin_speaking(tree, lasts)
+            }
+            None => self.programs.begin(|| playing(path)).map(drop),
+        }
+    }
+
+    fn begin_speaking(&'static self, tree: &dyn Sysfs, lasts: Duration) -> Result<()> {
+        let (stops, playing) = (self.stops(), Arc::clone(&self.in_background()));
+        self.speaks.store(true, Ordering::SeqCst);
+        let end = move || {
+            let _ = &playing;
+            if self.stops() == stops {
+                self.speaks.store(false, Ordering::SeqCst);
+            }
+            None
         };
-        self.programs.run(dev, start, interrupted)
+        begin(tree, lasts, Box::new(end))
+    }
+
+    /// Waits until no sound plays in the background.
+    ///
+    /// # Errors
+    /// That of a program that played; [`Error::Interrupted`].
+    pub fn wait(&self, dev: &dyn Devfs, interrupted: Interrupted) -> Result<()> {
+        let over = until(dev, None, None, interrupted, || {
+            let is_over = Arc::strong_count(&self.in_background()) == 1;
+            if is_over { self.programs.are_all_over() } else { Ok(None) }
+        });
+        over.map(drop)
     }
 
     /// `start` returns how long it speaks.
@@ -152,7 +264,7 @@ impl Sound {
         interrupted: Interrupted,
     ) -> Result<()> {
         // Before it starts: a stop from then on is one of it.
-        let stops = self.stops.load(Ordering::SeqCst);
+        let stops = self.stops();
         let spoken = self.pause(dev, start(), stops, interrupted);
         if !matches!(spoken, Ok(false)) {
             speaker.silence();
@@ -166,7 +278,13 @@ impl Sound {
     /// The kernel's.
     pub fn stop(&self, dev: &dyn Devfs) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
+        *self.in_background() = Arc::default();
         self.programs.end();
+        if self.speaks.swap(false, Ordering::SeqCst) {
+            if let Some(speaker) = dev.speaker() {
+                speaker.silence();
+            }
+        }
         // The thread that made the tone goes on only once the tone is over.
         let mut on = self.on();
         while let Some(path) = on.pop() {
@@ -181,6 +299,25 @@ impl Sound {
     fn on(&self) -> MutexGuard<'_, Vec<PathBuf>> {
         self.on.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Does something after some time, and from then on after what it answers.
+fn begin(tree: &dyn Sysfs, after: Duration, act: Repeated) -> Result<()> {
+    tree.every(after, act)
+        .map_err(|source| Error::Read { path: tree.root().to_owned(), source })
+}
+
+fn speaking(text: &str) -> Result<[Started; 2]> {
+    let arguments = ["--stdout", "--", text].map(OsStr::new);
+    let mut voice = Program::ESPEAK.start(&arguments, Stdio::null(), Stdio::piped())?;
+    let quietly = ["-q"].map(OsStr::new);
+    let player = Program::APLAY.start(&quietly, voice.printed(), Stdio::null())?;
+    Ok([voice, player])
+}
+
+fn playing(path: &Path) -> Result<[Started; 1]> {
+    let arguments = [OsStr::new("-q"), OsStr::new("--"), path.as_os_str()];
+    Ok([Program::APLAY.start(&arguments, Stdio::null(), Stdio::null())?])
 }
 
 /// The volume in percent; `None` where there is no mixer for it.
@@ -240,16 +377,7 @@ struct Generator<'a> {
 
 impl Generator<'_> {
     fn set(&self, hertz: u32) -> Result<()> {
-        let mut on = self.sound.on();
-        if hertz == 0 && on.iter().all(|path| path != self.path) {
-            return Ok(());
-        }
-        write_tone(self.stream, self.path, hertz)?;
-        on.retain(|path| path != self.path);
-        if hertz > 0 {
-            on.push(self.path.to_owned());
-        }
-        Ok(())
+        self.sound.set_tone(self.stream, self.path, hertz)
     }
 }
 
