@@ -24,6 +24,9 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/compile)).
+:- use_module(library(ev3dev/colors)).
+:- use_module(library(ev3dev/console)).
+:- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/calibrate)).
 :- use_module(library(ev3dev/odometry)).
@@ -33,12 +36,13 @@
 :- use_module(library(ev3dev/planners)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
-task('Drive a robot with two wheels', [robot, drive, odometry, calibrate]).
+task('Drive a robot with two wheels',
+     [robot, drive, odometry, calibrate, jog]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
 task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors ]).
 task('Use the brick itself',
-     [lights, buttons, sound, screen, battery, ports, time, compile]).
+     [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).

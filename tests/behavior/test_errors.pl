@@ -3,8 +3,10 @@
 
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
@@ -32,6 +34,8 @@ bad(set_pose(0, 0, 0), [a-1, _-2, a-3]).
 bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
+bad(jog([]), [[sped(5)]-1, [speed(0)]-1, [speed(fast)]-1]).
+bad(screen_format("~w", [a]), [_-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
