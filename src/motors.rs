@@ -191,7 +191,10 @@ predicates! {
 }
 
 /// A percentage, or `dps(DegreesPerSecond)`.
-fn speed_of<'a, C: QueryableContextType>(call: &Call<'a, C>, term: &Term<'a>) -> PrologResult<Speed> {
+fn speed_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    term: &Term<'a>,
+) -> PrologResult<Speed> {
     match attempt_opt(call.context.compound_terms::<1>(term))? {
         Some([degrees]) => call.float(&degrees).map(Speed::DegreesPerSecond),
         None => call.float(term).map(Speed::Percent),

@@ -81,15 +81,17 @@ predicates! {
         call.or_fail(sensor::restart(&devices, &device, &mode, interrupted))
     }
 
-    /// sensor_wait_(+Port, +Types, +Mode, +Index, +Test, +Timeout, -Ended): test is
-    /// test(Operator, Number) or `bumped`.
+    /// sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended): reading is
+    /// reading(Types, Mode, Index), test is test(Operator, Number) or `bumped`.
     #[module("ev3dev_native")]
     #[name("sensor_wait_")]
-    semidet fn sensor_wait(context, port, types, mode, index, test, timeout, ended) {
+    semidet fn sensor_wait(context, port, reading, test, timeout, ended) {
         let call = Call::of(context, "sensor_wait", 2);
-        let (index, until) = (index_of(&call, index)?, until(&call, test)?);
+        let [types, mode, index] = call.arguments(reading)?;
+        let (index, until) = (index_of(&call, &index)?, until(&call, test)?);
         let timeout = call.seconds(timeout)?;
-        let Readings { devices, mut sensors, mode, .. } = readings(&call, port, types, mode, index)?;
+        let Readings { devices, mut sensors, mode, .. } =
+            readings(&call, port, &types, &mode, index)?;
         let sensor = sensors.next().ok_or(PrologError::Failure)?;
         let interrupted = &mut call.interrupted();
         let waited = wait_until(&devices, &sensor, &mode, index, until, timeout, interrupted);

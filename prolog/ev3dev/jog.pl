@@ -24,8 +24,8 @@ Loaded apart from library(ev3dev):
 %
 %   Drive the robot with the arrow keys of the terminal, until `q` or Ctrl-D:
 %   up and down go ahead and back, left and right turn on the spot, and the
-%   space bar stops. The robot goes on until the next key. It is stopped at the
-%   end, however that comes. Fails if no robot is set, or if a motor is not
+%   space bar stops. The robot goes on until the next key. It is stopped at
+%   the end, however that comes. Fails if no robot is set, or a motor is not
 %   connected. No simulated time passes on a `virtual` clock while this waits
 %   for a key. Options:
 %

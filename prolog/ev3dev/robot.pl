@@ -16,10 +16,12 @@
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1]).
 :- use_module(private/arguments,
-              [ angle_value/2, must_be_options/3, number_option/4, number_value/3
+              [ angle_value/2, must_be_options/3, number_option/4,
+                number_value/3
               ]).
 :- use_module(private/domains, [finite/1]).
-:- use_module(private/drive_moves, [move_straight/3, move_turn/3, robot_speed/2]).
+:- use_module(private/drive_moves,
+              [move_straight/3, move_turn/3, robot_speed/2]).
 :- use_module(private/robot_state,
               [ robot_description/1, robot_set/4, store_robot/2 ]).
 :- reexport(private/robot_state, [robot/4]).
@@ -36,9 +38,9 @@ of most building instructions. It is described once:
 
 Speeds are in percent of the motors' highest speed, distances in centimeters,
 angles in degrees; they may be any arithmetic expression. A speed may also be
-`cm_per_s(N)`, or `dps(N)`, `rps(N)` or `rpm(N)` of the wheels. The sign of a speed
-and that of a distance or angle together make the direction; clockwise is
-positive.
+`cm_per_s(N)`, or `dps(N)`, `rps(N)` or `rpm(N)` of the wheels. The sign of
+a speed and that of a distance or angle together make the direction; clockwise
+is positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or going with a speed or an

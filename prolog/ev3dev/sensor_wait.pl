@@ -4,8 +4,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, must_be/2, term_expansion/2,
-                throw_error/3
+              [ domain_error/2, existence_error/2, must_be/2,
+                term_expansion/2, throw_error/3
               ]).
 :- use_module(private/explain).
 :- use_module(sensors, [reading_of/4, reading_types/2]).
@@ -13,7 +13,7 @@
               [ must_be_options/3, number_value/2, option/2,
                 timeout_option/2
               ]).
-:- use_module(private/native, [sensor_wait_/7]).
+:- use_module(private/native, [sensor_wait_/5]).
 
 /** <module> Waiting for a sensor
 
@@ -76,7 +76,8 @@ sensor_wait(Condition, Options) :-
     timeout_option(Options, Timeout),
     port(Sensor, Reading, Port),
     (   reading_of(Reading, Types, Mode, Index),
-        sensor_wait_(Port, Types, Mode, Index, Test, Timeout, Ended)
+        sensor_wait_(Port, reading(Types, Mode, Index), Test, Timeout,
+                     Ended)
     ->  (   option(reason(Reason), Options)
         ->  Reason = Ended
         ;   ended(Ended, Port)

@@ -7,8 +7,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1, must_be/2,
-                term_expansion/2
+              [ domain_error/2, existence_error/2, goal_of_program/1,
+                must_be/2, term_expansion/2
               ]).
 :- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).

@@ -174,8 +174,8 @@ sim_release(Key) :-
 
 %!  sim_press(+Key, +Options) is semidet.
 %
-%   Press a button or a touch sensor at a later time. Does not wait. So a test can run a program
-%   that waits for a button:
+%   Press a button or a touch sensor at a later time. Does not wait. So a
+%   test can run a program that waits for a button:
 %
 %   ```
 %   ?- sim_press(enter, [after(2)]), button_wait(enter, pressed).

@@ -17,8 +17,8 @@
 :- use_module(private/arguments, [number_value/3]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
-              [ sim_plan_/1, sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
-                sim_step_/1, sim_time_/1, sim_wait_/1 ]).
+              [ sim_plan_/1, sim_restore_/1, sim_snapshot_/1,
+                sim_snapshots_/1, sim_step_/1, sim_time_/1, sim_wait_/1 ]).
 
 :- meta_predicate
     sim_at(+, 0),

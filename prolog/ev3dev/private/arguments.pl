@@ -245,8 +245,8 @@ must_be_ramp(Attribute, Longest, Milliseconds) :-
 
 %!  motor_runs(+Runs, -Evaluated) is det.
 %
-%   Evaluated is a list of `run(Port, Value)` with values of speed_value/2, for
-%   Runs as those of motors_run/1.
+%   Evaluated is a list of `run(Port, Value)` with values of speed_value/2,
+%   for Runs as those of motors_run/1.
 %
 %   @error domain_error(motor_run, Run) if Run has another form
 

@@ -124,8 +124,8 @@ in_own_name(Goal) :-
 
 %!  goal_of_program(:Goal) is nondet.
 %
-%   Call a Goal of the program. Its errors name the predicate that Goal called,
-%   and not the one that calls Goal.
+%   Call a Goal of the program. Its errors name the predicate that Goal
+%   called, and not the one that calls Goal.
 
 goal_of_program(Goal) :-
     call(Goal),

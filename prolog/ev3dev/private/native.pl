@@ -33,7 +33,7 @@
             sensor_scale_/3,
             sensor_value_/5,
             sensor_values_/5,
-            sensor_wait_/7,
+            sensor_wait_/5,
             led_/3,
             led_set_color_/2,
             led_set_delays_/3,
@@ -186,8 +186,7 @@ missing.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
-%!  sensor_wait_(+Port, +Types, +Mode, +Index, +Test, +Timeout, -Ended)
-%   is semidet.
+%!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is semidet.
 %
 %   `src/sensors.rs`
 

@@ -157,9 +157,8 @@ impl Sound {
         stops: u32,
         interrupted: Interrupted,
     ) -> Result<bool> {
-        let stopped = until(dev, None, Some(time), interrupted, || {
-            Ok((self.stops() != stops).then_some(()))
-        });
+        let stopped =
+            until(dev, None, Some(time), interrupted, || Ok((self.stops() != stops).then_some(())));
         Ok(stopped?.is_some())
     }
 
@@ -303,8 +302,7 @@ impl Sound {
 
 /// Does something after some time, and from then on after what it answers.
 fn begin(tree: &dyn Sysfs, after: Duration, act: Repeated) -> Result<()> {
-    tree.every(after, act)
-        .map_err(|source| Error::Read { path: tree.root().to_owned(), source })
+    tree.every(after, act).map_err(|source| Error::Read { path: tree.root().to_owned(), source })
 }
 
 fn speaking(text: &str) -> Result<[Started; 2]> {

@@ -24,7 +24,7 @@ use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor;
 use crate::motor::wait::Reason;
-use crate::sensor::gyro;
+use crate::sensor;
 use crate::sysfs::sleep;
 use control::Inner;
 pub use control::{Command, DriveOptions};
@@ -171,7 +171,7 @@ impl Drive {
             return Ok(None);
         };
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            gyro::measure_angle(&self.registry, &gyro, interrupted)?;
+            sensor::measure_angle(&self.registry, &gyro, interrupted)?;
         }
         let mut inner = self.lock();
         inner.integrate(&self.registry)?;

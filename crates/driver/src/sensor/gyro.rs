@@ -5,16 +5,13 @@
 //! it only when the rate is asked for, and stays there. A change of mode restarts
 //! the angle at 0; then what the gyro had turned by before is added.
 use crate::device::{Device, Turned};
-use crate::device::registry::Registry;
-use crate::error::{Interrupted, Result};
-use crate::sensor::{raw_value, set_mode};
-use std::sync::Arc;
+use crate::error::Result;
 
 /// The type of a gyro.
 pub(crate) const DRIVER: &str = "lego-ev3-gyro";
 
 /// The mode that measures the angle.
-const ANGLE: &str = "GYRO-ANG";
+pub(super) const ANGLE: &str = "GYRO-ANG";
 
 /// The mode that measures angle and rate.
 const ANGLE_AND_RATE: &str = "GYRO-G&A";
@@ -33,30 +30,20 @@ pub(crate) fn angle_mode(gyro: &Device) -> Result<Option<&'static str>> {
     gyro.with_word("mode", |mode| [ANGLE, ANGLE_AND_RATE].into_iter().find(|word| *word == mode))
 }
 
-/// Lets a gyro measure its angle, and waits until its values are that. `None` where
-/// the gyro is gone.
-pub(crate) fn measure_angle(
-    registry: &Registry,
-    gyro: &Arc<Device>,
-    interrupted: Interrupted,
-) -> Result<Option<()>> {
-    set_mode(registry, gyro, mode_for(gyro, ANGLE), interrupted)
-}
-
-/// Puts a gyro's angle down before it changes into a mode.
-pub(super) fn leave(sensor: &Device, mode: &str) {
+/// Puts down the angle that a gyro shows before it changes into a mode.
+pub(super) fn leave(sensor: &Device, mode: &str, shown: impl FnOnce() -> Result<i64>) {
     if sensor.driver() == DRIVER {
         let goes_on = mode == ANGLE_AND_RATE && is_in(sensor, ANGLE);
-        let before = if goes_on { raw_value(sensor, 0).ok() } else { None };
+        let before = if goes_on { shown().ok() } else { None };
         *sensor.turned() = Turned { offset: 0, before };
     }
 }
 
 /// Lets the angle go on from where it was, once the values have settled.
-pub(super) fn go_on(sensor: &Device) -> Result<()> {
+pub(super) fn go_on(sensor: &Device, shown: impl FnOnce() -> Result<i64>) -> Result<()> {
     let before = sensor.turned().before;
     if let Some(before) = before {
-        let offset = before - raw_value(sensor, 0)?;
+        let offset = before - shown()?;
         *sensor.turned() = Turned { offset, before: None };
     }
     Ok(())

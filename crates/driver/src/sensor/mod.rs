@@ -141,6 +141,16 @@ pub fn set_mode(
     in_mode(registry, sensor, Some(mode), interrupted, |_| Ok(()))
 }
 
+/// Lets a gyro measure its angle, and waits until its values are that. `None` where
+/// the gyro is gone.
+pub(crate) fn measure_angle(
+    registry: &Registry,
+    sensor: &Arc<Device>,
+    interrupted: Interrupted,
+) -> Result<Option<()>> {
+    set_mode(registry, sensor, gyro::mode_for(sensor, gyro::ANGLE), interrupted)
+}
+
 /// Restarts a sensor in a mode, be it in that mode already or not; in the present
 /// one, if that shows the same. A gyro's angle is 0 afterwards. `None` where the
 /// sensor is gone.
@@ -224,7 +234,7 @@ fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
 }
 
 fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
-    gyro::leave(sensor, mode);
+    gyro::leave(sensor, mode, || raw_value(sensor, 0));
     sensor.write("mode", mode)?;
     let settling = match sensor.driver() {
         "lego-ev3-ir" => SETTLING_INFRARED,
@@ -243,7 +253,7 @@ fn settle(registry: &Registry, sensor: &Device, interrupted: Interrupted) -> Res
         return Ok(false);
     }
     sleep(registry.tree(), settled_at.saturating_sub(registry.tree().now()), interrupted)?;
-    gyro::go_on(sensor)?;
+    gyro::go_on(sensor, || raw_value(sensor, 0))?;
     *sensor.settled_at() = Duration::ZERO;
     Ok(true)
 }

@@ -12,7 +12,7 @@ use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
 use crate::motor::servo::{self, Servo};
-use crate::sensor::{Sensor, Sense};
+use crate::sensor::{Sense, Sensor};
 use crate::ticks::{TICK_US, ticks_from_ms};
 use crate::trace::Action;
 use crate::world::SpecError;
