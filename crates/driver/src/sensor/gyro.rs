@@ -16,8 +16,14 @@ pub(super) const ANGLE: &str = "GYRO-ANG";
 /// The mode that measures angle and rate.
 const ANGLE_AND_RATE: &str = "GYRO-G&A";
 
-/// The mode for a first value in `mode`: the present one, if that shows the same.
-pub(super) fn mode_for<'a>(sensor: &Device, mode: &'a str) -> &'a str {
+/// Another mode whose first value is that of `mode`.
+pub(super) fn same_angle(mode: &str) -> Option<&'static str> {
+    (mode == ANGLE).then_some(ANGLE_AND_RATE)
+}
+
+/// The mode to restart a sensor in: the present one, if its first value is that of
+/// `mode`.
+pub(super) fn angle_mode_or<'a>(sensor: &Device, mode: &'a str) -> &'a str {
     if mode == ANGLE && is_in(sensor, ANGLE_AND_RATE) { ANGLE_AND_RATE } else { mode }
 }
 
@@ -54,9 +60,10 @@ pub(super) fn restart(sensor: &Device) {
     *sensor.turned() = Turned::default();
 }
 
-/// A value as the program is to see it.
+/// A value as the program is to see it. (In the mode of the angle alone, the offset is
+/// 0.)
 pub(super) fn shown(sensor: &Device, mode: Option<&str>, index: usize, raw: i64) -> i64 {
-    let is_angle = index == 0 && mode == Some(ANGLE_AND_RATE);
+    let is_angle = index == 0 && matches!(mode, Some(ANGLE | ANGLE_AND_RATE));
     if is_angle { raw.saturating_add(sensor.turned().offset) } else { raw }
 }
 

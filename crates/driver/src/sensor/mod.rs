@@ -53,7 +53,6 @@ pub fn read(
     index: usize,
     interrupted: Interrupted,
 ) -> Result<Option<Value>> {
-    let mode = mode.map(|mode| if index == 0 { gyro::mode_for(sensor, mode) } else { mode });
     let [value] =
         read_all(registry, sensor, mode, [index], interrupted)?.map_or([None], |all| all.map(Some));
     Ok(value)
@@ -70,7 +69,9 @@ pub fn read_all<const N: usize>(
     indices: [usize; N],
     interrupted: Interrupted,
 ) -> Result<Option<[Value; N]>> {
-    in_mode(registry, sensor, mode, interrupted, |sensor| {
+    let is_first = indices.iter().all(|index| *index == 0);
+    let wanted = Wanted { mode, or: mode.filter(|_| is_first).and_then(gyro::same_angle) };
+    in_mode(registry, sensor, wanted, interrupted, |sensor| {
         let mut values = [const { Value::Integer(0) }; N];
         for (value, index) in values.iter_mut().zip(indices) {
             *value = read_value(sensor, mode, index)?;
@@ -92,7 +93,8 @@ pub fn read_several(
     count: Option<usize>,
     interrupted: Interrupted,
 ) -> Result<Option<Vec<Value>>> {
-    in_mode(registry, sensor, Some(mode), interrupted, |sensor| values_in(sensor, mode, count))
+    let wanted = Wanted::only(mode);
+    in_mode(registry, sensor, wanted, interrupted, |sensor| values_in(sensor, mode, count))
 }
 
 /// The first values of a sensor that is in that mode.
@@ -138,7 +140,7 @@ pub fn set_mode(
     mode: &str,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    in_mode(registry, sensor, Some(mode), interrupted, |_| Ok(()))
+    in_mode(registry, sensor, Wanted::only(mode), interrupted, |_| Ok(()))
 }
 
 /// Lets a gyro measure its angle, and waits until its values are that. `None` where
@@ -148,7 +150,8 @@ pub(crate) fn measure_angle(
     sensor: &Arc<Device>,
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
-    set_mode(registry, sensor, gyro::mode_for(sensor, gyro::ANGLE), interrupted)
+    let wanted = Wanted { mode: Some(gyro::ANGLE), or: gyro::same_angle(gyro::ANGLE) };
+    in_mode(registry, sensor, wanted, interrupted, |_| Ok(()))
 }
 
 /// Restarts a sensor in a mode, be it in that mode already or not; in the present
@@ -164,7 +167,7 @@ pub fn restart(
     interrupted: Interrupted,
 ) -> Result<Option<()>> {
     while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
-        write_mode(sensor, gyro::mode_for(sensor, mode))?;
+        write_mode(sensor, gyro::angle_mode_or(sensor, mode))?;
         gyro::restart(sensor);
         settle(registry, sensor, interrupted).map(drop)
     })
@@ -210,27 +213,45 @@ pub fn raw_value(sensor: &Device, index: usize) -> Result<i64> {
     }
 }
 
+/// The mode that a sensor is to be in, if any.
+#[derive(Clone, Copy)]
+struct Wanted<'a> {
+    mode: Option<&'a str>,
+    /// Another mode that shows the same.
+    or: Option<&'a str>,
+}
+
+impl<'a> Wanted<'a> {
+    fn only(mode: &'a str) -> Self {
+        Self { mode: Some(mode), or: None }
+    }
+}
+
 /// Puts a sensor into a mode, if one is given, and waits for its values.
 fn ensure_settled(
     registry: &Registry,
     sensor: &Device,
-    mode: Option<&str>,
+    wanted: Wanted,
     interrupted: Interrupted,
 ) -> Result<()> {
-    ensure_mode(sensor, mode)?;
+    ensure_mode(sensor, wanted)?;
     if settle(registry, sensor, interrupted)? {
         // A signal that was handled meanwhile may have read it in another mode.
-        ensure_mode(sensor, mode)?;
+        ensure_mode(sensor, wanted)?;
         settle(registry, sensor, interrupted)?;
     }
     Ok(())
 }
 
-fn ensure_mode(sensor: &Device, mode: Option<&str>) -> Result<()> {
-    match mode {
-        Some(mode) if !sensor.is_word("mode", mode)? => write_mode(sensor, mode),
-        _ => Ok(()),
-    }
+fn ensure_mode(sensor: &Device, Wanted { mode, or }: Wanted) -> Result<()> {
+    let Some(mode) = mode else {
+        return Ok(());
+    };
+    let is_in = match or {
+        None => sensor.is_word("mode", mode)?,
+        Some(_) => sensor.with_word("mode", |word| word == mode || Some(word) == or)?,
+    };
+    if is_in { Ok(()) } else { write_mode(sensor, mode) }
 }
 
 fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
@@ -278,13 +299,13 @@ fn in_use<'a>(
 fn in_mode<T>(
     registry: &Registry,
     sensor: &Arc<Device>,
-    mode: Option<&str>,
+    wanted: Wanted,
     interrupted: Interrupted,
     mut act: impl FnMut(&Device) -> Result<T>,
 ) -> Result<Option<T>> {
     while_it_connects(registry, sensor, interrupted, |sensor, interrupted| {
         sensor.check_present()?;
-        ensure_settled(registry, sensor, mode, interrupted)?;
+        ensure_settled(registry, sensor, wanted, interrupted)?;
         act(sensor)
     })
 }
