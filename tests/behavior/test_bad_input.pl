@@ -37,8 +37,6 @@ sensible(runs, [run(outB, 20)]).
 sensible(moves, [move(outB, 20, 9)]).
 sensible(reading, touch).
 sensible(seconds, 1).
-sensible(moment, 0.01).
-sensible(condition, us_dist_cm(in1) < 25).
 sensible(watch, Watch) :-
     stopwatch(Watch).
 sensible(polarity, inversed).
@@ -190,9 +188,7 @@ call_of(servo_motor_polarity(servo, polarity)).
 call_of(servo_motor_rate(servo, number)).
 call_of(servo_motor_pulses(servo, number, number, number)).
 call_of(servo_motor_attribute(servo, attribute, number)).
-call_of(sensor_wait(condition, at_once)).
 call_of(ev3_time(out)).
-call_of(wait(moment)).
 call_of(stopwatch(out)).
 call_of(elapsed(watch, out)).
 call_of(led(light)).
@@ -308,12 +304,15 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
             Missing).
 
 % These wait for as long as one likes, or write files of any name: see
-% test_buttons.pl, test_sound.pl and test_screen.pl.
+% test_buttons.pl, test_sound.pl, test_screen.pl, test_time.pl and
+% test_sensor_wait.pl.
 called_elsewhere(button_wait/2).
 called_elsewhere(tone/2).
 called_elsewhere(tone/3).
 called_elsewhere(say/2).
 called_elsewhere(sensor_wait/1).
+called_elsewhere(sensor_wait/2).
+called_elsewhere(wait/1).
 called_elsewhere(tones/1).
 called_elsewhere(tones/2).
 called_elsewhere(say/1).
