@@ -222,6 +222,9 @@ turn(Speed) :-
 %   the first of those connected, it ends within a degree. Without one it goes
 %   by the wheels, and is as exact as AxleLength. A turn by 0 succeeds.
 %
+%   A gyro counts to 32767 degrees. Once it has passed 16384 either way, the
+%   next move restarts it if the robot stands: gyro_ang/2 is 0 again.
+%
 %   @error existence_error(Kind, Port) if a motor or the gyro is unplugged
 %          under way
 

@@ -312,6 +312,8 @@ test(what_leads_nowhere_is_reached_at_once,
 test(what_leads_nowhere_ends_the_move_before,
      [forall(member(Goal, [turn(20, 0), follow([])]))]) :-
     quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
+test(turns_to_one_side_go_on_though_a_gyro_has_16_bits) :-
+    quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 3) )).
 test(in_the_mount_too, [condition(behaving(mount))]) :-
     on(mount, ( set_robot(5.6, 10.6, outB, outC),
                 sim_pose(X0, Y0, H0),

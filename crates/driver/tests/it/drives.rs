@@ -130,6 +130,37 @@ fn turns_add_up_though_the_gyro_starts_anywhere() {
     assert!((heading - 360.0).abs() <= 4.0, "{heading}");
 }
 
+#[test]
+fn turns_to_one_side_never_fill_the_gyro() {
+    for (zero, degrees) in [(16_300.0, 90.0), (-16_300.0, -90.0)] {
+        let robot = Driven::new(2.2);
+        robot.brick.world().sensor("in2").gyro_zero = zero;
+        for _ in 0..3 {
+            robot.assert_turned(40.0, degrees, ms(2000));
+        }
+        let zero = robot.brick.world().sensor("in2").gyro_zero;
+        assert!(zero.abs() < 1000.0, "{zero}");
+    }
+}
+
+#[test]
+fn a_gyro_that_is_full_already_is_emptied() {
+    let robot = Driven::new(2.2);
+    robot.brick.world().sensor("in2").gyro_zero = 40_000.0;
+    robot.assert_turned(40.0, 90.0, ms(2000));
+}
+
+#[test]
+fn a_gyro_that_fills_under_way_leaves_the_rest_to_the_wheels() {
+    let robot = Driven::new(2.2);
+    robot.brick.world().sensor("in2").gyro_zero = 16_000.0;
+    let turned = robot.turned(100.0, 18_000.0).unwrap();
+    assert_eq!(turned, Some(Reason::Reached));
+    let heading = robot.heading();
+    assert!((heading - 18_000.0).abs() <= 50.0, "{heading}");
+    assert_eq!(robot.turned(40.0, 90.0).unwrap(), Some(Reason::Reached));
+}
+
 proptest! {
     // The same robots each time.
     #![proptest_config(ProptestConfig {
