@@ -314,6 +314,18 @@ test(what_leads_nowhere_ends_the_move_before,
     quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
 test(turns_to_one_side_go_on_though_a_gyro_has_16_bits) :-
     quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 3) )).
+test(no_move_ends_with_a_motor_that_pushes,
+     [ forall(( between(0, 12, I),
+                member(Move, [go_cm(30, D, [reason(_)]), go_to(0, D, [reason(_)])]) )),
+       true(Ss == []) ]) :-
+    % The wall is 92 cm away, or a little less or more.
+    D is 91.8 + I * 0.04,
+    with_sim([bounds(0, 0, 200, 200), start(100, 100, 0)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               set_pose(0, 0, 0),
+               Move,
+               sim_wait(2),
+               findall(S, ( motor_states(_, S), memberchk(running, S) ), Ss) )).
 test(in_the_mount_too, [condition(behaving(mount))]) :-
     on(mount, ( set_robot(5.6, 10.6, outB, outC),
                 sim_pose(X0, Y0, H0),

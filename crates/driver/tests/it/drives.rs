@@ -233,6 +233,39 @@ fn blocked_wheels_are_given_two_seconds() {
 }
 
 #[test]
+fn so_are_those_that_a_program_commands_again_and_again() {
+    let robot = Driven::new(2.2);
+    robot.brick.at(ms(300), |world| {
+        for motor in &mut world.motors {
+            motor.is_blocked = true;
+        }
+    });
+    let options = DriveOptions {
+        percent: 100.0,
+        acceleration: 50.0,
+        stop_action: StopAction::Brake,
+        use_gyro: true,
+    };
+    let again = |speed| {
+        let never = &mut robot.brick.attentive();
+        let begun = robot.drive.begin(&Command::Cruise(speed, 0.0), &options, &mut *never);
+        robot.drive.wait_last(Some(ms(50)), never).map(|ended| (begun.unwrap().is_some(), ended))
+    };
+    // To push one way and then the other is no stall.
+    for speed in [15.0, -15.0, 15.0, -15.0] {
+        let started = robot.brick.now();
+        while robot.brick.since(started) < ms(1200) {
+            assert_eq!(again(speed).unwrap(), (true, Reason::Timeout));
+        }
+    }
+    let started = robot.brick.now();
+    while again(15.0).unwrap() == (true, Reason::Timeout) {
+        assert!(robot.brick.since(started) < ms(2500));
+    }
+    robot.assert_at_rest();
+}
+
+#[test]
 fn a_gyro_mounted_upside_down_leads_astray_but_not_far() {
     for (percent, degrees) in [(40.0, 90.0), (40.0, -90.0), (10.0, 90.0), (100.0, -360.0)] {
         let robot = Driven::new(2.2);
