@@ -72,8 +72,8 @@ count.
     Of the faster wheel, for moves that are not told one. Default is that of
     drive_option/2. Negative is backwards.
   - acceleration(+CmPerSquareSecond)
-    How fast the robot gains and loses speed. Default is that of
-    drive_option/2.
+    How fast the robot gains and loses speed, from 1 to 1000. Default is that
+    of drive_option/2.
   - use_gyro(+Boolean)
     Whether the gyro tells the heading. Default is that of drive_option/2.
   - stop_action(+Action)

@@ -33,9 +33,10 @@ options. The pose counts from when a robot is set.
 %     - speed: 40
 %       In percent, for moves that are not told one.
 %     - acceleration: 50
-%       In cm/s^2.
+%       In cm/s^2, from 1 to 1000.
 %
 %   @error domain_error(drive_option, Name)
+%   @error domain_error(acceleration, Value), domain_error(speed, Value)
 
 drive_option(Name, Value) :-
     must_be(atom, Name),
@@ -52,7 +53,7 @@ valid_option(use_gyro, Value, Value) :-
 valid_option(speed, Speed, Percent) :-
     number_value(speed, Speed, Percent).
 valid_option(acceleration, Acceleration, Number) :-
-    number_value(positive_number, Acceleration, Number).
+    number_value(acceleration, Acceleration, Number).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %

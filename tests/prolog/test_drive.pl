@@ -97,7 +97,11 @@ test(what_is_no_number_throws_and_writes_nothing,
                             -domain_error(nonnegative_number, -1),
                         go_to(1, 1, 0, a)-type_error(list, a),
                         go_to(1, 1, [acceleration(0)])
-                            -domain_error(positive_number, 0),
+                            -domain_error(acceleration, 0),
+                        turn(50, 90, [acceleration(4294967296)])
+                            -domain_error(acceleration, 4294967296),
+                        go_cm(30, 20, [acceleration(1.0e-300)])
+                            -domain_error(acceleration, 1.0e-300),
                         go_to(1, 1, [stop_action(jump)])
                             -domain_error(stop_action, jump),
                         go_to(1, 1, [wait(1)])-type_error(_, 1),
@@ -121,7 +125,9 @@ test(what_is_no_number_throws_and_writes_nothing,
                             -domain_error(drive_option, colour),
                         drive_option(speed, 0)-domain_error(speed, 0),
                         drive_option(acceleration, -1)
-                            -domain_error(positive_number, -1),
+                            -domain_error(acceleration, -1),
+                        drive_option(acceleration, 1001)
+                            -domain_error(acceleration, 1001),
                         drive_option(use_gyro, 1)-type_error(_, 1),
                         heading_wrapped(_, _)-instantiation_error,
                         calibrate(all, [], _)
@@ -314,6 +320,12 @@ test(what_leads_nowhere_ends_the_move_before,
     quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
 test(turns_to_one_side_go_on_though_a_gyro_has_16_bits) :-
     quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 3) )).
+test(every_acceleration_that_is_allowed_ends,
+     [forall(( member(A, [1, 1000]),
+               member(Move, [turn(80, 90, O), face(-120, O), go_cm(80, 20, O),
+                             go_to(20, 20, O)]) ))]) :-
+    O = [acceleration(A), timeout(60)],
+    quiet(true, ( Move, pose_is_right(0.5, 1) )).
 test(no_move_ends_with_a_motor_that_pushes,
      [ forall(( between(0, 12, I),
                 member(Move, [go_cm(30, D, [reason(_)]), go_to(0, D, [reason(_)])]) )),

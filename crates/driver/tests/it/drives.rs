@@ -161,6 +161,26 @@ fn a_gyro_that_fills_under_way_leaves_the_rest_to_the_wheels() {
     assert_eq!(robot.turned(40.0, 90.0).unwrap(), Some(Reason::Reached));
 }
 
+#[test]
+fn a_turn_that_its_acceleration_makes_swing_ends_all_the_same() {
+    for acceleration in [3.0e3, 1.0e4, 4.3e9, 1.0e300] {
+        let robot = Driven::new(2.2);
+        let command = Command::Legs(vec![Leg::Turn(90.0)], false);
+        let options = DriveOptions {
+            percent: 80.0,
+            acceleration,
+            stop_action: StopAction::Brake,
+            use_gyro: true,
+        };
+        let never = &mut robot.brick.attentive();
+        let begun = robot.drive.begin(&command, &options, &mut *never).unwrap().unwrap();
+        let ended = robot.drive.wait(&begun, Some(ms(10_000)), never).unwrap();
+        let heading = robot.heading();
+        assert_eq!(ended, Reason::Reached, "{acceleration}");
+        assert!((heading - 90.0).abs() <= 5.0, "{acceleration}: {heading}");
+    }
+}
+
 proptest! {
     // The same robots each time.
     #![proptest_config(ProptestConfig {
