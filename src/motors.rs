@@ -104,10 +104,7 @@ predicates! {
     #[name("stop_all_motors_")]
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
-        let devices = call.devices()?;
-        let all = |class| call.or_throw(devices.all(class));
-        let motors = [all(Class::TachoMotor)?, all(Class::DcMotor)?].concat();
-        call.or_throw(motor::stop_all(&motors, StopAction::Brake))
+        call.or_throw(motor::stop_connected(&*call.devices()?, &mut call.interrupted()))
     }
 
     /// motor_reset_(+Port)

@@ -214,7 +214,11 @@ motor_stop(Port, StopAction) :-
 %!  stop_all_motors is det.
 %
 %   Stop all connected motors, with or without rotation sensor, by `brake`,
-%   also motors that another program started. Servos keep their positions.
+%   also motors that another program started. Servos keep their positions. Waits
+%   up to a second for a motor that was just plugged in, with all others stopped.
+%
+%   @error resource_error(max_files) if this process cannot open any more files;
+%          those motors that it has used are stopped then
 
 stop_all_motors :-
     stop_all_motors_.

@@ -233,6 +233,14 @@ test(all_motors_are_stopped_whoever_started_them,
     with_tree(Tree, ( put_attribute(outD, command, 'run-forever'),
                       stop_all_motors,
                       findall(P-C, ( tacho_motor(P), get_attribute(P, command, C) ), Cs) )).
+test(one_that_was_just_plugged_in_is_waited_for,
+     [forall(member(S, [0.4, 0.5, 0.8])), true(States-Found == []-true)]) :-
+    with_sim([], ( motor_run(outB, 50),
+                   sim_plug(outD, 'lego-ev3-l-motor'),
+                   sim_wait(S),
+                   stop_all_motors,
+                   motor_states(outB, States),
+                   ( tacho_motor(outD) -> Found = true ; Found = false ) )).
 test(to_stop_no_motor_is_no_failure, [forall(tree(Tree))]) :-
     with_tree(Tree, [], stop_all_motors).
 test(reset_is_left_to_the_motor,
