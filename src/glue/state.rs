@@ -1,4 +1,5 @@
 //! The brick in use. This value holds the state of the process.
+use crate::glue::signals;
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
@@ -96,12 +97,14 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
 
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
+    signals::watch();
     BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
+    signals::watch();
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();

@@ -139,4 +139,55 @@ is_over(Pid) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.
 
+% Where Prolog handles no signal, and in crashes
+test(one_signal_suffices_where_prolog_handles_none,
+     [ forall(( tree(Tree),
+                Tree \== simulator,
+                member(Signal, [term, hup]),
+                member(Text, [ ":- initialization(main).",
+                               ":- initialization(main).
+                                again :- motor_run(outC, 30), sleep(0.05), again.
+                                wait :- again.",
+                               ":- initialization(main, now).",
+                               ":- initialization(main). wait :- shell('exec sleep 9 >/dev/null 2>&1')." ]) )),
+       true(B-C == stop-stop) ]) :-
+    signalled(Tree, Signal, Text, [], B, C).
+test(a_crash_stops_the_motors,
+     [ forall(( tree(Tree), Tree \== simulator, member(Signal, [6, 11]) )),
+       true(B-C == stop-stop) ]) :-
+    signalled(Tree, Signal, "", [goal(main)], B, C).
+test(a_handler_of_the_program_decides,
+     [forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(7)-stop-stop)]) :-
+    signalled(Tree, term,
+              ":- on_signal(term, _, later).
+               later(_) :- thread_create(( sleep(2.5), halt(7) ), _, []).",
+              [goal(main)], Status, B, C).
+
+signalled(Tree, Signal, Text, Options, B, C) :-
+    signalled(Tree, Signal, Text, Options, _, B, C).
+
+signalled(Tree, Signal, Text, Options0, Status, B, C) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( string_concat(
+                    ":- dynamic wait/0.
+                     main :- motors_run([run(outB, 20), run(outC, 20)]),
+                             format(\"started~n\"), flush_output,
+                             ( wait ; repeat, sleep(0.01), fail ).
+                     ", Text, Both),
+                program_in_tree(Both, Program, Options1),
+                append(Options0, Options1, Options),
+                start_program(Program, Options, Child),
+                Child = child(Pid, Out, _),
+                repeat,
+                read_line_to_string(Out, Line),
+                Line == "started",
+                !,
+                process_kill(Pid, Signal),
+                process_wait(Pid, Status, [timeout(60)]),
+                catch(process_kill(Pid, kill), _, true),
+                Status \== timeout,
+                end_output(Child, _),
+                left(outB, command, "", B),
+                left(outC, command, "", C) )).
+
 :- end_tests(signals).
