@@ -53,7 +53,11 @@ library(ev3dev/servo_motors) the RC servos.
 
 When Prolog halts, or SIGINT, SIGTERM or SIGHUP ends it, the pack stops every
 motor that the program started, unless the flag `ev3dev_stop_at_halt` is
-`false`.
+`false`. After such a signal it has two seconds to end, then the process is
+ended. A crash stops motors, too; SIGKILL does not.
+
+To end a thread that waits here, throw into it with thread_signal/2. Do not
+signal thread_exit/1: it leaves native code by a jump, and the process aborts.
 
 All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
@@ -214,11 +218,12 @@ motor_stop(Port, StopAction) :-
 %!  stop_all_motors is det.
 %
 %   Stop all connected motors, with or without rotation sensor, by `brake`,
-%   also motors that another program started. Servos keep their positions. Waits
-%   up to a second for a motor that was just plugged in, with all others stopped.
+%   also motors that another program started. Servos keep their positions.
+%   Waits up to a second for a motor that was just plugged in, with all others
+%   stopped.
 %
-%   @error resource_error(max_files) if this process cannot open any more files;
-%          those motors that it has used are stopped then
+%   @error resource_error(max_files) if this process cannot open any more
+%          files; those motors that it has used are stopped then
 
 stop_all_motors :-
     stop_all_motors_.

@@ -13,9 +13,9 @@ halts, or SIGINT, SIGTERM or SIGHUP ends it, this module stops every motor, of
 any class, that the program started, unless the flag `ev3dev_stop_at_halt` is
 `false`. It lets servos float.
 
-If Prolog does not end within two seconds of such a signal, the process is ended
-without its at_halt/1 goals. A crash, or SIGQUIT, stops motors of files, but no
-servo, and whatever the flag says. SIGKILL stops nothing.
+If Prolog does not end within two seconds of such a signal, the process is
+ended without its at_halt/1 goals. A crash, or SIGQUIT, stops motors of files,
+but no servo, and whatever the flag says. SIGKILL stops nothing.
 */
 
 :- initialization(at_halt(stop_at_halt), now).
@@ -47,9 +47,10 @@ halt_by(Signal) :-
     status(Signal, Status),
     halt(Status).
 
-%   True if Signal ends this program, whose motors are stopped before. The native
-%   library asks in a thread of its own: Prolog handles no signal while it loads a
-%   file, as in main/0 of `:- initialization(main).`, nor in shell/1.
+%   True if Signal ends this program, whose motors are stopped before. The
+%   native library asks in a thread of its own: Prolog handles no signal while
+%   it loads a file, as in main/0 of `:- initialization(main).`, nor in
+%   shell/1.
 told_to_end(Signal) :-
     on_signal(Signal, Handler, Handler),
     ends(Handler),

@@ -17,9 +17,9 @@ mod motion;
 pub mod odometry;
 pub mod steering;
 
-use crate::device::{Device, MotionObserver};
 use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
+use crate::device::{Device, MotionObserver};
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor;

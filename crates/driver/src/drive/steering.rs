@@ -370,7 +370,7 @@ impl Steering {
     fn turn_on(&mut self, pose: Pose, seconds: f64, mut turn: Turn) -> Order {
         let off = turn.heading - pose.heading;
         let side = off.signum();
-        turn.swings += u32::from(side == -turn.side);
+        turn.swings += u32::from(side * turn.side < 0.0);
         turn.side = side;
         self.set_phase(Phase::Turning(turn));
         let is_slow = self.speed.abs() < 2.0;
