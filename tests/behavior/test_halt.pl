@@ -143,13 +143,15 @@ is_over(Pid) :-
 test(one_signal_suffices_where_prolog_handles_none,
      [ forall(( tree(Tree),
                 Tree \== simulator,
-                member(Signal, [term, hup]),
-                member(Text, [ ":- initialization(main).",
-                               ":- initialization(main).
-                                again :- motor_run(outC, 30), sleep(0.05), again.
-                                wait :- again.",
-                               ":- initialization(main, now).",
-                               ":- initialization(main). wait :- shell('exec sleep 9 >/dev/null 2>&1')." ]) )),
+                member(Signal-Text,
+                       [ term-":- initialization(main).",
+                         hup-":- initialization(main).",
+                         term-":- initialization(main).
+                               again :- motor_run(outC, 30), sleep(0.05), again.
+                               wait :- again.",
+                         term-":- initialization(main, now).",
+                         term-"wait :- shell('exec sleep 9 >/dev/null 2>&1').
+                               :- initialization(main)." ]) )),
        true(B-C == stop-stop) ]) :-
     signalled(Tree, Signal, Text, [], B, C).
 test(a_crash_stops_the_motors,
