@@ -6,7 +6,7 @@
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
-                option/2, option/3
+                option/2, option/3, word/2
               ]).
 :- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
@@ -63,8 +63,8 @@ floor is uncertain. calibrate/3 computes the sizes from moves of the robot.
 %   @error domain_error(calibration_option, Option) if Option is not an option
 %          of this predicate
 
-calibrate(What, Module:Options, SetRobot) :-
-    must_be(atom, What),
+calibrate(What0, Module:Options, SetRobot) :-
+    word(What0, What),
     must_be_options(calibration_option,
                     [measured, length, distance, turns, speed], Options),
     robot_description(Robot),

@@ -107,21 +107,12 @@ takes the place of one that is under way.
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
 %
 %   Go straight on for Distance cm. The signs of speed and distance make the
-%   direction. Fails for a Distance of 0, as go/2 does for an angle of 0.
+%   direction. A Distance of 0 is `reached` at once.
 
 go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
     number_value(Distance, Way),
-    not_nothing(Way),
     move_straight(Percent, Way, Options).
-
-%   Fails, and says so, if a distance or an angle is 0.
-not_nothing(Number) :-
-    (   Number =\= 0
-    ->  true
-    ;   explain("a distance or an angle of 0 moves nothing", []),
-        fail
-    ).
 
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
@@ -138,7 +129,8 @@ turn(Speed, Angle, Options) :-
 %
 %   Go along an arc of a circle. Its center is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
-%   make the direction, ahead or backwards. Fails for an Angle of 0.
+%   make the direction, ahead or backwards. An Angle of 0 is `reached` at
+%   once.
 
 arc_cm(Speed, Radius, Angle) :-
     arc_cm(Speed, Radius, Angle, []).
@@ -147,7 +139,6 @@ arc_cm(Speed, Radius, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Radius, R),
     number_value(Angle, Degrees),
-    not_nothing(Degrees),
     backwards(Percent * Degrees, Backwards),
     Signed is Degrees * sign(Percent),
     (   R =:= 0

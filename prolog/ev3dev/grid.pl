@@ -102,8 +102,7 @@ plan_and_go_to(Cell, Direction, Module:Options0) :-
     planner_meant(Planner0, Planner),
     (   grid(Map, _)
     ->  true
-    ;   explain("there is no grid: see set_grid/1", []),
-        fail
+    ;   fail_because(no_grid)
     ),
     Goal = state(Cell, Direction),
     state_position(Cell0, Direction0),

@@ -9,7 +9,7 @@
 :- use_module(private/errors,
               [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(driver, []).
-:- use_module(private/arguments, [number_value/2, number_value/3]).
+:- use_module(private/arguments, [number_value/2, number_value/3, word/2]).
 :- use_module(private/robot_state,
               [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
@@ -37,8 +37,8 @@ options. The pose counts from when a robot is set.
 %
 %   @error domain_error(drive_option, Name)
 
-drive_option(Name, Value) :-
-    must_be(atom, Name),
+drive_option(Name0, Value) :-
+    word(Name0, Name),
     (   \+ memberchk(Name, [use_gyro, speed, acceleration])
     ->  domain_error(drive_option, Name)
     ;   var(Value)

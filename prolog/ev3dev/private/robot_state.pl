@@ -6,7 +6,7 @@
             drive_default/2,            % ?Name, ?Value
             store_drive_default/2       % +Name, +Value
           ]).
-:- use_module(explain, [explain/2]).
+:- use_module(explain, [fail_because/1]).
 
 /** <module> The robot that is set
 */
@@ -37,13 +37,12 @@ store_drive_default(Name, Value) :-
 
 %!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
 %
-%   Like robot/4, but explains with debug(ev3dev) why it fails.
+%   Like robot/4, but explains why it fails.
 
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
     (   robot(WheelDiameter, AxleLength, Left, Right)
     ->  true
-    ;   explain("no robot is set: see set_robot/4", []),
-        fail
+    ;   fail_because(no_robot)
     ).
 
 %!  robot_description(-Robot) is semidet.
