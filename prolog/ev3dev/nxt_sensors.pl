@@ -22,7 +22,8 @@
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, term_expansion/2]).
+:- use_module(private/arguments, [word/2]).
 :- use_module(sensors, [reading_types/2, sensor_reading/3]).
 :- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/native, [sensor_values_/5]).
@@ -162,8 +163,8 @@ ht_gyro_rate(Port, DegreesPerSecond) :-
 %
 %   @error domain_error(eopd_range, Range)
 
-ht_eopd(Port, Range, Percent) :-
-    must_be(nonvar, Range),
+ht_eopd(Port, Range0, Percent) :-
+    word(Range0, Range),
     (   eopd_mode(Range, Mode)
     ->  true
     ;   domain_error(eopd_range, Range)

@@ -8,6 +8,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(private/arguments, [number_value/2, number_value/3, word/2]).
 :- use_module(private/robot_state,
@@ -63,7 +64,10 @@ valid_option(acceleration, Acceleration, Number) :-
 
 pose(X, Y, Heading) :-
     robot(Robot, UseGyro),
-    pose_(Robot, UseGyro, X, Y, Heading).
+    (   pose_(Robot, UseGyro, X0, Y0, Heading0)
+    ->  X = X0, Y = Y0, Heading = Heading0
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  set_pose(+X, +Y, +Heading) is semidet.
 %
@@ -74,7 +78,10 @@ set_pose(X, Y, Heading) :-
     number_value(Y, Y1),
     number_value(Heading, Heading1),
     robot(Robot, UseGyro),
-    set_pose_(Robot, UseGyro, X1, Y1, Heading1).
+    (   set_pose_(Robot, UseGyro, X1, Y1, Heading1)
+    ->  true
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  pose_uncertainty(-Covariance) is semidet.
 %
@@ -87,7 +94,10 @@ set_pose(X, Y, Heading) :-
 
 pose_uncertainty(Covariance) :-
     robot(Robot, UseGyro),
-    pose_uncertainty_(Robot, UseGyro, Covariance).
+    (   pose_uncertainty_(Robot, UseGyro, Rows)
+    ->  Covariance = Rows
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  heading_wrapped(+Heading, -Wrapped) is det.
 %
@@ -98,6 +108,11 @@ heading_wrapped(Heading, Wrapped) :-
     heading_wrapped_(Degrees, Wrapped).
 
 %   The robot, and whether to use the gyro.
+motor_is_missing(Robot) :-
+    arg(1, Robot, Left),
+    arg(2, Robot, Right),
+    fail_because(cannot([run(Left, 0), run(Right, 0)])).
+
 robot(Robot, UseGyro) :-
     robot_description(Robot),
     drive_default(use_gyro, UseGyro).

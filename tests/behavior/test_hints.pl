@@ -49,6 +49,20 @@ absent(motor_wait([outB, outE], [], _), 'there is no motor at outE').
 absent(motor_wait_while(outE, running), 'there is no motor at outE').
 absent(motor_position(outE, _), 'there is no motor at outE').
 absent(motor_position(outE, 0), 'there is no motor at outE').
+absent(motor_ramps(outE, _, _), 'there is no motor at outE').
+absent(motor_speed_pid(outE, _), 'there is no motor at outE').
+absent(motor_hold_pid(outE, pid(1, 2, 3)), 'there is no motor at outE').
+absent(motor_duty(outE, _), 'there is no motor at outE').
+absent(motor_states(outE, _), 'there is no motor at outE').
+absent(speed_file(outE, _), 'there is no motor at outE').
+absent(dc_motor_ramps(outE, _, _), 'there is no motor without').
+absent(dc_motor_duty(_, _), 'no motor without rotation sensor is connected').
+absent(dc_motor_run_timed(outE, 50, 1), 'there is no motor without').
+absent(dc_motor_run_direct(outB, 50), 'outB has lego-ev3-l-motor, no motor without').
+absent(servo_motor_rate(sv1, _), 'there is no servo at sv1').
+absent(servo_motor_angle(sv1, 9), 'there is no servo at sv1').
+absent(sensor_info(in9, _), 'there is no sensor at in9').
+absent(sensor_command(in9, 'RESET'), 'there is no sensor at in9').
 absent(motor_polarity(outE, _), 'there is no motor at outE').
 absent(motor_ramps(outE, 1, 1), 'there is no motor at outE').
 absent(position(outE, _), 'there is no motor at outE').
@@ -92,6 +106,8 @@ absent(port_mode(in9, auto), 'there is no port in9').
 absent(port_status(in9, _), 'there is no port in9').
 absent(port_device(in9, 'lego-ev3-us'), 'there is no port in9').
 absent(plan_and_go_to([1, 1], _), 'there is no grid').
+absent(state_position(_, _), 'there is no grid').
+absent(grid_place([0, 0], [0, 1]), 'there is no grid').
 
 %   impossible(Goal, Start): what the robot that is set cannot do.
 impossible(motor_run(outB, 150), 'outB cannot run at 150 %').
@@ -125,6 +141,7 @@ early(steer(20, 10)).
 early(arc(20, 10)).
 early(arc_cm(20, 10, 90)).
 early(set_grid([])).
+early(pose_uncertainty(_)).
 early(calibrate(axle, [], _)).
 
 begins(Text, Start) :-
@@ -155,6 +172,19 @@ test(a_robot_that_has_lost_a_motor, true(Texts = [_])) :-
          hints(( go_cm(20, 10) ; go(10) ; pose(_, _, _) ; turn(20, 0) ; stop ), Texts) )),
     Texts = [Text],
     assertion(begins(Text, 'there is no motor at outC; there are: outA')).
+test(each_call_of_a_robot_that_has_lost_a_motor,
+     [ forall(member(Goal, [ go(20), go(20, 9), go_cm(20, 0), turn(20, 0), stop,
+                             pose(_, _, _), set_pose(0, 0, 0), pose_uncertainty(_),
+                             drive_cm(9, 9), face(9), go_to(9, 9), set_grid([]) ])),
+       true(Texts = [_]) ]) :-
+    on(simulator,
+       ( a_robot, sim_unplug(outC), sim_step(1), hints(Goal, Texts) )),
+    Texts = [Text],
+    assertion(begins(Text, 'there is no motor at outC; there are: outA')).
+test(a_gyro_is_needed_to_calibrate, true(Texts = [_])) :-
+    in_touch_world(( a_robot, hints(calibrate(axle, [], _), Texts) )),
+    Texts = [Text],
+    assertion(begins(Text, 'no gyro is connected')).
 test(nothing_is_told_where_the_answer_is_no,
      [ forall(member(Goal,
                      [ touch(_, 1), touch(in4, 1), touch(in4, 7),

@@ -5,8 +5,8 @@
 :- use_module(errors, [domain_error/2]).
 :- use_module('../driver', []).
 :- use_module(arguments, [must_be_within/4, word/2]).
-:- use_module(attributes, [attribute/4]).
-:- use_module(native, [attribute_/4, attribute_write_/4, device_/3]).
+:- use_module(attributes, [attribute/4, device_at/3]).
+:- use_module(native, [attribute_/4, attribute_write_/4]).
 :- use_module(one_of).
 
 /** <module> Settings of motors of any class
@@ -24,7 +24,7 @@
 class_settings(Class, Port, Settings) :-
     forall(one_of(Settings, Setting), is_unbound(Setting)),
     !,
-    device_(Class, Port, _),
+    device_at(Class, Port, _),
     settings_read(Settings, Class, Port).
 class_settings(Class, Port, Settings) :-
     forall(one_of(Settings, Setting), must_be_setting(Setting)),
