@@ -156,8 +156,12 @@ directed(-1, Number, Opposite) :-
 stop :-
     robot(_, _, Left, Right),
     !,
-    (   motor_stop(Left)
-    ->  motor_stop(Right)
+    (   catch(motor_stop(Left), Error, true)
+    ->  motor_stop(Right),
+        (   var(Error)
+        ->  true
+        ;   throw(Error)
+        )
     ;   motor_stop(Right),
         fail
     ).
@@ -172,9 +176,13 @@ stop :-
 go(Speed) :-
     robot_set(_, _, Left, Right),
     evaluated(Speed, Percent),
+    wheels_run(Left, Percent, Right, Percent).
+
+%   Run the wheels at these percentages of the motors' highest speed.
+wheels_run(Left, LeftPercent0, Right, RightPercent0) :-
     forwards(LS, RS),
-    directed(LS, Percent, LeftPercent),
-    directed(RS, Percent, RightPercent),
+    directed(LS, LeftPercent0, LeftPercent),
+    directed(RS, RightPercent0, RightPercent),
     motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  go(+Speed, +Angle) is semidet.
@@ -212,11 +220,8 @@ go_cm(Speed, Distance) :-
 turn(Speed) :-
     robot_set(_, _, Left, Right),
     evaluated(Speed, Percent),
-    forwards(LS, RS),
     Reverse is -Percent,
-    directed(LS, Percent, LeftPercent),
-    directed(RS, Reverse, RightPercent),
-    motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
+    wheels_run(Left, Percent, Right, Reverse).
 
 %!  turn(+Speed, +Angle) is semidet.
 %

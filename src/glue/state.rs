@@ -118,7 +118,7 @@ pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
 
 /// The directories that the program has selected: of attribute files and of device files.
 #[cfg(feature = "sim")]
-#[derive(Default)]
+#[derive(Clone)]
 pub(crate) struct Selected {
     tree: Option<PathBuf>,
     dev: Option<PathBuf>,

@@ -51,9 +51,10 @@ pub(super) fn start<C: QueryableContextType>(
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
     mount::end();
-    let ended = running().take();
-    let before = ended.map_or_else(selected, |ended| ended.before);
-    *running() = Some(Running { simulation: Arc::clone(&simulation), before });
+    let before = running().as_ref().map(|running| running.before.clone());
+    let before = before.unwrap_or_else(selected);
+    let ended = running().replace(Running { simulation: Arc::clone(&simulation), before });
+    drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
@@ -64,7 +65,8 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
         return none(call);
     }
     mount::end();
-    match running().take() {
+    let ended = running().take();
+    match ended {
         Some(ended) => call.or_throw(select(ended.before)),
         None => none(call),
     }

@@ -27,7 +27,7 @@ with_flag(Flag, Goal) :-
         set_prolog_flag(ev3dev_hints, Before)).
 
 no_robot :-
-    retractall(ev3dev_robot_state:robot(_, _, _, _)).
+    retractall(ev3dev_robot_state:described(_, _, _)).
 
 a_robot :-
     set_robot(5.6, 10.6, outB, outC).
@@ -287,6 +287,12 @@ test(error_throws_what_is_missing,
     with_tree(Tree,
               with_flag(error,
                         catch(Goal, error(Caught, context(Called, _)), true))).
+test(an_error_of_stop_comes_when_the_other_motor_is_stopped,
+     [true(Speed == 0)]) :-
+    on(simulator,
+       ( a_robot, go(20), sim_unplug(outB), sim_step(1),
+         with_flag(error, catch(stop, error(existence_error(motor, outB), _), true)),
+         sim_step(1), speed(outC, Speed) )).
 test(the_words_of_the_error_are_those_of_the_hint, true(Text == Message)) :-
     on(simulator,
        ( hints(motor_run(outb, 50), [Text]),
