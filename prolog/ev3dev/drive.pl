@@ -26,7 +26,6 @@
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, take_options/4, timeout_option/2
               ]).
-:- use_module(private/explain).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
@@ -89,6 +88,7 @@ count.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
 move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
+A move by a distance or an angle of 0 is `reached` at once.
 They also fail, unless asked for the reason, when they end early: a wheel is
 blocked, the time is up, another thread stops a motor or tells it something
 else, or the gyro contradicts the wheels (`astray`): it is mounted upside

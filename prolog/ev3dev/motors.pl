@@ -57,7 +57,9 @@ motor that the program started, unless the flag `ev3dev_stop_at_halt` is
 
 All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
-angle. Nothing moves then. `debug(ev3dev)` explains why.
+angle. Nothing moves then, and a warning says why, once a session: see the
+flag `ev3dev_hints` of library(ev3dev). A move by an angle of 0 is done at
+once.
 */
 
 %!  motor_run(+Port, +Speed) is semidet.

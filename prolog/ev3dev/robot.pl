@@ -40,8 +40,9 @@ positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or a speed of 0 for a move
-that has an end. Nothing moves then, and a warning says why, see the flag
-`ev3dev_hints` of library(ev3dev). A distance or an angle of 0 is done at once.
+that has an end. Nothing moves then, and a warning says why, once a session:
+see the flag `ev3dev_hints` of library(ev3dev). A distance or an angle of 0 is
+done at once.
 
 go/2, go_cm/2 and turn/2 wait. A native loop keeps the robot on its course
 meanwhile, by the rotation sensors of its wheels and by a gyro, if one is

@@ -26,6 +26,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/explain).
+:- use_module(private/one_of).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
@@ -138,9 +139,12 @@ sensor_reading(Reading, Port, Value) :-
     ).
 
 no_sensor_for(Reading, Port) :-
-    (   reading(Reading, _, _, _)
-    ->  fail_because(absent(reading(Reading), Port))
-    ;   fail_because(no_reading(Reading))
+    findall(Type,
+            ( reading(Reading, Types, _, _), one_of(Types, Type) ),
+            All),
+    (   All == []
+    ->  fail_because(no_reading(Reading))
+    ;   fail_because(absent(All, Port))
     ).
 
 %!  light_sensor(?Port) is nondet.

@@ -95,7 +95,8 @@ sim_svg(File) :-
 %   an event device. Because they are no devices, a program cannot map the
 %   screen into memory, and a program that looks for device nodes finds none.
 %
-%   @error existence_error(directory, Directory)
+%   @error existence_error(directory, Directory); the message says so if a
+%          program that was killed left its files mounted there
 %   @error existence_error(device, '/dev/fuse') if this machine has no FUSE
 %   @error existence_error(feature, fuse) if the pack was built without FUSE
 

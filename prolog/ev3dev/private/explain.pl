@@ -41,8 +41,8 @@ itself. A program that asks for messages has loaded it.
 %
 %     - absent(Kind, Port)
 %       There is no such device at Port; if Port is unbound, at no port. Kind
-%       is a class of devices, `light`, `reading(Reading)`, `mode(Mode)` or a
-%       list of types of sensors.
+%       is a class of devices, `light`, `mode(Mode)` or a list of types of
+%       sensors.
 %     - cannot(Runs)
 %       A motor is not there, or one of Runs is impossible: terms with port,
 %       percent and perhaps a way.
@@ -239,12 +239,6 @@ words('lego-port', 'port').
 words(light, 'light').
 words(mode(Mode), Words) :-
     atom_concat('sensor with the mode ', Mode, Words).
-words(reading(Reading), Words) :-
-    findall(Type,
-            ( ev3dev_sensors:reading_types(Reading, Types),
-              one_of(Types, Type) ),
-            All),
-    words(All, Words).
 words([Type|Types], Words) :-
     (   sensor(Type, Words)
     ->  true
