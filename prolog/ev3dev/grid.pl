@@ -204,9 +204,10 @@ ended(Reason, Options, Goal) :-
 %
 %   Carry out the actions of a plan, `move`, `left` and `right`, from where
 %   the robot is. Plans of the paper do, too: `move_if_free`, `turn_left`,
-%   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not possible: there is an
-%   obstacle, which is noted, or the edge of the map, or any other reason of
-%   plan_and_go_to/3; state_position/2 tells how far the robot has come.
+%   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not
+%   possible: there is an obstacle, which is noted, or the edge of the map, or
+%   any other reason of plan_and_go_to/3; state_position/2 tells how far the
+%   robot has come.
 %
 %   @error domain_error(grid_action, Action)
 
