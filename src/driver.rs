@@ -63,8 +63,9 @@ predicates! {
             let class = class_of(context, class)?;
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
-            let (names_port, found) = (port.is_var(), call.listed(class, port)?);
-            Ok(Some(AttributeReads { devices: call.devices()?, class, found, names_port, name }))
+            let devices = call.devices()?;
+            let (names_port, found) = (port.is_var(), call.listed(&devices, class, port)?);
+            Ok(Some(AttributeReads { devices, class, found, names_port, name }))
         },
         call(reads) => {
             let AttributeReads { devices, class, found, names_port, name } = reads;

@@ -165,7 +165,7 @@ predicates! {
     nondet fn motor_position<ListedDevices>(context, port, position) {
         setup => {
             let call = Call::of(context, "motor_position", 2);
-            call.listed(Class::TachoMotor, port).map(Some)
+            call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
             let call = Call::of(context, "motor_position", 2);

@@ -21,7 +21,7 @@ predicates! {
     nondet fn servo_position<ListedDevices>(context, port, percent) {
         setup => {
             let call = Call::of(context, "servo_motor_position", 2);
-            call.listed(Class::ServoMotor, port).map(Some)
+            call.listed(&*call.devices()?, Class::ServoMotor, port).map(Some)
         },
         call(servos) => {
             let call = Call::of(context, "servo_motor_position", 2);

@@ -26,7 +26,6 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/explain).
-:- use_module(private/one_of).
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
@@ -139,13 +138,15 @@ sensor_reading(Reading, Port, Value) :-
     ).
 
 no_sensor_for(Reading, Port) :-
-    findall(Type,
-            ( reading(Reading, Types, _, _), one_of(Types, Type) ),
-            All),
-    (   All == []
-    ->  fail_because(no_reading(Reading))
-    ;   fail_because(absent(All, Port))
+    (   reading(Reading, _, _, _)
+    ->  fail_because(absent(reading(Reading), Port))
+    ;   fail_because(no_reading(Reading))
     ).
+
+:- multifile ev3dev_explain:reading_types/2.
+
+ev3dev_explain:reading_types(Reading, Types) :-
+    reading(Reading, Types, _, _).
 
 %!  light_sensor(?Port) is nondet.
 %!  ultrasonic_sensor(?Port) is nondet.

@@ -118,8 +118,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// The devices of a class, for a nondeterministic predicate's setup: all, or
     /// the one at a port that is bound. Fails if there are none.
-    pub(crate) fn listed(&self, class: Class, port: &Term) -> PrologResult<ListedDevices> {
-        let (name, devices) = (self.text_if_bound(port)?, self.devices()?);
+    pub(crate) fn listed(
+        &self,
+        devices: &Registry,
+        class: Class,
+        port: &Term,
+    ) -> PrologResult<ListedDevices> {
+        let name = self.text_if_bound(port)?;
         let found: Vec<_> = self.or_throw(match name {
             Some(name) => devices.find(class, &name).map(|device| device.into_iter().collect()),
             None => devices.all(class).map(|all| all.to_vec()),

@@ -32,6 +32,8 @@ library(debug) is not loaded for it: that takes a brick as long as the pack
 itself. A program that asks for messages has loaded it.
 */
 
+:- multifile reading_types/2.           % Reading, Types
+
 :- dynamic told/1.                      % Key
 :- volatile told/1.
 
@@ -41,8 +43,8 @@ itself. A program that asks for messages has loaded it.
 %
 %     - absent(Kind, Port)
 %       There is no such device at Port; if Port is unbound, at no port. Kind
-%       is a class of devices, `light`, `mode(Mode)` or a list of types of
-%       sensors.
+%       is a class of devices, `light`, `reading(Reading)`, `mode(Mode)` or a
+%       list of types of sensors.
 %     - cannot(Runs)
 %       A motor is not there, or one of Runs is impossible: terms with port,
 %       percent and perhaps a way.
@@ -105,6 +107,10 @@ key(too_fast(Who, _), Key) :-
 key(unable(Who, Verb, _), Key) :-
     !,
     Key = unable(Who, Verb).
+key(Cause, Key) :-
+    ground(Cause),
+    !,
+    Key = Cause.
 key(Cause, Key) :-
     copy_term(Cause, Key),
     numbervars(Key, 0, _).
@@ -239,6 +245,11 @@ words('lego-port', 'port').
 words(light, 'light').
 words(mode(Mode), Words) :-
     atom_concat('sensor with the mode ', Mode, Words).
+words(reading(Reading), Words) :-
+    findall(Type,
+            ( reading_types(Reading, Types), one_of(Types, Type) ),
+            All),
+    words(All, Words).
 words([Type|Types], Words) :-
     (   sensor(Type, Words)
     ->  true
