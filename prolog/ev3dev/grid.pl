@@ -100,11 +100,7 @@ plan_and_go_to(Cell, Direction, Module:Options0) :-
     option(planner(Planner0), Options, Module:d_star_lite),
     option(tell(Tell), Options, ev3dev_grid:nobody),
     planner_meant(Planner0, Planner),
-    (   grid(Map, _)
-    ->  true
-    ;   explain("there is no grid: see set_grid/1", []),
-        fail
-    ),
+    grid(Map, _),
     Goal = state(Cell, Direction),
     state_position(Cell0, Direction0),
     grid_problem(Map, state(Cell0, Direction0), Goal, Problem),

@@ -51,51 +51,6 @@ test(throws_for_a_speed_that_is_no_number,
 
 :- end_tests(motor_run_2).
 
-:- begin_tests(why_not).
-
-%   What `debug(ev3dev)` says of Goal, which fails.
-said_of(Goal, Said) :-
-    setup_call_cleanup(
-        ( % It may complain that nobody has spoken of that so far.
-          warnings(debug(ev3dev), _),
-          asserta((prolog:debug_print_hook(ev3dev, Format, Arguments) :-
-                       format(string(Line), Format, Arguments),
-                       assertz(plunit_why_not:said(Line))),
-                  Hook)
-        ),
-        \+ Goal,
-        ( erase(Hook),
-          nodebug(ev3dev)
-        )),
-    findall(Line, retract(said(Line)), Said).
-
-:- dynamic said/1.
-:- multifile prolog:debug_print_hook/3.
-:- dynamic prolog:debug_print_hook/3.
-
-test(an_absent_motor_is_named_and_no_other,
-     [forall(tree(Tree)), true(Said == ["there is no motor at outE"])]) :-
-    with_tree(Tree, said_of(motors_run([run(outB, 20), run(outE, 20)]), Said)).
-test(what_a_motor_cannot_do_is_told,
-     [forall(tree(Tree)), true(Text == "outB cannot run at 120 %")]) :-
-    with_tree(Tree, said_of(motor_run(outB, 120), [Said])),
-    sub_string(Said, 0, 24, _, Text).
-
-test(what_is_missing_is_told,
-     [ forall(( tree(Tree),
-                member(Goal-Line,
-                       [ motor_stop(outE)-"there is no motor at outE",
-                         us_dist_cm(in2, _)-"in2 has no sensor for us_dist_cm",
-                         set_robot(5.6, 10.6, outA, outB)
-                         -"outA and outB are not two motors of one type",
-                         go(20)-"no robot is set: see set_robot/4",
-                         stop-"no robot is set: see set_robot/4" ]) )),
-       setup(retractall(ev3dev_robot_state:described(_, _, _))),
-       true(Said == [Line]) ]) :-
-    with_tree(Tree, said_of(Goal, Said)).
-
-:- end_tests(why_not).
-
 :- begin_tests(motors_run).
 
 test(runs_each_at_its_speed,

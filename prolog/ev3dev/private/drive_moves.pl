@@ -69,9 +69,9 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   explain("the robot cannot move by ~p at ~w %",
-                [Course, Percent]),
-        fail
+    ;   arg(1, Robot, Left),
+        arg(2, Robot, Right),
+        fail_because(cannot_move(Left, Right, Percent, Course))
     ).
 
 move_options(Percent, Course, Options,
