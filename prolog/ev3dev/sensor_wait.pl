@@ -82,8 +82,7 @@ sensor_wait(Condition, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Port)
         )
-    ;   explain("~w has no sensor for ~w", [Port, Reading]),
-        fail
+    ;   fail_because(absent(reading(Reading), Port))
     ).
 
 condition(Sensor = Word, Sensor, Test) :-

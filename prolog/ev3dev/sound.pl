@@ -17,7 +17,7 @@
               ]).
 :- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, option/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3, word/2]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ play_/2, say_/2, sound_stop_/0, sound_wait_/0, tones_/2,
@@ -74,8 +74,7 @@ wait_option(Names, Options, Wait) :-
 tones_or_explain(Native, Wait) :-
     (   tones_(Native, Wait)
     ->  true
-    ;   explain("tone: there is no speaker", []),
-        fail
+    ;   fail_because(lacking(speaker))
     ).
 
 %!  tones(+Tones) is semidet.
@@ -162,8 +161,8 @@ native(rest(Length), Quarter, [tone(0, Time)|Rest], Rest) :-
 
 %   A tempered scale of twelve steps an octave, in which a4 is number 57.
 
-pitch(Pitch, Hertz) :-
-    must_be(atom, Pitch),
+pitch(Pitch0, Hertz) :-
+    word(Pitch0, Pitch),
     atom_codes(Pitch, [Letter|Codes]),
     step([Letter], Step),
     (   Codes = [Digit],

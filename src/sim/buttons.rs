@@ -50,7 +50,7 @@ predicates! {
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
         let key = Key::of(&Call::of(context, "sim_press", 1), key)?;
-        let (simulation, is_press) = (simulation()?, is_press.get_ex()?);
+        let (simulation, is_press) = (simulation(context)?, is_press.get_ex()?);
         let is_there = key.set(&mut simulation.machine(), is_press);
         simulation.shared().wake();
         into_prolog_result(is_there)
@@ -63,7 +63,7 @@ predicates! {
         let call = Call::of(context, "sim_press", 2);
         let (key, at) = (Key::of(&call, key)?, call.time(after)?);
         let lasts = if lasts.is_atom() { None } else { Some(call.time(lasts)?) };
-        let simulation = simulation()?;
+        let simulation = simulation(context)?;
         let plan = |is_press, at| match key {
             Key::Button(button) => {
                 simulation.machine().plan_button(button, is_press, at);

@@ -12,7 +12,7 @@ mod running;
 pub(crate) use self::running::end_unless_mounted;
 
 use self::files::SimulatedFiles;
-use self::running::{simulation, start};
+use self::running::{is_running, simulation, start};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::due::Bell;
@@ -42,6 +42,7 @@ pub(crate) fn register() {
     register_sim_remove();
     register_sim_plug();
     register_sim_unplug();
+    register_sim_detecting();
     register_sim_jam();
     register_sim_show();
     register_sim_unshow();
@@ -134,14 +135,14 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_active_")]
     semidet fn sim_active(_context) {
-        simulation().map(drop)
+        into_prolog_result(is_running())
     }
 
     /// sim_pose_(-X, -Y, -Heading)
     #[module("ev3dev_native")]
     #[name("sim_pose_")]
-    semidet fn sim_pose(_context, x, y, heading) {
-        let pose = simulation()?.machine().pose();
+    semidet fn sim_pose(context, x, y, heading) {
+        let pose = simulation(context)?.machine().pose();
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -153,7 +154,7 @@ predicates! {
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
         let pose = facts::pose(&call, [x, y, heading])?;
-        let placed = simulation()?.machine().place(pose);
+        let placed = simulation(context)?.machine().place(pose);
         possible(&call, placed)
     }
 
@@ -167,7 +168,7 @@ predicates! {
             Some(_) => return wrong_value(&call, "world_item", term),
             None => return wrong_value(&call, "world_or_robot_fact", term),
         };
-        let added = simulation()?.machine().add_item(item);
+        let added = simulation(context)?.machine().add_item(item);
         id.unify(i64::from(possible(&call, added)?.0))
     }
 
@@ -177,7 +178,7 @@ predicates! {
     semidet fn sim_remove(context, id) {
         let id = Call::of(context, "sim_remove", 1).integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
-        into_prolog_result(simulation()?.machine().remove_item(ItemId(id)))
+        into_prolog_result(simulation(context)?.machine().remove_item(ItemId(id)))
     }
 
     /// sim_plug_(+Port, +Type)
@@ -186,7 +187,7 @@ predicates! {
     semidet fn sim_plug(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
         let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
-        let plugged = simulation()?.machine().plug(port, &kind);
+        let plugged = simulation(context)?.machine().plug(port, &kind);
         possible(&call, plugged)
     }
 
@@ -195,7 +196,15 @@ predicates! {
     #[name("sim_unplug_")]
     semidet fn sim_unplug(context, port) {
         let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
-        into_prolog_result(simulation()?.machine().unplug(port))
+        into_prolog_result(simulation(context)?.machine().unplug(port))
+    }
+
+    /// sim_detecting_(+Port): the brick has not found out yet what was plugged in.
+    #[module("ev3dev_native")]
+    #[name("sim_detecting_")]
+    semidet fn sim_detecting(context, port) {
+        let port = port_of(&Call::of(context, "sim_plug", 2), port)?;
+        into_prolog_result(simulation(context)?.machine().is_detecting(port))
     }
 
     /// sim_jam_(+Port, +Bool)
@@ -204,7 +213,7 @@ predicates! {
     semidet fn sim_jam(context, port, fast) {
         let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
         let fast = fast.get_ex()?;
-        simulation()?.machine().jam(port, fast);
+        simulation(context)?.machine().jam(port, fast);
         Ok(())
     }
 
@@ -214,7 +223,7 @@ predicates! {
     semidet fn sim_show(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
         let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
-        let simulation = simulation()?;
+        let simulation = simulation(context)?;
         let shown = simulation.machine().show(port, &name, &line);
         simulation.shared().wake();
         shown.or_else(|errno| cannot_show(&call, errno, attribute, text))
@@ -226,7 +235,7 @@ predicates! {
     semidet fn sim_unshow(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
         let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
-        let simulation = simulation()?;
+        let simulation = simulation(context)?;
         let was_shown = simulation.machine().unshow(port, &name);
         simulation.shared().wake();
         match was_shown {
@@ -243,7 +252,7 @@ predicates! {
         let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(context)?)));
         call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 
@@ -257,23 +266,23 @@ predicates! {
             bell.ring();
             None
         };
-        simulation()?.repeat(after, Box::new(ring));
+        simulation(context)?.repeat(after, Box::new(ring));
         Ok(())
     }
 
     /// sim_hold_
     #[module("ev3dev_native")]
     #[name("sim_hold_")]
-    semidet fn sim_hold(_context) {
-        simulation()?.hold();
+    semidet fn sim_hold(context) {
+        simulation(context)?.hold();
         Ok(())
     }
 
     /// sim_release_
     #[module("ev3dev_native")]
     #[name("sim_release_")]
-    semidet fn sim_release(_context) {
-        simulation()?.release();
+    semidet fn sim_release(context) {
+        simulation(context)?.release();
         Ok(())
     }
 
@@ -283,7 +292,7 @@ predicates! {
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
-        match simulation()?.machine().hold_buttons(channel, &held) {
+        match simulation(context)?.machine().hold_buttons(channel, &held) {
             Ok(()) => Ok(()),
             Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
         }
@@ -297,7 +306,7 @@ predicates! {
         let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let (simulation, mut interrupted) = (simulation()?, call.interrupted());
+        let (simulation, mut interrupted) = (simulation(context)?, call.interrupted());
         while !left.is_zero() {
             let slice = left.min(STEP_SLICE);
             simulation.step(slice);
@@ -312,15 +321,15 @@ predicates! {
     /// sim_time_(-Seconds)
     #[module("ev3dev_native")]
     #[name("sim_time_")]
-    semidet fn sim_time(_context, seconds) {
-        seconds.unify(simulation()?.machine().now().as_secs_f64())
+    semidet fn sim_time(context, seconds) {
+        seconds.unify(simulation(context)?.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
     #[module("ev3dev_native")]
     #[name("sim_snapshot_")]
-    semidet fn sim_snapshot(_context, snapshot) {
-        let machine = simulation()?.machine().clone();
+    semidet fn sim_snapshot(context, snapshot) {
+        let machine = simulation(context)?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
@@ -334,10 +343,10 @@ predicates! {
     /// sim_restore_(+Snapshot)
     #[module("ev3dev_native")]
     #[name("sim_restore_")]
-    semidet fn sim_restore(_context, snapshot) {
+    semidet fn sim_restore(context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        simulation()?.machine().restore(machine);
+        simulation(context)?.machine().restore(machine);
         devices().forget_listings();
         Ok(())
     }
@@ -346,7 +355,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_collisions_")]
     semidet fn sim_collisions(context, collisions) {
-        let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
+        let seen: Vec<_> = simulation(context)?.machine().trace().collisions().copied().collect();
         let terms = seen.iter().map(|collision| {
             let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
             term! {context: collision(#at, #pose.x, #pose.y, #pose.heading)}
@@ -359,7 +368,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
-        let seen = simulation()?.machine().trace().clone();
+        let seen = simulation(context)?.machine().trace().clone();
         let poses = seen.path().map(|(at, pose)| {
             let seconds = at.as_secs_f64();
             let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
@@ -389,8 +398,8 @@ predicates! {
     /// sim_svg_(-Text)
     #[module("ev3dev_native")]
     #[name("sim_svg_")]
-    semidet fn sim_svg(_context, text) {
-        let picture = simulation()?.machine().svg();
+    semidet fn sim_svg(context, text) {
+        let picture = simulation(context)?.machine().svg();
         unify_atom(text, &picture)
     }
 
@@ -400,7 +409,7 @@ predicates! {
     semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
         let dev = (!dev.is_var()).then_some(dev);
-        mount::mount(&call, &simulation()?.shared(), classes, dev)
+        mount::mount(&call, &simulation(context)?.shared(), classes, dev)
     }
 
     /// sim_unmount_

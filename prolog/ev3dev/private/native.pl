@@ -7,6 +7,7 @@
             dev_use_/1,
             file_read_/2,
             file_write_/2,
+            stale_mount_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
@@ -82,6 +83,7 @@
             sim_add_/2,
             sim_check_/2,
             sim_collisions_/1,
+            sim_detecting_/1,
             sim_hold_/0,
             sim_jam_/2,
             sim_mount_/2,
@@ -135,6 +137,7 @@ missing.
 %!  dev_use_(+Directory) is semidet.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
+%!  stale_mount_(+Directory) is semidet.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
@@ -290,6 +293,7 @@ missing.
 %!  sim_add_(+Fact, -Id) is semidet.
 %!  sim_check_(+Subject, +Fact) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
+%!  sim_detecting_(+Port) is semidet.
 %!  sim_hold_ is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.

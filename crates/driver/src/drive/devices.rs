@@ -13,6 +13,10 @@ use std::sync::Arc;
 /// difference means that the counter was written.
 const MARGIN: f64 = 30.0;
 
+/// The last angle that a gyro shows either way: it has 16 bits. What it shows
+/// there is no angle any more.
+const FULL: f64 = 32_767.0;
+
 /// A robot: where its motors are, and how it is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
@@ -87,16 +91,18 @@ pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
     Ok(counts)
 }
 
-/// The gyro's angle in degrees; `None` while the gyro does not measure it.
+/// The gyro's angle in degrees; `None` while the gyro does not measure it, or if it is
+/// full.
 pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
     gyro.check_present()?;
     let Some(mode) = gyro::angle_mode(gyro)? else {
         return Ok(None);
     };
-    Ok(match sensor::read_value(gyro, Some(mode), 0)? {
+    let angle = match sensor::read_value(gyro, Some(mode), 0)? {
         #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
         Value::Integer(degrees) => Some(degrees as f64),
         Value::Float(degrees) => Some(degrees),
         Value::Text(_) => None,
-    })
+    };
+    Ok(angle.filter(|angle| angle.abs() < FULL))
 }

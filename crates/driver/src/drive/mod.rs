@@ -17,19 +17,19 @@ mod motion;
 pub mod odometry;
 pub mod steering;
 
-use crate::device::MotionObserver;
 use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
+use crate::device::{Device, MotionObserver};
 use crate::error::{Error, Interrupted, Result};
 use crate::held::{self, Held};
 use crate::motor;
 use crate::motor::wait::Reason;
-use crate::sensor;
+use crate::sensor::{self, gyro};
 use crate::sysfs::sleep;
 use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
-use devices::counts;
+use devices::{angle, counts};
 use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
@@ -40,6 +40,13 @@ const BUSY: Duration = Duration::from_millis(1);
 
 /// How long, by the wall, to wait for another thread that uses it.
 const PATIENCE: Duration = Duration::from_millis(50);
+
+/// How far the gyro may turn either way before its angle is put back to 0, in
+/// degrees: half of what its 16 bits hold, so that no move fills them.
+const MUCH_TURNED: f64 = 16_384.0;
+
+/// How long the wheels must stand before that.
+const STANDS: Duration = Duration::from_millis(100);
 
 /// Odometry and control of one robot.
 ///
@@ -171,7 +178,8 @@ impl Drive {
             return Ok(None);
         };
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::measure_angle(&self.registry, &gyro, interrupted)?;
+            sensor::measure_angle(&self.registry, &gyro, &mut *interrupted)?;
+            self.keep_from_filling(&gyro, interrupted)?;
         }
         let mut inner = self.lock();
         inner.integrate(&self.registry)?;
@@ -185,6 +193,24 @@ impl Drive {
             self.be_called();
         }
         Ok(begun)
+    }
+
+    /// Puts the angle of a gyro that has turned much back to 0, if the robot stands.
+    fn keep_from_filling(&self, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<()> {
+        let has_turned = !angle(gyro)?.is_some_and(|angle| angle.abs() < MUCH_TURNED);
+        if !has_turned || self.lock().active.is_some() {
+            return Ok(());
+        }
+        sleep(self.registry.tree(), STANDS, &mut *interrupted)?;
+        let mut inner = self.lock();
+        inner.integrate(&self.registry)?;
+        let stands = inner.now.saturating_sub(inner.moved) >= STANDS;
+        drop(inner);
+        if stands {
+            sensor::restart(&self.registry, gyro, gyro::ANGLE, interrupted)?;
+            self.lock().estimate.gyro_lost();
+        }
+        Ok(())
     }
 
     /// Waits for the end of a motion.

@@ -11,7 +11,7 @@ use crate::error::Result;
 pub(crate) const DRIVER: &str = "lego-ev3-gyro";
 
 /// The mode that measures the angle.
-pub(super) const ANGLE: &str = "GYRO-ANG";
+pub(crate) const ANGLE: &str = "GYRO-ANG";
 
 /// The mode that measures angle and rate.
 const ANGLE_AND_RATE: &str = "GYRO-G&A";
