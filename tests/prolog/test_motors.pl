@@ -800,6 +800,12 @@ test(beyond_what_the_motor_can_nothing_moves,
        true(W == []) ]) :-
     with_tree(Tree, ( \+ motor_run(outB, Speed), \+ motor_run(outB, Speed, 90),
                       written(W) )).
+test(the_hint_names_the_percentage, error(domain_error(speed, 200), _)) :-
+    current_prolog_flag(ev3dev_hints, Before),
+    setup_call_cleanup(
+        set_prolog_flag(ev3dev_hints, error),
+        with_tree(simulator, motor_run(outB, dps(2100))),
+        set_prolog_flag(ev3dev_hints, Before)).
 test(what_is_no_number_throws,
      [ forall(( tree(Tree),
                 member(Goal-Error,

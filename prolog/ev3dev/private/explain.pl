@@ -155,7 +155,7 @@ cause(cannot(Runs), Cause) :-
         ;   Runs = [Run|_]
         ),
         arg(1, Run, Port),
-        arg(2, Run, Percent),
+        percent(Run, Percent),
         impossible(Port, Percent, Run, Cause)
     ).
 cause(cannot_move(Left, Right, Percent, Course), Cause) :-
@@ -172,8 +172,20 @@ cause(unlike(Left, Right), Cause) :-
     Cause = absent('tacho-motor', Port).
 cause(Cause, Cause).
 
+%   A speed in degrees a second is a percentage of what the motor can, too.
+
+percent(Run, Percent) :-
+    arg(2, Run, Speed),
+    (   Speed = dps(Degrees)
+    ->  arg(1, Run, Port),
+        attribute_('tacho-motor', Port, max_speed, Max),
+        attribute_('tacho-motor', Port, count_per_rot, Counts),
+        Percent is round(Degrees * Counts / 3.6 / Max)
+    ;   Percent = Speed
+    ).
+
 is_to_blame(Run) :-
-    arg(2, Run, Percent),
+    percent(Run, Percent),
     (   abs(Percent) > 100
     ->  true
     ;   Percent =:= 0,
