@@ -199,6 +199,10 @@ test(a_blocked_wheel_stops_both_and_fails_with_a_warning,
                    warnings(go_to(0, 50), Ws),
                    motor_states(outC, States),
                    States == [] )).
+test(a_blocked_wheel_is_noticed_at_any_speed,
+     [forall(member(Speed, [0.4, -1, 2, 10, 100])), true(Reason == stalled)]) :-
+    quiet(false, ( sim_jam(outB, true),
+                   go_cm(Speed, 50, [reason(Reason)]) )).
 test(the_time_is_up,
      [forall(( behaving(Tree), a_move(Move) )), true(R == timeout)]) :-
     with_options(Move, [timeout(0.2), reason(R)], Goal),

@@ -16,6 +16,10 @@ pub const PERIOD: Duration = Duration::from_millis(20);
 /// How long a wheel that is to turn may stand still.
 const STUCK_FOR: Duration = Duration::from_millis(1500);
 
+/// By how many counts it should have turned meanwhile: a wheel that is to turn slowly
+/// may stand longer.
+const STUCK_OWES: f64 = 37.0;
+
 /// Upper bound on the interval that counts towards a stall. After a longer gap we
 /// do not know whether the wheel moved, and a sample delayed between reading the
 /// encoder and the clock pairs an old count with a new time.
@@ -55,18 +59,20 @@ pub(super) struct ActiveMotion {
     pub(super) _ramps: Ramps,
 }
 
-/// For how long a wheel that is to turn one way has stood still.
+/// For how long a wheel that is to turn one way has stood still, and by how many
+/// counts it should have turned meanwhile.
 #[derive(Clone, Copy)]
 pub(super) struct Stuck {
     count: i64,
     way: i64,
     stood: Duration,
+    owed: f64,
 }
 
 impl Stuck {
     /// A wheel that may turn.
     pub(super) fn new(count: i64) -> Self {
-        Self { count, way: 0, stood: Duration::ZERO }
+        Self { count, way: 0, stood: Duration::ZERO, owed: 0.0 }
     }
 }
 
@@ -173,17 +179,19 @@ impl ActiveMotion {
     }
 
     /// Whether a wheel that should turn stands still.
+    #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
     fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
         for (side, wheel) in self.stuck.iter_mut().enumerate() {
             let (count, way) = (devices.counts[side], speeds[side].signum());
             let is_still = count.abs_diff(wheel.count) < STUCK_WITHIN && way == wheel.way;
-            if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                *wheel = Stuck { way, ..Stuck::new(count) };
-            } else {
+            if is_still {
                 wheel.stood += passed;
+                wheel.owed += speeds[side].abs() as f64 * passed.as_secs_f64();
+            } else {
+                *wheel = Stuck { way, ..Stuck::new(count) };
             }
-            is_stuck |= wheel.stood >= STUCK_FOR;
+            is_stuck |= wheel.stood >= STUCK_FOR && wheel.owed >= STUCK_OWES;
         }
         is_stuck
     }

@@ -23,7 +23,7 @@ const HALF_STEP: f64 = 0.5 * DEGREE;
 
 /// Standard deviation of a gyro's reading beside its resolution, in radians; with
 /// that of the encoders, with which it is compared.
-const GYRO_ERROR: f64 = 0.35 * DEGREE;
+const GYRO_ERROR: f64 = 0.28 * DEGREE;
 
 /// How far in time readings of gyro and wheels may lie apart, in seconds.
 const LAG: f64 = 0.01;
@@ -33,6 +33,10 @@ const READ_EVERY: f64 = 0.1;
 
 /// The same as a way in cm and a turn in radians.
 const READ_AFTER: f64 = 0.25;
+
+/// The time, in seconds, for which the covariance may lag behind the pose. Its
+/// arithmetic is most of the filter's, and the brick's processor does it in software.
+const SETTLE_EVERY: f64 = 0.03;
 
 /// Variance of a wheel's way for each cm, in cm²: 2 mm after a metre.
 const WHEEL_VARIANCE: f64 = 0.0004;
@@ -154,6 +158,28 @@ pub struct Estimate {
     still: f64,
     /// Time, way and turn since the last reading of the gyro that counted.
     unread: [f64; 3],
+    unsettled: Unsettled,
+}
+
+/// What is in the state, but not in the covariance yet: time, the ways of the wheels,
+/// how far they rolled and the robot turned in all, and whether they started to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Unsettled {
+    seconds: f64,
+    ways: [f64; 2],
+    rolled: f64,
+    turned: f64,
+    starts: bool,
+}
+
+/// An arc: its turn by the wheels alone and with the error of the axle; its chord,
+/// and sine and cosine of the chord's heading.
+struct Arc {
+    by_wheels: f64,
+    turn: f64,
+    chord: f64,
+    sin: f64,
+    cos: f64,
 }
 
 impl Default for Estimate {
@@ -173,6 +199,7 @@ impl Estimate {
             rest: Rest::default(),
             still: STILL,
             unread: [0.0; 3],
+            unsettled: Unsettled::default(),
         };
         estimate.covariance[RATE][RATE] = DRIFT * DRIFT;
         estimate.begin_rest();
@@ -188,6 +215,7 @@ impl Estimate {
         self.state[Y] = pose.y;
         self.state[HEADING] = pose.heading.to_radians();
         self.state[ZERO] -= turned;
+        self.unsettled = Unsettled::default();
         self.reset_certainty([X, Y, HEADING]);
     }
 
@@ -234,52 +262,86 @@ impl Estimate {
     /// The prediction step: the wheels have rolled `ways` cm within `seconds`.
     pub fn predict(&mut self, wheels: &Wheels, ways: [f64; 2], seconds: f64) {
         self.state[ZERO] += self.state[RATE] * seconds;
-        self.drift_on(seconds);
         self.unread[0] += seconds;
+        self.unsettled.seconds += seconds;
         if ways == [0.0, 0.0] {
             self.still += seconds;
-            return;
+        } else {
+            self.roll(wheels, ways);
         }
-        let starts = std::mem::replace(&mut self.still, 0.0) >= STILL;
-        let [left, right] = ways;
-        let [.., left_error, right_error, axle_error, _, _] = self.state;
-        let (way, by_wheels) =
-            wheels.twist([left * (1.0 + left_error), right * (1.0 + right_error)]);
-        let stretch = 1.0 + axle_error;
-        let turn = by_wheels * stretch;
-        let middle = self.state[HEADING] + turn / 2.0;
-        let chord = way * sinc(turn / 2.0);
-        let (sin, cos) = middle.sin_cos();
+        if self.unsettled.seconds >= SETTLE_EVERY {
+            self.settle(wheels);
+        }
+    }
+
+    fn roll(&mut self, wheels: &Wheels, ways: [f64; 2]) {
+        let Arc { turn, chord, sin, cos, .. } = self.arc(self.state[HEADING], wheels, ways);
         self.state[X] += chord * sin;
         self.state[Y] += chord * cos;
         self.state[HEADING] += turn;
-        self.unread[1] += way.abs();
+        let rolled = ways.map(f64::abs);
+        self.unread[1] += f64::midpoint(rolled[0], rolled[1]);
         self.unread[2] += turn.abs();
+        let unsettled = &mut self.unsettled;
+        unsettled.starts |= std::mem::replace(&mut self.still, 0.0) >= STILL;
+        unsettled.rolled += rolled[0] + rolled[1];
+        unsettled.turned += turn.abs();
+        for side in 0..2 {
+            unsettled.ways[side] += ways[side];
+        }
+    }
+
+    /// The arc along which the robot goes from a heading.
+    fn arc(&self, heading: f64, wheels: &Wheels, [left, right]: [f64; 2]) -> Arc {
+        let stretched = [left + left * self.state[LEFT], right + right * self.state[RIGHT]];
+        let (way, by_wheels) = wheels.twist(stretched);
+        let turn = by_wheels + by_wheels * self.state[AXLE];
+        let (sin, cos) = (heading + turn / 2.0).sin_cos();
+        Arc { by_wheels, turn, chord: way * sinc(turn / 2.0), sin, cos }
+    }
+
+    /// Brings the covariance up to date with the state, as if what was rolled since
+    /// the last time was one arc.
+    fn settle(&mut self, wheels: &Wheels) {
+        let Unsettled { seconds, ways, rolled, turned, starts } =
+            std::mem::take(&mut self.unsettled);
+        self.propagate(&[(ZERO, RATE, seconds)]);
+        self.covariance[RATE][RATE] += DRIFT_CHANGE * seconds;
+        if rolled == 0.0 {
+            return;
+        }
+        let before = self.state[HEADING] - wheels.twist(ways).1;
+        let Arc { by_wheels, chord, sin, cos, .. } = self.arc(before, wheels, ways);
         // How the new place depends on the old heading, and on each error by
         // how much way and turn depend on it.
         let (dx, dy) = (chord * cos, -chord * sin);
-        self.propagate(&[(X, HEADING, dx), (Y, HEADING, dy)]);
-        let per_axle = stretch / wheels.axle;
-        for (error, of_way, of_turn) in [
-            (LEFT, left / 2.0, left * per_axle),
-            (RIGHT, right / 2.0, -right * per_axle),
-            (AXLE, 0.0, by_wheels),
-        ] {
-            let of_x = of_way * sin + of_turn * dx / 2.0;
-            let of_y = of_way * cos + of_turn * dy / 2.0;
-            self.propagate(&[(X, error, of_x), (Y, error, of_y), (HEADING, error, of_turn)]);
-        }
+        let (half_dx, half_dy) = (dx / 2.0, dy / 2.0);
+        let [half_left, half_right] = ways.map(|way| way / 2.0);
+        let per_axle = (1.0 + self.state[AXLE]) / wheels.axle;
+        let (of_left, of_right) = (ways[0] * per_axle, -ways[1] * per_axle);
+        self.propagate(&[
+            (X, HEADING, dx),
+            (X, LEFT, half_left * sin + of_left * half_dx),
+            (X, RIGHT, half_right * sin + of_right * half_dx),
+            (X, AXLE, by_wheels * half_dx),
+            (Y, HEADING, dy),
+            (Y, LEFT, half_left * cos + of_left * half_dy),
+            (Y, RIGHT, half_right * cos + of_right * half_dy),
+            (Y, AXLE, by_wheels * half_dy),
+            (HEADING, LEFT, of_left),
+            (HEADING, RIGHT, of_right),
+            (HEADING, AXLE, by_wheels),
+        ]);
         // The noise of a step: along the path, and of the turn, half of which
         // shifts the position.
-        let rolled = left.abs() + right.abs();
         let start = if starts { START * START } else { 0.0 };
         let along = WHEEL_VARIANCE * rolled / 4.0 + start / 2.0;
-        let turned = HEADING_VARIANCE * rolled / 2.0
-            + TURN_VARIANCE * turn.abs()
+        let of_turn = HEADING_VARIANCE * rolled / 2.0
+            + TURN_VARIANCE * turned
             + 2.0 * start / (wheels.axle * wheels.axle);
         self.inflate([sin, cos, 0.0], along);
-        self.inflate([dx / 2.0, dy / 2.0, 1.0], turned);
-        self.covariance[AXLE][AXLE] += AXLE_CHANGE * turn.abs();
+        self.inflate([half_dx, half_dy, 1.0], of_turn);
+        self.covariance[AXLE][AXLE] += AXLE_CHANGE * turned;
     }
 
     /// The measurement step: the gyro shows `angle` degrees.
@@ -291,6 +353,9 @@ impl Estimate {
             return;
         }
         let [seconds, way, turn] = self.unread;
+        if self.unsettled.seconds > 0.0 {
+            return;
+        }
         if seconds < READ_EVERY && way < READ_AFTER && turn < HALF_STEP {
             return;
         }
@@ -312,9 +377,10 @@ impl Estimate {
         for (state, weight) in self.state.iter_mut().zip(row) {
             *state += weight * shift;
         }
-        for (i, line) in self.covariance.iter_mut().enumerate() {
-            for (j, value) in line.iter_mut().enumerate() {
-                *value -= row[i] * row[j] * certainty;
+        for (i, weight) in row.into_iter().enumerate() {
+            let weight = weight * certainty;
+            for (j, other) in row.into_iter().enumerate().skip(i) {
+                self.add(i, j, -weight * other);
             }
         }
     }
@@ -380,34 +446,41 @@ impl Estimate {
         }
     }
 
-    fn drift_on(&mut self, seconds: f64) {
-        self.propagate(&[(ZERO, RATE, seconds)]);
-        let drift = &mut self.covariance[RATE][RATE];
-        *drift += DRIFT_CHANGE * seconds;
-    }
-
-    /// Covariance after `to += factor * from` in the state; no `from` may be a
-    /// `to`.
+    /// Covariance after `to += factor * from` in the state, with the factors in the
+    /// order of `to`. A `from` that is a `to` itself means its old value.
     fn propagate(&mut self, changes: &[(usize, usize, f64)]) {
         for &(to, from, factor) in changes {
-            for other in 0..STATES {
-                self.covariance[to][other] += factor * self.covariance[from][other];
+            let added = self.covariance[from];
+            for (value, other) in self.covariance[to].iter_mut().zip(added) {
+                *value += factor * other;
             }
         }
-        for &(to, from, factor) in changes {
-            for line in &mut self.covariance {
-                line[to] += factor * line[from];
+        for changed in changes.chunk_by(|one, next| one.0 == next.0) {
+            let row = changed[0].0;
+            // The columns of earlier rows are those rows.
+            for &(to, from, factor) in changes.iter().filter(|change| change.0 >= row) {
+                self.covariance[row][to] += factor * self.covariance[row][from];
+            }
+            for other in 0..STATES {
+                self.covariance[other][row] = self.covariance[row][other];
             }
         }
     }
 
     /// Adds an error of that variance in a direction of the pose.
     fn inflate(&mut self, direction: [f64; 3], variance: f64) {
-        for (line, a) in self.covariance.iter_mut().zip(direction) {
-            for (value, b) in line.iter_mut().zip(direction) {
-                *value += a * b * variance;
+        for (i, a) in direction.into_iter().enumerate() {
+            for (j, b) in direction.into_iter().enumerate().skip(i) {
+                self.add(i, j, a * b * variance);
             }
         }
+    }
+
+    /// Adds to a covariance of two states.
+    fn add(&mut self, i: usize, j: usize, value: f64) {
+        let sum = self.covariance[i][j] + value;
+        self.covariance[i][j] = sum;
+        self.covariance[j][i] = sum;
     }
 }
 
@@ -422,8 +495,8 @@ fn within(off: f64, deviation: f64) -> (f64, f64) {
     if high < -3.0 {
         return (high * deviation, 0.0);
     }
-    let share = normal_below(high) - normal_below(low);
     let (at_low, at_high) = (normal_at(low), normal_at(high));
+    let share = normal_below(high, at_high) - normal_below(low, at_low);
     let mean = (at_low - at_high) / share;
     let variance = 1.0 + (low * at_low - high * at_high) / share - mean * mean;
     (mean * deviation, variance.clamp(0.0, 1.0))
@@ -431,15 +504,17 @@ fn within(off: f64, deviation: f64) -> (f64, f64) {
 
 /// The density of the standard normal distribution.
 fn normal_at(x: f64) -> f64 {
-    (-x * x / 2.0).exp() / std::f64::consts::TAU.sqrt()
+    /// 1 / √(2π)
+    const PEAK: f64 = std::f64::consts::FRAC_2_SQRT_PI * std::f64::consts::FRAC_1_SQRT_2 / 2.0;
+    PEAK * (-x * x / 2.0).exp()
 }
 
-/// The standard normal distribution; off by less than 1e-7 (Abramowitz and
-/// Stegun, Handbook of Mathematical Functions, 26.2.17).
-fn normal_below(x: f64) -> f64 {
+/// The standard normal distribution, given its density; off by less than 1e-7
+/// (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17).
+fn normal_below(x: f64, density: f64) -> f64 {
     const TERMS: [f64; 5] =
         [1.330_274_429, -1.821_255_978, 1.781_477_937, -0.356_563_782, 0.319_381_530];
     let t = 1.0 / (1.0 + 0.231_641_9 * x.abs());
-    let tail = normal_at(x) * t * TERMS.iter().fold(0.0, |sum, term| sum * t + term);
+    let tail = density * t * TERMS.iter().fold(0.0, |sum, term| sum * t + term);
     if x < 0.0 { tail } else { 1.0 - tail }
 }
