@@ -3,7 +3,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
-use ev3_driver::{Class, Devfs, Device, Registry, Value};
+use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -35,18 +35,37 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
     /// one.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
-        if let Some(devices) = state::chosen_devices() {
-            return Ok(devices);
+        if state::chosen_devices().is_none() {
+            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+            state::chosen();
         }
-        self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
-        state::chosen();
-        Ok(state::devices())
+        let devices = state::devices();
+        self.wait_for(|about| devices.tree().turn(about))?;
+        Ok(devices)
+    }
+
+    /// Waits until `is_turn`, which says so within 20 ms, and handles signals meanwhile.
+    pub(crate) fn wait_for(
+        &self,
+        mut is_turn: impl FnMut(&mut dyn FnMut() -> String) -> bool,
+    ) -> PrologResult<()> {
+        let mut about = || format!("{}/{}", self.name, self.arity);
+        let mut interrupted = self.interrupted();
+        while !is_turn(&mut about) {
+            if interrupted() {
+                return self.or_throw(Err(Error::Interrupted));
+            }
+        }
+        Ok(())
     }
 
     /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog
     /// to choose.
     pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
-        if !state::is_dev_chosen() {
+        if state::is_dev_chosen() {
+            let devices = state::devices();
+            self.wait_for(|about| devices.tree().turn(about))?;
+        } else {
             self.devices()?;
         }
         Ok(state::dev())

@@ -45,8 +45,6 @@ pub(crate) fn register() {
     register_sim_show();
     register_sim_unshow();
     register_sim_wait();
-    register_sim_hold();
-    register_sim_release();
     register_sim_remote();
     register_sim_step();
     register_sim_time();
@@ -131,15 +129,17 @@ predicates! {
     /// sim_active_
     #[module("ev3dev_native")]
     #[name("sim_active_")]
-    semidet fn sim_active(_context) {
-        simulation().map(drop)
+    semidet fn sim_active(context) {
+        let call = Call::of(context, "sim_active", 0);
+        simulation(&call).map(drop)
     }
 
     /// sim_pose_(-X, -Y, -Heading)
     #[module("ev3dev_native")]
     #[name("sim_pose_")]
-    semidet fn sim_pose(_context, x, y, heading) {
-        let pose = simulation()?.machine().pose();
+    semidet fn sim_pose(context, x, y, heading) {
+        let call = Call::of(context, "sim_pose", 3);
+        let pose = simulation(&call)?.machine().pose();
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -151,7 +151,7 @@ predicates! {
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
         let pose = facts::pose(&call, [x, y, heading])?;
-        let placed = simulation()?.machine().place(pose);
+        let placed = simulation(&call)?.machine().place(pose);
         possible(&call, placed)
     }
 
@@ -165,7 +165,7 @@ predicates! {
             Some(_) => return wrong_value(&call, "world_item", term),
             None => return wrong_value(&call, "world_or_robot_fact", term),
         };
-        let added = simulation()?.machine().add_item(item);
+        let added = simulation(&call)?.machine().add_item(item);
         id.unify(i64::from(possible(&call, added)?.0))
     }
 
@@ -173,9 +173,10 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_remove_")]
     semidet fn sim_remove(context, id) {
-        let id = Call::of(context, "sim_remove", 1).integer(id)?;
+        let call = Call::of(context, "sim_remove", 1);
+        let id = call.integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
-        into_prolog_result(simulation()?.machine().remove_item(ItemId(id)))
+        into_prolog_result(simulation(&call)?.machine().remove_item(ItemId(id)))
     }
 
     /// sim_plug_(+Port, +Type)
@@ -184,7 +185,7 @@ predicates! {
     semidet fn sim_plug(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
         let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
-        let plugged = simulation()?.machine().plug(port, &kind);
+        let plugged = simulation(&call)?.machine().plug(port, &kind);
         possible(&call, plugged)
     }
 
@@ -192,17 +193,19 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_unplug_")]
     semidet fn sim_unplug(context, port) {
-        let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
-        into_prolog_result(simulation()?.machine().unplug(port))
+        let call = Call::of(context, "sim_unplug", 1);
+        let port = port_of(&call, port)?;
+        into_prolog_result(simulation(&call)?.machine().unplug(port))
     }
 
     /// sim_jam_(+Port, +Bool)
     #[module("ev3dev_native")]
     #[name("sim_jam_")]
     semidet fn sim_jam(context, port, fast) {
-        let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
+        let call = Call::of(context, "sim_jam", 2);
+        let port = port_of(&call, port)?;
         let fast = fast.get_ex()?;
-        simulation()?.machine().jam(port, fast);
+        simulation(&call)?.machine().jam(port, fast);
         Ok(())
     }
 
@@ -212,7 +215,7 @@ predicates! {
     semidet fn sim_show(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
         let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
-        let simulation = simulation()?;
+        let simulation = simulation(&call)?;
         let shown = simulation.machine().show(port, &name, &line);
         simulation.shared().wake();
         shown.or_else(|errno| cannot_show(&call, errno, attribute, text))
@@ -224,7 +227,7 @@ predicates! {
     semidet fn sim_unshow(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
         let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
-        let simulation = simulation()?;
+        let simulation = simulation(&call)?;
         let was_shown = simulation.machine().unshow(port, &name);
         simulation.shared().wake();
         match was_shown {
@@ -241,24 +244,8 @@ predicates! {
         let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation()?)));
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(&call)?)));
         call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
-    }
-
-    /// sim_hold_
-    #[module("ev3dev_native")]
-    #[name("sim_hold_")]
-    semidet fn sim_hold(_context) {
-        simulation()?.hold();
-        Ok(())
-    }
-
-    /// sim_release_
-    #[module("ev3dev_native")]
-    #[name("sim_release_")]
-    semidet fn sim_release(_context) {
-        simulation()?.release();
-        Ok(())
     }
 
     /// sim_remote_(+Channel, +Buttons)
@@ -267,7 +254,7 @@ predicates! {
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
-        match simulation()?.machine().hold_buttons(channel, &held) {
+        match simulation(&call)?.machine().hold_buttons(channel, &held) {
             Ok(()) => Ok(()),
             Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
         }
@@ -281,7 +268,7 @@ predicates! {
         let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let (simulation, mut interrupted) = (simulation()?, call.interrupted());
+        let (simulation, mut interrupted) = (simulation(&call)?, call.interrupted());
         while !left.is_zero() {
             let slice = left.min(STEP_SLICE);
             simulation.step(slice);
@@ -296,15 +283,17 @@ predicates! {
     /// sim_time_(-Seconds)
     #[module("ev3dev_native")]
     #[name("sim_time_")]
-    semidet fn sim_time(_context, seconds) {
-        seconds.unify(simulation()?.machine().now().as_secs_f64())
+    semidet fn sim_time(context, seconds) {
+        let call = Call::of(context, "sim_time", 1);
+        seconds.unify(simulation(&call)?.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
     #[module("ev3dev_native")]
     #[name("sim_snapshot_")]
-    semidet fn sim_snapshot(_context, snapshot) {
-        let machine = simulation()?.machine().clone();
+    semidet fn sim_snapshot(context, snapshot) {
+        let call = Call::of(context, "sim_snapshot", 1);
+        let machine = simulation(&call)?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
@@ -318,10 +307,11 @@ predicates! {
     /// sim_restore_(+Snapshot)
     #[module("ev3dev_native")]
     #[name("sim_restore_")]
-    semidet fn sim_restore(_context, snapshot) {
+    semidet fn sim_restore(context, snapshot) {
+        let call = Call::of(context, "sim_restore", 1);
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        simulation()?.machine().restore(machine);
+        simulation(&call)?.machine().restore(machine);
         devices().forget_listings();
         Ok(())
     }
@@ -330,7 +320,8 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_collisions_")]
     semidet fn sim_collisions(context, collisions) {
-        let seen: Vec<_> = simulation()?.machine().trace().collisions().copied().collect();
+        let call = Call::of(context, "sim_collisions", 1);
+        let seen: Vec<_> = simulation(&call)?.machine().trace().collisions().copied().collect();
         let terms = seen.iter().map(|collision| {
             let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
             term! {context: collision(#at, #pose.x, #pose.y, #pose.heading)}
@@ -343,7 +334,8 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
-        let seen = simulation()?.machine().trace().clone();
+        let call = Call::of(context, "sim_trace", 1);
+        let seen = simulation(&call)?.machine().trace().clone();
         let poses = seen.path().map(|(at, pose)| {
             let seconds = at.as_secs_f64();
             let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
@@ -373,8 +365,9 @@ predicates! {
     /// sim_svg_(-Text)
     #[module("ev3dev_native")]
     #[name("sim_svg_")]
-    semidet fn sim_svg(_context, text) {
-        let picture = simulation()?.machine().svg();
+    semidet fn sim_svg(context, text) {
+        let call = Call::of(context, "sim_svg", 1);
+        let picture = simulation(&call)?.machine().svg();
         unify_atom(text, &picture)
     }
 
@@ -384,7 +377,7 @@ predicates! {
     semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
         let dev = (!dev.is_var()).then_some(dev);
-        mount::mount(&call, &simulation()?.shared(), classes, dev)
+        mount::mount(&call, &simulation(&call)?.shared(), classes, dev)
     }
 
     /// sim_unmount_

@@ -8,6 +8,7 @@ use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tr
 use ev3_sim::{Clock, Machine, Simulation};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use swipl::fli::has_other_threads;
 use swipl::prelude::*;
 
 static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
@@ -23,11 +24,20 @@ fn running() -> MutexGuard<'static, Option<Running>> {
 }
 
 /// The running simulation; fails if there is none.
-pub(super) fn simulation() -> PrologResult<Arc<Simulation>> {
+fn current() -> PrologResult<Arc<Simulation>> {
     match &*running() {
         Some(running) => Ok(Arc::clone(&running.simulation)),
         None => Err(PrologError::Failure),
     }
+}
+
+/// The running simulation, in which it is this thread's turn; fails if there is none.
+pub(super) fn simulation<C: QueryableContextType>(
+    call: &Call<C>,
+) -> PrologResult<Arc<Simulation>> {
+    let simulation = current()?;
+    call.wait_for(|about| simulation.turn(about))?;
+    Ok(simulation)
 }
 
 /// Starts a simulation and ends the running one.
@@ -36,7 +46,7 @@ pub(super) fn start<C: QueryableContextType>(
     machine: Machine,
     clock: Clock,
 ) -> PrologResult<()> {
-    let simulation = match Simulation::new(machine, clock) {
+    let simulation = match Simulation::new(machine, clock, has_other_threads) {
         Ok(simulation) => Arc::new(simulation),
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
@@ -53,7 +63,7 @@ pub(super) fn start<C: QueryableContextType>(
 
 /// Ends the simulation and goes back to the directories before it; fails if there is none.
 pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
-    simulation()?;
+    simulation(call)?;
     mount::end();
     let ended = running().take().ok_or(PrologError::Failure)?;
     let [files, dev] = ended.before.clone();
