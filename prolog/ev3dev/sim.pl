@@ -13,6 +13,7 @@
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
+:- use_module(private/turn, []).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- reexport(sim_time).

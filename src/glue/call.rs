@@ -49,14 +49,30 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         &self,
         mut is_turn: impl FnMut(&mut dyn FnMut() -> String) -> bool,
     ) -> PrologResult<()> {
-        let mut about = || format!("{}/{}", self.name, self.arity);
         let mut interrupted = self.interrupted();
-        while !is_turn(&mut about) {
+        loop {
+            let mut asked = Ok(());
+            let is_over = is_turn(&mut || {
+                self.about().unwrap_or_else(|error| {
+                    asked = Err(error);
+                    String::new()
+                })
+            });
+            asked?;
+            if is_over {
+                return Ok(());
+            }
             if interrupted() {
                 return self.or_throw(Err(Error::Interrupted));
             }
         }
-        Ok(())
+    }
+
+    /// What this thread is about to do.
+    fn about(&self) -> PrologResult<String> {
+        let text = self.context.new_term_ref();
+        self.context.call_once(pred!("ev3dev_turn:about/1"), [&text])?;
+        text.get()
     }
 
     /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog

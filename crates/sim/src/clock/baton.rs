@@ -46,7 +46,18 @@ struct Client {
     id: Id,
     thread: Thread,
     place: Place,
-    stands: Option<Until>,
+    /// Since when it has waited for its turn, if that is what it did last.
+    begun: Option<Duration>,
+    stands: Option<Stand>,
+}
+
+/// When a thread in line goes on.
+#[derive(Debug)]
+struct Stand {
+    /// The moment of simulated time. A newcomer waits for none.
+    moment: Option<Duration>,
+    /// Not before this, by the wall clock.
+    wall: Option<Instant>,
 }
 
 /// Who goes first of those that wait for the same moment.
@@ -60,21 +71,14 @@ enum Place {
 }
 
 /// What a thread in line waits for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Until {
-    /// The moment of simulated time. A newcomer waits for none.
-    pub(super) moment: Option<Duration>,
-    /// Not before this, by the wall clock.
-    pub(super) wall: Option<Instant>,
-}
-
-impl Until {
-    /// As soon as possible.
-    pub(super) const AT_ONCE: Self = Self { moment: None, wall: None };
-
-    pub(super) const fn moment(moment: Duration) -> Self {
-        Self { moment: Some(moment), wall: None }
-    }
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Wish {
+    /// Its turn, since this moment of simulated time. A newcomer goes before the others.
+    Turn(Duration),
+    /// A moment of simulated time.
+    Moment(Duration),
+    /// The same, but not before this by the wall clock.
+    NotBefore(Duration, Instant),
 }
 
 impl Baton {
@@ -94,7 +98,7 @@ impl Baton {
     /// `about` says what the thread is about to do; a newcomer is asked.
     pub(super) fn stand(
         &self,
-        until: Until,
+        wish: Wish,
         about: &mut dyn FnMut() -> String,
         patience: Duration,
     ) -> bool {
@@ -104,7 +108,7 @@ impl Baton {
         if self.is_mine() {
             self.holder.store(0, Ordering::SeqCst);
         }
-        line.join(me, about, until);
+        line.join(me, about, wish);
         loop {
             self.pass(&mut line);
             if self.is_mine() {
@@ -125,9 +129,10 @@ impl Baton {
         }
     }
 
-    /// Whether another thread stands in line.
+    /// Whether another thread stands in line, now that it is this thread's turn.
     pub(super) fn is_wanted(&self) -> bool {
-        self.line().first().is_some()
+        // One that handles signals just now keeps its place.
+        self.line().clients.len() > 1
     }
 
     /// Passes the baton on to the first in line, if everyone else rests.
@@ -139,7 +144,7 @@ impl Baton {
         let Some(first) = line.first() else {
             return;
         };
-        if first.stands.and_then(|until| until.wall).is_some_and(|wall| Instant::now() < wall) {
+        if first.stands.as_ref().and_then(|stand| stand.wall).is_some_and(|wall| Instant::now() < wall) {
             return;
         }
         let (id, thread) = (first.id, first.thread.clone());
@@ -172,14 +177,24 @@ impl Baton {
 }
 
 impl Line {
-    fn join(&mut self, id: Id, about: String, until: Until) {
-        let stands = Some(until);
-        if let Some(client) = self.client(id) {
-            client.stands = stands;
-        } else {
+    fn join(&mut self, id: Id, about: String, wish: Wish) {
+        if self.client(id).is_none() {
             let (thread, place) = (thread::current(), Place::New(about));
-            self.clients.push(Client { id, thread, place, stands });
+            self.clients.push(Client { id, thread, place, begun: None, stands: None });
         }
+        let Some(client) = self.client(id) else {
+            return;
+        };
+        let (moment, wall) = match wish {
+            Wish::Turn(_) if matches!(client.place, Place::New(_)) => (None, None),
+            Wish::Turn(now) => (Some(*client.begun.get_or_insert(now)), None),
+            Wish::Moment(moment) => (Some(moment), None),
+            Wish::NotBefore(moment, wall) => (Some(moment), Some(wall)),
+        };
+        if !matches!(wish, Wish::Turn(_)) {
+            client.begun = None;
+        }
+        client.stands = Some(Stand { moment, wall });
     }
 
     fn take(&mut self, id: Id) {
@@ -187,6 +202,7 @@ impl Line {
         self.turns += 1;
         if let Some(client) = self.client(id) {
             client.stands = None;
+            client.begun = None;
             if matches!(client.place, Place::New(_)) {
                 client.place = Place::Since(turn);
             }
@@ -210,7 +226,7 @@ impl Line {
 
     /// By the moment, then the place, then the age.
     fn order<'a>(&self, client: &'a Client) -> impl Ord + use<'a> {
-        let moment = client.stands.and_then(|until| until.moment);
+        let moment = client.stands.as_ref().and_then(|stand| stand.moment);
         (moment, &client.place, self.threads.age(client.id))
     }
 

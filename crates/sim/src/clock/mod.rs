@@ -24,7 +24,7 @@ use std::sync::{Arc, MutexGuard};
 use std::time::{Duration, Instant};
 
 use self::acts::PeriodicActs;
-use self::baton::{Baton, Until};
+use self::baton::{Baton, Wish};
 use self::wall::{STEP, Stepper};
 use crate::machine::Machine;
 use crate::shared::Shared;
@@ -118,11 +118,8 @@ impl Simulation {
         }
         let mut takes = Duration::ZERO;
         if !baton.is_mine() || has_others() {
-            let until = match baton.is_mine() {
-                true => Until::moment(self.machine().now()),
-                false => Until::AT_ONCE,
-            };
-            if !baton.stand(until, about, SLICE) {
+            let wish = Wish::Turn(self.machine().now());
+            if !baton.stand(wish, about, SLICE) {
                 return false;
             }
             if baton.is_wanted() {
@@ -154,7 +151,8 @@ impl Simulation {
         }
         // Who comes without a turn, as at the end of the program, waits, but not for ever.
         if !baton.is_mine() {
-            baton.stand(Until::AT_ONCE, &mut String::new, SLICE);
+            let wish = Wish::Turn(self.machine().now());
+            baton.stand(wish, &mut String::new, SLICE);
         }
         let mut machine = self.shared.lock();
         machine.step(takes);
@@ -202,9 +200,9 @@ impl Simulation {
         match &self.pace {
             Pace::Wall { .. } => self.pause_by_wall(end, is_done),
             Pace::Virtual { baton, has_others } => {
-                let until = Until { moment: Some(end), wall };
+                let wish = wall.map_or(Wish::Moment(end), |wall| Wish::NotBefore(end, wall));
                 let is_alone = baton.is_mine() && wall.is_none() && !has_others();
-                if !is_alone && !baton.stand(until, &mut String::new, SLICE) {
+                if !is_alone && !baton.stand(wish, &mut String::new, SLICE) {
                     return false;
                 }
                 let machine = self.shared.lock();
