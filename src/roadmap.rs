@@ -5,8 +5,8 @@ use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::places::{place, place_term, places, places_term};
 use crate::glue::terms::unify_atom;
 use ev3_roadmap::{
-    Bounds, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution, is_in_range,
-    plan, svg,
+    Bounds, FARTHEST, Fault, Map, Method, NoWay, Obstacle, Options, Path, Segment, Solution,
+    is_in_range, plan, svg,
 };
 use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
@@ -52,7 +52,8 @@ fn solve<'a, C: QueryableContextType>(
     let (from, to) = (place(call, start)?, place(call, goal)?);
     for (at, term) in [(from, start), (to, goal)] {
         if !at.into_iter().all(is_in_range) {
-            return wrong_because(call, "place", term, "has a number beyond 1000000");
+            let why = format!("has a number beyond {FARTHEST}");
+            return wrong_because(call, "place", term, &why);
         }
     }
     let found = plan(&map, from, to, &options);

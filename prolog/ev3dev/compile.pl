@@ -3,8 +3,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled,
-              [ contents/2, index_file/1, pack_folder/1, source_time/2,
-                this_prolog/1, use_sources/0 ]).
+              [ contents/2, index_file/1, pack_folder/1, read_index/2,
+                source_time/2, this_prolog/1, use_sources/0 ]).
 
 /** <module> Compile the pack where it is installed
 
@@ -137,10 +137,7 @@ replace_index(Index, New, Term) :-
 
 old_folder(Index, Old) :-
     exists_file(Index),
-    setup_call_cleanup(
-        open(Index, read, In, [encoding(utf8)]),
-        read_term(In, index(_, _, [unit(Unit, _, _, _)|_]), []),
-        close(In)),
+    read_index(Index, index(_, _, [unit(Unit, _, _, _)|_])),
     file_directory_name(Unit, Old),
     file_directory_name(Index, Folder),
     file_directory_name(Old, Folder).

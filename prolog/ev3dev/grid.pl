@@ -207,7 +207,8 @@ ended(Reason, Options, Goal) :-
 %!  execute_plan(+Plan) is semidet.
 %
 %   Carry out the actions of a plan, `move`, `left` and `right`, from where
-%   the robot is. Waits. Fails at the first that is not possible: there is an
+%   the robot is. Plans of the paper do, too: `move_if_free`, `turn_left`,
+%   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not possible: there is an
 %   obstacle, which is noted, or the edge of the map, or any other reason of
 %   plan_and_go_to/3; state_position/2 tells how far the robot has come.
 %
@@ -215,12 +216,29 @@ ended(Reason, Options, Goal) :-
 
 execute_plan(Plan) :-
     must_be(list, Plan),
-    carry_out(Plan, nobody, Outcome),
+    plan_actions(Plan, Actions),
+    carry_out(Actions, nobody, Outcome),
     (   Outcome == done
     ->  true
     ;   explain("the plan was broken off: ~w", [Outcome]),
         fail
     ).
+
+plan_actions([], []).
+plan_actions([Last], []) :-
+    Last == fin,
+    !.
+plan_actions([Action0|Plan], [Action|Actions]) :-
+    (   nonvar(Action0),
+        paper_action(Action0, Action)
+    ->  true
+    ;   Action = Action0
+    ),
+    plan_actions(Plan, Actions).
+
+paper_action(move_if_free, move).
+paper_action(turn_left, left).
+paper_action(turn_right, right).
 
 :- multifile prolog:message//1.
 

@@ -169,9 +169,13 @@ go(Speed) :-
     robot_set(_, _, Left, Right),
     evaluated(Speed, Percent),
     moves(Percent),
+    wheels_run(Left, Percent, Right, Percent).
+
+%   Run the wheels at these percentages of the motors' highest speed.
+wheels_run(Left, LeftPercent0, Right, RightPercent0) :-
     forwards(LS, RS),
-    directed(LS, Percent, LeftPercent),
-    directed(RS, Percent, RightPercent),
+    directed(LS, LeftPercent0, LeftPercent),
+    directed(RS, RightPercent0, RightPercent),
     motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
 
 %!  go(+Speed, +Angle) is semidet.
@@ -210,11 +214,8 @@ go_cm(Speed, Distance) :-
 turn(Speed) :-
     robot_set(_, _, Left, Right),
     evaluated(Speed, Percent),
-    forwards(LS, RS),
     Reverse is -Percent,
-    directed(LS, Percent, LeftPercent),
-    directed(RS, Reverse, RightPercent),
-    motors_run([run(Left, LeftPercent), run(Right, RightPercent)]).
+    wheels_run(Left, Percent, Right, Reverse).
 
 %!  turn(+Speed, +Angle) is semidet.
 %

@@ -183,9 +183,15 @@ col_color(Port, Color) :-
 %!  col_rgb_raw(?Port, -Red, -Green, -Blue) is nondet.
 %
 %   True if the color sensor measures Red, Green and Blue, each from 0 to 1023
-%   and not calibrated. RGB is the term `rgb(Red, Green, Blue)`.
+%   and not calibrated. RGB is the term `rgb(Red, Green, Blue)`; a list
+%   `[Red, Green, Blue]` in its place is unified, too.
 
-col_rgb_raw(Port, rgb(Red, Green, Blue)) :-
+col_rgb_raw(Port, RGB) :-
+    (   nonvar(RGB),
+        RGB = [Red, Green, Blue]
+    ->  true
+    ;   RGB = rgb(Red, Green, Blue)
+    ),
     col_rgb_raw(Port, Red, Green, Blue).
 
 col_rgb_raw(Port, Red, Green, Blue) :-

@@ -51,12 +51,11 @@ pub(super) fn start<C: QueryableContextType>(
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
     mount::end();
-    let ended = running().take();
-    let before = match &ended {
-        Some(ended) => ended.before.clone(),
-        None => [devices().tree().root().to_owned(), dev().root().to_owned()],
-    };
-    *running() = Some(Running { simulation: Arc::clone(&simulation), before });
+    let before = running().as_ref().map(|running| running.before.clone());
+    let before =
+        before.unwrap_or_else(|| [devices().tree().root().to_owned(), dev().root().to_owned()]);
+    let ended = running().replace(Running { simulation: Arc::clone(&simulation), before });
+    drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }

@@ -48,7 +48,7 @@ test(nothing_can_be_done_without_a_robot,
                               pose(_, _, _), set_pose(0, 0, 0),
                               pose_uncertainty(_), drive_wait([], _),
                               calibrate(axle, [], _) ]) )), true(W == [])]) :-
-    with_tree(plain, ( retractall(ev3dev_robot_state:robot(_, _, _, _)),
+    with_tree(plain, ( retractall(ev3dev_robot_state:described(_, _, _)),
                        \+ Goal,
                        written(W) )).
 test(a_missing_motor_fails_and_writes_nothing,

@@ -529,6 +529,12 @@ test(carries_it_out, Cell-Direction == [1,1]-[1,0]) :-
     near(X, 20, 1),
     near(Y, 20, 1),
     near(Heading, 90, 2).
+test(carries_out_plans_of_the_paper, Cell-Direction == [1,1]-[0,1]) :-
+    in_room([], ( execute_plan([ move_if_free, turn_right, move_if_free,
+                                 turn_left, fin ]),
+                  state_position(Cell, Direction) )).
+test(fin_is_the_end, error(domain_error(grid_action, fin), _)) :-
+    in_room([], execute_plan([fin, move])).
 test(turns_in_one_go, Direction == [0,-1]) :-
     in_room([], ( execute_plan([left, left, right, left]),
                   state_position(_, Direction) )).

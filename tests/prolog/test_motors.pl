@@ -90,7 +90,7 @@ test(what_is_missing_is_told,
                          -"outA and outB are not two motors of one type",
                          go(20)-"no robot is set: see set_robot/4",
                          stop-"no robot is set: see set_robot/4" ]) )),
-       setup(retractall(ev3dev_robot_state:robot(_, _, _, _))),
+       setup(retractall(ev3dev_robot_state:described(_, _, _))),
        true(Said == [Line]) ]) :-
     with_tree(Tree, said_of(Goal, Said)).
 

@@ -97,7 +97,7 @@ test(writes_nothing, [forall(tree(Tree)), true(W == [])]) :-
 
 :- end_tests(set_robot).
 
-:- begin_tests(no_robot, [ setup(retractall(ev3dev_robot_state:robot(_, _, _, _))) ]).
+:- begin_tests(no_robot, [ setup(retractall(ev3dev_robot_state:described(_, _, _))) ]).
 
 test(nothing_can_be_done_without_a_robot,
      [ forall(( tree(Tree),

@@ -101,6 +101,10 @@ test(col_rgb_raw_has_three_values,
      [forall(tree(Tree)), true([R, G, B] == [1, 2, 3])]) :-
     with_tree(Tree, ( shows(in2, [1, 2, 3]),
                       col_rgb_raw(in2, R, G, B) )).
+test(col_rgb_raw_takes_a_list,
+     [forall(tree(Tree)), true([R, G, B] == [1, 2, 3])]) :-
+    with_tree(Tree, ( shows(in2, [1, 2, 3]),
+                      col_rgb_raw(in2, [R, G, B]) )).
 test(an_unbound_port_is_each_that_has_one,
      [forall(tree(Tree)), all(P-V == [in2-42, in3-17])]) :-
     with_tree(Tree, ( shows(in2, [42]),

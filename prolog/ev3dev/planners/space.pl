@@ -8,9 +8,8 @@
           ]).
 :- use_module('../private/errors',
               [ domain_error/2, existence_error/2, instantiation_error/1,
-                must_be/2, type_error/2
+                must_be/2
               ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [meta_options/3, option/3]).
 :- use_module('../private/arguments', [must_be_options/3]).
 :- use_module('../private/domains', [finite/1]).

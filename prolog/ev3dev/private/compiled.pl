@@ -4,6 +4,7 @@
             this_prolog/1,              % -Prolog
             source_time/2,              % +File, -Milliseconds
             contents/2,                 % +File, -Sum
+            read_index/2,               % +File, -Index
             use_sources/0
           ]).
 
@@ -104,6 +105,8 @@ use_compiled :-
     !,
     offer(Units).
 use_compiled.
+
+%!  read_index(+File, -Index) is semidet.
 
 read_index(File, Index) :-
     setup_call_cleanup(

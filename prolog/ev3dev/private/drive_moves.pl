@@ -26,10 +26,7 @@ common.
 %   Go straight on for Distance cm. The signs of both make the direction.
 
 move_straight(Percent, Distance, Options) :-
-    (   sign(Percent) =:= sign(Distance)
-    ->  Backwards = false
-    ;   Backwards = true
-    ),
+    backwards(sign(Percent) * sign(Distance), Backwards),
     Length is abs(Distance),
     move(Percent, legs([arc(Length, 0)], Backwards), Options).
 

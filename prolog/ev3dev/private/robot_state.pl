@@ -6,41 +6,58 @@
             drive_default/2,            % ?Name, ?Value
             store_drive_default/2       % +Name, +Value
           ]).
+:- use_module(brick, [brick/1]).
 :- use_module(explain, [explain/2]).
 
 /** <module> The robot that is set
 */
 
 :- dynamic
-    robot/4,
-    built/3,                            % Diameters, Inverted, Offset
-    drive_default/2.                    % Name, Value
+    described/3,                        % Brick, Robot, Built
+    default/3.                          % Brick, Name, Value
 
 %!  drive_default(?Name, ?Value) is nondet.
 %
 %   True if moves that are not given the option Name have this Value of it.
 
-drive_default(use_gyro, true).
-drive_default(speed, 40).
-drive_default(acceleration, 50).
+drive_default(Name, Value) :-
+    brick(Brick),
+    usual(Name, Usual),
+    (   default(Brick, Name, Stored)
+    ->  Value = Stored
+    ;   Value = Usual
+    ).
+
+usual(use_gyro, true).
+usual(speed, 40).
+usual(acceleration, 50).
 
 %!  store_drive_default(+Name, +Value) is det.
 
 store_drive_default(Name, Value) :-
+    brick(Brick),
     with_mutex(ev3dev_robot,
-               ( retractall(drive_default(Name, _)),
-                 assertz(drive_default(Name, Value)) )).
+               ( retractall(default(Brick, Name, _)),
+                 assertz(default(Brick, Name, Value)) )).
 
 %!  robot(?WheelDiameter, ?AxleLength, ?Left, ?Right) is semidet.
 %
 %   True if that is the robot that was set by set_robot/4.
+
+robot(WheelDiameter, AxleLength, Left, Right) :-
+    brick(Brick),
+    described(Brick, robot(WheelDiameter, AxleLength, Left, Right), _).
 
 %!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
 %
 %   Like robot/4, but explains with debug(ev3dev) why it fails.
 
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
-    (   robot(WheelDiameter, AxleLength, Left, Right)
+    robot_set(robot(WheelDiameter, AxleLength, Left, Right), _).
+
+robot_set(Robot, Built) :-
+    brick(Brick),
+    (   described(Brick, Robot, Built)
     ->  true
     ;   explain("no robot is set: see set_robot/4", []),
         fail
@@ -52,16 +69,8 @@ robot_set(WheelDiameter, AxleLength, Left, Right) :-
 %   LeftDiameter, RightDiameter, LeftInverted, RightInverted, AxleLength,
 %   AxleOffset). Fails like robot_set/4.
 
-robot_description(Robot) :-
-    robot_set(WheelDiameter, AxleLength, Left, Right),
-    (   built(DL-DR, IL-IR, Offset)
-    ->  true
-    ;   % a program's own robot/4
-        DL-DR = WheelDiameter-WheelDiameter,
-        IL-IR = false-false,
-        Offset = 0
-    ),
-    Robot = robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset).
+robot_description(robot(Left, Right, DL, DR, IL, IR, AxleLength, Offset)) :-
+    robot_set(robot(_, AxleLength, Left, Right), built(DL-DR, IL-IR, Offset)).
 
 %!  store_robot(+Robot, +Built) is det.
 %
@@ -69,8 +78,7 @@ robot_description(Robot) :-
 %   built(LeftDiameter-RightDiameter, LeftInverted-RightInverted, AxleOffset).
 
 store_robot(Robot, Built) :-
+    brick(Brick),
     with_mutex(ev3dev_robot,
-               ( retractall(robot(_, _, _, _)),
-                 retractall(built(_, _, _)),
-                 assertz(Built),
-                 asserta(Robot) )).
+               ( retractall(described(Brick, _, _)),
+                 asserta(described(Brick, Robot, Built)) )).

@@ -40,7 +40,7 @@ impl Machine {
     pub fn next_event(&self) -> Duration {
         let next_on_grid = |grid: u64| (self.tick / grid + 1) * grid;
         let mut next = next_on_grid(FARTHEST_TICKS);
-        let moving = self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0);
+        let moving = self.is_moving();
         for hardware in self.tree.all() {
             let due = match hardware {
                 Hardware::Tacho(motor) => Some(motor.next_timer()),
@@ -123,11 +123,14 @@ impl Machine {
         (loads, amperes)
     }
 
+    fn is_moving(&self) -> bool {
+        self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
+    }
+
     fn turn_shafts(&mut self, start_us: u64) {
-        let at_rest = self.body.slip == 0.0 && self.shafts.iter().all(|shaft| shaft.omega == 0.0);
         let undriven =
             |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
-        if at_rest && OUTPUTS.into_iter().all(undriven) {
+        if !self.is_moving() && OUTPUTS.into_iter().all(undriven) {
             self.set_current(0.0);
             self.body.turn_rate = 0.0;
             for shaft in &mut self.shafts {

@@ -8,7 +8,7 @@
             grid_turn/4,                % +Map, ?Turn, +Direction, -Next
             grid_cost/4,                % +Map, +State, +Action, -Cost
             grid_costs/4,               % +Map, -Straight, -Diagonal, -Turn
-            grid_neighbors/2,          % +Map, -Count
+            grid_neighbors/2,           % +Map, -Count
             grid_bounds/5,              % +Map, -X1, -Y1, -X2, -Y2
             grid_unknown/3,             % +Map0, :Free_1, -Map
             must_be_cell/1,             % +Cell
