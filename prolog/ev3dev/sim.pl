@@ -164,9 +164,15 @@ the end of the wait; so a minute's drive takes milliseconds. Each read of a
 file takes 0.5 ms and each write 0.1 ms, so time also passes for a program
 that polls a sensor in a loop. sleep/1 lets no simulated time pass;
 sim_wait/1 does. While a program waits for a button that no sim_press/2 will
-press, time passes at most 20 times as fast as real time. Several threads may
-wait at once; time advances when each thread waits or uses no device. The same
-program with the same seed does the same each time.
+press, time passes at most 20 times as fast as real time.
+
+Of several threads one runs at a time, in the order of simulated time. The others
+wait at their next call. The turn passes on when a thread waits, ends, or sleeps
+elsewhere: in thread_join/2, for a message, at the terminal. While a thread
+computes, time stands, so a thread must not loop until another one changes a
+fact: it should wait by sim_wait/1, or for a message. The same program with the
+same seed does the same each time, unless it sleeps by real time (sleep/1,
+timeouts) or waits for a person.
 */
 
 %!  sim_start(+World) is det.
