@@ -166,13 +166,13 @@ that polls a sensor in a loop. sleep/1 lets no simulated time pass;
 sim_wait/1 does. While a program waits for a button that no sim_press/2 will
 press, time passes at most 20 times as fast as real time.
 
-Of several threads one runs at a time, in the order of simulated time. The others
-wait at their next call. The turn passes on when a thread waits, ends, or sleeps
-elsewhere: in thread_join/2, for a message, at the terminal. While a thread
-computes, time stands, so a thread must not loop until another one changes a
-fact: it should wait by sim_wait/1, or for a message. The same program with the
-same seed does the same each time, unless it sleeps by real time (sleep/1,
-timeouts) or waits for a person.
+Of several threads one runs at a time, in the order of simulated time. The
+others wait at their next call. The turn passes on when a thread waits, ends,
+or sleeps elsewhere: in thread_join/2, for a message, at the terminal. While a
+thread computes, time stands, so a thread must not loop until another one
+changes a fact: it should wait by sim_wait/1, or for a message. The same
+program with the same seed does the same each time, unless it sleeps by real
+time (sleep/1, timeouts) or waits for a person.
 */
 
 %!  sim_start(+World) is det.

@@ -125,8 +125,7 @@ impl Stream for SimulatedStream {
 
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
         let command = eviocgkey(bits.len());
-        let state =
-            self.simulation.read(|machine| self.place().descriptor.ioctl(machine, command));
+        let state = self.simulation.read(|machine| self.place().descriptor.ioctl(machine, command));
         let (_, state) = state.map_err(error)?;
         let (known, rest) = bits.split_at_mut(state.len());
         known.copy_from_slice(&state);

@@ -32,9 +32,7 @@ fn current() -> PrologResult<Arc<Simulation>> {
 }
 
 /// The running simulation, in which it is this thread's turn; fails if there is none.
-pub(super) fn simulation<C: QueryableContextType>(
-    call: &Call<C>,
-) -> PrologResult<Arc<Simulation>> {
+pub(super) fn simulation<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Arc<Simulation>> {
     let simulation = current()?;
     call.wait_for(|about| simulation.turn(about))?;
     Ok(simulation)

@@ -143,7 +143,8 @@ impl Devfs for DevfsDir {
     fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
         if let Some(file) = stream.and_then(Stream::pollable) {
             let mut descriptors = [PollFd::new(file, PollFlags::IN)];
-            let at_most = Timespec::try_from(end.saturating_sub(self.now())).map_err(io::Error::other)?;
+            let at_most =
+                Timespec::try_from(end.saturating_sub(self.now())).map_err(io::Error::other)?;
             match poll(&mut descriptors, Some(&at_most)) {
                 Ok(0) | Err(Errno::INTR) => return Ok(true),
                 Ok(_)

@@ -20,7 +20,8 @@ about(Text) :-
     (   acyclic_term(Goals)
     ->  copy_term(Goals, Copy, _),
         numbervars(Copy, 0, _),
-        format(string(Text), "~W", [Copy, [quoted(true), numbervars(true), max_depth(50)]])
+        format(string(Text), "~W",
+               [Copy, [quoted(true), numbervars(true), max_depth(50)]])
     ;   Text = ""
     ).
 

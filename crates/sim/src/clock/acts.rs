@@ -92,4 +92,3 @@ impl PeriodicActs {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
-

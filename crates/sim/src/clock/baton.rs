@@ -144,7 +144,12 @@ impl Baton {
         let Some(first) = line.first() else {
             return;
         };
-        if first.stands.as_ref().and_then(|stand| stand.wall).is_some_and(|wall| Instant::now() < wall) {
+        if first
+            .stands
+            .as_ref()
+            .and_then(|stand| stand.wall)
+            .is_some_and(|wall| Instant::now() < wall)
+        {
             return;
         }
         let (id, thread) = (first.id, first.thread.clone());

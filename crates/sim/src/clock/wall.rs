@@ -23,7 +23,11 @@ pub(super) struct Stepper {
 }
 
 impl Stepper {
-    pub(super) fn start(shared: Arc<Shared>, acts: Arc<PeriodicActs>, factor: f64) -> io::Result<Self> {
+    pub(super) fn start(
+        shared: Arc<Shared>,
+        acts: Arc<PeriodicActs>,
+        factor: f64,
+    ) -> io::Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let is_over = Arc::clone(&stop);
         let thread = std::thread::Builder::new().name("ev3-sim".to_owned()).spawn(move || {
@@ -53,4 +57,3 @@ impl Drop for Stepper {
         }
     }
 }
-
