@@ -29,10 +29,20 @@ for LEGO EV3" (Schwarz, Wenzel 2019).
 ?- us_dist_cm(_, Distance).
 ```
 
-Three rules hold everywhere. A port is an atom, `outB` or
+Three rules hold everywhere. A port is an atom or a string, `outB` or
 `'ev3-ports:outB'`. A call fails if its device is not there or its move is
-impossible; `debug(ev3dev)` prints which device is missing, or why a motor
-does not run. A call throws if an argument makes no sense.
+impossible. A call throws if an argument makes no sense.
+
+## When a call fails {#hints}
+
+If no device can answer a call, or no motor carry it out, a warning says why
+and what is connected, once a session for each cause. The flag `ev3dev_hints`
+is `once`, `off`, or `error`: then such a call throws an error with the same
+text, as existence_error(motor, Port), existence_error(sensor, Port) or
+domain_error(speed, Percent). `debug(ev3dev)` prints the cause each time, and
+how moves ended. Predicates that ask whether a device is there, as
+tacho_motor/1, print nothing, nor does a sensor whose value is another one
+than the call asks for.
 */
 
 :- set_prolog_flag(generate_debug_info, false).

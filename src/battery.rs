@@ -18,7 +18,8 @@ predicates! {
     semidet fn battery(context, key, value) {
         let call = Call::of(context, "battery", 2);
         let (name, devices) = (call.text(key)?, call.devices()?);
-        let battery = &call.or_fail(battery::battery(&devices))?;
+        let battery = call.or_throw(battery::battery(&devices))?;
+        let battery = &battery.map_or_else(|| call.lacking("battery"), Ok)?;
         let read = match &*name {
             "voltage" => battery::volts(battery).map(|volts| Some(Value::Float(volts))),
             "current" => battery::amperes(battery).map(|read| read.map(Value::Float)),

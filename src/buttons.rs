@@ -47,7 +47,8 @@ predicates! {
     #[name("buttons_")]
     semidet fn buttons(context, keys) {
         let call = Call::of(context, "button", 1);
-        let pressed = call.or_fail(keys::pressed(&*call.dev()?))?;
+        let pressed = call.or_throw(keys::pressed(&*call.dev()?))?;
+        let pressed = pressed.map_or_else(|| call.lacking("buttons"), Ok)?;
         let words: Vec<_> = pressed.into_iter().map(|key| atomable(key.word())).collect();
         keys.unify(words.as_slice())
     }
@@ -59,7 +60,7 @@ predicates! {
         let call = Call::of(context, "button_wait", 3);
         let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
         let timeout = call.seconds(timeout)?;
-        let events = call.or_fail(Events::from_now(call.dev()?))?;
+        let events = events_from_now(&call)?;
         let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
         unify_event(key, event, call.or_fail(next)?)
     }
@@ -69,7 +70,7 @@ predicates! {
     #[name("button_source_")]
     semidet fn button_source(context, source) {
         let call = Call::of(context, "button_events", 1);
-        let events = call.or_fail(Events::from_now(call.dev()?))?;
+        let events = events_from_now(&call)?;
         let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
         sources().retain(|source| source.strong_count() > 0);
         sources().push(Arc::downgrade(&opened));
@@ -87,6 +88,11 @@ predicates! {
         let read = events.nth(index, &mut call.interrupted());
         unify_event(key, event, call.or_throw(read)?)
     }
+}
+
+/// The events from now on; fails if the brick has no buttons.
+fn events_from_now<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Events> {
+    call.or_throw(Events::from_now(call.dev()?))?.map_or_else(|| call.lacking("buttons"), Ok)
 }
 
 fn unify_event(key: &Term, event: &Term, read: Event) -> PrologResult<()> {

@@ -63,9 +63,8 @@ predicates! {
             let class = class_of(context, class)?;
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
-            let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
-            let names_port = port.is_none();
-            let found = call.or_throw(listed(&devices, class, port.as_deref()))?.into_iter();
+            let devices = call.devices()?;
+            let (names_port, found) = (port.is_var(), call.listed(&devices, class, port)?);
             Ok(Some(AttributeReads { devices, class, found, names_port, name }))
         },
         call(reads) => {
@@ -85,10 +84,11 @@ predicates! {
     semidet fn attribute_write(context, class, port, attribute, value) {
         let class = class_of(context, class)?;
         let call = Call::of(context, accessor(class), 3);
-        let port = call.text(port)?;
+        let socket = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        call.or_fail(attributes::write(&devices, class, &port, &name, &text, interrupted))
+        let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
+        call.or_absent(class, port, written)
     }
 }
 

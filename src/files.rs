@@ -5,6 +5,7 @@ use crate::glue::state::{self, devices, use_files};
 use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::class::Detected;
 use ev3_driver::device::{read_value, write_file};
+use std::io::ErrorKind;
 use std::path::Path;
 use std::vec::IntoIter;
 use swipl::prelude::*;
@@ -14,6 +15,7 @@ pub(crate) fn register() {
     register_subsystem_detect();
     register_file_read();
     register_file_write();
+    register_stale_mount();
     register_sysfs();
     register_sysfs_use();
     register_dev();
@@ -65,6 +67,15 @@ predicates! {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
         call.or_throw(write_file(call.devices()?.tree(), Path::new(&*path), &text))
+    }
+
+    /// stale_mount_(+Directory): the program that serves the files below it has ended.
+    #[module("ev3dev_native")]
+    #[name("stale_mount_")]
+    semidet fn stale_mount(context, directory) {
+        let directory = Call::of(context, "ev3_sysfs", 1).text(directory)?;
+        let looked = std::fs::metadata(&*directory);
+        into_prolog_result(looked.is_err_and(|error| error.kind() == ErrorKind::NotConnected))
     }
 
     /// sysfs_(-Root)

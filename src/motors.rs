@@ -93,10 +93,10 @@ predicates! {
     semidet fn motor_stop(context, class, port, action) {
         let call = Call::of(context, "motor_stop", 2);
         let class = class_of(context, class)?;
-        let (port, action) = (call.text(port)?, stop_action(&call, action)?);
+        let (name, action) = (call.text(port)?, stop_action(&call, action)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
-        call.or_fail(retry::with(&devices, class, &port, interrupted, stop))
+        call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, stop))
     }
 
     /// stop_all_motors_
@@ -104,10 +104,7 @@ predicates! {
     #[name("stop_all_motors_")]
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
-        let devices = call.devices()?;
-        let all = |class| call.or_throw(devices.all(class));
-        let motors = [all(Class::TachoMotor)?, all(Class::DcMotor)?].concat();
-        call.or_throw(motor::stop_all(&motors, StopAction::Brake))
+        call.or_throw(motor::stop_connected(&*call.devices()?, &mut call.interrupted()))
     }
 
     /// motor_reset_(+Port)
@@ -115,10 +112,10 @@ predicates! {
     #[name("motor_reset_")]
     semidet fn motor_reset(context, port) {
         let call = Call::of(context, "motor_reset", 1);
-        let port = call.text(port)?;
+        let (class, name) = (Class::TachoMotor, call.text(port)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
-        call.or_fail(retry::with(&devices, Class::TachoMotor, &port, interrupted, reset))
+        call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, reset))
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
@@ -140,8 +137,9 @@ predicates! {
     semidet fn motor_wait_flag(context, port, flag, present) {
         let call = Call::of(context, "motor_wait_while", 2);
         let devices = call.devices()?;
-        let (port, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
-        let motor = call.or_fail(devices.find(Class::TachoMotor, &port))?;
+        let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
+        let found = devices.find(Class::TachoMotor, &name);
+        let motor = call.or_absent(Class::TachoMotor, port, found)?;
         let interrupted = &mut call.interrupted();
         call.or_throw(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
     }
@@ -164,7 +162,7 @@ predicates! {
     nondet fn motor_position<ListedDevices>(context, port, position) {
         setup => {
             let call = Call::of(context, "motor_position", 2);
-            call.listed(Class::TachoMotor, port)
+            call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
             let call = Call::of(context, "motor_position", 2);
@@ -182,11 +180,11 @@ predicates! {
     #[name("motor_set_position_")]
     semidet fn motor_set_position(context, port, position) {
         let call = Call::of(context, "motor_position", 2);
-        let (port, position) = (call.text(port)?, call.float(position)?);
+        let (name, position) = (call.text(port)?, call.float(position)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let set = |motor: &Arc<Device>| motor::set_position(motor, position);
-        let set = retry::with(&devices, Class::TachoMotor, &port, interrupted, set);
-        into_prolog_result(call.or_fail(set)?)
+        let set = retry::with(&devices, Class::TachoMotor, &name, interrupted, set);
+        into_prolog_result(call.or_absent(Class::TachoMotor, port, set)?)
     }
 }
 

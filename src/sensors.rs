@@ -48,7 +48,8 @@ predicates! {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
             let count = usize::try_from(call.integer(count)?).unwrap_or_default();
-            readings(&call, port, types, mode, count).map(Some)
+            let readings = readings(&call, port, types, mode, count)?;
+            if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }
         },
         call(readings) => {
             let call = Call::of(context, "sensor_values", 3);
@@ -71,12 +72,13 @@ predicates! {
     #[name("sensor_restart_")]
     semidet fn sensor_restart(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
-        let (port, mode) = (call.text(port)?, call.text(mode)?);
-        let devices = call.devices()?;
-        let device = call.or_fail(devices.find(Class::Sensor, &port))?;
-        with_types(&call, types, |types| into_prolog_result(types.contains(&device.driver())))?;
+        call.text(port)?;
+        let Readings { devices, mut sensors, mode: name, .. } = readings(&call, port, types, mode, 0)?;
+        let Some(sensor) = sensors.next() else {
+            return no_sensor(&call, port, types, mode);
+        };
         let interrupted = &mut call.interrupted();
-        call.or_fail(sensor::restart(&devices, &device, &mode, interrupted))
+        call.or_fail(sensor::restart(&devices, &sensor, &name, interrupted))
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
@@ -84,10 +86,10 @@ predicates! {
     #[name("sensor_scale_")]
     semidet fn sensor_scale(context, port, raw, value) {
         let call = Call::of(context, "adjust_val", 3);
-        let (port, raw) = (call.text(port)?, call.integer(raw)?);
+        let (name, raw) = (call.text(port)?, call.integer(raw)?);
         let devices = call.devices()?;
-        let scaled = devices.with(Class::Sensor, &port, |device| sensor::scale(device, raw));
-        unify_value(value, &call.or_fail(scaled)?)
+        let scaled = devices.with(Class::Sensor, &name, |device| sensor::scale(device, raw));
+        unify_value(value, &call.or_absent(Class::Sensor, port, scaled)?)
     }
 }
 
@@ -119,6 +121,22 @@ fn readings<'a, C: QueryableContextType>(
         })
     })?;
     Ok(Readings { devices, sensors: found.into_iter(), names_port: port.is_none(), mode, index })
+}
+
+/// Fails because no sensor is of one of the types; or, if there are none, has the mode.
+fn no_sensor<'a, C: QueryableContextType, T>(
+    call: &Call<'a, C>,
+    port: &Term<'a>,
+    types: &Term<'a>,
+    mode: &Term<'a>,
+) -> PrologResult<T> {
+    let context = call.context;
+    let kind = if types.term_type() == TermType::Nil {
+        term! {context: mode(#mode)}?
+    } else {
+        types.clone()
+    };
+    call.fail_because(&term! {context: absent(#&kind, #port)}?)
 }
 
 /// Calls a closure with a list of types; the empty list admits all.

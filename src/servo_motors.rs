@@ -21,7 +21,7 @@ predicates! {
     nondet fn servo_position<ListedDevices>(context, port, percent) {
         setup => {
             let call = Call::of(context, "servo_motor_position", 2);
-            call.listed(Class::ServoMotor, port)
+            call.listed(&*call.devices()?, Class::ServoMotor, port).map(Some)
         },
         call(servos) => {
             let call = Call::of(context, "servo_motor_position", 2);
@@ -53,9 +53,9 @@ predicates! {
     #[name("servo_motor_float_")]
     semidet fn servo_motor_float(context, port) {
         let call = Call::of(context, "servo_motor_float", 1);
-        let port = call.text(port)?;
+        let (class, name) = (Class::ServoMotor, call.text(port)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
-        call.or_fail(retry::with(&devices, Class::ServoMotor, &port, interrupted, float))
+        call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, float))
     }
 }

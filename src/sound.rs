@@ -51,7 +51,8 @@ predicates! {
     #[name("volume_")]
     semidet fn volume(context, percent) {
         let call = Call::of(context, "volume", 1);
-        percent.unify(i64::from(call.or_fail(sound::volume(&*call.dev()?))?))
+        let volume = call.or_throw(sound::volume(&*call.dev()?))?;
+        percent.unify(i64::from(volume.map_or_else(|| call.lacking("speaker"), Ok)?))
     }
 
     /// volume_set_(+Percent): from 0 to 100.
@@ -60,7 +61,8 @@ predicates! {
     semidet fn volume_set(context, percent) {
         let call = Call::of(context, "volume", 1);
         let percent = u8::try_from(call.integer(percent)?).map_err(|_| PrologError::Failure)?;
-        call.or_fail(sound::set_volume(&*call.dev()?, percent))
+        let set = call.or_throw(sound::set_volume(&*call.dev()?, percent))?;
+        set.map_or_else(|| call.lacking("speaker"), Ok)
     }
 
     /// sound_stop_

@@ -2,7 +2,8 @@
           [ battery/2                   % ?Key, -Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, term_expansion/2]).
+:- use_module(private/arguments, [word/2]).
 :- use_module(private/native, [battery_/2]).
 
 /** <module> The battery
@@ -35,8 +36,8 @@ battery(Key, Value) :-
     !,
     battery_key(Key),
     battery_(Key, Value).
-battery(Key, Value) :-
-    must_be(atom, Key),
+battery(Key0, Value) :-
+    word(Key0, Key),
     (   battery_key(Key)
     ->  battery_(Key, Value)
     ;   domain_error(battery_key, Key)

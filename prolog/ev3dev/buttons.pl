@@ -8,7 +8,7 @@
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(files, []).
 :- use_module(private/arguments,
-              [must_be_options/3, timeout_option/2]).
+              [must_be_options/3, timeout_option/2, word/2]).
 :- use_module(private/one_of).
 :- use_module(private/native,
               [ button_event_/4, button_source_/1, button_wait_/3,
@@ -39,8 +39,8 @@ button(Key) :-
     !,
     buttons_(Keys),
     one_of(Keys, Key).
-button(Key) :-
-    must_be(atom, Key),
+button(Key0) :-
+    word(Key0, Key),
     (   memberchk(Key, [up, down, left, right, enter, back])
     ->  true
     ;   domain_error(button, Key)

@@ -6,10 +6,11 @@
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
-                option/2, option/3
+                option/2, option/3, word/2
               ]).
-:- use_module(sensors, [gyro_ang/2, gyro_sensor/1]).
+:- use_module(sensors, [gyro_ang/2]).
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
+:- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(private/native, [drive_pause_/1]).
 
@@ -63,8 +64,8 @@ floor is uncertain. calibrate/3 computes the sizes from moves of the robot.
 %   @error domain_error(calibration_option, Option) if Option is not an option
 %          of this predicate
 
-calibrate(What, Module:Options, SetRobot) :-
-    must_be(atom, What),
+calibrate(What0, Module:Options, SetRobot) :-
+    word(What0, What),
     must_be_options(calibration_option,
                     [measured, length, distance, turns, speed], Options),
     robot_description(Robot),
@@ -104,7 +105,7 @@ way(Distance, Speed, _, Module, Options, Length, Turn) :-
     Chord is sqrt(Ahead**2 + Right**2),
     arc_length(Chord, Half, Length).
 way(Distance, Speed, _, _, Options, Length, Turn) :-
-    gyro_sensor(Gyro),
+    sensor_to_read(Gyro, ['lego-ev3-gyro'], _),
     !,
     number_option(length(Length), positive_number, Options, Distance),
     rest_angle(Gyro, A0),
@@ -150,7 +151,7 @@ turned(Angle, Speed, Module, Options, Turned) :-
     nearest_turn(0, Back, A2),
     Turned is A1 - A2 / 2.
 turned(Angle, Speed, _, _, Turned) :-
-    gyro_sensor(Gyro),
+    sensor_to_read(Gyro, ['lego-ev3-gyro'], _),
     rest_angle(Gyro, A0),
     spin(Speed, Angle),
     rest_angle(Gyro, A1),

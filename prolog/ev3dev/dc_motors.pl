@@ -13,15 +13,13 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
-              ]).
+              [domain_error/2, evaluated/2, term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/halt, []).
 :- use_module(motors, []).
-:- use_module(motors, []).
-:- use_module(private/arguments, [motor_options/5]).
+:- use_module(private/arguments, [motor_options/5, word/2]).
 :- use_module(private/attributes, [attribute/4, attribute_words/4]).
 :- use_module(private/native,
               [ attribute_/4, dc_motor_run_/2, dc_motor_run_timed_/5,
@@ -117,10 +115,9 @@ dc_motor_run_direct(Port, Percent0) :-
 
 cannot(Port, Percent) :-
     (   dc_motor(Port)
-    ->  explain("~w cannot run at ~w %", [Port, Percent])
-    ;   explain("~w is no port for a motor without sensor", [Port])
-    ),
-    fail.
+    ->  fail_because(too_fast(Port, Percent))
+    ;   fail_because(absent('dc-motor', Port))
+    ).
 
 %!  dc_motor_stop(+Port) is semidet.
 %!  dc_motor_stop(+Port, +StopAction) is semidet.
@@ -132,8 +129,8 @@ cannot(Port, Percent) :-
 dc_motor_stop(Port) :-
     dc_motor_stop(Port, brake).
 
-dc_motor_stop(Port, StopAction) :-
-    must_be(atom, StopAction),
+dc_motor_stop(Port, StopAction0) :-
+    word(StopAction0, StopAction),
     (   memberchk(StopAction, [coast, brake])
     ->  motor_stop_('dc-motor', Port, StopAction)
     ;   domain_error(stop_action, StopAction)

@@ -26,7 +26,6 @@
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, take_options/4, timeout_option/2
               ]).
-:- use_module(private/explain).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
@@ -72,8 +71,8 @@ count.
     Of the faster wheel, for moves that are not told one. Default is that of
     drive_option/2. Negative is backwards.
   - acceleration(+CmPerSquareSecond)
-    How fast the robot gains and loses speed. Default is that of
-    drive_option/2.
+    How fast the robot gains and loses speed, from 1 to 1000. Default is that
+    of drive_option/2.
   - use_gyro(+Boolean)
     Whether the gyro tells the heading. Default is that of drive_option/2.
   - stop_action(+Action)
@@ -89,6 +88,7 @@ count.
 
 All moves fail if no robot is set, if a motor is not connected, and if the
 move is impossible: a speed of 0 or beyond 100 percent. Nothing moves then.
+A move by a distance or an angle of 0 is `reached` at once.
 They also fail, unless asked for the reason, when they end early: a wheel is
 blocked, the time is up, another thread stops a motor or tells it something
 else, or the gyro contradicts the wheels (`astray`): it is mounted upside
@@ -107,21 +107,12 @@ takes the place of one that is under way.
 %!  go_cm(+Speed, +Distance, +Options) is semidet.
 %
 %   Go straight on for Distance cm. The signs of speed and distance make the
-%   direction. Fails for a Distance of 0, as go/2 does for an angle of 0.
+%   direction. A Distance of 0 is `reached` at once.
 
 go_cm(Speed, Distance, Options) :-
     number_value(Speed, Percent),
     number_value(Distance, Way),
-    not_nothing(Way),
     move_straight(Percent, Way, Options).
-
-%   Fails, and says so, if a distance or an angle is 0.
-not_nothing(Number) :-
-    (   Number =\= 0
-    ->  true
-    ;   explain("a distance or an angle of 0 moves nothing", []),
-        fail
-    ).
 
 %!  turn(+Speed, +Angle, +Options) is semidet.
 %
@@ -138,7 +129,8 @@ turn(Speed, Angle, Options) :-
 %
 %   Go along an arc of a circle. Its center is on the right if the radius is
 %   positive, and on the left if it is negative. The signs of speed and angle
-%   make the direction, ahead or backwards. Fails for an Angle of 0.
+%   make the direction, ahead or backwards. An Angle of 0 is `reached` at
+%   once.
 
 arc_cm(Speed, Radius, Angle) :-
     arc_cm(Speed, Radius, Angle, []).
@@ -147,7 +139,6 @@ arc_cm(Speed, Radius, Angle, Options) :-
     number_value(Speed, Percent),
     number_value(Radius, R),
     number_value(Angle, Degrees),
-    not_nothing(Degrees),
     backwards(Percent * Degrees, Backwards),
     Signed is Degrees * sign(Percent),
     (   R =:= 0

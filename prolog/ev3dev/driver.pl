@@ -37,7 +37,9 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(private/attributes,
-              [attribute/4, attribute_words/4, value_attribute/2]).
+              [ attribute/4, attribute_words/4, device_at/3,
+                value_attribute/2
+              ]).
 :- use_module(private/native,
               [attribute_/4, attribute_write_/4, device_/3, device_/4]).
 :- reexport(files).
@@ -305,5 +307,5 @@ decimals_file(Port, File) :-
     attribute_file('lego-sensor', Port, decimals, File).
 
 attribute_file(Class, Port, Attribute, File) :-
-    device_(Class, Port, _, Path),
+    device_at(Class, Port, Path),
     atomic_list_concat([Path, Attribute], /, File).

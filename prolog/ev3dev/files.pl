@@ -76,7 +76,8 @@ file_write(File, Value) :-
 %   ends a simulation, unless sim_mount/1 has mounted it.
 %
 %   If the machine has no such devices and no directory was set, the first use
-%   of a device starts the simulator with sim_start(room).
+%   of a device starts the simulator with sim_start(room). After sim_stop/0 it
+%   does so again.
 %
 %   @error existence_error(directory, Directory)
 

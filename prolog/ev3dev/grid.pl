@@ -100,11 +100,7 @@ plan_and_go_to(Cell, Direction, Module:Options0) :-
     option(planner(Planner0), Options, Module:d_star_lite),
     option(tell(Tell), Options, ev3dev_grid:nobody),
     planner_meant(Planner0, Planner),
-    (   grid(Map, _)
-    ->  true
-    ;   explain("there is no grid: see set_grid/1", []),
-        fail
-    ),
+    grid(Map, _),
     Goal = state(Cell, Direction),
     state_position(Cell0, Direction0),
     grid_problem(Map, state(Cell0, Direction0), Goal, Problem),
@@ -208,9 +204,10 @@ ended(Reason, Options, Goal) :-
 %
 %   Carry out the actions of a plan, `move`, `left` and `right`, from where
 %   the robot is. Plans of the paper do, too: `move_if_free`, `turn_left`,
-%   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not possible: there is an
-%   obstacle, which is noted, or the edge of the map, or any other reason of
-%   plan_and_go_to/3; state_position/2 tells how far the robot has come.
+%   `turn_right`, and `fin` at the end. Waits. Fails at the first that is not
+%   possible: there is an obstacle, which is noted, or the edge of the map, or
+%   any other reason of plan_and_go_to/3; state_position/2 tells how far the
+%   robot has come.
 %
 %   @error domain_error(grid_action, Action)
 

@@ -7,8 +7,8 @@
                                         % -Strengths
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/arguments, [must_be_within/4]).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/arguments, [must_be_within/4, word/2]).
+:- use_module(private/errors, [domain_error/2, term_expansion/2]).
 :- use_module(sensors, [ir_prox/2]).
 :- use_module(private/native, [sensor_values_/5]).
 :- use_module(private/one_of).
@@ -123,8 +123,8 @@ ir_seeker(Port, Degrees) :-
 %
 %   @error domain_error(ir_light, Light)
 
-ir_seeker(Port, Light, Direction, Strengths) :-
-    must_be(nonvar, Light),
+ir_seeker(Port, Light0, Direction, Strengths) :-
+    word(Light0, Light),
     (   light_mode(Light, Mode)
     ->  true
     ;   domain_error(ir_light, Light)

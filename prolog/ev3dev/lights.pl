@@ -7,10 +7,9 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
-              ]).
+              [domain_error/2, evaluated/2, term_expansion/2]).
 :- use_module(private/explain).
-:- use_module(private/arguments, [must_be_within/4]).
+:- use_module(private/arguments, [must_be_within/4, word/2]).
 :- use_module(private/native,
               [ led_/3, led_set_color_/2, led_set_delays_/3,
                 led_set_trigger_/2 ]).
@@ -74,20 +73,27 @@ led(Light) :-
 led(Light, Color) :-
     var(Color),
     !,
-    led_(Light, color, Color).
+    led_read(Light, color, Color).
 led(Light, Color0) :-
     color(Color0, Color),
     (   led_set_color_(Light, Color)
     ->  true
     ;   led(Light)
-    ->  explain("the light ~w cannot show ~w", [Light, Color]),
-        fail
-    ;   no_light(Light)
+    ->  fail_because(unable(Light, show, Color))
+    ;   fail_because(absent(light, Light))
     ).
 
-color(Color, Color) :-
-    atom(Color),
-    !.
+led_read(Light, What, Value) :-
+    (   led_(Light, What, Read)
+    *-> Value = Read
+    ;   \+ led(Light),
+        fail_because(absent(light, Light))
+    ).
+
+color(Color0, Color) :-
+    ( atom(Color0) ; string(Color0) ),
+    !,
+    word(Color0, Color).
 color(levels(Red0, Green0), levels(Red, Green)) :-
     !,
     percent(Red0, Red),
@@ -112,10 +118,6 @@ percent(Expression, Percent) :-
     ;   domain_error(led_color, Value)
     ).
 
-no_light(Light) :-
-    explain("there is no light ~w", [Light]),
-    fail.
-
 %!  led_trigger(?Light, ?Trigger) is nondet.
 %
 %   Read or set the trigger that switches a light: `none`, or one of
@@ -128,12 +130,12 @@ no_light(Light) :-
 led_trigger(Light, Trigger) :-
     var(Trigger),
     !,
-    led_(Light, trigger, Trigger).
-led_trigger(Light, Trigger) :-
-    must_be(atom, Trigger),
+    led_read(Light, trigger, Trigger).
+led_trigger(Light, Trigger0) :-
+    word(Trigger0, Trigger),
     (   led_set_trigger_(Light, Trigger)
     ->  true
-    ;   no_light(Light)
+    ;   fail_because(absent(light, Light))
     ).
 
 %!  led_triggers(?Light, -Triggers) is nondet.
@@ -141,7 +143,7 @@ led_trigger(Light, Trigger) :-
 %   True if Triggers is the list of triggers that may switch the light.
 
 led_triggers(Light, Triggers) :-
-    led_(Light, triggers, Triggers).
+    led_read(Light, triggers, Triggers).
 
 %!  led_blink(?Light, ?On, ?Off) is nondet.
 %
@@ -156,13 +158,13 @@ led_blink(Light, On, Off) :-
     var(On),
     var(Off),
     !,
-    led_(Light, delays, delays(On, Off)).
+    led_read(Light, delays, delays(On, Off)).
 led_blink(Light, On, Off) :-
     must_be_milliseconds(On),
     must_be_milliseconds(Off),
     (   led_set_delays_(Light, On, Off)
     ->  true
-    ;   no_light(Light)
+    ;   fail_because(absent(light, Light))
     ).
 
 must_be_milliseconds(Time) :-

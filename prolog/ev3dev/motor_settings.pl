@@ -12,8 +12,9 @@
               [ domain_error/2, evaluated/2, term_expansion/2
               ]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
-:- use_module(driver, [motor_attribute/3, tacho_motor/1, tacho_motor/2]).
+:- use_module(driver, [motor_attribute/3, tacho_motor/2]).
 :- use_module(private/arguments, [must_be_within/4]).
+:- use_module(private/attributes, [device_at/3]).
 :- use_module(private/native,
               [ attribute_/4, motor_position_/2, motor_set_position_/2 ]).
 :- use_module(private/one_of).
@@ -110,7 +111,7 @@ motor_pid(Port, Directory, PID) :-
     atom_concat(Directory, '/Ki', KI),
     atom_concat(Directory, '/Kd', KD),
     (   var(PID)
-    ->  tacho_motor(Port),
+    ->  device_at('tacho-motor', Port, _),
         motor_attribute(Port, KP, P),
         motor_attribute(Port, KI, I),
         motor_attribute(Port, KD, D),

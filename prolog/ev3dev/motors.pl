@@ -26,11 +26,11 @@
               ]).
 :- use_module(private/explain).
 :- use_module(driver,
-              [ command/2, max_speed/2, motor_attribute/3, tacho_motor/1 ]).
+              [ command/2, max_speed/2, motor_attribute/3 ]).
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
               [ motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, timeout_option/2
+                must_be_options/3, timeout_option/2, word/2
               ]).
 :- use_module(private/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
@@ -53,11 +53,17 @@ library(ev3dev/servo_motors) the RC servos.
 
 When Prolog halts, or SIGINT, SIGTERM or SIGHUP ends it, the pack stops every
 motor that the program started, unless the flag `ev3dev_stop_at_halt` is
-`false`.
+`false`. After such a signal it has two seconds to end, then the process is
+ended. A crash stops motors, too; SIGKILL does not.
+
+To end a thread that waits here, throw into it with thread_signal/2. Do not
+signal thread_exit/1: it leaves native code by a jump, and the process aborts.
 
 All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
-angle. Nothing moves then. `debug(ev3dev)` explains why.
+angle. Nothing moves then, and a warning says why, once a session: see the
+flag `ev3dev_hints` of library(ev3dev). A move by an angle of 0 is done at
+once.
 */
 
 %!  motor_run(+Port, +Speed) is semidet.
@@ -73,7 +79,7 @@ motor_run(Port, Speed) :-
     ),
     (   motor_run_(Port, Percent)
     ->  true
-    ;   explain_failure([run(Port, Percent)])
+    ;   fail_because(cannot([run(Port, Percent)]))
     ).
 
 %!  motors_run(+Runs) is semidet.
@@ -89,7 +95,7 @@ motors_run(Runs0) :-
     motor_runs(Runs0, Runs),
     (   motors_run_(Runs)
     ->  true
-    ;   explain_failure(Runs)
+    ;   fail_because(cannot(Runs))
     ).
 
 %!  motor_run(+Port, +Speed, +Angle) is semidet.
@@ -151,7 +157,7 @@ motors_turn(Moves0, Options) :-
     motor_moves(Moves0, Moves),
     (   motor_turn_(Moves, Native, Reason)
     ->  turn_ended(Reason, Moves)
-    ;   explain_failure(Moves)
+    ;   fail_because(cannot(Moves))
     ).
 
 turn_ended(reached, _) :-
@@ -163,28 +169,6 @@ turn_ended(stalled, Moves) :-
     fail.
 turn_ended(Reason, Moves) :-
     explain("~p ended early: ~w", [Moves, Reason]),
-    fail.
-
-%!  explain_failure(+Runs) is failure.
-%
-%   Print why motors could not start, if debug(ev3dev) is on: the missing
-%   motors, or else the impossible runs.
-
-explain_failure(Runs) :-
-    is_explained,
-    findall(Port,
-            ( one_of(Runs, Run), arg(1, Run, Port), \+ tacho_motor(Port) ),
-            Missing),
-    (   one_of(Missing, Port),
-        explain("there is no motor at ~w", [Port])
-    ;   Missing == [],
-        one_of(Runs, Run),
-        arg(1, Run, Port),
-        arg(2, Run, Percent),
-        max_speed(Port, Max),
-        explain("~w cannot run at ~w % of its ~w counts/s as ~p asks",
-                [Port, Percent, Max, Run])
-    ),
     fail.
 
 %!  motor_start(+Port) is semidet.
@@ -206,15 +190,17 @@ motor_stop(Port) :-
     motor_stop(Port, brake).
 
 motor_stop(Port, StopAction) :-
-    (   motor_stop_('tacho-motor', Port, StopAction)
-    ->  true
-    ;   explain_failure([run(Port, 0)])
-    ).
+    motor_stop_('tacho-motor', Port, StopAction).
 
 %!  stop_all_motors is det.
 %
 %   Stop all connected motors, with or without rotation sensor, by `brake`,
 %   also motors that another program started. Servos keep their positions.
+%   Waits up to a second for a motor that was just plugged in, with all others
+%   stopped.
+%
+%   @error resource_error(max_files) if this process cannot open any more
+%          files; those motors that it has used are stopped then
 
 stop_all_motors :-
     stop_all_motors_.
@@ -237,9 +223,8 @@ run_forever(Port, Speed) :-
     (   abs(CountsPerSecond) < 2 ** 31,
         run_forever_(Port, CountsPerSecond)
     ->  true
-    ;   explain("~w cannot run at ~w counts/s",
-                [Port, CountsPerSecond]),
-        fail
+    ;   max_speed(Port, _),
+        fail_because(unable(Port, 'run at a speed_sp of', CountsPerSecond))
     ).
 
 %!  speed_adjust(+Percent, ?Port, -CountsPerSecond) is nondet.
@@ -262,16 +247,16 @@ speed_adjust(Percent, Port, CountsPerSecond) :-
 %          wait
 %   @error domain_error(motor_state, Flag)
 
-motor_wait_while(Port, Flag) :-
-    must_be_flag(Flag),
+motor_wait_while(Port, Flag0) :-
+    motor_flag(Flag0, Flag),
     motor_wait_flag_(Port, Flag, false).
 
-motor_wait_until(Port, Flag) :-
-    must_be_flag(Flag),
+motor_wait_until(Port, Flag0) :-
+    motor_flag(Flag0, Flag),
     motor_wait_flag_(Port, Flag, true).
 
-must_be_flag(Flag) :-
-    must_be(atom, Flag),
+motor_flag(Flag0, Flag) :-
+    word(Flag0, Flag),
     (   flag(Flag)
     ->  true
     ;   domain_error(motor_state, Flag)
@@ -308,8 +293,13 @@ motor_wait(Ports, Options, Reason) :-
     must_be_options(motor_option, [timeout], Options),
     timeout_option(Options, Timeout),
     (   is_list(Ports)
-    ->  motor_wait_(Ports, Timeout, Reason)
-    ;   motor_wait_([Ports], Timeout, Reason)
+    ->  All = Ports
+    ;   All = [Ports]
+    ),
+    (   motor_wait_(All, Timeout, Ended)
+    ->  Reason = Ended
+    ;   findall(run(Port, 0), one_of(All, Port), Runs),
+        fail_because(cannot(Runs))
     ).
 
 :- multifile prolog:message//1.
@@ -375,10 +365,5 @@ motor_run_direct(Port, Percent0) :-
     evaluated(Percent0, Percent),
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
-    ;   tacho_motor(Port)
-    ->  explain("~w cannot run at ~w % of the voltage",
-                [Port, Percent]),
-        fail
-    ;   explain("there is no motor at ~w", [Port]),
-        fail
+    ;   fail_because(cannot([run(Port, Percent)]))
     ).

@@ -22,9 +22,10 @@
             energy_meter/4              % ?Port, -In, -Out, -Joules
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, term_expansion/2]).
+:- use_module(private/arguments, [word/2]).
 :- use_module(sensors, [reading_types/2, sensor_reading/3]).
-:- use_module(private/sensor_type, [sensor_of/3]).
+:- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/native, [sensor_values_/5]).
 :- use_module(private/one_of).
 
@@ -53,7 +54,7 @@ measured(Reading, Port, Value) :-
               one_of(Types, Type)
             ),
             All),
-    sensor_of(Port, All, _),
+    sensor_to_read(Port, All, _),
     sensor_reading(Reading, Port, Value).
 
 % Reads as many values as the list Values has elements.
@@ -105,7 +106,7 @@ target_temperature(Port, Celsius) :-
 %   millibar.
 
 pressure(Port, Hectopascal) :-
-    sensor_of(Port, ['ht-nxt-barometric', 'ms-pps58-nx'],
+    sensor_to_read(Port, ['ht-nxt-barometric', 'ms-pps58-nx'],
                              Type),
     pressure_of(Type, Port, Pressure),
     Hectopascal = Pressure.
@@ -137,7 +138,7 @@ ht_color(Port, Number) :-
     sensor_reading(ht_color, Port, Number).
 
 ht_color_rgb(Port, RGB) :-
-    sensor_of(Port, ['ht-nxt-color', 'ht-nxt-color-v2'], Type),
+    sensor_to_read(Port, ['ht-nxt-color', 'ht-nxt-color-v2'], Type),
     rgb_of(Type, Port, Seen),
     RGB = Seen.
 
@@ -162,8 +163,8 @@ ht_gyro_rate(Port, DegreesPerSecond) :-
 %
 %   @error domain_error(eopd_range, Range)
 
-ht_eopd(Port, Range, Percent) :-
-    must_be(nonvar, Range),
+ht_eopd(Port, Range0, Percent) :-
+    word(Range0, Range),
     (   eopd_mode(Range, Mode)
     ->  true
     ;   domain_error(eopd_range, Range)
@@ -182,7 +183,7 @@ eopd_mode(short, 'SHORT').
 %   @see http://www.hitechnic.com, sensor NAC1040, for its 200 counts per g
 
 acceleration(Port, X, Y, Z) :-
-    sensor_of(Port, [ 'ht-nxt-accel', 'ms-absolute-imu',
+    sensor_to_read(Port, [ 'ht-nxt-accel', 'ms-absolute-imu',
                                      'mi-xg1300l' ], Type),
     acceleration_of(Type, Port, Felt),
     Felt = [X, Y, Z].

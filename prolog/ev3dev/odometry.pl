@@ -8,8 +8,9 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/explain).
 :- use_module(driver, []).
-:- use_module(private/arguments, [number_value/2, number_value/3]).
+:- use_module(private/arguments, [number_value/2, number_value/3, word/2]).
 :- use_module(private/robot_state,
               [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
@@ -33,12 +34,13 @@ options. The pose counts from when a robot is set.
 %     - speed: 40
 %       In percent, for moves that are not told one.
 %     - acceleration: 50
-%       In cm/s^2.
+%       In cm/s^2, from 1 to 1000.
 %
 %   @error domain_error(drive_option, Name)
+%   @error domain_error(acceleration, Value), domain_error(speed, Value)
 
-drive_option(Name, Value) :-
-    must_be(atom, Name),
+drive_option(Name0, Value) :-
+    word(Name0, Name),
     (   \+ memberchk(Name, [use_gyro, speed, acceleration])
     ->  domain_error(drive_option, Name)
     ;   var(Value)
@@ -52,7 +54,7 @@ valid_option(use_gyro, Value, Value) :-
 valid_option(speed, Speed, Percent) :-
     number_value(speed, Speed, Percent).
 valid_option(acceleration, Acceleration, Number) :-
-    number_value(positive_number, Acceleration, Number).
+    number_value(acceleration, Acceleration, Number).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %
@@ -63,7 +65,10 @@ valid_option(acceleration, Acceleration, Number) :-
 
 pose(X, Y, Heading) :-
     robot(Robot, UseGyro),
-    pose_(Robot, UseGyro, X, Y, Heading).
+    (   pose_(Robot, UseGyro, X0, Y0, Heading0)
+    ->  X = X0, Y = Y0, Heading = Heading0
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  set_pose(+X, +Y, +Heading) is semidet.
 %
@@ -74,7 +79,10 @@ set_pose(X, Y, Heading) :-
     number_value(Y, Y1),
     number_value(Heading, Heading1),
     robot(Robot, UseGyro),
-    set_pose_(Robot, UseGyro, X1, Y1, Heading1).
+    (   set_pose_(Robot, UseGyro, X1, Y1, Heading1)
+    ->  true
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  pose_uncertainty(-Covariance) is semidet.
 %
@@ -87,7 +95,10 @@ set_pose(X, Y, Heading) :-
 
 pose_uncertainty(Covariance) :-
     robot(Robot, UseGyro),
-    pose_uncertainty_(Robot, UseGyro, Covariance).
+    (   pose_uncertainty_(Robot, UseGyro, Rows)
+    ->  Covariance = Rows
+    ;   motor_is_missing(Robot)
+    ).
 
 %!  heading_wrapped(+Heading, -Wrapped) is det.
 %
@@ -98,6 +109,11 @@ heading_wrapped(Heading, Wrapped) :-
     heading_wrapped_(Degrees, Wrapped).
 
 %   The robot, and whether to use the gyro.
+motor_is_missing(Robot) :-
+    arg(1, Robot, Left),
+    arg(2, Robot, Right),
+    fail_because(cannot([run(Left, 0), run(Right, 0)])).
+
 robot(Robot, UseGyro) :-
     robot_description(Robot),
     drive_default(use_gyro, UseGyro).

@@ -6,7 +6,8 @@
             port_device/2               % ?Port, ?Device
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/arguments, [word/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(private/attributes, [attribute_words/4]).
@@ -54,8 +55,8 @@ port_mode(Port, Mode) :-
     var(Mode),
     !,
     attribute_('lego-port', Port, mode, Mode).
-port_mode(Port, Mode) :-
-    must_be(atom, Mode),
+port_mode(Port, Mode0) :-
+    word(Mode0, Mode),
     (   port_set_mode_(Port, Mode)
     ->  true
     ;   not_there(Port, Mode)
@@ -92,8 +93,8 @@ port_device(Port, Device) :-
     var(Device),
     !,
     port_device_(Port, Device).
-port_device(Port, Device) :-
-    must_be(atom, Device),
+port_device(Port, Device0) :-
+    word(Device0, Device),
     (   port_set_device_(Port, Device)
     ->  true
     ;   not_there(Port, Device)
@@ -101,7 +102,6 @@ port_device(Port, Device) :-
 
 not_there(Port, What) :-
     (   lego_port(Port)
-    ->  explain("nothing came of ~w at ~w", [What, Port])
-    ;   explain("there is no port ~w", [Port])
-    ),
-    fail.
+    ->  fail_because(nothing_came(Port, What))
+    ;   fail_because(absent('lego-port', Port))
+    ).

@@ -14,9 +14,9 @@
               ]).
 :- use_module(private/explain).
 :- use_module(driver, [tacho_motor/3]).
-:- use_module(motors, [motor_stop/1, motors_run/1]).
+:- use_module(motors, [motor_stop/1, motors_run/1, stop_all_motors/0]).
 :- use_module(private/arguments,
-              [must_be_options/3, number_option/4, number_value/3]).
+              [must_be_options/3, number_option/4, number_value/3, word/2]).
 :- use_module(private/domains, [finite/1]).
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/robot_state,
@@ -39,8 +39,10 @@ and that of a distance or angle together make the direction; clockwise is
 positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
-move is impossible: a speed beyond 100 percent, or going with a speed or an
-angle of 0. Nothing moves then.
+move is impossible: a speed beyond 100 percent, or a speed of 0 for a move
+that has an end. Nothing moves then, and a warning says why, once a session:
+see the flag `ev3dev_hints` of library(ev3dev). A distance or an angle of 0 is
+done at once.
 
 go/2, go_cm/2 and turn/2 wait. A native loop keeps the robot on its course
 meanwhile, by the rotation sensors of its wheels and by a gyro, if one is
@@ -83,19 +85,17 @@ robot stands, if they end early:
 set_robot(WheelDiameter, AxleLength, Left, Right) :-
     set_robot(WheelDiameter, AxleLength, Left, Right, []).
 
-set_robot(WheelDiameter0, AxleLength0, Left, Right, Options) :-
+set_robot(WheelDiameter0, AxleLength0, Left0, Right0, Options) :-
     number_value(positive_number, WheelDiameter0, WheelDiameter),
     number_value(positive_number, AxleLength0, AxleLength),
-    must_be(atom, Left),
-    must_be(atom, Right),
+    word(Left0, Left),
+    word(Right0, Right),
     build(WheelDiameter, Options, Diameters, Inverted, Offset),
     (   tacho_motor(Left, Type, LeftPath),
         tacho_motor(Right, Type, RightPath),
         LeftPath \== RightPath
     ->  true
-    ;   explain("~w and ~w are not two motors of one type",
-                [Left, Right]),
-        fail
+    ;   fail_because(unlike(Left, Right))
     ),
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
                 built(Diameters, Inverted, Offset)),
@@ -149,26 +149,34 @@ directed(-1, Number, Opposite) :-
 
 %!  stop is semidet.
 %
-%   Stop both motors of the robot, with `brake`. Does not wait until they
-%   stand. May be called from another thread while the robot moves. If one is
-%   not connected, stops the other one and fails.
+%   Stop both motors of the robot, with `brake`. If no robot is set, stop all
+%   motors, as stop_all_motors/0. Does not wait until they stand. May be
+%   called from another thread while the robot moves. If one is not connected,
+%   stops the other one and fails.
 
 stop :-
-    robot_set(_, _, Left, Right),
-    (   motor_stop(Left)
-    ->  motor_stop(Right)
+    robot(_, _, Left, Right),
+    !,
+    (   catch(motor_stop(Left), Error, true)
+    ->  motor_stop(Right),
+        (   var(Error)
+        ->  true
+        ;   throw(Error)
+        )
     ;   motor_stop(Right),
         fail
     ).
+stop :-
+    stop_all_motors.
 
 %!  go(+Speed) is semidet.
 %
-%   Go straight on, until stopped; backwards if Speed is negative.
+%   Go straight on, until stopped; backwards if Speed is negative. At a Speed
+%   of 0 the robot stands.
 
 go(Speed) :-
     robot_set(_, _, Left, Right),
     evaluated(Speed, Percent),
-    moves(Percent),
     wheels_run(Left, Percent, Right, Percent).
 
 %   Run the wheels at these percentages of the motors' highest speed.
@@ -180,7 +188,8 @@ wheels_run(Left, LeftPercent0, Right, RightPercent0) :-
 
 %!  go(+Speed, +Angle) is semidet.
 %
-%   Go straight on until each wheel has turned by Angle degrees. Waits.
+%   Go straight on until each wheel has turned by Angle degrees. Waits. An
+%   Angle of 0 is done at once.
 %
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
@@ -188,14 +197,13 @@ go(Speed, Angle) :-
     robot_set(WheelDiameter, _, _, _),
     evaluated(Speed, Percent),
     evaluated(Angle, Degrees),
-    moves(Percent),
-    moves(Degrees),
+    possible(Degrees),
     Distance is Degrees * (pi * WheelDiameter / 360),
     move_straight(Percent, Distance, []).
 
 %!  go_cm(+Speed, +Distance) is semidet.
 %
-%   Go straight on for Distance cm. Waits.
+%   Go straight on for Distance cm. Waits. A Distance of 0 is done at once.
 %
 %   @error existence_error(motor, Port) if a motor is unplugged under way
 
@@ -203,8 +211,7 @@ go_cm(Speed, Distance) :-
     robot_set(_, _, _, _),
     evaluated(Speed, Percent),
     evaluated(Distance, Cm),
-    moves(Percent),
-    moves(Cm),
+    possible(Cm),
     move_straight(Percent, Cm, []).
 
 %!  turn(+Speed) is semidet.
@@ -221,7 +228,10 @@ turn(Speed) :-
 %
 %   Turn on the spot by Angle degrees, clockwise positive. Waits. With a gyro,
 %   the first of those connected, it ends within a degree. Without one it goes
-%   by the wheels, and is as exact as AxleLength. A turn by 0 succeeds.
+%   by the wheels, and is as exact as AxleLength. A turn by 0 is done at once.
+%
+%   A gyro counts to 32767 degrees. Once it has passed 16384 either way, the
+%   next move restarts it if the robot stands: gyro_ang/2 is 0 again.
 %
 %   @error existence_error(Kind, Port) if a motor or the gyro is unplugged
 %          under way
@@ -230,20 +240,11 @@ turn(Speed, Angle) :-
     robot_set(_, _, _, _),
     evaluated(Speed, Percent),
     evaluated(Angle, Degrees),
-    moves(Percent),
     possible(Degrees),
     move_turn(Percent, Degrees, []).
-
-moves(Number) :-
-    (   Number =\= 0
-    ->  possible(Number)
-    ;   explain("a speed or an angle of 0 moves nothing", []),
-        fail
-    ).
 
 possible(Number) :-
     (   finite(Number)
     ->  true
-    ;   explain("no move is as fast or as long as ~w", [Number]),
-        fail
+    ;   fail_because(unable('the robot', 'move by', Number))
     ).

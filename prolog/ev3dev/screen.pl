@@ -266,8 +266,7 @@ screen_show :-
     ).
 
 no_screen :-
-    explain("screen: there is no fb0 of 178 x 128 pixels", []),
-    fail.
+    fail_because(lacking(screen)).
 
 %!  screen_png(+File) is semidet.
 %

@@ -9,7 +9,7 @@
 :- use_module(private/errors, [must_be/2, term_expansion/2]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
-:- use_module(private/attributes, [attribute_words/4]).
+:- use_module(private/attributes, [attribute_words/4, device_at/3]).
 :- use_module(private/one_of).
 
 /** <module> All sensors and their modes
@@ -123,6 +123,7 @@ load_table(Directory, Name) :-
 %          2 s
 
 sensor_info(Port, Info) :-
+    device_at('lego-sensor', Port, _),
     lego_sensor(Port, Type),
     findall(Item, info(Port, Type, Item), Info).
 

@@ -126,14 +126,27 @@ reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 
 sensor_reading(Reading, Port, Value) :-
     (   var(Port)
-    ->  reading(Reading, Types, Mode, Index),
-        sensor_value_(Port, Types, Mode, Index, Value)
+    ->  (   reading(Reading, Types, Mode, Index),
+            sensor_value_(Port, Types, Mode, Index, Read)
+        *-> Value = Read
+        ;   no_sensor_for(Reading, Port)
+        )
     ;   reading(Reading, Types, Mode, Index),
         sensor_value_(Port, Types, Mode, Index, Read)
     ->  Value = Read
-    ;   explain("~w has no sensor for ~w", [Port, Reading]),
-        fail
+    ;   no_sensor_for(Reading, Port)
     ).
+
+no_sensor_for(Reading, Port) :-
+    (   reading(Reading, _, _, _)
+    ->  fail_because(absent(reading(Reading), Port))
+    ;   fail_because(no_reading(Reading))
+    ).
+
+:- multifile ev3dev_explain:reading_types/2.
+
+ev3dev_explain:reading_types(Reading, Types) :-
+    reading(Reading, Types, _, _).
 
 %!  light_sensor(?Port) is nondet.
 %!  ultrasonic_sensor(?Port) is nondet.
@@ -267,7 +280,10 @@ ir_prox(Port, Percent) :-
 %   @error domain_error(sensor_value_index, Index) if Mode has no such value
 
 sensor_value(Port, Mode, Index, Value) :-
-    sensor_value_(Port, [], Mode, Index, Value).
+    (   sensor_value_(Port, [], Mode, Index, Read)
+    *-> Value = Read
+    ;   fail_because(absent(mode(Mode), Port))
+    ).
 
 %!  sensor_values(?Port, +Mode, -Values) is nondet.
 %

@@ -70,10 +70,9 @@ servo_motor_angle(Port, Degrees0) :-
 
 cannot(Port, Position) :-
     (   servo_motor(Port)
-    ->  explain("the servo at ~w cannot go to ~w", [Port, Position])
-    ;   explain("there is no servo at ~w", [Port])
-    ),
-    fail.
+    ->  fail_because(unable(Port, 'go to', Position))
+    ;   fail_because(absent('servo-motor', Port))
+    ).
 
 %!  servo_motor_float(+Port) is semidet.
 %

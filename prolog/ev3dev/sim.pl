@@ -284,7 +284,10 @@ throw_fault(Kind, Source, _, _, Why) :-
 
 %!  sim_stop is semidet.
 %
-%   End the simulation. The tree in use before the simulation is in use again.
+%   End the simulation. Fails if none runs. The tree that ev3_sysfs/1 or the
+%   environment had set before is in use again. If none was set, the next use
+%   of a device chooses one, as the first use of the program does: on a
+%   machine that is no EV3 it starts a new simulation of the world `room`.
 
 sim_stop :-
     sim_stop_,

@@ -89,8 +89,9 @@ sim_remove(Fact) :-
 %
 %   Plug a motor or a sensor into a port, after unplugging the old one. As on
 %   a brick, its device appears later: after 0.4 s for a motor, 1.3 s for most
-%   sensors. The robot's facts for that port give the place and heading of the
-%   sensor. `'ms-8ch-servo'` is a controller with eight servos.
+%   sensors. Until then calls fail, and a warning says so. The robot's facts
+%   for that port give the place and heading of the sensor. `'ms-8ch-servo'`
+%   is a controller with eight servos.
 %
 %   @error domain_error(possible_geometry, Item) if it does not fit that port
 

@@ -10,7 +10,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(private/directory, [file_path/2]).
+:- use_module(private/directory, [directory_path/2]).
 :- use_module(private/native,
               [ sim_collisions_/1, sim_mount_/2, sim_pose_/3, sim_svg_/1,
                 sim_trace_/1, sim_unmount_/0 ]).
@@ -95,17 +95,18 @@ sim_svg(File) :-
 %   an event device. Because they are no devices, a program cannot map the
 %   screen into memory, and a program that looks for device nodes finds none.
 %
-%   @error existence_error(directory, Directory)
+%   @error existence_error(directory, Directory); the message says so if a
+%          program that was killed left its files mounted there
 %   @error existence_error(device, '/dev/fuse') if this machine has no FUSE
 %   @error existence_error(feature, fuse) if the pack was built without FUSE
 
 sim_mount(Directory) :-
-    file_path(Directory, Path),
+    directory_path(Directory, Path),
     sim_mount_(Path, _).
 
 sim_mount(Directory, DevDirectory) :-
-    file_path(Directory, Path),
-    file_path(DevDirectory, DevPath),
+    directory_path(Directory, Path),
+    directory_path(DevDirectory, DevPath),
     sim_mount_(Path, DevPath).
 
 %!  sim_unmount is semidet.

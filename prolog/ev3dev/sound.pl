@@ -13,7 +13,7 @@
               ]).
 :- use_module(private/explain).
 :- use_module(files, []).
-:- use_module(private/arguments, [must_be_options/3, option/3]).
+:- use_module(private/arguments, [must_be_options/3, option/3, word/2]).
 :- use_module(private/directory, [file_path/2]).
 :- use_module(private/native,
               [ play_/1, say_/1, sound_stop_/0, tones_/1, volume_/1,
@@ -93,8 +93,7 @@ tones(Tones, Options) :-
     native_tones(Tones, Quarter, Native),
     (   tones_(Native)
     ->  true
-    ;   explain("tone: there is no speaker", []),
-        fail
+    ;   fail_because(lacking(speaker))
     ).
 
 %   Native are terms tone(Hertz, Milliseconds), 0 Hz for silence.
@@ -134,8 +133,8 @@ native(rest(Length), Quarter, [tone(0, Time)|Rest], Rest) :-
 
 %   A tempered scale of twelve steps an octave, in which a4 is number 57.
 
-pitch(Pitch, Hertz) :-
-    must_be(atom, Pitch),
+pitch(Pitch0, Hertz) :-
+    word(Pitch0, Pitch),
     atom_codes(Pitch, [Letter|Codes]),
     step([Letter], Step),
     (   Codes = [Digit],

@@ -152,14 +152,19 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     }
 
     /// The devices of a class, for a nondeterministic predicate's setup: all, or
-    /// the one at a port that is bound.
-    pub(crate) fn listed(&self, class: Class, port: &Term) -> PrologResult<Option<ListedDevices>> {
-        let (port, devices) = (self.text_if_bound(port)?, self.devices()?);
-        let found = self.or_throw(match port {
-            Some(port) => devices.find(class, &port).map(|device| device.into_iter().collect()),
+    /// the one at a port that is bound. Fails if there are none.
+    pub(crate) fn listed(
+        &self,
+        devices: &Registry,
+        class: Class,
+        port: &Term,
+    ) -> PrologResult<ListedDevices> {
+        let name = self.text_if_bound(port)?;
+        let found: Vec<_> = self.or_throw(match name {
+            Some(name) => devices.find(class, &name).map(|device| device.into_iter().collect()),
             None => devices.all(class).map(|all| all.to_vec()),
         })?;
-        Ok(Some(found.into_iter()))
+        if found.is_empty() { self.absent(class, port) } else { Ok(found.into_iter()) }
     }
 
     /// The elements of a list.
@@ -198,6 +203,34 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             return Ok(None);
         };
         Ok(Some((term.get::<Functor>()?.name_string(), arguments)))
+    }
+
+    /// Fails, and has Prolog explain why.
+    pub(crate) fn fail_because<T>(&self, cause: &Term) -> PrologResult<T> {
+        self.context.call_once(pred!("ev3dev_explain:fail_because/1"), [cause])?;
+        Err(PrologError::Failure)
+    }
+
+    /// Fails because there is no such device at a port, or at any if it is unbound.
+    pub(crate) fn absent<T>(&self, class: Class, port: &Term) -> PrologResult<T> {
+        let (context, class) = (self.context, atomable(class.directory()));
+        self.fail_because(&term! {context: absent(#class, #port)}?)
+    }
+
+    /// Fails because the brick does not have it.
+    pub(crate) fn lacking<T>(&self, what: &str) -> PrologResult<T> {
+        let context = self.context;
+        self.fail_because(&term! {context: lacking(#atomable(what))}?)
+    }
+
+    /// The driver's result; fails if it is `None`: the device at the port is absent.
+    pub(crate) fn or_absent<T>(
+        &self,
+        class: Class,
+        port: &Term,
+        result: ev3_driver::Result<Option<T>>,
+    ) -> PrologResult<T> {
+        self.or_throw(result)?.map_or_else(|| self.absent(class, port), Ok)
     }
 
     /// The driver's result; raises its error as an exception.

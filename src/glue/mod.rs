@@ -4,5 +4,6 @@ pub(crate) mod call;
 pub(crate) mod error;
 pub(crate) mod interned;
 pub(crate) mod places;
+pub(crate) mod signals;
 pub(crate) mod state;
 pub(crate) mod terms;

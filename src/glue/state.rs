@@ -1,9 +1,10 @@
 //! The brick in use. This value holds the state of the process.
+use crate::glue::signals;
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{
     Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
     RwLockWriteGuard,
@@ -96,12 +97,14 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
 
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
+    signals::watch();
     BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
+    signals::watch();
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();
@@ -114,6 +117,38 @@ pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
 /// Uses the tree of files below a directory from now on.
 pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
     use_tree(Arc::new(SysfsDir::new(root)))
+}
+
+/// The directories that the program has selected: of attribute files and of device files.
+#[cfg(feature = "sim")]
+#[derive(Clone)]
+pub(crate) struct Selected {
+    tree: Option<PathBuf>,
+    dev: Option<PathBuf>,
+}
+
+/// The directories that the program has selected.
+#[cfg(feature = "sim")]
+pub(crate) fn selected() -> Selected {
+    let files = BRICK.files();
+    let root = |root: &Path| root.to_owned();
+    Selected {
+        tree: files.is_tree_chosen.then(|| root(files.tree.devices.tree().root())),
+        dev: files.is_dev_chosen.then(|| root(files.dev.root())),
+    }
+}
+
+/// Uses these directories again. If the program had selected none, the next use of a
+/// device chooses the tree, as the first one did.
+#[cfg(feature = "sim")]
+pub(crate) fn select(Selected { tree, dev }: Selected) -> ev3_driver::Result<()> {
+    let (is_tree_chosen, is_dev_chosen) = (tree.is_some(), dev.is_some());
+    use_dev_files(dev.unwrap_or_else(|| KERNEL_DEV.into()));
+    let used = use_files(tree.unwrap_or_else(|| KERNEL.into()));
+    let mut files = BRICK.change_files();
+    files.is_tree_chosen = is_tree_chosen;
+    files.is_dev_chosen = is_dev_chosen;
+    used
 }
 
 /// Uses the kernel's own tree from now on.

@@ -18,9 +18,8 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_key_")]
     semidet fn sim_key(context, key, is_press) {
-        let call = Call::of(context, "sim_press", 1);
-        let key: Button = named(&call, "button", key)?;
-        let (simulation, is_press) = (simulation(&call)?, is_press.get_ex()?);
+        let key: Button = named(&Call::of(context, "sim_press", 1), "button", key)?;
+        let (simulation, is_press) = (simulation(context)?, is_press.get_ex()?);
         let act = if is_press { Machine::press } else { Machine::release };
         act(&mut simulation.machine(), key);
         simulation.shared().wake();
@@ -34,7 +33,7 @@ predicates! {
         let call = Call::of(context, "sim_press", 2);
         let (key, at) = (named::<Button, _>(&call, "button", key)?, time(&call, after)?);
         let lasts = if lasts.is_atom() { None } else { Some(time(&call, lasts)?) };
-        let simulation = simulation(&call)?;
+        let simulation = simulation(context)?;
         simulation.machine().plan_button(key, true, at);
         if let Some(lasts) = lasts {
             simulation.machine().plan_button(key, false, at.saturating_add(lasts));

@@ -12,7 +12,7 @@ mod running;
 pub(crate) use self::running::end_unless_mounted;
 
 use self::files::SimulatedFiles;
-use self::running::{simulation, start};
+use self::running::{is_running, simulation, start};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
@@ -41,6 +41,7 @@ pub(crate) fn register() {
     register_sim_remove();
     register_sim_plug();
     register_sim_unplug();
+    register_sim_detecting();
     register_sim_jam();
     register_sim_show();
     register_sim_unshow();
@@ -129,17 +130,15 @@ predicates! {
     /// sim_active_
     #[module("ev3dev_native")]
     #[name("sim_active_")]
-    semidet fn sim_active(context) {
-        let call = Call::of(context, "sim_active", 0);
-        simulation(&call).map(drop)
+    semidet fn sim_active(_context) {
+        into_prolog_result(is_running())
     }
 
     /// sim_pose_(-X, -Y, -Heading)
     #[module("ev3dev_native")]
     #[name("sim_pose_")]
     semidet fn sim_pose(context, x, y, heading) {
-        let call = Call::of(context, "sim_pose", 3);
-        let pose = simulation(&call)?.machine().pose();
+        let pose = simulation(context)?.machine().pose();
         x.unify(pose.x)?;
         y.unify(pose.y)?;
         heading.unify(pose.heading)
@@ -151,7 +150,7 @@ predicates! {
     semidet fn sim_place(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
         let pose = facts::pose(&call, [x, y, heading])?;
-        let placed = simulation(&call)?.machine().place(pose);
+        let placed = simulation(context)?.machine().place(pose);
         possible(&call, placed)
     }
 
@@ -165,7 +164,7 @@ predicates! {
             Some(_) => return wrong_value(&call, "world_item", term),
             None => return wrong_value(&call, "world_or_robot_fact", term),
         };
-        let added = simulation(&call)?.machine().add_item(item);
+        let added = simulation(context)?.machine().add_item(item);
         id.unify(i64::from(possible(&call, added)?.0))
     }
 
@@ -173,10 +172,9 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_remove_")]
     semidet fn sim_remove(context, id) {
-        let call = Call::of(context, "sim_remove", 1);
-        let id = call.integer(id)?;
+        let id = Call::of(context, "sim_remove", 1).integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
-        into_prolog_result(simulation(&call)?.machine().remove_item(ItemId(id)))
+        into_prolog_result(simulation(context)?.machine().remove_item(ItemId(id)))
     }
 
     /// sim_plug_(+Port, +Type)
@@ -185,7 +183,7 @@ predicates! {
     semidet fn sim_plug(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
         let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
-        let plugged = simulation(&call)?.machine().plug(port, &kind);
+        let plugged = simulation(context)?.machine().plug(port, &kind);
         possible(&call, plugged)
     }
 
@@ -193,19 +191,25 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_unplug_")]
     semidet fn sim_unplug(context, port) {
-        let call = Call::of(context, "sim_unplug", 1);
-        let port = port_of(&call, port)?;
-        into_prolog_result(simulation(&call)?.machine().unplug(port))
+        let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
+        into_prolog_result(simulation(context)?.machine().unplug(port))
+    }
+
+    /// sim_detecting_(+Port): the brick has not found out yet what was plugged in.
+    #[module("ev3dev_native")]
+    #[name("sim_detecting_")]
+    semidet fn sim_detecting(context, port) {
+        let port = port_of(&Call::of(context, "sim_plug", 2), port)?;
+        into_prolog_result(simulation(context)?.machine().is_detecting(port))
     }
 
     /// sim_jam_(+Port, +Bool)
     #[module("ev3dev_native")]
     #[name("sim_jam_")]
     semidet fn sim_jam(context, port, fast) {
-        let call = Call::of(context, "sim_jam", 2);
-        let port = port_of(&call, port)?;
+        let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
         let fast = fast.get_ex()?;
-        simulation(&call)?.machine().jam(port, fast);
+        simulation(context)?.machine().jam(port, fast);
         Ok(())
     }
 
@@ -215,7 +219,7 @@ predicates! {
     semidet fn sim_show(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
         let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
-        let simulation = simulation(&call)?;
+        let simulation = simulation(context)?;
         let shown = simulation.machine().show(port, &name, &line);
         simulation.shared().wake();
         shown.or_else(|errno| cannot_show(&call, errno, attribute, text))
@@ -227,7 +231,7 @@ predicates! {
     semidet fn sim_unshow(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
         let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
-        let simulation = simulation(&call)?;
+        let simulation = simulation(context)?;
         let was_shown = simulation.machine().unshow(port, &name);
         simulation.shared().wake();
         match was_shown {
@@ -244,7 +248,7 @@ predicates! {
         let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(&call)?)));
+        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(context)?)));
         call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
     }
 
@@ -254,7 +258,7 @@ predicates! {
     semidet fn sim_remote(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
-        match simulation(&call)?.machine().hold_buttons(channel, &held) {
+        match simulation(context)?.machine().hold_buttons(channel, &held) {
             Ok(()) => Ok(()),
             Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
         }
@@ -268,7 +272,7 @@ predicates! {
         let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
         };
-        let (simulation, mut interrupted) = (simulation(&call)?, call.interrupted());
+        let (simulation, mut interrupted) = (simulation(context)?, call.interrupted());
         while !left.is_zero() {
             let slice = left.min(STEP_SLICE);
             simulation.step(slice);
@@ -284,16 +288,14 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_time_")]
     semidet fn sim_time(context, seconds) {
-        let call = Call::of(context, "sim_time", 1);
-        seconds.unify(simulation(&call)?.machine().now().as_secs_f64())
+        seconds.unify(simulation(context)?.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
     #[module("ev3dev_native")]
     #[name("sim_snapshot_")]
     semidet fn sim_snapshot(context, snapshot) {
-        let call = Call::of(context, "sim_snapshot", 1);
-        let machine = simulation(&call)?.machine().clone();
+        let machine = simulation(context)?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
@@ -308,10 +310,9 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_restore_")]
     semidet fn sim_restore(context, snapshot) {
-        let call = Call::of(context, "sim_restore", 1);
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        simulation(&call)?.machine().restore(machine);
+        simulation(context)?.machine().restore(machine);
         devices().forget_listings();
         Ok(())
     }
@@ -320,8 +321,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_collisions_")]
     semidet fn sim_collisions(context, collisions) {
-        let call = Call::of(context, "sim_collisions", 1);
-        let seen: Vec<_> = simulation(&call)?.machine().trace().collisions().copied().collect();
+        let seen: Vec<_> = simulation(context)?.machine().trace().collisions().copied().collect();
         let terms = seen.iter().map(|collision| {
             let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
             term! {context: collision(#at, #pose.x, #pose.y, #pose.heading)}
@@ -334,8 +334,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_trace_")]
     semidet fn sim_trace(context, trace) {
-        let call = Call::of(context, "sim_trace", 1);
-        let seen = simulation(&call)?.machine().trace().clone();
+        let seen = simulation(context)?.machine().trace().clone();
         let poses = seen.path().map(|(at, pose)| {
             let seconds = at.as_secs_f64();
             let entry = term! {context: at(#seconds, pose(#pose.x, #pose.y, #pose.heading))};
@@ -366,8 +365,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_svg_")]
     semidet fn sim_svg(context, text) {
-        let call = Call::of(context, "sim_svg", 1);
-        let picture = simulation(&call)?.machine().svg();
+        let picture = simulation(context)?.machine().svg();
         unify_atom(text, &picture)
     }
 
@@ -377,7 +375,7 @@ predicates! {
     semidet fn sim_mount(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
         let dev = (!dev.is_var()).then_some(dev);
-        mount::mount(&call, &simulation(&call)?.shared(), classes, dev)
+        mount::mount(&call, &simulation(context)?.shared(), classes, dev)
     }
 
     /// sim_unmount_

@@ -4,9 +4,8 @@ use super::files::SimulatedFiles;
 use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
-use crate::glue::state::{dev, devices, use_dev, use_dev_files, use_files, use_tree};
+use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
 use ev3_sim::{Clock, Machine, Simulation};
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use swipl::fli::has_other_threads;
 use swipl::prelude::*;
@@ -15,27 +14,36 @@ static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
 
 struct Running {
     simulation: Arc<Simulation>,
-    /// The directories of attributes and device files that were in use before.
-    before: [PathBuf; 2],
+    /// The files that were in use before.
+    before: Selected,
 }
 
 fn running() -> MutexGuard<'static, Option<Running>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The running simulation; fails if there is none.
-fn current() -> PrologResult<Arc<Simulation>> {
-    match &*running() {
-        Some(running) => Ok(Arc::clone(&running.simulation)),
-        None => Err(PrologError::Failure),
-    }
-}
-
 /// The running simulation, in which it is this thread's turn; fails if there is none.
-pub(super) fn simulation<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Arc<Simulation>> {
-    let simulation = current()?;
+pub(super) fn simulation<C: QueryableContextType>(
+    context: &Context<C>,
+) -> PrologResult<Arc<Simulation>> {
+    let simulation = running().as_ref().map(|running| Arc::clone(&running.simulation));
+    let call = Call::of(context, "sim_start", 1);
+    let Some(simulation) = simulation else {
+        return none(&call);
+    };
     call.wait_for(|about| simulation.turn(about))?;
     Ok(simulation)
+}
+
+/// Fails because no simulation runs.
+fn none<C: QueryableContextType, T>(call: &Call<C>) -> PrologResult<T> {
+    let context = call.context;
+    call.fail_because(&term! {context: no_simulation}?)
+}
+
+/// Whether a simulation runs.
+pub(super) fn is_running() -> bool {
+    running().is_some()
 }
 
 /// Starts a simulation and ends the running one.
@@ -50,22 +58,24 @@ pub(super) fn start<C: QueryableContextType>(
     };
     mount::end();
     let before = running().as_ref().map(|running| running.before.clone());
-    let before =
-        before.unwrap_or_else(|| [devices().tree().root().to_owned(), dev().root().to_owned()]);
+    let before = before.unwrap_or_else(selected);
     let ended = running().replace(Running { simulation: Arc::clone(&simulation), before });
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
-/// Ends the simulation and goes back to the directories before it; fails if there is none.
+/// Ends the simulation and goes back to the files before it; fails if there is none.
 pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
-    simulation(call)?;
+    if !is_running() {
+        return none(call);
+    }
     mount::end();
-    let ended = running().take().ok_or(PrologError::Failure)?;
-    let [files, dev] = ended.before.clone();
-    use_dev_files(dev);
-    call.or_throw(use_files(files))
+    let ended = running().take();
+    match ended {
+        Some(ended) => call.or_throw(select(ended.before)),
+        None => none(call),
+    }
 }
 
 /// Ends the simulation after the program has selected other files, unless a mount shows

@@ -317,6 +317,51 @@ test(whatever_is_thrown_is_an_iso_error_that_names_what_was_called,
                         Bad) )),
     !.
 
+% A port, and any other name, may be an atom or a string.
+
+names(Kind) :-
+    memberchk(Kind, [ port, sensor, dc, servo, light, lego_port, button, polarity,
+                      key, action, flag, command, colour, event, trigger, mode
+                    ]).
+
+%   Two calls that differ in one name, which is an atom in the first and a
+%   string in the second.
+either(Goal, Other) :-
+    call_of(Call),
+    Call =.. [Name|Kinds],
+    Name \== sensor_mode,              % a table of atoms
+    nth0(I, Kinds, Kind, Others),
+    names(Kind),
+    sensible(Kind, Atom),
+    maplist(sensible, Others, Rest0),
+    copy_term(Rest0, Rest1),
+    nth0(I, Arguments0, Atom, Rest0),
+    atom_string(Atom, String),
+    nth0(I, Arguments1, String, Rest1),
+    Goal =.. [Name|Arguments0],
+    Other =.. [Name|Arguments1].
+
+test(a_name_may_be_an_atom_or_a_string, true(Different == [])) :-
+    with_tree(plain, [ in1-'lego-ev3-us', outB-'lego-ev3-l-motor',
+                       outA-'lego-ev3-l-motor', outD-'rcx-motor',
+                       'in2:i2c88:sv1'-'ms-8ch-servo',
+                       'led0:red:brick-status'-led, 'led0:green:brick-status'-led,
+                       'lego-ev3-battery'-battery ],
+              findall(Goal-How/Other-How1,
+                      ( either(Goal, Other),
+                        ends(Goal, How),
+                        ends(Other, How1),
+                        How \== How1 ),
+                      Different)).
+
+ends(Goal, How) :-
+    warnings(catch(call_with_time_limit(
+                       60,
+                       ( with_output_to(string(_), Goal) -> End = yes ; End = no )),
+                   error(Formal, _), End = Formal),
+             _),
+    term_to_atom(End, How).
+
 ends_badly(Goal, How) :-
     use_tree_again,
     % A motor that is told nonsense may well be said to be blocked. 97 seconds,

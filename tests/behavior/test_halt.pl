@@ -61,14 +61,14 @@ test(one_that_has_no_descriptors_left_stops_them,
                          leak :- open('/dev/null', read, _), leak.",
                   [goal(main)], _, C).
 test(without_descriptors_a_motor_can_be_stopped,
-     [forall(tree(Tree)), true(C == stop-'')]) :-
+     [forall(tree(Tree)), true(Status-C == exit(0)-(stop-''))]) :-
     after_program(Tree, ":- use_module(library(rlimit)).
                          main :- motor_run(outB, 20), rlimit(nofile, _, 40),
                                  catch(leak, error(resource_error(_), _), true),
                                  sleep(0.2), motor_stop(outB),
                                  set_prolog_flag(ev3dev_stop_at_halt, false).
                          leak :- open('/dev/null', read, _), leak.",
-                  [goal(main)], _, C).
+                  [goal(main)], Status, C).
 test(a_failed_goal_stops_them, [forall(tree(Tree)), true(C == stop-'')]) :-
     after_program(Tree, "main :- motor_run(outB, 20), fail.", [goal(main)], _, C).
 test(halt_within_the_program_stops_them,
@@ -138,5 +138,58 @@ test(a_program_that_is_told_to_end_stops_its_motors,
 is_over(Pid) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.
+
+% Where Prolog handles no signal, and in crashes
+test(one_signal_suffices_where_prolog_handles_none,
+     [ forall(( tree(Tree),
+                Tree \== simulator,
+                member(Signal-Text,
+                       [ term-":- initialization(main).",
+                         hup-":- initialization(main).",
+                         term-":- initialization(main).
+                               again :- motor_run(outC, 30), sleep(0.05), again.
+                               wait :- again.",
+                         term-":- initialization(main, now).",
+                         term-"wait :- shell('exec sleep 9 >/dev/null 2>&1').
+                               :- initialization(main)." ]) )),
+       true(B-C == stop-stop) ]) :-
+    signalled(Tree, Signal, Text, [], B, C).
+test(a_crash_stops_the_motors,
+     [ forall(( tree(Tree), Tree \== simulator, member(Signal, [6, 11]) )),
+       true(B-C == stop-stop) ]) :-
+    signalled(Tree, Signal, "", [goal(main)], B, C).
+test(a_handler_of_the_program_decides,
+     [forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(7)-stop-stop)]) :-
+    signalled(Tree, term,
+              ":- on_signal(term, _, later).
+               later(_) :- thread_create(( sleep(2.5), halt(7) ), _, []).",
+              [goal(main)], Status, B, C).
+
+signalled(Tree, Signal, Text, Options, B, C) :-
+    signalled(Tree, Signal, Text, Options, _, B, C).
+
+signalled(Tree, Signal, Text, Options0, Status, B, C) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( string_concat(
+                    ":- dynamic wait/0.
+                     main :- motors_run([run(outB, 20), run(outC, 20)]),
+                             format(\"started~n\"), flush_output,
+                             ( wait ; repeat, sleep(0.01), fail ).
+                     ", Text, Both),
+                program_in_tree(Both, Program, Options1),
+                append(Options0, Options1, Options),
+                start_program(Program, Options, Child),
+                Child = child(Pid, Out, _),
+                repeat,
+                read_line_to_string(Out, Line),
+                Line == "started",
+                !,
+                process_kill(Pid, Signal),
+                process_wait(Pid, Status, [timeout(60)]),
+                catch(process_kill(Pid, kill), _, true),
+                Status \== timeout,
+                end_output(Child, _),
+                left(outB, command, "", B),
+                left(outC, command, "", C) )).
 
 :- end_tests(signals).

@@ -47,9 +47,28 @@ test(a_simulation_of_the_program_is_used_instead) :-
     prints(( use_module(library(ev3dev/sim)), sim_start(grid),
              us_dist_cm(in1, D), D < 100 ), [], Output),
     \+ told(Output).
-test(after_its_end_there_is_nothing) :-
-    prints(( us_dist_cm(in1, _), ev3dev_sim:sim_stop, \+ tacho_motor(_) ),
-           [], Output),
+test(after_its_end_the_next_use_starts_it_again) :-
+    prints(( us_dist_cm(in1, _), ev3dev_sim:sim_stop, \+ ev3dev_sim:sim_stop,
+             tacho_motor(outB), \+ button(_) ), [], Output),
+    findall(At, sub_string(Output, At, _, _, "simulating"), [_, _]).
+test(after_the_programs_own_ended_it_starts_too) :-
+    prints(( use_module(library(ev3dev/sim)), sim_start(grid), sim_stop,
+             \+ sim_pose(_, _, _), us_dist_cm(in1, _),
+             sim_pose(_, _, H), H =:= 40 ), [], Output),
     told(Output).
+test(after_its_end_a_directory_of_the_program_is_used_again) :-
+    prints(( use_module(library(ev3dev/sim)), ev3_sysfs('/tmp'), sim_start(grid),
+             sim_start(room), tacho_motor(outB), sim_stop, ev3_sysfs('/tmp'),
+             ev3_sysfs(D), D == '/tmp', \+ tacho_motor(_) ), [], Output),
+    \+ told(Output).
+test(after_its_end_the_device_files_of_the_program_are_used_again) :-
+    prints(( use_module(library(ev3dev/sim)), ev3_dev('/tmp'), sim_start(grid),
+             sim_stop, ev3_dev(D), D == '/tmp' ), [], Output),
+    \+ told(Output).
+test(several_threads_start_one_again) :-
+    prints(( us_dist_cm(in1, _), ev3dev_sim:sim_stop,
+             concurrent(3, [us_dist_cm(in1, _), gyro_ang(in4, _), position(outB, _)],
+                        []) ), [], Output),
+    findall(At, sub_string(Output, At, _, _, "simulating"), [_, _]).
 
 :- end_tests(default).

@@ -84,12 +84,12 @@ replugs(sane) :-
 % happened, with the times.
 
 program("a thread a wheel",
-        "go(Speed, Degrees) :-
+        "wheels(Speed, Degrees) :-
              thread_create(motor_run(outB, Speed, Degrees), Left, []),
              thread_create(motor_run(outC, Speed, Degrees), Right, []),
              thread_join(Left, true),
              thread_join(Right, true).
-         run :- go(40, 720), go(60, -90).").
+         run :- wheels(40, 720), wheels(60, -90).").
 program("goals of concurrent/3",
         "run :-
              concurrent(2, [motor_run(outB, 40, 90), motor_run(outC, 40, 360)], []),
@@ -129,7 +129,7 @@ program("threads that send messages, and compute",
 
 test(all_are_the_same, [forall(program(_, Text)), true(Different == [First])]) :-
     findall(Output, ( between(1, 4, _), printed(Text, Output) ), [First|Outputs]),
-    sub_string(First, _, _, _, "written"),
+    once(sub_string(First, _, _, _, "written")),
     sort([First|Outputs], Different).
 
 printed(Text, Output) :-

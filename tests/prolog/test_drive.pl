@@ -63,11 +63,11 @@ test(a_missing_motor_fails_and_writes_nothing,
                States == [] )).
 test(an_impossible_move_fails_and_writes_nothing,
      [forall(( member(Goal, [ go_cm(0, 10, []), go_cm(101, 10, []),
-                              go_cm(30, 0, []), turn(0, 90, []),
+                              turn(0, 90, []),
                               turn(-101, 90, []), turn(0, 0, []),
                               turn(101, 0), follow([], [speed(0)]),
                               arc_cm(101, 20, 90), arc_cm(0, 20, 90),
-                              arc_cm(20, 20, 0), drive_cm(60, 0),
+                              drive_cm(60, 0),
                               drive_cm(0, 600), arc(101, 20), steer(120, 0),
                               go_to(1, 1, [speed(0)]),
                               go_to(1, 1, [speed(101)]) ]) )),
@@ -77,6 +77,18 @@ test(an_impossible_move_fails_and_writes_nothing,
                        \+ Goal,
                        written(W1),
                        subtract(W1, W0, W) )).
+test(what_has_no_way_to_go_is_reached_at_once,
+     [ forall(( tree(Tree),
+                member(Goal-Reason,
+                       [ go_cm(30, 0, [reason(R)])-R, turn(30, 0, [reason(R)])-R,
+                         arc_cm(30, 20, 0, [reason(R)])-R, arc_cm(30, 0, 0)-reached,
+                         go_cm(30, 0.0, [])-reached, follow([])-reached ]) )),
+       true(Reason-B == reached-'')]) :-
+    with_tree(Tree, ( set_robot(5.6, 10.6, outB, outC),
+                      call(Goal),
+                      settle(Tree),
+                      state(outB, State),
+                      ( State == holding -> B = '' ; B = State ) )).
 test(what_is_not_finite_throws_and_writes_nothing,
      [ forall(( evaluated(inf, Inf), evaluated(nan, Nan),
                 member(Goal, [go_to(Inf, 1), face(Nan)]) )),
@@ -97,7 +109,11 @@ test(what_is_no_number_throws_and_writes_nothing,
                             -domain_error(nonnegative_number, -1),
                         go_to(1, 1, 0, a)-type_error(list, a),
                         go_to(1, 1, [acceleration(0)])
-                            -domain_error(positive_number, 0),
+                            -domain_error(acceleration, 0),
+                        turn(50, 90, [acceleration(4294967296)])
+                            -domain_error(acceleration, 4294967296),
+                        go_cm(30, 20, [acceleration(1.0e-300)])
+                            -domain_error(acceleration, 1.0e-300),
                         go_to(1, 1, [stop_action(jump)])
                             -domain_error(stop_action, jump),
                         go_to(1, 1, [wait(1)])-type_error(_, 1),
@@ -121,7 +137,9 @@ test(what_is_no_number_throws_and_writes_nothing,
                             -domain_error(drive_option, colour),
                         drive_option(speed, 0)-domain_error(speed, 0),
                         drive_option(acceleration, -1)
-                            -domain_error(positive_number, -1),
+                            -domain_error(acceleration, -1),
+                        drive_option(acceleration, 1001)
+                            -domain_error(acceleration, 1001),
                         drive_option(use_gyro, 1)-type_error(_, 1),
                         heading_wrapped(_, _)-instantiation_error,
                         calibrate(all, [], _)
@@ -312,6 +330,26 @@ test(what_leads_nowhere_is_reached_at_once,
 test(what_leads_nowhere_ends_the_move_before,
      [forall(member(Goal, [turn(20, 0), follow([])]))]) :-
     quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
+test(turns_to_one_side_go_on_though_a_gyro_has_16_bits) :-
+    quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 3) )).
+test(every_acceleration_that_is_allowed_ends,
+     [forall(( member(A, [1, 1000]),
+               member(Move, [turn(80, 90, O), face(-120, O), go_cm(80, 20, O),
+                             go_to(20, 20, O)]) ))]) :-
+    O = [acceleration(A), timeout(60)],
+    quiet(true, ( Move, pose_is_right(0.5, 1) )).
+test(no_move_ends_with_a_motor_that_pushes,
+     [ forall(( between(0, 12, I),
+                member(Move, [go_cm(30, D, [reason(_)]), go_to(0, D, [reason(_)])]) )),
+       true(Ss == []) ]) :-
+    % The wall is 92 cm away, or a little less or more.
+    D is 91.8 + I * 0.04,
+    with_sim([bounds(0, 0, 200, 200), start(100, 100, 0)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               set_pose(0, 0, 0),
+               Move,
+               sim_wait(2),
+               findall(S, ( motor_states(_, S), memberchk(running, S) ), Ss) )).
 test(in_the_mount_too, [condition(behaving(mount))]) :-
     on(mount, ( set_robot(5.6, 10.6, outB, outC),
                 sim_pose(X0, Y0, H0),

@@ -86,7 +86,7 @@ test(what_is_no_colour_throws_and_changes_nothing,
                        levels(_, 0)-instantiation_error,
                        levels(1)-domain_error(led_color, levels(1)),
                        -1-domain_error(led_color, -1),
-                       "red"-domain_error(led_color, "red"),
+                       "pink"-domain_error(led_color, pink),
                        f(x)-domain_error(led_color, f(x)) ])),
        true(E-W == caught-[]) ]) :-
     leds(['led0:red:brick-status', 'led0:green:brick-status'],

@@ -51,51 +51,6 @@ test(throws_for_a_speed_that_is_no_number,
 
 :- end_tests(motor_run_2).
 
-:- begin_tests(why_not).
-
-%   What `debug(ev3dev)` says of Goal, which fails.
-said_of(Goal, Said) :-
-    setup_call_cleanup(
-        ( % It may complain that nobody has spoken of that so far.
-          warnings(debug(ev3dev), _),
-          asserta((prolog:debug_print_hook(ev3dev, Format, Arguments) :-
-                       format(string(Line), Format, Arguments),
-                       assertz(plunit_why_not:said(Line))),
-                  Hook)
-        ),
-        \+ Goal,
-        ( erase(Hook),
-          nodebug(ev3dev)
-        )),
-    findall(Line, retract(said(Line)), Said).
-
-:- dynamic said/1.
-:- multifile prolog:debug_print_hook/3.
-:- dynamic prolog:debug_print_hook/3.
-
-test(an_absent_motor_is_named_and_no_other,
-     [forall(tree(Tree)), true(Said == ["there is no motor at outE"])]) :-
-    with_tree(Tree, said_of(motors_run([run(outB, 20), run(outE, 20)]), Said)).
-test(what_a_motor_cannot_do_is_told,
-     [forall(tree(Tree)), true(Text == "outB cannot run at 120 %")]) :-
-    with_tree(Tree, said_of(motor_run(outB, 120), [Said])),
-    sub_string(Said, 0, 24, _, Text).
-
-test(what_is_missing_is_told,
-     [ forall(( tree(Tree),
-                member(Goal-Line,
-                       [ motor_stop(outE)-"there is no motor at outE",
-                         us_dist_cm(in2, _)-"in2 has no sensor for us_dist_cm",
-                         set_robot(5.6, 10.6, outA, outB)
-                         -"outA and outB are not two motors of one type",
-                         go(20)-"no robot is set: see set_robot/4",
-                         stop-"no robot is set: see set_robot/4" ]) )),
-       setup(retractall(ev3dev_robot_state:described(_, _, _))),
-       true(Said == [Line]) ]) :-
-    with_tree(Tree, said_of(Goal, Said)).
-
-:- end_tests(why_not).
-
 :- begin_tests(motors_run).
 
 test(runs_each_at_its_speed,
@@ -233,6 +188,14 @@ test(all_motors_are_stopped_whoever_started_them,
     with_tree(Tree, ( put_attribute(outD, command, 'run-forever'),
                       stop_all_motors,
                       findall(P-C, ( tacho_motor(P), get_attribute(P, command, C) ), Cs) )).
+test(one_that_was_just_plugged_in_is_waited_for,
+     [forall(member(S, [0.4, 0.5, 0.8])), true(States-Found == []-true)]) :-
+    with_sim([], ( motor_run(outB, 50),
+                   sim_plug(outD, 'lego-ev3-l-motor'),
+                   sim_wait(S),
+                   stop_all_motors,
+                   motor_states(outB, States),
+                   ( tacho_motor(outD) -> Found = true ; Found = false ) )).
 test(to_stop_no_motor_is_no_failure, [forall(tree(Tree))]) :-
     with_tree(Tree, [], stop_all_motors).
 test(reset_is_left_to_the_motor,

@@ -211,7 +211,7 @@ test(a_bound_value_selects, all(P == ['in2:i2c1'])) :-
 test(a_wrong_range_of_the_proximity_detector,
      [ forall(member(Range-Error, [ _-instantiation_error,
                                     far-domain_error(eopd_range, far),
-                                    1-domain_error(eopd_range, 1) ])),
+                                    1-type_error(atom, 1) ])),
        error(Error, _) ]) :-
     with_tree(plain, [in1-'ht-nxt-eopd'], ht_eopd(in1, Range, _)).
 test(a_port_is_no_number, [forall(row_at(7, Goal)), error(type_error(_, 7), _)]) :-

@@ -101,11 +101,21 @@ test(writes_nothing, [forall(tree(Tree)), true(W == [])]) :-
 
 test(nothing_can_be_done_without_a_robot,
      [ forall(( tree(Tree),
-                member(Goal, [ robot(_, _, _, _), stop, go(50), go(50, 90),
+                member(Goal, [ robot(_, _, _, _), go(50), go(50, 90), go(50, 0),
                                go_cm(50, 10), turn(50), turn(50, 90) ]) )),
        true(W == []) ]) :-
     with_tree(Tree, ( \+ Goal,
                       written(W) )).
+test(stop_stops_all_motors,
+     [forall(tree(Tree)), true(Bs == [brake-stop, brake-stop])]) :-
+    with_tree(Tree, ( motor_run(outA, 50),
+                      motor_run(outD, 20),
+                      stop,
+                      findall(Action-Command,
+                              ( member(Port, [outA, outD]),
+                                get_attribute(Port, stop_action, Action),
+                                get_attribute(Port, command, Command) ),
+                              Bs) )).
 
 :- end_tests(no_robot).
 
@@ -146,19 +156,29 @@ test(go_cm_is_the_papers_formula,
                        wheels_near(Angle, Angle, 3) )).
 test(an_impossible_move_fails_and_writes_nothing,
      [ forall(( tree(Tree),
-                member(Goal, [ go(0), go(0.0), go(101), go(10**400),
-                               go(0, 90), go(50, 0), go(101, 90), go(50, 10**400),
-                               go_cm(50, 0), go_cm(0, 10), go_cm(101, 10) ]) )),
+                member(Goal, [ go(101), go(10**400), turn(101),
+                               go(0, 90), go(101, 90), go(50, 10**400),
+                               go_cm(0, 10), go_cm(101, 10), turn(0, 90),
+                               go(101, 0), go_cm(101, 0), turn(101, 0) ]) )),
        true(W == []) ]) :-
     with_robot(Tree, ( \+ Goal,
                        written(W) )).
+test(nothing_to_do_is_done,
+     [ forall(( tree(Tree),
+                member(Goal, [ go(50, 0), go(50, 0.0), go_cm(50, 0), turn(50, 0),
+                               go_cm(-50, 0), go(0), turn(0) ]) )) ]) :-
+    with_robot(Tree, ( Goal,
+                       settle(Tree),
+                       speed(outB, 0),
+                       speed(outC, 0) )).
 test(an_infinite_speed_fails_and_writes_nothing,
      [forall(( tree(Tree), evaluated(inf, Speed) )), true(W == [])]) :-
     with_robot(Tree, ( \+ go(Speed),
                        written(W) )).
 test(a_motor_that_is_missing_fails_and_starts_none,
      [ forall(( tree(Tree),
-                member(Goal, [go(50), go(50, 90), go_cm(50, 10), turn(50), turn(50, 90)]) )),
+                member(Goal, [ go(50), go(50, 90), go_cm(50, 10), turn(50), turn(50, 90),
+                               go(50, 0), go_cm(50, 0), turn(50, 0) ]) )),
        true(W == []) ]) :-
     with_robot(Tree, ( unplug(outC),
                        \+ Goal,

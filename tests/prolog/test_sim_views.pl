@@ -72,6 +72,20 @@ test(a_program_that_ends_unmounts, [condition(can_mount)]) :-
           msort(Files, ['.', '..']) )).
 test(no_such_directory, error(existence_error(_, _), _)) :-
     with_sim([], sim_mount('/no/such/directory')).
+test(a_mount_whose_program_was_killed_is_told_with_a_cure,
+     [condition(can_mount)]) :-
+    with_directory(Directory,
+        ( format(atom(Goal),
+                 "sim_start(room), sim_mount(~q), current_prolog_flag(pid, Pid), \c
+                  process_kill(Pid, kill)", [Directory]),
+          run_program(":- use_module(library(ev3dev/sim)).\n\c
+                       :- use_module(library(process)).\n", [goal(Goal)],
+                      killed(_), _),
+          call_cleanup(
+              forall(member(Call, [ev3_sysfs(Directory), ev3_dev(Directory)]),
+                     is_told_stale(Call, Directory)),
+              with_sim([], is_told_stale(sim_mount(Directory), Directory))),
+          unmount(Directory) )).
 test(ends_with_the_simulation_while_its_files_are_in_use,
      [ condition(can_mount),
        forall(member(End, [sim_stop, sim_start(room, [clock(virtual)])])) ]) :-
@@ -99,6 +113,22 @@ test(a_mode_can_be_written_though_time_stands_still,
                    sim_unmount ))).
 
 :- end_tests(sim_mount).
+
+is_told_stale(Call, Directory) :-
+    functor(Call, Name, Arity),
+    catch(Call, error(Formal, context(Called, Message)), true),
+    assertion(Formal == existence_error(directory, Directory)),
+    assertion(Called == Name/Arity),
+    format(atom(Cure), '"fusermount -u ~w"', [Directory]),
+    assertion(sub_atom(Message, _, _, _, Cure)).
+
+unmount(Directory) :-
+    (   member(Program-Arguments, [fusermount3-['-u'], fusermount-['-u'], umount-[]]),
+        append(Arguments, [file(Directory)], All),
+        catch(( process_create(path(Program), All, [process(Pid), stderr(null)]),
+                process_wait(Pid, exit(0)) ), _, fail)
+    ->  true
+    ).
 
 :- begin_tests(sim_mount_dev, [condition(can_mount)]).
 

@@ -33,6 +33,8 @@ leaves behind. Such a program finds library(ev3dev) of this working copy.
 %       Call it after loading.
 %     - cwd(+Directory)
 %     - env(+Variable=Value)
+%     - hints(+Value)
+%       Of the flag `ev3dev_hints`: by default `off`. Not set if `default`.
 
 run_program(Text, Options, Status, Output) :-
     start_program(Text, Options, Child),
@@ -45,8 +47,14 @@ run_program(Text, Options, Status, Output) :-
 start_program(Text, Options, child(Pid, Out, File)) :-
     tmp_file_stream(text, File, Stream),
     library_directory_under_test(Library),
-    format(Stream, ":- asserta(user:file_search_path(library, ~q)).~n~s~n",
-           [Library, Text]),
+    format(Stream, ":- asserta(user:file_search_path(library, ~q)).~n",
+           [Library]),
+    option(hints(Hints), Options, off),
+    (   Hints == default
+    ->  true
+    ;   format(Stream, ":- set_prolog_flag(ev3dev_hints, ~q).~n", [Hints])
+    ),
+    format(Stream, "~s~n", [Text]),
     close(Stream),
     option(goal(Goal), Options, true),
     status_options(StatusOptions),

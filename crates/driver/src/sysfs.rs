@@ -3,7 +3,9 @@
 //! [`SysfsDir`] is a tree of real files: the kernel's `/sys/class`, a FUSE mount,
 //! or any directory shaped like it. A simulator may stand in for it within
 //! the process by implementing [`Sysfs`] and [`AttributeFile`].
+use crate::class::Class;
 use crate::error::{Access, Error, Interrupted, Result};
+use ev3_signals::Kept;
 use nix::sys::signal::{SigSet, SigmaskHow};
 use nix::time::{ClockId, clock_gettime};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -11,7 +13,7 @@ use rustix::fs::OFlags;
 use rustix::io::Errno;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom};
-use std::os::fd::{AsFd, BorrowedFd};
+use std::os::fd::{AsFd, AsRawFd, BorrowedFd};
 use std::os::unix::fs::{DirEntryExt, FileExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -211,7 +213,11 @@ impl Sysfs for SysfsDir {
             .open(path)?;
         // Devices and pipes are no stores of bytes either.
         let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
-        Ok(Box::new(OpenFile { file, is_plain }))
+        let takes_stop = access == Access::Write
+            && path.ends_with("command")
+            && !path.starts_with(self.root.join(Class::ServoMotor.directory()));
+        let kept = takes_stop.then(|| Kept::new(file.as_raw_fd())).flatten();
+        Ok(Box::new(OpenFile { _kept: kept, file, is_plain }))
     }
 
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>> {
@@ -260,6 +266,8 @@ pub(crate) fn is_generated(file: &File) -> io::Result<bool> {
 
 /// An attribute as an open file, read and written at offset 0.
 struct OpenFile {
+    /// For a motor's commands. It goes before the file.
+    _kept: Option<Kept>,
     file: File,
     is_plain: bool,
 }

@@ -425,6 +425,8 @@ fn accesses_run_no_act_and_the_next_call_does() {
     assert_eq!(times.try_iter().count(), 0);
     call(&simulation, "");
     assert_eq!(times.try_iter().collect::<Vec<_>>(), [Duration::from_micros(600)]);
+    wait(&simulation, ms(1));
+    assert_eq!(times.try_iter().collect::<Vec<_>>(), [Duration::from_micros(1050)]);
 }
 
 #[test]

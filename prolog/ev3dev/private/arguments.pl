@@ -8,6 +8,7 @@
             number_option/4,            % ?Option, +Domain, +Options, +Default
             timeout_option/2,           % +Options, -Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
+            word/2,                     % +Text, -Atom
             motor_options/5,            % +Options, +Stop, +Stops, +Ramp, -O
             motor_runs/2,               % +Runs, -Evaluated
             motor_moves/2               % +Moves, -Evaluated
@@ -175,6 +176,21 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
         throw_error(domain_error(Domain, Integer), _, Message)
     ).
 
+%!  word(+Text, -Atom) is det.
+%
+%   Atom is a port, or another word, that a program gives as an atom or a
+%   string.
+%
+%   @error type_error(atom, Text)
+
+word(Text, Atom) :-
+    (   atom(Text)
+    ->  Atom = Text
+    ;   string(Text)
+    ->  atom_string(Atom, Text)
+    ;   must_be(atom, Text)
+    ).
+
 %!  motor_options(+Options, +Stop, +Stops, +Ramp, -Term) is det.
 %
 %   Term is what native predicates take for the options of a move: motor_run/4
@@ -186,18 +202,18 @@ motor_options(Options, Stop, Stops, Ramp,
     must_be_options(motor_option,
                     [stop_action, ramp_up, ramp_down, wait, timeout],
                     Options),
-    option(stop_action(Action), Options, Stop),
+    option(stop_action(Action0), Options, Stop),
     option(ramp_up(RampUp), Options, default),
     option(ramp_down(RampDown), Options, default),
     option(wait(Wait), Options, true),
     timeout_option(Options, Timeout),
-    must_be_stop_action(Stops, Action),
+    stop_action(Stops, Action0, Action),
     must_be(boolean, Wait),
     must_be_ramp(ramp_up_sp, Ramp, RampUp),
     must_be_ramp(ramp_down_sp, Ramp, RampDown).
 
-must_be_stop_action(Stops, Action) :-
-    must_be(atom, Action),
+stop_action(Stops, Action0, Action) :-
+    word(Action0, Action),
     (   memberchk(Action, Stops)
     ->  true
     ;   throw_error(domain_error(stop_action, Action), _,

@@ -1,10 +1,12 @@
 :- module(ev3dev_attributes,
           [ attribute/4,                % +Class, ?Port, +Attribute, ?Value
             attribute_words/4,          % +Class, ?Port, +Attribute, -Words
-            value_attribute/2           % +Index, -Attribute
+            value_attribute/2,          % +Index, -Attribute
+            device_at/3                 % +Class, ?Port, -Path
           ]).
 :- use_module(errors, [domain_error/2, must_be/2]).
-:- use_module(native, [attribute_/4, attribute_write_/4]).
+:- use_module(explain, [fail_because/1]).
+:- use_module(native, [attribute_/4, attribute_write_/4, device_/4]).
 
 /** <module> Attributes of devices of any class
 */
@@ -42,4 +44,15 @@ value_attribute(Index, Attribute) :-
     (   Index < 8
     ->  atom_concat(value, Index, Attribute)
     ;   domain_error(sensor_value_index, Index)
+    ).
+
+%!  device_at(+Class, ?Port, -Path) is nondet.
+%
+%   True if Path is the directory of the device at Port. Explains why it
+%   fails.
+
+device_at(Class, Port, Path) :-
+    (   device_(Class, Port, _, Path)
+    *-> true
+    ;   fail_because(absent(Class, Port))
     ).

@@ -2,11 +2,11 @@
           [ class_settings/3,           % +Class, ?Port, +Settings
             class_polarity/3            % +Class, ?Port, ?Polarity
           ]).
-:- use_module(errors, [domain_error/2, must_be/2]).
+:- use_module(errors, [domain_error/2]).
 :- use_module('../driver', []).
-:- use_module(arguments, [must_be_within/4]).
-:- use_module(attributes, [attribute/4]).
-:- use_module(native, [attribute_/4, attribute_write_/4, device_/3]).
+:- use_module(arguments, [must_be_within/4, word/2]).
+:- use_module(attributes, [attribute/4, device_at/3]).
+:- use_module(native, [attribute_/4, attribute_write_/4]).
 :- use_module(one_of).
 
 /** <module> Settings of motors of any class
@@ -24,7 +24,7 @@
 class_settings(Class, Port, Settings) :-
     forall(one_of(Settings, Setting), is_unbound(Setting)),
     !,
-    device_(Class, Port, _),
+    device_at(Class, Port, _),
     settings_read(Settings, Class, Port).
 class_settings(Class, Port, Settings) :-
     forall(one_of(Settings, Setting), must_be_setting(Setting)),
@@ -51,11 +51,12 @@ setting_write(Class, Port, setting(Attribute, _, _, Value)) :-
 %   @error domain_error(polarity, Polarity)
 
 class_polarity(Class, Port, Polarity) :-
-    (   var(Polarity)
-    ->  true
-    ;   must_be(atom, Polarity),
-        memberchk(Polarity, [normal, inversed])
-    ->  true
-    ;   domain_error(polarity, Polarity)
-    ),
+    var(Polarity),
+    !,
     attribute(Class, Port, polarity, Polarity).
+class_polarity(Class, Port, Polarity0) :-
+    word(Polarity0, Polarity),
+    (   memberchk(Polarity, [normal, inversed])
+    ->  attribute(Class, Port, polarity, Polarity)
+    ;   domain_error(polarity, Polarity)
+    ).

@@ -3,7 +3,9 @@
             directory_path/2,           % +Directory, -Path
             environment_directory/2     % +Variable, -Directory
           ]).
-:- use_module(errors, [existence_error/2, in_own_name/1, must_be/2]).
+:- use_module(errors,
+              [existence_error/2, in_own_name/1, must_be/2, throw_error/3]).
+:- use_module(native, [stale_mount_/1]).
 
 /** <module> Directories that a program or its environment names
 */
@@ -34,8 +36,18 @@ directory_path(Directory, Path) :-
                                          relative_to(Here)
                                        ]))
     ->  Path = Path0
-    ;   existence_error(directory, Directory)
+    ;   no_directory(Directory)
     ).
+
+no_directory(Directory) :-
+    stale_mount_(Directory),
+    !,
+    format(atom(Text),
+           'a program that has ended left its files mounted there: \c
+            "fusermount -u ~w" unmounts them', [Directory]),
+    throw_error(existence_error(directory, Directory), _, Text).
+no_directory(Directory) :-
+    existence_error(directory, Directory).
 
 %!  environment_directory(+Variable, -Directory) is semidet.
 %

@@ -26,6 +26,9 @@ range(positive_number, Number) :-
     Number > 0.
 range(nonnegative_number, Number) :-
     Number >= 0.
+range(acceleration, Number) :-
+    Number >= 1,
+    Number =< 1000.
 range(direction, Number) :-
     abs(Number) =< 100.
 range(seconds, Number) :-
@@ -50,6 +53,7 @@ finite(Number) :-
 %   What describes the allowed values of domain_error(Domain, _): a list of
 %   all values, or a text.
 
+allowed(acceleration,       'an acceleration in cm/s^2 is from 1 to 1000').
 allowed(battery_key,        [voltage, current, percent, type]).
 allowed(button,             [up, down, left, right, enter, back]).
 allowed(button_event,       [pressed, released]).

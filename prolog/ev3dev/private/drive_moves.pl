@@ -69,9 +69,9 @@ move(Percent, Course, Options) :-
         ->  Reason = Ended
         ;   ended(Ended, Course)
         )
-    ;   explain("the robot cannot move by ~p at ~w %",
-                [Course, Percent]),
-        fail
+    ;   arg(1, Robot, Left),
+        arg(2, Robot, Right),
+        fail_because(cannot_move(Left, Right, Percent, Course))
     ).
 
 move_options(Percent, Course, Options,
@@ -79,8 +79,7 @@ move_options(Percent, Course, Options,
     must_be_move_options(Options),
     evaluated(abs(Percent), Speed),
     drive_default(acceleration, Default),
-    number_option(acceleration(Acceleration), positive_number, Options,
-                  Default),
+    number_option(acceleration(Acceleration), acceleration, Options, Default),
     option(stop_action(Action), Options, hold),
     drive_default(use_gyro, Default1),
     option(use_gyro(UseGyro), Options, Default1),

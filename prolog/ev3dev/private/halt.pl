@@ -12,6 +12,10 @@ The kernel keeps a motor running after its program has ended. So when Prolog
 halts, or SIGINT, SIGTERM or SIGHUP ends it, this module stops every motor, of
 any class, that the program started, unless the flag `ev3dev_stop_at_halt` is
 `false`. It lets servos float.
+
+If Prolog does not end within two seconds of such a signal, the process is
+ended without its at_halt/1 goals. A crash, or SIGQUIT, stops motors of files,
+but no servo, and whatever the flag says. SIGKILL stops nothing.
 */
 
 :- initialization(at_halt(stop_at_halt), now).
@@ -42,6 +46,19 @@ ends_at_once(term, '$foreign_function'(_)).
 halt_by(Signal) :-
     status(Signal, Status),
     halt(Status).
+
+%   True if Signal ends this program, whose motors are stopped before. The
+%   native library asks in a thread of its own: Prolog handles no signal while
+%   it loads a file, as in main/0 of `:- initialization(main).`, nor in
+%   shell/1.
+told_to_end(Signal) :-
+    on_signal(Signal, Handler, Handler),
+    ends(Handler),
+    stop_at_halt.
+
+ends(halt_by).
+ends(ev3dev_halt:halt_by).
+ends('$foreign_function'(_)).
 
 status(int, 130).
 status(term, 143).

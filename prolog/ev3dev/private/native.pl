@@ -8,6 +8,7 @@
             file_read_/2,
             file_write_/2,
             now_/1,
+            stale_mount_/1,
             subsystem_detect_/4,
             sysfs_/1,
             sysfs_use_/1,
@@ -80,6 +81,7 @@
             sim_add_/2,
             sim_check_/2,
             sim_collisions_/1,
+            sim_detecting_/1,
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
@@ -131,6 +133,7 @@ missing.
 %!  file_read_(+File, -Value) is semidet.
 %!  file_write_(+File, +Value) is semidet.
 %!  now_(-Seconds) is det.
+%!  stale_mount_(+Directory) is semidet.
 %!  subsystem_detect_(?Port, ?Type, ?Path, +Pattern) is nondet.
 %!  sysfs_(-Root) is semidet.
 %!  sysfs_use_(+Root) is semidet.
@@ -278,6 +281,7 @@ missing.
 %!  sim_add_(+Fact, -Id) is semidet.
 %!  sim_check_(+Subject, +Fact) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
+%!  sim_detecting_(+Port) is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.
 %!  sim_place_(+X, +Y, +Heading) is semidet.

@@ -6,7 +6,8 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(facts, [located_facts/3]).
 :- use_module(arguments,
-              [ must_be_options/3, must_be_within/4, number_option/4, option/3
+              [ must_be_options/3, must_be_within/4, number_option/4,
+                option/3, word/2
               ]).
 
 /** <module> Arguments of planning and navigation
@@ -45,8 +46,8 @@ roadmap_options(Options, options(Keep, Arc, Method, Samples, Seed)) :-
     number_option(margin(Margin), nonnegative_number, Options, 4),
     Keep is Radius + Margin,
     number_option(arc_radius(Arc), positive_number, Options, 6),
-    option(method(Method), Options, visibility),
-    must_be(atom, Method),
+    option(method(Method0), Options, visibility),
+    word(Method0, Method),
     option(samples(Samples), Options, 500),
     must_be_within(0, 100000, samples, Samples),
     option(seed(Seed), Options, 1),

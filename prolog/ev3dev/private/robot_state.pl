@@ -7,7 +7,7 @@
             store_drive_default/2       % +Name, +Value
           ]).
 :- use_module(brick, [brick/1]).
-:- use_module(explain, [explain/2]).
+:- use_module(explain, [fail_because/1]).
 
 /** <module> The robot that is set
 */
@@ -50,7 +50,7 @@ robot(WheelDiameter, AxleLength, Left, Right) :-
 
 %!  robot_set(-WheelDiameter, -AxleLength, -Left, -Right) is semidet.
 %
-%   Like robot/4, but explains with debug(ev3dev) why it fails.
+%   Like robot/4, but explains why it fails.
 
 robot_set(WheelDiameter, AxleLength, Left, Right) :-
     robot_set(robot(WheelDiameter, AxleLength, Left, Right), _).
@@ -59,8 +59,7 @@ robot_set(Robot, Built) :-
     brick(Brick),
     (   described(Brick, Robot, Built)
     ->  true
-    ;   explain("no robot is set: see set_robot/4", []),
-        fail
+    ;   fail_because(no_robot)
     ).
 
 %!  robot_description(-Robot) is semidet.

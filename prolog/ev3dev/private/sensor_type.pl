@@ -1,7 +1,9 @@
 :- module(ev3dev_sensor_type,
-          [ sensor_of/3                 % ?Port, +Types, -Type
+          [ sensor_of/3,                % ?Port, +Types, -Type
+            sensor_to_read/3            % ?Port, +Types, -Type
           ]).
 :- use_module('../driver', [lego_sensor/2]).
+:- use_module(explain, [fail_because/1]).
 :- use_module(one_of).
 
 /** <module> Sensors of one of several types
@@ -23,3 +25,13 @@ sensor_of(Port, Types, Type) :-
             ( lego_sensor(P, T), memberchk(T, Types) ),
             Sensors),
     one_of(Sensors, Port-Type).
+
+%!  sensor_to_read(?Port, +Types, -Type) is nondet.
+%
+%   Like sensor_of/3, but explains why it fails.
+
+sensor_to_read(Port, Types, Type) :-
+    (   sensor_of(Port, Types, Found)
+    *-> Type = Found
+    ;   fail_because(absent(Types, Port))
+    ).

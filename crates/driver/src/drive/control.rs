@@ -3,7 +3,7 @@ use crate::class::Class;
 use crate::device::registry::Registry;
 use crate::drive::agreement::Agreement;
 use crate::drive::devices::{DriveDevices, Robot, angle, counts};
-use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD};
+use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD, Stuck};
 use crate::drive::odometry::Estimate;
 use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::error::{Error, Result};
@@ -274,6 +274,8 @@ impl Inner {
             steering.take_over(&before.steering);
             before.outcome.end(Ok(Reason::Stopped));
         }
+        // A wheel that is blocked stays so, however often the program begins a motion.
+        let stuck = before.as_ref().map(|before| before.stuck);
         // Its ramps are put back first.
         drop(before);
         let claim = Claim::new();
@@ -304,7 +306,7 @@ impl Inner {
             steered: self.now.saturating_sub(PERIOD),
             speeds: None,
             landing: None,
-            stuck: devices.counts.map(|count| (count, Duration::ZERO)),
+            stuck: stuck.unwrap_or_else(|| devices.counts.map(Stuck::new)),
             outcome: Arc::clone(&outcome),
             _ramps: ramps,
         });
@@ -330,7 +332,7 @@ impl Inner {
                 Landed::Never => return Ok(Some(Reason::Stalled)),
                 Landed::There => {
                     active.landing = None;
-                    active.stuck = devices.counts.map(|count| (count, Duration::ZERO));
+                    active.stuck = devices.counts.map(Stuck::new);
                     active.steering.landed(pose)
                 }
             },
@@ -379,7 +381,8 @@ impl Inner {
             self.goal = active.steering.goal();
         }
         let action = if is_reached { active.stop_action } else { StopAction::Brake };
-        if !(is_reached && action == StopAction::Hold) {
+        let is_held = is_reached && action == StopAction::Hold && active.hold().is_ok();
+        if !is_held {
             for motor in &active.motors {
                 // One that is gone has nothing to stop.
                 let _ = active.claim.stop(motor, action);

@@ -16,6 +16,10 @@ const MARGIN: f64 = 30.0;
 /// The gyro's mode in which it measures its angle.
 pub(super) const GYRO_MODE: &str = "GYRO-ANG";
 
+/// The last angle that a gyro shows either way: it has 16 bits. What it shows
+/// there is no angle any more.
+const FULL: f64 = 32_767.0;
+
 /// The type of a gyro.
 const GYRO: &str = "lego-ev3-gyro";
 
@@ -93,16 +97,17 @@ pub(super) fn counts(motors: &[Arc<Device>]) -> Result<[i64; 2]> {
     Ok(counts)
 }
 
-/// The gyro's angle in degrees; `None` if the gyro is in another mode.
+/// The gyro's angle in degrees; `None` if the gyro is in another mode, or full.
 pub(super) fn angle(gyro: &Arc<Device>) -> Result<Option<f64>> {
     gyro.check_present()?;
     if !gyro.with_word("mode", |mode| mode == GYRO_MODE)? {
         return Ok(None);
     }
-    Ok(match sensor::read_value(gyro, Some(GYRO_MODE), 0)? {
+    let angle = match sensor::read_value(gyro, Some(GYRO_MODE), 0)? {
         #[expect(clippy::cast_precision_loss, reason = "a gyro's angle has 16 bits")]
         Value::Integer(degrees) => Some(degrees as f64),
         Value::Float(degrees) => Some(degrees),
         Value::Text(_) => None,
-    })
+    };
+    Ok(angle.filter(|angle| angle.abs() < FULL))
 }

@@ -17,9 +17,9 @@ mod motion;
 pub mod odometry;
 pub mod steering;
 
-use crate::device::MotionObserver;
 use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
+use crate::device::{Device, MotionObserver};
 use crate::error::{Error, Interrupted, Result};
 use crate::motor;
 use crate::motor::wait::Reason;
@@ -28,11 +28,18 @@ use crate::sysfs::sleep;
 use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
-use devices::{GYRO_MODE, counts};
+use devices::{GYRO_MODE, angle, counts};
 use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
+
+/// How far the gyro may turn either way before its angle is put back to 0, in
+/// degrees: half of what its 16 bits hold, so that no move fills them.
+const MUCH_TURNED: f64 = 16_384.0;
+
+/// How long the wheels must stand before that.
+const STANDS: Duration = Duration::from_millis(100);
 
 /// Odometry and control of one robot.
 ///
@@ -164,7 +171,8 @@ impl Drive {
             return Ok(None);
         };
         if let Some(gyro) = gyro.filter(|_| options.use_gyro) {
-            sensor::set_mode(&self.registry, &gyro, GYRO_MODE, interrupted)?;
+            sensor::set_mode(&self.registry, &gyro, GYRO_MODE, &mut *interrupted)?;
+            self.keep_from_filling(&gyro, interrupted)?;
         }
         let mut inner = self.lock();
         inner.integrate(&self.registry)?;
@@ -178,6 +186,24 @@ impl Drive {
             self.be_called();
         }
         Ok(begun)
+    }
+
+    /// Puts the angle of a gyro that has turned much back to 0, if the robot stands.
+    fn keep_from_filling(&self, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<()> {
+        let has_turned = !angle(gyro)?.is_some_and(|angle| angle.abs() < MUCH_TURNED);
+        if !has_turned || self.lock().active.is_some() {
+            return Ok(());
+        }
+        sleep(self.registry.tree(), STANDS, &mut *interrupted)?;
+        let mut inner = self.lock();
+        inner.integrate(&self.registry)?;
+        let stands = inner.now.saturating_sub(inner.moved) >= STANDS;
+        drop(inner);
+        if stands {
+            sensor::restart(&self.registry, gyro, GYRO_MODE, interrupted)?;
+            self.lock().estimate.gyro_lost();
+        }
+        Ok(())
     }
 
     /// Waits for the end of a motion.

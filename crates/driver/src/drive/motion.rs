@@ -5,7 +5,7 @@ use crate::drive::devices::DriveDevices;
 use crate::drive::steering::Steering;
 use crate::error::Result;
 use crate::motor::claim::Claim;
-use crate::motor::wait::Reason;
+use crate::motor::wait::{Reason, has};
 use crate::motor::{Ramps, StopAction};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -49,11 +49,25 @@ pub(super) struct ActiveMotion {
     /// The last commanded speeds, in counts per second.
     pub(super) speeds: Option<[i64; 2]>,
     pub(super) landing: Option<Landing>,
-    /// Counts, and how long each wheel has stood there.
-    pub(super) stuck: [(i64, Duration); 2],
+    pub(super) stuck: [Stuck; 2],
     pub(super) outcome: Arc<Outcome>,
     /// Put back when the motion ends.
     pub(super) _ramps: Ramps,
+}
+
+/// For how long a wheel that is to turn one way has stood still.
+#[derive(Clone, Copy)]
+pub(super) struct Stuck {
+    count: i64,
+    way: i64,
+    stood: Duration,
+}
+
+impl Stuck {
+    /// A wheel that may turn.
+    pub(super) fn new(count: i64) -> Self {
+        Self { count, way: 0, stood: Duration::ZERO }
+    }
 }
 
 /// The wheels go to their last counts.
@@ -161,16 +175,31 @@ impl ActiveMotion {
     /// Whether a wheel that should turn stands still.
     fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
-        for (side, (count, stood)) in self.stuck.iter_mut().enumerate() {
-            let is_still = devices.counts[side].abs_diff(*count) < STUCK_WITHIN;
+        for (side, wheel) in self.stuck.iter_mut().enumerate() {
+            let (count, way) = (devices.counts[side], speeds[side].signum());
+            let is_still = count.abs_diff(wheel.count) < STUCK_WITHIN && way == wheel.way;
             if speeds[side].abs() < LANDING_SPEED / 4 || !is_still {
-                (*count, *stood) = (devices.counts[side], Duration::ZERO);
+                *wheel = Stuck { way, ..Stuck::new(count) };
             } else {
-                *stood += passed;
+                wheel.stood += passed;
             }
-            is_stuck |= *stood >= STUCK_FOR;
+            is_stuck |= wheel.stood >= STUCK_FOR;
         }
         is_stuck
+    }
+
+    /// Ends the motion at its goal. The kernel holds a wheel only at the very count:
+    /// one that something keeps from it would be pushed for ever.
+    pub(super) fn hold(&self) -> Result<()> {
+        // Controllers on I2C go on running while they hold.
+        let pushes = |state: &str| has(state, "running") && !has(state, "holding");
+        for motor in &self.motors {
+            if motor.with_word("state", pushes)? {
+                let here = motor.number("position")?;
+                self.claim.start(motor, "stop", End::Position { from: here, target: here })?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether another command has ended the claim to a motor.

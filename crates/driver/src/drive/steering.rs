@@ -51,6 +51,11 @@ const ALIGNED: f64 = 0.3;
 /// How often the end of a turn is corrected.
 const CORRECTIONS: u32 = 3;
 
+/// How often a turn may swing past its heading. Then the wheels go to positions,
+/// however far away: a robot that its motors cannot slow down in time would swing for
+/// ever.
+const SWINGS: u32 = 6;
+
 /// The end of a turn may stay this far off, in degrees.
 const TURN_TOLERANCE: f64 = 0.5;
 
@@ -149,16 +154,23 @@ enum Task {
 enum Phase {
     /// The next leg is to be begun.
     Next,
-    Turning {
-        heading: f64,
-        place: [f64; 2],
-        corrections: u32,
-    },
+    Turning(Turn),
     Following {
         path: Vec<Segment>,
         index: usize,
         along: f64,
     },
+}
+
+/// A turn on the spot to a heading.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    heading: f64,
+    place: [f64; 2],
+    corrections: u32,
+    /// On which side of the heading the robot is, and how often it came to the other.
+    side: f64,
+    swings: u32,
 }
 
 impl Steering {
@@ -222,10 +234,7 @@ impl Steering {
                     Some(leg) => self.begin(&leg, pose),
                     None => return Order::Arrived,
                 },
-                Phase::Turning { heading, place, corrections } => {
-                    self.set_phase(Phase::Turning { heading, place, corrections });
-                    return self.turn_on(pose, seconds, heading, place);
-                }
+                Phase::Turning(turn) => return self.turn_on(pose, seconds, turn),
                 Phase::Following { path, index, along } => {
                     return self.follow_on(pose, seconds, (path, index, along));
                 }
@@ -241,11 +250,13 @@ impl Steering {
         let Task::Legs { phase, .. } = &mut self.task else {
             return None;
         };
-        if let Phase::Turning { heading, place, corrections } = phase {
-            if (*heading - pose.heading).abs() > TURN_TOLERANCE && *corrections < CORRECTIONS {
-                *corrections += 1;
-                let (heading, place) = (*heading, *place);
-                return Some(self.land_turn(pose, heading, place));
+        if let Phase::Turning(turn) = phase {
+            if (turn.heading - pose.heading).abs() > TURN_TOLERANCE
+                && turn.corrections < CORRECTIONS
+            {
+                turn.corrections += 1;
+                let turn = *turn;
+                return Some(self.land_turn(pose, turn));
             }
         }
         *phase = Phase::Next;
@@ -344,7 +355,8 @@ impl Steering {
 
     fn turn_to(&mut self, heading: f64) -> Phase {
         self.goal.heading = heading;
-        Phase::Turning { heading, place: [self.goal.x, self.goal.y], corrections: 0 }
+        let place = [self.goal.x, self.goal.y];
+        Phase::Turning(Turn { heading, place, corrections: 0, side: 0.0, swings: 0 })
     }
 
     /// A path that ends with that heading of the robot.
@@ -355,11 +367,15 @@ impl Steering {
         Phase::Following { path, index: 0, along: 0.0 }
     }
 
-    fn turn_on(&mut self, pose: Pose, seconds: f64, heading: f64, place: [f64; 2]) -> Order {
-        let off = heading - pose.heading;
+    fn turn_on(&mut self, pose: Pose, seconds: f64, mut turn: Turn) -> Order {
+        let off = turn.heading - pose.heading;
+        let side = off.signum();
+        turn.swings += u32::from(side * turn.side < 0.0);
+        turn.side = side;
+        self.set_phase(Phase::Turning(turn));
         let is_slow = self.speed.abs() < 2.0;
-        if off.abs() < LANDING_TURN && is_slow && self.rate.abs() < 2.0 {
-            return self.land_turn(pose, heading, place);
+        if off.abs() < LANDING_TURN && is_slow && self.rate.abs() < 2.0 || turn.swings > SWINGS {
+            return self.land_turn(pose, turn);
         }
         let half_axle = self.wheels.axle / 2.0;
         let acceleration = self.limits.acceleration / half_axle;
@@ -367,14 +383,14 @@ impl Steering {
         let most = (2.0 * BRAKING * acceleration * left).sqrt();
         let wanted = off.signum() * most.min(self.limits.speed / half_axle);
         self.rate = approach(self.rate, wanted, 1.5 * acceleration * seconds);
-        let back = (-PLACE_GAIN * strayed(pose, place)).clamp(-5.0, 5.0);
+        let back = (-PLACE_GAIN * strayed(pose, turn.place)).clamp(-5.0, 5.0);
         self.speed = approach(self.speed, back, self.limits.acceleration * seconds);
         Order::Roll(self.ways())
     }
 
-    fn land_turn(&self, pose: Pose, heading: f64, place: [f64; 2]) -> Order {
-        let off = (heading - pose.heading).to_radians();
-        let back = -strayed(pose, place);
+    fn land_turn(&self, pose: Pose, turn: Turn) -> Order {
+        let off = (turn.heading - pose.heading).to_radians();
+        let back = -strayed(pose, turn.place);
         let back = if back.abs() < GOAL_WITHIN { back } else { 0.0 };
         Order::Land(self.wheels.ways(back, off))
     }

@@ -166,9 +166,14 @@ pub fn reset(motor: &Device) -> Result<()> {
     start(motor, "reset", None)
 }
 
-/// Opens the motors' files for writing, before anything is written to one of them.
+/// Opens the motors' files for writing, before anything is written to one of them: what
+/// starts them, and what stops them, since there may be no descriptors left then.
 pub(crate) fn prepare(motors: &[Arc<Device>]) -> Result<()> {
-    motors.iter().try_for_each(|motor| motor.prepare("command"))
+    motors.iter().try_for_each(|motor| {
+        // Without it, the command to stop is enough.
+        let _ = motor.prepare("stop_action");
+        motor.prepare("command")
+    })
 }
 
 /// Starts all motors, or none: if one fails, those that run are stopped.

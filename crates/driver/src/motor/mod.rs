@@ -88,6 +88,36 @@ pub fn stop_started(registry: &Registry) -> Result<()> {
     result
 }
 
+/// Stops all motors that are connected, whoever started them; servos keep their
+/// positions. One whose files udev has not opened yet is waited for, once all others
+/// are stopped.
+///
+/// # Errors
+/// The kernel's. If the motors cannot be listed, those of the last listing are stopped.
+/// [`Error::Interrupted`].
+pub fn stop_connected(registry: &Registry, interrupted: Interrupted) -> Result<()> {
+    let (mut left, mut listed) = (Vec::new(), Ok(()));
+    for class in [Class::TachoMotor, Class::DcMotor] {
+        let motors = registry.all(class).unwrap_or_else(|error| {
+            listed = Err(error);
+            registry.known(class)
+        });
+        left.extend(motors.iter().cloned());
+    }
+    let stop_rest = || {
+        let mut result = Ok(());
+        left.retain(|motor| match stop_best_effort(motor, StopAction::Brake) {
+            Ok(()) => false,
+            Err(error) => {
+                result = Err(error);
+                true
+            }
+        });
+        result
+    };
+    while_permissions_settle(registry, interrupted, stop_rest).and(listed)
+}
+
 /// Runs motors until they are stopped. `false` if one is absent or cannot run
 /// at its speed; then nothing has moved.
 ///

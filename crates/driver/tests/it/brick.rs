@@ -414,7 +414,7 @@ impl Sensor {
         let steps = usize::try_from(self.gyro_lag.as_millis()).unwrap();
         let heading = headings.iter().rev().nth(steps).or(headings.front()).unwrap_or(&0.0);
         #[expect(clippy::cast_possible_truncation, reason = "headings are small")]
-        Ok((self.gyro_zero + heading * factor).floor() as i64)
+        Ok((self.gyro_zero + heading * factor).floor().clamp(-32_768.0, 32_767.0) as i64)
     }
 
     /// All values as they lie in `bin_data`, though the line is down.

@@ -130,6 +130,57 @@ fn turns_add_up_though_the_gyro_starts_anywhere() {
     assert!((heading - 360.0).abs() <= 4.0, "{heading}");
 }
 
+#[test]
+fn turns_to_one_side_never_fill_the_gyro() {
+    for (zero, degrees) in [(16_300.0, 90.0), (-16_300.0, -90.0)] {
+        let robot = Driven::new(2.2);
+        robot.brick.world().sensor("in2").gyro_zero = zero;
+        for _ in 0..3 {
+            robot.assert_turned(40.0, degrees, ms(2000));
+        }
+        let zero = robot.brick.world().sensor("in2").gyro_zero;
+        assert!(zero.abs() < 1000.0, "{zero}");
+    }
+}
+
+#[test]
+fn a_gyro_that_is_full_already_is_emptied() {
+    let robot = Driven::new(2.2);
+    robot.brick.world().sensor("in2").gyro_zero = 40_000.0;
+    robot.assert_turned(40.0, 90.0, ms(2000));
+}
+
+#[test]
+fn a_gyro_that_fills_under_way_leaves_the_rest_to_the_wheels() {
+    let robot = Driven::new(2.2);
+    robot.brick.world().sensor("in2").gyro_zero = 16_000.0;
+    let turned = robot.turned(100.0, 18_000.0).unwrap();
+    assert_eq!(turned, Some(Reason::Reached));
+    let heading = robot.heading();
+    assert!((heading - 18_000.0).abs() <= 50.0, "{heading}");
+    assert_eq!(robot.turned(40.0, 90.0).unwrap(), Some(Reason::Reached));
+}
+
+#[test]
+fn a_turn_that_its_acceleration_makes_swing_ends_all_the_same() {
+    for acceleration in [3.0e3, 1.0e4, 4.3e9, 1.0e300] {
+        let robot = Driven::new(2.2);
+        let command = Command::Legs(vec![Leg::Turn(90.0)], false);
+        let options = DriveOptions {
+            percent: 80.0,
+            acceleration,
+            stop_action: StopAction::Brake,
+            use_gyro: true,
+        };
+        let never = &mut robot.brick.attentive();
+        let begun = robot.drive.begin(&command, &options, &mut *never).unwrap().unwrap();
+        let ended = robot.drive.wait(&begun, Some(ms(10_000)), never).unwrap();
+        let heading = robot.heading();
+        assert_eq!(ended, Reason::Reached, "{acceleration}");
+        assert!((heading - 90.0).abs() <= 5.0, "{acceleration}: {heading}");
+    }
+}
+
 proptest! {
     // The same robots each time.
     #![proptest_config(ProptestConfig {
@@ -199,6 +250,39 @@ fn blocked_wheels_are_given_two_seconds() {
     });
     assert_eq!(robot.turned(40.0, 90.0).unwrap(), Some(Reason::Stalled));
     assert!(robot.brick.now() < ms(2500), "{:?}", robot.brick.now());
+}
+
+#[test]
+fn so_are_those_that_a_program_commands_again_and_again() {
+    let robot = Driven::new(2.2);
+    robot.brick.at(ms(300), |world| {
+        for motor in &mut world.motors {
+            motor.is_blocked = true;
+        }
+    });
+    let options = DriveOptions {
+        percent: 100.0,
+        acceleration: 50.0,
+        stop_action: StopAction::Brake,
+        use_gyro: true,
+    };
+    let again = |speed| {
+        let never = &mut robot.brick.attentive();
+        let begun = robot.drive.begin(&Command::Cruise(speed, 0.0), &options, &mut *never);
+        robot.drive.wait_last(Some(ms(50)), never).map(|ended| (begun.unwrap().is_some(), ended))
+    };
+    // To push one way and then the other is no stall.
+    for speed in [15.0, -15.0, 15.0, -15.0] {
+        let started = robot.brick.now();
+        while robot.brick.since(started) < ms(1200) {
+            assert_eq!(again(speed).unwrap(), (true, Reason::Timeout));
+        }
+    }
+    let started = robot.brick.now();
+    while again(15.0).unwrap() == (true, Reason::Timeout) {
+        assert!(robot.brick.since(started) < ms(2500));
+    }
+    robot.assert_at_rest();
 }
 
 #[test]

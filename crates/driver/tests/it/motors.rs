@@ -4,7 +4,7 @@ use ev3_driver::Class;
 use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
     Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_to, stop,
-    stop_all, stop_started,
+    stop_all, stop_connected, stop_started,
 };
 use ev3_driver::{Errno, Error, attributes};
 use std::sync::Arc;
@@ -420,6 +420,30 @@ fn one_motor_that_fails_does_not_keep_the_others_from_being_stopped() {
     let error = stop_all(&motors(&devices, &["outA", "outB", "outC"]), StopAction::Brake);
     assert_eq!(error.unwrap_err().errno(), Some(Errno::IO));
     assert!(!is_powered(&brick, "outA") && !is_powered(&brick, "outC"));
+}
+
+#[test]
+fn one_that_udev_has_not_opened_is_stopped_once_it_has_and_the_others_at_once() {
+    let brick = Brick::new(&["outA", "outB", "outC"]);
+    let runs = ["outA", "outC"].map(|port| run(port, 50.0));
+    run_forever(&brick.devices(), &runs, &mut || false).unwrap();
+    brick.world().motor("outA").closed_until = ms(300);
+    brick.take_written();
+    stop_connected(&brick.devices(), &mut brick.attentive()).unwrap();
+    assert!(brick.now() >= ms(300) && brick.now() < ms(360), "{:?}", brick.now());
+    let commands: Vec<_> =
+        brick.take_written().into_iter().filter(|line| line.contains("command")).collect();
+    assert_eq!(commands, ["outB command stop", "outC command stop", "outA command stop"]);
+}
+
+#[test]
+fn one_that_udev_never_opens_is_an_error_after_a_second() {
+    let brick = Brick::new(&["outA", "outB"]);
+    run_forever(&brick.devices(), &[run("outB", 50.0)], &mut || false).unwrap();
+    brick.world().motor("outA").closed_until = Duration::MAX;
+    let stopped = stop_connected(&brick.devices(), &mut brick.attentive());
+    assert_eq!(stopped.unwrap_err().errno(), Some(Errno::ACCESS));
+    assert!(!is_powered(&brick, "outB"));
 }
 
 #[test]

@@ -61,7 +61,10 @@ impl PeriodicActs {
             self.acts().actor = None;
             machine = shared.lock();
             if let Some(next) = next {
-                self.add(machine.now(), next, act);
+                // One that comes late keeps its rhythm.
+                let now = machine.now();
+                let from = if at.saturating_add(next) > now { at.min(now) } else { now };
+                self.add(from, next, act);
             }
         }
         let left = end.saturating_sub(machine.now());

@@ -49,6 +49,13 @@ impl Machine {
         was_there
     }
 
+    /// Whether the kernel has yet to show what was plugged in, or that it was pulled out.
+    #[must_use]
+    pub fn is_detecting(&self, port: Port) -> bool {
+        let socket = &self.sockets[port as usize];
+        socket.noticed.is_some() || socket.due.is_some()
+    }
+
     fn change_plug(&mut self, port: Port, plug: Option<Plug>) {
         self.sockets[port as usize].change(plug, self.tick);
         self.if_instant(port);

@@ -8,6 +8,7 @@
           ]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/2]).
+:- use_module('../explain', [fail_because/1]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).
 :- use_module(knowledge).
@@ -144,7 +145,11 @@ set_state(Cell, Direction) :-
 
 state_position(Cell, Direction) :-
     brick(Brick),
-    stands(Brick, Cell, Direction).
+    (   stands(Brick, Cell0, Direction0)
+    ->  Cell = Cell0,
+        Direction = Direction0
+    ;   fail_because(no_grid)
+    ).
 
 %!  grid(-Map, -Metric) is semidet.
 %
@@ -154,4 +159,7 @@ state_position(Cell, Direction) :-
 
 grid(Map, Metric) :-
     brick(Brick),
-    on_grid(Brick, Map, Metric).
+    (   on_grid(Brick, Map, Metric)
+    ->  true
+    ;   fail_because(no_grid)
+    ).
