@@ -15,6 +15,7 @@
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
+:- use_module(private/turn, []).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- use_module(sim_time, [forget_plans/0]).
@@ -170,9 +171,15 @@ the end of the wait; so a minute's drive takes milliseconds. Each read of a
 file takes 0.5 ms and each write 0.1 ms, so time also passes for a program
 that polls a sensor in a loop. sleep/1 lets no simulated time pass;
 wait/1 does. While a program waits for a button that no sim_press/2 will
-press, time passes at most 20 times as fast as real time. Several threads may
-wait at once; time advances when each thread waits or uses no device. The same
-program with the same seed does the same each time.
+press, time passes at most 20 times as fast as real time.
+
+Of several threads one runs at a time, in the order of simulated time. The
+others wait at their next call. The turn passes on when a thread waits, ends,
+or sleeps elsewhere: in thread_join/2, for a message, at the terminal. While a
+thread computes, time stands, so a thread must not loop until another one
+changes a fact: it should wait by wait/1, or for a message. The same
+program with the same seed does the same each time, unless it sleeps by real
+time (sleep/1, timeouts) or waits for a person.
 */
 
 %!  sim_start(+World) is det.

@@ -35,7 +35,8 @@ All predicates fail if no simulation runs.
 %   Wait until Seconds of simulated time have passed, like wait/1 of
 %   library(ev3dev/time), which also works on a brick.
 %   With the virtual clock, time jumps to the end of the wait as soon as no
-%   other thread uses devices. Seconds may be an arithmetic expression.
+%   other thread runs or waits for an earlier moment. Seconds may be an
+%   arithmetic expression.
 %
 %   @error domain_error(seconds, Seconds) if Seconds is negative
 

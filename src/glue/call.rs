@@ -4,7 +4,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
-use ev3_driver::{Class, Devfs, Device, Registry, Value};
+use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -36,19 +36,54 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
     /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
-        run_due_goals(self.context)?;
-        if let Some(devices) = state::chosen_devices() {
-            return Ok(devices);
+        if state::chosen_devices().is_none() {
+            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+            state::chosen();
         }
-        self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
-        state::chosen();
+        let devices = state::devices();
+        self.wait_for(|about| devices.tree().turn(about))?;
+        run_due_goals(self.context)?;
         Ok(state::devices())
+    }
+
+    /// Waits until `is_turn`, which says so within 20 ms, and handles signals meanwhile.
+    pub(crate) fn wait_for(
+        &self,
+        mut is_turn: impl FnMut(&mut dyn FnMut() -> String) -> bool,
+    ) -> PrologResult<()> {
+        let mut interrupted = self.interrupted();
+        loop {
+            let mut asked = Ok(());
+            let is_over = is_turn(&mut || {
+                self.about().unwrap_or_else(|error| {
+                    asked = Err(error);
+                    String::new()
+                })
+            });
+            asked?;
+            if is_over {
+                return Ok(());
+            }
+            if interrupted() {
+                return self.or_throw(Err(Error::Interrupted));
+            }
+        }
+    }
+
+    /// What this thread is about to do.
+    fn about(&self) -> PrologResult<String> {
+        let text = self.context.new_term_ref();
+        self.context.call_once(pred!("ev3dev_turn:about/1"), [&text])?;
+        text.get()
     }
 
     /// The device files in use. If neither these nor a tree is chosen yet, asks Prolog
     /// to choose.
     pub(crate) fn dev(&self) -> PrologResult<Arc<dyn Devfs>> {
-        if !state::is_dev_chosen() {
+        if state::is_dev_chosen() {
+            let devices = state::devices();
+            self.wait_for(|about| devices.tree().turn(about))?;
+        } else {
             self.devices()?;
         }
         Ok(state::dev())

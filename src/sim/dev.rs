@@ -48,16 +48,11 @@ impl Devfs for SimulatedDev {
         self.simulation.machine().now()
     }
 
-    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()> {
-        match stream {
-            Some(_) => {
-                let count = self.simulation.machine().button_events();
-                let is_new = |machine: &ev3_sim::Machine| machine.button_events() != count;
-                self.simulation.pause_until(timeout, is_new);
-            }
-            None => self.simulation.pause(timeout),
-        }
-        Ok(())
+    fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
+        Ok(match stream {
+            Some(_) => self.simulation.pause_for_button(end),
+            None => self.simulation.pause(end),
+        })
     }
 
     fn speaker(&self) -> Option<&dyn Speaker> {
@@ -107,19 +102,21 @@ impl SimulatedStream {
 
 impl Stream for SimulatedStream {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        let Place { descriptor, offset } = &mut *self.place();
-        let read = self.simulation.read(|machine| descriptor.read(machine, *offset, buffer));
-        let length = read.map_err(error)?;
-        *offset += length;
-        Ok(length)
+        self.simulation.read(|machine| {
+            let Place { descriptor, offset } = &mut *self.place();
+            let length = descriptor.read(machine, *offset, buffer).map_err(error)?;
+            *offset += length;
+            Ok(length)
+        })
     }
 
     fn write(&self, bytes: &[u8]) -> io::Result<usize> {
-        let Place { descriptor, offset } = &mut *self.place();
-        let written = self.simulation.write(|machine| descriptor.write(machine, *offset, bytes));
-        let length = written.map_err(error)?;
-        *offset += length;
-        Ok(length)
+        self.simulation.write(|machine| {
+            let Place { descriptor, offset } = &mut *self.place();
+            let length = descriptor.write(machine, *offset, bytes).map_err(error)?;
+            *offset += length;
+            Ok(length)
+        })
     }
 
     fn skip(&self) -> io::Result<()> {
@@ -127,9 +124,8 @@ impl Stream for SimulatedStream {
     }
 
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
-        let place = self.place();
         let command = eviocgkey(bits.len());
-        let state = self.simulation.read(|machine| place.descriptor.ioctl(machine, command));
+        let state = self.simulation.read(|machine| self.place().descriptor.ioctl(machine, command));
         let (_, state) = state.map_err(error)?;
         let (known, rest) = bits.split_at_mut(state.len());
         known.copy_from_slice(&state);
@@ -138,7 +134,8 @@ impl Stream for SimulatedStream {
     }
 
     fn length(&self) -> Option<u64> {
-        let length = self.place().descriptor.length(&self.simulation.machine());
+        let machine = self.simulation.machine();
+        let length = self.place().descriptor.length(&machine);
         length.map(|length| length as u64)
     }
 }

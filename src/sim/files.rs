@@ -77,9 +77,12 @@ impl Sysfs for SimulatedFiles {
         self.simulation.machine().now()
     }
 
-    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
-        self.simulation.pause(timeout);
-        Ok(())
+    fn pause(&self, _nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
+        Ok(self.simulation.pause(end))
+    }
+
+    fn turn(&self, about: &mut dyn FnMut() -> String) -> bool {
+        self.simulation.turn(about)
     }
 
     fn every(&self, period: Duration, act: Repeated) -> io::Result<()> {
@@ -108,10 +111,9 @@ impl AttributeFile for SimulatedFile {
             machine.write(self.node, text).map(|written| (written, machine.now()))
         });
         let (written, start) = written.map_err(error)?;
-        let mut left = written.blocks;
-        while !left.is_zero() && !self.simulation.is_acting() {
-            self.simulation.pause(left);
-            left = (start + written.blocks).saturating_sub(self.simulation.machine().now());
+        let end = start + written.blocks;
+        while self.simulation.machine().now() < end && !self.simulation.is_acting() {
+            self.simulation.pause(end);
         }
         written.outcome.map(drop).map_err(error)
     }

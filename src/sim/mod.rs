@@ -48,8 +48,6 @@ pub(crate) fn register() {
     register_sim_unshow();
     register_sim_wait();
     register_sim_plan();
-    register_sim_hold();
-    register_sim_release();
     register_sim_remote();
     register_sim_step();
     register_sim_time();
@@ -267,22 +265,6 @@ predicates! {
             None
         };
         simulation(context)?.repeat(after, Box::new(ring));
-        Ok(())
-    }
-
-    /// sim_hold_
-    #[module("ev3dev_native")]
-    #[name("sim_hold_")]
-    semidet fn sim_hold(context) {
-        simulation(context)?.hold();
-        Ok(())
-    }
-
-    /// sim_release_
-    #[module("ev3dev_native")]
-    #[name("sim_release_")]
-    semidet fn sim_release(context) {
-        simulation(context)?.release();
         Ok(())
     }
 

@@ -7,6 +7,7 @@ use crate::glue::error::no_such;
 use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
 use ev3_sim::{Clock, Machine, Simulation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use swipl::fli::has_other_threads;
 use swipl::prelude::*;
 
 static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
@@ -21,12 +22,17 @@ fn running() -> MutexGuard<'static, Option<Running>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The running simulation; fails if there is none.
+/// The running simulation, in which it is this thread's turn; fails if there is none.
 pub(super) fn simulation<C: QueryableContextType>(
     context: &Context<C>,
 ) -> PrologResult<Arc<Simulation>> {
     let simulation = running().as_ref().map(|running| Arc::clone(&running.simulation));
-    simulation.map_or_else(|| none(&Call::of(context, "sim_start", 1)), Ok)
+    let call = Call::of(context, "sim_start", 1);
+    let Some(simulation) = simulation else {
+        return none(&call);
+    };
+    call.wait_for(|about| simulation.turn(about))?;
+    Ok(simulation)
 }
 
 /// Fails because no simulation runs.
@@ -46,7 +52,7 @@ pub(super) fn start<C: QueryableContextType>(
     machine: Machine,
     clock: Clock,
 ) -> PrologResult<()> {
-    let simulation = match Simulation::new(machine, clock) {
+    let simulation = match Simulation::new(machine, clock, has_other_threads) {
         Ok(simulation) => Arc::new(simulation),
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };

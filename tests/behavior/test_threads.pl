@@ -1,5 +1,7 @@
-% Many threads at once: nothing is torn, nobody waits for ever.
+% Many threads at once: nothing is torn, nobody waits for ever, and on the virtual
+% clock each run is the same.
 
+:- use_module('../support/child').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 
@@ -75,3 +77,69 @@ replugs(sane) :-
     get_attribute(outD, speed_sp, '102').
 
 :- end_tests(threads).
+
+:- begin_tests(same_runs).
+
+% Threads on the virtual clock: a process that runs the program prints all that
+% happened, with the times.
+
+program("a thread a wheel",
+        "wheels(Speed, Degrees) :-
+             thread_create(motor_run(outB, Speed, Degrees), Left, []),
+             thread_create(motor_run(outC, Speed, Degrees), Right, []),
+             thread_join(Left, true),
+             thread_join(Right, true).
+         run :- wheels(40, 720), wheels(60, -90).").
+program("goals of concurrent/3",
+        "run :-
+             concurrent(2, [motor_run(outB, 40, 90), motor_run(outC, 40, 360)], []),
+             concurrent(3, [motor_run(outC, 50, 90), us_dist_cm(_, _),
+                            motor_run(outB, 50, -90), gyro_ang(_, _)], []).").
+program("threads that share a database",
+        "wish(Who, What) :- with_mutex(wishes, ( retractall(wishes(Who, _)),
+                                                 assertz(wishes(Who, What)) )).
+         :- dynamic wishes/2.
+         wander :- repeat, wish(wander, 30-30), sim_wait(0.7),
+                   wish(wander, 30-10), sim_wait(0.3), fail.
+         avoid :- repeat, us_dist_cm(_, D),
+                  ( D < 60 -> wish(avoid, 25-(-25)), sim_wait(0.5)
+                  ; wish(avoid, none) ),
+                  sim_wait(0.05), fail.
+         decide :- sim_time(T), T > 5, !.
+         decide :- ( member(Who, [avoid, wander]), wishes(Who, L-R)
+                   -> motors_run([run(outB, L), run(outC, R)])
+                   ;  true ),
+                   sim_wait(0.05), decide.
+         run :- thread_create(wander, W, []), thread_create(avoid, A, []), decide,
+                forall(member(T, [W, A]),
+                       ( thread_signal(T, throw(over)), thread_join(T, _) )).").
+program("threads that send messages, and compute",
+        "computes(0) :- !.
+         computes(N) :- M is N - 1, computes(M).
+         eye(Main) :- us_dist_cm(_, D), computes(20000),
+                      thread_send_message(Main, far(D)), thread_get_message(ok),
+                      sim_wait(0.1), eye(Main).
+         listen(0) :- !.
+         listen(N) :- thread_get_message(far(_)), speed(outB, _), computes(5000),
+                      thread_send_message(eye, ok), us_dist_cm(_, _),
+                      M is N - 1, listen(M).
+         run :- thread_self(Me), thread_create(eye(Me), _, [alias(eye)]),
+                motors_run([run(outB, 40), run(outC, 38)]), listen(10),
+                thread_signal(eye, throw(over)), thread_join(eye, _).").
+
+test(all_are_the_same, [forall(program(_, Text)), true(Different == [First])]) :-
+    findall(Output, ( between(1, 4, _), printed(Text, Output) ), [First|Outputs]),
+    once(sub_string(First, _, _, _, "written")),
+    sort([First|Outputs], Different).
+
+printed(Text, Output) :-
+    format(string(Program),
+           ":- use_module(library(ev3dev)).
+            :- use_module(library(ev3dev/sim)).
+            ~s
+            main :- sim_start(room, [clock(virtual)]), run, sim_trace(Trace),
+                    forall(member(Event, Trace), ( print(Event), nl )),
+                    sim_pose(X, Y, H), print(X/Y/H), nl.", [Text]),
+    run_program(Program, [goal(main)], exit(0), Output).
+
+:- end_tests(same_runs).

@@ -51,22 +51,26 @@ polled_until(Port, Position) :-
     ;   polled_until(Port, Position)
     ).
 
-test(a_wait_beside_a_thread_that_holds_the_clock_can_be_interrupted,
+test(a_wait_beside_a_thread_that_computes_can_be_interrupted,
      true(E == time_limit_exceeded)) :-
     with_sim(room,
              setup_call_cleanup(
-                 ( thread_self(Me), thread_create(hold(Me), Id, []),
-                   thread_get_message(holding)
-                 ),
+                 thread_create(compute, Id, []),
                  catch(call_with_time_limit(0.2, sim_wait(1)), E, true),
-                 ( thread_send_message(Id, done), thread_join(Id, _) ))).
+                 ( thread_signal(Id, throw(over)), thread_join(Id, _) ))).
+test(a_call_beside_a_thread_that_computes_can_be_interrupted,
+     true(E == time_limit_exceeded)) :-
+    with_sim(room,
+             setup_call_cleanup(
+                 thread_create(compute, Id, []),
+                 catch(call_with_time_limit(0.2, us_dist_cm(_, _)), E, true),
+                 ( thread_signal(Id, throw(over)), thread_join(Id, _) ))).
 test(steps_can_be_interrupted, true(E == time_limit_exceeded)) :-
     with_sim(room, catch(call_with_time_limit(0.2, sim_step(1.0e8)), E, true)).
 
-hold(Other) :-
-    ev3dev_native:sim_hold_,
-    thread_send_message(Other, holding),
-    thread_get_message(done).
+compute :-
+    repeat,
+    fail.
 
 :- end_tests(sim_time).
 

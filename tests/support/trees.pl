@@ -550,12 +550,10 @@ left(Port, Attribute, _, Text) :-
 %   after two seconds if it waits elsewhere.
 
 later(Seconds, Goal) :-
-    thread_self(Me),
     (   current_tree(simulator)
-    ->  hold_clock,
-        thread_create(later_by_clock(Me, Seconds, Goal), _, [detached(true)]),
-        thread_get_message(is_up)
-    ;   thread_create(later_in_real_time(Me, Seconds, Goal), _, [detached(true)])
+    ->  thread_create(( simulated_pause(Seconds), Goal ), _, [detached(true)])
+    ;   thread_self(Me),
+        thread_create(later_in_real_time(Me, Seconds, Goal), _, [detached(true)])
     ).
 
 later_in_real_time(Main, Seconds, Goal) :-
@@ -593,13 +591,6 @@ is_within(Frame) :-
 is_within(Frame) :-
     prolog_frame_attribute(Frame, parent, Parent),
     is_within(Parent).
-
-% From here on time passes only while both threads wait, so that Goal comes
-% when it should however busy this machine is.
-later_by_clock(Main, Seconds, Goal) :-
-    hold_clock,
-    thread_send_message(Main, is_up),
-    call_cleanup(( simulated_pause(Seconds), Goal ), release_clock).
 
 %!  meanwhile(:Other, :Goal)
 %

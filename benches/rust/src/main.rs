@@ -283,8 +283,8 @@ impl Sysfs for Stamping {
         self.files.now()
     }
 
-    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
-        self.files.pause(nodes, timeout)
+    fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
+        self.files.pause(nodes, end)
     }
 }
 

@@ -36,11 +36,12 @@ pub trait Devfs: Send + Sync {
     fn now(&self) -> Duration;
 
     /// Lets time pass: returns when there may be something to read, when a
-    /// signal arrives, or after `timeout`. May return early.
+    /// signal arrives, or at `end`. May return early. `false` as for
+    /// [`Sysfs::pause`](crate::sysfs::Sysfs::pause).
     ///
     /// # Errors
     /// The kernel's, as ENOMEM.
-    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()>;
+    fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool>;
 
     /// A speaker that speaks by itself, as a simulated one does. With a real
     /// one, programs have to do it.
@@ -139,25 +140,25 @@ impl Devfs for DevfsDir {
         self.started.elapsed()
     }
 
-    fn pause(&self, stream: Option<&dyn Stream>, timeout: Duration) -> io::Result<()> {
-        let until = Instant::now() + timeout;
+    fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
         if let Some(file) = stream.and_then(Stream::pollable) {
             let mut descriptors = [PollFd::new(file, PollFlags::IN)];
-            let at_most = Timespec::try_from(timeout).map_err(io::Error::other)?;
+            let at_most =
+                Timespec::try_from(end.saturating_sub(self.now())).map_err(io::Error::other)?;
             match poll(&mut descriptors, Some(&at_most)) {
-                Ok(0) | Err(Errno::INTR) => return Ok(()),
+                Ok(0) | Err(Errno::INTR) => return Ok(true),
                 Ok(_)
                     if descriptors.iter().any(|found| found.revents().contains(PollFlags::IN)) =>
                 {
-                    return Ok(());
+                    return Ok(true);
                 }
                 // A pipe whose writers have gone, which is ready for nothing.
                 Ok(_) => {}
                 Err(errno) => return Err(errno.into()),
             }
         }
-        std::thread::sleep(until.saturating_duration_since(Instant::now()));
-        Ok(())
+        std::thread::sleep(end.saturating_sub(self.now()));
+        Ok(true)
     }
 }
 
@@ -253,10 +254,15 @@ pub(crate) fn until<T>(
         if left.is_zero() {
             return Ok(None);
         }
-        let paused = dev.pause(stream, left.min(SLICE));
-        paused.map_err(|source| Error::Read { path: dev.root().to_owned(), source })?;
-        if interrupted() {
-            return Err(Error::Interrupted);
+        let slice_end = dev.now().saturating_add(left.min(SLICE));
+        let mut is_over = false;
+        while !is_over {
+            let paused = dev.pause(stream, slice_end);
+            is_over =
+                paused.map_err(|source| Error::Read { path: dev.root().to_owned(), source })?;
+            if interrupted() {
+                return Err(Error::Interrupted);
+            }
         }
     }
 }

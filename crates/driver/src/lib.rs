@@ -35,7 +35,6 @@ pub mod devfs;
 pub mod device;
 pub mod drive;
 pub mod error;
-mod held;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;

@@ -59,12 +59,20 @@ pub trait Sysfs: Send + Sync {
     fn now(&self) -> Duration;
 
     /// Lets time pass: returns when one of `nodes` announces a change (as the
-    /// kernel does by POLLPRI), when a signal arrives, or after `timeout`.
-    /// May return early.
+    /// kernel does by POLLPRI), when a signal arrives, or at `end`. May return early.
+    /// `false` if no time has passed for this thread: it is to handle signals, and to
+    /// go on with the same pause.
     ///
     /// # Errors
     /// The kernel's, as ENOMEM.
-    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()>;
+    fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool>;
+
+    /// A call of the program begins, and this thread holds no lock. A simulation waits
+    /// for the thread's turn here; `false` as for [`pause`](Self::pause). `about` says
+    /// what is called, and with what.
+    fn turn(&self, _about: &mut dyn FnMut() -> String) -> bool {
+        true
+    }
 
     /// Calls `act` after `period`, by the tree's clock, and from then on each
     /// time after what it answers, until that is `None`. By default a thread
@@ -106,9 +114,28 @@ pub fn sleep(tree: &dyn Sysfs, time: Duration, interrupted: Interrupted) -> Resu
         if interrupted() {
             return Err(Error::Interrupted);
         }
-        // After a pause that failed, too, the clock says how much is left.
-        let _ = tree.pause(&[], left.min(SLICE));
+        pause(tree, &[], left.min(SLICE), interrupted)?;
     }
+}
+
+/// Lets time pass as [`Sysfs::pause`] does, once, and handles signals meanwhile. A pause
+/// that failed is over, too: the caller asks the clock, or looks again.
+///
+/// # Errors
+/// [`Error::Interrupted`].
+pub(crate) fn pause(
+    tree: &dyn Sysfs,
+    nodes: &[&dyn AttributeFile],
+    time: Duration,
+    interrupted: Interrupted,
+) -> Result<()> {
+    let end = tree.now().saturating_add(time);
+    while matches!(tree.pause(nodes, end), Ok(false)) {
+        if interrupted() {
+            return Err(Error::Interrupted);
+        }
+    }
+    Ok(())
 }
 
 /// An open attribute file.
@@ -212,16 +239,16 @@ impl Sysfs for SysfsDir {
         clock_gettime(ClockId::CLOCK_MONOTONIC).map(Duration::from).unwrap_or_default()
     }
 
-    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
         let mut descriptors: Vec<PollFd> = nodes
             .iter()
             .filter_map(|node| node.descriptor())
             .map(|descriptor| PollFd::from_borrowed_fd(descriptor, PollFlags::PRI))
             .collect();
-        let timeout = Timespec::try_from(timeout).map_err(io::Error::other)?;
-        match poll(&mut descriptors, Some(&timeout)) {
+        let timeout = Timespec::try_from(end.saturating_sub(self.now()));
+        match poll(&mut descriptors, Some(&timeout.map_err(io::Error::other)?)) {
             // A signal: the caller handles it.
-            Ok(_) | Err(Errno::INTR) => Ok(()),
+            Ok(_) | Err(Errno::INTR) => Ok(true),
             Err(errno) => Err(errno.into()),
         }
     }

@@ -11,7 +11,7 @@ use crate::types::{
 };
 use crate::version::Version;
 use std::ffi::{c_char, c_int, c_uchar, c_void};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 
 /// Declares functions whose result is a truth value: `int` in old headers,
 /// `bool` in new ones. A `bool` leaves all but the low byte of the result
@@ -223,6 +223,8 @@ unsafe extern "C" {
     pub fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
     pub fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
     pub fn PL_thread_attach_engine(attributes: *mut c_void) -> c_int;
+    pub fn PL_thread_self() -> c_int;
+    pub fn PL_unify_thread_id(t: term_t, thread: c_int) -> c_int;
 
     // Streams
     pub fn _PL_streams() -> *mut *mut IOSTREAM;
@@ -232,6 +234,30 @@ unsafe extern "C" {
     pub fn Sfputs(q: *const c_char, s: *mut IOSTREAM) -> c_int;
     pub fn Sfread(data: *mut c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
     pub fn Sfwrite(data: *const c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
+}
+
+/// Whether Prolog has threads besides the one that asks, which is one of Prolog's.
+#[must_use]
+pub fn has_other_threads() -> bool {
+    /// The highest number of a thread so far. Prolog gives a new thread the lowest free one.
+    static HIGHEST: AtomicI32 = AtomicI32::new(1);
+    // Safety: the frame gives back the reference.
+    unsafe {
+        if PL_thread_self() != 1 {
+            return true;
+        }
+        let frame = PL_open_foreign_frame();
+        let (mut others, mut thread) = (false, 2);
+        while thread <= HIGHEST.load(Ordering::Relaxed).saturating_add(1) {
+            if PL_unify_thread_id(PL_new_term_ref(), thread) != -1 {
+                others = true;
+                HIGHEST.fetch_max(thread, Ordering::Relaxed);
+            }
+            thread += 1;
+        }
+        PL_discard_foreign_frame(frame);
+        others
+    }
 }
 
 /// Declares functions that take a query, narrowing it to what C expects. (Before

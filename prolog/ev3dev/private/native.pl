@@ -84,14 +84,12 @@
             sim_check_/2,
             sim_collisions_/1,
             sim_detecting_/1,
-            sim_hold_/0,
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
             sim_plan_/1,
             sim_plug_/2,
             sim_pose_/3,
-            sim_release_/0,
             sim_remote_/2,
             sim_remove_/1,
             sim_restore_/1,
@@ -294,14 +292,12 @@ missing.
 %!  sim_check_(+Subject, +Fact) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
 %!  sim_detecting_(+Port) is semidet.
-%!  sim_hold_ is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.
 %!  sim_place_(+X, +Y, +Heading) is semidet.
 %!  sim_plan_(+Seconds) is semidet.
 %!  sim_plug_(+Port, +Type) is semidet.
 %!  sim_pose_(-X, -Y, -Heading) is semidet.
-%!  sim_release_ is semidet.
 %!  sim_remote_(+Channel, +Buttons) is semidet.
 %!  sim_remove_(+Id) is semidet.
 %!  sim_restore_(+Snapshot) is semidet.

@@ -9,8 +9,6 @@
             simulated_show/3,           % +Port, +Attribute, +Text
             simulated_jam/1,            % +Port
             simulated_pause/1,          % +Seconds
-            hold_clock/0,
-            release_clock/0,
             last_written/2,             % +RelativeFile, -Text
             all_written/2,              % +RelativeDirectory, -Attributes
             simulating_program/3        % +Devices, +Text, -Program
@@ -140,17 +138,6 @@ note(Goal) :-
 
 simulated_pause(Seconds) :-
     ignore(sim_wait(Seconds)).
-
-%!  hold_clock
-%!  release_clock
-%
-%   In between, no time passes on the virtual clock unless this thread waits.
-
-hold_clock :-
-    ev3dev_native:sim_hold_.
-
-release_clock :-
-    ignore(ev3dev_native:sim_release_).
 
 %!  last_written(+RelativeFile, -Text)
 %

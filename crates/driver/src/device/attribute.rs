@@ -94,7 +94,7 @@ impl Attribute {
     ) -> Result<&'a [u8]> {
         for _ in 0..WRITTEN_WITHIN_MS {
             // After a pause that failed, too, the next read decides.
-            let _ = tree.pause(&[], Duration::from_millis(1));
+            let _ = tree.pause(&[], tree.now().saturating_add(Duration::from_millis(1)));
             if !self.read(tree, &mut *buffer)?.is_empty() {
                 break;
             }

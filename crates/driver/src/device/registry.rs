@@ -8,13 +8,12 @@
 use crate::class::{Class, Detected};
 use crate::device::{Device, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
-use crate::held::Held;
 use crate::port_name;
 use crate::sysfs::Sysfs;
 use rustix::io::Errno;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
@@ -195,7 +194,7 @@ impl Registry {
         self.observer.set(observer);
     }
 
-    fn listing(&self, class: Class) -> Held<'_, Listing> {
+    fn listing(&self, class: Class) -> MutexGuard<'_, Listing> {
         // Class::ALL is in the order of the enum.
         let [tacho_motor, sensor, servo_motor, dc_motor, port, led, battery] = &self.listings;
         let listing = match class {
@@ -207,7 +206,7 @@ impl Registry {
             Class::Led => led,
             Class::Battery => battery,
         };
-        Held::lock(listing)
+        listing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn is_fresh(&self, listing: &Listing) -> bool {

@@ -21,7 +21,6 @@ use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
 use crate::device::{Device, MotionObserver};
 use crate::error::{Error, Interrupted, Result};
-use crate::held::{self, Held};
 use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor::{self, gyro};
@@ -32,14 +31,8 @@ pub use devices::Robot;
 use devices::{angle, counts};
 use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
-use std::time::{Duration, Instant};
-
-/// The time to the next call if the estimate is in use.
-const BUSY: Duration = Duration::from_millis(1);
-
-/// How long, by the wall, to wait for another thread that uses it.
-const PATIENCE: Duration = Duration::from_millis(50);
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::Duration;
 
 /// How far the gyro may turn either way before its angle is put back to 0, in
 /// degrees: half of what its 16 bits hold, so that no move fills them.
@@ -130,7 +123,7 @@ impl Drive {
     /// Brings the estimate up to date; `None` where a motor is absent. A caller
     /// that polls continuously starves the periodic callback, so this runs any
     /// control period that was missed.
-    fn look(&self) -> Result<Option<Held<'_, Inner>>> {
+    fn look(&self) -> Result<Option<MutexGuard<'_, Inner>>> {
         let mut inner = self.lock();
         let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
         if is_there {
@@ -288,9 +281,7 @@ impl Drive {
 
     /// Does one period; returns the time to the next call.
     fn called(&self) -> Option<Duration> {
-        let Some(mut inner) = self.lock_soon() else {
-            return Some(BUSY);
-        };
+        let mut inner = self.lock();
         let integrated = inner.integrate(&self.registry);
         let stepped = match integrated {
             Ok(true) => inner.control(),
@@ -308,26 +299,8 @@ impl Drive {
         self.is_called.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn lock(&self) -> Held<'_, Inner> {
-        Held::lock(&self.inner)
-    }
-
-    /// Like [`lock`](Self::lock), for a callback in the middle of a read. `None`
-    /// if this thread holds a lock that the callback may need, or if another
-    /// thread holds one for long.
-    fn lock_soon(&self) -> Option<Held<'_, Inner>> {
-        if held::by_this_thread() {
-            return None;
-        }
-        let latest = Instant::now() + PATIENCE;
-        loop {
-            match self.inner.try_lock() {
-                Ok(inner) => return Some(Held::new(inner)),
-                Err(TryLockError::Poisoned(inner)) => return Some(Held::new(inner.into_inner())),
-                Err(TryLockError::WouldBlock) if Instant::now() >= latest => return None,
-                Err(TryLockError::WouldBlock) => std::thread::sleep(PATIENCE / 1000),
-            }
-        }
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

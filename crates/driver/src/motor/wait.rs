@@ -9,7 +9,7 @@ use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Registry;
 use crate::error::{Error, Interrupted, Result};
-use crate::sysfs::{AttributeFile, SLICE};
+use crate::sysfs::{AttributeFile, SLICE, pause};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -197,8 +197,7 @@ fn until(
             .filter_map(|attribute| attribute.reader(tree).ok())
             .collect();
         let slice = slice.min(left).min(SLICE);
-        // After a pause that failed, too, the next sample shows the state.
-        let _ = tree.pause(&nodes, slice);
+        pause(tree, &nodes, slice, interrupted)?;
         // Woken early, and perhaps for nothing: sleep through the next slice,
         // so that a descriptor that is always ready does not make us spin.
         listen = !listen || tree.now().saturating_sub(now) >= slice;

@@ -204,7 +204,7 @@ fn a_plain_file_announces_nothing() {
     let files = SysfsDir::new(tree.root());
     let state = files.open(&tree.root().join("tacho-motor/motor0/state"), Access::Read).unwrap();
     let started = Instant::now();
-    files.pause(&[&*state], Duration::from_millis(5)).unwrap();
+    files.pause(&[&*state], files.now() + Duration::from_millis(5)).unwrap();
     assert!(started.elapsed() >= Duration::from_millis(5));
 }
 

@@ -719,8 +719,9 @@ impl Sysfs for Brick {
         Self::now(self)
     }
 
-    fn pause(&self, nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
+    fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
         let mut world = self.world();
+        let timeout = end.saturating_sub(world.now);
         world.pauses += 1;
         if nodes.is_empty() {
             drop(world);
@@ -728,7 +729,7 @@ impl Sysfs for Brick {
         } else if !world.always_ready {
             world.advance(timeout, true);
         }
-        Ok(())
+        Ok(true)
     }
 
     fn every(&self, period: Duration, act: Repeated) -> io::Result<()> {

@@ -126,8 +126,8 @@ impl Devfs for Device {
         Duration::ZERO
     }
 
-    fn pause(&self, _stream: Option<&dyn Stream>, _timeout: Duration) -> io::Result<()> {
-        Ok(())
+    fn pause(&self, _stream: Option<&dyn Stream>, _end: Duration) -> io::Result<bool> {
+        Ok(true)
     }
 }
 

@@ -133,9 +133,10 @@ impl Sysfs for Counted {
         Duration::from_millis(self.now_ms.load(Ordering::SeqCst) as u64)
     }
 
-    fn pause(&self, _nodes: &[&dyn AttributeFile], timeout: Duration) -> io::Result<()> {
-        self.pass_ms(usize::try_from(timeout.as_millis()).unwrap().max(1));
-        Ok(())
+    fn pause(&self, _nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
+        let left = end.saturating_sub(self.now());
+        self.pass_ms(usize::try_from(left.as_millis()).unwrap().max(1));
+        Ok(true)
     }
 }
 

@@ -12,6 +12,7 @@ mod open;
 mod served;
 
 use std::io;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
@@ -106,7 +107,10 @@ impl Mount {
         let open = Arc::new(Mutex::new(Open::<F>::default()));
         let files = Files { shared: Arc::clone(&shared), open: Arc::clone(&open) };
         let session = Session::new(files, path, &config).map_err(refused)?;
-        let session = session.spawn().map_err(refused)?;
+        // Its threads get their name from the one that starts them.
+        let start = std::thread::Builder::new().name("ev3-sim-files".to_owned());
+        let start = start.spawn(move || session.spawn()).map_err(refused)?.join();
+        let session = start.unwrap_or_else(|panic| resume_unwind(panic)).map_err(refused)?;
         let stop = Arc::new(AtomicBool::new(false));
         let watcher = std::thread::Builder::new().name("ev3-sim-fuse".to_owned()).spawn({
             let (shared, stop) = (Arc::clone(&shared), Arc::clone(&stop));

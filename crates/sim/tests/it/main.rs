@@ -3,7 +3,6 @@
 mod attributes;
 mod avoid;
 mod braitenberg;
-mod clock;
 mod dc_motors;
 mod desk;
 mod encoders;

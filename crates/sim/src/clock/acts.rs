@@ -1,0 +1,97 @@
+//! What happens periodically in simulated time.
+
+use std::fmt;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::ThreadId;
+use std::time::Duration;
+
+use crate::machine::Machine;
+use crate::shared::Shared;
+
+/// A periodic act in simulated time. It returns the time to its next run, or `None`
+/// if it ends.
+pub type Act = Box<dyn FnMut() -> Option<Duration> + Send>;
+
+/// The acts, and which thread runs one.
+#[derive(Default)]
+pub(super) struct PeriodicActs(Mutex<Acts>);
+
+#[derive(Default)]
+struct Acts {
+    due: Vec<Due>,
+    /// The thread that runs one now.
+    actor: Option<ThreadId>,
+}
+
+struct Due {
+    at: Duration,
+    period: Duration,
+    act: Act,
+}
+
+impl fmt::Debug for PeriodicActs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PeriodicActs").finish_non_exhaustive()
+    }
+}
+
+impl PeriodicActs {
+    pub(super) fn add(&self, now: Duration, period: Duration, act: Act) {
+        self.acts().due.push(Due { at: now.saturating_add(period), period, act });
+    }
+
+    /// Whether this thread runs an act. Its reads then take no time.
+    pub(super) fn is_acting(&self) -> bool {
+        self.acts().actor.is_some_and(|actor| actor == std::thread::current().id())
+    }
+
+    /// Lets time pass, and runs the acts that become due meanwhile.
+    pub(super) fn step<'a>(
+        &self,
+        shared: &'a Shared,
+        mut machine: MutexGuard<'a, Machine>,
+        time: Duration,
+    ) -> MutexGuard<'a, Machine> {
+        let end = machine.now().saturating_add(time);
+        while let Some(Due { at, mut act, .. }) = self.due(machine.now(), end) {
+            let left = at.saturating_sub(machine.now());
+            machine.step(left);
+            drop(machine);
+            let next = act();
+            self.acts().actor = None;
+            machine = shared.lock();
+            if let Some(next) = next {
+                // One that comes late keeps its rhythm.
+                let now = machine.now();
+                let from = if at.saturating_add(next) > now { at.min(now) } else { now };
+                self.add(from, next, act);
+            }
+        }
+        let left = end.saturating_sub(machine.now());
+        machine.step(left);
+        machine
+    }
+
+    /// Takes the first act that is due by `end`, for this thread to run. There is one
+    /// at a time: while a thread runs one, other threads let time pass without.
+    fn due(&self, now: Duration, end: Duration) -> Option<Due> {
+        let mut acts = self.acts();
+        if acts.actor.is_some() {
+            return None;
+        }
+        for due in &mut acts.due {
+            // The machine may have been restored to an earlier moment.
+            due.at = due.at.min(now.saturating_add(due.period));
+        }
+        let (index, due) = acts.due.iter().enumerate().min_by_key(|(_, due)| due.at)?;
+        if due.at > end {
+            return None;
+        }
+        acts.actor = Some(std::thread::current().id());
+        Some(acts.due.swap_remove(index))
+    }
+
+    fn acts(&self) -> MutexGuard<'_, Acts> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

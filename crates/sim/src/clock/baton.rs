@@ -1,0 +1,241 @@
+//! Whose turn it is on the virtual clock.
+//!
+//! Of the threads that use a simulation one runs, and has the baton. The others stand in line:
+//! each waits for a moment of simulated time. A thread passes the baton on when it stands in line
+//! again, when it ends, or when it sleeps elsewhere, until another thread or a person wakes it.
+//! Then the first in line gets it.
+//!
+//! The baton is passed on only at a moment at which all threads rest that do not stand in line
+//! ([`Threads::rest`]). So a thread that was just created, or woken, comes to its place in line
+//! before time goes on, however slow this machine is. That is why a program with several threads
+//! does the same in each run.
+
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::{self, Thread};
+use std::time::{Duration, Instant};
+
+use super::threads::{self, Id, Threads};
+
+/// How long the first in line sleeps, by the wall clock, before it looks whether the others rest.
+/// It sleeps twice as long each time.
+const NAPS: [Duration; 2] = [Duration::from_micros(20), Duration::from_millis(1)];
+
+/// The baton, and the line for it.
+#[derive(Debug)]
+pub(super) struct Baton {
+    /// Whose turn it is. A thread to which this was passed, and that still stands in line, has not
+    /// woken up yet.
+    holder: AtomicU32,
+    /// How many threads are about to lock the line. They may sleep, but do not rest.
+    arriving: AtomicUsize,
+    line: Mutex<Line>,
+}
+
+#[derive(Debug, Default)]
+struct Line {
+    /// Those that stand in line, and those that keep their place, as the holder.
+    clients: Vec<Client>,
+    /// How many turns newcomers have had.
+    turns: u64,
+    threads: Threads,
+}
+
+#[derive(Debug)]
+struct Client {
+    id: Id,
+    thread: Thread,
+    place: Place,
+    /// Since when it has waited for its turn, if that is what it did last.
+    begun: Option<Duration>,
+    stands: Option<Stand>,
+}
+
+/// When a thread in line goes on.
+#[derive(Debug)]
+struct Stand {
+    /// The moment of simulated time. A newcomer waits for none.
+    moment: Option<Duration>,
+    /// Not before this, by the wall clock.
+    wall: Option<Instant>,
+}
+
+/// Who goes first of those that wait for the same moment.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    /// Those that had a turn, and did not sleep elsewhere since: in the order of their first.
+    Since(u64),
+    /// Then the newcomers: in the order of what they are about to do. The threads of a pool take
+    /// their work in any order.
+    New(String),
+}
+
+/// What a thread in line waits for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Wish {
+    /// Its turn, since this moment of simulated time. A newcomer goes before the others.
+    Turn(Duration),
+    /// A moment of simulated time.
+    Moment(Duration),
+    /// The same, but not before this by the wall clock.
+    NotBefore(Duration, Instant),
+}
+
+impl Baton {
+    pub(super) fn new() -> Self {
+        let (holder, arriving) = (AtomicU32::new(0), AtomicUsize::new(0));
+        Self { holder, arriving, line: Mutex::default() }
+    }
+
+    /// Whether it is this thread's turn.
+    pub(super) fn is_mine(&self) -> bool {
+        self.holder.load(Ordering::SeqCst) == threads::me()
+    }
+
+    /// Stands in line for the next turn; `false` if it does not come within this wall time.
+    /// The thread then keeps its place, if it stands in line again without sleeping elsewhere.
+    ///
+    /// `about` says what the thread is about to do; a newcomer is asked.
+    pub(super) fn stand(
+        &self,
+        wish: Wish,
+        about: &mut dyn FnMut() -> String,
+        patience: Duration,
+    ) -> bool {
+        let (me, latest, [mut nap, longest]) = (threads::me(), Instant::now() + patience, NAPS);
+        let about = if self.is_mine() { String::new() } else { about() };
+        let mut line = self.line();
+        if self.is_mine() {
+            self.holder.store(0, Ordering::SeqCst);
+        }
+        line.join(me, about, wish);
+        loop {
+            self.pass(&mut line);
+            if self.is_mine() {
+                line.take(me);
+                return true;
+            }
+            let left = latest.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                line.leave(me);
+                return false;
+            }
+            // One thread looks at the others, that is enough.
+            let is_first = line.first().is_some_and(|first| first.id == me);
+            drop(line);
+            thread::park_timeout(if is_first { nap.min(left) } else { left });
+            nap = longest.min(nap * 2);
+            line = self.line();
+        }
+    }
+
+    /// Whether another thread stands in line, now that it is this thread's turn.
+    pub(super) fn is_wanted(&self) -> bool {
+        // One that handles signals just now keeps its place.
+        self.line().clients.len() > 1
+    }
+
+    /// Passes the baton on to the first in line, if everyone else rests.
+    fn pass(&self, line: &mut Line) {
+        let holder = self.holder.load(Ordering::SeqCst);
+        if line.stands(holder) || !self.is_rest(line) {
+            return;
+        }
+        let Some(first) = line.first() else {
+            return;
+        };
+        if first
+            .stands
+            .as_ref()
+            .and_then(|stand| stand.wall)
+            .is_some_and(|wall| Instant::now() < wall)
+        {
+            return;
+        }
+        let (id, thread) = (first.id, first.thread.clone());
+        self.holder.store(id, Ordering::SeqCst);
+        // Those that sleep elsewhere lose their places.
+        line.clients.retain(|client| client.stands.is_some());
+        thread.unpark();
+        // From now on the second one looks at the others.
+        let second = line.clients.iter().filter(|client| client.id != id);
+        if let Some(second) = second.min_by(|a, b| line.order(a).cmp(&line.order(b))) {
+            second.thread.unpark();
+        }
+    }
+
+    /// Whether all threads rest that do not stand in line.
+    fn is_rest(&self, line: &mut Line) -> bool {
+        let Line { clients, threads, .. } = line;
+        let stands = |id| clients.iter().any(|one| one.id == id && one.stands.is_some());
+        let count = clients.iter().filter(|client| client.stands.is_some()).count();
+        let is_rest = threads::count() <= count as u64 || threads.rest(stands);
+        is_rest && self.arriving.load(Ordering::SeqCst) == 0
+    }
+
+    fn line(&self) -> MutexGuard<'_, Line> {
+        self.arriving.fetch_add(1, Ordering::SeqCst);
+        let line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        self.arriving.fetch_sub(1, Ordering::SeqCst);
+        line
+    }
+}
+
+impl Line {
+    fn join(&mut self, id: Id, about: String, wish: Wish) {
+        if self.client(id).is_none() {
+            let (thread, place) = (thread::current(), Place::New(about));
+            self.clients.push(Client { id, thread, place, begun: None, stands: None });
+        }
+        let Some(client) = self.client(id) else {
+            return;
+        };
+        let (moment, wall) = match wish {
+            Wish::Turn(_) if matches!(client.place, Place::New(_)) => (None, None),
+            Wish::Turn(now) => (Some(*client.begun.get_or_insert(now)), None),
+            Wish::Moment(moment) => (Some(moment), None),
+            Wish::NotBefore(moment, wall) => (Some(moment), Some(wall)),
+        };
+        if !matches!(wish, Wish::Turn(_)) {
+            client.begun = None;
+        }
+        client.stands = Some(Stand { moment, wall });
+    }
+
+    fn take(&mut self, id: Id) {
+        let turn = self.turns;
+        self.turns += 1;
+        if let Some(client) = self.client(id) {
+            client.stands = None;
+            client.begun = None;
+            if matches!(client.place, Place::New(_)) {
+                client.place = Place::Since(turn);
+            }
+        }
+    }
+
+    fn leave(&mut self, id: Id) {
+        if let Some(client) = self.client(id) {
+            client.stands = None;
+        }
+    }
+
+    fn stands(&self, id: Id) -> bool {
+        self.clients.iter().any(|client| client.id == id && client.stands.is_some())
+    }
+
+    fn first(&self) -> Option<&Client> {
+        let standing = self.clients.iter().filter(|client| client.stands.is_some());
+        standing.min_by(|a, b| self.order(a).cmp(&self.order(b)))
+    }
+
+    /// By the moment, then the place, then the age.
+    fn order<'a>(&self, client: &'a Client) -> impl Ord + use<'a> {
+        let moment = client.stands.as_ref().and_then(|stand| stand.moment);
+        (moment, &client.place, self.threads.age(client.id))
+    }
+
+    fn client(&mut self, id: Id) -> Option<&mut Client> {
+        self.clients.iter_mut().find(|client| client.id == id)
+    }
+}

@@ -1,0 +1,228 @@
+//! How time passes for a machine that several threads use.
+//!
+//! With a *wall clock* a thread steps the machine every 2 ms, by the wall time that has passed
+//! times a factor. With the *virtual clock* time stands still while the program computes. It
+//! passes when the program waits, then it jumps to the end of the wait, and a little with each
+//! access to a file, so that a program that polls a sensor makes progress, too.
+//!
+//! On the virtual clock one thread runs at a time, in the order of simulated time ([`baton`]). A
+//! thread waits for its turn at the beginning of each call ([`Simulation::turn`]) and when it
+//! pauses. At these points it holds no lock that another thread may need. In between it may take
+//! locks and access files, and nobody else has a turn.
+//!
+//! [`Simulation::repeat`] is for control loops. An act runs when a thread lets time pass, or has
+//! its turn: on the virtual clock at exactly its time during a pause, else at the next call. So a
+//! loop that controls motors does the same in each run.
+
+mod acts;
+mod baton;
+mod threads;
+mod wall;
+
+use std::io;
+use std::sync::{Arc, MutexGuard};
+use std::time::{Duration, Instant};
+
+use self::acts::PeriodicActs;
+use self::baton::{Baton, Wish};
+use self::wall::{STEP, Stepper};
+use crate::machine::Machine;
+use crate::shared::Shared;
+
+pub use self::acts::Act;
+
+/// Duration of a read on the virtual clock: that of a fast program on a brick.
+const READ_TAKES: Duration = Duration::from_micros(500);
+
+/// Duration of a write on the virtual clock.
+const WRITE_TAKES: Duration = Duration::from_micros(100);
+
+/// Duration of a call on the virtual clock while another thread waits: so a thread that only asks
+/// for the time lets the others go on.
+const CALL_TAKES: Duration = Duration::from_micros(10);
+
+/// Longest wait, by the wall clock, before the caller can handle signals.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// How long a person has, by the wall clock, to press a button while the virtual clock stands.
+const PRESS: Duration = Duration::from_millis(1);
+
+/// How simulated time relates to the wall clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clock {
+    /// It passes with the wall clock, faster by this factor.
+    Wall(f64),
+    /// It passes only while the program waits or accesses files.
+    Virtual,
+}
+
+/// A machine whose time passes.
+#[derive(Debug)]
+pub struct Simulation {
+    shared: Arc<Shared>,
+    acts: Arc<PeriodicActs>,
+    pace: Pace,
+}
+
+#[derive(Debug)]
+enum Pace {
+    Wall { _stepper: Stepper },
+    Virtual { baton: Baton, has_others: fn() -> bool },
+}
+
+impl Simulation {
+    /// Starts the clock of a machine. `has_others` says whether the program has threads but the
+    /// one that calls it; if not, it need not wait for its turn.
+    ///
+    /// # Errors
+    /// If the wall clock's thread cannot be started.
+    pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
+        let shared = Arc::new(Shared::new(machine));
+        let acts = Arc::new(PeriodicActs::default());
+        let pace = match clock {
+            Clock::Wall(factor) => {
+                let (shared, acts) = (Arc::clone(&shared), Arc::clone(&acts));
+                Pace::Wall { _stepper: Stepper::start(shared, acts, factor)? }
+            }
+            Clock::Virtual => Pace::Virtual { baton: Baton::new(), has_others },
+        };
+        Ok(Self { shared, acts, pace })
+    }
+
+    /// The machine behind its lock, as a mount needs it.
+    #[must_use]
+    pub fn shared(&self) -> Arc<Shared> {
+        Arc::clone(&self.shared)
+    }
+
+    /// The machine, for as long as the guard lives.
+    pub fn machine(&self) -> MutexGuard<'_, Machine> {
+        self.shared.lock()
+    }
+
+    /// Lets time pass, with any clock.
+    pub fn step(&self, time: Duration) {
+        drop(self.acts.step(&self.shared, self.shared.lock(), time));
+        self.shared.wake();
+    }
+
+    /// A call of the program begins. On the virtual clock this waits for the thread's turn;
+    /// `false` if it does not come within 20 ms of wall time: the caller handles signals, and
+    /// calls again. The caller holds no lock. `about` says what is called, and with what.
+    pub fn turn(&self, about: &mut dyn FnMut() -> String) -> bool {
+        let Pace::Virtual { baton, has_others } = &self.pace else {
+            return true;
+        };
+        if self.acts.is_acting() {
+            return true;
+        }
+        let mut takes = Duration::ZERO;
+        if !baton.is_mine() || has_others() {
+            let wish = Wish::Turn(self.machine().now());
+            if !baton.stand(wish, about, SLICE) {
+                return false;
+            }
+            if baton.is_wanted() {
+                takes = CALL_TAKES;
+            }
+        }
+        drop(self.acts.step(&self.shared, self.shared.lock(), takes));
+        true
+    }
+
+    /// A read of a file by this thread. On the virtual clock it takes some time.
+    pub fn read<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
+        act(&mut self.access(READ_TAKES))
+    }
+
+    /// A write to a file by this thread.
+    pub fn write<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
+        act(&mut self.access(WRITE_TAKES))
+    }
+
+    /// No periodic act runs, and no other thread has a turn: the caller may hold a lock that
+    /// these would wait for.
+    fn access(&self, takes: Duration) -> MutexGuard<'_, Machine> {
+        let Pace::Virtual { baton, .. } = &self.pace else {
+            return self.shared.lock();
+        };
+        if self.acts.is_acting() {
+            return self.shared.lock();
+        }
+        // Who comes without a turn, as at the end of the program, waits, but not for ever.
+        if !baton.is_mine() {
+            let wish = Wish::Turn(self.machine().now());
+            baton.stand(wish, &mut String::new, SLICE);
+        }
+        let mut machine = self.shared.lock();
+        machine.step(takes);
+        machine
+    }
+
+    /// Runs an act at a fixed period from now on. A thread that lets time pass runs
+    /// it at that very moment, on the virtual clock in no time.
+    pub fn repeat(&self, period: Duration, act: Act) {
+        let now = self.machine().now();
+        self.acts.add(now, period, act);
+    }
+
+    /// Whether this thread runs an act just now.
+    #[must_use]
+    pub fn is_acting(&self) -> bool {
+        self.acts.is_acting()
+    }
+
+    /// Lets time pass until a moment. By the wall clock it returns after 20 ms at the latest. On
+    /// the virtual clock it returns `false` if the thread's turn does not come within 20 ms of
+    /// wall time: the caller handles signals, and calls again.
+    pub fn pause(&self, end: Duration) -> bool {
+        self.pause_until(end, |_| false, None)
+    }
+
+    /// The same, but at most until a button is pressed or released. The virtual clock jumps only to
+    /// a planned press: a person may press a button at any time.
+    pub fn pause_for_button(&self, end: Duration) -> bool {
+        let (count, planned) = {
+            let machine = self.machine();
+            (machine.button_events(), machine.next_button())
+        };
+        let end = end.min(planned.map_or(end, |at| at.saturating_add(STEP)));
+        let wall = planned.is_none().then(|| Instant::now() + PRESS);
+        self.pause_until(end, |machine| machine.button_events() != count, wall)
+    }
+
+    fn pause_until(
+        &self,
+        end: Duration,
+        is_done: impl Fn(&Machine) -> bool,
+        wall: Option<Instant>,
+    ) -> bool {
+        match &self.pace {
+            Pace::Wall { .. } => self.pause_by_wall(end, is_done),
+            Pace::Virtual { baton, has_others } => {
+                let wish = wall.map_or(Wish::Moment(end), |wall| Wish::NotBefore(end, wall));
+                let is_alone = baton.is_mine() && wall.is_none() && !has_others();
+                if !is_alone && !baton.stand(wish, &mut String::new, SLICE) {
+                    return false;
+                }
+                let machine = self.shared.lock();
+                let left = end.saturating_sub(machine.now());
+                drop(self.acts.step(&self.shared, machine, left));
+                self.shared.wake();
+            }
+        }
+        true
+    }
+
+    fn pause_by_wall(&self, end: Duration, is_done: impl Fn(&Machine) -> bool) {
+        let latest = Instant::now() + SLICE;
+        let mut machine = self.shared.lock();
+        while machine.now() < end && !is_done(&machine) {
+            let left = latest.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return;
+            }
+            machine = self.shared.wait(machine, left);
+        }
+    }
+}

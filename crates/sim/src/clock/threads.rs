@@ -1,0 +1,106 @@
+//! What the kernel says of this process's threads: which run, and which are asleep.
+//!
+//! A thread that can run is not asleep, also while other programs have the processors. Nothing
+//! here depends on how much wall time passes.
+
+use std::cell::Cell;
+use std::fs::{self, File};
+use std::io::Read;
+use std::os::unix::fs::MetadataExt;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// The kernel's number of a thread.
+pub(super) type Id = u32;
+
+/// One directory a thread.
+const TASKS: &str = "/proc/self/task";
+
+/// The names of this crate's own threads, which use no simulation, begin so.
+const OURS: &str = "ev3-";
+
+/// The number of this thread. Where the kernel does not tell, it is one that no other thread has.
+pub(super) fn me() -> Id {
+    static STRANGERS: AtomicU32 = AtomicU32::new(1 << 31);
+    thread_local! {
+        static ME: Cell<Id> = const { Cell::new(0) };
+    }
+    if ME.get() == 0 {
+        let link = fs::read_link("/proc/thread-self").ok();
+        let number = link.and_then(|link| link.file_name()?.to_str()?.parse().ok());
+        ME.set(number.unwrap_or_else(|| STRANGERS.fetch_add(1, Ordering::Relaxed)));
+    }
+    ME.get()
+}
+
+/// How many threads this process has. Where the kernel does not tell, one is assumed.
+pub(super) fn count() -> u64 {
+    // A directory has a link more for each directory in it, and two for itself.
+    fs::metadata(TASKS).map_or(1, |tasks| tasks.nlink().saturating_sub(2))
+}
+
+/// The threads of this process when they were last looked at.
+#[derive(Debug, Default)]
+pub(super) struct Threads {
+    /// In the order of their creation, as the kernel lists them.
+    seen: Vec<Seen>,
+}
+
+/// What was seen of a thread: its number, and how often it had fallen asleep, unless it was not
+/// to be looked at.
+type Seen = (Id, Option<u64>);
+
+impl Threads {
+    /// Whether there was a moment at which all threads were asleep but those that need not be.
+    ///
+    /// Two looks tell: a thread that was asleep in both, and has fallen asleep equally often, did
+    /// not run in between. So the end of the first look is such a moment.
+    pub(super) fn rest(&mut self, need_not: impl Fn(Id) -> bool) -> bool {
+        let Some(seen) = look(&need_not) else {
+            return false;
+        };
+        // Those that have slept since the last time were looked at then.
+        let is_as_before = seen.iter().all(|one| one.1.is_none() || self.seen.contains(one));
+        let rest = is_as_before || look(&need_not).is_some_and(|again| again == seen);
+        self.seen = seen;
+        rest
+    }
+
+    /// The place of a thread in the order of creation.
+    pub(super) fn age(&self, thread: Id) -> Option<usize> {
+        self.seen.iter().position(|(other, _)| *other == thread)
+    }
+}
+
+/// The threads; `None` if one is awake that should not be.
+fn look(need_not: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
+    let mut seen = Vec::new();
+    for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
+        let Some(id) = task.file_name().to_str().and_then(|name| name.parse().ok()) else {
+            continue;
+        };
+        let sleeps = if need_not(id) { None } else { Some(sleeps(id)?) };
+        seen.push((id, sleeps));
+    }
+    Some(seen)
+}
+
+/// How often a thread has fallen asleep; `None` if it is awake. One that has ended is asleep for
+/// ever, and our own threads count as asleep.
+fn sleeps(thread: Id) -> Option<u64> {
+    let mut buffer = [0; 4096];
+    let file = File::open(format!("{TASKS}/{thread}/status"));
+    let Ok(length) = file.and_then(|mut file| file.read(&mut buffer)) else {
+        return Some(u64::MAX);
+    };
+    let text = String::from_utf8_lossy(&buffer[..length]);
+    let value = |name| text.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
+    if value("Name:")?.starts_with(OURS) {
+        return Some(u64::MAX);
+    }
+    match value("State:")?.as_bytes().first()? {
+        b'S' => value("voluntary_ctxt_switches:")?.parse().ok(),
+        b'X' | b'Z' => Some(u64::MAX),
+        // It can run, waits for a disk or its memory, or was halted by a debugger.
+        _ => None,
+    }
+}

@@ -1,0 +1,36 @@
+:- module(ev3dev_turn,
+          [ about/1                     % -Text
+          ]).
+
+/** <module> What a thread is about to do
+
+On the virtual clock threads that come at the same moment have their turns in
+the order of what they are about to do. The threads of concurrent/3 take their
+goals in any order, so that their names and ages tell nothing.
+*/
+
+%!  about(-Text) is det.
+%
+%   The goals that this thread is in, from the native predicate that asks
+%   outward.
+
+about(Text) :-
+    prolog_current_frame(Frame),
+    goals(Frame, 20, Goals),
+    (   acyclic_term(Goals)
+    ->  copy_term(Goals, Copy, _),
+        numbervars(Copy, 0, _),
+        format(string(Text), "~W",
+               [Copy, [quoted(true), numbervars(true), max_depth(50)]])
+    ;   Text = ""
+    ).
+
+goals(Frame, Left, Goals) :-
+    (   Left > 0,
+        prolog_frame_attribute(Frame, parent, Parent)
+    ->  prolog_frame_attribute(Parent, goal, Goal),
+        Goals = [Goal|Outer],
+        Left1 is Left - 1,
+        goals(Parent, Left1, Outer)
+    ;   Goals = []
+    ).
