@@ -335,7 +335,7 @@ test(what_leads_nowhere_ends_the_move_before,
      [forall(member(Goal, [turn(20, 0), follow([])]))]) :-
     quiet(true, ( drive_cm(10, 0), sim_step(1), Goal, at_rest )).
 test(turns_to_one_side_go_on_though_a_gyro_has_16_bits) :-
-    quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 3) )).
+    quiet(true, ( forall(between(1, 400, _), turn(50, 90)), pose_is_right(0.5, 6) )).
 test(every_acceleration_that_is_allowed_ends,
      [forall(( member(A, [1, 1000]),
                member(Move, [turn(80, 90, O), face(-120, O), go_cm(80, 20, O),

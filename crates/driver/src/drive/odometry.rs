@@ -286,8 +286,8 @@ impl Estimate {
         unsettled.starts |= std::mem::replace(&mut self.still, 0.0) >= STILL;
         unsettled.rolled += rolled[0] + rolled[1];
         unsettled.turned += turn.abs();
-        for side in 0..2 {
-            unsettled.ways[side] += ways[side];
+        for (sum, way) in unsettled.ways.iter_mut().zip(ways) {
+            *sum += way;
         }
     }
 
@@ -315,19 +315,19 @@ impl Estimate {
         // How the new place depends on the old heading, and on each error by
         // how much way and turn depend on it.
         let (dx, dy) = (chord * cos, -chord * sin);
-        let (half_dx, half_dy) = (dx / 2.0, dy / 2.0);
+        let half = [dx / 2.0, dy / 2.0];
         let [half_left, half_right] = ways.map(|way| way / 2.0);
         let per_axle = (1.0 + self.state[AXLE]) / wheels.axle;
         let (of_left, of_right) = (ways[0] * per_axle, -ways[1] * per_axle);
         self.propagate(&[
             (X, HEADING, dx),
-            (X, LEFT, half_left * sin + of_left * half_dx),
-            (X, RIGHT, half_right * sin + of_right * half_dx),
-            (X, AXLE, by_wheels * half_dx),
+            (X, LEFT, half_left * sin + of_left * half[0]),
+            (X, RIGHT, half_right * sin + of_right * half[0]),
+            (X, AXLE, by_wheels * half[0]),
             (Y, HEADING, dy),
-            (Y, LEFT, half_left * cos + of_left * half_dy),
-            (Y, RIGHT, half_right * cos + of_right * half_dy),
-            (Y, AXLE, by_wheels * half_dy),
+            (Y, LEFT, half_left * cos + of_left * half[1]),
+            (Y, RIGHT, half_right * cos + of_right * half[1]),
+            (Y, AXLE, by_wheels * half[1]),
             (HEADING, LEFT, of_left),
             (HEADING, RIGHT, of_right),
             (HEADING, AXLE, by_wheels),
@@ -340,7 +340,7 @@ impl Estimate {
             + TURN_VARIANCE * turned
             + 2.0 * start / (wheels.axle * wheels.axle);
         self.inflate([sin, cos, 0.0], along);
-        self.inflate([half_dx, half_dy, 1.0], of_turn);
+        self.inflate([half[0], half[1], 1.0], of_turn);
         self.covariance[AXLE][AXLE] += AXLE_CHANGE * turned;
     }
 

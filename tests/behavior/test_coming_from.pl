@@ -1,0 +1,48 @@
+% docs/coming-from.md names what there is.
+
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/colors)).
+:- use_module(library(ev3dev/console)).
+:- use_module(library(readutil)).
+
+% The terms in the second column of a table of two columns, below a heading.
+said_here(Heading, Term) :-
+    read_file_to_string('docs/coming-from.md', Text, []),
+    split_string(Text, "\n", "", Lines),
+    append(_, [Heading|Below], Lines),
+    append(Section, Next, Below),
+    ( Next == [] ; Next = [Line|_], sub_string(Line, 0, _, _, "## ") ),
+    !,
+    member(Row, Section),
+    split_string(Row, "|", " ", ["", _, Cell, ""]),
+    split_string(Cell, "`", "", Parts),
+    nth0(Index, Parts, Code),
+    Index mod 2 =:= 1,
+    term_to_atom(Term, Code).
+
+goal_of((A, B), Goal) :-
+    !,
+    ( goal_of(A, Goal) ; goal_of(B, Goal) ).
+goal_of(Goal, Goal) :-
+    compound(Goal),
+    \+ is_list(Goal),
+    functor(Goal, Name, _),
+    \+ memberchk(Name, [library, rpm, rps]).
+
+:- begin_tests(coming_from).
+
+test(each_word_is_exported,
+     [ forall(member(Heading, ["## python-ev3dev2", "## Pybricks", "## leJOS"])),
+       true(Missing == []) ]) :-
+    findall(Goal, ( said_here(Heading, Term), goal_of(Term, Goal) ), Goals),
+    length(Goals, Count),
+    Count > 15,
+    findall(Goal,
+            ( member(Goal, Goals), \+ predicate_property(user:Goal, visible) ),
+            Missing).
+
+:- end_tests(coming_from).
