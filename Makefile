@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-bench check-all check-old check-dist \
+.PHONY: all setup build check check-rust check-prolog check-clients check-bench check-torture check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench doc dist demo install clean distclean realclean
 
@@ -40,6 +40,7 @@ check: build check-rust check-prolog check-clients check-bench
 # passed.
 check-all: lint check
 	$(MAKE) dist
+	$(MAKE) check-torture
 	$(MAKE) -j2 check-brick check-dist check-versions check-brick-prolog
 	@tools/checked.sh
 
@@ -56,6 +57,10 @@ check-clients: build
 # The bench still runs, and its tables are those of its last run
 check-bench: build
 	@benches/run.py --smoke
+
+# Ten thousand random programs, moves, signals and worlds; `make check` has 300
+check-torture: build
+	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl
 
 lint: build
 	$(CARGO) fmt --all --check

@@ -203,6 +203,9 @@ test(a_blocked_wheel_is_noticed_at_any_speed,
      [forall(member(Speed, [0.4, -1, 2, 10, 100])), true(Reason == stalled)]) :-
     quiet(false, ( sim_jam(outB, true),
                    go_cm(Speed, 50, [reason(Reason)]) )).
+test(a_move_that_is_very_slow_ends) :-
+    quiet(false, ( go(0.4), steer(0.4, 100), arc_cm(0.4, 0.3, -720),
+                   at_rest )).
 test(the_time_is_up,
      [forall(( behaving(Tree), a_move(Move) )), true(R == timeout)]) :-
     with_options(Move, [timeout(0.2), reason(R)], Goal),

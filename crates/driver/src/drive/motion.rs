@@ -28,6 +28,9 @@ pub(super) const LONGEST_LOOK: Duration = Duration::from_millis(100);
 /// Less movement than this, in counts, is standing still.
 const STUCK_WITHIN: u64 = 2;
 
+/// Less than this, in counts per second, is no speed.
+const SLOWEST: f64 = 0.05;
+
 /// Speed of the wheels on their last counts, per second.
 const LANDING_SPEED: i64 = 100;
 
@@ -115,6 +118,13 @@ fn whole(counts: f64) -> i64 {
     counts.round() as i64
 }
 
+/// A speed in whole counts per second. A wheel that is to turn does: with both at 0 a
+/// slow robot would stand before its end for ever.
+fn least(speed: f64) -> i64 {
+    let rounded = whole(speed);
+    if rounded == 0 && speed.abs() > SLOWEST { whole(speed.signum()) } else { rounded }
+}
+
 impl ActiveMotion {
     /// Commands the speeds of the wheels, in cm/s. `passed` is the time since the
     /// last sample.
@@ -128,7 +138,7 @@ impl ActiveMotion {
         // Too fast for one is too fast for both: the curve stays the same.
         let most = wanted[0].abs().max(wanted[1].abs());
         let share = if most > devices.fastest { devices.fastest / most } else { 1.0 };
-        let speeds = wanted.map(|speed| whole(speed * share));
+        let speeds = wanted.map(|speed| least(speed * share));
         if self.is_stuck(devices, speeds, passed) {
             return Ok(Some(Reason::Stalled));
         }
