@@ -44,10 +44,7 @@ jog(Options) :-
     number_option(speed(Speed), speed_ahead, Options, 30),
     robot_set(_, _, _, _),
     print_message(informational, ev3dev(jog)),
-    setup_call_cleanup(
-        true,
-        jog_on(Speed),
-        ignore(stop)).
+    call_cleanup(jog_on(Speed), ignore(stop)).
 
 :- multifile prolog:message//1.
 

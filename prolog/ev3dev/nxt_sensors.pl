@@ -24,7 +24,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [domain_error/2, term_expansion/2]).
 :- use_module(private/arguments, [word/2]).
-:- use_module(sensors, [reading_types/2, sensor_reading/3]).
+:- use_module(sensors, [reading_of/4, sensor_reading/3]).
 :- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/native, [sensor_values_/5]).
 :- use_module(private/one_of).
@@ -50,7 +50,7 @@ measured(Reading, Port, Value) :-
     sensor_reading(Reading, Port, Value).
 measured(Reading, Port, Value) :-
     findall(Type,
-            ( reading_types(Reading, Types),
+            ( reading_of(Reading, Types, _, _),
               one_of(Types, Type)
             ),
             All),

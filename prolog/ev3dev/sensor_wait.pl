@@ -8,7 +8,7 @@
                 term_expansion/2, throw_error/3
               ]).
 :- use_module(private/explain).
-:- use_module(sensors, [reading_of/4, reading_types/2]).
+:- use_module(sensors, [reading_of/4]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_value/2, option/2,
                 timeout_option/2
@@ -104,9 +104,9 @@ touch_test(bumped, bumped).
 
 port(Sensor, Reading, Port) :-
     Sensor =.. [Reading, Port],
-    (   reading_types(Reading, _)
+    (   reading_of(Reading, _, _, _)
     ->  must_be(text, Port)
-    ;   findall(Known, reading_types(Known, _), Names0),
+    ;   findall(Known, reading_of(Known, _, _, _), Names0),
         sort(Names0, Names),
         throw_error(domain_error(sensor_reading, Reading), _,
                     one_of(Reading, Names))

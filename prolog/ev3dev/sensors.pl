@@ -22,7 +22,6 @@
             sensor_value/4,             % ?Port, +Mode, +Index, -Value
             sensor_values/3,            % ?Port, +Mode, -Values
             adjust_val/3,               % +Port, +Raw, -Value
-            reading_types/2,            % ?Reading, ?Types
             reading_of/4                % ?Reading, ?Types, ?Mode, ?Index
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -77,17 +76,10 @@ ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 
 :- multifile reading/4.
 
-%!  reading_types(?Reading, ?Types) is nondet.
-%
-%   True if the sensors of Types show Reading in one of their modes. Libraries
-%   that add readings use it.
-
-reading_types(Reading, Types) :-
-    reading(Reading, Types, _, _).
-
 %!  reading_of(?Reading, ?Types, ?Mode, ?Index) is nondet.
 %
 %   True if the sensors of Types show Reading as value Index of Mode.
+%   Libraries that add readings use it.
 
 reading_of(Reading, Types, Mode, Index) :-
     reading(Reading, Types, Mode, Index).

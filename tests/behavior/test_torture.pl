@@ -22,7 +22,6 @@ schedule(Seed, Steps, Faults) :-
 some(Least, Most, Kind, Terms) :-
     random_between(Least, Most, Count),
     length(Terms, Count),
-    forall(member(Term, Terms), var(Term)),
     maplist(one_of(Kind), Terms).
 
 one_of(Kind, Term) :-
@@ -164,15 +163,20 @@ end_wrong(pose(X, Y, Heading)) :-
          Number =:= Number,
          abs(Number) < 1.0e9 ).
 
+waiting_move(Move) :-
+    random_member(Template,
+                  [ go_cm(percent, cm), turn(percent, degrees), go_to(x, y),
+                    motor_run(motor, percent, counts),
+                    motor_run_timed(motor, percent, seconds),
+                    arc_cm(percent, cm, degrees, []), face(degrees) ]),
+    filled(Template, Move).
+
 % A program whose last call is a move that waits: then its wheels rest, if nobody
 % pulled a wire, and the motors need not be stopped.
 pushes(Seed, Move-Ports) :-
     set_random(seed(Seed)),
     filled(sim_place(x, y, degrees), Place),
-    random_member(Template,
-                  [ go_cm(percent, cm), turn(percent, degrees), go_to(x, y),
-                    arc_cm(percent, cm, degrees, []), face(degrees) ]),
-    filled(Template, Move),
+    waiting_move(Move),
     filled(sim_jam(wheel, boolean), Jam),
     with_sim(room,
              ( catch(ignore(Place), error(_, _), true),
@@ -191,12 +195,7 @@ pushes(Seed, Move-Ports) :-
 % A move that is left by a signal: its motors stop.
 after_signal(Seed, Move) :-
     set_random(seed(Seed)),
-    random_member(Template,
-                  [ go_cm(percent, cm), turn(percent, degrees), go_to(x, y),
-                    motor_run(motor, percent, counts),
-                    motor_run_timed(motor, percent, seconds),
-                    arc_cm(percent, cm, degrees, []), face(degrees) ]),
-    filled(Template, Move),
+    waiting_move(Move),
     random(Share),
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC),
@@ -213,7 +212,7 @@ after_signal(Seed, Move) :-
                  *            WORLDS            *
                  *******************************/
 
-% The facts of a shipped world and robot, one or two of them spoilt.
+% The facts of a shipped world and robot, one of them spoilt.
 spoilt_world(Seed, World, Robot) :-
     set_random(seed(Seed)),
     random_member(World0, [room, grid, line, lights, maze]),
@@ -262,6 +261,21 @@ odd_value(Value) :-
                     100000000000000000000, a, [], "text", f(x), [1, 2], 1-2,
                     [1, 2|_], 'outZ', red, _ ]).
 
+world_wrong(Seed, Wrong) :-
+    spoilt_world(Seed, World, Robot),
+    catch(with_sim(World, drives_there(Wrongs), [robot(Robot)]),
+          Error,
+          ( odd(Error) -> Wrongs = [Error] ; Wrongs = [] )),
+    member(Wrong, Wrongs).
+
+drives_there(Wrongs) :-
+    set_robot(5.6, 10.6, outB, outC),
+    !,
+    ignore(go_cm(50, 20, [timeout(3)])),
+    forall(lego_sensor(Port), ignore(value(Port, 0, _))),
+    findall(Wrong, end_wrong(Wrong), Wrongs).
+drives_there([]).
+
                  /*******************************
                  *            TESTS             *
                  *******************************/
@@ -275,6 +289,12 @@ schedules(First, Last) :-
         cases(300, Last)
     ).
 
+all_wrong(Wrong_2, Wrongs) :-
+    schedules(First, Last),
+    findall(Seed:Wrong,
+            ( between(First, Last, Seed), call(Wrong_2, Seed, Wrong) ),
+            Wrongs).
+
 :- begin_tests(torture, [ setup(silent(true)), cleanup(silent(false)) ]).
 
 % Moves that end early warn: not here.
@@ -284,40 +304,13 @@ silent(false) :-
     retract((user:message_hook(_, warning, _) :- !)).
 
 test(random_programs_with_random_faults, true(Wrongs == [])) :-
-    schedules(First, Last),
-    findall(Seed:Wrong,
-            ( between(First, Last, Seed), wrong(Seed, Wrong) ),
-            Wrongs).
-
+    all_wrong(wrong, Wrongs).
 test(no_move_ends_with_a_motor_that_runs, true(Wrongs == [])) :-
-    schedules(First, Last),
-    findall(Seed:Wrong,
-            ( between(First, Last, Seed), pushes(Seed, Wrong) ),
-            Wrongs).
-
+    all_wrong(pushes, Wrongs).
 test(a_move_that_a_signal_ends_stops_its_motors, true(Wrongs == [])) :-
-    schedules(First, Last),
-    findall(Seed:Wrong,
-            ( between(First, Last, Seed), after_signal(Seed, Wrong) ),
-            Wrongs).
-
+    all_wrong(after_signal, Wrongs).
 test(worlds_are_built_or_refused, true(Wrongs == [])) :-
-    schedules(First, Last),
-    findall(Seed:Wrong,
-            ( between(First, Last, Seed), world_wrong(Seed, Wrong) ),
-            Wrongs).
-
-world_wrong(Seed, Wrong) :-
-    spoilt_world(Seed, World, Robot),
-    catch(with_sim(World,
-                   ( set_robot(5.6, 10.6, outB, outC) -> ignore(go_cm(50, 20, [timeout(3)])),
-                     forall(lego_sensor(Port), ignore(value(Port, 0, _))),
-                     findall(W, end_wrong(W), Wrongs)
-                   ; Wrongs = [] ),
-                   [robot(Robot)]),
-          Error,
-          ( odd(Error) -> Wrongs = [Error] ; Wrongs = [] )),
-    member(Wrong, Wrongs).
+    all_wrong(world_wrong, Wrongs).
 
 test(simulations_leave_nothing_open, true(After =< Before)) :-
     forall(between(1, 20, _), a_simulation),

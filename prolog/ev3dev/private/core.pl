@@ -12,7 +12,7 @@
 :- reexport('../motor_settings').
 :- reexport('../dc_motors').
 :- reexport('../servo_motors').
-:- reexport('../sensors', except([reading_of/4, reading_types/2])).
+:- reexport('../sensors', except([reading_of/4])).
 :- reexport('../sensor_wait').
 :- reexport('../infrared').
 :- reexport('../nxt_sensors').

@@ -190,8 +190,9 @@ impl Drive {
 
     /// Puts the angle of a gyro that has turned much back to 0, if the robot stands.
     fn keep_from_filling(&self, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<()> {
-        let has_turned = !angle(gyro)?.is_some_and(|angle| angle.abs() < MUCH_TURNED);
-        if !has_turned || self.lock().active.is_some() {
+        if self.lock().active.is_some()
+            || angle(gyro)?.is_some_and(|angle| angle.abs() < MUCH_TURNED)
+        {
             return Ok(());
         }
         sleep(self.registry.tree(), STANDS, &mut *interrupted)?;
