@@ -7,6 +7,7 @@
 #[path = "it/robots.rs"]
 mod robots;
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -327,6 +328,25 @@ fn who_waits_can_handle_signals_and_keeps_its_place() {
     });
     assert_eq!(diary.words(), ["older", "younger"]);
     assert_eq!(now(&simulation), ms(100));
+}
+
+#[test]
+fn who_gets_the_turn_after_a_wait_first_handles_the_signals_sent_before() {
+    let simulation = simulation(Clock::Virtual);
+    let is_signaled = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let sleeper = scope.spawn(|| {
+            let end = ms(1000);
+            while now(&simulation) < end && !is_signaled.load(Ordering::SeqCst) {
+                simulation.pause(end);
+            }
+            now(&simulation)
+        });
+        wait(&simulation, ms(100));
+        let signaled_at = now(&simulation);
+        is_signaled.store(true, Ordering::SeqCst);
+        assert_eq!(sleeper.join().unwrap(), signaled_at);
+    });
 }
 
 #[test]

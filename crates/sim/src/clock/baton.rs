@@ -49,6 +49,8 @@ struct Client {
     /// Since when it has waited for its turn, if that is what it did last.
     begun: Option<Duration>,
     stands: Option<Stand>,
+    /// It got the turn for this after it had slept in line, and was sent to handle signals first.
+    granted: Option<Wish>,
 }
 
 /// When a thread in line goes on.
@@ -92,8 +94,10 @@ impl Baton {
         self.holder.load(Ordering::SeqCst) == threads::me()
     }
 
-    /// Stands in line for the next turn; `false` if it does not come within this wall time.
-    /// The thread then keeps its place, if it stands in line again without sleeping elsewhere.
+    /// Stands in line for the next turn; `false` if the caller has to handle signals, and to stand
+    /// in line again. If the turn does not come within this wall time, the thread keeps its place
+    /// meanwhile. If the turn came after a sleep in line, the thread has it already: so a signal
+    /// that was sent before is handled before, however short the sleep was by the wall clock.
     ///
     /// `about` says what the thread is about to do; a newcomer is asked.
     pub(super) fn stand(
@@ -106,14 +110,22 @@ impl Baton {
         let about = if self.is_mine() { String::new() } else { about() };
         let mut line = self.line();
         if self.is_mine() {
+            if line.is_granted(me, wish) {
+                line.take(me);
+                return true;
+            }
             self.holder.store(0, Ordering::SeqCst);
         }
         line.join(me, about, wish);
+        let mut has_slept = false;
         loop {
             self.pass(&mut line);
             if self.is_mine() {
                 line.take(me);
-                return true;
+                if has_slept {
+                    line.grant(me, wish);
+                }
+                return !has_slept;
             }
             let left = latest.saturating_duration_since(Instant::now());
             if left.is_zero() {
@@ -124,6 +136,7 @@ impl Baton {
             let is_first = line.first().is_some_and(|first| first.id == me);
             drop(line);
             thread::park_timeout(if is_first { nap.min(left) } else { left });
+            has_slept = true;
             nap = longest.min(nap * 2);
             line = self.line();
         }
@@ -185,7 +198,14 @@ impl Line {
     fn join(&mut self, id: Id, about: String, wish: Wish) {
         if self.client(id).is_none() {
             let (thread, place) = (thread::current(), Place::New(about));
-            self.clients.push(Client { id, thread, place, begun: None, stands: None });
+            self.clients.push(Client {
+                id,
+                thread,
+                place,
+                begun: None,
+                stands: None,
+                granted: None,
+            });
         }
         let Some(client) = self.client(id) else {
             return;
@@ -208,10 +228,30 @@ impl Line {
         if let Some(client) = self.client(id) {
             client.stands = None;
             client.begun = None;
+            client.granted = None;
             if matches!(client.place, Place::New(_)) {
                 client.place = Place::Since(turn);
             }
         }
+    }
+
+    /// The turn is for this wish, once signals have been handled.
+    fn grant(&mut self, id: Id, wish: Wish) {
+        if let Some(client) = self.client(id) {
+            client.granted = Some(wish);
+        }
+    }
+
+    /// Whether the turn that this thread has is for this wish, made again: maybe later, by the
+    /// simulated or the wall clock.
+    fn is_granted(&mut self, id: Id, wish: Wish) -> bool {
+        let is_same = |granted| match (granted, wish) {
+            (Wish::Turn(_), Wish::Turn(_)) => true,
+            (Wish::Moment(moment), Wish::Moment(again))
+            | (Wish::NotBefore(moment, _), Wish::NotBefore(again, _)) => moment == again,
+            _ => false,
+        };
+        self.client(id).and_then(|client| client.granted).is_some_and(is_same)
     }
 
     fn leave(&mut self, id: Id) {

@@ -107,8 +107,8 @@ impl Simulation {
     }
 
     /// A call of the program begins. On the virtual clock this waits for the thread's turn;
-    /// `false` if it does not come within 20 ms of wall time: the caller handles signals, and
-    /// calls again. The caller holds no lock. `about` says what is called, and with what.
+    /// `false` when the caller has to handle signals, and to call again: every 20 ms of wall time,
+    /// and when the turn has come after a wait for it. The caller holds no lock. `about` says what is called, and with what.
     pub fn turn(&self, about: &mut dyn FnMut() -> String) -> bool {
         let Pace::Virtual { baton, has_others } = &self.pace else {
             return true;
@@ -173,8 +173,8 @@ impl Simulation {
     }
 
     /// Lets time pass until a moment. By the wall clock it returns after 20 ms at the latest. On
-    /// the virtual clock it returns `false` if the thread's turn does not come within 20 ms of
-    /// wall time: the caller handles signals, and calls again.
+    /// the virtual clock it returns `false` when the caller has to handle signals, and to call
+    /// again: every 20 ms of wall time, and when the thread's turn has come after a wait for it.
     pub fn pause(&self, end: Duration) -> bool {
         self.pause_until(end, |_| false, None)
     }
