@@ -128,8 +128,11 @@ reads_query(Frame, Left) :-
         reads_query(Parent, Left1)
     ).
 
+%   Prolog may have given up some of these frames for their last calls.
+reader('$toplevel':read_query_line/2).
 reader('$toplevel':read_query/3).
 reader('$toplevel':read_expanded_query/3).
+reader('$toplevel':read_term_as_atom/2).
 
 %!  stop_program is det.
 %
