@@ -51,11 +51,13 @@ frame(Page, Have, Frame) :-
     format(string(Line), "next ~w", [Have]),
     page_ask(Page, Line, Frame).
 
+:- meta_predicate
+    frame_with(+, ?, 0),
+    frame_with(+, ?, 0, +).
+
 %   Ask for frames until one satisfies a condition.
 frame_with(Page, Frame, Condition) :-
     frame_with(Page, Frame, Condition, 500).
-
-:- meta_predicate frame_with(+, ?, 0).
 
 frame_with(Page, Frame, Condition, Left) :-
     Left > 0,
@@ -191,6 +193,13 @@ test(what_is_no_request_at_all, true(Code == 404)) :-
                                  request(Port, ["GET"], _, _) )),
                    own(Port, Fields),
                    get(Port, '/missing', Fields, Code, _) )).
+test(no_words_of_an_exception_go_to_the_other_side, true(Code >= 400)) :-
+    viewed(Port, get(Port, '/', ["Cookie: test_token"], Code, Answer)),
+    (   current_prolog_flag(version, Version),
+        Version < 90000
+    ->  true
+    ;   \+ sub_string(Answer, _, _, _, "Domain")
+    ).
 test(handlers_of_the_program_are_not_served_here, true(Code == 404)) :-
     setup_call_cleanup(
         http_handler('/mine', mine, []),
@@ -633,3 +642,112 @@ look_on(Page, Have) :-
     ).
 
 :- end_tests(view_same).
+
+:- begin_tests(view_stop).
+
+% A toplevel in a process of its own, and a page of it.
+:- meta_predicate with_toplevel(?, 0).
+
+with_toplevel(top(In, Out, Page), Goal) :-
+    child:library_directory_under_test(Library),
+    child:swipl(Swipl),
+    token(Token),
+    format(string(Start),
+           "asserta(user:file_search_path(library, ~q)), \c
+            set_prolog_flag(ev3dev_hints, off), \c
+            use_module(library(ev3dev)), use_module(library(ev3dev/sim)), \c
+            use_module(library(ev3dev/view)), \c
+            sim_start([], [clock(virtual)]), \c
+            view([port(P), token(~q), open(false)]), \c
+            format('port ~~w~~n', [P]), flush_output", [Library, Token]),
+    setup_call_cleanup(
+        process_create(Swipl, ['-q', '-f', none, '-g', Start],
+                       [ process(Pid), stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(pipe(Err)) ]),
+        ( read_line_to_string(Out, Line),
+          split_string(Line, " ", "", ["port", Port0]),
+          number_string(Port, Port0),
+          page_open(Port, Token, Page),
+          once(Goal),
+          page_close(Page),
+          format(In, "halt.~n", []),
+          flush_output(In),
+          read_stream_to_codes(Err, _),
+          process_wait(Pid, exit(0)) ),
+        ( catch(process_kill(Pid, kill), _, true),
+          close(In, [force(true)]), close(Out), close(Err) )).
+
+query(top(In, _, _), Text) :-
+    format(In, "~w~n", [Text]),
+    flush_output(In).
+
+%   What it prints, up to a line with that text.
+printed(top(_, Out, _), Text) :-
+    read_line_to_string(Out, Line),
+    Line \== end_of_file,
+    (   sub_string(Line, _, _, _, Text)
+    ->  true
+    ;   printed(top(_, Out, _), Text)
+    ).
+
+runs(Frame) :-
+    member(Port, Frame.ports),
+    get_dict(state, Port, States),
+    memberchk("running", States),
+    !.
+
+ended(Frame) :-
+    Frame.program.state == "idle",
+    Frame.program.latched == false.
+
+% Programs that must be stopped, whatever they do.
+program("motor_run(outA, 50), repeat, fail.").
+program("motor_run(outA, 50), repeat, position(outA, _), fail.").
+program("motor_run(outA, 50), repeat, catch(motor_run(outA, 40), _, true), fail.").
+program("repeat, catch((motor_run(outA, 40), wait(0.1)), _, true), fail.").
+program("motor_run(outA, 50), wait(1000000).").
+program("motor_run(outA, 50), sleep(1000).").
+program("motor_run(outA, 50), thread_get_message(nothing).").
+program("motor_run(outA, 50), X is 7**3000000 mod 3, write(X).").
+program("motor_run(outA, 50), setup_call_cleanup(true, wait(1000000), motor_run(outB, 50)).").
+program("thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, []), thread_get_message(x).").
+
+test(program, [forall(program(Text))]) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, Text),
+          frame_with(Page, Frame, runs(Frame), 2000),
+          page_ask(Page, "stop", Stopped),
+          Stopped.what == "stop",
+          frame_with(Page, Last, ended(Last), 5000),
+          \+ runs(Last),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive"),
+          page_ask(Page, "next", Frame2),
+          \+ runs(Frame2) )).
+test(at_the_prompt_nothing_is_aborted) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "motor_run(outA, 50), writeln(begun)."),
+          printed(Top, "begun"),
+          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          page_ask(Page, "stop", _),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          \+ runs(Last),
+          query(Top, "motor_run(outA, 30), writeln(again)."),
+          printed(Top, "again"),
+          frame_with(Page, Again, runs(Again), 2000) )).
+test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, [])."),
+          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          query(Top, "wait(1), writeln(alive)."),
+          printed(Top, "alive"),
+          page_ask(Page, "next", Frame2),
+          \+ runs(Frame2) )).
+
+:- end_tests(view_stop).
