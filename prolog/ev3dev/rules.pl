@@ -11,7 +11,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
+              [ domain_error/2, error_within/3, existence_error/2, goal_of_program/1,
                 instantiation_error/1, must_be/2, throw_error/3,
                 type_error/2, term_expansion/2
               ]).
@@ -426,9 +426,10 @@ failed(E, Name, Where, Behavior) :-
     b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
-    ;   E = error(Formal, Context)
+    ;   E = error(_, _)
     ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
-        Named = error(Formal, ev3dev_rule(Name, Where, Context)),
+        format(atom(Text), 'the ~w of rule ~p', [Where, Name]),
+        error_within(E, Text, Named),
         (   OnError == throw
         ->  throw(Named)
         ;   print_message(error, Named),
@@ -439,12 +440,6 @@ failed(E, Name, Where, Behavior) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(error(Formal, Context0)) -->
-    { nonvar(Context0),
-      Context0 = ev3dev_rule(Name, Where, Context)
-    },
-    [ 'Rule ~p, ~w: '-[Name, Where] ],
-    '$messages':translate_message(error(Formal, Context)).
 prolog:message(ev3dev(rule_failed(Name))) -->
     [ 'Rule ~p: its action failed'-[Name] ].
 

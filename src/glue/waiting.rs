@@ -85,7 +85,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             None => {
                 SLICES.set(SLICES.get() + 1);
                 let now = || state::devices().tree().now();
-                let is_tick = due::is_ringing() || is_tick_due(now);
+                let is_tick = due::has_rung() || is_tick_due(now);
                 unify_atom(reason, if is_tick { "tick" } else { "pause" })?;
                 Ok(true)
             }
