@@ -1,5 +1,5 @@
 //! One call of a native predicate: its arguments, its answers.
-use crate::glue::due::has_rung;
+use crate::glue::due::{has_rung, is_any_due};
 use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
@@ -36,13 +36,20 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
     /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
-        if state::chosen_devices().is_none() {
-            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
-            state::chosen();
+        let devices = match state::chosen_devices() {
+            Some(devices) => devices,
+            None => {
+                self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+                state::chosen();
+                state::devices()
+            }
+        };
+        if !devices.tree().takes_turns() && !is_any_due() {
+            return Ok(devices);
         }
-        let devices = state::devices();
         self.wait_for(|about| devices.tree().turn(about))?;
         run_due_goals(self.context)?;
+        // Another thread, or a goal, may have changed the tree.
         Ok(state::devices())
     }
 

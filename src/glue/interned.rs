@@ -109,13 +109,19 @@ fn atom(text: &str) -> Option<&'static Atom> {
 
 /// A handle is the number of an atom, above seven bits of type.
 fn slot_of_handle(handle: usize) -> usize {
-    handle >> 7
+    scattered(handle >> 7)
 }
 
 /// Words differ in their lengths, and where these agree, at their ends.
 fn slot_of_text(text: &str) -> usize {
     let last = text.bytes().rev().take(4);
-    last.fold(text.len(), |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()))
+    scattered(last.fold(text.len(), |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into())))
+}
+
+/// Spreads numbers that follow one another: where they do, a slot that is taken has a
+/// long row of such slots behind it.
+fn scattered(number: usize) -> usize {
+    number.wrapping_mul(0x9E37_79B1) >> 16
 }
 
 /// An open hash table of indices, each plus one: 0 is an empty slot.

@@ -17,7 +17,7 @@ use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
@@ -43,6 +43,8 @@ pub struct Device {
     constants: List<Constant>,
     /// The last command to a motor.
     run: Mutex<Option<MotorRun>>,
+    /// Whether the files are open that start and stop it.
+    is_prepared: AtomicBool,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
@@ -101,6 +103,7 @@ impl Device {
             attributes: List::default(),
             constants: List::default(),
             run: Mutex::default(),
+            is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
             user: Mutex::default(),
             settled_at: Mutex::default(),
@@ -196,6 +199,16 @@ impl Device {
     /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether the files are open that start and stop a motor. They stay open.
+    pub(crate) fn is_prepared(&self) -> bool {
+        self.is_prepared.load(Ordering::Relaxed)
+    }
+
+    /// The files are open that start and stop a motor.
+    pub(crate) fn note_prepared(&self) {
+        self.is_prepared.store(true, Ordering::Relaxed);
     }
 
     /// Reports that the motor was started.
