@@ -17,6 +17,7 @@ use crate::error::{Access, Error, Result};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -46,6 +47,8 @@ pub struct Device {
     run: Mutex<Option<MotorRun>>,
     /// Whether the files are open that start and stop it.
     is_prepared: AtomicBool,
+    /// The number of the last command, among those of the whole program.
+    commanded: AtomicU32,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
@@ -103,6 +106,7 @@ impl Device {
             tree: Arc::clone(tree),
             attributes: List::default(),
             constants: List::default(),
+            commanded: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
             is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
@@ -210,6 +214,16 @@ impl Device {
     /// The files are open that start and stop a motor.
     pub(crate) fn note_prepared(&self) {
         self.is_prepared.store(true, Ordering::Relaxed);
+    }
+
+    /// The program has given the motor a command.
+    pub(crate) fn was_commanded(&self) {
+        self.commanded.store(motion::next_command(), Ordering::Relaxed);
+    }
+
+    /// Whether the last command of the program to the motor was one of these.
+    pub(crate) fn is_commanded_in(&self, commands: &Range<u32>) -> bool {
+        commands.contains(&self.commanded.load(Ordering::Relaxed))
     }
 
     /// Reports that the motor was started.
