@@ -29,8 +29,13 @@ impl Bell {
     }
 }
 
+/// Whether a goal may be due, of any thread.
+pub(crate) fn is_any_due() -> bool {
+    ANY.load(Ordering::Acquire)
+}
+
 /// Whether this thread's bell has rung since the last call.
 pub(crate) fn has_rung() -> bool {
-    ANY.load(Ordering::Acquire)
+    is_any_due()
         && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
 }

@@ -41,6 +41,7 @@
             sensor_restart_/3,
             sensor_scale_/3,
             sensor_value_/5,
+            sensor_value_or_why_/5,
             sensor_values_/5,
             sensor_wait_/5,
             led_/3,
@@ -202,6 +203,7 @@ missing.
 %!  sensor_restart_(+Port, +Types, +Mode) is semidet.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
+%!  sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
 %!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is nondet.
 %
