@@ -32,17 +32,31 @@ the pack it is not used any more, and the command is to be given again.
 %!  unit(?Name, ?Entries) is nondet.
 %
 %   A unit has what its Entries load and no unit before it has. The first is
-%   what library(ev3dev) loads.
+%   what library(ev3dev) loads. A library that a program may load first is a
+%   unit apart from what it loads: Prolog is reading its source already when
+%   it comes to know the units.
 
 unit(core, ['ev3dev/private/core']).
+unit(drive_parts, ['ev3dev/private/places', 'ev3dev/odometry',
+                   'ev3dev/calibrate']).
 unit(drive, ['ev3dev/drive']).
 unit(tables, ['ev3dev/private/sensor_table/lego',
               'ev3dev/private/sensor_table/other']).
 unit(facts, ['ev3dev/private/facts']).
+unit(planners_parts, ['ev3dev/private/grid/problem',
+                      'ev3dev/planners/search']).
+unit(grid_parts, ['ev3dev/private/grid/moves']).
 unit(grid, ['ev3dev/grid']).
+unit(comparison, ['ev3dev/planners/comparison']).
 unit(planners, ['ev3dev/planners']).
+unit(roadmap_parts, ['ev3dev/navigation']).
 unit(roadmap, ['ev3dev/roadmap']).
+unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/sim_time',
+                 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
+unit(console, ['ev3dev/console']).
+unit(jog, ['ev3dev/jog']).
+unit(colors, ['ev3dev/colors']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),
