@@ -4,7 +4,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled,
               [ contents/2, index_file/1, pack_folder/1, read_index/2,
-                source_time/2, this_prolog/1, use_sources/0 ]).
+                source_time/2, this_prolog/1 ]).
+:- use_module(private/units, [use_sources/0]).
 
 /** <module> Compile the pack where it is installed
 
@@ -168,12 +169,13 @@ delete_folder(Folder) :-
                 *           THE UNITS          *
                 *******************************/
 
-units_compiled(Folder, Units) :-
+units_compiled(Folder, [Loader|Units]) :-
     forall(( source_file(File), in_pack(File) ),
            assertz(source_of(File, none))),
     findall(Name-Files,
             ( unit(Name, Entries), entry_files(Entries, Files) ),
             Plan),
+    compile_loader(Folder, Loader),
     compile_units(Plan, Folder, Units, Libraries),
     compile_libraries([], Folder, Libraries).
 
@@ -181,6 +183,15 @@ entry_files([], []).
 entry_files([Entry|Entries], [File|Files]) :-
     pack_file(Entry, File),
     entry_files(Entries, Files).
+
+%   The first of them loads the others. Its file is loaded here already.
+
+compile_loader(Folder, Unit) :-
+    pack_file('ev3dev/private/units', Base),
+    atom_concat(Base, '.pl', File),
+    retractall(needed(_)),
+    compile(units, [File], true, Folder, Qlf),
+    unit_term(Qlf, [File], Unit).
 
 compile_units([], _, Units, Units).
 compile_units([Name-Files|Plan], Folder, [Unit|Units], Rest) :-
@@ -222,13 +233,15 @@ unit_term(Qlf, Files, unit(Qlf, Sum, Needed, Sources)) :-
             ),
             Sources).
 
-%   By way of a file that loads all of the unit's.
+%   By way of a file that loads all of the unit's. Its module has another name
+%   each time: the loader of the last time may be loaded.
 
 compile(Name, Files, If, Folder, Qlf) :-
     atomic_list_concat([Folder, /, Name], Base),
     atom_concat(Base, '.pl', Source),
     atom_concat(Base, '.qlf', Qlf),
-    atom_concat(ev3dev_unit_, Name, Module),
+    file_base_name(Folder, Time),
+    atomic_list_concat([ev3dev_unit_, Name, '_', Time], Module),
     setup_call_cleanup(
         open(Source, write, Out, [encoding(utf8)]),
         ( format(Out, ':- module(~q, []).~n', [Module]),

@@ -36,8 +36,8 @@ halt_on(Signal) :-
     ;   true
     ).
 
-% Of any module: with a plain variable, on_signal/3 fails before version 8.1.20
-% if the handler belongs to another one.
+% Of any module: with a plain variable, on_signal/3 fails before 8.1.20 if the
+% handler belongs to another one.
 handler(Signal, Handler) :-
     on_signal(Signal, Module:Name, Module:Name),
     (   var(Module)
