@@ -58,6 +58,8 @@ unit(sim, ['ev3dev/sim']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).
+unit(events, ['ev3dev/events']).
+unit(rules, ['ev3dev/rules']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

@@ -11,6 +11,7 @@
             until/3                     % :Condition, :Goal, -Which
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, goal_of_program/1, must_be/2,
                 term_expansion/2

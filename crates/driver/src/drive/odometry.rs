@@ -343,6 +343,7 @@ impl Estimate {
     /// The covariance after a step: the turn by its factors of the errors of the
     /// left wheel, the right one and the axle, the way by those of the wheels, the
     /// place by that of the heading, and the direction in which the robot went.
+    #[expect(clippy::needless_range_loop, reason = "the index is that of a column")]
     fn propagate(
         &mut self,
         of_turn: [f32; 3],
@@ -435,6 +436,7 @@ impl Estimate {
     /// Updates the state by a measurement whose covariance with the states is
     /// `row`: each state shifts by `shift`, and the covariance shrinks by
     /// `certainty`, for each unit of `row`.
+    #[expect(clippy::needless_range_loop, reason = "the index is that of two states")]
     fn update(&mut self, row: [f32; STATES], shift: f32, certainty: f32) {
         for i in 0..STATES {
             self.state[i] += f64::from(row[i] * shift);
@@ -545,8 +547,7 @@ fn normal_at(x: f32) -> f32 {
 /// The standard normal distribution, given its density; off by less than 1e-6
 /// (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17).
 fn normal_below(x: f32, density: f32) -> f32 {
-    const TERMS: [f32; 5] =
-        [1.330_274_429, -1.821_255_978, 1.781_477_937, -0.356_563_782, 0.319_381_530];
+    const TERMS: [f32; 5] = [1.330_274_5, -1.821_255_9, 1.781_477_9, -0.356_563_78, 0.319_381_54];
     let t = 1.0 / (1.0 + 0.231_641_9 * x.abs());
     let tail = density * t * TERMS.iter().fold(0.0, |sum, term| sum * t + term);
     if x < 0.0 { tail } else { 1.0 - tail }
