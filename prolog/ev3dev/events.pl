@@ -13,6 +13,7 @@
             race/2                      % :Goals, -Winner
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
                 term_expansion/2

@@ -10,6 +10,7 @@
             op(1150, xfx, ~>)
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, error_within/3, existence_error/2, goal_of_program/1,
                 instantiation_error/1, must_be/2, throw_error/3,
