@@ -359,7 +359,11 @@ test(a_program_that_was_started_does_not_keep_the_port) :-
     token(Token),
     quietly(view([port(Port), token(Token), open(false)])),
     page_open(Port, Token, Page),
-    process_create(path(sleep), [20], [process(Pid)]),
+    % Until it has begun it is a copy of this program.
+    process_create(path(sh), ['-c', 'echo begun; exec sleep 20 >/dev/null'],
+                   [ process(Pid), stdout(pipe(Out)) ]),
+    read_stream_to_codes(Out, _),
+    close(Out),
     call_cleanup(( view_stop,
                    viewed(Port, true) ),
                  ( process_kill(Pid),
