@@ -68,8 +68,9 @@ look_every(0.02).
 %   wait. The bindings of Condition reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
 %   and wait; it interrupts the program for so long, and its event happens only
-%   once at a time. If Action fails or throws, a warning is printed and the
-%   event stays. Options:
+%   once at a time. If Action fails or throws, a message is printed and the
+%   event stays; if Condition throws, a message is printed and the event ends.
+%   Options:
 %
 %     - id(+Id)
 %       A name for event_cancel/1. An event with the same Id is replaced.
@@ -166,10 +167,8 @@ add_event(Kind, Action, State, Options) :-
 %   is none.
 
 event_cancel(Id) :-
-    (   event_(Id, _, _, _)
-    ->  retractall(event_(Id, _, _, _))
-    ;   fail
-    ).
+    \+ \+ event_(Id, _, _, _),
+    retractall(event_(Id, _, _, _)).
 
 %!  event(?Id, ?Kind) is nondet.
 %
@@ -205,9 +204,10 @@ member_of([_|Elements], Element) :-
 serve(due(Next, Count), Kind, Id, Now, Action) :-
     !,
     (   Now + 1.0e-9 >= Next
-    ->  again(Kind, Next, Now, Count, Id, State),
-        change(Id, State),
-        happen(Id, Kind, Action)
+    ->  again(Kind, Next, Count, State),
+        change(Id, running(State)),
+        happen(Id, Kind, Action),
+        happened(Id)
     ;   true
     ).
 serve(running(_), _, _, _, _) :- !.
@@ -218,11 +218,16 @@ serve(happened(Count), on(Condition, _, Rearm), Id, _, _) :-
     ;   true
     ).
 serve(State, on(Condition, Stable, _), Id, Now, Action) :-
-    (   in_guard(Id, Condition)         % its bindings reach Action
+    (   looked_at(Id, Condition)        % its bindings reach Action
     ->  (   is_stable(State, Stable, Id, Now, Count)
-        ->  change(Id, running(Count)),
+        ->  (   Count == 1
+            ->  After = over
+            ;   less(Count, Left),
+                After = happened(Left)
+            ),
+            change(Id, running(After)),
             happen(Id, on(Condition), Action),
-            happened(Id, Count)
+            happened(Id)
         ;   true
         )
     ;   State = since(_, Count)
@@ -230,13 +235,26 @@ serve(State, on(Condition, Stable, _), Id, Now, Action) :-
     ;   true
     ).
 
-again(after(_), _, _, _, _, over).
-again(every(Seconds), Next0, Now, Count0, _, State) :-
+%   An error in a condition is printed once, and ends the event.
+looked_at(Id, Condition) :-
+    catch(in_guard(Id, Condition), E, true),
+    (   var(E)
+    ->  true
+    ;   b_setval(ev3dev_guard, []),
+        E = error(_, _),
+        E \= error(permission_error(wait, guard, _), _)
+    ->  change(Id, over),
+        print_message(error, ev3dev(event_error(Id, on, E))),
+        fail
+    ;   throw(E)
+    ).
+
+again(after(_), _, _, over).
+again(every(Seconds), Next0, Count0, State) :-
     (   Count0 == 1
     ->  State = over
     ;   less(Count0, Count),
-        Next1 is Next0 + Seconds,
-        Next is max(Next1, Now),
+        Next is Next0 + Seconds,
         State = due(Next, Count)
     ).
 
@@ -245,9 +263,9 @@ less(Count0, Count) :-
     Count is Count0 - 1.
 
 is_armed(rearm, Id, Condition) :-
-    \+ in_guard(Id, Condition).
+    \+ looked_at(Id, Condition).
 is_armed(rearm(Condition), Id, _) :-
-    \+ \+ in_guard(Id, Condition).
+    \+ \+ looked_at(Id, Condition).
 
 is_stable(since(Since, Count), Stable, _, Now, Count) :-
     Now + 1.0e-9 >= Since + Stable.
@@ -258,13 +276,18 @@ is_stable(armed(Count), Stable, Id, Now, Count) :-
         fail
     ).
 
-happened(Id, Count0) :-
-    (   event_(Id, _, _, running(_))
-    ->  (   Count0 == 1
-        ->  change(Id, over)
-        ;   less(Count0, Count),
-            change(Id, happened(Count))
-        )
+%   A time that was missed meanwhile is not made up for.
+happened(Id) :-
+    (   event_(Id, Kind, _, running(State0))
+    ->  now_(Now),
+        (   State0 = due(Next0, Count),
+            Next0 < Now,
+            Kind = every(Seconds)
+        ->  Next is Next0 + ceiling((Now - Next0) / max(Seconds, 0.001)) * Seconds,
+            State = due(Next, Count)
+        ;   State = State0
+        ),
+        change(Id, State)
     ;   true                            % the action has cancelled it
     ).
 
