@@ -7,8 +7,8 @@
 % suppress: a move that is left stops by itself. The first rule is the most
 % important; in leJOS the last behavior is.
 %
-% It needs two large motors and an ultrasonic sensor that points ahead; a touch
-% sensor is of use, too. Stop it by Ctrl-C.
+% It needs two large motors and an ultrasonic sensor that points ahead; a
+% touch sensor is of use, too. Stop it by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

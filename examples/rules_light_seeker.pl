@@ -2,8 +2,8 @@
 %
 %   ?- start.
 %
-% Two color sensors are its eyes, the left one at in2, the right one at in3. An
-% ultrasonic sensor points ahead. Stop it by Ctrl-C.
+% Two color sensors are its eyes, the left one at in2, the right one at in3.
+% An ultrasonic sensor points ahead. Stop it by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

@@ -1,10 +1,11 @@
-% A robot that follows the left edge of a black line, and stops for what stands
-% in its way until it is gone.
+% A robot that follows the left edge of a black line, and stops for what
+% stands in its way until it is gone.
 %
 %   ?- start.
 %
-% Following the line is one action that never ends, a PID control. A rule above
-% it suppresses it, and it begins again afterward: it knows nothing of rules.
+% Following the line is one action that never ends, a PID control. A rule
+% above it suppresses it, and it begins again afterward: it knows nothing of
+% rules.
 %
 % It needs a color sensor that points at the floor, at in2, and an ultrasonic
 % sensor that points ahead. Stop it by Ctrl-C.

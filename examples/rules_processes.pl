@@ -3,8 +3,8 @@
 %   ?- start.
 %
 % The button `enter` orders the robot to drive up to the wall ahead. There it
-% waits for `up`, which says that it is unloaded, and comes back. `down` calls it
-% back at any time. It needs two large motors and an ultrasonic sensor that
+% waits for `up`, which says that it is unloaded, and comes back. `down` calls
+% it back at any time. It needs two large motors and an ultrasonic sensor that
 % points ahead. Stop it by Ctrl-C.
 %
 % After the processes of "Programming Autonomous Robots in Curry" by Michael

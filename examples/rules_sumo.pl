@@ -2,9 +2,9 @@
 %
 %   ?- start.
 %
-% The ring is black and what is around it is white. Two color sensors look down
-% at its front, the left one at in2, the right one at in3. An ultrasonic sensor
-% points ahead. Stop it by Ctrl-C.
+% The ring is black and what is around it is white. Two color sensors look
+% down at its front, the left one at in2, the right one at in3. An ultrasonic
+% sensor points ahead. Stop it by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

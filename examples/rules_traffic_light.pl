@@ -3,8 +3,8 @@
 %
 %   ?- start.
 %
-% The brick's two lights are its lamps. A color sensor looks around. Stop it by
-% Ctrl-C.
+% The brick's two lights are its lamps. A color sensor looks around. Stop it
+% by Ctrl-C.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

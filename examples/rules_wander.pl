@@ -3,8 +3,8 @@
 %   ?- start.
 %
 % It needs two large motors, an ultrasonic sensor that points ahead, and a
-% touch sensor at its front, at any ports. Stop it by Ctrl-C: the wheels always
-% stop at the end.
+% touch sensor at its front, at any ports. Stop it by Ctrl-C: the wheels
+% always stop at the end.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/rules)).

@@ -72,8 +72,8 @@ Options of a rule:
 
   - while(:Condition)
     The action is left when Condition is no longer true. Its variables are its
-    own, not those of the guard. An action that has
-    returned goes on while it is true, also when the guard is not.
+    own, not those of the guard. An action that has returned goes on while it
+    is true, also when the guard is not.
   - min_time(+Seconds)
     An action that has returned goes on for at least so long.
   - cooldown(+Seconds)
@@ -134,8 +134,8 @@ append_lists([], Ys, Ys).
 append_lists([X|Xs], Ys, [X|Zs]) :-
     append_lists(Xs, Ys, Zs).
 
-%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the variables
-%   of the guard that the action has, too.
+%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the
+%   variables of the guard that the action has, too.
 
 rules(Module:Terms, Rules) :-
     must_be(list, Terms),
@@ -193,9 +193,9 @@ shared([V|Vs], Others, Shared) :-
 %
 %   Let rules control the robot; see above for what they mean. Rules is a list
 %   of names of rules of this module, or of rules in parentheses: `(stop ::
-%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception ends
-%   it, and then the robot is at rest: the motors that actions have started are
-%   stopped. Options:
+%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception
+%   ends it, and then the robot is at rest: the motors that actions have
+%   started are stopped. Options:
 %
 %     - until(:Goal)
 %       End as soon as Goal is true.
@@ -209,8 +209,8 @@ shared([V|Vs], Others, Shared) :-
 %       call(Closure, Event) at each change: Event is rule(Name),
 %       suppressed(Name), ended(Name), failed(Name), thrown(Name) or rest.
 %     - on_error(+Action)
-%       `throw`, the default, or `continue`: print errors of guards and actions,
-%       and count the rule as not applicable, or ended.
+%       `throw`, the default, or `continue`: print errors of guards and
+%       actions, and count the rule as not applicable, or ended.
 %     - state(+State)
 %       What state/1 is at the beginning. Default is `start`.
 %
@@ -279,12 +279,13 @@ deadline(Options, Deadline) :-
     ;   Deadline = inf
     ).
 
-%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages, Warned),
-%   changed by nb_setarg/3, as a tick undoes bindings:
+%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages,
+%   Warned), changed by nb_setarg/3, as a tick undoes bindings:
 %
 %     - Active
 %       none, or active(Index, Time, Mode): Mode is `waits` for an action that
-%       has not returned, or going(Values), the values of the shared variables.
+%       has not returned, or going(Values), the values of the shared
+%       variables.
 %     - Since
 %       for each rule, unbound, `ended` until its guard has been false, or the
 %       time from which on it applies
@@ -702,8 +703,8 @@ behavior(Behavior, Action) :-
 %!  received(?Message) is nondet.
 %
 %   Send a Message to the innermost behave/1 under way, and, in a guard, ask
-%   whether it was sent. A message is there for one tick: the rules see it when
-%   they are tried next.
+%   whether it was sent. A message is there for one tick: the rules see it
+%   when they are tried next.
 %
 %   @error permission_error(send, behavior, none) outside of behave/1
 
