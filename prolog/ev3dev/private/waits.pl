@@ -16,8 +16,8 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, with a choice
-point, and at its end its reason. So a caller writes
+A native wait returns `pause` or `tick` after each slice of time, with a
+choice point, and at its end its reason. So a caller writes
 
 ```
     wait_(Seconds, Reason),
