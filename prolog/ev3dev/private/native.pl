@@ -13,6 +13,8 @@
             sysfs_use_/1,
             now_/1,
             wait_/2,
+            branches_begin_/0,
+            branches_end_/1,
             commands_/1,
             motors_leave_/2,
             motors_stop_/2,
@@ -152,6 +154,8 @@ missing.
 
 %!  now_(-Seconds) is det.
 %!  wait_(+Seconds, -Reason) is nondet.
+%!  branches_begin_ is semidet.
+%!  branches_end_(-Seconds) is semidet.
 %!  commands_(-Count) is semidet.
 %!  motors_leave_(+From, +Before) is semidet.
 %!  motors_stop_(+From, +Before) is semidet.

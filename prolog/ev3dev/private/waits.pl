@@ -148,16 +148,23 @@ serve_at_read :-
 %
 %   Serves the events of this thread; library(ev3dev/events) adds a clause.
 
+%!  yield is det.
+%
+%   Lets the other branches of race/2 or both/2 go on; library(ev3dev/events)
+%   adds the clause.
+
 :- multifile
-    serve_events/0.
+    serve_events/0,
+    yield/0.
 
 serve :-
     due_goals,
     (   nb_current(ev3dev_branch, true)
-    ->  engine_yield(tick)
-    ;   listeners(Listeners),
-        serve(Listeners)
-    ).
+    ->  yield
+    ;   true
+    ),
+    listeners(Listeners),
+    serve(Listeners).
 
 serve(Listeners) :-
     Listeners == [],
