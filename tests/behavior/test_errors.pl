@@ -73,6 +73,8 @@ bad(every(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
 bad(every(1, true, []), [a-1, 7-2, [stable(1)]-3, [count(0)]-3]).
 bad(after(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
 bad(after(1, true, []), [a-1, 7-2, [count(2)]-3]).
+bad(both(true, true), [7-1, _-1, 7-2, _-2]).
+bad(race([true], _), [a-1, _-1, [7]-1, [_]-1]).
 bad(until(true, true), [7-1, _-1, 7-2, _-2]).
 bad(until(true, true, _), [7-1, _-1, 7-2, _-2]).
 
