@@ -23,6 +23,7 @@
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/view)).
 :- use_module(library(ev3dev/compile)).
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
