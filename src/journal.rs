@@ -8,6 +8,7 @@ use ev3_driver::journal::{SoundCommand, origin, set_cause};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -78,13 +79,20 @@ predicates! {
                 Ok((Maker(&call).act(&entry.act)?, Maker(&call).called(entry)?))
             };
             call.next(entries, terms, |entry, (done, by)| {
-                time.unify(entry.time.as_secs_f64())?;
+                time.unify(seconds(entry.time))?;
                 act.unify(done)?;
                 cause.unify(u64::from(entry.origin.cause))?;
                 called.unify(by)
             })
         }
     }
+}
+
+/// A whole number of nanoseconds, divided once: so it is written with no more digits than
+/// it has.
+#[expect(clippy::cast_precision_loss, reason = "exact for a hundred days")]
+fn seconds(time: Duration) -> f64 {
+    time.as_nanos() as f64 / 1e9
 }
 
 /// The last number that was given to a cause.
@@ -269,7 +277,7 @@ impl<'a, C: QueryableContextType> Maker<'_, 'a, C> {
     fn sound(&self, sound: &SoundCommand) -> PrologResult<Term<'a>> {
         match sound {
             SoundCommand::Tones(tones) => {
-                let tone = |(hertz, lasts): &(u32, std::time::Duration)| {
+                let tone = |(hertz, lasts): &(u32, Duration)| {
                     let milliseconds = i64::try_from(lasts.as_millis()).unwrap_or(i64::MAX);
                     self.integers("tone", &[i64::from(*hertz), milliseconds])
                 };

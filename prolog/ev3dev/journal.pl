@@ -126,6 +126,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %       The end of such a move, as in library(ev3dev/drive).
 %     - stop(What, Command)
 %       of `stop`
+%     - wheel(Port, Command)
+%       of `robot`, whose motor got a command by itself
 %     - led(Color), led_trigger(Word), led_blink(On, Off)
 %
 %   Fails if there was no such command.
@@ -140,7 +142,7 @@ why_(stop, Why) :-
     !,
     once(( done(Time, What, Command0, Cause, Called),
            is_stop(Command0) )),
-    shown(What, Command0, Command, First),
+    shown(Command0, Command, First),
     all_causes(First, Cause, Called, Causes),
     Why = why(Time, stop(What, Command), Causes).
 why_(What, Why) :-
@@ -155,8 +157,8 @@ why_(What, Why) :-
         Before = done(Time1, _, _, Cause1, Called1),
         all_causes([], Cause1, Called1, Causes),
         Why = why(Time1, Commanded, Causes)
-    ;   shown(Of, Command0, Command1, First),
-        of_wheel(What, Command1, Command, First, First1),
+    ;   shown(Command0, Command1, First),
+        from_afar(What, Of, Command1, Command, First, First1),
         all_causes(First1, Cause, Called, Causes),
         Why = why(Time, Command, Causes)
     ).
@@ -204,13 +206,21 @@ is_stop(servo_motor(float, _)).
 stop_word(stop).
 stop_word(reset).
 
-shown(_, ended(Reason, Course), ended(Reason), [Course]) :-
+shown(ended(Reason, Course), ended(Reason), [Course]) :-
     !.
-shown(_, Command, Command, []).
+shown(Command, Command, []).
 
-of_wheel(What, Command0, Command, First0, First) :-
-    (   Command0 = course(_, _),
-        What \== robot
+%   The motor of a wheel is asked about, and the robot got a command, or the
+%   other way round.
+
+from_afar(robot, Of, Command0, Command, First, First) :-
+    !,
+    (   Of = robot(_, _)
+    ->  Command = Command0
+    ;   Command = wheel(Of, Command0)
+    ).
+from_afar(_, _, Command0, Command, First0, First) :-
+    (   Command0 = course(_, _)
     ->  Command = drive,
         First = [Command0]
     ;   Command = Command0,
@@ -242,7 +252,7 @@ journal(Journal) :-
     (   var(Journal)
     ->  events(Events),
         Journal = Events
-    ;   is_list(Journal)
+    ;   is_about_list(Journal)
     ->  events(Journal)
     ;   word(Journal, File),
         events(Events),
@@ -252,6 +262,9 @@ journal(Journal) :-
             close(Stream))
     ).
 
+is_about_list([]).
+is_about_list([_|_]).
+
 events(Events) :-
     findall(command(Time, What, Command, Causes),
             event(Time, What, Command, Causes),
@@ -260,7 +273,7 @@ events(Events) :-
 
 event(Time, What, Command, Causes) :-
     done(Time, What, Command0, Cause, Called),
-    shown(What, Command0, Command, First),
+    shown(Command0, Command, First),
     all_causes(First, Cause, Called, Causes).
 
                 /*******************************
@@ -283,7 +296,8 @@ write_events(Events, Stream) :-
 
 a_motor_runs :-
     motor_class(Class),
-    attribute_(Class, _, state, State),
+    device_(Class, Port, _),
+    attribute_(Class, Port, state, State),
     sub_atom(State, _, _, _, running),
     !.
 
@@ -573,10 +587,12 @@ again(robot(_, _), course(Course, Options), Robot) :-
            options(Percent, Acceleration, Action, UseGyro, false, infinite),
            _),
     !.
-again(robot(Left, Right), ended(Reason), _) :-
+again(robot(Left, Right), ended(Reason), Robot) :-
     !,
     (   Reason == reached
-    ->  true
+    ->  % It may take a moment longer this time.
+        drive_wait_(Robot, 2, Ended),
+        waited(Ended)
     ;   motor_stop_('tacho-motor', Left, brake),
         motor_stop_('tacho-motor', Right, brake)
     ).

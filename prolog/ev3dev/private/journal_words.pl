@@ -2,7 +2,7 @@
           [ why_words//2                % +Why, +What
           ]).
 :- use_module(library(lists), [append/3]).
-:- use_module(native, [attribute_/4]).
+:- use_module(native, [attribute_/4, device_/3]).
 
 /** <module> Commands and their causes in words
 */
@@ -73,6 +73,9 @@ command(led_trigger(Word), Light) -->
 command(led_blink(On, Off), Light) -->
     !,
     [ 'the light ~w blinks, ~d ms on and ~d off, since'-[Light, On, Off] ].
+command(wheel(Port, Command), _) -->
+    !,
+    command(Command, Port).
 command(drive, Port) -->
     !,
     [ '~w drives the robot since'-[Port] ].
@@ -109,7 +112,7 @@ of_any(_, SetPoints, Port) -->
 
 speed(SetPoints, Port) -->
     (   { memberchk(speed_sp(Speed), SetPoints) }
-    ->  (   { attribute_('tacho-motor', Port, max_speed, Max),
+    ->  (   { constant(Port, max_speed, Max),
               Max > 0
             }
         ->  { Percent is round(100 * Speed / Max) },
@@ -118,6 +121,14 @@ speed(SetPoints, Port) -->
         )
     ;   []
     ).
+
+%   Fails also if the motor is no longer there.
+
+constant(Port, Name, Value) :-
+    device_('tacho-motor', Port, _),
+    !,
+    attribute_('tacho-motor', Port, Name, Value),
+    !.
 
 duty(SetPoints) -->
     (   { memberchk(duty_cycle_sp(Percent), SetPoints) }
@@ -134,7 +145,7 @@ time(SetPoints) -->
 
 angle(SetPoints, Port) -->
     (   { memberchk(position_sp(Position), SetPoints) }
-    ->  (   { attribute_('tacho-motor', Port, count_per_rot, Counts),
+    ->  (   { constant(Port, count_per_rot, Counts),
               Counts > 0
             }
         ->  { Degrees is round(Position * 360 / Counts) },
