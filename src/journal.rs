@@ -198,9 +198,10 @@ impl<'a, C: QueryableContextType> Maker<'_, 'a, C> {
                 let ended = [self.atom(reason)?, self.course(course)?];
                 (self.wheels(&course.wheels)?, self.compound("ended", &ended)?)
             }
-            Act::Pose(wheels, pose) => {
+            Act::Pose(place) => {
+                let pose = place.pose;
                 let pose = self.numbers("pose", &[pose.x, pose.y, pose.heading])?;
-                (self.wheels(wheels)?, pose)
+                (self.wheels(&place.wheels)?, pose)
             }
             Act::Light(light, change) => (self.atom(light.text())?, self.light(change)?),
             Act::Sound(sound) => (self.atom("sound")?, self.sound(sound)?),
@@ -223,7 +224,8 @@ impl<'a, C: QueryableContextType> Maker<'_, 'a, C> {
     fn course(&self, course: &Course) -> PrologResult<Term<'a>> {
         let command = match &course.course {
             Command::Legs(legs, backwards) => {
-                let legs = legs.iter().map(|leg| self.leg(leg)).collect::<PrologResult<Vec<_>>>()?;
+                let legs =
+                    legs.iter().map(|leg| self.leg(leg)).collect::<PrologResult<Vec<_>>>()?;
                 self.compound("legs", &[self.list(&legs)?, self.number(*backwards)?])?
             }
             Command::Cruise(speed, turn) => self.numbers("cruise", &[*speed, *turn])?,

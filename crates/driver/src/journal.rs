@@ -251,7 +251,8 @@ impl MotorCommand {
     pub fn numbers(&self) -> impl Iterator<Item = (&'static str, i32)> {
         let (used, _) = self.word.uses(self.class);
         let number = |index: &usize| {
-            let number = self.set_points.numbers.get(*index).filter(|number| **number != UNKNOWN)?;
+            let number =
+                self.set_points.numbers.get(*index).filter(|number| **number != UNKNOWN)?;
             Some((*SET_POINTS.get(*index)?, *number))
         };
         used.iter().filter_map(number)
@@ -274,6 +275,15 @@ pub struct Course {
     pub course: Command,
     /// How it is to be driven.
     pub options: DriveOptions,
+}
+
+/// Where the program says that a robot is.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// The ports of the left and of the right motor.
+    pub wheels: [Name; 2],
+    /// Where it is.
+    pub pose: Pose,
 }
 
 /// A light's new state.
@@ -324,7 +334,7 @@ pub enum Act {
     /// The course ended; the reason.
     Ended(Arc<Course>, &'static str),
     /// The robot was told where it is.
-    Pose([Name; 2], Pose),
+    Pose(Box<Place>),
     /// A light changed.
     Light(Name, LightChange),
     /// A sound began.
@@ -433,7 +443,10 @@ mod tests {
     #[test]
     fn a_long_name_loses_its_end() {
         assert_eq!(Name::from("in1:i2c88:M1").text(), "in1:i2c88:M1");
-        assert_eq!(Name::from("a name of 22 letters: ä, and more").text(), "a name of 22 letters: ");
+        assert_eq!(
+            Name::from("a name of 22 letters: ä, and more").text(),
+            "a name of 22 letters: "
+        );
     }
 
     #[test]

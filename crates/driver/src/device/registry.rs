@@ -41,7 +41,12 @@ impl Registry {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Sysfs>) -> Self {
-        Self { tree, listings: Default::default(), observer: Arc::default(), journal: Arc::default() }
+        Self {
+            tree,
+            listings: Default::default(),
+            observer: Arc::default(),
+            journal: Arc::default(),
+        }
     }
 
     /// The tree they are in.

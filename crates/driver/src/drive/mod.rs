@@ -21,7 +21,7 @@ use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
 use crate::device::{Device, MotionObserver};
 use crate::error::{Interrupted, Result};
-use crate::journal::Act;
+use crate::journal::{Act, Place};
 use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor::{self, gyro};
@@ -111,7 +111,7 @@ impl Drive {
         };
         inner.goal = None;
         inner.set_pose(pose);
-        let act = Act::Pose(inner.robot.names(), pose);
+        let act = Act::Pose(Box::new(Place { wheels: inner.robot.names(), pose }));
         self.registry.journal().note(inner.now, act);
         Ok(true)
     }
