@@ -27,8 +27,7 @@ predicates! {
     #[name("cause_")]
     nondet fn cause<Cause>(_context, cause, former) {
         setup => {
-            let begun = Cause::begin();
-            Ok(Some(begun))
+            Cause::begin().map(Some).ok_or(PrologError::Failure)
         },
         call(begun) => {
             if begun.is_over {
@@ -114,10 +113,14 @@ struct Cause {
 }
 
 impl Cause {
-    fn begin() -> Self {
+    /// `None` if the number, after all others, is still in use.
+    fn begin() -> Option<Self> {
         let number = LAST.fetch_add(1, Ordering::Relaxed).wrapping_add(1);
-        active().insert(number);
-        Self { number, former: set_cause(number), is_over: false }
+        let former = origin().cause;
+        active().insert(number).then(|| {
+            set_cause(number);
+            Self { number, former, is_over: false }
+        })
     }
 }
 

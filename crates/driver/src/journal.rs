@@ -37,11 +37,9 @@ pub fn origin() -> Origin {
     ORIGIN.get()
 }
 
-/// Sets the cause of what this thread does; the former one.
-pub fn set_cause(cause: u32) -> u32 {
-    let former = ORIGIN.get();
-    ORIGIN.set(Origin { cause, ..former });
-    former.cause
+/// Sets the cause of what this thread does.
+pub fn set_cause(cause: u32) {
+    ORIGIN.set(Origin { cause, ..ORIGIN.get() });
 }
 
 /// The program has called a predicate that commands something.
@@ -451,8 +449,8 @@ mod tests {
 
     #[test]
     fn a_cause_belongs_to_its_thread() {
-        assert_eq!(set_cause(7), 0);
+        set_cause(7);
         assert_eq!(std::thread::spawn(|| origin().cause).join().unwrap(), 0);
-        assert_eq!(set_cause(0), 7);
+        assert_eq!(origin().cause, 7);
     }
 }

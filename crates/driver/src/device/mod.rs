@@ -18,8 +18,9 @@ use crate::journal::{Act, Journal, MotorCommand, Name, Written};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
@@ -47,6 +48,10 @@ pub struct Device {
     run: Mutex<Option<MotorRun>>,
     /// The set-points that the next command copies.
     written: Written,
+    /// Whether the files are open that start and stop it.
+    is_prepared: AtomicBool,
+    /// The number of the last command, among those of the whole program.
+    commanded: AtomicU32,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// Where commands are noted.
@@ -107,8 +112,10 @@ impl Device {
             tree: Arc::clone(tree),
             attributes: List::default(),
             constants: List::default(),
+            commanded: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
             written: Written::default(),
+            is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
             journal: Arc::clone(journal),
             user: Mutex::default(),
@@ -220,6 +227,26 @@ impl Device {
         if word == "reset" {
             self.written.forget();
         }
+    }
+
+    /// Whether the files are open that start and stop a motor. They stay open.
+    pub(crate) fn is_prepared(&self) -> bool {
+        self.is_prepared.load(Ordering::Relaxed)
+    }
+
+    /// The files are open that start and stop a motor.
+    pub(crate) fn note_prepared(&self) {
+        self.is_prepared.store(true, Ordering::Relaxed);
+    }
+
+    /// The program has given the motor a command.
+    pub(crate) fn was_commanded(&self) {
+        self.commanded.store(motion::next_command(), Ordering::Relaxed);
+    }
+
+    /// Whether the last command of the program to the motor was one of these.
+    pub(crate) fn is_commanded_in(&self, commands: &Range<u32>) -> bool {
+        commands.contains(&self.commanded.load(Ordering::Relaxed))
     }
 
     /// Reports that the motor was started.

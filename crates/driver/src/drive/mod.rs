@@ -183,6 +183,9 @@ impl Drive {
         let begun = inner.begin(command, options)?;
         if begun.is_some() {
             inner.note_course(command, options);
+            inner.devices.iter().flat_map(|devices| &devices.motors).for_each(|motor| {
+                motor.was_commanded();
+            });
             let stepped = inner.control();
             inner.conclude(stepped);
         }

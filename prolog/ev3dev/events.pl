@@ -1,0 +1,599 @@
+:- module(ev3dev_events,
+          [ on/2,                       % :Condition, :Action
+            on/3,                       % :Condition, :Action, +Options
+            every/2,                    % +Seconds, :Action
+            every/3,                    % +Seconds, :Action, +Options
+            after/2,                    % +Seconds, :Action
+            after/3,                    % +Seconds, :Action, +Options
+            event_cancel/1,             % ?Id
+            event/2,                    % ?Id, ?Kind
+            until/2,                    % :Condition, :Goal
+            until/3,                    % :Condition, :Goal, -Which
+            both/2,                     % :Goal1, :Goal2
+            race/2                      % :Goals, -Winner
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
+:- use_module(private/errors,
+              [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
+                term_expansion/2
+              ]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_value/3, option/3]).
+:- use_module(private/waits,
+              [in_guard/2, leave/2, listen_for_events/1, listening/3]).
+:- use_module(private/native,
+              [ branches_begin_/0, branches_end_/1, commands_/1,
+                motors_stop_/2, now_/1, slices_/1
+              ]).
+:- use_module(time, [wait/1]).
+
+:- meta_predicate
+    on(0, 0),
+    on(0, 0, +),
+    every(+, 0),
+    every(+, 0, +),
+    after(+, 0),
+    after(+, 0, +),
+    until(0, 0),
+    until(0, 0, -),
+    both(0, 0),
+    race(:, -).
+
+/** <module> Events
+
+What is to happen while a program does something else, in one thread:
+
+```
+?- on(touch(_, 1), say(ouch)),
+   every(5, ( battery(percent, P), writeln(P) )),
+   until(( us_dist_cm(_, D), D < 20 ), go(40)).
+```
+
+The thread that calls on/2, every/2 or after/2 serves its events whenever it
+waits or reads a sensor by a predicate of this pack: every 20 ms by the clock
+of the brick, or of the simulation. A thread that only computes serves none.
+There are no other threads. So nothing happens at the same time, and a run on
+the virtual clock is the same each time.
+
+Conditions are looked at each time, so they should be quick, and must not
+wait. One that reads a sensor in another mode than the last one takes 10 ms.
+*/
+
+%   event(Id, Kind, Action, State): Kind is on(Condition, Options),
+%   every(Seconds) or after(Seconds). State changes only when something
+%   happens.
+:- thread_local event_/4.
+
+%   Seconds between two looks.
+look_every(0.02).
+
+%!  on(:Condition, :Action) is det.
+%!  on(:Condition, :Action, +Options) is det.
+%
+%   From now on, call Action each time that Condition becomes true. Does not
+%   wait. The bindings of Condition reach Action, as in
+%   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
+%   and wait; it interrupts the program for so long, and its event happens
+%   only once at a time. If Action fails or throws, a message is printed and
+%   the event stays; if Condition throws, a message is printed and the event
+%   ends. Options:
+%
+%     - id(+Id)
+%       A name for event_cancel/1. An event with the same Id is replaced.
+%     - count(+N)
+%       End after N times. Default is `inf`.
+%     - stable(+Seconds)
+%       Condition must have been true for that long. Default is 0.
+%     - rearm(:Condition)
+%       When it may happen again. Default: when Condition is false. So a
+%       threshold can have two sides:
+%       `on(( light(L), L < 20 ), stop, [rearm(( light(M), M > 30 ))])`.
+%
+%   @error permission_error(wait, guard, Id) if Condition waits
+%   @error domain_error(event_option, Option)
+
+on(Condition, Action) :-
+    on(Condition, Action, []).
+
+on(Condition, Action, Options) :-
+    must_be_goal(Condition),
+    must_be_goal(Action),
+    must_be_options(event_option, [id, count, stable, rearm], Options),
+    option(stable(Stable0), Options, 0),
+    number_value(seconds, Stable0, Stable),
+    Condition = Module:_,
+    (   option(rearm(Rearm0), Options)
+    ->  must_be(callable, Rearm0),
+        Rearm = rearm(Module:Rearm0)
+    ;   Rearm = rearm
+    ),
+    count_option(Options, Count),
+    add_event(on(Condition, Stable, Rearm), Action, armed(Count), Options).
+
+%!  every(+Seconds, :Action) is det.
+%!  every(+Seconds, :Action, +Options) is det.
+%!  after(+Seconds, :Action) is det.
+%!  after(+Seconds, :Action, +Options) is det.
+%
+%   Call Action each time that Seconds have passed, or once when they have.
+%   Does not wait. Options: `id` and, for every/3, `count` as for on/3. If the
+%   thread does not wait for longer, Action is called once, and not again for
+%   the times that it missed.
+%
+%   @error domain_error(seconds, Seconds)
+%   @error domain_error(event_option, Option)
+
+every(Seconds, Action) :-
+    every(Seconds, Action, []).
+
+every(Seconds0, Action, Options) :-
+    number_value(seconds, Seconds0, Seconds),
+    must_be_goal(Action),
+    must_be_options(event_option, [id, count], Options),
+    count_option(Options, Count),
+    now_(Now),
+    Next is Now + Seconds,
+    add_event(every(Seconds), Action, due(Next, Count), Options).
+
+after(Seconds, Action) :-
+    after(Seconds, Action, []).
+
+after(Seconds0, Action, Options) :-
+    number_value(seconds, Seconds0, Seconds),
+    must_be_goal(Action),
+    must_be_options(event_option, [id], Options),
+    now_(Now),
+    Next is Now + Seconds,
+    add_event(after(Seconds), Action, due(Next, 1), Options).
+
+must_be_goal(Goal) :-
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain).
+
+count_option(Options, Count) :-
+    option(count(Count), Options, inf),
+    (   Count == inf
+    ->  true
+    ;   must_be(positive_integer, Count)
+    ).
+
+add_event(Kind, Action, State, Options) :-
+    (   option(id(Id), Options)
+    ->  must_be(ground, Id),
+        retractall(event_(Id, _, _, _))
+    ;   flag(ev3dev_event, Id, Id + 1)
+    ),
+    assertz(event_(Id, Kind, Action, State)),
+    look_every(Seconds),
+    listen_for_events(Seconds).
+
+%!  event_cancel(?Id) is semidet.
+%
+%   End the event Id of this thread, or all if Id is unbound. Fails if this
+%   thread has no such event.
+
+event_cancel(Id) :-
+    \+ \+ event_(Id, _, _, _),
+    retractall(event_(Id, _, _, _)).
+
+%!  event(?Id, ?Kind) is nondet.
+%
+%   True if this thread has an event Id; Kind is `on`, `every` or `after`.
+
+event(Id, Kind) :-
+    event_(Id, Term, _, _),
+    functor(Term, Kind, _).
+
+                 /*******************************
+                 *            SERVE             *
+                 *******************************/
+
+:- multifile ev3dev_waits:serve_events/0.
+
+ev3dev_waits:serve_events :-
+    ev3dev_events:serve.
+
+%   Which there are at the beginning: an action may add and cancel events.
+serve :-
+    (   event_(_, _, _, _)
+    ->  now_(Now),
+        findall(Id, event_(Id, _, _, _), Ids),
+        forall(( member_of(Ids, Id), event_(Id, Kind, Action, State) ),
+               serve(State, Kind, Id, Now, Action))
+    ;   true
+    ).
+
+member_of([Element|_], Element).
+member_of([_|Elements], Element) :-
+    member_of(Elements, Element).
+
+serve(due(Next, Count), Kind, Id, Now, Action) :-
+    !,
+    (   Now + 1.0e-9 >= Next
+    ->  again(Kind, Next, Count, State),
+        change(Id, running(State)),
+        happen(Id, Kind, Action),
+        happened(Id)
+    ;   true
+    ).
+serve(running(_), _, _, _, _) :- !.
+serve(happened(Count), on(Condition, _, Rearm), Id, _, _) :-
+    !,
+    (   is_armed(Rearm, Id, Condition)
+    ->  change(Id, armed(Count))
+    ;   true
+    ).
+serve(State, on(Condition, Stable, _), Id, Now, Action) :-
+    (   looked_at(Id, Condition)        % its bindings reach Action
+    ->  (   is_stable(State, Stable, Id, Now, Count)
+        ->  (   Count == 1
+            ->  After = over
+            ;   less(Count, Left),
+                After = happened(Left)
+            ),
+            change(Id, running(After)),
+            happen(Id, on(Condition), Action),
+            happened(Id)
+        ;   true
+        )
+    ;   State = since(_, Count)
+    ->  change(Id, armed(Count))
+    ;   true
+    ).
+
+%   An error in a condition is printed once, and ends the event.
+looked_at(Id, Condition) :-
+    catch(in_guard(Id, Condition), E, true),
+    (   var(E)
+    ->  true
+    ;   b_setval(ev3dev_guard, []),
+        E = error(_, _),
+        E \= error(permission_error(wait, guard, _), _)
+    ->  change(Id, over),
+        print_error(E, Id, on),
+        fail
+    ;   throw(E)
+    ).
+
+again(after(_), _, _, over).
+again(every(Seconds), Next0, Count0, State) :-
+    (   Count0 == 1
+    ->  State = over
+    ;   less(Count0, Count),
+        Next is Next0 + Seconds,
+        State = due(Next, Count)
+    ).
+
+less(inf, inf) :- !.
+less(Count0, Count) :-
+    Count is Count0 - 1.
+
+is_armed(rearm, Id, Condition) :-
+    \+ looked_at(Id, Condition).
+is_armed(rearm(Condition), Id, _) :-
+    \+ \+ looked_at(Id, Condition).
+
+is_stable(since(Since, Count), Stable, _, Now, Count) :-
+    Now + 1.0e-9 >= Since + Stable.
+is_stable(armed(Count), Stable, Id, Now, Count) :-
+    (   Stable =:= 0
+    ->  true
+    ;   change(Id, since(Now, Count)),
+        fail
+    ).
+
+%   A time that was missed meanwhile is not made up for.
+happened(Id) :-
+    (   event_(Id, Kind, _, running(State0))
+    ->  now_(Now),
+        (   State0 = due(Next0, Count),
+            Next0 < Now,
+            Kind = every(Seconds)
+        ->  Missed is ceiling((Now - Next0) / max(Seconds, 0.001)),
+            Next is Next0 + Missed * Seconds,
+            State = due(Next, Count)
+        ;   State = State0
+        ),
+        change(Id, State)
+    ;   true                            % the action has ended it
+    ).
+
+change(Id, State) :-
+    (   retract(event_(Id, Kind, Action, _))
+    ->  (   State == over
+        ->  true
+        ;   assertz(event_(Id, Kind, Action, State))
+        )
+    ;   true
+    ).
+
+%   What a program's own interrupt is goes on its way: only errors are
+%   printed.
+happen(Id, Kind, Action) :-
+    functor(Kind, Name, _),
+    catch(ignore_failure(Id, Name, Action), E, true),
+    (   var(E)
+    ->  true
+    ;   E = error(_, _)
+    ->  print_error(E, Id, Name)
+    ;   throw(E)
+    ).
+
+print_error(E0, Id, Name) :-
+    format(atom(Where), 'event ~p (~w)', [Id, Name]),
+    error_within(E0, Where, E),
+    print_message(error, E).
+
+ignore_failure(Id, Name, Action) :-
+    (   goal_of_program(Action)
+    ->  true
+    ;   print_message(warning, ev3dev(event_failed(Id, Name)))
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(event_failed(Id, Name))) -->
+    [ 'Event ~p (~w): its action failed'-[Id, Name] ].
+
+                 /*******************************
+                 *            UNTIL             *
+                 *******************************/
+
+%!  until(:Condition, :Goal) is semidet.
+%!  until(:Condition, :Goal, -Which) is semidet.
+%
+%   Call Goal, and leave it as soon as Condition is true: a move is stopped,
+%   and so are motors that Goal has started. If Goal has started something
+%   that goes on by itself, as go/1, it is waited until Condition is true.
+%   Which is `condition`, or `goal` if Goal succeeded before. Fails if Goal
+%   fails. If Condition is true at once, Goal is not called.
+%
+%   ```
+%   ?- until(touch(_, 1), go(30)).
+%   ?- until(( us_dist_cm(_, D), D < 20 ), forever_zigzag).
+%   ```
+%
+%   Condition is looked at every 20 ms while Goal waits or reads sensors.
+%
+%   @error permission_error(wait, guard, until) if Condition waits
+
+until(Condition, Goal) :-
+    until(Condition, Goal, _).
+
+until(Condition, Goal, Which) :-
+    must_be_goal(Condition),
+    must_be_goal(Goal),
+    (   \+ \+ in_guard(until, Condition)
+    ->  Which0 = condition
+    ;   flag(ev3dev_until, Id, Id + 1),
+        look_every(Seconds),
+        commands_(From),
+        catch(listening(Seconds, ev3dev_events:until_tick(Id, Condition),
+                        ev3dev_events:to_the_end(Goal)),
+              ev3dev_until(Id),
+              Left = true),
+        (   Left == true
+        ->  commands_(Before),
+            motors_stop_(From, Before),
+            Which0 = condition
+        ;   Which0 = goal
+        )
+    ),
+    Which = Which0.
+
+until_tick(Id, Condition, Listener) :-
+    (   in_guard(until, Condition)
+    ->  leave(Listener, ev3dev_until(Id))
+    ;   true
+    ).
+
+%   What did not wait goes on by itself.
+to_the_end(Goal) :-
+    slices_(Slices0),
+    goal_of_program(Goal),
+    !,
+    slices_(Slices),
+    (   Slices > Slices0
+    ->  true
+    ;   repeat,
+        wait(3600),
+        fail
+    ).
+
+                 /*******************************
+                 *           BRANCHES           *
+                 *******************************/
+
+%!  both(:Goal1, :Goal2) is semidet.
+%!  race(:Goals, -Winner) is semidet.
+%
+%   Call goals at the same time, in this thread: each goes on when another one
+%   waits. both/2 succeeds when both have succeeded; if one fails, the other
+%   is left, and both/2 fails. race/2 succeeds when the first of a list of
+%   Goals succeeds, and leaves the others: their moves stop, and so do the
+%   motors that they have started. Winner is the number of the first, from 1
+%   on; if several succeed at the same time, the earliest in the list. race/2
+%   fails if all goals fail.
+%
+%   ```
+%   ?- both(go_cm(30, 100), tones([tone(440, 500), tone(880, 500)])).
+%   ?- race([go_cm(30, 100), button_wait(enter, pressed)], Winner).
+%   ```
+%
+%   A goal that does not wait, as one that only reads sensors, lets no other
+%   go on. Events that a goal adds end with it.
+%
+%   @error existence_error(feature, engines) in SWI-Prolog before 7.3.26
+%   @error what one of the goals throws; the others are left
+
+both(Goal1, Goal2) :-
+    must_be_goal(Goal1),
+    must_be_goal(Goal2),
+    branches([Goal1, Goal2], all, _).
+
+race(Module:Goals0, Winner) :-
+    must_be(list, Goals0),
+    forall(member_of(Goals0, Goal), must_be_goal(Goal)),
+    qualified(Goals0, Module, Goals),
+    branches(Goals, first, Winner0),
+    Winner = Winner0.
+
+qualified([], _, []).
+qualified([Goal|Goals], Module, [Module:Goal|Qualified]) :-
+    qualified(Goals, Module, Qualified).
+
+:- if(current_predicate(engine_create/3)).
+
+branches(Goals, Which, Winner) :-
+    setup_call_cleanup(
+        created(Goals, 1, Branches),
+        run_branches(Branches, Which, Winner),
+        leave_branches(Branches)).
+
+%   branch(Number, Engine, Goal, Over, Commands): Over is `false`, `true` or
+%   `failed`, and Commands are the ranges of commands that it gave. Both are
+%   changed by nb_setarg/3.
+created([], _, []).
+created([Goal|Goals], Number,
+        [branch(Number, Engine, Goal, false, [])|Branches]) :-
+    engine_create(Goal, ev3dev_events:in_branch(Goal), Engine),
+    Next is Number + 1,
+    created(Goals, Next, Branches).
+
+in_branch(Goal) :-
+    b_setval(ev3dev_branch, true),
+    goal_of_program(Goal),
+    !.
+
+run_branches(Branches, Which, Winner) :-
+    repeat,
+    branches_begin_,
+    catch(each_goes_on(Branches, Which), E, true),
+    branches_end_(Seconds),
+    (   nonvar(E)
+    ->  throw(E)
+    ;   is_decided(Branches, Which, Decision)
+    ->  true
+    ;   wait(Seconds),
+        fail
+    ),
+    !,
+    Decision = over(Winner),
+    taken_over(Branches, Which, Winner).
+
+%   In the order of the list; a race is over with the first.
+each_goes_on([], _).
+each_goes_on([Branch|Branches], Which) :-
+    (   arg(4, Branch, false)
+    ->  goes_on(Branch)
+    ;   true
+    ),
+    (   Which == first,
+        arg(4, Branch, true(_))
+    ->  true
+    ;   Which == all,
+        arg(4, Branch, failed)
+    ->  true
+    ;   each_goes_on(Branches, Which)
+    ).
+
+goes_on(Branch) :-
+    arg(2, Branch, Engine),
+    commands_(From),
+    (   catch(engine_next(Engine, Answer), E, true)
+    ->  (   nonvar(E)
+        ->  nb_setarg(4, Branch, failed)
+        ;   Answer == tick
+        ->  true
+        ;   nb_setarg(4, Branch, true(Answer))
+        )
+    ;   nb_setarg(4, Branch, failed)
+    ),
+    commands_(Before),
+    (   From =:= Before
+    ->  true
+    ;   arg(5, Branch, Commands),
+        joined(Commands, From, Before, Joined),
+        nb_setarg(5, Branch, Joined)
+    ),
+    (   nonvar(E)
+    ->  throw(E)
+    ;   true
+    ).
+
+joined([From0-From|Ranges], From, Before, [From0-Before|Ranges]) :- !.
+joined(Ranges, From, Before, [From-Before|Ranges]).
+
+is_decided(Branches, first, over(Winner)) :-
+    (   member_of(Branches, Branch),
+        arg(4, Branch, true(_))
+    ->  arg(1, Branch, Winner)
+    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+        Winner = none
+    ).
+is_decided(Branches, all, over(Winner)) :-
+    (   member_of(Branches, Branch),
+        arg(4, Branch, failed)
+    ->  Winner = none
+    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+        Winner = all
+    ).
+
+%   The bindings of what has succeeded.
+taken_over(Branches, first, Winner) :-
+    integer(Winner),
+    member_of(Branches, branch(Winner, _, Goal, true(Goal), _)),
+    !.
+taken_over(Branches, all, all) :-
+    answers(Branches).
+
+answers([]).
+answers([branch(_, _, Goal, true(Goal), _)|Branches]) :-
+    answers(Branches).
+
+%   By an exception, so that clean-ups run; one that catches everything is
+%   destroyed.
+leave_branches([]).
+leave_branches([Branch|Branches]) :-
+    Branch = branch(_, Engine, _, Over, Commands),
+    (   Over == false
+    ->  leave_branch(3, Engine),
+        motors_stopped(Commands)
+    ;   true
+    ),
+    catch(engine_destroy(Engine), _, true),
+    leave_branches(Branches).
+
+leave_branch(Times, Engine) :-
+    (   Times > 0,
+        catch(engine_post(Engine, leave), _, fail),
+        catch(engine_next(Engine, Answer), _, fail),
+        Answer == tick
+    ->  Next is Times - 1,
+        leave_branch(Next, Engine)
+    ;   true
+    ).
+
+motors_stopped([]).
+motors_stopped([From-Before|Ranges]) :-
+    motors_stop_(From, Before),
+    motors_stopped(Ranges).
+
+:- multifile ev3dev_waits:yield/0.
+
+%   A branch lets the others go on, and may be left.
+ev3dev_waits:yield :-
+    engine_yield(tick),
+    (   catch(engine_fetch(leave), _, fail)
+    ->  throw(ev3dev_branch_left)
+    ;   true
+    ).
+
+:- else.
+
+branches(_, _, _) :-
+    throw_error(existence_error(feature, engines), _,
+                'this SWI-Prolog has no engines').
+
+:- endif.
