@@ -14,14 +14,16 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ goal_of_program/1, must_be/2, throw_error/3, term_expansion/2 ]).
+              [ goal_of_program/1, must_be/2, throw_error/3,
+                term_expansion/2
+              ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/waits,
               [in_guard/2, leave/2, listen_for_events/1, listening/3]).
 :- use_module(private/native,
-              [ branches_begin_/0, branches_end_/1, commands_/1, motors_stop_/2,
-                now_/1, slices_/1
+              [ branches_begin_/0, branches_end_/1, commands_/1,
+                motors_stop_/2, now_/1, slices_/1
               ]).
 :- use_module(time, [wait/1]).
 

@@ -14,7 +14,8 @@
 load_examples :-
     forall(member(Name, [ rules_wander, rules_bumper_car, rules_light_seeker,
                           rules_line_follower, rules_sumo,
-                          rules_traffic_light, rules_processes ]),
+                          rules_traffic_light, rules_processes,
+                          plnxt_program ]),
            load_files(Name:example(Name), [])).
 
 %   Run an example, and look at its poses.
@@ -217,3 +218,26 @@ test(leaves_no_event_behind, true(Ids == [])) :-
     findall(Id, event(Id, _), Ids).
 
 :- end_tests(rules_processes).
+
+:- begin_tests(plnxt_program).
+
+world([ bounds(0, 0, 150, 150), start(40, 40, 30),
+        patch(black, [100-0, 150-0, 150-150, 100-150]) ]).
+
+test(stays_on_white_and_away_from_walls_for_its_time) :-
+    world(World),
+    with_sim(World,
+             ( plnxt_program:start,
+               sim_time(Time),
+               sim_collisions([]),
+               at_rest,
+               findall(Id, event(Id, _), []),
+               sim_trace(Trace) )),
+    near(Time, 30, 0.5),
+    findall(X, member(_-pose(X, _, _), Trace), Xs),
+    max_list(Xs, East),
+    East < 110,
+    min_list(Xs, West),
+    West < 40.
+
+:- end_tests(plnxt_program).
