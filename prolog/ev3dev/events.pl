@@ -13,8 +13,9 @@
             race/2                      % :Goals, -Winner
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ goal_of_program/1, must_be/2, throw_error/3,
+              [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
                 term_expansion/2
               ]).
 :- use_module(private/arguments,
@@ -169,8 +170,8 @@ add_event(Kind, Action, State, Options) :-
 
 %!  event_cancel(?Id) is semidet.
 %
-%   End the event Id of this thread, or all if Id is unbound. Fails if it has
-%   no such event.
+%   End the event Id of this thread, or all if Id is unbound. Fails if this
+%   thread has no such event.
 
 event_cancel(Id) :-
     \+ \+ event_(Id, _, _, _),
@@ -250,7 +251,7 @@ looked_at(Id, Condition) :-
         E = error(_, _),
         E \= error(permission_error(wait, guard, _), _)
     ->  change(Id, over),
-        print_message(error, ev3dev(event_error(Id, on, E))),
+        print_error(E, Id, on),
         fail
     ;   throw(E)
     ).
@@ -315,9 +316,14 @@ happen(Id, Kind, Action) :-
     (   var(E)
     ->  true
     ;   E = error(_, _)
-    ->  print_message(error, ev3dev(event_error(Id, Name, E)))
+    ->  print_error(E, Id, Name)
     ;   throw(E)
     ).
+
+print_error(E0, Id, Name) :-
+    format(atom(Where), 'event ~p (~w)', [Id, Name]),
+    error_within(E0, Where, E),
+    print_message(error, E).
 
 ignore_failure(Id, Name, Action) :-
     (   goal_of_program(Action)
@@ -327,9 +333,6 @@ ignore_failure(Id, Name, Action) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(ev3dev(event_error(Id, Name, E))) -->
-    [ 'Event ~p (~w): '-[Id, Name] ],
-    '$messages':translate_message(E).
 prolog:message(ev3dev(event_failed(Id, Name))) -->
     [ 'Event ~p (~w): its action failed'-[Id, Name] ].
 

@@ -30,6 +30,7 @@
             timer_killall/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
                 instantiation_error/1, must_be/2, term_expansion/2
@@ -329,10 +330,9 @@ nxt_rotate(Speed, Angle) :-
 %!  nxt_touch(-Pressed, +Force) is semidet.
 %
 %   True if the sensor of that kind measures this value. Force is `force`.
-%   Without it, the value is that which was read last, in any thread; the first
-%   time it is read. The light sensor may be that of the EV3 or of the
-%   NXT, and so may the other ones, but for sound, which the EV3 lacks. Fails
-%   if no such sensor is connected.
+%   Without it, the value is that which was read last, in any thread; the
+%   first time it is read. The sensors may be those of the EV3 or of the NXT;
+%   for sound the EV3 has none. Fails if no such sensor is connected.
 %
 %   `nxt_light(Percent, force)` and `nxt_sound(Percent, force)` do the same.
 %   These two are those of library(ev3dev), which read the sensor at a port if

@@ -10,10 +10,11 @@
             op(1150, xfx, ~>)
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
-                instantiation_error/1, must_be/2, throw_error/3,
-                type_error/2, term_expansion/2
+              [ domain_error/2, error_within/3, existence_error/2,
+                goal_of_program/1, instantiation_error/1, must_be/2,
+                term_expansion/2, throw_error/3, type_error/2
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
@@ -284,7 +285,7 @@ deadline(Options, Deadline) :-
 %
 %     - Active
 %       none, or active(Index, Time, Mode): Mode is `waits` for an action that
-%       has not returned, or going(Values), the values of the shared
+%       has not returned, or going(Values) with the values of the shared
 %       variables.
 %     - Since
 %       for each rule, unbound, `ended` until its guard has been false, or the
@@ -427,9 +428,10 @@ failed(E, Name, Where, Behavior) :-
     b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
-    ;   E = error(Formal, Context)
+    ;   E = error(_, _)
     ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
-        Named = error(Formal, ev3dev_rule(Name, Where, Context)),
+        format(atom(Text), 'the ~w of rule ~p', [Where, Name]),
+        error_within(E, Text, Named),
         (   OnError == throw
         ->  throw(Named)
         ;   print_message(error, Named),
@@ -440,12 +442,6 @@ failed(E, Name, Where, Behavior) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(error(Formal, Context0)) -->
-    { nonvar(Context0),
-      Context0 = ev3dev_rule(Name, Where, Context)
-    },
-    [ 'Rule ~p, ~w: '-[Name, Where] ],
-    '$messages':translate_message(error(Formal, Context)).
 prolog:message(ev3dev(rule_failed(Name))) -->
     [ 'Rule ~p: its action failed'-[Name] ].
 

@@ -7,7 +7,7 @@
             serve_at_read/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(native, [tick_after_/1, tick_never_/0]).
+:- use_module(native, [tick_after_/1]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -145,8 +145,10 @@ serve_at_read :-
     ).
 
 %!  serve_events is det.
+%!  serve_planned is det.
 %
-%   Serves the events of this thread; library(ev3dev/events) adds a clause.
+%   Serve the events of this thread, and the goals that are planned for it:
+%   library(ev3dev/events) and the simulator add a clause each.
 
 %!  yield is det.
 %
@@ -155,14 +157,15 @@ serve_at_read :-
 
 :- multifile
     serve_events/0,
+    serve_planned/0,
     yield/0.
 
 serve :-
-    due_goals,
     (   nb_current(ev3dev_branch, true)
     ->  yield
     ;   true
     ),
+    forall(serve_planned, true),
     listeners(Listeners),
     serve(Listeners).
 
@@ -171,7 +174,7 @@ serve(Listeners) :-
     \+ nb_current(ev3dev_event_period, _),
     !,
     % They were left by an exception.
-    tick_never_.
+    tick_after_(infinite).
 serve(Listeners) :-
     period(Listeners, Period),
     % Also while events are served, and after an exception.
@@ -191,11 +194,4 @@ serve_listener(Listener) :-
     (   State = leave(Ball)
     ->  throw(Ball)
     ;   call(Closure, Listener)
-    ).
-
-%   Loaded with the simulator.
-due_goals :-
-    (   current_predicate(ev3dev_sim_time:run_due_goals/0)
-    ->  ev3dev_sim_time:run_due_goals
-    ;   true
     ).
