@@ -98,9 +98,10 @@ test(searches_where_it_is_dark) :-
     distance(X, Y, 0, 0, D),
     D > 10.
 
-changes([First|Rest], Changes) :-
-    foldl([X, B0-N0, X-N]>>( X == B0 -> N = N0 ; N is N0 + 1 ), Rest,
-          First-0, _-Changes).
+changes(Values, Changes) :-
+    aggregate_all(count,
+                  ( nextto(Before, After, Values), Before \== After ),
+                  Changes).
 
 :- end_tests(rules_light_seeker).
 
