@@ -54,6 +54,9 @@ demo(rules_light_seeker, lights, start).
 demo(rules_line_follower, line, start).
 demo(rules_sumo, sumo, start).
 demo(rules_traffic_light, [ambient(20)], start).
+demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
+                      patch(black, [100-0, 150-0, 150-150, 100-150]) ],
+     start).
 demo(rules_processes, [wall(-50, 150, 50, 150)], start).
 
 robot(rules_wander, touch).

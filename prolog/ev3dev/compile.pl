@@ -60,6 +60,7 @@ unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).
 unit(events, ['ev3dev/events']).
 unit(rules, ['ev3dev/rules']).
+unit(plnxt, ['ev3dev/plnxt']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

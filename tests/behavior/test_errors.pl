@@ -8,6 +8,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
+:- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
@@ -83,6 +84,23 @@ bad(both(true, true), [7-1, _-1, 7-2, _-2]).
 bad(race([true], _), [a-1, _-1, [7]-1, [_]-1]).
 bad(until(true, true), [7-1, _-1, 7-2, _-2]).
 bad(until(true, true, _), [7-1, _-1, 7-2, _-2]).
+bad(nxt_robot(nxt, true), [_-1, wheel-1]).
+bad(nxt_goal(nxt, true), [_-1, wheel-1]).
+bad(nxt_goal(nxt, true, []), [_-1, wheel-1]).
+bad(nxt_go(400), [a-1, _-1]).
+bad(nxt_go_cm(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_go_sec(400, 1), [a-1, _-2, -1-2]).
+bad(nxt_turn(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_rotate(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_ultrasonic(_, force), [_-2, now-2]).
+bad(nxt_touch(_, force), [_-2, now-2]).
+bad(nxt_light_LED(activate), [_-1, on-1]).
+bad(nxt_light_LED(activate, force), [_-1, on-1, now-2]).
+bad(nxt_play_tone(440, 10), [a-1, _-2]).
+bad(trigger_create(a, true, true), [f(_)-1, 7-2, _-2, 7-3, _-3, [7]-3]).
+bad(trigger_create(a, true, true, 1), [7-2, _-3, 0-4, a-4, _-4]).
+bad(timer_create(a, 1, true), [f(_)-1, a-2, -1-2, _-2, 7-3, _-3]).
+bad(timer_create(a, 1, true, 1), [-1-2, 7-3, 0-4, a-4, _-4]).
 
 :- begin_tests(errors).
 
