@@ -4,8 +4,9 @@ use crate::glue::call::{Call, ListedDevices};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::device::retry;
-use ev3_driver::motor::wait;
-use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
+use ev3_driver::motor::wait::{self, UntilDone, UntilFlag};
+use ev3_driver::motor::{self, Extent, Move, MoveOptions, Moving, Run, Speed, StopAction};
+use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use std::time::Duration;
@@ -69,22 +70,27 @@ predicates! {
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
     /// move(Port, Speed, Degrees), to(Port, Speed, Degrees) and
     /// for(Port, Speed, Seconds), options is
-    /// options(StopAction, RampUp, RampDown, Wait, Timeout).
+    /// options(StopAction, RampUp, RampDown, Wait, Timeout). Who leaves the wait stops
+    /// the motors.
     #[module("ev3dev_native")]
     #[name("motor_turn_")]
-    semidet fn motor_turn(context, moves, options, reason) {
-        let call = Call::of(context, "motor_run", 4);
-        let turn = |turn: &Term<'a>| -> PrologResult<_> {
-            let [port, percent, way] = call.arguments(turn)?;
-            let speed = speed_of(&call, &percent)?;
-            Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
-        };
-        let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
-        let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let ended = motor::run_to(&devices, &moves, &options, interrupted);
-        unify_atom(reason, call.or_fail(ended)?.word())
+    nondet fn motor_turn<Slices<Moving>>(context, moves, options, reason) {
+        setup => {
+            let call = Call::of(context, "motor_run", 4);
+            let turn = |turn: &Term<'a>| -> PrologResult<_> {
+                let [port, percent, way] = call.arguments(turn)?;
+                let speed = speed_of(&call, &percent)?;
+                Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
+            };
+            let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
+            let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
+            let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
+            let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+            call.or_fail(motor::begin(&devices, &moves, &options, interrupted)).map(Some)
+        },
+        call(moving) => {
+            Call::of(context, "motor_run", 4).slice_of_move(moving, reason)
+        }
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
@@ -121,27 +127,36 @@ predicates! {
     /// motor_wait_(+Ports, +Timeout, -Reason)
     #[module("ev3dev_native")]
     #[name("motor_wait_")]
-    semidet fn motor_wait(context, ports, timeout, reason) {
-        let call = Call::of(context, "motor_wait", 3);
-        let devices = call.devices()?;
-        let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
-        let timeout = call.seconds(timeout)?;
-        let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
-        let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
-        unify_atom(reason, call.or_throw(ended)?.word())
+    nondet fn motor_wait<Slices<UntilDone>>(context, ports, timeout, reason) {
+        setup => {
+            let call = Call::of(context, "motor_wait", 3);
+            let devices = call.devices()?;
+            let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
+            let timeout = call.seconds(timeout)?;
+            let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
+            Ok(Some(wait::until_done(&devices, &motors, timeout)))
+        },
+        call(waiting) => {
+            Call::of(context, "motor_wait", 3).slice_of_move(waiting, reason)
+        }
     }
 
-    /// motor_wait_flag_(+Port, +Flag, +Present)
+    /// motor_wait_flag_(+Port, +Flag, +Present, -Reason): `over` at the end.
     #[module("ev3dev_native")]
     #[name("motor_wait_flag_")]
-    semidet fn motor_wait_flag(context, port, flag, present) {
-        let call = Call::of(context, "motor_wait_while", 2);
-        let devices = call.devices()?;
-        let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
-        let found = devices.find(Class::TachoMotor, &name);
-        let motor = call.or_absent(Class::TachoMotor, port, found)?;
-        let interrupted = &mut call.interrupted();
-        call.or_throw(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+    nondet fn motor_wait_flag<Slices<UntilFlag>>(context, port, flag, present, reason) {
+        setup => {
+            let call = Call::of(context, "motor_wait_while", 2);
+            let devices = call.devices()?;
+            let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
+            let found = devices.find(Class::TachoMotor, &name);
+            let motor = call.or_absent(Class::TachoMotor, port, found)?;
+            Ok(Some(wait::until_flag(&devices, &motor, &flag, present)))
+        },
+        call(waiting) => {
+            let call = Call::of(context, "motor_wait_while", 2);
+            call.slice(waiting, reason, |()| unify_atom(reason, "over"))
+        }
     }
 
     /// motor_run_direct_(+Class, +Port, +Percent)

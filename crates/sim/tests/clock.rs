@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Act, Button, Clock, Machine, Options, Simulation, WorldSpec};
+use ev3_sim::{Act, Button, Clock, Machine, Options, Shared, Simulation, WorldSpec};
 use robots::default_robot;
 
 const fn ms(count: u64) -> Duration {
@@ -503,4 +503,13 @@ fn the_wall_clock_runs_by_itself_and_returns_early_from_long_waits() {
     // Reading takes no time of its own, and dropping ends the thread.
     drop(simulation);
     while times.recv().is_ok() {}
+}
+
+#[test]
+fn a_machine_whose_clock_is_late_is_on_time_when_it_is_used() {
+    let machine = Machine::new(&WorldSpec::default(), &default_robot(), Options::default());
+    let shared = Shared::new(machine.unwrap());
+    shared.follow(10.0);
+    compute(ms(20));
+    assert!(shared.lock().now() >= ms(200));
 }

@@ -5,6 +5,7 @@ pub(crate) mod motion;
 mod observer;
 pub mod registry;
 pub mod retry;
+pub mod sleep;
 
 use crate::class::{Class, Detected};
 use crate::device::attribute::{Attribute, LINE, PAGE, SHORT, malformed, open, read_node, text_of};

@@ -4,16 +4,13 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::acts::PeriodicActs;
 use crate::shared::Shared;
 
 /// How often the machine is stepped.
 pub(super) const STEP: Duration = Duration::from_millis(2);
-
-/// The most wall time that one step makes up for.
-const LATE: Duration = Duration::from_millis(100);
 
 /// Steps a machine by the wall clock.
 #[derive(Debug)]
@@ -28,18 +25,16 @@ impl Stepper {
         acts: Arc<PeriodicActs>,
         factor: f64,
     ) -> io::Result<Self> {
+        shared.follow(factor);
         let stop = Arc::new(AtomicBool::new(false));
         let is_over = Arc::clone(&stop);
         let thread = std::thread::Builder::new().name("ev3-sim".to_owned()).spawn(move || {
-            let mut last = Instant::now();
             while !is_over.load(Ordering::Relaxed) {
                 std::thread::sleep(STEP);
-                let now = Instant::now();
-                // A machine that cannot keep up falls behind, but not without limit.
-                let passed = (now - last).min(LATE).mul_f64(factor);
-                drop(acts.step(&shared, shared.lock(), passed));
+                let machine = shared.lock_as_it_is();
+                let passed = shared.behind(Duration::ZERO);
+                drop(acts.step(&shared, machine, passed));
                 shared.wake();
-                last = now;
             }
         })?;
         Ok(Self { stop, thread: Some(thread) })
