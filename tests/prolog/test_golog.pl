@@ -1,6 +1,9 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/golog)).
 :- use_module('../support/golog/lab').
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(plunit)).
 
 % What each construct means is that of its definition: [G] Levesque, Reiter,
@@ -889,3 +892,139 @@ user:cost(E) :-
         )
     ;   true
     ).
+
+                /*******************************
+                *           THE ROBOT          *
+                *******************************/
+
+%   A robot that goes, is interrupted by a key, and looks
+
+rover([ prim_action(ahead), prim_action(look), prim_action(beep),
+        prim_action(roll), prim_action(halt),
+        poss(_, true),
+        exog_action(key), exog_action(near), exog_action(far),
+        prim_fluent(distance), prim_fluent(keys), prim_fluent(beeps),
+        initially(keys, 0), initially(beeps, 0),
+        senses(look, distance),
+        causes_val(key, keys, N, N is keys+1),
+        causes_val(beep, beeps, N, N is beeps+1),
+        robot_action(ahead, go_cm(30, 40)),
+        robot_action(roll, go(30)),
+        robot_action(halt, stop),
+        robot_action(beep, user:note_time(beep)),
+        robot_sense(look, D, us_dist_cm(_, D)),
+        robot_exog(key, button(enter)),
+        robot_exog(near, ( us_dist_cm(_, D), D < 40 )),
+        proc(reactive,
+             prioritized_interrupts(
+                 [ interrupt(beeps < keys, beep),
+                   interrupt(neg(done(ahead)), ahead) ])) ]).
+
+with_rover(Goal) :-
+    with_rover(_, Goal).
+
+with_rover(M, Goal) :-
+    rover(Clauses),
+    nb_setval(golog_times, []),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               with_domain(Clauses, M, Goal) )).
+
+user:note_time(What) :-
+    sim_time(T),
+    nb_getval(golog_times, Times),
+    nb_setval(golog_times, [What-T|Times]).
+
+user:note_exog(E) :-
+    (   E = exog(A)
+    ->  note_time(A)
+    ;   true
+    ).
+
+:- begin_tests(golog_robot).
+
+test(an_action_moves_the_robot, true(near(Way, 40, 1))) :-
+    with_rover(M, ( sim_pose(X0, Y0, _), indigolog(M:ahead),
+                    sim_pose(X1, Y1, _) )),
+    Way is sqrt((X1-X0)**2 + (Y1-Y0)**2).
+test(a_sensor_is_a_sensing_action, H == [e(distance, D), look]) :-
+    with_rover(M, ( us_dist_cm(_, D), golog(M:look, [history(H)]) )).
+test(an_exogenous_action_is_seen_in_a_move, true(Late =< 0.02)) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(0.5)]),
+                    golog(M:ahead, [trace(user:note_exog)]) )),
+    nb_getval(golog_times, [key-T]),
+    Late is T-T0-0.5,
+    assertion(Late >= 0).
+test(a_higher_interrupt_ends_a_move,
+     H == [ahead, beep, key, interrupted(ahead)]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:reactive, [history(H)]) )).
+test(it_stops_the_motors_at_once, true(Late =< 0.03)) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(0.5)]),
+                    indigolog(M:reactive) )),
+    nb_getval(golog_times, [beep-T]),
+    Late is T-T0-0.5.
+test(a_lower_one_does_not, H == [beep, key, ahead]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:prioritized_interrupts(
+                              [ interrupt(neg(done(ahead)), ahead),
+                                interrupt(beeps < keys, beep) ]),
+                          [history(H)]) )).
+test(an_atomic_program_is_not_interrupted, H == [beep, key, ahead]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:prioritized_interrupts(
+                              [ interrupt(beeps < keys, beep),
+                                interrupt(neg(done(ahead)),
+                                          atomic([ahead, ?(true)])) ]),
+                          [history(H)]) )).
+test(a_condition_is_one_event, Count == 1) :-
+    with_rover(M, ( sim_press(enter, [for(0.5)]),
+                    golog(M:[ahead], [history(H)]) )),
+    findall(x, member(key, H), Keys),
+    length(Keys, Count).
+test(a_wait_ends_by_a_key, true(near(T, 2, 0.03))) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(2)]),
+                    indigolog(M:[while(keys = 0, wait)]),
+                    sim_time(T1) )),
+    T is T1-T0.
+test(a_timeout_ends_a_move, [R, Late] == [timeout, true]) :-
+    with_rover(M, ( sim_time(T0),
+                    golog(M:ahead, [timeout(0.5), reason(R)]),
+                    sim_time(T1), assertion(at_rest) )),
+    (   T1-T0 < 0.53
+    ->  Late = true
+    ;   Late = T1-T0
+    ).
+test(the_motors_stop_if_the_program_fails, R == not_possible(gone, false)) :-
+    with_rover(M, ( assertz(M:prim_action(gone)),
+                    asserta((M:poss(gone, false))),
+                    retractall(M:poss(_, true)),
+                    assertz(M:poss(roll, true)),
+                    golog(M:[roll, gone], [reason(R)]),
+                    assertion(at_rest) )).
+test(the_motors_stop_after_an_exception) :-
+    with_rover(M, ( assertz(M:prim_action(bad)),
+                    assertz(M:robot_action(bad, throw(oops))),
+                    catch(indigolog(M:[roll, bad]), oops, true),
+                    assertion(at_rest),
+                    now([roll]) )).
+test(a_time_limit_is_passed_on, true(E == passed)) :-
+    with_rover(M, ( assertz(M:prim_action(long)),
+                    assertz(M:robot_action(long, throw(time_limit_exceeded))),
+                    catch(golog(M:[roll, long], [reason(_)]),
+                          time_limit_exceeded, E = passed),
+                    assertion(at_rest) )).
+test(the_same_seed_the_same_run, H1 == H2) :-
+    runs_of_rover(H1),
+    runs_of_rover(H2).
+
+runs_of_rover(H-T) :-
+    with_rover(M, ( sim_press(enter, [after(0.7)]),
+                    sim_press(enter, [after(1.3)]),
+                    golog(M:[reactive, look], [history(H)]),
+                    sim_time(T) )).
+
+:- end_tests(golog_robot).

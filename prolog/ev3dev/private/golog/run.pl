@@ -3,7 +3,7 @@
                                         % -History
             recorded_history/1          % -History
           ]).
-:- use_module(library(lists), [append/3, reverse/2]).
+:- use_module(library(lists), [append/3, memberchk/2, reverse/2]).
 :- use_module(context,
               [ context/3, context_module/2, print_again/1, stepping/2,
                 unblock/0, was_blocked/2
@@ -19,7 +19,7 @@
 :- use_module(waiting, [clock/2, pause/4, robot_stopped/1]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
-                look_around/1, message_seen/2, queue_of/2, robot_kind/2,
+                exogenous_noticed/3, message_seen/2, queue_of/2, robot_kind/2,
                
                 sensing_entries/4, watch_begins/1
               ]).
@@ -171,13 +171,17 @@ shortened(Steps, S0, S) :-
 %   Exogenous actions enter the history.
 
 happened([], S, S, News, News, _, go).
-happened([A|As], S0, S, News0, News, R, Stop) :-
-    (   ( A == end_indi ; A == halt_indi )
+happened([Seen|As], S0, S, News0, News, R, Stop) :-
+    arg(1, Seen, A),
+    (   is_to_stop([A])
     ->  S = S0,
         News = News0,
         Stop = stop
-    ;   entered(A, S0, S1, R),
-        traced(exog(A), R),
+    ;   (   Seen = new(_)
+        ->  traced(exog(A), R)
+        ;   true
+        ),
+        entered(A, S0, S1, R),
         happened(As, S1, S, news, News, R, Stop)
     ).
 
@@ -347,16 +351,27 @@ after(failed, OnFailed, A, _, E0, E1, S0, _, News, R, E, S, News, Next) :-
 
 is_to_end(E0, E1, S0, R) :-
     R = r(X, Agent, _, Deadline),
-    Agent = agent(M, Robot, _, _),
-    look_around(Agent),
+    Agent = agent(_, Robot, _, _),
+    exogenous_noticed(Agent, New, All),
+    traced_all(New, R),
     (   is_over(Deadline, Robot)
     ->  true
-    ;   ev3dev_golog_world:seen(M, _),
-        findall(A, ev3dev_golog_world:seen(M, A), As),
-        imagined(As, S0, S, X),
+    ;   is_to_stop(All)
+    ->  true
+    ;   All = [_|_],
+        imagined(All, S0, S, X),
         stepping(X, X1),
         is_preempted(E0, E1, S, X1)
+    ->  true
     ).
+
+is_to_stop(As) :-
+    ( memberchk(end_indi, As) -> true ; memberchk(halt_indi, As) ).
+
+traced_all([], _).
+traced_all([A|As], R) :-
+    traced(exog(A), R),
+    traced_all(As, R).
 
 imagined([], S, S, _).
 imagined([A|As], S0, S, X) :-

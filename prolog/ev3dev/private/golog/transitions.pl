@@ -555,35 +555,46 @@ all_allowed([Other|Others], E, S, X) :-
     all_allowed(Others, E, S, X).
 
 in_atom(E, S, X) :-
-    nonvar(E),
-    in_atom_(E, S, X).
+    atom_in(E, Inner),
+    \+ is_final(Inner, S, X),
+    !.
 
-in_atom_('$atomic'(E), S, X) :-
-    \+ is_final(E, S, X).
-in_atom_([E|_], S, X) :-
-    in_atom(E, S, X).
-in_atom_(conc(A, B), S, X) :-
-    ( in_atom(A, S, X) -> true ; in_atom(B, S, X) ).
-in_atom_('$turn'(A, B), S, X) :-
-    ( in_atom(A, S, X) -> true ; in_atom(B, S, X) ).
-in_atom_(pconc(A, B), S, X) :-
-    ( in_atom(A, S, X) -> true ; in_atom(B, S, X) ).
-in_atom_(rconc(A, B), S, X) :-
-    ( in_atom(A, S, X) -> true ; in_atom(B, S, X) ).
-in_atom_(rconc(Es), S, X) :-
-    ( member(E, Es), in_atom(E, S, X) -> true ).
-in_atom_(rrobin(Es), S, X) :-
-    ( member(E, Es), in_atom(E, S, X) -> true ).
-in_atom_(prioritized_interrupts(Es), S, X) :-
-    ( member(E, Es), in_atom(E, S, X) -> true ).
-in_atom_(gexec(_, E), S, X) :-
-    in_atom(E, S, X).
-in_atom_(gexec2(_, E), S, X) :-
-    in_atom(E, S, X).
-in_atom_('$path'(E, _, _, _), S, X) :-
-    in_atom(E, S, X).
-in_atom_(goal(_, E, _, _), S, X) :-
-    in_atom(E, S, X).
+%   atom_in(+Program, -Inner) is nondet: atomic(Inner) is under way in a part
+%   of Program that may take a step next.
+
+atom_in(E, Inner) :-
+    nonvar(E),
+    atom_in_(E, Inner).
+
+atom_in_('$atomic'(E), E).
+atom_in_([E|_], Inner) :-
+    atom_in(E, Inner).
+atom_in_(conc(A, B), Inner) :-
+    atom_in_list([A, B], Inner).
+atom_in_('$turn'(A, B), Inner) :-
+    atom_in_list([A, B], Inner).
+atom_in_(pconc(A, B), Inner) :-
+    atom_in_list([A, B], Inner).
+atom_in_(rconc(A, B), Inner) :-
+    atom_in_list([A, B], Inner).
+atom_in_(rconc(Es), Inner) :-
+    atom_in_list(Es, Inner).
+atom_in_(rrobin(Es), Inner) :-
+    atom_in_list(Es, Inner).
+atom_in_(prioritized_interrupts(Es), Inner) :-
+    atom_in_list(Es, Inner).
+atom_in_(gexec(_, E), Inner) :-
+    atom_in(E, Inner).
+atom_in_(gexec2(_, E), Inner) :-
+    atom_in(E, Inner).
+atom_in_('$path'(E, _, _, _), Inner) :-
+    atom_in(E, Inner).
+atom_in_(goal(_, E, _, _), Inner) :-
+    atom_in(E, Inner).
+
+atom_in_list(Es, Inner) :-
+    member(E, Es),
+    atom_in(E, Inner).
 
 % Interrupts
 
@@ -649,20 +660,26 @@ without_interrupts(E0, E) :-
 %
 %   Program0 has taken a step to Program. True if in Situation a part of
 %   Program0 with a higher priority than the one that took the step can take
-%   a step, too.
+%   a step, too. Not if the step is part of an atomic/1.
 
 is_preempted(E0, E, S, X) :-
+    \+ ( atom_in(E, Inner),
+         \+ ( atom_in(E0, Inner0), Inner0 == Inner ) ),
+    preempted_by(E0, E, S, X),
+    !.
+
+preempted_by(E0, E, S, X) :-
     nonvar(E0),
     preempted(E0, E, S, X).
 
 preempted([A0|As], E, S, X) :-
     (   As == []
-    ->  is_preempted(A0, E, S, X)
+    ->  preempted_by(A0, E, S, X)
     ;   nonvar(E),
         E = [A|Bs],
         Bs == As
-    ->  is_preempted(A0, A, S, X)
-    ;   is_preempted(As, E, S, X)
+    ->  preempted_by(A0, A, S, X)
+    ;   preempted_by(As, E, S, X)
     ).
 preempted(conc(A0, B0), E, S, X) :-
     preempted_in_pair(A0, B0, E, S, X).
@@ -674,26 +691,26 @@ preempted(pconc(A0, B0), pconc(A, B), S, X) :-
     (   A0 == A
     ->  (   can_step(A0, S, X)
         ->  true
-        ;   is_preempted(B0, B, S, X)
+        ;   preempted_by(B0, B, S, X)
         )
-    ;   is_preempted(A0, A, S, X)
+    ;   preempted_by(A0, A, S, X)
     ).
 preempted(prioritized_interrupts(Es0), prioritized_interrupts(Es), S, X) :-
     preempted_in_list(Es0, Es, S, X).
 preempted(gexec(C, E0), gexec(C, E), S, X) :-
-    is_preempted(E0, E, S, X).
+    preempted_by(E0, E, S, X).
 preempted(gexec2(C, E0), gexec2(C, E), S, X) :-
-    is_preempted(E0, E, S, X).
+    preempted_by(E0, E, S, X).
 preempted(goal(P, E0, F, R), goal(P, E, F, R), S, X) :-
-    is_preempted(E0, E, S, X).
+    preempted_by(E0, E, S, X).
 preempted(interrupt(_, B0), [B|_], S, X) :-
-    is_preempted(B0, B, S, X).
+    preempted_by(B0, B, S, X).
 preempted(while(_, B0), [B|_], S, X) :-
-    is_preempted(B0, B, S, X).
+    preempted_by(B0, B, S, X).
 preempted(if(P, A0, B0), E, S, X) :-
     (   holds(P, S, X)
-    ->  is_preempted(A0, E, S, X)
-    ;   is_preempted(B0, E, S, X)
+    ->  preempted_by(A0, E, S, X)
+    ;   preempted_by(B0, E, S, X)
     ).
 preempted(E0, E, S, X) :-
     callable(E0),
@@ -701,14 +718,14 @@ preempted(E0, E, S, X) :-
     is_proc(E0, M),
     proc_body(E0, Body, M),
     entered(preempted, E0, X, X1),
-    is_preempted(Body, E, S, X1).
+    preempted_by(Body, E, S, X1).
 
 preempted_in_pair(A0, B0, E, S, X) :-
     arg(1, E, A),
     arg(2, E, B),
     (   A0 == A
-    ->  is_preempted(B0, B, S, X)
-    ;   is_preempted(A0, A, S, X)
+    ->  preempted_by(B0, B, S, X)
+    ;   preempted_by(A0, A, S, X)
     ).
 
 preempted_in_list([E0|Es0], [E|Es], S, X) :-
@@ -717,7 +734,7 @@ preempted_in_list([E0|Es0], [E|Es], S, X) :-
         ->  true
         ;   preempted_in_list(Es0, Es, S, X)
         )
-    ;   is_preempted(E0, E, S, X)
+    ;   preempted_by(E0, E, S, X)
     ).
 
 can_step(E, S, X) :-

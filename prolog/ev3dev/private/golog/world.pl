@@ -5,7 +5,7 @@
             agent_begins/1,             % +Module
             agent_ends/1,               % +Module
             watch_begins/1,             % +Module
-            look_around/1,              % +Agent
+            exogenous_noticed/3,        % +Agent, -New, -All
             exogenous_seen/2,           % +Agent, -Actions
             message_seen/2,             % +Message, +Agent
             executed/6,                 % +Action, +History, :Watch, +Agent,
@@ -16,7 +16,7 @@
             ask/2,                      % +Action, -Value
             code_of_number/3            % +Number, +Module, -Action
           ]).
-:- use_module(library(lists), [memberchk/2, member/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(theory, [has_clauses/2, is_exogenous/2]).
 :- use_module(waiting, [run_watched/3]).
 :- use_module('../errors', [goal_of_program/1]).
@@ -95,28 +95,41 @@ agent_ends(Module) :-
 
 :- thread_local
     seen/2,                             % Module, Action
+    noticed/2,                          % Module, Action
     held/3.                             % Module, Clause, Action
 
 watch_begins(Module) :-
     retractall(held(Module, _, _)),
-    retractall(seen(Module, _)).
+    retractall(seen(Module, _)),
+    retractall(noticed(Module, _)).
 
 %!  exogenous_seen(+Agent, -Actions) is det.
 %
 %   Actions are the exogenous actions that have happened since this was asked
-%   last, in the order of their arrival.
+%   last, in the order of their arrival: new(Action), or noticed(Action) if
+%   exogenous_noticed/3 has answered it.
 
 exogenous_seen(Agent, Actions) :-
     look_around(Agent),
     asked_domain(Agent),
     Agent = agent(Module, _, _, _),
-    (   seen(Module, _)
-    ->  findall(Action, retract(seen(Module, Action)), Actions)
-    ;   Actions = []
-    ).
+    findall(noticed(Action), retract(noticed(Module, Action)), Actions0),
+    findall(new(Action), retract(seen(Module, Action)), Actions1),
+    append(Actions0, Actions1, Actions).
 
-%!  look_around(+Agent) is det.
+%!  exogenous_noticed(+Agent, -New, -All) is det.
 %
+%   While an action is under way: New are the exogenous actions that were not
+%   seen before, All are those that are not in the history yet.
+
+exogenous_noticed(Agent, New, All) :-
+    look_around(Agent),
+    Agent = agent(Module, _, _, _),
+    findall(Action, retract(seen(Module, Action)), New),
+    forall(member(Action, New), assertz(noticed(Module, Action))),
+    findall(Action, noticed(Module, Action), All).
+
+%   look_around(+Agent) is det.
 %   Take what the queue has, and see which conditions of robot_exog/2 have
 %   begun to hold.
 
