@@ -488,7 +488,7 @@ test(sensing_an_outcome, Run == [feel, e(feel, 25), a]) :-
 test(a_precondition_that_does_not_hold_is_told,
      R == not_possible(down, n > 0)) :-
     online([a, down], [reason(R)], _).
-test(no_step_is_told, R == no_step([[], ?(n = 1)])) :-
+test(no_step_is_told, R == no_step(?(n = 1))) :-
     online([a, ?(n = 1)], [reason(R)], _).
 test(the_end_is_told, R == final) :-
     online(a, [reason(R)], _).

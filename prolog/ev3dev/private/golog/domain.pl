@@ -23,7 +23,7 @@
               [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,
                 put_assoc/4
               ]).
-:- use_module(library(lists), [append/3, member/2, reverse/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(context,
               [ call_of/3, context_module/2, entered/4,
                 print_once/2
@@ -264,6 +264,10 @@ open_effect(F, V, Condition, S0, Context, M, Effect) :-
     (   ground(F1)
     ->  holds_once(Condition1, S0, Context),
         Effect = set(F1, V1)
+    ;   is_positive(Condition1),
+        solved(F1-V1, Condition1, S0, Context, Solved)
+    ->  member(F1-V1, Solved),
+        Effect = set(F1, V1)
     ;   term_variables(F1, Variables),
         term_variables(Condition1-V1, Others),
         \+ shared(Variables, Others)
@@ -271,6 +275,31 @@ open_effect(F, V, Condition, S0, Context, M, Effect) :-
         Effect = open(F1, V1, true)
     ;   Effect = open(F1, V1, Condition1)
     ).
+
+%   The condition itself enumerates the fluents that are set, if it negates
+%   nothing and is no comparison that needs their arguments.
+
+is_positive(Condition) :-
+    nonvar(Condition),
+    (   ( Condition = and(P, Q) ; Condition = or(P, Q) )
+    ->  is_positive(P),
+        is_positive(Q)
+    ;   ( Condition = and(Ps) ; Condition = or(Ps) )
+    ->  is_list(Ps),
+        \+ ( member(P, Ps), \+ is_positive(P) )
+    ;   Condition = some(_, P)
+    ->  is_positive(P)
+    ;   callable(Condition),
+        functor(Condition, Name, _),
+        \+ memberchk(Name, [ neg, all, impl, equiv, \+, not, \=, \==, ==,
+                             true, ->, ;, know, kwhether ])
+    ).
+
+solved(FV, Condition, S, Context, Solved) :-
+    catch(findall(FV, holds(Condition, S, Context), Solved0),
+          error(instantiation_error, _), fail),
+    ground(Solved0),
+    sort(Solved0, Solved).
 
 shared(Xs, Ys) :-
     member(X, Xs),

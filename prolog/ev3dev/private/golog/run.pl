@@ -15,7 +15,7 @@
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory, [has_clauses/2, prepare/1, refuse_epistemic/1]).
 :- use_module(transitions,
-              [is_final/3, is_preempted/4, program_shown/2, step/5]).
+              [ is_final/3, is_preempted/4, program_shown/2, simplified/2, step/5 ]).
 :- use_module(waiting, [clock/2, pause/4, robot_stopped/1]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
@@ -49,12 +49,13 @@ run_online(M:E, Settings, Reason, History) :-
     queue_of(M, Queue),
     Agent = agent(M, Robot, Queue, Device),
     situation(Initial, S, X),
+    simplified(E, E1),
     Ended = ended(none),
     setup_call_cleanup(
         begun(M, Initial, Keep),
         ( initialized(M),
           deadline(Timeout, Robot, Deadline),
-          cycle(E, S, quiet, 0, r(X, Agent, Settings, Deadline), Reason),
+          cycle(E1, S, quiet, 0, r(X, Agent, Settings, Deadline), Reason),
           nb_setarg(1, Ended, Reason) ),
         finished(M, Robot, Ended)),
     recorded_history(History).
@@ -214,7 +215,7 @@ taken(E0, S0, News0, R, E, S, News, Next) :-
     (   step(E0, S0, E1, S1, X),
         performed(E0, E1, S0, S1, News0, R, E2, S2, News2, Next2),
         Next2 \== backtrack
-    ->  E = E2,
+    ->  simplified(E2, E),
         S = S2,
         News = News2,
         Next = Next2,

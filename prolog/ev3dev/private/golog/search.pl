@@ -93,9 +93,9 @@ is_mark(test(_)).
 %!            -Situation, +Context) is nondet.
 
 path_step(E, Path, At-Options, S, E1, S1, X) :-
+    Path = [_|_],
     (   on_track(At, S)
-    ->  Path = [_|_],
-        path_begun(E, Path, Options, S, E1, S1, X)
+    ->  path_begun(E, Path, Options, S, E1, S1, X)
     ;   replanned(E),
         (   Options == achieve
         ->  step(E, S, E1, S1, X)
@@ -110,9 +110,10 @@ on_track(at(Count, Top), S) :-
 %!  path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
 
 path_is_final(E, Path, At, S, X) :-
-    (   on_track(At, S)
-    ->  Path == []
-    ;   is_final(E, S, X)
+    (   Path == []
+    ->  true
+    ;   \+ on_track(At, S),
+        is_final(E, S, X)
     ).
 
 %!  replanned_since(-Program) is nondet.

@@ -6,6 +6,7 @@
                                         % +Length, +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
                                         % +Context
+            simplified/2,               % +Program0, -Program
             program_shown/2             % +Program0, -Program
           ]).
 :- use_module(library(lists),
@@ -664,7 +665,7 @@ without_interrupts(E0, E) :-
 
 is_preempted(E0, E, S, X) :-
     \+ ( atom_in(E, Inner),
-         \+ ( atom_in(E0, Inner0), Inner0 == Inner ) ),
+         \+ ( atom_in(E0, Inner0), Inner0 =@= Inner ) ),
     preempted_by(E0, E, S, X),
     !.
 
@@ -677,7 +678,7 @@ preempted([A0|As], E, S, X) :-
     ->  preempted_by(A0, E, S, X)
     ;   nonvar(E),
         E = [A|Bs],
-        Bs == As
+        Bs =@= As
     ->  preempted_by(A0, A, S, X)
     ;   preempted_by(As, E, S, X)
     ).
@@ -688,7 +689,7 @@ preempted('$turn'(A0, B0), E, S, X) :-
 preempted(rconc(A0, B0), E, S, X) :-
     preempted_in_pair(A0, B0, E, S, X).
 preempted(pconc(A0, B0), pconc(A, B), S, X) :-
-    (   A0 == A
+    (   A0 =@= A
     ->  (   can_step(A0, S, X)
         ->  true
         ;   preempted_by(B0, B, S, X)
@@ -723,13 +724,13 @@ preempted(E0, E, S, X) :-
 preempted_in_pair(A0, B0, E, S, X) :-
     arg(1, E, A),
     arg(2, E, B),
-    (   A0 == A
+    (   A0 =@= A
     ->  preempted_by(B0, B, S, X)
     ;   preempted_by(A0, A, S, X)
     ).
 
 preempted_in_list([E0|Es0], [E|Es], S, X) :-
-    (   E0 == E
+    (   E0 =@= E
     ->  (   can_step(E0, S, X)
         ->  true
         ;   preempted_in_list(Es0, Es, S, X)
@@ -875,6 +876,57 @@ on_the_way(at(Count, Histories), S) :-
     Skip is Count-C,
     \+ \+ ( length(Newer, Skip),
             append(Newer, History, Wanted) ).
+
+%!  simplified(+Program0, -Program) is det.
+%
+%   Program is Program0 without the empty programs that actions and tests have
+%   left where the next step may begin. So a step of Program always makes a
+%   difference to it.
+
+simplified(E0, E) :-
+    (   nonvar(E0),
+        simpler(E0, E1)
+    ->  E = E1
+    ;   E = E0
+    ).
+
+simpler([A0|As], E) :-
+    simplified(A0, A),
+    (   A == []
+    ->  (   As = [B]
+        ->  simplified(B, E)
+        ;   simplified(As, E)
+        )
+    ;   E = [A|As]
+    ).
+simpler(conc(A0, B0), conc(A, B)) :-
+    simplified(A0, A),
+    simplified(B0, B).
+simpler('$turn'(A0, B0), '$turn'(A, B)) :-
+    simplified(A0, A),
+    simplified(B0, B).
+simpler(pconc(A0, B0), pconc(A, B)) :-
+    simplified(A0, A),
+    simplified(B0, B).
+simpler(rconc(A0, B0), rconc(A, B)) :-
+    simplified(A0, A),
+    simplified(B0, B).
+simpler(prioritized_interrupts(Es0), prioritized_interrupts(Es)) :-
+    all_simplified(Es0, Es).
+simpler(gexec(C, E0), gexec(C, E)) :-
+    simplified(E0, E).
+simpler(gexec2(C, E0), gexec2(C, E)) :-
+    simplified(E0, E).
+simpler(goal(P, E0, F, R), goal(P, E, F, R)) :-
+    simplified(E0, E).
+simpler('$path'(_, [], _, _), []).
+simpler('$atomic'(E0), '$atomic'(E)) :-
+    simplified(E0, E).
+
+all_simplified([], []).
+all_simplified([E0|Es0], [E|Es]) :-
+    simplified(E0, E),
+    all_simplified(Es0, Es).
 
 %!  program_shown(+Program0, -Program) is det.
 %
