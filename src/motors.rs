@@ -3,11 +3,13 @@ use crate::driver::{class_of, unify_port};
 use crate::glue::call::{Call, ListedDevices};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::waiting;
 use ev3_driver::device::retry;
 use ev3_driver::motor::wait::{self, UntilDone, UntilFlag};
 use ev3_driver::motor::{self, Extent, Move, MoveOptions, Moving, Run, Speed, StopAction};
 use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -20,6 +22,9 @@ pub(crate) fn register() {
     register_motor_turn();
     register_motor_stop();
     register_stop_all_motors();
+    register_commands();
+    register_motors_stop();
+    register_motors_leave();
     register_motor_reset();
     register_motor_wait();
     register_motor_wait_flag();
@@ -111,6 +116,32 @@ predicates! {
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         call.or_throw(motor::stop_connected(&*call.devices()?, &mut call.interrupted()))
+    }
+
+    /// commands_(-Count): how many commands the program has given to motors.
+    #[module("ev3dev_native")]
+    #[name("commands_")]
+    semidet fn commands(_context, count) {
+        count.unify(u64::from(motor::command_count()))
+    }
+
+    /// motors_stop_(+From, +Before): stops the motors whose last command was one of
+    /// these.
+    #[module("ev3dev_native")]
+    #[name("motors_stop_")]
+    semidet fn motors_stop(context, from, before) {
+        let call = Call::of(context, "behave", 2);
+        let commands = commands_of(&call, from, before)?;
+        call.or_throw(motor::stop_commanded(&*call.devices()?, &commands))
+    }
+
+    /// motors_leave_(+From, +Before): the same at the first wait of this thread.
+    #[module("ev3dev_native")]
+    #[name("motors_leave_")]
+    semidet fn motors_leave(context, from, before) {
+        let call = Call::of(context, "behave", 2);
+        waiting::stop_at_wait(Some(commands_of(&call, from, before)?));
+        Ok(())
     }
 
     /// motor_reset_(+Port)
@@ -212,6 +243,16 @@ fn speed_of<'a, C: QueryableContextType>(
         Some([degrees]) => call.float(&degrees).map(Speed::DegreesPerSecond),
         None => call.float(term).map(Speed::Percent),
     }
+}
+
+/// Commands by their numbers.
+fn commands_of<C: QueryableContextType>(
+    call: &Call<C>,
+    from: &Term,
+    before: &Term,
+) -> PrologResult<Range<u32>> {
+    let number = |term| u32::try_from(call.integer(term)?).map_err(|_| PrologError::Failure);
+    Ok(number(from)?..number(before)?)
 }
 
 /// How far a move goes, by the name of its term.

@@ -26,6 +26,7 @@ predicates! {
     nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
+            call.serve_if_due()?;
             let index = index_of(&call, index)?;
             readings(&call, port, types, mode, index).map(Some)
         },
@@ -50,6 +51,7 @@ predicates! {
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
+            call.serve_if_due()?;
             let count = usize::try_from(call.integer(count)?).unwrap_or_default();
             let readings = readings(&call, port, types, mode, count)?;
             if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }

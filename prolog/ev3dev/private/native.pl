@@ -13,6 +13,9 @@
             sysfs_use_/1,
             now_/1,
             wait_/2,
+            commands_/1,
+            motors_leave_/2,
+            motors_stop_/2,
             slices_/1,
             tick_after_/1,
             tick_never_/0,
@@ -149,6 +152,9 @@ missing.
 
 %!  now_(-Seconds) is det.
 %!  wait_(+Seconds, -Reason) is nondet.
+%!  commands_(-Count) is semidet.
+%!  motors_leave_(+From, +Before) is semidet.
+%!  motors_stop_(+From, +Before) is semidet.
 %!  slices_(-Count) is semidet.
 %!  tick_after_(+Seconds) is semidet.
 %!  tick_never_ is semidet.

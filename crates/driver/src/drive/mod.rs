@@ -179,6 +179,9 @@ impl Drive {
         inner.integrate(&self.registry)?;
         let begun = inner.begin(command, options)?;
         if begun.is_some() {
+            inner.devices.iter().flat_map(|devices| &devices.motors).for_each(|motor| {
+                motor.was_commanded();
+            });
             let stepped = inner.control();
             inner.conclude(stepped);
         }

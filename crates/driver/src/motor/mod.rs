@@ -17,7 +17,7 @@ pub mod wait;
 
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::motion::{End, MotorRun};
+use crate::device::motion::{self, End, MotorRun};
 use crate::device::registry::Registry;
 use crate::device::retry::{self, while_permissions_settle};
 use crate::error::{Error, Interrupted, Result};
@@ -28,6 +28,7 @@ pub(crate) use command::{prepare, runs_on, start};
 use plan::plan;
 pub use plan::{Extent, Move, Speed, position, set_position};
 pub(crate) use plan::{duty, milliseconds};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 use wait::{Reason, UntilDone};
@@ -84,6 +85,30 @@ pub fn stop_started(registry: &Registry) -> Result<()> {
                 Class::ServoMotor => best_effort(start(motor, "float", None)),
                 _ => stop_best_effort(motor, StopAction::Brake),
             });
+        }
+    }
+    result
+}
+
+/// How many commands the program has given to motors so far.
+#[must_use]
+pub fn command_count() -> u32 {
+    motion::command_count()
+}
+
+/// Stops the motors that were started, and whose last command by the program was one of
+/// these, counted from 0. A robot's motors are commanded when its course begins.
+///
+/// # Errors
+/// The first that occurred.
+pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> {
+    let mut result = Ok(());
+    for class in [Class::TachoMotor, Class::DcMotor] {
+        let all = registry.known(class);
+        let is_one =
+            |motor: &&Arc<Device>| motor.is_commanded_in(commands) && motor.run().is_some();
+        for motor in all.iter().filter(is_one) {
+            result = result.and(stop_best_effort(motor, StopAction::Brake));
         }
     }
     result
