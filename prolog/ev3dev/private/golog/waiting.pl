@@ -1,13 +1,12 @@
 :- module(ev3dev_golog_waiting,
           [ run_watched/3,              % :Goal, :Watch, -Outcome
+            guarded/2,                  % +Name, :Goal
             pause/4,                    % +Robot, +Queue, +Deadline,
                                         % -Message
             clock/2,                    % +Robot, -Seconds
             robot_stopped/1             % +Robot
           ]).
 
-:- use_module(library(lists), [member/2]).
-:- use_module('../errors', [goal_of_program/1]).
 
 /** <module> How library(ev3dev/golog) waits
 
@@ -15,7 +14,9 @@ The only place where an agent waits. Robot is `robot` if the domain is about
 the robot, else `none`; then the library of the robot is not even loaded.
 */
 
-:- meta_predicate run_watched(0, 0, -).
+:- meta_predicate
+    run_watched(0, 0, -),
+    guarded(+, 0).
 
 %!  run_watched(:Goal, :Watch, -Outcome) is det.
 %
@@ -28,57 +29,35 @@ run_watched(Goal, Watch, Outcome) :-
     (   call(Watch)
     ->  Outcome = interrupted
     ;   loaded,
+        Ball = golog_interrupted(Id),
         flag(ev3dev_golog_watch, Id, Id+1),
-        setup_call_cleanup(
-            watch_set(Id, Watch),
-            catch(( goal_of_program(Goal)
-                  ->  Outcome0 = done
-                  ;   Outcome0 = failed
-                  ),
-                  golog_interrupted(Id),
-                  Outcome0 = interrupted),
-            watch_ended(Id))
-    ->  Outcome = Outcome0
+        catch(watched(Goal, Watch, Ball, Outcome), Ball,
+              Outcome = interrupted)
     ).
 
-%   The watches of the actions under way in this thread, the innermost first
-
-:- thread_local watching/2.
-
-watch_set(Id, Watch) :-
-    asserta(watching(Id, Watch)),
-    next_tick.
-
-watch_ended(Id) :-
-    retractall(watching(Id, _)),
-    (   watching(_, _)
-    ->  next_tick
-    ;   ev3dev_native:tick_never_
+watched(Goal, Watch, Ball, Outcome) :-
+    (   ev3dev_waits:listening(0.015,
+                               ev3dev_golog_waiting:watch(Watch, Ball),
+                               Goal)
+    ->  Outcome = done
+    ;   Outcome = failed
     ).
 
-next_tick :-
-    ev3dev_native:tick_after_(0.015).
+:- public watch/3.
 
-:- multifile ev3dev_waits:served/0.
-
-ev3dev_waits:served :-
-    ev3dev_golog_waiting:watched.
-
-%   The outermost action that has to end ends first.
-
-:- public watched/0.
-
-watched :-
-    findall(Id-Watch, watching(Id, Watch), Watches0),
-    Watches0 \== [],
-    keysort(Watches0, Watches),
-    ev3dev_native:tick_never_,
-    (   member(Id-Watch, Watches),
-        call(Watch)
-    ->  next_tick,
-        throw(golog_interrupted(Id))
-    ;   next_tick
+watch(Watch, Ball, Listener) :-
+    (   call(Watch)
+    ->  ev3dev_waits:leave(Listener, Ball)
+    ;   true
     ).
+
+%!  guarded(+Name, :Goal) is semidet.
+%
+%   Call Goal once, a condition about the robot. It must not wait.
+
+guarded(Name, Goal) :-
+    loaded,
+    ev3dev_waits:in_guard(Name, Goal).
 
 %!  pause(+Robot, +Queue, +Deadline, -Message) is det.
 %

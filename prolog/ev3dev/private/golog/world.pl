@@ -18,7 +18,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(theory, [has_clauses/2, is_exogenous/2]).
-:- use_module(waiting, [run_watched/3]).
+:- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../errors', [goal_of_program/1]).
 
 /** <module> The world: how actions are executed, and what happens by itself
@@ -165,10 +165,11 @@ look_at_robot(Module) :-
            look_at(Ref, Action, Condition, Body, Module)).
 
 look_at(Ref, Action, Condition, Body, Module) :-
-    findall(Action,
-            ( call(Module:Body),
-              goal_of_program(Module:Condition) ),
-            Actions0),
+    guarded(robot_exog(Action),
+            findall(Action,
+                    ( call(Module:Body),
+                      goal_of_program(Module:Condition) ),
+                    Actions0)),
     sort(Actions0, Actions),
     forall(( held(Module, Ref, Old), \+ memberchk(Old, Actions) ),
            retract(held(Module, Ref, Old))),
