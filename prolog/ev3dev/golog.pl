@@ -159,7 +159,6 @@ files.
 %          no construct, procedure or action
 %   @error existence_error(golog_precondition, Name/Arity) if there is no
 %          poss/2 for an action
-%   @error existence_error(initial_value, Fluent)
 %   @error existence_error(golog_condition, Name/Arity)
 %   @error domain_error(golog_procedure, Call) if a procedure calls itself
 %          without a step in between

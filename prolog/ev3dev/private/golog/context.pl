@@ -5,7 +5,7 @@
             entered/4,                  % +Kind, +Call, +Context0, -Context
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
-            print_once/2,               % +Module, +Message
+            print_once/3,               % +Module, +Kind, +Message
             print_again/1,              % +Module
             blocked/2,                  % +Action, +Condition
             unblock/0,
@@ -86,17 +86,20 @@ no_predicate(PI, Where0, Condition, Goal, M) :-
     ;   throw(error(existence_error(procedure, PI), Where0))
     ).
 
-%!  print_once(+Module, +Message) is det.
+%!  print_once(+Module, +Kind, +Message) is det.
+%!  print_again(+Module) is det.
 %
-%   Print golog(Message), unless this was done since print_again(Module).
+%   Print golog(Message), unless this was done with the same text since
+%   print_again(Module).
 
 :- thread_local printed/2.
 
-print_once(Module, Message) :-
-    (   printed(Module, Message)
+print_once(Module, Kind, Message) :-
+    arg(1, Message, Text),
+    (   printed(Module, Text)
     ->  true
-    ;   assertz(printed(Module, Message)),
-        print_message(informational, golog(Message))
+    ;   assertz(printed(Module, Text)),
+        print_message(Kind, golog(Message))
     ).
 
 print_again(Module) :-

@@ -26,7 +26,7 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(context,
               [ call_of/3, context_module/2, entered/4,
-                print_once/2
+                print_once/3
               ]).
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
@@ -421,8 +421,9 @@ open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
     ;   open_value(Open, C, F, V, Context)
     ).
 
-%   A relational fluent without a value counts as false. One whose value is
-%   sensed or comes from outside is unknown until then.
+%   A fluent without a value: no condition about it holds. That is as it
+%   should be if its value is sensed or comes from outside; else it is most
+%   likely forgotten.
 
 no_initial_value(F, M) :-
     (   has_initial(F, M)
@@ -431,13 +432,11 @@ no_initial_value(F, M) :-
     ->  true
     ;   relational_functor(F, M)
     ->  located(M, fluent(F), Where),
-        print_once(M, no_initial_value(Where, F))
+        print_once(M, informational, no_initial_value(Where, F))
     ;   is_set_by_exogenous(F, M)
     ->  true
     ;   located(M, fluent(F), Where),
-        format(atom(Text), '~wthe fluent ~q has no initial value: \c
-                            there is no initially/2 for it', [Where, F]),
-        throw_error(existence_error(initial_value, F), _, Text)
+        print_once(M, warning, no_initial_value(Where, F))
     ).
 
 %!  fluents_now(+Situation, +Context, -Pairs) is det.
@@ -460,8 +459,12 @@ fluents_now(S, Context, Pairs) :-
 
 known_value(F, V, S, Context) :-
     context_module(Context, M),
-    catch(value(F, V, S, Context, M),
-          error(existence_error(initial_value, _), _), fail).
+    S = s(_, _, Values, _, _),
+    (   get_assoc(F, Values, _)
+    ->  true
+    ;   has_initial(F, M)
+    ),
+    value(F, V, S, Context, M).
 
 %!  was_done(?Entry, +Situation) is nondet.
 

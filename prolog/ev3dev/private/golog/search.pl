@@ -15,7 +15,7 @@
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
 :- use_module(library(lists), [append/3, memberchk/2]).
 :- use_module(context,
-              [ context/3, context_module/2, context_option/2, print_once/2 ]).
+              [ context/3, context_module/2, context_option/2 ]).
 :- use_module(domain,
               [ done/4, fluents_now/3, holds/3, marked/3,
                 situation_count/2, situation_history/2
