@@ -1022,6 +1022,25 @@ test(a_time_limit_is_passed_on, true(E == passed)) :-
                     catch(golog(M:[roll, long], [reason(_)]),
                           time_limit_exceeded, E = passed),
                     assertion(at_rest) )).
+test(a_search_may_try_in_the_simulator, H-Y == [long]-true) :-
+    % A wall stands 60 cm ahead.
+    nb_setval(golog_times, []),
+    with_sim([bounds(-100, -100, 100, 60), start(0, 0, 0)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               with_domain([ prim_action(long), prim_action(longer),
+                             poss(_, true),
+                             robot_action(long, go_cm(30, 20)),
+                             robot_action(longer,
+                                          ( go_cm(30, 40),
+                                            us_dist_cm(_, D), D > 20 )) ],
+                           M, golog(M:search(ndet(longer, long),
+                                             [simulate(true)]),
+                                    [history(H)])),
+               sim_pose(_, Y0, _) )),
+    (   near(Y0, 20, 1)
+    ->  Y = true
+    ;   Y = Y0
+    ).
 test(the_same_seed_the_same_run, H1 == H2) :-
     runs_of_rover(H1),
     runs_of_rover(H2).

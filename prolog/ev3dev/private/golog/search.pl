@@ -22,7 +22,7 @@
               ]).
 :- use_module(theory, [has_clauses/2, has_precondition/2]).
 :- use_module(transitions, [is_final/3, step/5]).
-:- use_module(simulated, [tried_in_simulator/5]).
+:- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
 /** <module> Search: plans that are found before they are carried out
 
@@ -49,8 +49,14 @@ programs (2001) for conditional plans.
 
 search_step(E, Options, S, E1, S1, X) :-
     offline(X, Options, X1),
-    catch(search_path(E, Options, S, Path, X1), '$golog_committed', fail),
+    (   memberchk(simulate(true), Options)
+    ->  simulation_kept(search_committed(E, Options, S, Path, X1))
+    ;   search_committed(E, Options, S, Path, X1)
+    ),
     path_begun(E, Path, Options, S, E1, S1, X).
+
+search_committed(E, Options, S, Path, X) :-
+    catch(search_path(E, Options, S, Path, X), '$golog_committed', fail).
 
 offline(X0, Options, X) :-
     context_module(X0, M),
