@@ -1,12 +1,12 @@
-% The post: a robot on a track with four way stations takes letters from one to
-% another, as in Legolog's delivery example.
+% The post: a robot on a track with four way stations takes letters from one
+% to another, as in Legolog's delivery example.
 %
 %   ?- sim_start(delivery).
 %   ?- start.
 %
-% The keys left, up, right and down are the bells of the stations 1 to 4: there
-% is a letter for the station opposite. At a station the robot signals, and
-% waits until somebody has put the letters in or taken them out and presses
+% The keys left, up, right and down are the bells of the stations 1 to 4:
+% there is a letter for the station opposite. At a station the robot signals,
+% and waits until somebody has put the letters in or taken them out and presses
 % enter. Another thread, or a page in a browser, may ask for any letter by
 % golog_exog(letter(From, To)).
 %

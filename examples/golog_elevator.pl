@@ -1,6 +1,6 @@
-% An elevator with five floors: the motor at outA lifts the cabin, a quarter of
-% a turn for each floor, and the keys of the brick are the call buttons: down,
-% left, enter, right, up, from the ground floor on.
+% An elevator with five floors: the motor at outA lifts the cabin, a quarter
+% of a turn for each floor, and the keys of the brick are the call buttons:
+% down, left, enter, right, up, from the ground floor on.
 %
 %   ?- start.             % serves one call after the other
 %   ?- start(smart).      % plans the shortest way whenever a call comes
@@ -63,7 +63,7 @@ proc(serve(simple),
            interrupt(floor > 1, down),
            interrupt(true, wait) ])).
 
-% Find the plan with the fewest floors, and follow it until another call comes.
+% Find the plan with the fewest floors, and follow it until a call comes.
 
 proc(serve(smart),
      prioritized_interrupts(

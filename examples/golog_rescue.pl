@@ -1,12 +1,12 @@
-% Search and rescue on a grid: the robot explores cells of 20 cm until it finds
-% somebody, a red floor, and comes home to tell.
+% Search and rescue on a grid: the robot explores cells of 20 cm until it
+% finds somebody, a red floor, and comes home to report.
 %
 %   ?- sim_start(grid), sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])).
 %   ?- start.
 %
-% It knows nothing about obstacles at first. It plans the shortest way to a cell
-% that it has not visited, as if unknown cells were free. Before it enters an
-% unknown cell it looks; if the cell is blocked, it makes another plan.
+% It knows nothing about obstacles at first. It plans the shortest way to a
+% cell that it has not visited, as if unknown cells were free. Before it
+% enters an unknown cell it looks; if the cell is blocked, it plans again.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

@@ -87,10 +87,10 @@ robot_exog(bump, touch(_, 1)).
 docs/cognitive-robotics.md explains all of it, and tells where the constructs
 come from.
 
-An import of this library declares the predicates of a domain dynamic,
-discontiguous and multifile in the importing module. So a domain may leave out
-what it does not need, and write its clauses in any order and in several
-files.
+An import of this library declares the predicates of a domain dynamic and
+multifile in the importing module, and discontiguous those that it defines. So
+a domain may leave out what it does not need, and write its clauses in any
+order and in several files.
 */
 
 :- meta_predicate
@@ -137,7 +137,7 @@ files.
 %       Called with action(A) before an action, exog(A), sensed(A, Value),
 %       step(Program) with the program that remains, and replanned(Program).
 %     - limit(+Steps)
-%       End after so many steps. Default is `infinite`.
+%       End after that number of steps. Default is `infinite`.
 %     - timeout(+Seconds)
 %       End after that time, also in the middle of a wait. Default is
 %       `infinite`. The time is that of the robot or the simulation, if there
@@ -151,8 +151,9 @@ files.
 %       `guard` (default): gexec(P, E) runs E as long as P holds. `assume`: P
 %       is made true first.
 %     - device(:Closure)
-%       Runs the codes of how_to_execute/3: call(Closure, Device, Code, Value).
-%       Without it, a code is called as a goal.
+%       Runs the codes of how_to_execute/3, by
+%       call(Closure, Device, Code, Value). Without it, a code is called as a
+%       goal.
 %
 %   @error domain_error(golog_option, Option)
 %   @error existence_error(golog_program, Name/Arity) if a part of Program is
@@ -519,7 +520,7 @@ checkOtherExog([]).
 %   The modules that import this library: when it is loaded, the one that
 %   loads it; later ones when a clause of a domain is read in them.
 
-:- thread_local declared/1.
+:- thread_local declared/2.
 
 importer(Module) :-
     module_property(ev3dev_golog, file(File)),
@@ -532,17 +533,36 @@ importer(Module) :-
 of_domain(Term) :-
     nonvar(Term),
     (   Term = (Head :- _)
-    ->  nonvar(Head)
+    ->  callable(Head)
     ;   Head = Term
     ),
     functor(Head, Name, Arity),
-    vocabulary(Name/Arity),
-    !,
+    (   vocabulary(Name/Arity)
+    ->  in_importer(Module),
+        \+ declared(Module, Name/Arity),
+        assertz(declared(Module, Name/Arity)),
+        (   declared(Module, all)
+        ->  true
+        ;   assertz(declared(Module, all)),
+            declare_domain(Module)
+        ),
+        catch(discontiguous(Module:Name/Arity),
+              error(permission_error(_, _, _), _), true)
+    ;   own_export(Name/Arity)
+    ->  % The program's own definition replaces this library's, in silence.
+        in_importer(Module),
+        functor(General, Name, Arity),
+        predicate_property(Module:General, imported_from(ev3dev_golog)),
+        redefine_system_predicate(Module:General)
+    ).
+
+in_importer(Module) :-
     prolog_load_context(module, Module),
-    \+ declared(Module),
-    predicate_property(Module:indigolog(_), imported_from(ev3dev_golog)),
-    assertz(declared(Module)),
-    declare_domain(Module).
+    predicate_property(Module:golog(_, _), imported_from(ev3dev_golog)).
+
+own_export(Name/Arity) :-
+    module_property(ev3dev_golog, exports(Exports)),
+    memberchk(Name/Arity, Exports).
 
 :- multifile system:term_expansion/2.
 :- dynamic system:term_expansion/2.

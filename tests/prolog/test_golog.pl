@@ -567,6 +567,16 @@ said(Goal, Texts) :-
         erase(Ref)),
     findall(Text, retract(said_text(Text)), Texts).
 
+said_of_all(Goal, Kinds) :-
+    retractall(said_text(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(_, Kind, _) :-
+                     memberchk(Kind, [warning, error]),
+                     assertz(said_text(Kind))), Ref),
+        call(Goal),
+        erase(Ref)),
+    findall(Kind, retract(said_text(Kind)), Kinds).
+
 user:plunit_keep(golog(_), Lines) :-
     with_output_to(atom(Text), print_message_lines(current_output, '', Lines)),
     assertz(said_text(Text)).
@@ -739,6 +749,17 @@ test(two_agents_live_in_one_process, [H1, H2] == [[a], [b]]) :-
                              execute(_, _)], M2,
                             ( golog(M1:main, [history(H1)]),
                               golog(M2:main, [history(H2)]) ))).
+test(a_program_may_define_what_the_library_exports, Said == []) :-
+    with_file(":- module(golog_test_own, []).\n\c
+               :- use_module(library(ev3dev/golog)).\n\c
+               prim_action(a). poss(a, true). prim_action(b).\n\c
+               poss(b, true).\n\c
+               sendRcxActionNumber(N, N). checkOtherExog([ring]).\n\c
+               domain(1, 2).\n",
+              File,
+              said_of_all(load_files(File, []), Said)),
+    golog_test_own:sendRcxActionNumber(4, 4),
+    golog_test_own:domain(1, 2).
 test(indigolog_0_runs_main, H == [a]) :-
     with_domain([prim_action(a), poss(a, true), proc(main, a),
                  execute(_, _)], M, M:indigolog),

@@ -1,6 +1,7 @@
-% A track of black tape, 2 cm wide, for the post. It is driven counterclockwise
-% along its left edge. Four way stations stand on the right of the track, each
-% a piece of colored floor: 1 is red, 2 yellow, 3 green and 4 blue.
+% A track of black tape, 2 cm wide, for the post. It is driven
+% counterclockwise along its left edge. Four way stations are on the right of
+% the track, each a piece of colored floor: 1 is red, 2 yellow, 3 green and
+% 4 blue.
 
 bounds(0, 0, 240, 200).
 start(80, 38, 90).

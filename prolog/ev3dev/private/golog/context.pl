@@ -11,7 +11,6 @@
             unblock/0,
             was_blocked/2               % -Action, -Condition
           ]).
-:- use_module(library(lists), [memberchk/2]).
 :- use_module(theory, [located/3]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
 
@@ -21,6 +20,10 @@ A context is `x(Module, Options, Calls)`. Module holds the domain. Options are
 words of this run: `online`, `assume` (what gexec/2 means), `simulate`. Calls
 are the procedures entered since the step began.
 */
+
+%!  context(+Module, +Options, -Context) is det.
+%!  context_module(+Context, -Module) is det.
+%!  context_option(?Option, +Context) is semidet.
 
 context(Module, Options, x(Module, Options, [])).
 

@@ -23,7 +23,7 @@
               [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,
                 put_assoc/4
               ]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
               [ call_of/3, context_module/2, entered/4,
                 print_once/3
@@ -52,16 +52,26 @@ backtracking to an earlier situation costs nothing. Done is the set of all
 entries.
 
 An effect on a fluent with a variable that neither its condition nor the
-declaration of the fluent enumerates is kept in Open, with the situation before
-it, and is decided by regression when a value is asked.
+declaration of the fluent enumerates is kept in Open, with the situation
+before it, and is decided by regression when a value is asked.
 
 Sources: Levesque, Reiter, Lesperance, Lin, Scherl: GOLOG (1997); De Giacomo,
 Lesperance, Levesque: ConGolog (2000), De Giacomo, Levesque: An incremental
 interpreter for high-level programs with sensing (1999).
 */
 
+%!  initial_situation(-Situation) is det.
+%
+%   Situation is the one in which nothing has happened.
+
 initial_situation(s([], 0, Empty, [], Empty)) :-
     empty_assoc(Empty).
+
+%!  situation_history(+Situation, -History) is det.
+%!  situation_count(+Situation, -Count) is det.
+%
+%   History has the entries of Situation, or the newest of them; Count is how
+%   many there are in all.
 
 situation_history(s(History, _, _, _, _), History).
 

@@ -10,9 +10,9 @@ prolog:message(golog(Message)) -->
 
 words(no_initial_value(Where, Fluent)) -->
     { functor(Fluent, Name, Arity) },
-    [ '~wthe fluent ~q has no initial value: there is no initially/2 for it, '-
-      [Where, Name/Arity],
-      'and conditions about it do not hold'-[] ].
+    [ '~wthe fluent ~q has no initial value: '-[Where, Name/Arity],
+      'there is no initially/2 for it, and conditions about it do not hold'-[]
+    ].
 words(history(History)) -->
     [ 'History: ~p'-[History] ].
 words(search(begin, Message)) -->

@@ -3,7 +3,7 @@
                                         % -History
             recorded_history/1          % -History
           ]).
-:- use_module(library(lists), [append/3, memberchk/2, reverse/2]).
+:- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(context,
               [ context/3, context_module/2, print_again/1, stepping/2,
                 unblock/0, was_blocked/2
@@ -15,12 +15,13 @@
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory, [has_clauses/2, prepare/1, refuse_epistemic/1]).
 :- use_module(transitions,
-              [ is_final/3, is_preempted/4, program_shown/2, simplified/2, step/5 ]).
+              [ is_final/3, is_preempted/4, program_shown/2, simplified/2,
+                step/5
+              ]).
 :- use_module(waiting, [clock/2, pause/4, robot_stopped/1]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
                 exogenous_noticed/3, message_seen/2, queue_of/2, robot_kind/2,
-               
                 sensing_entries/4, watch_begins/1
               ]).
 
@@ -63,17 +64,14 @@ run_online(M:E, Settings, Reason, History) :-
 begun(M, Initial, Keep) :-
     agent_begins(M),
     watch_begins(M),
-    retractall(recorded(_, _)),
+    retractall(entry_record(_, _)),
     retractall(keeps(_)),
     assertz(keeps(Keep)),
     reverse(Initial, Entries),
     record_all(Entries, 0).
 
 initialized(M) :-
-    (   has_clauses(M, initialize)
-    ->  ignore(M:initialize)
-    ;   true
-    ).
+    ignore_if_defined(M, initialize).
 
 finished(M, Robot, Ended) :-
     agent_ends(M),
@@ -81,8 +79,11 @@ finished(M, Robot, Ended) :-
     ->  true
     ;   robot_stopped(Robot)
     ),
-    (   has_clauses(M, finalize)
-    ->  ignore(M:finalize)
+    ignore_if_defined(M, finalize).
+
+ignore_if_defined(M, Goal) :-
+    (   has_clauses(M, Goal)
+    ->  ignore(M:Goal)
     ;   true
     ).
 
@@ -103,7 +104,7 @@ is_over(Deadline, Robot) :-
                 *******************************/
 
 :- thread_local
-    recorded/2,                         % Count, Entry
+    entry_record/2,                    % Count, Entry
     keeps/1.
 
 record_all([], _).
@@ -115,11 +116,11 @@ record_all([Entry|Entries], C0) :-
 %   The newest thousand entries, unless all are wanted
 
 record(C, Entry) :-
-    assertz(recorded(C, Entry)),
+    assertz(entry_record(C, Entry)),
     (   keeps(all)
     ->  true
     ;   Old is C-1000,
-        retractall(recorded(Old, _))
+        retractall(entry_record(Old, _))
     ).
 
 %!  recorded_history(-History) is det.
@@ -128,7 +129,7 @@ record(C, Entry) :-
 %   the last; only its newest thousand entries, unless all were wanted.
 
 recorded_history(History) :-
-    findall(Entry, recorded(_, Entry), Entries),
+    findall(Entry, entry_record(_, Entry), Entries),
     reverse(Entries, History).
 
                 /*******************************

@@ -13,7 +13,7 @@
             replanned_since/1           % -Program
           ]).
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
-:- use_module(library(lists), [append/3, memberchk/2]).
+:- use_module(library(lists), [append/3]).
 :- use_module(context,
               [ context/3, context_module/2, context_option/2 ]).
 :- use_module(domain,

@@ -32,7 +32,7 @@ simulation_kept(Goal) :-
     ).
 
 simulates :-
-    predicate_property(ev3dev_sim_time:sim_snapshot(_), defined),
+    current_predicate(ev3dev_sim_time:sim_snapshot/1),
     ev3dev_native:sim_active_.
 
 %!  tried_in_simulator(+Entry, +Situation0, +Situation1, -Situation,

@@ -88,16 +88,15 @@ vocabulary(rejects/5).
 
 %!  declare_domain(+Module) is det.
 %
-%   Declare in Module what a domain may define dynamic, discontiguous and
-%   multifile, unless it is defined there already: the clauses of a domain
-%   may stand in any order and in several files.
+%   Declare in Module what a domain may define dynamic and multifile, unless
+%   it is defined there already: a domain may leave out what it does not need,
+%   and its clauses may stand in any order and in several files.
 
 declare_domain(Module) :-
     forall(vocabulary(PI), declare(Module, PI)).
 
 declare(Module, Name/Arity) :-
     catch(( dynamic(Module:Name/Arity),
-            discontiguous(Module:Name/Arity),
             multifile(Module:Name/Arity) ),
           error(permission_error(_, _, _), _), true).
 
@@ -171,9 +170,9 @@ sign(Module, Head, Count-Generation) :-
     ->  true
     ;   Count = 0
     ),
-    (   catch(predicate_property(Module:Head,
-                                 last_modified_generation(Generation)),
-              _, fail)
+    (   Property =.. [last_modified_generation, Generation],
+        % SWI-Prolog 7.2.3 has no such property.
+        catch(predicate_property(Module:Head, Property), _, fail)
     ->  true
     ;   Generation = 0
     ).

@@ -189,7 +189,7 @@ final_guarded(C, E, S, X) :-
 final_weak(achieve(Goal), S, X) :-
     context_module(X, M),
     (   has_clauses(M, rule(_, _, _))
-    ->  M:rule(Goal, Guard, Body),
+    ->  rule_of(M, Goal, Guard, Body),
         holds(Guard, S, X),
         is_final(Body, S, X)
     ;   holds(Goal, S, X)
@@ -771,7 +771,7 @@ step_weak(sim(A0), S, [], S1, X) :-
 step_weak(achieve(Goal), S, E1, S1, X) :-
     context_module(X, M),
     (   has_clauses(M, rule(_, _, _))
-    ->  M:rule(Goal, Guard, Body),
+    ->  rule_of(M, Goal, Guard, Body),
         holds(Guard, S, X),
         step(Body, S, E1, S1, X)
     ;   \+ holds(Goal, S, X),
@@ -787,6 +787,10 @@ step_weak(sync(Es), S, sync(Es1), S1, X) :-
 step_in_time(E, Seconds, S, E1, S1, X) :-
     catch(call_with_time_limit(Seconds, once(step(E, S, E1, S1, X))),
           time_limit_exceeded, fail).
+
+rule_of(M, Goal, Guard, Body) :-
+    Rule = rule(Goal, Guard, Body),
+    M:Rule.
 
 %   All programs take the same action; tests before it are each one's own.
 

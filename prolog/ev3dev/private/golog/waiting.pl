@@ -91,7 +91,7 @@ at_most(_, Deadline, Seconds) :-
 on_robot_time(Robot) :-
     (   Robot == robot
     ->  loaded
-    ;   predicate_property(ev3dev_native:sim_active_, defined),
+    ;   current_predicate(ev3dev_native:sim_active_/0),
         ev3dev_native:sim_active_,
         loaded
     ).

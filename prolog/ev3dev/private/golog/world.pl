@@ -16,7 +16,7 @@
             ask/2,                      % +Action, -Value
             code_of_number/3            % +Number, +Module, -Action
           ]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(theory, [has_clauses/2, is_exogenous/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../errors', [goal_of_program/1]).
@@ -80,6 +80,11 @@ send_exogenous(Module, Code) :-
            ( queue_of(M, Queue),
              thread_send_message(Queue, exogenous(Code)) )).
 
+%!  agent_begins(+Module) is det.
+%!  agent_ends(+Module) is det.
+%
+%   An agent with its domain in Module runs from now on, or no longer.
+
 agent_begins(Module) :-
     assertz(running(Module)).
 
@@ -97,6 +102,11 @@ agent_ends(Module) :-
     seen/2,                             % Module, Action
     noticed/2,                          % Module, Action
     held/3.                             % Module, Clause, Action
+
+%!  watch_begins(+Module) is det.
+%
+%   Nothing has been seen yet. A condition of robot_exog/2 that holds already
+%   is seen as one that begins to hold.
 
 watch_begins(Module) :-
     retractall(held(Module, _, _)),
