@@ -17,6 +17,7 @@
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/odometry)).
 :- use_module(library(ev3dev/golog)).
 
 start :-
@@ -149,22 +150,41 @@ station_color(2, 4).
 station_color(3, 3).
 station_color(4, 2).
 
-%   Turn to both sides, further each time, but not so far that the robot would
-%   drive back. Then try it further ahead.
+%   Turn to both sides, but not so far that the robot would drive back. Then
+%   try it further ahead. When the eye sees the tape, the robot goes on to it,
+%   and turns left until the eye has passed over it to its left edge.
 look_for_tape :-
-    (   member(Angle, [-30, 60, -90, 120, -60]),
-        turned_to_tape(Angle)
-    ->  golog_exog(see_tape)
-    ;   go_cm(10, 4),
-        look_for_tape
+    setup_call_cleanup(
+        true,
+        (   member(Angle, [-60, 120, -60]),
+            turned_until(dark, Angle)
+        ->  go_cm(15, 6),
+            ignore(turned_until(dark, -100)),
+            ignore(turned_until(bright, -60)),
+            golog_exog(see_tape)
+        ;   go_cm(15, 5),
+            look_for_tape
+        ),
+        ignore(stop)).
+
+%   Turn by Angle, or until the left eye sees that the floor is dark or bright.
+turned_until(What, Angle) :-
+    pose(_, _, Start),
+    Speed is 15*sign(Angle),
+    turn(Speed),
+    turning(What, Start, Angle).
+
+turning(What, Start, Angle) :-
+    col_reflect(in2, Light),
+    (   is_seen(What, Light)
+    ->  true
+    ;   pose(_, _, Heading),
+        abs(Heading-Start) < abs(Angle),
+        wait(0.02),
+        turning(What, Start, Angle)
     ).
 
-%   Turn by Angle, or until the left eye sees the edge of the tape.
-turned_to_tape(Angle) :-
-    Steps is abs(Angle)//6,
-    Step is 6*sign(Angle),
-    between(1, Steps, _),
-    turn(15, Step),
-    col_reflect(in2, Light),
-    Light < 60,
-    !.
+is_seen(dark, Light) :-
+    Light < 40.
+is_seen(bright, Light) :-
+    Light > 60.

@@ -32,6 +32,7 @@
 :- use_module(library(ev3dev/odometry)).
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 
@@ -46,6 +47,7 @@ task('Use the brick itself',
 task('See what is connected', [device_table, driver, files]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).
+task('Plan, act and react', [golog]).
 
 main :-
     current_prolog_flag(argv, Argv),

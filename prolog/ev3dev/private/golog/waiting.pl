@@ -97,10 +97,14 @@ on_robot_time(Robot) :-
     ).
 
 loaded :-
-    module_property(ev3dev_golog_waiting, file(Here)),
-    file_directory_name(Here, Directory),
-    atom_concat(Directory, '/../../time', Time),
-    load_files(ev3dev_golog_waiting:Time, [if(not_loaded), imports([])]).
+    (   current_predicate(ev3dev_time:wait/1)
+    ->  true
+    ;   module_property(ev3dev_golog_waiting, file(Here)),
+        file_directory_name(Here, Directory),
+        atom_concat(Directory, '/../../time', Time),
+        load_files(ev3dev_golog_waiting:Time,
+                   [if(not_loaded), imports([])])
+    ).
 
 %!  clock(+Robot, -Seconds) is det.
 %
