@@ -7,8 +7,8 @@
 % The keys left, up, right and down are the bells of the stations 1 to 4:
 % there is a letter for the station opposite. At a station the robot signals,
 % and waits until somebody has put the letters in or taken them out, and
-% presses enter. Another thread, or a page in a browser, may ask for any letter
-% by golog_exog(letter(From, To)).
+% presses enter. Another thread, or a page in a browser, may ask for any
+% letter by golog_exog(letter(From, To)).
 %
 % The left eye (in2) follows the left edge of the black tape. The right eye
 % (in3) sees the colors of the stations. A robot that has lost the tape looks

@@ -43,6 +43,7 @@
                                      situation_history/2]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run, [recorded_history/1, run_online/4]).
+:- use_module(private/golog/search, []).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
                 refuse_epistemic/1, vocabulary/1

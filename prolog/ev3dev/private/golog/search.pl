@@ -1,16 +1,5 @@
 :- module(ev3dev_golog_search,
-          [ search_step/6,              % +Program0, +Options, +Situation0,
-                                        % -Program, -Situation, +Context
-            path_step/7,                % +Program0, +Path, +At,
-                                        % +Situation0, -Program, -Situation,
-                                        % +Context
-            path_is_final/5,            % +Program, +Path, +At, +Situation,
-                                        % +Context
-            conditional_plan/4,         % +Program, +Situation, -Plan,
-                                        % +Context
-            achieve_step/5,             % +Goal, +Situation0, -Program,
-                                        % -Situation, +Context
-            replanned_since/1           % -Program
+          [ replanned_since/1           % -Program
           ]).
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
 :- use_module(library(lists), [append/3]).
@@ -44,8 +33,39 @@ programs with sensing (1999); Sardina: Local conditional high-level robot
 programs (2001) for conditional plans.
 */
 
-%!  search_step(+Program0, +Options, +Situation0, -Program, -Situation,
-%!              +Context) is nondet.
+ev3dev_golog_transitions:planned_step(search(E), S, E1, S1, X) :-
+    search_step(E, [], S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(search(E, M), S, E1, S1, X) :-
+    (   is_options(M)
+    ->  search_step(E, M, S, E1, S1, X)
+    ;   search_step(E, [message(M)], S, E1, S1, X)
+    ).
+ev3dev_golog_transitions:planned_step(search(E, M, Options), S, E1, S1, X) :-
+    search_step(E, [message(M)|Options], S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(searchc(E), S, Plan, S, X) :-
+    conditional_plan(E, S, Plan, X).
+ev3dev_golog_transitions:planned_step('$path'(E, Path, At, Options), S,
+                                      E1, S1, X) :-
+    path_step(E, Path, At-Options, S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(achieve(Goal), S, E1, S1, X) :-
+    achieve_step(Goal, S, E1, S1, X).
+
+ev3dev_golog_transitions:planned_final('$path'(E, Path, At, _), S, X) :-
+    path_is_final(E, Path, At, S, X).
+
+is_options(Options) :-
+    is_list(Options),
+    Options \== [],
+    \+ ( member(Option, Options),
+         \+ is_search_option(Option) ).
+
+is_search_option(Option) :-
+    compound(Option),
+    functor(Option, Name, 1),
+    memberchk(Name, [depth, steps, timeout, simulate, message]).
+
+%   search_step(+Program0, +Options, +Situation0, -Program, -Situation,
+%   +Context) is nondet.
 
 search_step(E, Options, S, E1, S1, X) :-
     offline(X, Options, X1),
@@ -96,7 +116,7 @@ is_mark(abort).
 is_mark(test(_)).
 
 %!  path_step(+Program0, +Path, +AtOptions, +Situation0, -Program,
-%!            -Situation, +Context) is nondet.
+%   -Situation, +Context) is nondet.
 
 path_step(E, Path, At-Options, S, E1, S1, X) :-
     Path = [_|_],
@@ -113,7 +133,7 @@ on_track(at(Count, Top), S) :-
     at(S, at(Count, Top1)),
     Top1 == Top.
 
-%!  path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
+%   path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
 
 path_is_final(E, Path, At, S, X) :-
     (   Path == []
@@ -275,7 +295,7 @@ told(Options, What, _) :-
                 *      CONDITIONAL PLANS       *
                 *******************************/
 
-%!  conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
+%   conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
 %
 %   Plan is a program of actions and if/3 that runs Program to its end from
 %   Situation, whatever the conditions of its branch/1 turn out to be.
@@ -321,8 +341,8 @@ planned_after(A, E, _, S, [A|Plan], X) :-
                 *           ACHIEVE            *
                 *******************************/
 
-%!  achieve_step(+Goal, +Situation0, -Program, -Situation, +Context)
-%!                                                             is semidet.
+%   achieve_step(+Goal, +Situation0, -Program, -Situation, +Context) is
+%   semidet.
 %
 %   Take the first step of a shortest plan of primitive actions after which
 %   the condition Goal holds. library(ev3dev/planners) finds the plan.

@@ -21,10 +21,6 @@
                 holds/3, marked/3, situation_count/2, situation_history/2
               ]).
 :- use_module(programs, [construct/1, fresh/4, weak_construct/1]).
-:- use_module(search,
-              [ achieve_step/5, conditional_plan/4, path_is_final/5,
-                path_step/7, search_step/6
-              ]).
 :- use_module(theory,
               [ action_functor/2, has_clauses/2, has_precondition/2,
                 is_exogenous/2, is_proc/2, located/3, proc_body/3
@@ -41,6 +37,15 @@ IndiGolog. if/3 and while/2 make their test and the first step of their body
 one step, as there. A condition with free variables has a step for each of its
 solutions.
 */
+
+:- multifile
+    planned_step/5,
+    planned_final/3.
+
+%   planned_step(+Program0, +Situation0, -Program, -Situation, +Context)
+%   is nondet.
+%   planned_final(+Program, +Situation, +Context) is semidet.
+%   Trans and Final of the constructs that look ahead, in search.pl
 
                 /*******************************
                 *             FINAL            *
@@ -136,8 +141,8 @@ final_construct(searchc(E), S, X) :-
     is_final(E, S, X).
 final_construct(searchc(E, _), S, X) :-
     is_final(E, S, X).
-final_construct('$path'(E, Path, At, _), S, X) :-
-    path_is_final(E, Path, At, S, X).
+final_construct('$path'(E, Path, At, Options), S, X) :-
+    planned_final('$path'(E, Path, At, Options), S, X).
 final_construct(gexec(C, E), S, X) :-
     (   context_option(assume, X)
     ->  is_final(E, S, X)
@@ -407,22 +412,19 @@ step_construct(prioritized_interrupts_simple(Es), S, E1, S1, X) :-
 % IndiGolog
 
 step_construct(search(E), S, E1, S1, X) :-
-    search_step(E, [], S, E1, S1, X).
-step_construct(search(E, Message), S, E1, S1, X) :-
-    (   is_options(Message)
-    ->  search_step(E, Message, S, E1, S1, X)
-    ;   search_step(E, [message(Message)], S, E1, S1, X)
-    ).
-step_construct(search(E, Message, Options), S, E1, S1, X) :-
-    search_step(E, [message(Message)|Options], S, E1, S1, X).
+    planned_step(search(E), S, E1, S1, X).
+step_construct(search(E, M), S, E1, S1, X) :-
+    planned_step(search(E, M), S, E1, S1, X).
+step_construct(search(E, M, Options), S, E1, S1, X) :-
+    planned_step(search(E, M, Options), S, E1, S1, X).
 step_construct(searchn(E, _), S, E1, S1, X) :-
-    search_step(E, [], S, E1, S1, X).
-step_construct(searchc(E), S, E1, S, X) :-
-    conditional_plan(E, S, E1, X).
-step_construct(searchc(E, _), S, E1, S, X) :-
-    conditional_plan(E, S, E1, X).
+    planned_step(search(E), S, E1, S1, X).
+step_construct(searchc(E), S, E1, S1, X) :-
+    planned_step(searchc(E), S, E1, S1, X).
+step_construct(searchc(E, _), S, E1, S1, X) :-
+    planned_step(searchc(E), S, E1, S1, X).
 step_construct('$path'(E, Path, At, Options), S, E1, S1, X) :-
-    path_step(E, Path, At-Options, S, E1, S1, X).
+    planned_step('$path'(E, Path, At, Options), S, E1, S1, X).
 step_construct(gexec(C, E), S, E1, S1, X) :-
     (   context_option(assume, X)
     ->  done(e(C, true), S, S2, X),
@@ -775,7 +777,7 @@ step_weak(achieve(Goal), S, E1, S1, X) :-
         holds(Guard, S, X),
         step(Body, S, E1, S1, X)
     ;   \+ holds(Goal, S, X),
-        achieve_step(Goal, S, E1, S1, X)
+        planned_step(achieve(Goal), S, E1, S1, X)
     ).
 step_weak(time(E, Seconds), S, E1, S1, X) :-
     step_in_time(E, Seconds, S, E1, S1, X).
@@ -841,17 +843,6 @@ nth1_rest(N, List, X, Rest) :-
     length(Before, N0),
     append(Before, [_|After], List),
     append(Before, After, Rest).
-
-is_options(Options) :-
-    is_list(Options),
-    Options \== [],
-    \+ ( member(Option, Options),
-         \+ is_search_option(Option) ).
-
-is_search_option(Option) :-
-    compound(Option),
-    functor(Option, Name, 1),
-    memberchk(Name, [depth, steps, timeout, simulate, message]).
 
                 /*******************************
                 *              RUN             *
