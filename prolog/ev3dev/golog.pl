@@ -269,18 +269,34 @@ closure(Option, Name, M, Options) :-
 %!  indigolog(:Program) is semidet.
 %!  indigolog is semidet.
 %
-%   Run Program online, as golog(Program, []); the procedure `main` if none is
-%   given. Fails, and prints why, if Program does not come to its end.
+%   Run Program online, as golog(Program, []). Without one, the procedure
+%   `main`; or if there is none, that which a fact controller/1 of the domain
+%   names, or mainControl(N) for a number N there. Fails, and prints why, if
+%   Program does not come to its end.
 
 indigolog(M:Program) :-
     (   var(Program)
-    ->  golog(M:main, [])
+    ->  main_program(M, Main),
+        golog(M:Main, [])
     ;   golog(M:Program, [])
     ).
 
 indigolog :-
     context_module(M),
-    golog(M:main, []).
+    ev3dev_golog:main_program(M, Main),
+    golog(M:Main, []).
+
+main_program(M, Main) :-
+    (   \+ ( has_clauses(M, proc(_, _)),
+             M:proc(main, _) ),
+        has_clauses(M, controller(_)),
+        M:controller(Controller)
+    ->  (   number(Controller)
+        ->  Main = mainControl(Controller)
+        ;   Main = Controller
+        )
+    ;   Main = main
+    ).
 
 %!  golog_exog(:Action) is det.
 %

@@ -15,12 +15,10 @@ words(no_initial_value(Where, Fluent)) -->
     ].
 words(history(History)) -->
     [ 'History: ~p'-[History] ].
-words(search(begin, Message)) -->
-    [ 'Search: ~p'-[Message] ].
-words(search(found, Message)) -->
-    [ 'Search: ~p: found a plan'-[Message] ].
-words(search(none, Message)) -->
-    [ 'Search: ~p: there is no plan'-[Message] ].
+words(search(What, Message)) -->
+    [ 'Search: ' ],
+    message_words(Message),
+    outcome(What).
 words(ended(Count)) -->
     [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
 words(not_ended(Reason)) -->
@@ -41,6 +39,13 @@ words(which_exogenous(Actions)) -->
     [ 'What has happened? One of ~p, or nil.'-[Actions] ].
 words(report(_, Message)) -->
     message_words(Message).
+
+outcome(begin) -->
+    [].
+outcome(found) -->
+    [ ': found a plan' ].
+outcome(none) -->
+    [ ': there is no plan' ].
 
 message_words(Message) -->
     (   { is_list(Message) }
