@@ -43,6 +43,7 @@ unit(grid, ['ev3dev/grid']).
 unit(planners, ['ev3dev/planners']).
 unit(roadmap, ['ev3dev/roadmap']).
 unit(sim, ['ev3dev/sim']).
+unit(golog, ['ev3dev/golog']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

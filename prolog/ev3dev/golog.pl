@@ -541,7 +541,8 @@ checkOtherExog([]).
 
 importer(Module) :-
     module_property(ev3dev_golog, file(File)),
-    source_file_property(File, load_context(Module, _, _)).
+    source_file_property(File, load_context(Module, _, _)),
+    \+ sub_atom(Module, 0, _, _, ev3dev).
 
 :- initialization(forall(importer(Module), declare_domain(Module)), now).
 
