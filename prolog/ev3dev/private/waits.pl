@@ -145,19 +145,29 @@ serve_at_read :-
     ).
 
 %!  serve_events is det.
+%!  serve_planned is det.
 %
-%   Serves the events of this thread; library(ev3dev/events) adds a clause.
+%   Serve the events of this thread, and the goals that are planned for it:
+%   library(ev3dev/events) and the simulator add a clause each.
+
+%!  yield is det.
+%
+%   Lets the other branches of race/2 or both/2 go on; library(ev3dev/events)
+%   adds the clause.
 
 :- multifile
-    serve_events/0.
+    serve_events/0,
+    serve_planned/0,
+    yield/0.
 
 serve :-
-    due_goals,
     (   nb_current(ev3dev_branch, true)
-    ->  engine_yield(tick)
-    ;   listeners(Listeners),
-        serve(Listeners)
-    ).
+    ->  yield
+    ;   true
+    ),
+    forall(serve_planned, true),
+    listeners(Listeners),
+    serve(Listeners).
 
 serve(Listeners) :-
     Listeners == [],
@@ -184,11 +194,4 @@ serve_listener(Listener) :-
     (   State = leave(Ball)
     ->  throw(Ball)
     ;   call(Closure, Listener)
-    ).
-
-%   Loaded with the simulator.
-due_goals :-
-    (   current_predicate(ev3dev_sim_time:run_due_goals/0)
-    ->  ev3dev_sim_time:run_due_goals
-    ;   true
     ).
