@@ -561,7 +561,7 @@ user:event(E) :-
 said(Goal, Texts) :-
     retractall(said_text(_)),
     setup_call_cleanup(
-        asserta((user:message_hook(Term, _, Lines) :-
+        asserta((user:thread_message_hook(Term, _, Lines) :-
                      plunit_keep(Term, Lines)), Ref),
         call(Goal),
         erase(Ref)),
