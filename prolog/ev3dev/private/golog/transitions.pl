@@ -854,12 +854,16 @@ nth1_rest(N, List, X, Rest) :-
 %   `any`, or at(Count, History): the history of Situation is that, so that
 %   steps which lead elsewhere are given up.
 
-run(E, S0, S, Length, X) :-
-    (   is_final(E, S0, X),
-        S = S0
-    ;   step(E, S0, E1, S1, X),
-        on_the_way(Length, S1),
-        run(E1, S1, S, Length, X)
+run(E0, S0, S, Length, X) :-
+    simplified(E0, E),
+    (   E == []
+    ->  S = S0
+    ;   (   is_final(E, S0, X),
+            S = S0
+        ;   step(E, S0, E1, S1, X),
+            on_the_way(Length, S1),
+            run(E1, S1, S, Length, X)
+        )
     ).
 
 on_the_way(any, _).
