@@ -293,6 +293,10 @@ test(a_limit_turns_to_deepening, Run == [up, up]) :-
     once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
                               ?(n = 2)], [depth(30)]), H)),
     reverse(H, Run).
+test(a_time_limit_turns_to_deepening, Run == [up, up]) :-
+    once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
+                              ?(n = 2)], [timeout(0)]), H)),
+    reverse(H, Run).
 test(deepening_ends_if_all_was_seen, Runs == []) :-
     runs(search([star(a, 4), never], [steps(3)]), Runs).
 test(a_plan_broken_by_another_is_made_again, Run == [up, b]) :-
@@ -765,6 +769,15 @@ test(indigolog_0_runs_main, H == [a]) :-
                  execute(_, _)], M, M:indigolog),
     now(H).
 
+test(an_action_may_have_the_name_of_a_construct, Seen-H ==
+         [set(1), wait]-[set(1), wait]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(wait), prim_action(set(_)), poss(_, true),
+                  prim_fluent(f), initially(f, 0),
+                  causes_val(set(X), f, X, true),
+                  (execute(A, _) :- user:seen_action(A)) ],
+                M, golog(M:[wait, set(1), ?(f = 1)], [history(H)])),
+    nb_getval(golog_seen, Seen).
 test(a_controller_is_run, H == [b]) :-
     with_domain([prim_action(b), poss(b, true), proc(mainControl(2), b),
                  controller(2), execute(_, _)], M, indigolog(M:_)),

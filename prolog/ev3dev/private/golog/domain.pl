@@ -31,7 +31,7 @@
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
 :- use_module(theory,
-              [ domain_list/3, fluent_functor/2,
+              [ action_functor/2, domain_list/3, fluent_functor/2,
                 has_initial/2, initial_value/3, is_fluent/2, is_proc/2,
                 is_sensed/2, is_set_by_exogenous/2, located/3, proc_body/3,
                 relational_functor/2
@@ -187,18 +187,24 @@ after_same(Os, _, New, [New|Os]).
 
 effect(Entry, S0, Context, Effect) :-
     context_module(Context, M),
-    effect_in(Entry, S0, Context, M, Effect).
+    (   \+ action_functor(Entry, M),
+        is_internal(Entry)
+    ->  internal_effect(Entry, S0, Context, M, Effect)
+    ;   effect_in(Entry, S0, Context, M, Effect)
+    ).
 
-effect_in(e(X, V), S0, Context, M, Effect) :-
-    !,
+is_internal(e(_, _)).
+is_internal(set(_)).
+is_internal(unset(_)).
+is_internal(sim(_)).
+
+internal_effect(e(X, V), S0, Context, M, Effect) :-
     sensed_effect(X, V, S0, Context, M, Effect).
-effect_in(set(F), _, _, _, set(F, true)) :-
-    !.
-effect_in(unset(F), _, _, _, set(F, false)) :-
-    !.
-effect_in(sim(A), S0, Context, M, Effect) :-
-    !,
+internal_effect(set(F), _, _, _, set(F, true)).
+internal_effect(unset(F), _, _, _, set(F, false)).
+internal_effect(sim(A), S0, Context, M, Effect) :-
     effect_in(A, S0, Context, M, Effect).
+
 effect_in(A, S0, Context, M, Effect) :-
     caused(A, F, V, Condition, M),
     effect_if(F, V, Condition, S0, Context, M, Effect).

@@ -13,7 +13,10 @@
                 situation_count/2, situation_history/2
               ]).
 :- use_module(search, [replanned_since/1]).
-:- use_module(theory, [has_clauses/2, prepare/1, refuse_epistemic/1]).
+:- use_module(theory,
+              [ action_functor/2, has_clauses/2, prepare/1,
+                refuse_epistemic/1
+              ]).
 :- use_module(transitions,
               [ is_final/3, is_preempted/4, program_shown/2, simplified/2,
                 step/5
@@ -255,10 +258,32 @@ performed(E0, E1, S0, S1, News0, R, E, S, News, Next) :-
     ;   More is C1-C0,
         newest(More, S1, [Entry|Before]),
         record_before(Before, C1),
-        performed_entry(Entry, E0, E1, S0, S1, News0, R, E, S, News, Next)
+        (   is_mark(Entry, R)
+        ->  performed_mark(Entry, E0, E1, S0, S1, News0, R, E, S, News,
+                           Next)
+        ;   performed_action(Entry, E0, E1, S0, S1, News0, R, E, S, News,
+                             Next)
+        )
     ).
 
-performed_entry(wait, E0, E1, S0, _, News0, R, E, S, News, on) :-
+%   Not an action of the domain, which comes first
+
+is_mark(Entry, r(X, _, _, _)) :-
+    internal(Entry),
+    context_module(X, M),
+    \+ action_functor(Entry, M).
+
+internal(wait).
+internal(commit).
+internal(branch(_)).
+internal(sim(_)).
+internal(abort).
+internal(set(_)).
+internal(unset(_)).
+internal(test(_)).
+internal(e(_, _)).
+
+performed_mark(wait, E0, E1, S0, _, News0, R, E, S, News, on) :-
     !,
     waited(News0, S0, S, R, Came),
     (   Came == over
@@ -267,19 +292,18 @@ performed_entry(wait, E0, E1, S0, _, News0, R, E, S, News, on) :-
     ;   E = E1,
         News = quiet
     ).
-performed_entry(commit, _, E, S, _, News, _, E, S, News, on) :-
+performed_mark(commit, _, E, S, _, News, _, E, S, News, on) :-
     !.
-performed_entry(branch(_), _, E, S, _, News, _, E, S, News, on) :-
+performed_mark(branch(_), _, E, S, _, News, _, E, S, News, on) :-
     !.
-performed_entry(sim(_), _, E, S, _, News, _, E, S, News, on) :-
+performed_mark(sim(_), _, E, S, _, News, _, E, S, News, on) :-
     !.
-performed_entry(abort, _, E, S, _, News, _, E, S, News, stopped) :-
+performed_mark(abort, _, E, S, _, News, _, E, S, News, stopped) :-
     !.
-performed_entry(Entry, _, E, _, S, News, R, E, S, News, on) :-
-    is_internal(Entry),
-    !,
+performed_mark(Entry, _, E, _, S, News, R, E, S, News, on) :-
     recorded_since(S, Entry, R).
-performed_entry(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
+
+performed_action(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
     R = r(_, Agent, Settings, _),
     situation_history(S0, History),
     traced(action(A), R),
@@ -302,11 +326,6 @@ record_before([Entry|Entries], C1) :-
     C is C1-1,
     record_before(Entries, C),
     record(C, Entry).
-
-is_internal(set(_)).
-is_internal(unset(_)).
-is_internal(test(_)).
-is_internal(e(_, _)).
 
 recorded_since(S, Entry, _) :-
     situation_count(S, C),

@@ -25,8 +25,8 @@ step adds to the history, or `none`. As long as the history grows by the
 plan's own steps only, the plan is followed. Otherwise, as after an exogenous
 action, the search begins again, with the program that remains.
 
-If the search goes deeper than a limit or takes more steps than a limit, it
-begins again by iterative deepening.
+If the search goes deeper than a limit, or takes more steps or seconds than a
+limit, it begins again by iterative deepening.
 
 Sources: De Giacomo, Levesque: An incremental interpreter for high-level
 programs with sensing (1999); Sardina: Local conditional high-level robot
@@ -168,7 +168,13 @@ search_path(E, Options, S, Path, X) :-
     told(Options, begin, X),
     limit(depth, Options, 2000, Depth),
     limit(steps, Options, 100000, Steps),
-    Budget = budget(Steps, none, 0),
+    limit(timeout, Options, infinite, Timeout),
+    (   Timeout == infinite
+    ->  End = infinite
+    ;   get_time(Now),
+        End is Now+Timeout
+    ),
+    Budget = budget(Steps, End, 0),
     (   catch(deep(E, S, Path, Depth, Budget, X), '$golog_limit'(Budget0),
               limit_reached(Budget0, Budget, E, S, Path, X)),
         nb_setarg(3, Budget, 1),
@@ -216,7 +222,13 @@ one_more(Depth, Budget) :-
     Steps is Steps0-1,
     nb_setarg(1, Budget, Steps),
     (   Steps >= 0,
-        Depth > 0
+        Depth > 0,
+        arg(2, Budget, End),
+        (   End == infinite
+        ->  true
+        ;   get_time(Now),
+            Now < End
+        )
     ->  true
     ;   throw('$golog_limit'(Budget))
     ).
