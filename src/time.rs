@@ -15,7 +15,6 @@ pub(crate) fn register() {
     register_now();
     register_wait();
     register_tick_after();
-    register_tick_never();
     register_slices();
     register_branches_begin();
     register_branches_end();
@@ -45,21 +44,16 @@ predicates! {
         }
     }
 
-    /// tick_after_(+Seconds): this thread serves its events after some time.
+    /// tick_after_(+Seconds): this thread serves its events after some time, or, if that
+    /// is `infinite`, has none.
     #[module("ev3dev_native")]
     #[name("tick_after_")]
     semidet fn tick_after(context, seconds) {
         let call = Call::of(context, "every", 2);
-        let now = call.devices()?.tree().now();
-        waiting::tick_at(Some(now.saturating_add(call.time(seconds)?)));
-        Ok(())
-    }
-
-    /// tick_never_: this thread has no events.
-    #[module("ev3dev_native")]
-    #[name("tick_never_")]
-    semidet fn tick_never(_context) {
-        waiting::tick_at(None);
+        waiting::tick_at(match call.seconds(seconds)? {
+            Some(time) => Some(call.devices()?.tree().now().saturating_add(time)),
+            None => None,
+        });
         Ok(())
     }
 

@@ -23,8 +23,8 @@
 :- use_module(private/waits,
               [in_guard/2, leave/2, listen_for_events/1, listening/3]).
 :- use_module(private/native,
-              [ branches_begin_/0, branches_end_/1, commands_/1, motors_stop_/2,
-                now_/1, slices_/1
+              [ branches_begin_/0, branches_end_/1, commands_/1,
+                motors_stop_/2, now_/1, slices_/1
               ]).
 :- use_module(time, [wait/1]).
 
@@ -74,10 +74,10 @@ look_every(0.02).
 %   From now on, call Action each time that Condition becomes true. Does not
 %   wait. The bindings of Condition reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
-%   and wait; it interrupts the program for so long, and its event happens only
-%   once at a time. If Action fails or throws, a message is printed and the
-%   event stays; if Condition throws, a message is printed and the event ends.
-%   Options:
+%   and wait; it interrupts the program for so long, and its event happens
+%   only once at a time. If Action fails or throws, a message is printed and
+%   the event stays; if Condition throws, a message is printed and the event
+%   ends. Options:
 %
 %     - id(+Id)
 %       A name for event_cancel/1. An event with the same Id is replaced.
@@ -170,8 +170,8 @@ add_event(Kind, Action, State, Options) :-
 
 %!  event_cancel(?Id) is semidet.
 %
-%   End the event Id of this thread, or all if Id is unbound. Fails if there
-%   is none.
+%   End the event Id of this thread, or all if Id is unbound. Fails if this
+%   thread has no such event.
 
 event_cancel(Id) :-
     \+ \+ event_(Id, _, _, _),
@@ -290,12 +290,13 @@ happened(Id) :-
         (   State0 = due(Next0, Count),
             Next0 < Now,
             Kind = every(Seconds)
-        ->  Next is Next0 + ceiling((Now - Next0) / max(Seconds, 0.001)) * Seconds,
+        ->  Missed is ceiling((Now - Next0) / max(Seconds, 0.001)),
+            Next is Next0 + Missed * Seconds,
             State = due(Next, Count)
         ;   State = State0
         ),
         change(Id, State)
-    ;   true                            % the action has cancelled it
+    ;   true                            % the action has ended it
     ).
 
 change(Id, State) :-

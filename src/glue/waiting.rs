@@ -56,7 +56,7 @@ pub(crate) fn is_tick_due(now: impl FnOnce() -> Duration) -> bool {
     NEXT_TICK.get().is_some_and(|tick| now() >= tick)
 }
 
-impl<'a, C: QueryableContextType> Call<'a, C> {
+impl<C: QueryableContextType> Call<'_, C> {
     /// One slice of a wait: unifies `reason` with what is to be done before the next one, or calls
     /// `ended`. The result is that of a nondeterministic predicate.
     pub(crate) fn slice<W: Wait>(
@@ -80,16 +80,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
                 }
             };
         }
-        match self.or_throw(wait.slice(tick))? {
-            Some(end) => ended(end).map(|()| false),
-            None => {
-                SLICES.set(SLICES.get() + 1);
-                let now = || state::devices().tree().now();
-                let is_tick = due::has_rung() || is_tick_due(now);
-                unify_atom(reason, if is_tick { "tick" } else { "pause" })?;
-                Ok(true)
-            }
+        if let Some(end) = self.or_throw(wait.slice(tick))? {
+            return ended(end).map(|()| false);
         }
+        SLICES.set(SLICES.get() + 1);
+        let now = || state::devices().tree().now();
+        let is_tick = due::has_rung() || is_tick_due(now);
+        unify_atom(reason, if is_tick { "tick" } else { "pause" }).map(|()| true)
     }
 
     /// Has Prolog serve the events of this thread, if it is time to: a read of a sensor is

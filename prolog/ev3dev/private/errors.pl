@@ -183,7 +183,8 @@ throw_error(Formal, Called0, Message) :-
 %   Error is Error0, and its message also says Where it occurred: a text as
 %   `the guard of rule avoid`.
 
-error_within(error(Formal, Context0), Where, error(Formal, context(Called, Text))) :-
+error_within(error(Formal, Context0), Where,
+             error(Formal, context(Called, Text))) :-
     (   nonvar(Context0),
         Context0 = context(Called0, Text0)
     ->  Called = Called0

@@ -20,7 +20,6 @@
             motors_stop_/2,
             slices_/1,
             tick_after_/1,
-            tick_never_/0,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
@@ -162,7 +161,6 @@ missing.
 %!  motors_stop_(+From, +Before) is semidet.
 %!  slices_(-Count) is semidet.
 %!  tick_after_(+Seconds) is semidet.
-%!  tick_never_ is semidet.
 %
 %   `src/time.rs`
 

@@ -7,7 +7,7 @@
             serve_at_read/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(native, [tick_after_/1, tick_never_/0]).
+:- use_module(native, [tick_after_/1]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -16,8 +16,8 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, with a choice
-point, and at its end its reason. So a caller writes
+A native wait returns `pause` or `tick` after each slice of time, with a
+choice point, and at its end its reason. So a caller writes
 
 ```
     wait_(Seconds, Reason),
@@ -174,7 +174,7 @@ serve(Listeners) :-
     \+ nb_current(ev3dev_event_period, _),
     !,
     % They were left by an exception.
-    tick_never_.
+    tick_after_(infinite).
 serve(Listeners) :-
     period(Listeners, Period),
     % Also while events are served, and after an exception.
