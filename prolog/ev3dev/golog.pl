@@ -169,6 +169,7 @@ order and in several files.
 
 golog(M:Program, Options) :-
     settings(Options, M, Settings),
+    retractall(input_ended),
     (   option(reason(Reason), Options)
     ->  catch(run_online(M:Program, Settings, Reason0, History), Error,
               ended_by(Error, Reason0, History)),
@@ -461,14 +462,21 @@ ask_execute(M:Action, Value) :-
 %!  ask_exog_occurs(:Action) is semidet.
 %
 %   For exog_occurs/1 of a domain without a robot: ask the user for an
-%   exogenous action. Fails at the end of the input.
+%   exogenous action. Fails at the end of the input, and then does not ask
+%   again in this run.
+
+:- thread_local input_ended/0.
 
 ask_exog_occurs(M:Action) :-
+    \+ input_ended,
     findall(A, ( has_clauses(M, exog_action(_)), M:exog_action(A) ), Actions),
     print_message(help, golog(which_exogenous(Actions))),
     read(Answer),
-    Answer \== end_of_file,
-    Action = Answer.
+    (   Answer == end_of_file
+    ->  assertz(input_ended),
+        fail
+    ;   Action = Answer
+    ).
 
 %!  report_message(+Kind, +Message) is det.
 %
