@@ -115,8 +115,7 @@ is_mark(wait).
 is_mark(abort).
 is_mark(test(_)).
 
-%!  path_step(+Program0, +Path, +AtOptions, +Situation0, -Program,
-%   -Situation, +Context) is nondet.
+%!  path_step(+E0, +Path, +AtOptions, +S0, -E, -S, +Context) is nondet.
 
 path_step(E, Path, At-Options, S, E1, S1, X) :-
     Path = [_|_],
