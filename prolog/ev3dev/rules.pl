@@ -12,9 +12,9 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
-                instantiation_error/1, must_be/2, throw_error/3,
-                type_error/2, term_expansion/2
+              [ domain_error/2, error_within/3, existence_error/2,
+                goal_of_program/1, instantiation_error/1, must_be/2,
+                term_expansion/2, throw_error/3, type_error/2
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
@@ -73,8 +73,8 @@ Options of a rule:
 
   - while(:Condition)
     The action is left when Condition is no longer true. Its variables are its
-    own, not those of the guard. An action that has
-    returned goes on while it is true, also when the guard is not.
+    own, not those of the guard. An action that has returned goes on while it
+    is true, also when the guard is not.
   - min_time(+Seconds)
     An action that has returned goes on for at least so long.
   - cooldown(+Seconds)
@@ -135,8 +135,8 @@ append_lists([], Ys, Ys).
 append_lists([X|Xs], Ys, [X|Zs]) :-
     append_lists(Xs, Ys, Zs).
 
-%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the variables
-%   of the guard that the action has, too.
+%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the
+%   variables of the guard that the action has, too.
 
 rules(Module:Terms, Rules) :-
     must_be(list, Terms),
@@ -194,9 +194,9 @@ shared([V|Vs], Others, Shared) :-
 %
 %   Let rules control the robot; see above for what they mean. Rules is a list
 %   of names of rules of this module, or of rules in parentheses: `(stop ::
-%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception ends
-%   it, and then the robot is at rest: the motors that actions have started are
-%   stopped. Options:
+%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception
+%   ends it, and then the robot is at rest: the motors that actions have
+%   started are stopped. Options:
 %
 %     - until(:Goal)
 %       End as soon as Goal is true.
@@ -210,8 +210,8 @@ shared([V|Vs], Others, Shared) :-
 %       call(Closure, Event) at each change: Event is rule(Name),
 %       suppressed(Name), ended(Name), failed(Name), thrown(Name) or rest.
 %     - on_error(+Action)
-%       `throw`, the default, or `continue`: print errors of guards and actions,
-%       and count the rule as not applicable, or ended.
+%       `throw`, the default, or `continue`: print errors of guards and
+%       actions, and count the rule as not applicable, or ended.
 %     - state(+State)
 %       What state/1 is at the beginning. Default is `start`.
 %
@@ -280,12 +280,13 @@ deadline(Options, Deadline) :-
     ;   Deadline = inf
     ).
 
-%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages, Warned),
-%   changed by nb_setarg/3, as a tick undoes bindings:
+%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages,
+%   Warned), changed by nb_setarg/3, as a tick undoes bindings:
 %
 %     - Active
 %       none, or active(Index, Time, Mode): Mode is `waits` for an action that
-%       has not returned, or going(Values), the values of the shared variables.
+%       has not returned, or going(Values) with the values of the shared
+%       variables.
 %     - Since
 %       for each rule, unbound, `ended` until its guard has been false, or the
 %       time from which on it applies
@@ -427,9 +428,10 @@ failed(E, Name, Where, Behavior) :-
     b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
-    ;   E = error(Formal, Context)
+    ;   E = error(_, _)
     ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
-        Named = error(Formal, ev3dev_rule(Name, Where, Context)),
+        format(atom(Text), 'the ~w of rule ~p', [Where, Name]),
+        error_within(E, Text, Named),
         (   OnError == throw
         ->  throw(Named)
         ;   print_message(error, Named),
@@ -440,12 +442,6 @@ failed(E, Name, Where, Behavior) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(error(Formal, Context0)) -->
-    { nonvar(Context0),
-      Context0 = ev3dev_rule(Name, Where, Context)
-    },
-    [ 'Rule ~p, ~w: '-[Name, Where] ],
-    '$messages':translate_message(error(Formal, Context)).
 prolog:message(ev3dev(rule_failed(Name))) -->
     [ 'Rule ~p: its action failed'-[Name] ].
 
@@ -703,8 +699,8 @@ behavior(Behavior, Action) :-
 %!  received(?Message) is nondet.
 %
 %   Send a Message to the innermost behave/1 under way, and, in a guard, ask
-%   whether it was sent. A message is there for one tick: the rules see it when
-%   they are tried next.
+%   whether it was sent. A message is there for one tick: the rules see it
+%   when they are tried next.
 %
 %   @error permission_error(send, behavior, none) outside of behave/1
 

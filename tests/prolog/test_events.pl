@@ -45,7 +45,8 @@ near_all(Times, Expected) :-
 % The kinds and terms of the messages of events that Goal prints.
 messages(Goal, Messages) :-
     setup_call_cleanup(
-        asserta((user:message_hook(ev3dev(Term), Kind, _) :-
+        asserta((user:message_hook(Term, Kind, _) :-
+                     memberchk(Kind, [error, warning]),
                      assertz(printed(Kind-Term))), Ref),
         once(Goal),
         erase(Ref)),
@@ -103,17 +104,17 @@ test(an_action_may_cancel_its_event, true(Whats == [up])) :-
     noted([ 1-raise(a), 2-lower(a), 3-raise(a) ],
           ( on(up(a), ( note(up), event_cancel(x) ), [id(x)]), wait(5) ), Notes),
     findall(W, member(_-W, Notes), Whats).
-test(one_that_fails_warns_and_stays, true(Messages == [warning-event_failed(x, on)])) :-
+test(one_that_fails_warns_and_stays, true(Messages == [warning-ev3dev(event_failed(x, on))])) :-
     noted([1-raise(a)], messages(( on(up(a), fail, [id(x)]), wait(2), event(x, on) ),
                                  Messages), _).
 test(one_that_throws_is_printed_and_stays) :-
     noted([1-raise(a)], messages(( on(up(a), atom_length(_, _), [id(x)]), wait(2),
                                    event(x, on) ), Messages), _),
-    Messages = [error-event_error(x, on, error(instantiation_error, _))].
+    Messages = [error-error(instantiation_error, context(_, 'in event x (on)'))].
 test(a_condition_that_throws_is_printed_and_ends) :-
     noted([], messages(( on(atom_length(_, _), true, [id(x)]), wait(2),
                          \+ event(x, on) ), Messages), _),
-    Messages = [error-event_error(x, on, error(instantiation_error, _))].
+    Messages = [error-error(instantiation_error, context(_, 'in event x (on)'))].
 test(what_is_no_error_ends_the_wait, throws(enough)) :-
     noted([1-raise(a)], ( on(up(a), throw(enough)), wait(2) ), _).
 test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
@@ -194,3 +195,51 @@ test(an_error_of_the_goal_goes_through, error(type_error(_, _), _)) :-
     noted([], until(up(a), atom_length(f(x), _)), _).
 
 :- end_tests(until).
+
+:- begin_tests(branches, [condition(current_predicate(system:engine_create/3))]).
+
+test(both_go_on_at_the_same_time) :-
+    noted([], ( both(( wait(1), note(a), wait(2), note(b) ), ( wait(2), note(c) )),
+                ev3_time(T) ), Notes),
+    findall(W, member(_-W, Notes), [a, c, b]),
+    near(T, 3, 0.05).
+test(moves_at_the_same_time) :-
+    noted([], ( both(go_cm(20, 40), ( motor_run(outA, 30, 90), motor_run(outA, 30, -90) )),
+                sim_pose(X, Y, _), position(outA, P) ), _),
+    near(sqrt(X*X + Y*Y), 40, 1.0),
+    near(P, 0, 5).
+test(bindings_come_back, true(X-Y == 1-2)) :-
+    noted([], both(( wait(1), X = 1 ), Y = 2), _).
+test(one_that_fails_ends_the_other, true(Whats == [])) :-
+    noted([], ( \+ both(( wait(1), fail ), ( wait(2), note(late) )), ev3_time(T) ), Notes),
+    near(T, 1, 0.05),
+    findall(W, member(_-W, Notes), Whats).
+test(an_error_of_one_leaves_the_other, throws(oh)) :-
+    noted([], both(( wait(1), throw(oh) ), go_cm(20, 900)), _).
+test(the_first_wins_and_the_others_are_left, true(Winner-States == 2-[])) :-
+    noted([], ( race([go_cm(20, 500), wait(1), ( motor_run(outA, 20), wait(9) )], Winner),
+                ev3_time(T), motor_states(outA, States), at_rest ), _),
+    near(T, 1, 0.05).
+test(the_clean_up_of_the_others_runs, true(Whats == [cleaned])) :-
+    noted([], race([wait(1), setup_call_cleanup(true, wait(9), note(cleaned))], 1), Notes),
+    findall(W, member(_-W, Notes), Whats).
+test(one_that_catches_everything_is_left, true(Winner == 2)) :-
+    noted([], race([( repeat, catch(wait(9), _, true), fail ), wait(1)], Winner), _).
+test(the_earliest_of_several_wins, true(Winner == 1)) :-
+    noted([], race([wait(1), wait(1)], Winner), _).
+test(a_race_of_failures_fails, [forall(member(Gs, [[], [fail], [fail, ( wait(1), fail )]])), fail]) :-
+    noted([], race(Gs, _), _).
+test(events_are_served_meanwhile) :-
+    noted([0.5-raise(a)], ( on(up(a), note(up)), both(wait(1), wait(1)) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [0.5]).
+test(until_leaves_a_branch, true(Which == condition)) :-
+    noted([0.5-raise(a)], both(until(up(a), wait(9), Which), wait(1)), _).
+test(they_nest, true(Winner == 1)) :-
+    noted([], race([both(wait(1), wait(0.5)), wait(2)], Winner), _).
+test(waits_do_not_add_up) :-
+    noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
+    noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),
+    near(T, Alone, 0.05).
+
+:- end_tests(branches).
