@@ -1,4 +1,5 @@
 :- use_module('../support/simulation').
+:- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
@@ -121,7 +122,7 @@ test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
     noted([], ( on(wait(1), true, [id(x)]), wait(2) ), _).
 test(each_thread_has_its_own, true(Kinds-Notes == []-[])) :-
     noted([1-raise(a)],
-          ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id),
+          ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id, []),
             thread_join(Id, true),
             findall(K, event(_, K), Kinds), wait(2) ), Notes).
 

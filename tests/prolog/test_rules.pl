@@ -1,11 +1,12 @@
 :- use_module('../support/simulation').
+:- use_module('../support/old_prolog').
 :- use_module('../support/trees').
 :- use_module('../support/cases').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/rules),
               [ behave/1, behave/2, become/1, state/1, set_state/1, received/1,
-                send_message/1, op(_, _, ::), op(_, _, ~>) ]).
+                send_message/1, op(1160, xfx, ::), op(1150, xfx, ~>) ]).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -233,7 +234,8 @@ test(a_list_is_done_one_after_the_other, true(Whats == [rule(w), 1, 2, 3])) :-
     noted([], behave_for(5, [ (w :: true ~> [note(1):1.5, (note(2), wait(9)):2, note(3)]) ]),
           Notes),
     whats(Notes, Whats),
-    maplist([W-T]>>( at_time(W, Notes, T0), near(T0, T, 0.06) ), [1-0, 2-1.5, 3-3.5]).
+    forall(member(W-T, [1-0, 2-1.5, 3-3.5]),
+           ( at_time(W, Notes, T0), near(T0, T, 0.06) )).
 test(an_error_names_the_rule,
      [ forall(member(Rule-Where, [ (bad :: true ~> atom_length(_, _))-action,
                                    (bad :: atom_length(_, _) ~> true)-guard ])),
@@ -307,7 +309,7 @@ test(outside_of_a_behave_there_is_none,
     call(Goal).
 
 drop_before(T0, Notes0, Notes) :-
-    include({T0}/[T-_]>>( T >= T0 ), Notes0, Notes).
+    findall(T-Note, ( member(T-Note, Notes0), T >= T0 ), Notes).
 
 :- end_tests(nested).
 
