@@ -1,5 +1,4 @@
 :- use_module('../support/simulation').
-:- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
@@ -38,8 +37,10 @@ forget :-
 times(Notes, What, Times) :-
     findall(T, member(T-What, Notes), Times).
 
-near_all(Times, Expected) :-
-    maplist([T, E]>>near(T, E, 0.025), Times, Expected).
+near_all([], []).
+near_all([Time|Times], [Expected|Rest]) :-
+    near(Time, Expected, 0.025),
+    near_all(Times, Rest).
 
 :- meta_predicate messages(0, -).
 
