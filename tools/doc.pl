@@ -27,6 +27,7 @@
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/jog)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/calibrate)).
 :- use_module(library(ev3dev/odometry)).
@@ -47,6 +48,7 @@ task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, 
 task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
+task('Ask why it did that', [journal]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).
 

@@ -7,6 +7,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/rules)).
@@ -37,6 +38,11 @@ bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
 bad(jog([]), [[sped(5)]-1, [speed(0)]-1, [speed(fast)]-1]).
+bad(because(true, why), [7-1, _-1, _-2]).
+bad(why(outB), [7-1, _-1]).
+bad(why(outB, _), [7-1, _-1]).
+bad(journal(_), [7-1, f(x)-1]).
+bad(journal_replay(nowhere), [7-1, _-1, nowhere-1]).
 bad(screen_format("~w", [a]), [_-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
