@@ -33,6 +33,7 @@
 :- use_module(library(ev3dev/odometry)).
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/plnxt)).
@@ -51,6 +52,7 @@ task('See what is connected', [device_table, driver, files]).
 task('Ask why it did that', [journal]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Find a path', [grid, planners, roadmap, navigation]).
+task('Plan, act and react', [golog]).
 
 main :-
     current_prolog_flag(argv, Argv),

@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
@@ -46,6 +47,21 @@ bad(journal_replay(nowhere), [7-1, _-1, nowhere-1]).
 bad(screen_format("~w", [a]), [_-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
+bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
+bad(golog_exog(x), [_-1]).
+bad(do([], _), [_-1, fly-1]).
+bad(do([], [], _), [_-1, fly-1, a-2]).
+bad(trans([], [], _, _), [_-1, fly-1, a-2]).
+bad(final([], []), [_-1, a-2]).
+bad(holds(true, []), [_-1, wet(1)-1, a-2]).
+bad(has_val(f, _, []), [_-1, a-3]).
+bad(eval(true, [], _), [_-1, a-2]).
+bad(domain(_, [1]), [_-2, 1-2]).
+bad(rdomain(_, [1]), [_-2, 1-2]).
+bad(getdomain([1], _), [_-1, 1-1]).
+bad(shuffle([], _), [a-1, _-1]).
+bad(ask_execute(a, _), [_-1]).
+bad(sendRcxActionNumber(1, _), [_-1]).
 bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
 bad(roadmap_path([], 0-0, 10-10, _, []), [a-1, foo-2, foo-3, [speed(1)]-5, [method(x)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
