@@ -399,7 +399,8 @@ is_fact(Fact) :-
     fail.
 is_fact(end(Time)) :-
     number(Time).
-is_fact(robot(Left, Right, LeftCm, RightCm, LeftBack, RightBack, Cm, Offset)) :-
+is_fact(robot(Left, Right, LeftCm, RightCm, LeftBack, RightBack, Cm,
+              Offset)) :-
     all_are(atom, [Left, Right]),
     all_are(number, [LeftCm, RightCm, Cm, Offset]),
     all_are(boolean, [LeftBack, RightBack]).
@@ -426,7 +427,9 @@ is_command(What, Command) :-
     ;   is_light(Command)
     ).
 
-is_of_robot(course(Course, options(Percent, Acceleration, Action, UseGyro))) :-
+is_of_robot(course(Course, Options)) :-
+    nonvar(Options),
+    Options = options(Percent, Acceleration, Action, UseGyro),
     is_course(Course),
     all_are(number, [Percent, Acceleration]),
     is_a(stop_action, Action),
