@@ -19,7 +19,11 @@ demo(Example, Seconds) :-
     ),
     load_files(user:examples/Example, []),
     format("~w of ~w, six times as fast as real:~n", [Goal, Example]),
-    sim_start(World, [clock(scaled(6))]),
+    (   robot(Example, Robot)
+    ->  true
+    ;   Robot = default
+    ),
+    sim_start(World, [clock(scaled(6)), robot(Robot)]),
     thread_create(tell, Teller),
     prepare(Example),
     catch(call_with_time_limit(Seconds, ignore(user:Goal)),
@@ -46,6 +50,13 @@ demo(thermometer, room, thermometer).
 demo(compare_planners, grid, start).
 demo(traffic_light, room, start).
 demo(brick_check, room, brick_check:report).
+demo(rules_light_seeker, lights, start).
+demo(rules_line_follower, line, start).
+demo(rules_sumo, sumo, start).
+demo(rules_traffic_light, [ambient(20)], start).
+demo(rules_processes, [wall(-50, 150, 50, 150)], start).
+
+robot(rules_wander, touch).
 
 %   What somebody has to do beside the robot.
 
@@ -53,6 +64,16 @@ prepare(traffic_light) :-
     !,
     sim_press(enter, [after(10)]),
     sim_press(down, [after(60)]).
+prepare(rules_line_follower) :-
+    !,
+    sim_add(circle(150, 40, 4)),
+    sim_at(10, sim_remove(circle(150, 40, 4))).
+prepare(rules_processes) :-
+    !,
+    sim_press(enter, [after(2)]),
+    sim_press(up, [after(15)]),
+    sim_press(enter, [after(30)]),
+    sim_press(down, [after(33)]).
 prepare(remote_control) :-
     !,
     sim_unplug(in4),
