@@ -132,7 +132,7 @@ predicates! {
     semidet fn motors_stop(context, from, before) {
         let call = Call::of(context, "behave", 2);
         let commands = commands_of(&call, from, before)?;
-        call.or_throw(motor::stop_commanded(&*call.devices()?, &commands))
+        call.or_throw(motor::stop_commanded(&*call.devices_to_command()?, &commands))
     }
 
     /// motors_leave_(+From, +Before): the same at the first wait of this thread.

@@ -427,9 +427,8 @@ is_command(What, Command) :-
     ;   is_light(Command)
     ).
 
-is_of_robot(course(Course, Options)) :-
-    nonvar(Options),
-    Options = options(Percent, Acceleration, Action, UseGyro),
+is_of_robot(course(Course,
+                   options(Percent, Acceleration, Action, UseGyro))) :-
     is_course(Course),
     all_are(number, [Percent, Acceleration]),
     is_a(stop_action, Action),
