@@ -9,6 +9,7 @@ use crate::view;
 use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, Drive, DriveOptions, Robot, UntilEnded};
+use ev3_driver::journal;
 use ev3_driver::motor::wait::Reason;
 use ev3_driver::wait::Slices;
 use ev3_motion::{Pose, wrapped};
@@ -87,6 +88,8 @@ predicates! {
         setup => {
             let call = Call::of(context, "go_to", 4);
             let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
+            // The course tells more than the name of one of its predicates.
+            journal::forget_called();
             let (options, wait, timeout) = options_of(&call, options)?;
             let begun = drive.begin(&course, &options, &mut call.interrupted());
             let begun = call.or_fail(begun)?;

@@ -86,7 +86,7 @@ predicates! {
         let call = Call::of(context, accessor(class), 3);
         let socket = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
         call.or_absent(class, port, written)
     }

@@ -17,6 +17,7 @@ mod files;
 mod glue;
 mod grid;
 mod halt;
+mod journal;
 mod lights;
 mod motors;
 mod navigation;
@@ -41,6 +42,7 @@ pub extern "C" fn install() {
     dc_motors::register();
     servo_motors::register();
     halt::register();
+    journal::register();
     lights::register();
     battery::register();
     ports::register();

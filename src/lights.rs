@@ -48,7 +48,7 @@ predicates! {
     semidet fn led_set_color(context, name, color) {
         let call = Call::of(context, "led", 2);
         let (name, color) = (call.text(name)?, color_of(&call, color)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let set = light::set_color(&devices, &name, &color, interrupted);
         into_prolog_result(call.or_fail(set)?)
     }
@@ -59,7 +59,7 @@ predicates! {
     semidet fn led_set_trigger(context, name, trigger) {
         let call = Call::of(context, "led_trigger", 2);
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         call.or_fail(light::set_trigger(&devices, &name, &trigger, interrupted))
     }
 
@@ -69,7 +69,7 @@ predicates! {
     semidet fn led_set_delays(context, name, on, off) {
         let call = Call::of(context, "led_blink", 3);
         let (name, delays) = (call.text(name)?, [call.integer(on)?, call.integer(off)?]);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         call.or_fail(light::blink(&devices, &name, delays, interrupted))
     }
 }

@@ -40,7 +40,7 @@ predicates! {
     semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
         let (port, speed) = (call.text(port)?, speed_of(&call, percent)?);
-        let (run, devices) = (Run { port: &port, speed }, call.devices()?);
+        let (run, devices) = (Run { port: &port, speed }, call.devices_to_command()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
@@ -51,7 +51,7 @@ predicates! {
     semidet fn run_forever(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
-        let (run, devices) = (Run { port: &port, speed }, call.devices()?);
+        let (run, devices) = (Run { port: &port, speed }, call.devices_to_command()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
@@ -67,7 +67,7 @@ predicates! {
         };
         let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
-        let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices()?);
+        let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices_to_command()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &runs, interrupted))?)
     }
@@ -90,7 +90,7 @@ predicates! {
             let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
             let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
             let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
-            let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+            let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
             call.or_fail(motor::begin(&devices, &moves, &options, interrupted)).map(Some)
         },
         call(moving) => {
@@ -105,7 +105,7 @@ predicates! {
         let call = Call::of(context, "motor_stop", 2);
         let class = class_of(context, class)?;
         let (name, action) = (call.text(port)?, stop_action(&call, action)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let stop = |motor: &Arc<Device>| motor::stop(motor, action);
         call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, stop))
     }
@@ -115,7 +115,7 @@ predicates! {
     #[name("stop_all_motors_")]
     semidet fn stop_all_motors(context) {
         let call = Call::of(context, "stop_all_motors", 0);
-        call.or_throw(motor::stop_connected(&*call.devices()?, &mut call.interrupted()))
+        call.or_throw(motor::stop_connected(&*call.devices_to_command()?, &mut call.interrupted()))
     }
 
     /// commands_(-Count): how many commands the program has given to motors.
@@ -132,7 +132,7 @@ predicates! {
     semidet fn motors_stop(context, from, before) {
         let call = Call::of(context, "behave", 2);
         let commands = commands_of(&call, from, before)?;
-        call.or_throw(motor::stop_commanded(&*call.devices()?, &commands))
+        call.or_throw(motor::stop_commanded(&*call.devices_to_command()?, &commands))
     }
 
     /// motors_leave_(+From, +Before): the same at the first wait of this thread.
@@ -150,7 +150,7 @@ predicates! {
     semidet fn motor_reset(context, port) {
         let call = Call::of(context, "motor_reset", 1);
         let (class, name) = (Class::TachoMotor, call.text(port)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let reset = |motor: &Arc<Device>| motor::reset(motor);
         call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, reset))
     }
@@ -197,7 +197,7 @@ predicates! {
         let call = Call::of(context, "motor_run_direct", 2);
         let class = class_of(context, class)?;
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let runs = motor::run_direct(&devices, class, &port, percent, interrupted);
         into_prolog_result(call.or_throw(runs)?)
     }

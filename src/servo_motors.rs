@@ -42,7 +42,7 @@ predicates! {
     semidet fn servo_set_position(context, port, percent) {
         let call = Call::of(context, "servo_motor_position", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
         let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
         into_prolog_result(call.or_fail(set)?)
@@ -54,7 +54,7 @@ predicates! {
     semidet fn servo_motor_float(context, port) {
         let call = Call::of(context, "servo_motor_float", 1);
         let (class, name) = (Class::ServoMotor, call.text(port)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let float = |servo: &Arc<Device>| servo::float(servo);
         call.or_absent(class, port, retry::with(&devices, class, &name, interrupted, float))
     }

@@ -3,6 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::state::{dev, devices, sound};
 use crate::glue::terms::unify_atom;
 use ev3_driver::brick::sound::{self, Tone};
+use ev3_driver::journal::SoundCommand;
 use ev3_driver::wait::AnyWait;
 use std::path::Path;
 use std::time::Duration;
@@ -30,12 +31,15 @@ predicates! {
             let tones = call.list(tones)?;
             let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
             let dev = call.dev()?;
-            Ok(Some(if wait.get_ex()? {
+            let noted = tones.iter().map(|tone| (tone.hertz, tone.lasts)).collect();
+            let playing = if wait.get_ex()? {
                 Some(call.or_fail(sound().play_tones(&dev, tones))?)
             } else {
                 call.or_fail(sound().begin_tones(devices().tree(), &*dev, tones))?;
                 None
-            }))
+            };
+            call.note_sound(SoundCommand::Tones(noted));
+            Ok(Some(playing))
         },
         call(sound) => {
             let call = Call::of(context, "tones", 2);
@@ -50,12 +54,14 @@ predicates! {
         setup => {
             let call = Call::of(context, "say", 1);
             let (text, dev) = (call.text(text)?, call.dev()?);
-            Ok(Some(if wait.get_ex()? {
+            let saying = if wait.get_ex()? {
                 Some(call.or_throw(sound().say(&dev, &text))?)
             } else {
                 call.or_throw(sound().begin_saying(devices().tree(), &*dev, &text))?;
                 None
-            }))
+            };
+            call.note_sound(SoundCommand::Say((&*text).into()));
+            Ok(Some(saying))
         },
         call(sound) => {
             let call = Call::of(context, "say", 1);
@@ -70,13 +76,15 @@ predicates! {
         setup => {
             let call = Call::of(context, "play", 1);
             let (file, dev) = (call.text(file)?, call.dev()?);
-            Ok(Some(if wait.get_ex()? {
+            let playing = if wait.get_ex()? {
                 Some(call.or_throw(sound().play(&dev, Path::new(&*file)))?)
             } else {
                 let tree = devices();
                 call.or_throw(sound().begin_playing(tree.tree(), &*dev, Path::new(&*file)))?;
                 None
-            }))
+            };
+            call.note_sound(SoundCommand::Play((&*file).into()));
+            Ok(Some(playing))
         },
         call(sound) => {
             let call = Call::of(context, "play", 1);
@@ -123,7 +131,9 @@ predicates! {
     #[name("sound_stop_")]
     semidet fn sound_stop(context) {
         // This does not choose a tree: the call that started the sound has done so.
-        Call::of(context, "sound_stop", 0).or_throw(sound().stop(&*dev()))
+        let call = Call::of(context, "sound_stop", 0);
+        call.note_sound(SoundCommand::Stop);
+        call.or_throw(sound().stop(&*dev()))
     }
 }
 

@@ -49,11 +49,17 @@ demo(remote_control, [start(0, 0, 0)], drive).
 demo(thermometer, room, thermometer).
 demo(compare_planners, grid, start).
 demo(traffic_light, room, start).
+demo(golog_elevator, room, start(smart)).
+demo(golog_delivery, delivery, start).
+demo(golog_rescue, grid, start).
 demo(brick_check, room, brick_check:report).
 demo(rules_light_seeker, lights, start).
 demo(rules_line_follower, line, start).
 demo(rules_sumo, sumo, start).
 demo(rules_traffic_light, [ambient(20)], start).
+demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
+                      patch(black, [100-0, 150-0, 150-150, 100-150]) ],
+     start).
 demo(rules_processes, [wall(-50, 150, 50, 150)], start).
 
 robot(rules_wander, touch).
@@ -64,6 +70,19 @@ prepare(traffic_light) :-
     !,
     sim_press(enter, [after(10)]),
     sim_press(down, [after(60)]).
+prepare(golog_elevator) :-
+    !,
+    sim_press(up, [after(5)]),
+    sim_press(left, [after(10)]),
+    sim_press(right, [after(12)]).
+prepare(golog_delivery) :-
+    !,
+    sim_press(left, [after(2)]),
+    forall(member(Time, [15, 40, 60, 80]), sim_press(enter, [after(Time)])),
+    sim_press(up, [after(20)]).
+prepare(golog_rescue) :-
+    !,
+    sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])).
 prepare(rules_line_follower) :-
     !,
     sim_add(circle(150, 40, 4)),

@@ -28,28 +28,33 @@
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/jog)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/calibrate)).
 :- use_module(library(ev3dev/odometry)).
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/rules)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
      [robot, drive, odometry, calibrate, jog]).
-task('Let a robot react', [rules, events]).
+task('Let a robot react', [rules, events, plnxt]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
 task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors ]).
 task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
+task('Ask why it did that', [journal]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
+task('Plan, act and react', [golog]).
 
 main :-
     current_prolog_flag(argv, Argv),

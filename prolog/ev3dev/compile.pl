@@ -60,6 +60,8 @@ unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).
 unit(events, ['ev3dev/events']).
 unit(rules, ['ev3dev/rules']).
+unit(plnxt, ['ev3dev/plnxt']).
+unit(golog, ['ev3dev/golog']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

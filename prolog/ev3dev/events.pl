@@ -20,11 +20,12 @@
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
+:- use_module(private/causes, [acting_for/2]).
 :- use_module(private/waits,
               [in_guard/2, leave/2, listen_for_events/1, listening/3]).
 :- use_module(private/native,
-              [ branches_begin_/0, branches_end_/1, commands_/1,
-                motors_stop_/2, now_/1, slices_/1
+              [ branches_begin_/0, branches_end_/1, cause_now_/1,
+                cause_set_/1, commands_/1, motors_stop_/2, now_/1, slices_/1
               ]).
 :- use_module(time, [wait/1]).
 
@@ -312,13 +313,21 @@ change(Id, State) :-
 %   printed.
 happen(Id, Kind, Action) :-
     functor(Kind, Name, _),
-    catch(ignore_failure(Id, Name, Action), E, true),
+    event_condition(Kind, Condition),
+    catch(acting_for(ev3dev_events:ignore_failure(Id, Name, Action),
+                     event(Id, Condition)),
+          E, true),
     (   var(E)
     ->  true
     ;   E = error(_, _)
     ->  print_error(E, Id, Name)
     ;   throw(E)
     ).
+
+event_condition(on(_:Condition), Values) :-
+    !,
+    copy_term_nat(Condition, Values).
+event_condition(Kind, Kind).
 
 print_error(E0, Id, Name) :-
     format(atom(Where), 'event ~p (~w)', [Id, Name]),
@@ -451,12 +460,12 @@ branches(Goals, Which, Winner) :-
         run_branches(Branches, Which, Winner),
         leave_branches(Branches)).
 
-%   branch(Number, Engine, Goal, Over, Commands): Over is `false`, `true` or
-%   `failed`, and Commands are the ranges of commands that it gave. Both are
-%   changed by nb_setarg/3.
+%   branch(Number, Engine, Goal, Over, Commands, Cause): Over is `false`,
+%   true(Goal) or `failed`, Commands are the ranges of commands that it gave,
+%   and Cause is what it acts for. These are changed by nb_setarg/3.
 created([], _, []).
 created([Goal|Goals], Number,
-        [branch(Number, Engine, Goal, false, [])|Branches]) :-
+        [branch(Number, Engine, Goal, false, [], [])|Branches]) :-
     engine_create(Goal, ev3dev_events:in_branch(Goal), Engine),
     Next is Number + 1,
     created(Goals, Next, Branches).
@@ -501,6 +510,13 @@ each_goes_on([Branch|Branches], Which) :-
 goes_on(Branch) :-
     arg(2, Branch, Engine),
     commands_(From),
+    % A branch has its own cause.
+    cause_now_(Outer),
+    arg(6, Branch, Cause),
+    (   Cause == []
+    ->  true
+    ;   cause_set_(Cause)
+    ),
     (   catch(engine_next(Engine, Answer), E, true)
     ->  (   nonvar(E)
         ->  nb_setarg(4, Branch, failed)
@@ -510,6 +526,9 @@ goes_on(Branch) :-
         )
     ;   nb_setarg(4, Branch, failed)
     ),
+    cause_now_(Own),
+    nb_setarg(6, Branch, Own),
+    cause_set_(Outer),
     commands_(Before),
     (   From =:= Before
     ->  true
@@ -543,20 +562,20 @@ is_decided(Branches, all, over(Winner)) :-
 %   The bindings of what has succeeded.
 taken_over(Branches, first, Winner) :-
     integer(Winner),
-    member_of(Branches, branch(Winner, _, Goal, true(Goal), _)),
+    member_of(Branches, branch(Winner, _, Goal, true(Goal), _, _)),
     !.
 taken_over(Branches, all, all) :-
     answers(Branches).
 
 answers([]).
-answers([branch(_, _, Goal, true(Goal), _)|Branches]) :-
+answers([branch(_, _, Goal, true(Goal), _, _)|Branches]) :-
     answers(Branches).
 
 %   By an exception, so that clean-ups run; one that catches everything is
 %   destroyed.
 leave_branches([]).
 leave_branches([Branch|Branches]) :-
-    Branch = branch(_, Engine, _, Over, Commands),
+    Branch = branch(_, Engine, _, Over, Commands, _),
     (   Over == false
     ->  leave_branch(3, Engine),
         motors_stopped(Commands)

@@ -7,6 +7,7 @@
 :- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(drive, [drive_cm/2, drive_wait/2, face/2, pose/3]).
+:- use_module(private/causes, [acting_for/2]).
 :- use_module(private/drive_moves, [move/3]).
 :- use_module(private/arguments,
               [ number_option/4, number_value/2, option/2, option/3,
@@ -145,7 +146,8 @@ advance(_, _, _, 0, _, exhausted) :-
     !.
 advance(Step, Looked, Forgets, Steps, Drive, Reason) :-
     decided(Step, Looked, Forgets, Decision),
-    carry_out(Decision, Drive, Done),
+    part(Decision, Part),
+    acting_for(carry_out(Decision, Drive, Done), leg(Part)),
     (   Done = ended(Reason0)
     ->  Reason = Reason0
     ;   Done = looked(Looked1),
@@ -180,6 +182,16 @@ forgets(Decision, Forgets0, Forgets) :-
     ->  Forgets is Forgets0 - 1
     ;   Forgets = Forgets0
     ).
+
+%   What the journal calls it.
+
+part(go(Heading, _, Until), Part) :-
+    !,
+    Part = go(Heading, Until).
+part(block(Place), Part) :-
+    !,
+    Part = avoid(Place).
+part(Part, Part).
 
 carry_out(go(Heading, Way, Until), Drive, Done) :-
     face(Heading, [reason(Reason)]),

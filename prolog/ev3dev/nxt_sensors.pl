@@ -57,6 +57,11 @@ measured(Reading, Port, Value) :-
     sensor_to_read(Port, All, _),
     sensor_reading(Reading, Port, Value).
 
+%   forced(Kind, Value): PLNXT has these predicates, too, with the arguments
+%   (Value, force). library(ev3dev/plnxt) adds a clause.
+:- multifile forced/2.
+:- dynamic forced/2.
+
 % Reads as many values as the list Values has elements.
 values(Port, Types, Mode, Values) :-
     length(Values, Count),
@@ -71,7 +76,10 @@ values(Port, Types, Mode, Values) :-
 %   is very dark or very bright.
 
 nxt_light(Port, Percent) :-
-    sensor_reading(nxt_light, Port, Percent).
+    (   Percent == force
+    ->  forced(light, Port)
+    ;   sensor_reading(nxt_light, Port, Percent)
+    ).
 
 nxt_ambient(Port, Percent) :-
     sensor_reading(nxt_ambient, Port, Percent).
@@ -83,6 +91,12 @@ nxt_ambient(Port, Percent) :-
 %   microphone's voltage, which is high in silence; Percent is 100 minus that.
 
 nxt_sound(Port, Percent) :-
+    (   Percent == force
+    ->  forced(sound, Port)
+    ;   sound(Port, Percent)
+    ).
+
+sound(Port, Percent) :-
     values(Port, ['lego-nxt-sound'], 'DB', [Voltage]),
     Percent is 100 - Voltage.
 

@@ -19,6 +19,7 @@
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
 :- use_module(private/one_of, [one_of/2]).
+:- use_module(private/causes, [acting_for/2]).
 :- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
 :- use_module(private/native,
               [ commands_/1, motors_leave_/2, motors_stop_/2, now_/1,
@@ -520,13 +521,13 @@ pass_if_going(Index, Behavior) :-
     ;   true
     ).
 
-act(rule(Index, Name, Guard, Action, Options, Shared), Start, Behavior) :-
+act(rule(Index, Name, Guard, Action, _, Shared), Start, Behavior) :-
     nb_setarg(4, Behavior, active(Index, Start, waits)),
     arg(1, Behavior, Id),
     arg(3, Behavior, settings(_, _, Period, _, _, _)),
     slices_(Slices0),
     catch(( listening(Period, ev3dev_rules:tick(Behavior),
-                      ev3dev_rules:carry_out(Action, Name, Options))
+                      ev3dev_rules:carry_out(Action, Name, Guard))
           ->  Outcome = ended
           ;   Outcome = failed
           ),
@@ -592,7 +593,12 @@ traced(Behavior, Event) :-
     ;   true
     ).
 
-carry_out(Module:Action, _, _) :-
+%   The journal gets the guard with its values.
+carry_out(Action, Name, _:Guard) :-
+    copy_term_nat(Guard, Values),
+    acting_for(ev3dev_rules:carry_out(Action), rule(Name, Values)).
+
+carry_out(Module:Action) :-
     (   is_list(Action)
     ->  one_after_the_other(Action, Module)
     ;   goal_of_program(Module:Action)

@@ -5,6 +5,7 @@ use crate::glue::interned::atom_text;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
 use crate::glue::watch;
+use ev3_driver::journal::{self, Act, SoundCommand};
 use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
@@ -51,6 +52,20 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         run_due_goals(self.context)?;
         // Another thread, or a goal, may have changed the tree.
         Ok(state::devices())
+    }
+
+    /// The devices, for a call that commands something: the journal names it.
+    pub(crate) fn devices_to_command(&self) -> PrologResult<Arc<Registry>> {
+        let devices = self.devices()?;
+        journal::set_called(self.name, u8::try_from(self.arity).unwrap_or(u8::MAX));
+        Ok(devices)
+    }
+
+    /// Notes a sound in the journal.
+    pub(crate) fn note_sound(&self, sound: SoundCommand) {
+        let devices = state::devices();
+        journal::set_called(self.name, u8::try_from(self.arity).unwrap_or(u8::MAX));
+        devices.journal().note(devices.tree().now(), Act::Sound(sound));
     }
 
     /// Waits until `is_turn`, which says so within 20 ms, and handles signals meanwhile.

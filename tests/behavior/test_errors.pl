@@ -5,8 +5,11 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
+:- use_module(library(ev3dev/journal)).
+:- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
@@ -37,9 +40,29 @@ bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
 bad(jog([]), [[sped(5)]-1, [speed(0)]-1, [speed(fast)]-1]).
+bad(because(true, why), [7-1, _-1, _-2]).
+bad(why(outB), [7-1, _-1]).
+bad(why(outB, _), [7-1, _-1]).
+bad(journal(_), [7-1, f(x)-1]).
+bad(journal_replay(nowhere), [7-1, _-1, nowhere-1]).
 bad(screen_format("~w", [a]), [_-1]).
 bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
+bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
+bad(golog_exog(x), [_-1]).
+bad(do([], _), [_-1, fly-1]).
+bad(do([], [], _), [_-1, fly-1, a-2]).
+bad(trans([], [], _, _), [_-1, fly-1, a-2]).
+bad(final([], []), [_-1, a-2]).
+bad(holds(true, []), [_-1, wet(1)-1, a-2]).
+bad(has_val(f, _, []), [_-1, a-3]).
+bad(eval(true, [], _), [_-1, a-2]).
+bad(domain(_, [1]), [_-2, 1-2]).
+bad(rdomain(_, [1]), [_-2, 1-2]).
+bad(getdomain([1], _), [_-1, 1-1]).
+bad(shuffle([], _), [a-1, _-1]).
+bad(ask_execute(a, _), [_-1]).
+bad(sendRcxActionNumber(1, _), [_-1]).
 bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
 bad(roadmap_path([], 0-0, 10-10, _, []), [a-1, foo-2, foo-3, [speed(1)]-5, [method(x)]-5]).
 bad(view([]), [a-1, _-1, [port(0)]-1, [port(x)]-1, [address(all)]-1, [token(short)]-1,
@@ -84,6 +107,23 @@ bad(both(true, true), [7-1, _-1, 7-2, _-2]).
 bad(race([true], _), [a-1, _-1, [7]-1, [_]-1]).
 bad(until(true, true), [7-1, _-1, 7-2, _-2]).
 bad(until(true, true, _), [7-1, _-1, 7-2, _-2]).
+bad(nxt_robot(nxt, true), [_-1, wheel-1]).
+bad(nxt_goal(nxt, true), [_-1, wheel-1]).
+bad(nxt_goal(nxt, true, []), [_-1, wheel-1]).
+bad(nxt_go(400), [a-1, _-1]).
+bad(nxt_go_cm(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_go_sec(400, 1), [a-1, _-2, -1-2]).
+bad(nxt_turn(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_rotate(400, 15), [a-1, _-1, far-2, _-2]).
+bad(nxt_ultrasonic(_, force), [_-2, now-2]).
+bad(nxt_touch(_, force), [_-2, now-2]).
+bad(nxt_light_LED(activate), [_-1, on-1]).
+bad(nxt_light_LED(activate, force), [_-1, on-1, now-2]).
+bad(nxt_play_tone(440, 10), [a-1, _-2]).
+bad(trigger_create(a, true, true), [f(_)-1, 7-2, _-2, 7-3, _-3, [7]-3]).
+bad(trigger_create(a, true, true, 1), [7-2, _-3, 0-4, a-4, _-4]).
+bad(timer_create(a, 1, true), [f(_)-1, a-2, -1-2, _-2, 7-3, _-3]).
+bad(timer_create(a, 1, true, 1), [-1-2, 7-3, 0-4, a-4, _-4]).
 
 :- begin_tests(errors).
 

@@ -57,7 +57,7 @@ test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
 test(each_predicate_is_in_the_table, true(Missing == [])) :-
     read_file_to_string('docs/predicates.md', Text, []),
     findall(Name/Arity,
-            ( member(Library, [ev3dev, drive, events, rules,
+            ( member(Library, [ev3dev, drive, events, rules, plnxt, golog,
                                odometry, calibrate, grid,
                                planners, roadmap, navigation, sim]),
               ( Library == ev3dev -> Alias = ev3dev ; Alias = ev3dev/Library ),
@@ -74,7 +74,8 @@ test(each_predicate_is_in_the_table, true(Missing == [])) :-
 paper('README.md').
 paper(File) :-
     expand_file_name('docs/*.md', Files),
-    member(File, Files).
+    member(File, Files),
+    File \== 'docs/cognitive-robotics.md'. % test_cognitive_robotics.pl
 
 %   Name stands there, not as a part of another one.
 

@@ -14,7 +14,8 @@
 load_examples :-
     forall(member(Name, [ rules_wander, rules_bumper_car, rules_light_seeker,
                           rules_line_follower, rules_sumo,
-                          rules_traffic_light, rules_processes ]),
+                          rules_traffic_light, rules_processes,
+                          plnxt_program ]),
            load_files(Name:example(Name), [])).
 
 %   Run an example, and look at its poses.
@@ -97,9 +98,10 @@ test(searches_where_it_is_dark) :-
     distance(X, Y, 0, 0, D),
     D > 10.
 
-changes([First|Rest], Changes) :-
-    foldl([X, B0-N0, X-N]>>( X == B0 -> N = N0 ; N is N0 + 1 ), Rest,
-          First-0, _-Changes).
+changes(Values, Changes) :-
+    aggregate_all(count,
+                  ( nextto(Before, After, Values), Before \== After ),
+                  Changes).
 
 :- end_tests(rules_light_seeker).
 
@@ -217,3 +219,26 @@ test(leaves_no_event_behind, true(Ids == [])) :-
     findall(Id, event(Id, _), Ids).
 
 :- end_tests(rules_processes).
+
+:- begin_tests(plnxt_program).
+
+world([ bounds(0, 0, 150, 150), start(40, 40, 30),
+        patch(black, [100-0, 150-0, 150-150, 100-150]) ]).
+
+test(stays_on_white_and_away_from_walls_for_its_time) :-
+    world(World),
+    with_sim(World,
+             ( plnxt_program:start,
+               sim_time(Time),
+               sim_collisions([]),
+               at_rest,
+               findall(Id, event(Id, _), []),
+               sim_trace(Trace) )),
+    near(Time, 30, 0.5),
+    findall(X, member(_-pose(X, _, _), Trace), Xs),
+    max_list(Xs, East),
+    East < 110,
+    min_list(Xs, West),
+    West < 40.
+
+:- end_tests(plnxt_program).

@@ -15,6 +15,7 @@
 :- use_module(library(ev3dev)).
 
 main :-
+    set_prolog_flag(ev3dev_hints, off),
     tree(Root),
     ev3_sysfs(Root),
     ev3_dev(Root),

@@ -6,6 +6,7 @@
 :- use_module(library(ev3dev/private/sensor_table/lego)).
 :- use_module(library(ev3dev/private/sensor_table/other)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/roadmap)).

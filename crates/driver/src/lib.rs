@@ -13,6 +13,7 @@
 //! * [`sysfs`]: where the attribute files are: the kernel's, any directory
 //!   shaped like it, or something that only behaves so. It also owns the clock.
 //! * [`devfs`]: the device files below `/dev`.
+//! * [`course`], [`journal`]: what a program asks of a robot, and what it has done.
 //! * [`device`]: one device, its kept descriptors and its constants; which
 //!   devices there are, by class and port ([`device::registry`]).
 //! * [`motor`], [`sensor`], [`attributes`]: running motors and waiting for them,
@@ -31,14 +32,17 @@
 pub mod attributes;
 pub mod brick;
 pub mod class;
+pub mod course;
 pub mod devfs;
 pub mod device;
 pub mod drive;
 pub mod error;
+pub mod journal;
 pub mod latch;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;
+mod stop_action;
 pub mod sysfs;
 pub mod value;
 pub mod wait;

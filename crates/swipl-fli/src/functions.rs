@@ -5,11 +5,12 @@
 //! new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same
 //! everywhere.
+use crate::pruned::guarded;
 use crate::types::{
-    IOSTREAM, PL_blob_t, PL_engine_t, PL_fid_t, atom_t, control_t, foreign_t, functor_t, module_t,
-    pl_function_t, predicate_t, qid_t, record_t, term_t,
+    IOSTREAM, PL_FA_NONDETERMINISTIC, PL_blob_t, PL_engine_t, PL_fid_t, atom_t, control_t,
+    functor_t, module_t, pl_function_t, predicate_t, qid_t, record_t, term_t,
 };
-use crate::version::Version;
+use crate::version::{Version, bits};
 use std::ffi::{c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
@@ -113,6 +114,8 @@ pub unsafe fn PL_register_foreign_in_module(
             ...
         ) -> u8;
     }
+    let is_nondeterministic = bits(flags) & PL_FA_NONDETERMINISTIC != 0;
+    let function = if is_nondeterministic { guarded(function) } else { function };
     c_int::from(unsafe {
         PL_register_foreign_in_module(module, name, arity, function, flags, meta)
     })
@@ -254,7 +257,6 @@ unsafe extern "C" {
     // Foreign predicates
     pub fn PL_foreign_control(control: control_t) -> c_int;
     pub fn PL_foreign_context_address(control: control_t) -> *mut c_void;
-    pub fn _PL_retry_address(address: *mut c_void) -> foreign_t;
 
     // Engines
     pub fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;

@@ -3,7 +3,7 @@
 //! The published `swipl-fli` is made by bindgen from the headers of whichever
 //! SWI-Prolog is installed, and links that version's library. A binary made so
 //! runs with that version alone. This crate has the same name, version and
-//! interface, as far as `swipl` uses it, and differs in four points:
+//! interface, as far as `swipl` uses it, and differs in five points:
 //!
 //! * **Nothing is linked.** The process that loads the library is SWI-Prolog
 //!   and resolves the symbols. Neither libclang nor SWI-Prolog is needed to
@@ -17,6 +17,8 @@
 //! * **Counts.** Where headers say `int` in old versions and `size_t` in new
 //!   ones, a `usize` is passed: a callee that takes an `int` reads the low half
 //!   of the register, or, on 32 bit, the same word.
+//! * **One end.** Old versions end a predicate that throws twice; here the second
+//!   time is left out ([`pruned`]).
 //!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
@@ -33,9 +35,11 @@
 
 pub mod functions;
 pub mod late;
+pub mod pruned;
 pub mod types;
 mod version;
 
 pub use functions::*;
 pub use late::*;
+pub use pruned::_PL_retry_address;
 pub use types::*;

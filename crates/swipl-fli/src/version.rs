@@ -24,6 +24,9 @@ const RATIONAL_TYPES: Version = Version(8_01_22);
 /// The first version whose queries distinguish an exception from failure.
 const EXTENDED_STATUS: Version = Version(7_03_23);
 
+/// The first version that does not prune a nondeterministic predicate that has thrown.
+const PRUNED_ONCE: Version = Version(8_01_30);
+
 /// A version of SWI-Prolog: `major * 10000 + minor * 100 + patch`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) struct Version(u32);
@@ -62,6 +65,12 @@ impl Version {
             }
             version => Self(version),
         }
+    }
+
+    /// Whether a nondeterministic predicate that throws is called to give up its context.
+    #[inline]
+    pub(crate) fn prunes_twice(self) -> bool {
+        self < PRUNED_ONCE
     }
 
     fn translates(self) -> bool {
@@ -138,7 +147,7 @@ fn replaced(table: &[Moved], number: u32, from_to: impl Fn(&Moved) -> (u32, u32)
 }
 
 /// C has some of these numbers as `int`, some as `unsigned int`.
-fn bits(number: c_int) -> u32 {
+pub(crate) fn bits(number: c_int) -> u32 {
     u32::from_ne_bytes(number.to_ne_bytes())
 }
 

@@ -85,6 +85,10 @@ allowed(neighbors,         [4, 8]).
 allowed(nonnegative_number, 'a number from 0 on is expected').
 allowed(note,               'a note is named like c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).
+allowed(nxt_force,          [force]).
+allowed(nxt_lamp,           [activate, deactivate]).
+allowed(nxt_motor,          ['A', 'B', 'C', 'D']).
+allowed(nxt_sensor,         ['S1', 'S2', 'S3', 'S4']).
 allowed(on_error,           [throw, continue]).
 allowed(pid,                'a term pid(P, I, D) is expected').
 allowed(pixels,             'a number from -10000 to 10000 is expected').

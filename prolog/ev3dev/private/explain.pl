@@ -75,6 +75,7 @@ fail_because(Cause0) :-
         because(Cause, _, Text),
         prolog_debug:debug(ev3dev, '~w', [Text])
     ;   Hints \== off,
+        Hints \== false,               % how 10.1 keeps an `off` of before
         cause(Cause0, Cause),
         is_new(Cause)
     ->  because(Cause, _, Text),

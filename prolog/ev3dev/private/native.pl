@@ -87,6 +87,11 @@
             views_new_/2,
             views_obstacles_/3,
             views_step_/5,
+            cause_/2,
+            cause_active_/1,
+            cause_now_/1,
+            cause_set_/1,
+            journal_entry_/4,
             sim_active_/0,
             sim_add_/2,
             sim_check_/2,
@@ -301,6 +306,16 @@ missing.
 %!  set_pose_(+Robot, +UseGyro, +X, +Y, +Heading) is semidet.
 %
 %   `src/drive.rs`
+
+% The journal
+
+%!  cause_(-Cause, -Former) is nondet.
+%!  cause_active_(+Cause) is semidet.
+%!  cause_now_(-Cause) is det.
+%!  cause_set_(+Cause) is semidet.
+%!  journal_entry_(-Time, -Act, -Cause, -Called) is nondet.
+%
+%   `src/journal.rs`
 
 % Grids
 

@@ -6,7 +6,8 @@
           ]).
 :- use_module(facts, [old/2, old_export/2, newer_term/3]).
 :- use_module(terms,
-              [ declared_exports/2, indicator/2, library_goal/3, unqualified/2
+              [ declared_exports/2, indicator/2, library_goal/3, read_terms/2,
+                unqualified/2
               ]).
 :- use_module(library(lists), [member/2]).
 
@@ -117,10 +118,23 @@ exported(Spec, Source, Export) :-
     absolute_file_name('.', Pack),
     sub_atom(File, 0, _, _, Pack),
     (   module_property(Module, file(File))
-    ->  module_property(Module, exports(Exports))
+    ->  module_property(Module, exports(Exports)),
+        member(Export, Exports)
     ;   declared_exports(File, Exports)
-    ),
-    member(Export, Exports).
+    ->  member(Export, Exports)
+    ;   loaded_by(File, Loaded),
+        exported(Loaded, File, Export)
+    ).
+
+%   A file without a module passes on what it loads.
+
+loaded_by(File, Loaded) :-
+    setup_call_cleanup(
+        open(File, read, Stream, [encoding(utf8)]),
+        read_terms(Stream, Terms),
+        close(Stream)),
+    member(_-(:- Goal), Terms),
+    library_goal(Goal, Loaded, _).
 
 %!  newer(+Use, -Problem) is semidet.
 %

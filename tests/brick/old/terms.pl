@@ -110,6 +110,7 @@ load_goal(autoload(Spec, Imports), Spec, Imports).
 load_goal(reexport(Spec), Spec, all).
 load_goal(reexport(Spec, Imports), Spec, Imports).
 load_goal(ensure_loaded(Spec), Spec, all).
+load_goal(consult(Spec), Spec, all).
 load_goal(load_files(_:Spec, _), Spec, all).
 load_goal(load_files(Spec, _), Spec, all).
 

@@ -15,6 +15,7 @@ use crate::device::registry::Registry;
 use crate::device::retry::{until_some, while_permissions_settle};
 use crate::device::{Device, read_file, write_file};
 use crate::error::{Error, Interrupted, Result};
+use crate::journal::{Act, LightChange, Name};
 use crate::port_name;
 use crate::value::integer;
 use rustix::io::Errno;
@@ -56,6 +57,15 @@ const COLORS: [(&str, &[(Hue, i64)]); 9] = [
 ];
 
 impl Color {
+    /// The color in the journal.
+    fn change(&self) -> LightChange {
+        match self {
+            Self::Named(name) => LightChange::Named(name),
+            Self::Level(level) => LightChange::levels([*level]),
+            Self::Levels(levels) => LightChange::levels(levels.iter().copied()),
+        }
+    }
+
     /// The color of that name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -257,6 +267,7 @@ pub fn set_color(
             let full = led.constant("max_brightness")?;
             led.write_number("brightness", (percent * full + 50) / 100)?;
         }
+        note(registry, name, color.change());
         Ok(Some(true))
     })
 }
@@ -274,7 +285,9 @@ pub fn set_trigger(
 ) -> Result<Option<()>> {
     while_permissions_settle(registry, interrupted, || match find(registry, name)? {
         Some(light) => {
-            light.shining()?.iter().try_for_each(|led| led.write("trigger", word)).map(Some)
+            light.shining()?.iter().try_for_each(|led| led.write("trigger", word))?;
+            note(registry, name, LightChange::Trigger(Name::from(word)));
+            Ok(Some(()))
         }
         None => Ok(None),
     })
@@ -312,7 +325,14 @@ pub fn blink(
             set_delay(registry, led, file, milliseconds, &mut *interrupted)?;
         }
     }
+    let [on, off] = [on, off].map(|time| i32::try_from(time).unwrap_or(i32::MAX));
+    note(registry, name, LightChange::Blink(on, off));
     Ok(Some(()))
+}
+
+fn note(registry: &Registry, name: &str, change: LightChange) {
+    let act = Act::Light(Name::from(name), change);
+    registry.journal().note(registry.tree().now(), act);
 }
 
 /// Writes a file of the timer's, which appears in its own time. It is another

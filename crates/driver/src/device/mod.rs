@@ -14,6 +14,7 @@ use crate::device::list::List;
 use crate::device::motion::MotorRun;
 pub(crate) use crate::device::observer::{MotionObserver, Observer};
 use crate::error::{Access, Error, Result};
+use crate::journal::{Act, Journal, MotorCommand, Name, Written};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
@@ -45,12 +46,16 @@ pub struct Device {
     constants: List<Constant>,
     /// The last command to a motor.
     run: Mutex<Option<MotorRun>>,
+    /// The set-points that the next command copies.
+    written: Written,
     /// Whether the files are open that start and stop it.
     is_prepared: AtomicBool,
     /// The number of the last command, among those of the whole program.
     commanded: AtomicU32,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
+    /// Where commands are noted.
+    journal: Arc<Journal>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
     /// When its values will have settled in that mode; zero once they have.
@@ -81,6 +86,7 @@ impl Device {
     pub(crate) fn detect(
         tree: &Arc<dyn Sysfs>,
         observer: &Arc<Observer>,
+        journal: &Arc<Journal>,
         class: Class,
         entry: Entry,
     ) -> Result<Self> {
@@ -108,8 +114,10 @@ impl Device {
             constants: List::default(),
             commanded: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
+            written: Written::default(),
             is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
+            journal: Arc::clone(journal),
             user: Mutex::default(),
             settled_at: Mutex::default(),
             turned: Mutex::default(),
@@ -204,6 +212,21 @@ impl Device {
     /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The journal of the tree.
+    pub(crate) fn journal(&self) -> &Journal {
+        &self.journal
+    }
+
+    /// Notes in the journal that the motor got a command.
+    pub(crate) fn note_command(&self, now: Duration, word: &str) {
+        if let Some(command) = MotorCommand::of(self.class, word, &self.written) {
+            self.journal.note(now, Act::Motor(Name::from(self.port()), command));
+        }
+        if word == "reset" {
+            self.written.forget();
+        }
     }
 
     /// Whether the files are open that start and stop a motor. They stay open.
@@ -390,7 +413,9 @@ impl Device {
     /// # Errors
     /// The kernel's, as EINVAL for a value that is not accepted.
     pub fn write(&self, attribute: &str, text: &str) -> Result<()> {
-        self.attribute(attribute).write(self.tree(), text)
+        self.attribute(attribute).write(self.tree(), text)?;
+        self.written.note(attribute, text);
+        Ok(())
     }
 
     /// Opens an attribute for writing, so that a later write cannot fail for
@@ -404,7 +429,10 @@ impl Device {
     /// # Errors
     /// As [`write`](Self::write).
     pub fn write_number(&self, attribute: &str, number: i64) -> Result<()> {
-        self.write(attribute, itoa::Buffer::new().format(number))
+        let mut buffer = itoa::Buffer::new();
+        self.attribute(attribute).write(self.tree(), buffer.format(number))?;
+        self.written.note_number(attribute, number);
+        Ok(())
     }
 
     /// Whether it is a linear actuator: it counts in lengths, not in turns.

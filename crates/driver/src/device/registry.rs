@@ -8,8 +8,9 @@
 use crate::class::{Class, Detected};
 use crate::device::{Device, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
+use crate::journal::Journal;
 use crate::port_name;
-use crate::sysfs::Sysfs;
+use crate::sysfs::{Entry, Sysfs};
 use rustix::io::Errno;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -25,6 +26,7 @@ pub struct Registry {
     tree: Arc<dyn Sysfs>,
     listings: [Mutex<Listing>; Class::ALL.len()],
     observer: Arc<Observer>,
+    journal: Arc<Journal>,
 }
 
 /// The devices in a class directory when it was last listed.
@@ -62,13 +64,24 @@ impl Registry {
     /// The devices in a tree. Nothing is read yet.
     #[must_use]
     pub fn new(tree: Arc<dyn Sysfs>) -> Self {
-        Self { tree, listings: Default::default(), observer: Arc::default() }
+        Self {
+            tree,
+            listings: Default::default(),
+            observer: Arc::default(),
+            journal: Arc::default(),
+        }
     }
 
     /// The tree they are in.
     #[must_use]
     pub fn tree(&self) -> &dyn Sysfs {
         &*self.tree
+    }
+
+    /// What the program has done in the tree.
+    #[must_use]
+    pub fn journal(&self) -> &Journal {
+        &self.journal
     }
 
     /// All devices of a class, in the order of their ports.
@@ -232,6 +245,10 @@ impl Registry {
         listing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    fn detected(&self, class: Class, entry: Entry) -> Result<Device> {
+        Device::detect(&self.tree, &self.observer, &self.journal, class, entry)
+    }
+
     fn is_fresh(&self, listing: &Listing) -> bool {
         let now = self.tree.now();
         listing.made.is_some_and(|made| now.saturating_sub(made) < LISTING_AGE)
@@ -258,7 +275,7 @@ impl Registry {
         for entry in entries {
             match listing.devices.iter().find(|device| device.is_at(&entry)) {
                 Some(known) => devices.push(Arc::clone(known)),
-                None => match Device::detect(&self.tree, &self.observer, class, entry) {
+                None => match self.detected(class, entry) {
                     Ok(device) => devices.push(Arc::new(device)),
                     Err(error) if is_exhaustion(&error) => return Err(error),
                     // Unplugged again, or not a device: the next listing tries again.

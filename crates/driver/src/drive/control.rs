@@ -1,13 +1,15 @@
 //! Odometry and control of one robot, one period at a time.
 use crate::class::Class;
+pub use crate::course::{Command, DriveOptions};
 use crate::device::registry::Registry;
 use crate::drive::agreement::Agreement;
 use crate::drive::devices::{DriveDevices, Robot, angle, counts};
 use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD, Stuck, seconds};
 use crate::drive::odometry::Estimate;
-use crate::drive::steering::{Leg, Limits, Order, Steering};
+use crate::drive::steering::{Limits, Order, Steering};
 use crate::drive::track::Track;
 use crate::error::{Error, Result};
+use crate::journal::{Act, Course, origin};
 use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
 use crate::motor::{self, Ramps, Speed, StopAction};
@@ -27,32 +29,6 @@ const MEASURED: Duration = Duration::from_secs(30);
 /// The farthest that a wheel can be told to turn, in counts: the kernel counts
 /// with 32 bits.
 const MOST_COUNTS: f64 = 2_147_483_647.0;
-
-/// A command to the drive.
-#[derive(Clone, Debug)]
-pub enum Command {
-    /// One part after the other. The second says whether rear first.
-    Legs(Vec<Leg>, bool),
-    /// On and on: speed in cm/s, rate of turn in degrees a second.
-    Cruise(f64, f64),
-    /// The same for the motion under way, unless it has ended.
-    Change(f64, f64),
-    /// On and on: the speed of each wheel as a share of that of the faster one.
-    Wheels([f64; 2]),
-}
-
-/// How to carry out a command.
-#[derive(Clone, Copy, Debug)]
-pub struct DriveOptions {
-    /// Of the faster wheel, in percent of what it can. Not for a cruise.
-    pub percent: f64,
-    /// In cm/s².
-    pub acceleration: f64,
-    /// The action of the motors at the end.
-    pub stop_action: StopAction,
-    /// Whether the gyro, if there is one, measures the heading.
-    pub use_gyro: bool,
-}
 
 /// The state of a robot and its motion.
 pub(super) struct Inner {
@@ -315,6 +291,7 @@ impl Inner {
             landing: None,
             stuck: stuck.unwrap_or_else(|| devices.counts.map(Stuck::new)),
             outcome: Arc::clone(&outcome),
+            noted: None,
             _ramps: ramps,
         });
         Ok(outcome)
@@ -395,7 +372,27 @@ impl Inner {
                 let _ = active.claim.stop(motor, action);
             }
         }
+        if let Some((origin, course)) = &active.noted {
+            let reason = result.as_ref().map_or(Reason::Unplugged, |reason| *reason).word();
+            if let Some(motor) = active.motors.first() {
+                let act = Act::Ended(Arc::clone(course), reason);
+                motor.journal().note_for(*origin, motor.tree().now(), act);
+            }
+        }
         active.outcome.end(result);
+    }
+
+    /// Notes the course that has begun or changed.
+    pub(super) fn note_course(&mut self, command: &Command, options: &DriveOptions) {
+        let wheels = self.robot.names();
+        let (Some(active), Some(devices)) = (&mut self.active, &self.devices) else {
+            return;
+        };
+        let [motor, _] = &*devices.motors else { return };
+        let course = Arc::new(Course { wheels, course: command.clone(), options: *options });
+        let origin = origin();
+        motor.journal().note(self.now, Act::Course(Arc::clone(&course)));
+        active.noted = Some((origin, course));
     }
 
     /// The error with the device that is gone, where one is.

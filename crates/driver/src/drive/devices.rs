@@ -4,7 +4,9 @@ use crate::device::Device;
 use crate::device::registry::Registry;
 use crate::drive::odometry::Wheels;
 use crate::error::Result;
+use crate::journal::Name;
 use crate::motor::find_all;
+use crate::port_name;
 use crate::sensor::{self, gyro};
 use crate::value::Value;
 use std::sync::Arc;
@@ -24,6 +26,13 @@ pub struct Robot {
     pub ports: [String; 2],
     /// Its wheels.
     pub wheels: Wheels,
+}
+
+impl Robot {
+    /// The ports, as the journal has them.
+    pub(super) fn names(&self) -> [Name; 2] {
+        self.ports.each_ref().map(|port| Name::from(port_name::short(port)))
+    }
 }
 
 /// The robot's devices as they are plugged in now.

@@ -22,6 +22,7 @@ use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
 use crate::device::{Device, MotionObserver};
 use crate::error::{Interrupted, Result};
+use crate::journal::{Act, Place};
 use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor::{self, gyro};
@@ -126,6 +127,8 @@ impl Drive {
         };
         inner.goal = None;
         inner.set_pose(pose);
+        let act = Act::Pose(Box::new(Place { wheels: inner.robot.names(), pose }));
+        self.registry.journal().note(inner.now, act);
         Ok(true)
     }
 
@@ -210,6 +213,7 @@ impl Drive {
         inner.integrate(&self.registry)?;
         let begun = inner.begin(command, options)?;
         if begun.is_some() {
+            inner.note_course(command, options);
             inner.devices.iter().flat_map(|devices| &devices.motors).for_each(|motor| {
                 motor.was_commanded();
             });

@@ -4,6 +4,7 @@ use crate::device::motion::End;
 use crate::drive::devices::DriveDevices;
 use crate::drive::steering::Steering;
 use crate::error::Result;
+use crate::journal::{Course, Origin};
 use crate::motor::claim::Claim;
 use crate::motor::wait::{Reason, has};
 use crate::motor::{Ramps, StopAction};
@@ -58,6 +59,8 @@ pub(super) struct ActiveMotion {
     pub(super) landing: Option<Landing>,
     pub(super) stuck: [Stuck; 2],
     pub(super) outcome: Arc<Outcome>,
+    /// Its course in the journal.
+    pub(super) noted: Option<(Origin, Arc<Course>)>,
     /// Put back when the motion ends.
     pub(super) _ramps: Ramps,
 }

@@ -14,6 +14,7 @@
 //!
 //! The motors' own regulator takes some 50 ms to follow; with these gains the
 //! loop around it has no overshoot worth mentioning.
+pub use crate::course::Leg;
 use crate::drive::odometry::Wheels;
 use ev3_motion::{Path, Pose, Segment, direction, rounded, wrapped};
 use std::collections::VecDeque;
@@ -64,30 +65,6 @@ const GOAL_WITHIN: f64 = 1.0;
 
 /// The same in degrees.
 const GOAL_ALIGNED: f64 = 1.5;
-
-/// A part of a motion. Relative ones count from where the part before was to
-/// end.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Leg {
-    /// Turn on the spot by an angle in degrees.
-    Turn(f64),
-    /// Turn on the spot to a heading as it is, full turns included.
-    Heading(f64),
-    /// Turn on the spot to a heading, the shorter way round.
-    Face(f64),
-    /// Turn on the spot towards a place, front or rear first.
-    Towards([f64; 2]),
-    /// Go to a place with the middle of the axle.
-    To([f64; 2]),
-    /// Go to a place with the robot's reference point.
-    Reach([f64; 2]),
-    /// An arc: its length in cm and its curvature in the direction of travel.
-    Arc(f64, f64),
-    /// A path through places, its corners rounded with a radius.
-    Through(Vec<[f64; 2]>, f64),
-    /// A path without corners.
-    Pieces(Vec<Segment>),
-}
 
 impl Leg {
     /// How far a wheel rolls at most, in cm, from a pose that is not far away;

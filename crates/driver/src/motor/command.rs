@@ -7,33 +7,10 @@ use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::error::{Error, Result};
 use crate::motor::ramped::Ramped;
+pub use crate::stop_action::StopAction;
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
-
-/// The action of a motor at the end of a move, or when it is stopped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum StopAction {
-    /// Rolls out freely.
-    Coast,
-    /// Rolls out with its winding shorted.
-    #[default]
-    Brake,
-    /// Keeps its position, actively.
-    Hold,
-}
-
-impl StopAction {
-    /// The kernel's word for it.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Coast => "coast",
-            Self::Brake => "brake",
-            Self::Hold => "hold",
-        }
-    }
-}
 
 /// Writes a command to one motor and leaves its set-points as they are.
 ///
@@ -92,6 +69,8 @@ fn start_as(motor: &Device, word: &str, end: Option<End>) -> Result<()> {
         ramped.prepare()?;
     }
     motor.write("command", word)?;
+    let now = run.map_or_else(|| motor.tree().now(), |run| run.started);
+    motor.note_command(now, word);
     *present = run;
     Ok(())
 }
@@ -102,6 +81,7 @@ pub(super) fn stop_run(motor: &Device, run: MotorRun) -> Result<()> {
     let mut present = motor.run();
     if *present == Some(run) {
         motor.write("command", "stop")?;
+        motor.note_command(motor.tree().now(), "stop");
         *present = None;
     }
     Ok(())

@@ -7,6 +7,7 @@ mod dev;
 mod devices;
 mod drives;
 mod files;
+mod journal;
 mod laws;
 mod motors;
 mod moves;

@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../drive', [face/2, go_to/4]).
+:- use_module('../causes', [acting_for/2]).
 :- use_module(compass).
 :- use_module(knowledge).
 :- use_module(map).
@@ -43,7 +44,8 @@ carry_out([Action|Plan], Map, Metric, Tell, Outcome) :-
     (   Rest0 = [move|Rest]
     ->  move(Direction, Map, Metric, Outcome1)
     ;   Rest = [],
-        turn_to(Direction, Metric, Outcome1)
+        state_position(Cell0, _),
+        acting_for(turn_to(Direction, Metric, Outcome1), plan(turn, Cell0))
     ),
     (   Outcome1 == done
     ->  state_position(Cell1, Direction1),
@@ -86,7 +88,12 @@ move(Direction, Map, Metric, Outcome) :-
     grid_step(Map, move, state(Cell, Direction), state(Next, _)),
     (   \+ grid_cell(Map, Next)
     ->  Outcome = ended(off_map)
-    ;   beside(Cell, Direction, Beside),
+    ;   acting_for(move(Cell, Next, Direction, Metric, Outcome),
+                   plan(move, Next))
+    ).
+
+move(Cell, Next, Direction, Metric, Outcome) :-
+    (   beside(Cell, Direction, Beside),
         look_into(Beside, Cell, Metric, Seen),
         Seen \== done
     ->  Outcome = Seen

@@ -1,0 +1,598 @@
+:- module(ev3dev_golog,
+          [ golog/2,                    % :Program, +Options
+            indigolog/1,                % :Program
+            indigolog/0,
+            golog_exog/1,               % :Action
+            do/2,                       % :Program, -History
+            do/3,                       % :Program, +History0, -History
+            trans/4,                    % :Program0, +History0, -Program,
+                                        % -History
+            final/2,                    % :Program, +History
+            holds/2,                    % :Condition, +History
+            has_val/3,                  % :Fluent, ?Value, +History
+            eval/3,                     % :Condition, +History, -Truth
+            now/1,                      % -History
+            domain/2,                   % ?Value, :Sort
+            rdomain/2,                  % ?Value, :Sort
+            getdomain/2,                % :Sort, -Values
+            sensing_action/2,           % :Action, ?Fluent
+            shuffle/2,                  % +List, -Shuffled
+            ask_execute/2,              % :Action, -Value
+            ask_exog_occurs/1,          % :Action
+            report_message/2,           % +Kind, +Message
+            set_option/2,               % +Option, +Value
+            initializeRcx/0,
+            finalizeRcx/0,
+            initializeExog/0,
+            finalizeExog/0,
+            sendRcxActionNumber/2,      % :Number, -Result
+            receiveRcxActionNumber/1,   % -Numbers
+            checkOtherExog/1            % -Actions
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(random), [random_permutation/2]).
+:- use_module(private/arguments,
+              [ must_be_options/3, option/2, option/3,
+                timeout_option/2
+              ]).
+:- use_module(private/errors,
+              [ domain_error/2, must_be/2, term_expansion/2 ]).
+:- use_module(private/golog/context, [context/3]).
+:- use_module(private/golog/domain, [fluent_value/4, situation/3,
+                                     situation_history/2]).
+:- use_module(private/golog/messages, []).
+:- use_module(private/golog/run, [recorded_history/1, run_online/4]).
+:- use_module(private/golog/search, []).
+:- use_module(private/golog/theory,
+              [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
+                refuse_epistemic/1, vocabulary/1
+              ]).
+:- use_module(private/golog/transitions,
+              [is_final/3, program_shown/2, run/5, step/5]).
+:- use_module(private/golog/world,
+              [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
+
+/** <module> Golog: plan, act, sense, react
+
+Programs of Golog, ConGolog, IndiGolog and Legolog run on the robot, in the
+simulator and without either. The module of the program says what the world is
+like: its actions, fluents and their initial values, and how to execute the
+actions. An example:
+
+```
+:- use_module(library(ev3dev/golog)).
+
+prim_action(step).              prim_fluent(at).
+poss(step, at < 3).             initially(at, 0).
+causes_val(step, at, N, N is at+1).
+
+proc(walk, while(at < 3, step)).
+```
+
+```
+?- do(walk, History).
+History = [step, step, step].
+?- indigolog(walk).
+```
+
+do/2 finds out what a program would do. indigolog/1 and golog/2 do it: step by
+step, with what has happened meanwhile. The robot's actions are facts, too:
+
+```
+robot_action(step, go_cm(30, 10)).
+robot_sense(look, D, us_dist_cm(_, D)).
+robot_exog(bump, touch(_, 1)).
+```
+
+docs/cognitive-robotics.md explains all of it, and tells where the constructs
+come from.
+
+An import of this library declares the predicates of a domain dynamic and
+multifile in the importing module, and discontiguous those that it defines. So
+a domain may leave out what it does not need, and write its clauses in any
+order and in several files.
+*/
+
+:- meta_predicate
+    golog(:, +),
+    indigolog(:),
+    golog_exog(:),
+    do(:, ?),
+    do(:, +, ?),
+    trans(:, +, ?, ?),
+    final(:, +),
+    holds(:, +),
+    has_val(:, ?, +),
+    eval(:, +, ?),
+    domain(?, :),
+    rdomain(?, :),
+    getdomain(:, ?),
+    sensing_action(:, ?),
+    ask_execute(:, -),
+    ask_exog_occurs(:),
+    sendRcxActionNumber(:, -).
+
+:- module_transparent indigolog/0.
+
+%!  golog(:Program, +Options) is semidet.
+%
+%   Run Program online: find the next step, execute its action, take in what
+%   it senses and what has happened by itself, and so on, until Program may
+%   end. Prints why and fails if it does not come to its end. The motors are
+%   stopped then, and after an exception. Before the run initialize/0 of the
+%   domain is called, after it, however it ends, finalize/0.
+%
+%   Options:
+%
+%     - reason(-Reason)
+%       Do not fail, and do not throw an error of an action, but tell why the
+%       run ended: `final`, not_possible(Action, Condition) if only actions
+%       were left whose precondition does not hold, no_step(Program) if
+%       nothing else was left, `stopped` by abort/0, `timeout`, `limit`,
+%       failed(Action), or exception(Error).
+%     - history(-History)
+%       The history, newest first: actions, sensing results e(Fluent, Value)
+%       or e(Action, Outcome), failed(Action) and interrupted(Action).
+%     - trace(:Closure)
+%       Called with action(A) before an action, exog(A), sensed(A, Value),
+%       step(Program) with the program that remains, and replanned(Program).
+%     - limit(+Steps)
+%       End after that number of steps. Default is `infinite`.
+%     - timeout(+Seconds)
+%       End after that time, also in the middle of a wait. Default is
+%       `infinite`. The time is that of the robot or the simulation, if there
+%       is one.
+%     - initial(+History)
+%       What is taken to have happened before. Default is [].
+%     - on_failed(+What)
+%       What follows if an action fails: `continue` (default) with
+%       failed(Action) in the history, `stop`, or `backtrack` to another step.
+%     - gexec(+Meaning)
+%       `guard` (default): gexec(P, E) runs E as long as P holds. `assume`: P
+%       is made true first.
+%     - device(:Closure)
+%       Runs the codes of how_to_execute/3, by
+%       call(Closure, Device, Code, Value). Without it, a code is called as a
+%       goal.
+%
+%   @error domain_error(golog_option, Option)
+%   @error existence_error(golog_program, Name/Arity) if a part of Program is
+%          no construct, procedure or action
+%   @error existence_error(golog_precondition, Name/Arity) if there is no
+%          poss/2 for an action
+%   @error existence_error(golog_condition, Name/Arity)
+%   @error domain_error(golog_procedure, Call) if a procedure calls itself
+%          without a step in between
+%   @error permission_error(run, golog_domain, Module) if the domain is about
+%          what is known in several initial situations
+
+golog(M:Program, Options) :-
+    settings(Options, M, Settings),
+    retractall(input_ended),
+    (   option(reason(Reason), Options)
+    ->  catch(run_online(M:Program, Settings, Reason0, History), Error,
+              ended_by(Error, Reason0, History)),
+        Result = given
+    ;   run_online(M:Program, Settings, Reason0, History),
+        Reason = Reason0,
+        Result = asked
+    ),
+    (   option(history(History0), Options)
+    ->  History0 = History
+    ;   true
+    ),
+    ended(Result, Reason0, Reason).
+
+ended(given, Reason, Reason).
+ended(asked, Reason0, _) :-
+    (   Reason0 == final
+    ->  true
+    ;   print_message(help, golog(not_ended(Reason0))),
+        fail
+    ).
+
+%   What others wait for is passed on.
+
+ended_by(Error, Reason, History) :-
+    (   for_others(Error)
+    ->  throw(Error)
+    ;   Reason = exception(Error),
+        recorded_history(History)
+    ).
+
+for_others(Error) :-
+    (   var(Error)
+    ->  true
+    ;   Error = '$aborted'
+    ;   Error = unwind(_)
+    ;   Error = time_limit_exceeded
+    ;   Error = time_limit_exceeded(_)
+    ;   \+ Error = error(_, _),
+        compound(Error),
+        functor(Error, Name, _),
+        sub_atom(Name, 0, _, _, ev3dev)
+    ),
+    !.
+
+settings(Options, M,
+         settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial,
+                  Keep)) :-
+    must_be_options(golog_option,
+                    [ reason, history, trace, limit, timeout, initial,
+                      on_failed, gexec, device ], Options),
+    timeout_option(Options, Timeout),
+    option(limit(Limit), Options, infinite),
+    (   Limit == infinite
+    ->  true
+    ;   must_be(nonneg, Limit)
+    ),
+    option(initial(Initial), Options, []),
+    must_be(list, Initial),
+    one_of(on_failed(OnFailed), [continue, stop, backtrack], Options),
+    one_of(gexec(Gexec), [guard, assume], Options),
+    (   Gexec == assume
+    ->  Words = [assume]
+    ;   Words = []
+    ),
+    closure(trace(Trace), trace, M, Options),
+    closure(device(Device), device, M, Options),
+    (   option(history(_), Options)
+    ->  Keep = all
+    ;   Keep = some
+    ).
+
+one_of(Option, [Default|Others], Options) :-
+    functor(Option, Name, 1),
+    functor(Given, Name, 1),
+    option(Given, Options, Default),
+    arg(1, Given, Value0),
+    value_or(Value0, Given, Default, Value),
+    must_be(atom, Value),
+    (   member(Value, [Default|Others])
+    ->  arg(1, Option, Value)
+    ;   domain_error(golog_option, Given)
+    ).
+
+value_or(Value, _, _, Value).
+
+closure(Option, Name, M, Options) :-
+    functor(Given, Name, 1),
+    (   option(Given, Options)
+    ->  arg(1, Given, Closure0),
+        must_be(callable, Closure0),
+        strip_module(M:Closure0, M1, Closure),
+        Value =.. [Name, M1:Closure],
+        arg(1, Option, Value)
+    ;   arg(1, Option, none)
+    ).
+
+%!  indigolog(:Program) is semidet.
+%!  indigolog is semidet.
+%
+%   Run Program online, as golog(Program, []). Without one, the procedure
+%   `main`; or if there is none, that which a fact controller/1 of the domain
+%   names, or mainControl(N) for a number N there. Fails, and prints why, if
+%   Program does not come to its end.
+
+indigolog(M:Program) :-
+    (   var(Program)
+    ->  main_program(M, Main),
+        golog(M:Main, [])
+    ;   golog(M:Program, [])
+    ).
+
+indigolog :-
+    context_module(M),
+    ev3dev_golog:main_program(M, Main),
+    golog(M:Main, []).
+
+main_program(M, Main) :-
+    (   \+ ( has_clauses(M, proc(_, _)),
+             M:proc(main, _) ),
+        has_clauses(M, controller(_)),
+        M:controller(Controller)
+    ->  (   number(Controller)
+        ->  Main = mainControl(Controller)
+        ;   Main = Controller
+        )
+    ;   Main = main
+    ).
+
+%!  golog_exog(:Action) is det.
+%
+%   The exogenous Action happens now. May be called from anywhere: the
+%   prompt, a web page, another thread. The agent whose domain is in the
+%   module that calls this takes it in before its next step; if that module
+%   has no domain, all agents that run. If none runs, the next run does. None
+%   is lost, and their order is kept. Action may be a code that
+%   translate_exog/2 or actionNum/2 of the domain translate.
+%
+%   @error instantiation_error if Action is unbound
+
+golog_exog(M:Action) :-
+    must_be(nonvar, Action),
+    send_exogenous(M, Action).
+
+                /*******************************
+                *           OFFLINE            *
+                *******************************/
+
+%!  do(:Program, ?History) is nondet.
+%!  do(:Program, +History0, ?History) is nondet.
+%
+%   True if Program can run to its end, and lead from History0, by default
+%   the empty history, to History. Nothing is executed. On backtracking each
+%   way.
+
+do(Program, History) :-
+    do(Program, [], History).
+
+do(M:Program, History0, History) :-
+    situation_now(M, History0, S0, X),
+    (   is_list(History)
+    ->  length(History, Count),
+        On = at(Count, h(History))
+    ;   On = any
+    ),
+    run(Program, S0, S, On, X),
+    situation_history(S, History).
+
+%!  trans(:Program0, +History0, ?Program, ?History) is nondet.
+%
+%   True if Program0 can take a step after History0 such that Program is what
+%   remains of it, after History. It is Trans of the literature.
+
+trans(M:Program0, History0, Program, History) :-
+    situation_now(M, History0, S0, X),
+    step(Program0, S0, Program1, S, X),
+    program_shown(Program1, Program),
+    situation_history(S, History).
+
+%!  final(:Program, +History) is semidet.
+%
+%   True if Program may end after History. It is Final of the literature.
+
+final(M:Program, History) :-
+    situation_now(M, History, S, X),
+    is_final(Program, S, X).
+
+%!  holds(:Condition, +History) is nondet.
+%
+%   True if Condition holds after History. Variables in Condition are bound to
+%   each solution.
+
+holds(M:Condition, History) :-
+    situation_now(M, History, S, X),
+    ev3dev_golog_domain:holds(Condition, S, X).
+
+%!  has_val(:Fluent, ?Value, +History) is nondet.
+%
+%   True if Fluent has Value after History.
+
+has_val(M:Fluent, Value, History) :-
+    must_be(nonvar, Fluent),
+    situation_now(M, History, S, X),
+    fluent_value(Fluent, Value, S, X).
+
+%!  eval(:Condition, +History, -Truth) is nondet.
+%
+%   Truth is `true` if Condition holds after History, else `false`.
+
+eval(Condition, History, Truth) :-
+    (   Truth = true,
+        holds(Condition, History)
+    ;   Truth = false,
+        Condition = M:C,
+        \+ holds(M:C, History)
+    ).
+
+situation_now(M, History, S, X) :-
+    must_be(list, History),
+    prepare(M),
+    refuse_epistemic(M),
+    context(M, [], X),
+    situation(History, S, X).
+
+%!  now(-History) is det.
+%
+%   History is that of the run of this thread, or of its last run, also if an
+%   exception has ended it. It has the newest thousand entries, newest first;
+%   all, if the run was asked for its history.
+
+now(History) :-
+    recorded_history(History).
+
+                /*******************************
+                *        FOR DOMAINS           *
+                *******************************/
+
+%!  domain(?Value, :Sort) is nondet.
+%!  rdomain(?Value, :Sort) is nondet.
+%!  getdomain(:Sort, -Values) is det.
+%
+%   True if Value is one of Sort; rdomain/2 answers them in random order.
+%   Values are all of them. Sort is a list, or the name of a predicate with
+%   one argument that answers a list, or each value.
+
+domain(Value, Sort) :-
+    getdomain(Sort, Values),
+    member(Value, Values).
+
+rdomain(Value, Sort) :-
+    getdomain(Sort, Values0),
+    random_permutation(Values0, Values),
+    member(Value, Values).
+
+getdomain(M:Sort, Values) :-
+    must_be(nonvar, Sort),
+    domain_list(Sort, M, Values).
+
+%!  sensing_action(:Action, ?Fluent) is nondet.
+%
+%   True if Action senses Fluent.
+
+sensing_action(M:Action, Fluent) :-
+    (   has_clauses(M, senses(_, _)),
+        M:senses(Action, Fluent)
+    ;   has_clauses(M, senses(_, _, _, _, _)),
+        M:senses(Action, _, Fluent, _, _)
+    ).
+
+%!  shuffle(+List, -Shuffled) is det.
+%
+%   Shuffled has the elements of List in random order.
+
+shuffle(List, Shuffled) :-
+    must_be(list, List),
+    random_permutation(List, Shuffled).
+
+%!  ask_execute(:Action, -Value) is det.
+%
+%   For execute/2 of a domain without a robot: print Action, and if it is a
+%   sensing action, ask the user for the Value.
+
+ask_execute(M:Action, Value) :-
+    must_be(nonvar, Action),
+    (   \+ \+ sensing_action(M:Action, _)
+    ->  ask(Action, Value)
+    ;   print_message(help, golog(executing(Action)))
+    ).
+
+%!  ask_exog_occurs(:Action) is semidet.
+%
+%   For exog_occurs/1 of a domain without a robot: ask the user for an
+%   exogenous action. Fails at the end of the input, and then does not ask
+%   again in this run.
+
+:- thread_local input_ended/0.
+
+ask_exog_occurs(M:Action) :-
+    \+ input_ended,
+    findall(A, ( has_clauses(M, exog_action(_)), M:exog_action(A) ), Actions),
+    print_message(help, golog(which_exogenous(Actions))),
+    read(Answer),
+    (   Answer == end_of_file
+    ->  assertz(input_ended),
+        fail
+    ;   Action = Answer
+    ).
+
+%!  report_message(+Kind, +Message) is det.
+%
+%   Print a message of a program, a term or a list of terms.
+
+report_message(Kind, Message) :-
+    print_message(informational, golog(report(Kind, Message))).
+
+%!  set_option(+Option, +Value) is det.
+%
+%   Does nothing: for programs that set options of IndiGolog.
+
+set_option(_, _).
+
+                /*******************************
+                *           LEGOLOG            *
+                *******************************/
+
+%!  initializeRcx is det.
+%!  finalizeRcx is det.
+%!  initializeExog is det.
+%!  finalizeExog is det.
+%
+%   What a domain of Legolog calls before and after a run. Nothing is to be
+%   done.
+
+initializeRcx.
+
+finalizeRcx.
+
+initializeExog.
+
+finalizeExog.
+
+%!  sendRcxActionNumber(:Number, -Result) is semidet.
+%
+%   Execute the action of the domain that actionNum/2 gives Number, by its
+%   robot_sense/3 or robot_action/2. Result is what it sensed, else 0.
+
+sendRcxActionNumber(M:Number, Result) :-
+    must_be(nonvar, Number),
+    (   code_of_number(Number, M, Action)
+    ->  true
+    ;   Action = Number
+    ),
+    run_directly(Action, M, done, Value),
+    (   var(Value)
+    ->  Result = 0
+    ;   Result = Value
+    ).
+
+%!  receiveRcxActionNumber(-Numbers) is det.
+%!  checkOtherExog(-Actions) is det.
+%
+%   Numbers and Actions are []: what happens on the robot, and what
+%   golog_exog/1 tells, is in the history without them.
+
+receiveRcxActionNumber([]).
+
+checkOtherExog([]).
+
+                /*******************************
+                *        IMPORTING IT          *
+                *******************************/
+
+%   The modules that import this library: when it is loaded, the one that
+%   loads it; later ones when a clause of a domain is read in them.
+
+:- thread_local declared/2.
+
+importer(Module) :-
+    module_property(ev3dev_golog, file(File)),
+    source_file_property(File, load_context(Module, _, _)),
+    \+ sub_atom(Module, 0, _, _, ev3dev).
+
+:- initialization(forall(importer(Module), declare_domain(Module)), now).
+
+:- public of_domain/1.
+
+of_domain(Term) :-
+    nonvar(Term),
+    (   Term = (Head :- _)
+    ->  callable(Head)
+    ;   Head = Term
+    ),
+    functor(Head, Name, Arity),
+    (   vocabulary(Name/Arity)
+    ->  in_importer(Module),
+        \+ declared(Module, Name/Arity),
+        assertz(declared(Module, Name/Arity)),
+        (   declared(Module, all)
+        ->  true
+        ;   assertz(declared(Module, all)),
+            declare_domain(Module)
+        ),
+        catch(discontiguous(Module:Name/Arity),
+              error(permission_error(_, _, _), _), true)
+    ;   own_export(Name/Arity)
+    ->  % The program's own definition replaces this library's, in silence.
+        in_importer(Module),
+        functor(General, Name, Arity),
+        predicate_property(Module:General, imported_from(ev3dev_golog)),
+        redefine_system_predicate(Module:General)
+    ).
+
+in_importer(Module) :-
+    prolog_load_context(module, Module),
+    predicate_property(Module:golog(_, _), imported_from(ev3dev_golog)).
+
+own_export(Name/Arity) :-
+    module_property(ev3dev_golog, exports(Exports)),
+    memberchk(Name/Arity, Exports).
+
+:- multifile system:term_expansion/2.
+:- dynamic system:term_expansion/2.
+
+system:term_expansion(Term, _) :-
+    ev3dev_golog:of_domain(Term),
+    fail.

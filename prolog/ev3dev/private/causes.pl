@@ -1,0 +1,86 @@
+:- module(ev3dev_causes,
+          [ acting_for/2,               % :Goal, +Cause
+            causes/2                    % +Number, -Causes
+          ]).
+:- use_module(native, [cause_/2, cause_active_/1]).
+
+/** <module> Why a program does what it does
+
+A cause is a term. The native code knows the number of the cause that a thread
+acts for, and writes it into the journal with each command; the terms are
+here. Those of 4096 causes are kept, and those that somebody still acts for.
+*/
+
+:- meta_predicate acting_for(0, +).
+
+:- dynamic
+    cause/3,                            % Number, Former, Cause
+    kept/3.                             % Number, Due, State
+
+%!  acting_for(:Goal, +Cause) is semidet.
+%
+%   Call Goal once. What it commands is done for Cause, and that for what this
+%   thread acted for before. An exception, too, ends it.
+
+acting_for(Goal, Cause) :-
+    cause_(Number, Former),
+    note(Number, Former, Cause),
+    (   call(Goal)
+    ->  !
+    ;   !,
+        fail
+    ).
+
+note(Number, Former, Cause) :-
+    assertz(cause(Number, Former, Cause)),
+    forget_before(Number).
+
+%!  causes(+Number, -Causes) is det.
+%
+%   Causes are the terms of a cause and of those around it, the innermost
+%   first.
+
+causes(Number, Causes) :-
+    (   cause(Number, Former, Cause)
+    ->  Causes = [Cause|Causes1],
+        causes(Former, Causes1)
+    ;   Causes = []
+    ).
+
+                /*******************************
+                *        OLD CAUSES            *
+                *******************************/
+
+room(4096).
+
+%   One is kept while somebody acts for it, and while those are kept that
+%   began meanwhile.
+
+forget_before(Number) :-
+    room(Room),
+    Old is Number - Room,
+    (   cause(Old, _, _)
+    ->  forget(Old, ended, Number)
+    ;   true
+    ),
+    (   kept(_, _, _)
+    ->  forall(( kept(Kept, Due, State),
+                 Due =< Number,
+                 retract(kept(Kept, Due, State))
+               ),
+               forget(Kept, State, Number))
+    ;   true
+    ).
+
+forget(Old, State, Number) :-
+    (   cause_active_(Old)
+    ->  keep(Old, active, Number)
+    ;   State == active
+    ->  keep(Old, ended, Number)
+    ;   retractall(cause(Old, _, _))
+    ).
+
+keep(Old, State, Number) :-
+    room(Room),
+    Due is Number + Room,
+    assertz(kept(Old, Due, State)).

@@ -1,0 +1,701 @@
+:- module(ev3dev_golog_domain,
+          [ initial_situation/1,        % -Situation
+            situation_history/2,        % +Situation, -History
+            situation_count/2,          % +Situation, -Count
+            situation/3,                % +History, -Situation, +Context
+            history_shortened/3,        % +Length, +Situation0, -Situation
+            done/4,                     % +Entry, +Situation0, -Situation,
+                                        % +Context
+            marked/3,                   % +Entry, +Situation0, -Situation
+            fluent_value/4,             % ?Fluent, ?Value, +Situation,
+                                        % +Context
+            evaluated_arguments/4,      % +Term, -Evaluated, +Situation,
+                                        % +Context
+            was_done/2,                 % ?Action, +Situation
+            holds/3,                    % +Condition, +Situation, +Context
+            domain_value/4,             % -Value, +Domain, +Situation,
+                                        % +Context
+            chosen/3,                   % +Choices, +Situation, +Context
+            condition_of/3,             % +Condition, -Body, +Context
+            fluents_now/3               % +Situation, +Context, -Pairs
+          ]).
+:- use_module(library(assoc),
+              [ assoc_to_keys/2, assoc_to_list/2, empty_assoc/1, get_assoc/3,
+                put_assoc/4
+              ]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
+:- use_module(context,
+              [ call_of/3, context_module/2, entered/4,
+                print_once/3
+              ]).
+:- use_module(programs,
+              [ closed/1, condition_construct/1, fresh/4 ]).
+:- use_module(theory,
+              [ action_functor/2, domain_list/3, fluent_functor/2,
+                has_initial/2, initial_value/3, is_fluent/2, is_proc/2,
+                is_sensed/2, is_set_by_exogenous/2, located/3, proc_body/3,
+                relational_functor/2
+              ]).
+:- use_module('../errors', [throw_error/3]).
+
+/** <module> Situations, the values of fluents, conditions
+
+A situation is what a history makes of the initial one:
+
+    s(History, Count, Values, Open, Done)
+
+History is a list, newest first, of actions and sensing results, perhaps only
+the newest of them; Count counts all. Values is an AVL tree with the value of
+each ground fluent that an entry has set. So the database is progressed with
+each action, a look-up does not depend on the length of the history, and
+backtracking to an earlier situation costs nothing. Done is the set of all
+entries.
+
+An effect on a fluent with a variable that neither its condition nor the
+declaration of the fluent enumerates is kept in Open, with the situation
+before it, and is decided by regression when a value is asked.
+
+Sources: Levesque, Reiter, Lesperance, Lin, Scherl: GOLOG (1997); De Giacomo,
+Lesperance, Levesque: ConGolog (2000), De Giacomo, Levesque: An incremental
+interpreter for high-level programs with sensing (1999).
+*/
+
+%!  initial_situation(-Situation) is det.
+%
+%   Situation is the one in which nothing has happened.
+
+initial_situation(s([], 0, Empty, [], Empty)) :-
+    empty_assoc(Empty).
+
+%!  situation_history(+Situation, -History) is det.
+%!  situation_count(+Situation, -Count) is det.
+%
+%   History has the entries of Situation, or the newest of them; Count is how
+%   many there are in all.
+
+situation_history(s(History, _, _, _, _), History).
+
+situation_count(s(_, Count, _, _, _), Count).
+
+%!  situation(+History, -Situation, +Context) is det.
+%
+%   Situation is the one after History, a list, newest first.
+
+situation(History, Situation, Context) :-
+    reverse(History, Entries),
+    initial_situation(Situation0),
+    entries_done(Entries, Situation0, Situation, Context).
+
+entries_done([], S, S, _).
+entries_done([Entry|Entries], S0, S, Context) :-
+    done(Entry, S0, S1, Context),
+    entries_done(Entries, S1, S, Context).
+
+%!  history_shortened(+Length, +Situation0, -Situation) is det.
+%
+%   Situation has only the newest Length entries of the history in its list.
+
+history_shortened(Length, s(H0, C, V, O, D), s(H, C, V, O, D)) :-
+    first_of(Length, H0, H).
+
+first_of(N, List0, List) :-
+    (   N > 0,
+        List0 = [X|Xs0]
+    ->  List = [X|Xs],
+        N1 is N-1,
+        first_of(N1, Xs0, Xs)
+    ;   List = []
+    ).
+
+%!  marked(+Entry, +Situation0, -Situation) is det.
+%
+%   Situation has Entry in its history; no fluent changes.
+
+marked(Entry, s(H, C0, V, O, D), s([Entry|H], C, V, O, D)) :-
+    C is C0+1.
+
+%!  done(+Entry, +Situation0, -Situation, +Context) is det.
+%
+%   Situation is what follows on Situation0 by Entry: an action, or a sensing
+%   result e(Fluent, Value) or e(Action, Outcome).
+
+done(Entry, S0, S, Context) :-
+    S0 = s(H, C0, Values0, Open0, Done0),
+    C is C0+1,
+    effects(Entry, S0, Context, Effects),
+    with_effects(Effects, C, S0, Values0, Values, Open0, Open),
+    (   ground(Entry)
+    ->  put_assoc(Entry, Done0, true, Done)
+    ;   Done = Done0
+    ),
+    S = s([Entry|H], C, Values, Open, Done).
+
+%   An effect keeps the variables of its action: a test later in the program
+%   may bind them.
+
+effects(Entry, S0, Context, Effects) :-
+    (   ground(Entry)
+    ->  findall(Effect, effect(Entry, S0, Context, Effect), Effects)
+    ;   findall(Entry-Effect, effect(Entry, S0, Context, Effect), Pairs),
+        of_same(Pairs, Entry, Effects)
+    ).
+
+of_same([], _, []).
+of_same([Entry-Effect|Pairs], Entry, [Effect|Effects]) :-
+    of_same(Pairs, Entry, Effects).
+
+%   The first effect on a fluent counts.
+
+with_effects([], _, _, Values, Values, Open, Open).
+with_effects([Effect|Effects], C, S0, Values0, Values, Open0, Open) :-
+    (   Effect = set(F, V)
+    ->  Open1 = Open0,
+        (   get_assoc(F, Values0, v(C, _))
+        ->  Values1 = Values0
+        ;   put_assoc(F, Values0, v(C, V), Values1)
+        )
+    ;   Effect = open(F, V, Condition),
+        Values1 = Values0,
+        (   Condition == true
+        ->  without_subsumed(Open0, F, C, Open1a)
+        ;   Open1a = Open0
+        ),
+        after_same(Open1a, C, open(C, F, V, Condition, S0), Open1)
+    ),
+    with_effects(Effects, C, S0, Values1, Values, Open1, Open).
+
+without_subsumed([], _, _, []).
+without_subsumed([O|Os0], F, C, Os) :-
+    O = open(C1, F1, _, _, _),
+    (   C1 < C,
+        subsumes_term(F, F1)
+    ->  Os = Os1
+    ;   Os = [O|Os1]
+    ),
+    without_subsumed(Os0, F, C, Os1).
+
+%   Newest first; those of one action in the order of the clauses.
+
+after_same([O|Os0], C, New, [O|Os]) :-
+    O = open(C, _, _, _, _),
+    !,
+    after_same(Os0, C, New, Os).
+after_same(Os, _, New, [New|Os]).
+
+%   effect(+Entry, +Situation0, +Context, -Effect): set(Fluent, Value) or
+%   open(Fluent, Value, Condition)
+
+effect(Entry, S0, Context, Effect) :-
+    context_module(Context, M),
+    (   \+ action_functor(Entry, M),
+        is_internal(Entry)
+    ->  internal_effect(Entry, S0, Context, M, Effect)
+    ;   effect_in(Entry, S0, Context, M, Effect)
+    ).
+
+is_internal(e(_, _)).
+is_internal(set(_)).
+is_internal(unset(_)).
+is_internal(sim(_)).
+
+internal_effect(e(X, V), S0, Context, M, Effect) :-
+    sensed_effect(X, V, S0, Context, M, Effect).
+internal_effect(set(F), _, _, _, set(F, true)).
+internal_effect(unset(F), _, _, _, set(F, false)).
+internal_effect(sim(A), S0, Context, M, Effect) :-
+    effect_in(A, S0, Context, M, Effect).
+
+effect_in(A, S0, Context, M, Effect) :-
+    caused(A, F, V, Condition, M),
+    effect_if(F, V, Condition, S0, Context, M, Effect).
+effect_in(A, _, _, M, Effect) :-
+    M:forget(A, F),
+    (   ground(F)
+    ->  Effect = set(F, '$unknown')
+    ;   Effect = open(F, '$unknown', true)
+    ).
+
+caused(A, F, V, C, M) :-
+    M:causes_val(A, F, V, C).
+caused(A, F, true, C, M) :-
+    M:causes_true(A, F, C).
+caused(A, F, false, C, M) :-
+    M:causes_false(A, F, C).
+
+%   The name of a fluent wins over that of an action. The functor decides
+%   where X is open.
+
+sensed_effect(X, V, S0, Context, M, Effect) :-
+    (   nonvar(X),
+        fluent_functor(X, M),
+        \+ \+ is_fluent(X, M)
+    ->  Effect = set(X, V)
+    ;   M:senses(X, F),
+        Effect = set(F, V)
+    ;   M:senses(X, V, F, V2, Condition),
+        effect_if(F, V2, Condition, S0, Context, M, Effect)
+    ;   nonvar(X),
+        \+ is_sensing(X, M),
+        Effect = set(X, V)
+    ).
+
+is_sensing(X, M) :-
+    M:senses(X, _),
+    !.
+is_sensing(X, M) :-
+    M:senses(X, _, _, _, _),
+    !.
+
+effect_if(F, V, Condition, S0, Context, M, Effect) :-
+    (   ground(F)
+    ->  holds_once(Condition, S0, Context),
+        Effect = set(F, V)
+    ;   open_effect(F, V, Condition, S0, Context, M, Effect)
+    ).
+
+%   Equations of the condition may give the variables of F their values. Else
+%   the declaration of the fluent enumerates them.
+
+open_effect(F, V, Condition, S0, Context, M, Effect) :-
+    conjuncts(Condition, Conjuncts),
+    term_variables(F, Variables),
+    equations(Conjuncts, Variables, Equations, Rest),
+    Equations \== [],
+    !,
+    all_hold(Equations, S0, Context),
+    (   ground(F)
+    ->  once(all_hold(Rest, S0, Context)),
+        Effect = set(F, V)
+    ;   open_effect(F, V, and(Rest), S0, Context, M, Effect)
+    ).
+open_effect(F, V, Condition, S0, Context, M, Effect) :-
+    (   fluent_functor(F, M)
+    ->  findall(i(F, V, Condition), is_fluent(F, M), Instances0),
+        sort(Instances0, Instances),
+        member(i(F1, V1, Condition1), Instances)
+    ;   F1 = F,
+        V1 = V,
+        Condition1 = Condition
+    ),
+    (   ground(F1)
+    ->  holds_once(Condition1, S0, Context),
+        Effect = set(F1, V1)
+    ;   is_positive(Condition1),
+        solved(F1-V1, Condition1, S0, Context, Solved)
+    ->  member(F1-V1, Solved),
+        Effect = set(F1, V1)
+    ;   term_variables(F1, Variables),
+        term_variables(Condition1-V1, Others),
+        \+ shared(Variables, Others)
+    ->  holds_once(Condition1, S0, Context),
+        Effect = open(F1, V1, true)
+    ;   Effect = open(F1, V1, Condition1)
+    ).
+
+%   The condition itself enumerates the fluents that are set, if it negates
+%   nothing and is no comparison that needs their arguments.
+
+is_positive(Condition) :-
+    nonvar(Condition),
+    (   ( Condition = and(P, Q) ; Condition = or(P, Q) )
+    ->  is_positive(P),
+        is_positive(Q)
+    ;   ( Condition = and(Ps) ; Condition = or(Ps) )
+    ->  is_list(Ps),
+        \+ ( member(P, Ps), \+ is_positive(P) )
+    ;   Condition = some(_, P)
+    ->  is_positive(P)
+    ;   callable(Condition),
+        functor(Condition, Name, _),
+        \+ memberchk(Name, [ neg, all, impl, equiv, \+, not, \=, \==, ==,
+                             true, ->, ;, know, kwhether ])
+    ).
+
+solved(FV, Condition, S, Context, Solved) :-
+    catch(findall(FV, holds(Condition, S, Context), Solved0),
+          error(instantiation_error, _), fail),
+    ground(Solved0),
+    sort(Solved0, Solved).
+
+shared(Xs, Ys) :-
+    member(X, Xs),
+    member(Y, Ys),
+    X == Y,
+    !.
+
+conjuncts(Condition, Conjuncts) :-
+    (   var(Condition)
+    ->  Conjuncts = [Condition]
+    ;   Condition = and(P, Q)
+    ->  conjuncts(P, Ps),
+        conjuncts(Q, Qs),
+        append(Ps, Qs, Conjuncts)
+    ;   Condition = and(List),
+        is_list(List)
+    ->  all_conjuncts(List, Conjuncts)
+    ;   Conjuncts = [Condition]
+    ).
+
+all_conjuncts([], []).
+all_conjuncts([P|Ps], Conjuncts) :-
+    conjuncts(P, Conjuncts1),
+    all_conjuncts(Ps, Conjuncts2),
+    append(Conjuncts1, Conjuncts2, Conjuncts).
+
+equations([], _, [], []).
+equations([P|Ps], Variables, Equations, Rest) :-
+    (   nonvar(P),
+        P = (A = B),
+        member(X, [A, B]),
+        var(X),
+        shared([X], Variables)
+    ->  Equations = [P|Equations1],
+        Rest = Rest1
+    ;   Equations = Equations1,
+        Rest = [P|Rest1]
+    ),
+    equations(Ps, Variables, Equations1, Rest1).
+
+all_hold([], _, _).
+all_hold([P|Ps], S, Context) :-
+    holds(P, S, Context),
+    all_hold(Ps, S, Context).
+
+holds_once(Condition, S, Context) :-
+    (   Condition == true
+    ->  true
+    ;   holds(Condition, S, Context)
+    ->  true
+    ).
+
+                /*******************************
+                *            VALUES            *
+                *******************************/
+
+%!  fluent_value(?Fluent, ?Value, +Situation, +Context) is nondet.
+%
+%   True if the fluent has Value. A Fluent with variables is instantiated to
+%   each.
+
+fluent_value(F, V, S, Context) :-
+    context_module(Context, M),
+    (   ground(F)
+    ->  value(F, V0, S, Context, M),
+        V = V0
+    ;   findall(F, is_fluent(F, M), Fs0),
+        sort_if_open(Fs0, F, S, M, Fs),
+        member(F, Fs),
+        value(F, V0, S, Context, M),
+        V = V0
+    ).
+
+%   Fluents whose declaration leaves variables: those with a value.
+
+sort_if_open(Fs0, F, s(_, _, Values, _, _), M, Fs) :-
+    (   ground(Fs0)
+    ->  Fs = Fs0
+    ;   assoc_to_keys(Values, Keys),
+        findall(F, member(F, Keys), Fs1),
+        findall(F,
+                ( M:initially(F, _), ground(F) ),
+                Fs2),
+        findall(G, ( member(G, Fs0), ground(G) ), Fs3),
+        append(Fs1, Fs2, Fs4),
+        append(Fs3, Fs4, Fs5),
+        sort(Fs5, Fs)
+    ).
+
+%   value(+Fluent, -Value, +Situation, +Context, +Module) is semidet.
+
+value(F, V, s(_, _, Values, Open, _), Context, M) :-
+    (   get_assoc(F, Values, v(C, V0))
+    ->  true
+    ;   C = 0,
+        V0 = '$initial'
+    ),
+    (   Open == []
+    ->  V1 = V0
+    ;   open_value(Open, C, F, V2, Context)
+    ->  V1 = V2
+    ;   V1 = V0
+    ),
+    (   V1 == '$initial'
+    ->  (   initial_value(F, V3, M)
+        ->  V = V3
+        ;   no_initial_value(F, M),
+            fail
+        )
+    ;   V1 \== '$unknown',
+        V = V1
+    ).
+
+open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
+    C1 > C,
+    (   copy_term(F1-V1-Condition, F-V2-Condition2),
+        holds_once(Condition2, S1, Context)
+    ->  V = V2
+    ;   open_value(Open, C, F, V, Context)
+    ).
+
+%   A fluent without a value: no condition about it holds. That is as it
+%   should be if its value is sensed or comes from outside; else it is most
+%   likely forgotten.
+
+no_initial_value(F, M) :-
+    (   has_initial(F, M)
+    ->  true
+    ;   is_sensed(F, M)
+    ->  true
+    ;   relational_functor(F, M)
+    ->  located(M, fluent(F), Where),
+        print_once(M, informational, no_initial_value(Where, F))
+    ;   is_set_by_exogenous(F, M)
+    ->  true
+    ;   located(M, fluent(F), Where),
+        print_once(M, warning, no_initial_value(Where, F))
+    ).
+
+%!  fluents_now(+Situation, +Context, -Pairs) is det.
+%
+%   Pairs is a list of Fluent-Value of all ground fluents that have a value,
+%   in standard order.
+
+fluents_now(S, Context, Pairs) :-
+    S = s(_, _, Values, _, _),
+    context_module(Context, M),
+    assoc_to_keys(Values, Fs1),
+    findall(F,
+            ( M:initially(F, _), ground(F) ),
+            Fs2),
+    findall(F, ( is_fluent(F, M), ground(F) ), Fs3),
+    append(Fs1, Fs2, Fs4),
+    append(Fs3, Fs4, Fs5),
+    sort(Fs5, Fs),
+    findall(F-V, ( member(F, Fs), known_value(F, V, S, Context) ), Pairs).
+
+known_value(F, V, S, Context) :-
+    context_module(Context, M),
+    S = s(_, _, Values, _, _),
+    (   get_assoc(F, Values, _)
+    ->  true
+    ;   has_initial(F, M)
+    ),
+    value(F, V, S, Context, M).
+
+%!  was_done(?Entry, +Situation) is nondet.
+
+was_done(Entry, s(_, _, _, _, Done)) :-
+    (   ground(Entry)
+    ->  get_assoc(Entry, Done, _)
+    ;   assoc_to_keys(Done, Entries),
+        member(Entry, Entries)
+    ).
+
+%!  evaluated_arguments(+Term, -Evaluated, +Situation, +Context) is nondet.
+%
+%   Evaluated is Term with the fluents in its arguments replaced by their
+%   values.
+
+evaluated_arguments(T0, T, S, Context) :-
+    (   compound(T0)
+    ->  context_module(Context, M),
+        compound_name_arity(T0, Name, Arity),
+        compound_name_arity(T, Name, Arity),
+        arguments_with_values(1, Arity, T0, T, S, Context, M)
+    ;   T = T0
+    ).
+
+arguments_with_values(I, Arity, T0, T, S, Context, M) :-
+    (   I > Arity
+    ->  true
+    ;   arg(I, T0, A0),
+        arg(I, T, A),
+        with_values(A0, A, S, Context, M),
+        I1 is I+1,
+        arguments_with_values(I1, Arity, T0, T, S, Context, M)
+    ).
+
+%   with_values(+Term0, -Term, +Situation, +Context, +Module) is nondet.
+%   True if Term is Term0 with its fluents replaced by their values.
+
+with_values(T0, T, S, Context, M) :-
+    (   var(T0)
+    ->  T = T0
+    ;   atom(T0)
+    ->  (   fluent_functor(T0, M),
+            is_fluent(T0, M)
+        ->  value(T0, T, S, Context, M)
+        ;   T = T0
+        )
+    ;   compound(T0)
+    ->  compound_name_arity(T0, Name, Arity),
+        compound_name_arity(T1, Name, Arity),
+        arguments_with_values(1, Arity, T0, T1, S, Context, M),
+        (   fluent_functor(T1, M),
+            known_or_declared(T1, S, M)
+        ->  fluent_value(T1, T, S, Context)
+        ;   T = T1
+        )
+    ;   T = T0
+    ).
+
+known_or_declared(F, s(_, _, Values, _, _), M) :-
+    (   ground(F),
+        get_assoc(F, Values, _)
+    ->  true
+    ;   \+ \+ is_fluent(F, M)
+    ).
+
+                /*******************************
+                *          CONDITIONS          *
+                *******************************/
+
+%!  holds(+Condition, +Situation, +Context) is nondet.
+%
+%   True if Condition holds. A Condition without free variables succeeds once.
+
+holds(P, S, Context) :-
+    (   var(P)
+    ->  throw_error(instantiation_error, _,
+                    'a condition is still a variable when it is tested')
+    ;   closed(P)
+    ->  holds_(P, S, Context),
+        !
+    ;   holds_(P, S, Context)
+    ).
+
+holds_(P, S, Context) :-
+    (   condition_construct(P)
+    ->  holds_construct(P, S, Context)
+    ;   P = _:_
+    ->  call_of(P, P, Context)
+    ;   context_module(Context, M),
+        is_proc(P, M)
+    ->  condition_of(P, Body, Context),
+        entered(condition, P, Context, Context1),
+        holds(Body, S, Context1)
+    ;   context_module(Context, M),
+        fluent_functor(P, M)
+    ->  evaluated_arguments(P, F, S, Context),
+        (   known_or_declared(F, S, M)
+        ->  fluent_value(F, V, S, Context),
+            V == true
+        ;   call_of(P, F, Context)
+        )
+    ;   evaluated_arguments(P, Goal, S, Context),
+        call_of(P, Goal, Context)
+    ).
+
+%!  condition_of(+Call, -Body, +Context) is nondet.
+
+condition_of(Call, Body, Context) :-
+    context_module(Context, M),
+    proc_body(Call, Body, M).
+
+holds_construct(true, _, _).
+holds_construct(and(P, Q), S, X) :-
+    holds(P, S, X),
+    holds(Q, S, X).
+holds_construct(and(Ps), S, X) :-
+    all_hold(Ps, S, X).
+holds_construct(or(P, Q), S, X) :-
+    (   holds(P, S, X)
+    ;   holds(Q, S, X)
+    ).
+holds_construct(or(Ps), S, X) :-
+    member(P, Ps),
+    holds(P, S, X).
+holds_construct(neg(P), S, X) :-
+    \+ holds(P, S, X).
+holds_construct(\+ P, S, X) :-
+    \+ holds(P, S, X).
+holds_construct(not(P), S, X) :-
+    \+ holds(P, S, X).
+holds_construct((P, Q), S, X) :-
+    holds(P, S, X),
+    holds(Q, S, X).
+holds_construct((P ; Q), S, X) :-
+    (   nonvar(P),
+        P = (If -> Then)
+    ->  (   holds(If, S, X)
+        ->  holds(Then, S, X)
+        ;   holds(Q, S, X)
+        )
+    ;   (   holds(P, S, X)
+        ;   holds(Q, S, X)
+        )
+    ).
+holds_construct((P -> Q), S, X) :-
+    (   holds(P, S, X)
+    ->  holds(Q, S, X)
+    ).
+holds_construct(impl(P, Q), S, X) :-
+    (   \+ holds(P, S, X)
+    ;   holds(Q, S, X)
+    ).
+holds_construct(equiv(P, Q), S, X) :-
+    (   holds(P, S, X)
+    ->  holds(Q, S, X)
+    ;   \+ holds(Q, S, X)
+    ).
+holds_construct(some(Vs, P0), S, X) :-
+    fresh(Vs, P0, P, Choices),
+    chosen(Choices, S, X),
+    holds(P, S, X).
+holds_construct(some(V, D, P), S, X) :-
+    holds_construct(some((V, D), P), S, X).
+holds_construct(all(Vs, P0), S, X) :-
+    fresh(Vs, P0, P, Choices),
+    \+ ( chosen(Choices, S, X),
+         \+ holds(P, S, X) ).
+holds_construct(all(V, D, P), S, X) :-
+    holds_construct(all((V, D), P), S, X).
+holds_construct(done(A0), S, X) :-
+    evaluated_arguments(A0, A, S, X),
+    was_done(A, S).
+holds_construct(haveExecuted(A), S, X) :-
+    holds_construct(done(A), S, X).
+holds_construct(know(F), S, X) :-
+    is_known(F, S, X).
+holds_construct(kwhether(F), S, X) :-
+    is_known(F, S, X).
+
+is_known(F0, S, X) :-
+    context_module(X, M),
+    evaluated_arguments(F0, F, S, X),
+    (   fluent_functor(F, M)
+    ->  ( ground(F) -> true ; is_fluent(F, M) ),
+        known_value(F, _, S, X)
+    ;   holds(F0, S, X)
+    ->  true
+    ;   holds(neg(F0), S, X)
+    ).
+
+%!  chosen(?Choices, +Situation, +Context) is nondet.
+%
+%   Gives each variable of Choices with a domain a value of it, on
+%   backtracking each.
+
+chosen([], _, _).
+chosen([V-D|Choices], S, Context) :-
+    (   D = in(Domain)
+    ->  domain_value(V, Domain, S, Context)
+    ;   true
+    ),
+    chosen(Choices, S, Context).
+
+%!  domain_value(-Value, +Domain, +Situation, +Context) is nondet.
+%
+%   Domain is a list, a sort, or a fluent whose value is one of these.
+
+domain_value(Value, Domain0, S, Context) :-
+    context_module(Context, M),
+    (   is_list(Domain0)
+    ->  Domain = Domain0
+    ;   callable(Domain0),
+        fluent_functor(Domain0, M)
+    ->  fluent_value(Domain0, Domain, S, Context)
+    ;   Domain = Domain0
+    ),
+    domain_list(Domain, M, Values),
+    member(Value, Values).

@@ -1,0 +1,76 @@
+:- module(ev3dev_golog_messages, []).
+
+/** <module> What library(ev3dev/golog) prints
+*/
+
+:- multifile prolog:message//1.
+
+prolog:message(golog(Message)) -->
+    words(Message).
+
+words(no_initial_value(Where, Fluent)) -->
+    { functor(Fluent, Name, Arity) },
+    [ '~wthe fluent ~q has no initial value: '-[Where, Name/Arity],
+      'there is no initially/2 for it, and conditions about it do not hold'-[]
+    ].
+words(history(History)) -->
+    [ 'History: ~p'-[History] ].
+words(search(What, Message)) -->
+    [ 'Search: ' ],
+    message_words(Message),
+    outcome(What).
+words(ended(Count)) -->
+    [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
+words(not_ended(Reason)) -->
+    [ 'Golog: ' ],
+    reason(Reason).
+words(failed_action(Action)) -->
+    [ 'Golog: the action ~p failed'-[Action] ].
+words(no_exogenous(Action)) -->
+    [ 'Golog: ~p is no exogenous action of the domain; it is dropped'-
+      [Action] ].
+words(dry(Action)) -->
+    [ 'Golog: nothing says how to execute ~p'-[Action] ].
+words(asked(Action)) -->
+    [ 'Golog: what does ~p sense?'-[Action] ].
+words(executing(Action)) -->
+    [ 'Executing ~p'-[Action] ].
+words(which_exogenous(Actions)) -->
+    [ 'What has happened? One of ~p, or nil.'-[Actions] ].
+words(report(_, Message)) -->
+    message_words(Message).
+
+outcome(begin) -->
+    [].
+outcome(found) -->
+    [ ': found a plan' ].
+outcome(none) -->
+    [ ': there is no plan' ].
+
+message_words(Message) -->
+    (   { is_list(Message) }
+    ->  each_word(Message)
+    ;   [ '~w'-[Message] ]
+    ).
+
+each_word([]) -->
+    [].
+each_word([Word|Words]) -->
+    [ '~w'-[Word] ],
+    each_word(Words).
+
+reason(not_possible(Action, Condition)) -->
+    [ 'the action ~p is not possible: ~p does not hold'-
+      [Action, Condition] ].
+reason(no_step(Program)) -->
+    [ 'no step is possible, and the program may not end: ~p'-[Program] ].
+reason(stopped) -->
+    [ 'the program was stopped' ].
+reason(timeout) -->
+    [ 'the time is up' ].
+reason(limit) -->
+    [ 'the limit of steps is reached' ].
+reason(failed(Action)) -->
+    [ 'the action ~p failed'-[Action] ].
+reason(exception(Error)) -->
+    [ 'an exception: ~p'-[Error] ].

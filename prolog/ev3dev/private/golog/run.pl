@@ -1,0 +1,427 @@
+:- module(ev3dev_golog_run,
+          [ run_online/4,               % :Program, +Settings, -Reason,
+                                        % -History
+            recorded_history/1          % -History
+          ]).
+:- use_module(library(lists), [append/3, reverse/2]).
+:- use_module(context,
+              [ context/3, context_module/2, print_again/1, stepping/2,
+                unblock/0, was_blocked/2
+              ]).
+:- use_module(domain,
+              [ done/4, history_shortened/3, situation/3,
+                situation_count/2, situation_history/2
+              ]).
+:- use_module(search, [replanned_since/1]).
+:- use_module(theory,
+              [ action_functor/2, has_clauses/2, prepare/1,
+                refuse_epistemic/1
+              ]).
+:- use_module(transitions,
+              [ is_final/3, is_preempted/4, program_shown/2, simplified/2,
+                step/5
+              ]).
+:- use_module(waiting, [clock/2, pause/4, robot_stopped/1]).
+:- use_module(world,
+              [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
+                exogenous_noticed/3, message_seen/2, queue_of/2, robot_kind/2,
+                sensing_entries/4, watch_begins/1
+              ]).
+
+/** <module> The online run of a program
+
+The cycle: what has happened by itself enters the history; if the program may
+end, the run ends; else the first step that the program offers is taken, and
+its action executed. Settings are
+settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
+*/
+
+%!  run_online(:Program, +Settings, -Reason, -History) is det.
+%
+%   Run Program. Reason says why the run ended. Exceptions are passed on, the
+%   motors stopped and finalize/0 called.
+
+:- meta_predicate run_online(:, +, -, -).
+
+run_online(M:E, Settings, Reason, History) :-
+    Settings = settings(Words, _, _, Device, _, Timeout, Initial, Keep),
+    prepare(M),
+    refuse_epistemic(M),
+    print_again(M),
+    context(M, [online|Words], X),
+    robot_kind(M, Robot),
+    queue_of(M, Queue),
+    Agent = agent(M, Robot, Queue, Device),
+    situation(Initial, S, X),
+    simplified(E, E1),
+    Ended = ended(none),
+    setup_call_cleanup(
+        begun(M, Initial, Keep),
+        ( initialized(M),
+          deadline(Timeout, Robot, Deadline),
+          cycle(E1, S, quiet, 0, r(X, Agent, Settings, Deadline), Reason),
+          nb_setarg(1, Ended, Reason) ),
+        finished(M, Robot, Ended)),
+    recorded_history(History).
+
+begun(M, Initial, Keep) :-
+    agent_begins(M),
+    watch_begins(M),
+    retractall(entry_record(_, _)),
+    retractall(keeps(_)),
+    assertz(keeps(Keep)),
+    reverse(Initial, Entries),
+    record_all(Entries, 0).
+
+initialized(M) :-
+    ignore_if_defined(M, initialize).
+
+finished(M, Robot, Ended) :-
+    agent_ends(M),
+    (   Ended = ended(final)
+    ->  true
+    ;   robot_stopped(Robot)
+    ),
+    ignore_if_defined(M, finalize).
+
+ignore_if_defined(M, Goal) :-
+    (   has_clauses(M, Goal)
+    ->  ignore(M:Goal)
+    ;   true
+    ).
+
+deadline(Timeout, Robot, Deadline) :-
+    (   Timeout == infinite
+    ->  Deadline = infinite
+    ;   clock(Robot, Now),
+        Deadline is Now+Timeout
+    ).
+
+is_over(Deadline, Robot) :-
+    Deadline \== infinite,
+    clock(Robot, Now),
+    Now >= Deadline.
+
+                /*******************************
+                *            RECORD            *
+                *******************************/
+
+:- thread_local
+    entry_record/2,                    % Count, Entry
+    keeps/1.
+
+record_all([], _).
+record_all([Entry|Entries], C0) :-
+    C is C0+1,
+    record(C, Entry),
+    record_all(Entries, C).
+
+%   The newest thousand entries, unless all are wanted
+
+record(C, Entry) :-
+    assertz(entry_record(C, Entry)),
+    (   keeps(all)
+    ->  true
+    ;   Old is C-1000,
+        retractall(entry_record(Old, _))
+    ).
+
+%!  recorded_history(-History) is det.
+%
+%   History is that of the run that is under way in this thread, or that was
+%   the last; only its newest thousand entries, unless all were wanted.
+
+recorded_history(History) :-
+    findall(Entry, entry_record(_, Entry), Entries),
+    reverse(Entries, History).
+
+                /*******************************
+                *             CYCLE            *
+                *******************************/
+
+%   cycle(+Program, +Situation, +News, +Steps, +Run, -Reason). News is `news`
+%   if an exogenous action has come since the last primitive action and since
+%   the last wait, else `quiet`.
+
+cycle(E, S0, News0, Steps0, R, Reason) :-
+    R = r(X, Agent, Settings, Deadline),
+    exogenous_seen(Agent, Actions),
+    happened(Actions, S0, S1, News0, News1, R, Stop),
+    Agent = agent(_, Robot, _, _),
+    arg(5, Settings, Limit),
+    (   Stop == stop
+    ->  Reason = stopped
+    ;   is_final(E, S1, X)
+    ->  Reason = final
+    ;   Limit \== infinite,
+        Steps0 >= Limit
+    ->  Reason = limit
+    ;   is_over(Deadline, Robot)
+    ->  Reason = timeout
+    ;   Steps is Steps0+1,
+        shortened(Steps, S1, S2),
+        taken(E, S2, News1, R, E3, S3, News3, Next),
+        (   Next == on
+        ->  cycle(E3, S3, News3, Steps, R, Reason)
+        ;   Reason = Next
+        )
+    ).
+
+shortened(Steps, S0, S) :-
+    (   Steps mod 500 =:= 0
+    ->  history_shortened(200, S0, S)
+    ;   S = S0
+    ).
+
+%   Exogenous actions enter the history.
+
+happened([], S, S, News, News, _, go).
+happened([Seen|As], S0, S, News0, News, R, Stop) :-
+    arg(1, Seen, A),
+    (   is_to_stop([A])
+    ->  S = S0,
+        News = News0,
+        Stop = stop
+    ;   (   Seen = new(_)
+        ->  traced(exog(A), R)
+        ;   true
+        ),
+        entered(A, S0, S1, R),
+        happened(As, S1, S, news, News, R, Stop)
+    ).
+
+entered(Entry, S0, S, R) :-
+    R = r(X, _, _, _),
+    done(Entry, S0, S, X),
+    situation_count(S, C),
+    record(C, Entry).
+
+entered_all([], S, S, _).
+entered_all([Entry|Entries], S0, S, R) :-
+    entered(Entry, S0, S1, R),
+    entered_all(Entries, S1, S, R).
+
+traced(Event, R) :-
+    R = r(_, _, Settings, _),
+    arg(2, Settings, Trace),
+    (   Trace = trace(Closure)
+    ->  ignore(call(Closure, Event))
+    ;   true
+    ).
+
+%   taken(+Program0, +Situation0, +News0, +Run, -Program, -Situation, -News,
+%   -Next): the first step, `on` or the reason why the run ends.
+
+taken(E0, S0, News0, R, E, S, News, Next) :-
+    R = r(X0, _, _, _),
+    stepping(X0, X),
+    unblock,
+    (   step(E0, S0, E1, S1, X),
+        performed(E0, E1, S0, S1, News0, R, E2, S2, News2, Next2),
+        Next2 \== backtrack
+    ->  simplified(E2, E),
+        S = S2,
+        News = News2,
+        Next = Next2,
+        traced_step(E, R)
+    ;   no_step(E0, Next)
+    ).
+
+no_step(E0, Reason) :-
+    (   was_blocked(A, Condition)
+    ->  Reason = not_possible(A, Condition)
+    ;   program_shown(E0, E),
+        Reason = no_step(E)
+    ).
+
+traced_step(E0, R) :-
+    R = r(_, _, Settings, _),
+    (   arg(2, Settings, none)
+    ->  true
+    ;   forall(replanned_since(Again), traced(replanned(Again), R)),
+        program_shown(E0, E),
+        traced(step(E), R)
+    ).
+
+%   performed(+Program0, +Program1, +Situation0, +Situation1, +News0, +Run,
+%   -Program, -Situation, -News, -Next): carry out what the step added to the
+%   history.
+
+performed(E0, E1, S0, S1, News0, R, E, S, News, Next) :-
+    situation_count(S0, C0),
+    situation_count(S1, C1),
+    (   C1 =:= C0
+    ->  E = E1,
+        S = S0,
+        News = News0,
+        Next = on
+    ;   More is C1-C0,
+        newest(More, S1, [Entry|Before]),
+        record_before(Before, C1),
+        (   is_mark(Entry, R)
+        ->  performed_mark(Entry, E0, E1, S0, S1, News0, R, E, S, News,
+                           Next)
+        ;   performed_action(Entry, E0, E1, S0, S1, News0, R, E, S, News,
+                             Next)
+        )
+    ).
+
+%   Not an action of the domain, which comes first
+
+is_mark(Entry, r(X, _, _, _)) :-
+    internal(Entry),
+    context_module(X, M),
+    \+ action_functor(Entry, M).
+
+internal(wait).
+internal(commit).
+internal(branch(_)).
+internal(sim(_)).
+internal(abort).
+internal(set(_)).
+internal(unset(_)).
+internal(test(_)).
+internal(e(_, _)).
+
+performed_mark(wait, E0, E1, S0, _, News0, R, E, S, News, on) :-
+    !,
+    waited(News0, S0, S, R, Came),
+    (   Came == over
+    ->  E = E0,
+        News = News0
+    ;   E = E1,
+        News = quiet
+    ).
+performed_mark(commit, _, E, S, _, News, _, E, S, News, on) :-
+    !.
+performed_mark(branch(_), _, E, S, _, News, _, E, S, News, on) :-
+    !.
+performed_mark(sim(_), _, E, S, _, News, _, E, S, News, on) :-
+    !.
+performed_mark(abort, _, E, S, _, News, _, E, S, News, stopped) :-
+    !.
+performed_mark(Entry, _, E, _, S, News, R, E, S, News, on) :-
+    recorded_since(S, Entry, R).
+
+performed_action(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
+    R = r(_, Agent, Settings, _),
+    situation_history(S0, History),
+    traced(action(A), R),
+    executed(A, History, ev3dev_golog_run:is_to_end(E0, E1, S0, R), Agent,
+             Outcome, Value),
+    arg(3, Settings, OnFailed),
+    after(Outcome, OnFailed, A, Value, E0, E1, S0, S1, News0, R,
+          E, S, News, Next).
+
+%   The newest entries of a situation, and the record of all but the last
+
+newest(N, S, Newest) :-
+    situation_history(S, History),
+    length(Newest, N),
+    append(Newest, _, History),
+    !.
+
+record_before([], _).
+record_before([Entry|Entries], C1) :-
+    C is C1-1,
+    record_before(Entries, C),
+    record(C, Entry).
+
+recorded_since(S, Entry, _) :-
+    situation_count(S, C),
+    record(C, Entry).
+
+after(done, OnFailed, A, Value, _, E, S0, S1, News0, R, E, S, News, Next) :-
+    R = r(_, agent(M, _, _, _), _, _),
+    sensing_entries(A, Value, M, Entries),
+    (   Entries = [_|_],
+        var(Value)
+    ->  after(failed, OnFailed, A, _, E, E, S0, S1, News0, R, E, S, News,
+              Next)
+    ;   situation_count(S1, C),
+        record(C, A),
+        entered_all(Entries, S1, S, R),
+        (   Entries == []
+        ->  true
+        ;   traced(sensed(A, Value), R)
+        ),
+        News = quiet,
+        Next = on
+    ).
+after(interrupted, _, A, _, E, _, S0, _, News, R, E, S, News, on) :-
+    entered(interrupted(A), S0, S, R).
+after(failed, OnFailed, A, _, E0, E1, S0, _, News, R, E, S, News, Next) :-
+    (   OnFailed == backtrack
+    ->  E = E0,
+        S = S0,
+        Next = backtrack
+    ;   entered(failed(A), S0, S, R),
+        E = E1,
+        (   OnFailed == stop
+        ->  Next = failed(A)
+        ;   print_message(informational, golog(failed_action(A))),
+            Next = on
+        )
+    ).
+
+%   True if the action that is being executed has to end: a part of the
+%   program with a higher priority can take a step after what has happened
+%   meanwhile, or the time is up.
+
+:- public is_to_end/4.
+
+is_to_end(E0, E1, S0, R) :-
+    R = r(X, Agent, _, Deadline),
+    Agent = agent(_, Robot, _, _),
+    exogenous_noticed(Agent, New, All),
+    traced_all(New, R),
+    (   is_over(Deadline, Robot)
+    ->  true
+    ;   is_to_stop(All)
+    ->  true
+    ;   All = [_|_],
+        imagined(All, S0, S, X),
+        stepping(X, X1),
+        is_preempted(E0, E1, S, X1)
+    ->  true
+    ).
+
+is_to_stop(As) :-
+    ( memberchk(end_indi, As) -> true ; memberchk(halt_indi, As) ).
+
+traced_all([], _).
+traced_all([A|As], R) :-
+    traced(exog(A), R),
+    traced_all(As, R).
+
+imagined([], S, S, _).
+imagined([A|As], S0, S, X) :-
+    done(A, S0, S1, X),
+    imagined(As, S1, S, X).
+
+%   A wait returns at once if there is news, else it blocks. `over`: the time
+%   of the run was up before something came.
+
+waited(news, S, S, _, came) :-
+    !.
+waited(quiet, S0, S, R, Came) :-
+    R = r(_, Agent, _, Deadline),
+    Agent = agent(_, Robot, Queue, _),
+    exogenous_seen(Agent, Actions),
+    (   Actions \== []
+    ->  happened(Actions, S0, S, quiet, _, R, Stop),
+        stop_again(Stop, R),
+        Came = came
+    ;   is_over(Deadline, Robot)
+    ->  S = S0,
+        Came = over
+    ;   pause(Robot, Queue, Deadline, Message),
+        message_seen(Message, Agent),
+        waited(quiet, S0, S, R, Came)
+    ).
+
+%   A message to stop that came while waiting is seen by the next cycle.
+
+stop_again(go, _).
+stop_again(stop, r(_, agent(_, _, Queue, _), _, _)) :-
+    thread_send_message(Queue, exogenous(end_indi)).

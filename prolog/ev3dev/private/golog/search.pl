@@ -1,0 +1,422 @@
+:- module(ev3dev_golog_search,
+          [ replanned_since/1           % -Program
+          ]).
+:- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
+:- use_module(library(lists), [append/3]).
+:- use_module(context,
+              [ context/3, context_module/2, context_option/2 ]).
+:- use_module(domain,
+              [ done/4, fluents_now/3, holds/3, marked/3,
+                situation_count/2, situation_history/2
+              ]).
+:- use_module(theory, [has_clauses/2, has_precondition/2]).
+:- use_module(transitions, [is_final/3, step/5]).
+:- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
+
+/** <module> Search: plans that are found before they are carried out
+
+search(E) looks for a whole run of E, depth first, in the order in which the
+program offers its steps, and takes the first step of it. What remains is
+
+    '$path'(Program, Path, at(Count, Top)-Options)
+
+A Path is a list of p(Program, Entry): the programs to come, and what each
+step adds to the history, or `none`. As long as the history grows by the
+plan's own steps only, the plan is followed. Otherwise, as after an exogenous
+action, the search begins again, with the program that remains.
+
+If the search goes deeper than a limit, or takes more steps or seconds than a
+limit, it begins again by iterative deepening.
+
+Sources: De Giacomo, Levesque: An incremental interpreter for high-level
+programs with sensing (1999); Sardina: Local conditional high-level robot
+programs (2001) for conditional plans.
+*/
+
+ev3dev_golog_transitions:planned_step(search(E), S, E1, S1, X) :-
+    search_step(E, [], S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(search(E, M), S, E1, S1, X) :-
+    (   is_options(M)
+    ->  search_step(E, M, S, E1, S1, X)
+    ;   search_step(E, [message(M)], S, E1, S1, X)
+    ).
+ev3dev_golog_transitions:planned_step(search(E, M, Options), S, E1, S1, X) :-
+    search_step(E, [message(M)|Options], S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(searchc(E), S, Plan, S, X) :-
+    conditional_plan(E, S, Plan, X).
+ev3dev_golog_transitions:planned_step('$path'(E, Path, At, Options), S,
+                                      E1, S1, X) :-
+    path_step(E, Path, At-Options, S, E1, S1, X).
+ev3dev_golog_transitions:planned_step(achieve(Goal), S, E1, S1, X) :-
+    achieve_step(Goal, S, E1, S1, X).
+
+ev3dev_golog_transitions:planned_final('$path'(E, Path, At, _), S, X) :-
+    path_is_final(E, Path, At, S, X).
+
+is_options(Options) :-
+    is_list(Options),
+    Options \== [],
+    \+ ( member(Option, Options),
+         \+ is_search_option(Option) ).
+
+is_search_option(Option) :-
+    compound(Option),
+    functor(Option, Name, 1),
+    memberchk(Name, [depth, steps, timeout, simulate, message]).
+
+%   search_step(+Program0, +Options, +Situation0, -Program, -Situation,
+%   +Context) is nondet.
+
+search_step(E, Options, S, E1, S1, X) :-
+    offline(X, Options, X1),
+    (   memberchk(simulate(true), Options)
+    ->  simulation_kept(search_committed(E, Options, S, Path, X1))
+    ;   search_committed(E, Options, S, Path, X1)
+    ),
+    path_begun(E, Path, Options, S, E1, S1, X).
+
+search_committed(E, Options, S, Path, X) :-
+    catch(search_path(E, Options, S, Path, X), '$golog_committed', fail).
+
+offline(X0, Options, X) :-
+    context_module(X0, M),
+    (   context_option(assume, X0)
+    ->  Words0 = [assume]
+    ;   Words0 = []
+    ),
+    (   memberchk(simulate(true), Options)
+    ->  Words = [simulate|Words0]
+    ;   Words = Words0
+    ),
+    context(M, Words, X).
+
+path_begun(_, [p(E1, Entry)|Path], Options, S, E2, S1, X) :-
+    with_entry(Entry, S, S1, X),
+    E2 = '$path'(E1, Path, At, Options),
+    at(S1, At).
+
+at(S, at(Count, Top)) :-
+    situation_count(S, Count),
+    situation_history(S, History),
+    (   History = [Top|_]
+    ->  true
+    ;   Top = none
+    ).
+
+with_entry(none, S, S, _) :-
+    !.
+with_entry(Entry, S0, S, X) :-
+    (   is_mark(Entry)
+    ->  marked(Entry, S0, S)
+    ;   done(Entry, S0, S, X)
+    ).
+
+is_mark(wait).
+is_mark(abort).
+is_mark(test(_)).
+
+%!  path_step(+E0, +Path, +AtOptions, +S0, -E, -S, +Context) is nondet.
+
+path_step(E, Path, At-Options, S, E1, S1, X) :-
+    Path = [_|_],
+    (   on_track(At, S)
+    ->  path_begun(E, Path, Options, S, E1, S1, X)
+    ;   replanned(E),
+        (   Options == achieve
+        ->  step(E, S, E1, S1, X)
+        ;   search_step(E, Options, S, E1, S1, X)
+        )
+    ).
+
+on_track(at(Count, Top), S) :-
+    at(S, at(Count, Top1)),
+    Top1 == Top.
+
+%   path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
+
+path_is_final(E, Path, At, S, X) :-
+    (   Path == []
+    ->  true
+    ;   \+ on_track(At, S),
+        is_final(E, S, X)
+    ).
+
+%!  replanned_since(-Program) is nondet.
+%
+%   Program is one that was searched again since this was asked last.
+
+:- thread_local replanned_/1.
+
+replanned(E) :-
+    (   replanned_(E0),
+        E0 =@= E
+    ->  true
+    ;   assertz(replanned_(E))
+    ).
+
+replanned_since(E) :-
+    retract(replanned_(E)).
+
+                /*******************************
+                *         DEPTH FIRST          *
+                *******************************/
+
+%   search_path(+Program, +Options, +Situation, -Path, +Context) is nondet.
+
+search_path(E, Options, S, Path, X) :-
+    told(Options, begin, X),
+    limit(depth, Options, 2000, Depth),
+    limit(steps, Options, 100000, Steps),
+    limit(timeout, Options, infinite, Timeout),
+    (   Timeout == infinite
+    ->  End = infinite
+    ;   get_time(Now),
+        End is Now+Timeout
+    ),
+    Budget = budget(Steps, End, 0),
+    (   catch(deep(E, S, Path, Depth, Budget, X), '$golog_limit'(Budget0),
+              limit_reached(Budget0, Budget, E, S, Path, X)),
+        nb_setarg(3, Budget, 1),
+        told(Options, found, X)
+    ;   arg(3, Budget, 0),
+        told(Options, none, X),
+        fail
+    ).
+
+limit(Name, Options, Default, Limit) :-
+    functor(Option, Name, 1),
+    (   memberchk(Option, Options)
+    ->  arg(1, Option, Limit)
+    ;   Limit = Default
+    ).
+
+limit_reached(Budget0, Budget, E, S, Path, X) :-
+    Budget0 == Budget,
+    arg(3, Budget, 0),
+    deepened(8, E, S, Path, X).
+
+%   deep(+Program, +Situation, -Path, +Depth, +Budget, +Context) is nondet.
+%   After a step that `commit` marks there is no way back.
+
+deep(E, S, Path, Depth, Budget, X) :-
+    (   is_final(E, S, X),
+        Path = []
+    ;   one_more(Depth, Budget),
+        searched_step(E, S, E1, S1, Entry, X),
+        Depth1 is Depth-1,
+        (   Entry == commit
+        ->  Path = [p(E1, none)|Path1],
+            (   deep(E1, S1, Path1, Depth1, Budget, X)
+            ->  true
+            ;   throw('$golog_committed')
+            )
+        ;   path_entry(Entry, Kept),
+            Path = [p(E1, Kept)|Path1],
+            deep(E1, S1, Path1, Depth1, Budget, X)
+        )
+    ).
+
+one_more(Depth, Budget) :-
+    arg(1, Budget, Steps0),
+    Steps is Steps0-1,
+    nb_setarg(1, Budget, Steps),
+    (   Steps >= 0,
+        Depth > 0,
+        arg(2, Budget, End),
+        (   End == infinite
+        ->  true
+        ;   get_time(Now),
+            Now < End
+        )
+    ->  true
+    ;   throw('$golog_limit'(Budget))
+    ).
+
+searched_step(E, S, E1, S1, Entry, X) :-
+    step(E, S, E1, S2, X),
+    entry_since(S, S2, Entry),
+    (   Entry \== none,
+        context_option(simulate, X)
+    ->  tried_in_simulator(Entry, S, S2, S1, X)
+    ;   S1 = S2
+    ).
+
+entry_since(S0, S, Entry) :-
+    situation_count(S0, C0),
+    situation_count(S, C),
+    (   C =:= C0
+    ->  Entry = none
+    ;   situation_history(S, [Entry|_])
+    ).
+
+%   What an online run drops from the history
+
+path_entry(Entry, Kept) :-
+    (   dropped(Entry)
+    ->  Kept = none
+    ;   Kept = Entry
+    ).
+
+dropped(Entry) :-
+    nonvar(Entry),
+    ( Entry = sim(_) ; Entry = branch(_) ).
+
+%   Iterative deepening; each limit is half as large again as the last.
+
+deepened(Limit, E, S, Path, X) :-
+    Cut = cut(false),
+    (   within(E, S, Path0, Limit, Cut, X)
+    ->  Path = Path0
+    ;   arg(1, Cut, true),
+        Limit1 is Limit + Limit // 2,
+        deepened(Limit1, E, S, Path, X)
+    ).
+
+within(E, S, Path, Depth, Cut, X) :-
+    (   is_final(E, S, X),
+        Path = []
+    ;   (   Depth > 0
+        ->  true
+        ;   nb_setarg(1, Cut, true),
+            fail
+        ),
+        searched_step(E, S, E1, S1, Entry, X),
+        Depth1 is Depth-1,
+        (   Entry == commit
+        ->  Path = [p(E1, none)|Path1],
+            (   within(E1, S1, Path1, Depth1, Cut, X)
+            ->  true
+            ;   arg(1, Cut, true)
+            ->  fail
+            ;   throw('$golog_committed')
+            )
+        ;   path_entry(Entry, Kept),
+            Path = [p(E1, Kept)|Path1],
+            within(E1, S1, Path1, Depth1, Cut, X)
+        )
+    ).
+
+told(Options, What, _) :-
+    (   memberchk(message(Message), Options)
+    ->  print_message(informational, golog(search(What, Message)))
+    ;   true
+    ).
+
+                /*******************************
+                *      CONDITIONAL PLANS       *
+                *******************************/
+
+%   conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
+%
+%   Plan is a program of actions and if/3 that runs Program to its end from
+%   Situation, whatever the conditions of its branch/1 turn out to be.
+
+conditional_plan(E, S, Plan, X0) :-
+    offline(X0, [], X),
+    catch(planned(E, S, Plan, X), '$golog_committed', fail).
+
+planned(E, S, Plan, X) :-
+    (   is_final(E, S, X),
+        Plan = []
+    ;   step(E, S, E1, S1, X),
+        entry_since(S, S1, Entry),
+        planned_after(Entry, E1, S, S1, Plan, X)
+    ).
+
+planned_after(none, E, _, S, Plan, X) :-
+    !,
+    planned(E, S, Plan, X).
+planned_after(branch(P), E, S0, _, Plan, X) :-
+    !,
+    done(e(P, true), S0, S1, X),
+    done(e(P, false), S0, S2, X),
+    planned(E, S1, Plan1, X),
+    planned(E, S2, Plan2, X),
+    Plan = [if(P, Plan1, Plan2)].
+planned_after(commit, E, S, _, Plan, X) :-
+    !,
+    (   planned(E, S, Plan, X)
+    ->  true
+    ;   throw('$golog_committed')
+    ).
+planned_after(sim(_), E, _, S, Plan, X) :-
+    !,
+    planned(E, S, Plan, X).
+planned_after(test(P), E, S, _, [?(P)|Plan], X) :-
+    !,
+    planned(E, S, Plan, X).
+planned_after(A, E, _, S, [A|Plan], X) :-
+    planned(E, S, Plan, X).
+
+                /*******************************
+                *           ACHIEVE            *
+                *******************************/
+
+%   achieve_step(+Goal, +Situation0, -Program, -Situation, +Context) is
+%   semidet.
+%
+%   Take the first step of a shortest plan of primitive actions after which
+%   the condition Goal holds. library(ev3dev/planners) finds the plan.
+
+achieve_step(Goal, S, E1, S1, X0) :-
+    offline(X0, [], X),
+    state_of(S, X, State),
+    planner_loaded,
+    ev3dev_search:plan(breadth_first,
+                       problem(State, goal,
+                               [ successor(ev3dev_golog_search:
+                                               successor(Goal, X)) ]),
+                       Plan0),
+    append(Plan, [end], Plan0),
+    Plan = [_|_],
+    achieving(Plan, achieve(Goal), Path),
+    path_begun(achieve(Goal), Path, achieve, S, E1, S1, X0).
+
+planner_loaded :-
+    module_property(ev3dev_golog_search, file(Here)),
+    file_directory_name(Here, Directory),
+    atom_concat(Directory, '/../../planners/search', Planners),
+    load_files(ev3dev_golog_search:Planners,
+               [if(not_loaded), imports([])]).
+
+achieving([], _, []).
+achieving([A|As], E, [p(E, A)|Path]) :-
+    achieving(As, E, Path).
+
+state_of(S, X, state(Pairs)) :-
+    fluents_now(S, X, Pairs).
+
+situation_of(state(Pairs), s([], 0, Values, [], Done)) :-
+    valued(Pairs, Valued),
+    list_to_assoc(Valued, Values),
+    empty_assoc(Done).
+
+valued([], []).
+valued([F-V|Pairs], [F-v(0, V)|Valued]) :-
+    valued(Pairs, Valued).
+
+:- public successor/6.
+
+successor(Goal, X, State0, Action, State, 1) :-
+    State0 = state(_),
+    situation_of(State0, S0),
+    (   holds(Goal, S0, X)
+    ->  Action = end,
+        State = goal
+    ;   context_module(X, M),
+        call(M:prim_action(Action)),
+        ground(Action),
+        has_precondition(Action, M),
+        \+ is_sensing(Action, M),
+        step(Action, S0, [], S, X),
+        state_of(S, X, State)
+    ).
+
+is_sensing(Action, M) :-
+    has_clauses(M, senses(_, _)),
+    call(M:senses(Action, _)),
+    !.
+is_sensing(Action, M) :-
+    has_clauses(M, senses(_, _, _, _, _)),
+    call(M:senses(Action, _, _, _, _)),
+    !.

@@ -1,0 +1,472 @@
+:- module(ev3dev_golog_theory,
+          [ declare_domain/1,           % +Module
+            vocabulary/1,               % ?PredicateIndicator
+            prepare/1,                  % +Module
+            refuse_epistemic/1,         % +Module
+            has_clauses/2,              % +Module, +Head
+            is_fluent/2,                % +Term, +Module
+            fluent_functor/2,           % +Term, +Module
+            relational_functor/2,       % +Term, +Module
+            has_initial/2,              % +Fluent, +Module
+            is_sensed/2,                % +Fluent, +Module
+            is_set_by_exogenous/2,      % +Fluent, +Module
+            action_functor/2,           % +Term, +Module
+            is_exogenous/2,             % +Action, +Module
+            has_precondition/2,         % +Action, +Module
+            is_proc/2,                  % +Term, +Module
+            proc_body/3,                % +Call, -Body, +Module
+            initial_value/3,            % +Fluent, -Value, +Module
+            located/3,                  % +Module, +What, -Place
+            domain_list/3               % +Sort, +Module, -Values
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(programs, [has_binder/1, renamed/2]).
+:- use_module('../errors', [throw_error/3]).
+
+/** <module> The domain: what a program's module says about its world
+
+A domain is a set of facts and clauses in the module of the program. They are
+called there, never copied. For speed, prepare/1 notes which functors are
+fluents, actions and procedures.
+*/
+
+%   Notes on a module, kept by each thread for itself.
+
+:- thread_local
+    noted/4,                            % Kind, Name, Arity, Module
+    noted_any/2,                        % Kind, Module
+    with_binder/3,                      % Name, Arity, Module
+    prepared/2,                         % Module, Signature
+    kept_initial/4.                     % Hash, Module, Fluent, Value
+
+%!  vocabulary(?PI) is nondet.
+%
+%   PI is the indicator of a predicate that a domain may define.
+
+vocabulary(prim_action/1).
+vocabulary(exog_action/1).
+vocabulary(prim_fluent/1).
+vocabulary(rel_fluent/1).
+vocabulary(fun_fluent/1).
+vocabulary(poss/2).
+vocabulary(initially/2).
+vocabulary(causes_val/4).
+vocabulary(causes_true/3).
+vocabulary(causes_false/3).
+vocabulary(senses/2).
+vocabulary(senses/5).
+vocabulary(forget/2).
+vocabulary(cache/1).
+vocabulary(proc/2).
+vocabulary(rule/3).
+vocabulary(execute/2).
+vocabulary(execute/3).
+vocabulary(how_to_execute/3).
+vocabulary(translate_exog/2).
+vocabulary(translate_sensing/3).
+vocabulary(translateExogAction/2).
+vocabulary(translateSensing/3).
+vocabulary(exog_occurs/1).
+vocabulary(initialize/0).
+vocabulary(finalize/0).
+vocabulary(actionNum/2).
+vocabulary(controller/1).
+vocabulary(robot_action/2).
+vocabulary(robot_sense/3).
+vocabulary(robot_exog/2).
+vocabulary(progress_params/3).
+vocabulary(roll_parameters/3).
+vocabulary(simulator/2).
+vocabulary(server_port/1).
+vocabulary(em_address/2).
+vocabulary(load_device/3).
+vocabulary(load_devices/1).
+vocabulary(senses/1).
+vocabulary(causes/4).
+vocabulary(settles/5).
+vocabulary(rejects/5).
+
+%!  declare_domain(+Module) is det.
+%
+%   Declare in Module what a domain may define dynamic and multifile, unless
+%   it is defined there already: a domain may leave out what it does not need,
+%   and its clauses may stand in any order and in several files.
+
+declare_domain(Module) :-
+    forall(vocabulary(PI), declare(Module, PI)).
+
+declare(Module, Name/Arity) :-
+    catch(( dynamic(Module:Name/Arity),
+            multifile(Module:Name/Arity) ),
+          error(permission_error(_, _, _), _), true).
+
+%   A module without a domain of its own has that of `user`.
+
+declare_missing(Module) :-
+    (   vocabulary(Name/Arity),
+        functor(Head, Name, Arity),
+        \+ predicate_property(Module:Head, dynamic),
+        \+ predicate_property(Module:Head, number_of_clauses(_)),
+        declare(Module, Name/Arity),
+        fail
+    ;   true
+    ).
+
+%!  has_clauses(+Module, +Head) is semidet.
+%
+%   True if Module defines the predicate of Head by at least one clause, or
+%   natively.
+
+has_clauses(Module, Head) :-
+    (   predicate_property(Module:Head, number_of_clauses(Count))
+    ->  Count > 0
+    ;   predicate_property(Module:Head, foreign)
+    ).
+
+%!  prepare(+Module) is det.
+%
+%   Note the functors of the domain in Module, unless the notes are up to
+%   date.
+
+prepare(Module) :-
+    retractall(kept_initial(_, Module, _, _)),
+    (   prepared(Module, _)
+    ->  true
+    ;   declare_missing(Module)
+    ),
+    signature(Module, Signature),
+    (   prepared(Module, Old),
+        Old == Signature
+    ->  true
+    ;   retractall(noted(_, _, _, Module)),
+        retractall(noted_any(_, Module)),
+        retractall(with_binder(_, _, Module)),
+        retractall(prepared(Module, _)),
+        forall(kind(Kind, Head, Term),
+               note_heads(Module, Kind, Head, Term)),
+        note_binders(Module),
+        assertz(prepared(Module, Signature))
+    ).
+
+kind(fluent, prim_fluent(F), F).
+kind(fluent, rel_fluent(F), F).
+kind(fluent, fun_fluent(F), F).
+kind(relational, rel_fluent(F), F).
+kind(action, prim_action(A), A).
+kind(exogenous, exog_action(A), A).
+kind(precondition, poss(A, _), A).
+kind(initial, initially(F, _), F).
+kind(sensed, senses(_, F), F).
+kind(sensed, senses(_, _, F, _, _), F).
+kind(proc, proc(P, _), P).
+
+signature(Module, Signature) :-
+    findall(Sign,
+            ( kind(_, Head, _), sign(Module, Head, Sign) ),
+            Signature).
+
+sign(Module, Head, Count-Generation) :-
+    (   predicate_property(Module:Head, number_of_clauses(Count))
+    ->  true
+    ;   Count = 0
+    ),
+    (   Property =.. [last_modified_generation, Generation],
+        % SWI-Prolog 7.2.3 has no such property.
+        catch(predicate_property(Module:Head, Property), _, fail)
+    ->  true
+    ;   Generation = 0
+    ).
+
+note_heads(Module, Kind, Head, Term) :-
+    (   has_clauses(Module, Head),
+        catch(clause(Module:Head, Body), _, fail),
+        Body \== fail,
+        note(Term, Kind, Module),
+        fail
+    ;   true
+    ).
+
+note(Term, Kind, Module) :-
+    (   var(Term)
+    ->  ( noted_any(Kind, Module) -> true
+        ; assertz(noted_any(Kind, Module)) )
+    ;   functor(Term, Name, Arity),
+        (   noted(Kind, Name, Arity, Module)
+        ->  true
+        ;   assertz(noted(Kind, Name, Arity, Module))
+        )
+    ).
+
+note_binders(Module) :-
+    (   has_clauses(Module, proc(_, _)),
+        catch(clause(Module:proc(Call, Body), Goal), _, fail),
+        nonvar(Call),
+        functor(Call, Name, Arity),
+        \+ with_binder(Name, Arity, Module),
+        ( var(Body), Goal \== true ; has_binder(Body) ),
+        assertz(with_binder(Name, Arity, Module)),
+        fail
+    ;   true
+    ).
+
+%   True if Term has the name and number of arguments of a Kind. A clause
+%   whose head is a variable is asked.
+
+is_kind(Kind, Term, Module) :-
+    functor(Term, Name, Arity),
+    (   noted(Kind, Name, Arity, Module)
+    ->  true
+    ;   noted_any(Kind, Module)
+    ->  functor(Template, Name, Arity),
+        \+ \+ asked(Kind, Template, Module)
+    ;   fail
+    ).
+
+asked(Kind, Template, Module) :-
+    kind(Kind, Head, Template),
+    Module:Head.
+
+%!  fluent_functor(+Term, +Module) is semidet.
+%!  relational_functor(+Term, +Module) is semidet.
+%!  action_functor(+Term, +Module) is semidet.
+%!  has_precondition(+Action, +Module) is semidet.
+%!  has_initial(+Fluent, +Module) is semidet.
+%!  is_sensed(+Fluent, +Module) is semidet.
+%!  is_proc(+Term, +Module) is semidet.
+%
+%   True if a clause of the domain is about a term with this functor.
+
+fluent_functor(Term, Module) :-
+    is_kind(fluent, Term, Module).
+
+relational_functor(Term, Module) :-
+    is_kind(relational, Term, Module).
+
+action_functor(Term, Module) :-
+    is_kind(action, Term, Module).
+
+has_precondition(Action, Module) :-
+    is_kind(precondition, Action, Module).
+
+has_initial(Fluent, Module) :-
+    is_kind(initial, Fluent, Module).
+
+is_sensed(Fluent, Module) :-
+    is_kind(sensed, Fluent, Module).
+
+is_proc(Term, Module) :-
+    is_kind(proc, Term, Module).
+
+%!  is_fluent(?Term, +Module) is nondet.
+%
+%   True if the domain declares Term a fluent. A Term with variables is
+%   instantiated to each fluent, if the declaration has them.
+
+is_fluent(Term, Module) :-
+    (   ground(Term)
+    ->  declared_fluent(Term, Module),
+        !
+    ;   declared_fluent(Term, Module)
+    ).
+
+declared_fluent(Term, Module) :-
+    Module:prim_fluent(Term).
+declared_fluent(Term, Module) :-
+    Module:rel_fluent(Term).
+declared_fluent(Term, Module) :-
+    Module:fun_fluent(Term).
+
+%!  is_exogenous(+Action, +Module) is semidet.
+
+is_exogenous(Action, Module) :-
+    nonvar(Action),
+    is_kind(exogenous, Action, Module),
+    \+ \+ Module:exog_action(Action).
+
+%!  is_set_by_exogenous(+Fluent, +Module) is semidet.
+%
+%   True if an exogenous action may give Fluent a value.
+
+is_set_by_exogenous(Fluent, Module) :-
+    functor(Fluent, Name, Arity),
+    functor(F, Name, Arity),
+    member(Head, [ causes_val(A, F, _, _), causes_true(A, F, _),
+                   causes_false(A, F, _) ]),
+    has_clauses(Module, Head),
+    clause(Module:Head, _),
+    ( var(A) ; is_kind(exogenous, A, Module) ),
+    !.
+
+%!  proc_body(+Call, -Body, +Module) is nondet.
+%
+%   Body is what a clause of proc/2 says for Call. The variables that
+%   constructs of Body bind are renamed, so that a value in Call is never
+%   taken for one of them.
+
+proc_body(Call, Body, Module) :-
+    functor(Call, Name, Arity),
+    (   with_binder(Name, Arity, Module)
+    ->  functor(Head, Name, Arity),
+        clause(Module:proc(Head, Body0), Goal),
+        (   nonvar(Body0),
+            Goal == true
+        ->  renamed(Head-Body0, Head1-Body1),
+            Head1 = Call,
+            Body = Body1
+        ;   Head = Call,
+            call(Module:Goal),
+            renamed(Body0, Body)
+        )
+    ;   call(Module:proc(Call, Body))
+    ).
+
+%!  initial_value(+Fluent, -Value, +Module) is semidet.
+%
+%   Value is the first that initially/2 answers for a ground Fluent. What it
+%   answered is kept until prepare/1.
+
+initial_value(Fluent, Value, Module) :-
+    term_hash(Fluent, Hash),
+    (   kept_initial(Hash, Module, Fluent, Kept)
+    ->  Kept = value(Value)
+    ;   Module:initially(Fluent, Value0)
+    ->  assertz(kept_initial(Hash, Module, Fluent, value(Value0))),
+        Value = Value0
+    ;   assertz(kept_initial(Hash, Module, Fluent, none)),
+        fail
+    ).
+
+%!  domain_list(+Sort, +Module, -Values) is det.
+%
+%   Values are those of Sort: a list, or the name of a unary predicate that
+%   answers one list or enumerates values.
+
+domain_list(Sort, Module, Values) :-
+    (   is_list(Sort)
+    ->  Values = Sort
+    ;   callable(Sort)
+    ->  findall(Answer, call(Module:Sort, Answer), Answers),
+        (   Answers = [List],
+            is_list(List)
+        ->  Values = List
+        ;   Values = Answers
+        )
+    ;   throw_error(domain_error(golog_sort, Sort), _, '')
+    ).
+
+%!  refuse_epistemic(+Module) is det.
+%
+%   @error permission_error(run, golog_domain, Module) if the domain has
+%          several initial situations
+
+refuse_epistemic(Module) :-
+    (   epistemic(Module, PI, Place)
+    ->  place_text(Place, Where),
+        format(atom(Text), '~wa domain with ~w is about knowledge: \c
+                            several initial situations. Only domains with \c
+                            one initial value for each fluent can run',
+               [Where, PI]),
+        throw_error(permission_error(run, golog_domain, Module), _, Text)
+    ;   true
+    ).
+
+epistemic(Module, Name/Arity, Place) :-
+    member(Name/Arity, [senses/1, causes/4, settles/5, rejects/5]),
+    functor(Head, Name, Arity),
+    has_clauses(Module, Head),
+    clause(Module:Head, Body, Ref),
+    Body \== fail,
+    !,
+    clause_place(Ref, Place).
+epistemic(Module, initially(F, V), Place) :-
+    has_clauses(Module, initially(_, _)),
+    findall(Fluent-Value,
+            ( clause(Module:initially(Fluent, Value), true),
+              ground(Fluent) ),
+            Pairs0),
+    sort(Pairs0, Pairs),
+    twice(Pairs, F, V),
+    clause(Module:initially(F, V0), true, Ref),
+    V0 == V,
+    !,
+    clause_place(Ref, Place).
+
+twice([F1-_, F2-V2|Pairs], F, V) :-
+    (   F1 == F2
+    ->  F = F2,
+        V = V2
+    ;   twice([F2-V2|Pairs], F, V)
+    ).
+
+%!  located(+Module, +What, -Text) is det.
+%
+%   Text is `File:Line: Clause: ` for the first clause of the domain that
+%   What is about, else empty. What is
+%
+%     - in_program(Term)
+%       the first proc/2 in whose body Term stands
+%     - proc(Call)
+%     - action(Action)
+%     - fluent(Fluent)
+
+located(Module, What, Text) :-
+    (   about(What, Module, Head, Ref)
+    ->  clause_place(Ref, Place),
+        place_text(Place, Where),
+        short(Head, Short),
+        format(atom(Text), '~w~q: ', [Where, Short])
+    ;   Text = ''
+    ).
+
+about(in_program(Term), Module, proc(Call), Ref) :-
+    has_clauses(Module, proc(_, _)),
+    clause(Module:proc(Call, Body), _, Ref),
+    \+ \+ stands_in(Term, Body),
+    !.
+about(proc(Call), Module, proc(Call), Ref) :-
+    has_clauses(Module, proc(_, _)),
+    clause(Module:proc(Call, _), _, Ref),
+    !.
+about(action(Action), Module, Head, Ref) :-
+    clause_about(Action, [prim_action(Term)], Term, Module, Head, Ref).
+about(fluent(Fluent), Module, Head, Ref) :-
+    clause_about(Fluent, [ prim_fluent(Term), rel_fluent(Term),
+                           fun_fluent(Term) ], Term, Module, Head, Ref).
+
+clause_about(About, Heads, Term, Module, Head, Ref) :-
+    functor(About, Name, Arity),
+    member(Head, Heads),
+    has_clauses(Module, Head),
+    clause(Module:Head, _, Ref),
+    ( var(Term) ; functor(Term, Name, Arity) ),
+    !.
+
+stands_in(Term, Body) :-
+    nonvar(Body),
+    (   functor(Term, Name, Arity),
+        functor(Body, Name, Arity),
+        Term = Body
+    ->  true
+    ;   compound(Body),
+        arg(_, Body, Argument),
+        stands_in(Term, Argument)
+    ).
+
+short(Head, Short) :-
+    Head =.. [Name, Term],
+    (   compound(Term)
+    ->  functor(Term, TermName, Arity),
+        Short =.. [Name, TermName/Arity]
+    ;   Short = Head
+    ).
+
+clause_place(Ref, Place) :-
+    (   clause_property(Ref, file(File)),
+        clause_property(Ref, line_count(Line))
+    ->  Place = File:Line
+    ;   Place = none
+    ).
+
+place_text(File:Line, Text) :-
+    format(atom(Text), '~w:~w: ', [File, Line]).
+place_text(none, '').

@@ -1,0 +1,128 @@
+:- module(ev3dev_golog_waiting,
+          [ run_watched/3,              % :Goal, :Watch, -Outcome
+            guarded/2,                  % +Name, :Goal
+            pause/4,                    % +Robot, +Queue, +Deadline,
+                                        % -Message
+            clock/2,                    % +Robot, -Seconds
+            robot_stopped/1             % +Robot
+          ]).
+
+
+/** <module> How library(ev3dev/golog) waits
+
+The only place where an agent waits. Robot is `robot` if the domain is about
+the robot, else `none`; then the library of the robot is not even loaded.
+*/
+
+:- meta_predicate
+    run_watched(0, 0, -),
+    guarded(+, 0).
+
+%!  run_watched(:Goal, :Watch, -Outcome) is det.
+%
+%   Call Goal, which may be a blocking move. Outcome is `done`, `failed`, or
+%   `interrupted` if Watch succeeded before Goal ended. Watch is called before
+%   Goal and whenever Goal waits for the robot, every 15 ms. An exception
+%   leaves Goal then, so that the motors of its move stop.
+
+run_watched(Goal, Watch, Outcome) :-
+    (   call(Watch)
+    ->  Outcome = interrupted
+    ;   loaded,
+        Ball = golog_interrupted(Id),
+        flag(ev3dev_golog_watch, Id, Id+1),
+        catch(watched(Goal, Watch, Ball, Outcome), Ball,
+              Outcome = interrupted)
+    ).
+
+watched(Goal, Watch, Ball, Outcome) :-
+    (   ev3dev_waits:listening(0.015,
+                               ev3dev_golog_waiting:watch(Watch, Ball),
+                               Goal)
+    ->  Outcome = done
+    ;   Outcome = failed
+    ).
+
+:- public watch/3.
+
+watch(Watch, Ball, Listener) :-
+    (   call(Watch)
+    ->  ev3dev_waits:leave(Listener, Ball)
+    ;   true
+    ).
+
+%!  guarded(+Name, :Goal) is semidet.
+%
+%   Call Goal once, a condition about the robot. It must not wait.
+
+guarded(Name, Goal) :-
+    loaded,
+    ev3dev_waits:in_guard(Name, Goal).
+
+%!  pause(+Robot, +Queue, +Deadline, -Message) is det.
+%
+%   Wait until something may have happened, at most until Deadline: for a
+%   message in Queue, or for 20 ms, of the clock of the devices in use if
+%   there are any. Message is what was taken from Queue, or `none`.
+
+pause(Robot, Queue, Deadline, Message) :-
+    (   on_robot_time(Robot)
+    ->  ev3dev_time:wait(0.02),
+        Message = none
+    ;   at_most(Robot, Deadline, Seconds),
+        (   Seconds == infinite
+        ->  thread_get_message(Queue, Message)
+        ;   thread_get_message(Queue, Message0, [timeout(Seconds)])
+        ->  Message = Message0
+        ;   Message = none
+        )
+    ).
+
+at_most(polled, _, 0.02) :-
+    !.
+at_most(_, infinite, infinite) :-
+    !.
+at_most(_, Deadline, Seconds) :-
+    get_time(Now),
+    Seconds is max(0, Deadline-Now).
+
+%   A simulation or a brick: its clock counts.
+
+on_robot_time(Robot) :-
+    (   Robot == robot
+    ->  loaded
+    ;   current_predicate(ev3dev_native:sim_active_/0),
+        ev3dev_native:sim_active_,
+        loaded
+    ).
+
+loaded :-
+    (   current_predicate(ev3dev_time:wait/1)
+    ->  true
+    ;   module_property(ev3dev_golog_waiting, file(Here)),
+        file_directory_name(Here, Directory),
+        atom_concat(Directory, '/../../time', Time),
+        load_files(ev3dev_golog_waiting:Time,
+                   [if(not_loaded), imports([])])
+    ).
+
+%!  clock(+Robot, -Seconds) is det.
+%
+%   Seconds have passed since some fixed moment, by the clock of the devices
+%   in use, or on the wall.
+
+clock(Robot, Seconds) :-
+    (   on_robot_time(Robot)
+    ->  ev3dev_native:now_(Seconds)
+    ;   get_time(Seconds)
+    ).
+
+%!  robot_stopped(+Robot) is det.
+%
+%   Stop the motors that the program has started.
+
+robot_stopped(Robot) :-
+    (   on_robot_time(Robot)
+    ->  ignore(ev3dev_native:stop_started_)
+    ;   true
+    ).

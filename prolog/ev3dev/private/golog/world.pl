@@ -1,0 +1,419 @@
+:- module(ev3dev_golog_world,
+          [ robot_kind/2,               % +Module, -Robot
+            queue_of/2,                 % +Module, -Queue
+            send_exogenous/2,           % +Module, +Code
+            agent_begins/1,             % +Module
+            agent_ends/1,               % +Module
+            watch_begins/1,             % +Module
+            exogenous_noticed/3,        % +Agent, -New, -All
+            exogenous_seen/2,           % +Agent, -Actions
+            message_seen/2,             % +Message, +Agent
+            executed/6,                 % +Action, +History, :Watch, +Agent,
+                                        % -Outcome, -Value
+            sensing_entries/4,          % +Action, +Value, +Module, -Entries
+            is_sensing_action/2,        % +Action, +Module
+            run_directly/4,             % +Action, +Module, -Outcome, -Value
+            ask/2,                      % +Action, -Value
+            code_of_number/3            % +Number, +Module, -Action
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(theory, [has_clauses/2, is_exogenous/2]).
+:- use_module(waiting, [guarded/2, run_watched/3]).
+:- use_module('../errors', [goal_of_program/1]).
+
+/** <module> The world: how actions are executed, and what happens by itself
+
+An Agent is agent(Module, Robot, Queue, Device): where its domain is, whether
+the domain is about the robot, the queue of its exogenous actions, and the
+closure of the option `device`.
+*/
+
+                /*******************************
+                *            QUEUES            *
+                *******************************/
+
+:- dynamic
+    queue/2,                            % Module, Queue
+    running/1.                          % Module
+
+%!  robot_kind(+Module, -Robot) is det.
+%
+%   Robot is `robot` if the domain names goals of the robot, `polled` if it
+%   has to be asked for exogenous actions, else `none`.
+
+robot_kind(Module, Robot) :-
+    (   member(Head, [ robot_action(_, _), robot_sense(_, _, _),
+                       robot_exog(_, _) ]),
+        has_clauses(Module, Head)
+    ->  Robot = robot
+    ;   has_clauses(Module, exog_occurs(_))
+    ->  Robot = polled
+    ;   Robot = none
+    ).
+
+%!  queue_of(+Module, -Queue) is det.
+
+queue_of(Module, Queue) :-
+    with_mutex(ev3dev_golog,
+               (   queue(Module, Queue0)
+               ->  true
+               ;   message_queue_create(Queue0),
+                   assertz(queue(Module, Queue0))
+               )),
+    Queue = Queue0.
+
+%!  send_exogenous(+Module, +Code) is det.
+%
+%   Put Code into the queue of the agent in Module. If Module has no domain,
+%   into those of all agents that run.
+
+send_exogenous(Module, Code) :-
+    (   \+ running(Module),
+        \+ has_clauses(Module, exog_action(_)),
+        findall(M, running(M), Modules0),
+        sort(Modules0, Modules),
+        Modules \== []
+    ->  true
+    ;   Modules = [Module]
+    ),
+    forall(member(M, Modules),
+           ( queue_of(M, Queue),
+             thread_send_message(Queue, exogenous(Code)) )).
+
+%!  agent_begins(+Module) is det.
+%!  agent_ends(+Module) is det.
+%
+%   An agent with its domain in Module runs from now on, or no longer.
+
+agent_begins(Module) :-
+    assertz(running(Module)).
+
+agent_ends(Module) :-
+    (   retract(running(Module))
+    ->  true
+    ;   true
+    ).
+
+                /*******************************
+                *      EXOGENOUS ACTIONS       *
+                *******************************/
+
+:- thread_local
+    seen/2,                             % Module, Action
+    noticed/2,                          % Module, Action
+    held/3.                             % Module, Clause, Action
+
+%!  watch_begins(+Module) is det.
+%
+%   Nothing has been seen yet. A condition of robot_exog/2 that holds already
+%   is seen as one that begins to hold.
+
+watch_begins(Module) :-
+    retractall(held(Module, _, _)),
+    retractall(seen(Module, _)),
+    retractall(noticed(Module, _)).
+
+%!  exogenous_seen(+Agent, -Actions) is det.
+%
+%   Actions are the exogenous actions that have happened since this was asked
+%   last, in the order of their arrival: new(Action), or noticed(Action) if
+%   exogenous_noticed/3 has answered it.
+
+exogenous_seen(Agent, Actions) :-
+    look_around(Agent),
+    asked_domain(Agent),
+    Agent = agent(Module, _, _, _),
+    findall(noticed(Action), retract(noticed(Module, Action)), Actions0),
+    findall(new(Action), retract(seen(Module, Action)), Actions1),
+    append(Actions0, Actions1, Actions).
+
+%!  exogenous_noticed(+Agent, -New, -All) is det.
+%
+%   While an action is under way: New are the exogenous actions that were not
+%   seen before, All are those that are not in the history yet.
+
+exogenous_noticed(Agent, New, All) :-
+    look_around(Agent),
+    Agent = agent(Module, _, _, _),
+    findall(Action, retract(seen(Module, Action)), New),
+    forall(member(Action, New), assertz(noticed(Module, Action))),
+    findall(Action, noticed(Module, Action), All).
+
+%   look_around(+Agent) is det.
+%   Take what the queue has, and see which conditions of robot_exog/2 have
+%   begun to hold.
+
+look_around(Agent) :-
+    Agent = agent(Module, Robot, Queue, _),
+    take_messages(Queue, Module),
+    (   Robot == robot,
+        has_clauses(Module, robot_exog(_, _))
+    ->  look_at_robot(Module)
+    ;   true
+    ).
+
+take_messages(Queue, Module) :-
+    (   thread_peek_message(Queue, exogenous(_)),
+        thread_get_message(Queue, exogenous(Code))
+    ->  seen_code(Code, Module),
+        take_messages(Queue, Module)
+    ;   true
+    ).
+
+%!  message_seen(+Message, +Agent) is det.
+%
+%   Message was taken from the queue; `none` if there was none.
+
+message_seen(Message, agent(Module, _, _, _)) :-
+    (   Message = exogenous(Code)
+    ->  seen_code(Code, Module)
+    ;   true
+    ).
+
+look_at_robot(Module) :-
+    forall(clause(Module:robot_exog(Action, Condition), Body, Ref),
+           look_at(Ref, Action, Condition, Body, Module)).
+
+look_at(Ref, Action, Condition, Body, Module) :-
+    guarded(robot_exog(Action),
+            findall(Action,
+                    ( call(Module:Body),
+                      goal_of_program(Module:Condition) ),
+                    Actions0)),
+    sort(Actions0, Actions),
+    forall(( held(Module, Ref, Old), \+ memberchk(Old, Actions) ),
+           retract(held(Module, Ref, Old))),
+    forall(( member(New, Actions), \+ held(Module, Ref, New) ),
+           ( assertz(held(Module, Ref, New)),
+             seen_code(New, Module) )).
+
+%   The domain's own exog_occurs/1: a list is all there is; after a single
+%   action it is asked again.
+
+asked_domain(agent(Module, _, _, _)) :-
+    (   has_clauses(Module, exog_occurs(_))
+    ->  ask_domain(Module)
+    ;   true
+    ).
+
+ask_domain(Module) :-
+    (   Module:exog_occurs(Answer)
+    ->  (   is_list(Answer)
+        ->  forall(member(Code, Answer), seen_code(Code, Module))
+        ;   seen_code(Answer, Module, Known),
+            Known == true
+        ->  ask_domain(Module)
+        ;   true
+        )
+    ;   true
+    ).
+
+seen_code(Code, Module) :-
+    seen_code(Code, Module, Known),
+    (   Known == true
+    ->  true
+    ;   memberchk(Code, [true, nil])
+    ->  true
+    ;   print_message(informational, golog(no_exogenous(Code)))
+    ).
+
+seen_code(Code, Module, Known) :-
+    (   exogenous_of(Code, Module, Action)
+    ->  assertz(seen(Module, Action)),
+        Known = true
+    ;   Known = false
+    ).
+
+exogenous_of(Code, Module, Action) :-
+    (   is_exogenous(Code, Module)
+    ->  Action = Code
+    ;   is_system(Code)
+    ->  Action = Code
+    ;   translated(Code, Module, Action),
+        is_exogenous(Action, Module)
+    ).
+
+%   What IndiGolog takes for a message to itself
+
+is_system(Code) :-
+    nonvar(Code),
+    memberchk(Code, [end_indi, halt_indi]).
+
+translated(Code, Module, Action) :-
+    has_clauses(Module, translate_exog(_, _)),
+    Module:translate_exog(Code, Action),
+    !.
+translated(Code, Module, Action) :-
+    has_clauses(Module, translateExogAction(_, _)),
+    Module:translateExogAction(Code, Action),
+    !.
+translated(Code, Module, Action) :-
+    code_of_number(Code, Module, Action).
+
+%!  code_of_number(+Number, +Module, -Action) is semidet.
+
+code_of_number(Number, Module, Action) :-
+    has_clauses(Module, actionNum(_, _)),
+    Module:actionNum(Action, Number),
+    !.
+
+                /*******************************
+                *          EXECUTION           *
+                *******************************/
+
+%!  executed(+Action, +History, :Watch, +Agent, -Outcome, -Value) is det.
+%
+%   Execute Action in the world. Outcome is `done`, `failed` or `interrupted`.
+%   Value is what the action sensed, or unbound.
+
+:- meta_predicate executed(+, +, 0, +, -, -).
+
+executed(A, H, Watch, Agent, Outcome, Value) :-
+    Agent = agent(M, _, _, _),
+    (   has_clauses(M, robot_sense(_, _, _)),
+        M:robot_sense(A, Value0, Goal)
+    ->  run_watched(M:Goal, Watch, Outcome),
+        Value = Value0
+    ;   has_clauses(M, robot_action(_, _)),
+        M:robot_action(A, Goal)
+    ->  run_watched(M:Goal, Watch, Outcome)
+    ;   has_clauses(M, how_to_execute(_, _, _))
+    ->  (   M:how_to_execute(A, Device, Code)
+        ->  code_run(A, Device, Code, Agent, Outcome0, Value0),
+            (   Value0 == failed
+            ->  Outcome = failed
+            ;   Outcome = Outcome0,
+                value_translated(A, Value0, M, Value)
+            )
+        ;   Outcome = failed
+        )
+    ;   has_clauses(M, execute(_, _, _))
+    ->  outcome(M:execute(A, H, Value0), Outcome),
+        Value = Value0
+    ;   has_clauses(M, execute(_, _))
+    ->  outcome(M:execute(A, Value0), Outcome),
+        Value = Value0
+    ;   has_clauses(M, actionNum(_, _)),
+        M:actionNum(A, Number),
+        has_clauses(M, sendRcxActionNumber(_, _))
+    ->  outcome(M:sendRcxActionNumber(Number, Value0), Outcome),
+        value_translated(A, Value0, M, Value)
+    ;   dry(A, M, Outcome, Value)
+    ).
+
+outcome(Goal, Outcome) :-
+    (   goal_of_program(Goal)
+    ->  Outcome = done
+    ;   Outcome = failed
+    ).
+
+%   Nobody says how: the action happens in the history only.
+
+dry(A, M, done, Value) :-
+    (   is_sensing_action(A, M)
+    ->  ask(A, Value)
+    ;   print_message(informational, golog(dry(A)))
+    ).
+
+%!  run_directly(+Action, +Module, -Outcome, -Value) is det.
+%
+%   Execute Action by the robot's table, else not at all.
+
+run_directly(A, M, Outcome, Value) :-
+    (   has_clauses(M, robot_sense(_, _, _)),
+        M:robot_sense(A, Value, Goal)
+    ->  outcome(M:Goal, Outcome)
+    ;   has_clauses(M, robot_action(_, _)),
+        M:robot_action(A, Goal)
+    ->  outcome(M:Goal, Outcome)
+    ;   dry(A, M, Outcome, Value)
+    ).
+
+%!  ask(+Action, -Value) is det.
+%
+%   Ask the user what Action senses.
+
+ask(A, Value) :-
+    print_message(help, golog(asked(A))),
+    read(Value).
+
+code_run(A, Device, Code, agent(M, _, _, Closure), Outcome, Value) :-
+    (   Closure = device(Goal)
+    ->  device_call(Goal, Device, Code, Value, Called),
+        outcome(Called, Outcome)
+    ;   is_sensing_action(A, M),
+        callable(Code),
+        extended(Code, [Value], Called),
+        is_defined(M:Called)
+    ->  outcome(M:Called, Outcome)
+    ;   callable(Code),
+        is_defined(M:Code)
+    ->  outcome(M:Code, Outcome)
+    ;   dry(A, M, Outcome, Value)
+    ).
+
+%   The closure has three more arguments: device, code and value; or two: code
+%   and value; or one: the code.
+
+device_call(Module:Closure, Device, Code, Value, Module:Goal) :-
+    (   member(More, [[Device, Code, Value], [Code, Value], [Code]]),
+        extended(Closure, More, Goal),
+        is_defined(Module:Goal)
+    ->  true
+    ;   extended(Closure, [Device, Code, Value], Goal)
+    ).
+
+extended(Goal0, More, Goal) :-
+    Goal0 =.. List0,
+    joined(List0, More, List),
+    Goal =.. List.
+
+joined([], L, L).
+joined([X|Xs], L, [X|Ys]) :-
+    joined(Xs, L, Ys).
+
+is_defined(Module:Goal) :-
+    functor(Goal, Name, Arity),
+    functor(Head, Name, Arity),
+    (   predicate_property(Module:Head, number_of_clauses(_))
+    ;   predicate_property(Module:Head, foreign)
+    ;   predicate_property(Module:Head, built_in)
+    ),
+    !.
+
+value_translated(A, Value0, M, Value) :-
+    (   nonvar(Value0),
+        has_clauses(M, translate_sensing(_, _, _)),
+        M:translate_sensing(A, Value0, Value1)
+    ->  Value = Value1
+    ;   nonvar(Value0),
+        has_clauses(M, translateSensing(_, _, _)),
+        M:translateSensing(A, Value0, Value1)
+    ->  Value = Value1
+    ;   Value = Value0
+    ).
+
+%!  is_sensing_action(+Action, +Module) is semidet.
+
+is_sensing_action(A, M) :-
+    has_clauses(M, senses(_, _)),
+    \+ \+ M:senses(A, _),
+    !.
+is_sensing_action(A, M) :-
+    has_clauses(M, senses(_, _, _, _, _)),
+    \+ \+ M:senses(A, _, _, _, _).
+
+%!  sensing_entries(+Action, +Value, +Module, -Entries) is det.
+%
+%   Entries are what the history gets for Value: e(Action, Value) if senses/5
+%   says what follows from it, else e(Fluent, Value) for each Fluent of
+%   senses/2.
+
+sensing_entries(A, Value, M, Entries) :-
+    (   has_clauses(M, senses(_, _, _, _, _)),
+        \+ \+ M:senses(A, _, _, _, _)
+    ->  Entries = [e(A, Value)]
+    ;   has_clauses(M, senses(_, _))
+    ->  findall(e(F, Value), M:senses(A, F), Entries)
+    ;   Entries = []
+    ).

@@ -1,0 +1,397 @@
+:- module(ev3dev_journal_words,
+          [ why_words//2                % +Why, +What
+          ]).
+:- use_module(library(lists), [append/3]).
+:- use_module(native, [attribute_/4, device_/3]).
+
+/** <module> Commands and their causes in words
+*/
+
+%!  why_words(+Why, +What)// is semidet.
+%
+%   The message for a Why of why/2, which was asked about What.
+
+why_words(why(Time, Command, Causes), What) -->
+    (   { Command = stop(Of, Stop) }
+    ->  { Of = robot(_, _)
+        ->  Who = robot
+        ;   Who = Of
+        },
+        command(Stop, Who)
+    ;   command(Command, What)
+    ),
+    [ ' ~2f s'-[Time] ],
+    reasons(Causes).
+
+%   ... since, or ... at
+
+command(tacho_motor('run-forever', SetPoints), Port) -->
+    !,
+    [ '~w runs'-[Port] ],
+    speed(SetPoints, Port),
+    [ ' since'-[] ].
+command(tacho_motor('run-timed', SetPoints), Port) -->
+    !,
+    [ '~w was sent'-[Port] ],
+    speed(SetPoints, Port),
+    time(SetPoints),
+    [ ' at'-[] ].
+command(tacho_motor('run-to-abs-pos', SetPoints), Port) -->
+    !,
+    [ '~w was sent to '-[Port] ],
+    angle(SetPoints, Port),
+    speed(SetPoints, Port),
+    [ ' at'-[] ].
+command(tacho_motor('run-to-rel-pos', SetPoints), Port) -->
+    !,
+    [ '~w was turned by '-[Port] ],
+    angle(SetPoints, Port),
+    speed(SetPoints, Port),
+    [ ' at'-[] ].
+command(dc_motor('run-timed', SetPoints), Port) -->
+    !,
+    [ '~w was given'-[Port] ],
+    duty(SetPoints),
+    time(SetPoints),
+    [ ' at'-[] ].
+command(servo_motor(run, SetPoints), Port) -->
+    !,
+    { memberchk(position_sp(Percent), SetPoints)
+    ->  true
+    ;   Percent = 'some'
+    },
+    [ '~w was sent to ~w % at'-[Port, Percent] ].
+command(servo_motor(float, _), Port) -->
+    !,
+    [ '~w floats since'-[Port] ].
+command(led(Color), Light) -->
+    !,
+    [ 'the light ~w is ~w since'-[Light, Color] ].
+command(led_trigger(Word), Light) -->
+    !,
+    [ 'the light ~w shows ~w since'-[Light, Word] ].
+command(led_blink(On, Off), Light) -->
+    !,
+    [ 'the light ~w blinks, ~d ms on and ~d off, since'-[Light, On, Off] ].
+command(wheel(Port, Command), _) -->
+    !,
+    command(Command, Port).
+command(drive, Port) -->
+    !,
+    [ '~w drives the robot since'-[Port] ].
+command(course(Course, Options), _) -->
+    !,
+    [ 'the robot '-[] ],
+    course(Course, Options),
+    [ ' since'-[] ].
+command(ended(Reason), robot) -->
+    !,
+    [ 'the robot rests (~w) since'-[Reason] ].
+command(ended(Reason), Port) -->
+    !,
+    [ '~w rests (~w) since'-[Port, Reason] ].
+command(Command, Port) -->
+    { Command =.. [_, Word, SetPoints] },
+    of_any(Word, SetPoints, Port).
+
+of_any(stop, SetPoints, Port) -->
+    !,
+    [ '~w was stopped'-[Port] ],
+    (   { memberchk(stop_action(Action), SetPoints) }
+    ->  [ ' (~w)'-[Action] ]
+    ;   []
+    ),
+    [ ' at'-[] ].
+of_any(reset, _, Port) -->
+    !,
+    [ '~w was reset at'-[Port] ].
+of_any(_, SetPoints, Port) -->
+    [ '~w gets'-[Port] ],
+    duty(SetPoints),
+    [ ' since'-[] ].
+
+speed(SetPoints, Port) -->
+    (   { memberchk(speed_sp(Speed), SetPoints) }
+    ->  (   { constant(Port, max_speed, Max),
+              Max > 0
+            }
+        ->  { Percent is round(100 * Speed / Max) },
+            [ ' at ~d %'-[Percent] ]
+        ;   [ ' at ~d counts/s'-[Speed] ]
+        )
+    ;   []
+    ).
+
+%   Fails also if the motor is no longer there.
+
+constant(Port, Name, Value) :-
+    device_('tacho-motor', Port, _),
+    !,
+    attribute_('tacho-motor', Port, Name, Value),
+    !.
+
+duty(SetPoints) -->
+    (   { memberchk(duty_cycle_sp(Percent), SetPoints) }
+    ->  [ ' ~d % of the voltage'-[Percent] ]
+    ;   [ ' voltage'-[] ]
+    ).
+
+time(SetPoints) -->
+    (   { memberchk(time_sp(Milliseconds), SetPoints) }
+    ->  { Seconds is Milliseconds / 1000.0 },
+        [ ' for ~w s'-[Seconds] ]
+    ;   []
+    ).
+
+angle(SetPoints, Port) -->
+    (   { memberchk(position_sp(Position), SetPoints) }
+    ->  (   { constant(Port, count_per_rot, Counts),
+              Counts > 0
+            }
+        ->  { Degrees is round(Position * 360 / Counts) },
+            [ '~d degrees'-[Degrees] ]
+        ;   [ '~d counts'-[Position] ]
+        )
+    ;   [ 'a position'-[] ]
+    ).
+
+                /*******************************
+                *           COURSES            *
+                *******************************/
+
+course(legs(Legs, Backwards), options(Percent, _, _, _)) -->
+    legs(Legs),
+    (   { Backwards == true }
+    ->  [ ' backwards'-[] ]
+    ;   []
+    ),
+    { number_text(Percent, Text) },
+    [ ' at ~w %'-[Text] ].
+course(wheels(Left, Right), options(Percent, _, _, _)) -->
+    { L is round(Left * Percent),
+      R is round(Right * Percent)
+    },
+    [ 'runs its wheels at ~d % and ~d %'-[L, R] ].
+course(cruise(Speed, Turn), _) -->
+    cruise(Speed, Turn).
+course(change(Speed, Turn), _) -->
+    cruise(Speed, Turn).
+
+cruise(Speed0, Turn0) -->
+    { number_text(Speed0, Speed),
+      number_text(Turn0, Turn)
+    },
+    [ 'goes at ~w cm/s and turns by ~w degrees/s'-[Speed, Turn] ].
+
+legs([]) -->
+    [ 'goes nowhere'-[] ].
+legs([Leg]) -->
+    !,
+    leg(Leg).
+legs([Leg|Legs]) -->
+    leg(Leg),
+    [ ', '-[] ],
+    legs(Legs).
+
+leg(arc(Length0, Curvature)) -->
+    !,
+    { number_text(Length0, Length) },
+    (   { Curvature =:= 0 }
+    ->  [ 'goes ~w cm'-[Length] ]
+    ;   { Radius0 is 1 / Curvature,
+          number_text(Radius0, Radius)
+        },
+        [ 'goes ~w cm on an arc with radius ~w cm'-[Length, Radius] ]
+    ).
+leg(turn(Degrees0)) -->
+    !,
+    { number_text(Degrees0, Degrees) },
+    [ 'turns by ~w degrees'-[Degrees] ].
+leg(through(Places, _)) -->
+    !,
+    { length(Places, Count) },
+    [ 'goes through ~d places'-[Count] ].
+leg(towards(X, Y)) -->
+    !,
+    at_place('turns towards', X, Y).
+leg(to(X, Y)) -->
+    !,
+    at_place('goes to', X, Y).
+leg(reach(X, Y)) -->
+    !,
+    at_place('goes to', X, Y).
+leg(Face) -->
+    { Face =.. [_, Heading0],
+      number_text(Heading0, Heading)
+    },
+    [ 'turns to heading ~w'-[Heading] ].
+
+at_place(Verb, X0, Y0) -->
+    { number_text(X0, X),
+      number_text(Y0, Y)
+    },
+    [ '~w ~w-~w'-[Verb, X, Y] ].
+
+%   At most two decimals.
+
+number_text(Number, Text) :-
+    Rounded is round(Number * 100) / 100.0,
+    Whole is integer(Rounded),
+    (   Rounded =:= Whole
+    ->  Text = Whole
+    ;   Text = Rounded
+    ).
+
+                /*******************************
+                *            CAUSES            *
+                *******************************/
+
+reasons(Causes) -->
+    (   { append(Before, [called(Called)], Causes) }
+    ->  (   { Before == [] }
+        ->  [ ': ~w was called'-[Called] ]
+        ;   [ ': '-[] ],
+            causes(Before)
+        )
+    ;   { Causes == [] }
+    ->  []
+    ;   [ ': '-[] ],
+        causes(Causes)
+    ).
+
+causes([Cause]) -->
+    !,
+    cause(Cause).
+causes([Cause|Causes]) -->
+    cause(Cause),
+    [ '; '-[] ],
+    causes(Causes).
+
+cause(Cause) -->
+    { var(Cause) },
+    !,
+    [ '_'-[] ].
+cause(rule(Name, Guard)) -->
+    !,
+    [ 'rule ~p'-[Name] ],
+    condition_after(Guard).
+cause(event(Id, Condition)) -->
+    !,
+    [ 'event ~p'-[Id] ],
+    condition_after(Condition).
+cause(golog(Action)) -->
+    !,
+    [ 'action ~p'-[Action] ].
+cause(plan(Step, Cell)) -->
+    !,
+    [ 'the plan says ~w, cell ~p'-[Step, Cell] ].
+cause(leg(Part)) -->
+    !,
+    [ 'on the way: ~p'-[Part] ].
+cause(course(Course, Options)) -->
+    !,
+    [ 'it '-[] ],
+    course(Course, Options).
+cause(replay(File)) -->
+    !,
+    [ 'replay of ~w'-[File] ].
+cause(Cause) -->
+    [ '~p'-[Cause] ].
+
+condition_after(Condition) -->
+    (   { Condition == true }
+    ->  []
+    ;   [ ', '-[] ],
+        condition(Condition)
+    ).
+
+%   A reading and the comparison of its value are said as one.
+
+condition(Condition) -->
+    { var(Condition) },
+    !,
+    [ '_'-[] ].
+condition(_:Condition) -->
+    !,
+    condition(Condition).
+condition((A0, B)) -->
+    !,
+    { plain(A0, A),
+      first_of(B, Test0, Rest),
+      plain(Test0, Test)
+    },
+    (   { reading(A, Name, Value),
+          comparison(Test, Left, Operator, Right),
+          Left == Value
+        }
+    ->  [ '~w ~p ~w ~p'-[Name, Value, Operator, Right] ],
+        (   { Rest == true }
+        ->  []
+        ;   [ ', '-[] ],
+            condition(Rest)
+        )
+    ;   condition(A),
+        [ ', '-[] ],
+        condition(B)
+    ).
+condition((A ; B)) -->
+    !,
+    condition(A),
+    [ ' or '-[] ],
+    condition(B).
+condition(\+ A) -->
+    !,
+    [ 'not '-[] ],
+    condition(A).
+condition(Goal) -->
+    (   { comparison(Goal, Left, Operator, Right) }
+    ->  [ '~p ~w ~p'-[Left, Operator, Right] ]
+    ;   { callable(Goal),
+          Goal =.. [Name|Arguments0],
+          Arguments0 \== []
+        }
+    ->  { bound(Arguments0, Arguments) },
+        [ '~w'-[Name] ],
+        arguments(Arguments)
+    ;   [ '~p'-[Goal] ]
+    ).
+
+first_of(Goal, Goal, true) :-
+    var(Goal),
+    !.
+first_of((A, B), A, B) :-
+    !.
+first_of(A, A, true).
+
+plain(Goal0, Goal) :-
+    (   nonvar(Goal0),
+        Goal0 = _:Goal1
+    ->  Goal = Goal1
+    ;   Goal = Goal0
+    ).
+
+reading(Goal, Name, Value) :-
+    callable(Goal),
+    Goal =.. [Name|Arguments],
+    append(_, [Value], Arguments),
+    number(Value),
+    !.
+
+comparison(Goal, Left, Operator, Right) :-
+    callable(Goal),
+    Goal =.. [Operator, Left, Right],
+    memberchk(Operator, [<, >, =<, >=, =:=, =\=, ==, \==, =, \=]).
+
+bound([], []).
+bound([Argument|Arguments0], Arguments) :-
+    (   var(Argument)
+    ->  Arguments = Arguments1
+    ;   Arguments = [Argument|Arguments1]
+    ),
+    bound(Arguments0, Arguments1).
+
+arguments([]) -->
+    [].
+arguments([Argument|Arguments]) -->
+    [ ' ~p'-[Argument] ],
+    arguments(Arguments).

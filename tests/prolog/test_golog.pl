@@ -1,0 +1,1095 @@
+:- use_module('../support/trees').
+:- use_module(library(ev3dev/golog)).
+:- use_module('../support/golog/lab').
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(plunit)).
+
+% What each construct means is that of its definition: [G] Levesque, Reiter,
+% Lesperance, Lin, Scherl: GOLOG (1997); [C] De Giacomo, Lesperance, Levesque:
+% ConGolog (2000); [I] De Giacomo, Lesperance, Levesque, Sardina: IndiGolog
+% (2009).
+
+%   Every History to which Program runs offline, oldest action first.
+
+runs(Program, Runs) :-
+    runs(Program, [], Runs).
+
+runs(Program, H0, Runs) :-
+    findall(Run,
+            ( golog_lab:do(Program, H0, H), reverse(H, Run) ),
+            Runs).
+
+%   Every step that Program can take.
+
+steps(Program, Steps) :-
+    steps(Program, [], Steps).
+
+steps(Program, H0, Steps) :-
+    findall(E-H, golog_lab:trans(Program, H0, E, H), Steps).
+
+lab_final(Program) :-
+    golog_lab:final(Program, []).
+
+%   All instances of Template for which Condition holds after History.
+
+answers(Template, Condition, H, Answers) :-
+    findall(Template, golog_lab:holds(Condition, H), Answers).
+
+true_in(Condition, H) :-
+    golog_lab:holds(Condition, H).
+
+:- begin_tests(golog_programs).
+
+test(nothing_is_final_and_takes_no_step, Steps == []) :- % [C] nil
+    lab_final([]),
+    steps([], Steps).
+test(an_action_takes_one_step, Steps == [[]-[a]]) :-    % [C] a
+    \+ lab_final(a),
+    steps(a, Steps).
+test(an_impossible_action_takes_none, Steps == []) :-
+    steps(never, Steps).
+test(fluents_in_arguments_are_evaluated, Runs == [[up, set_to(1)]]) :-
+    runs([up, set_to(n)], Runs).
+test(an_open_action_takes_all_values, Steps == [[]-[off(1)], []-[off(3)]]) :-
+    steps(off(_), Steps).
+test(a_test_is_a_step, Steps == [[]-[]]) :-             % [C] phi?
+    \+ lab_final(?(n = 0)),
+    steps(?(n = 0), Steps).
+test(a_false_test_blocks, Steps == []) :-
+    steps(?(n = 1), Steps).
+test(a_test_binds_each_solution, Ns == [1, 3]) :-
+    findall(N, golog_lab:trans(?(light(N) = on), [], [], []), Ns).
+test(a_sequence_steps_in_its_first, Steps == [[[], b]-[a]]) :- % [C] d1;d2
+    steps([a, b], Steps).
+test(a_sequence_may_end_its_first,
+     Steps == [[]-[b], [[[], star(a)], b]-[a]]) :-
+    steps([star(a), b], Steps).
+test(a_sequence_ends_when_all_may) :-
+    lab_final([star(a), []]),
+    \+ lab_final([star(a), b]).
+test(ndet_has_both, Steps == [[]-[a], []-[b]]) :-       % [C] d1|d2
+    steps(ndet(a, b), Steps).
+test(ndet_is_final_if_one_is) :-
+    lab_final(ndet(a, [])),
+    lab_final(ndet([], a)),
+    \+ lab_final(ndet(a, b)).
+test(if_is_one_step_with_its_body, Steps == [[]-[a]]) :- % [C] if
+    steps(if(n = 0, a, b), Steps).
+test(if_else, Steps == [[]-[b]]) :-
+    steps(if(n = 1, a, b), Steps).
+test(if_is_final_by_its_branch) :-
+    lab_final(if(n = 0, [], a)),
+    \+ lab_final(if(n = 1, [], a)).
+test(while_is_one_step_with_its_body,                   % [C] while
+     Steps == [[[], while(n < 2, up)]-[up]]) :-
+    steps(while(n < 2, up), Steps).
+test(while_ends_when_its_condition_is_false, Runs == [[up, up]]) :-
+    runs(while(n < 2, up), Runs).
+test(while_is_final_if_its_body_is) :-
+    lab_final(while(n = 0, star(a))),
+    \+ lab_final(while(n = 0, a)).
+test(star_is_final, Steps == [[[], star(a)]-[a]]) :-    % [C] d*
+    lab_final(star(a)),
+    steps(star(a), Steps).
+test(star_n_runs_at_most_n_times, Runs == [[], [a], [a, a]]) :-
+    runs(star(a, 2), Runs).
+test(star_finds_a_given_history, true) :-
+    once(golog_lab:do(star(ndet(a, b)), [b, a, b])),
+    \+ golog_lab:do([star(a), b], [a]).
+test(pi_over_all, Runs == [[off(1)], [off(3)]]) :-      % [C] pi v.d
+    runs(pi(x, [?(light(x) = on), off(x)]), Runs).
+test(pi_with_a_prolog_variable, Runs == [[off(1)], [off(3)]]) :-
+    runs(pi(X, [?(light(X) = on), off(X)]), Runs).
+test(pi_of_a_list_of_variables, Runs == [[off(1), set_to(on)],
+                                         [off(3), set_to(on)]]) :-
+    runs(pi([x, y], [?(light(x) = y), off(x), set_to(y)]), Runs).
+test(pi_over_a_sort_that_is_a_list, Runs == [[set_to(hall)],
+                                             [set_to(lab)]]) :-
+    runs(pi(r, room, set_to(r)), Runs).
+test(pi_over_a_sort_that_enumerates, Runs == [[set_to(left)],
+                                              [set_to(right)]]) :-
+    runs(pi((d, direction), set_to(d)), Runs).
+test(pi_over_a_list, Runs == [[set_to(4)], [set_to(5)]]) :-
+    runs(pi((d, [4, 5]), set_to(d)), Runs).
+test(pi_is_final_if_it_is_for_one) :-
+    lab_final(pi(x, [4, 5], if(x = 5, [], a))).
+test(an_inner_pi_has_its_own_variable,
+     Runs == [[set_to(1), set_to(2)]]) :-
+    runs(pi(x, [?(x = 1), set_to(x), pi(x, [?(x = 2), set_to(x)])]), Runs).
+test(a_value_is_no_variable, Runs == [[set_to(y), set_to(2)]]) :-
+    runs(pi(x, [?(member(x, [y])), set_to(x),
+                pi(y, [?(y = 2), ?(x \= 2), set_to(y)])]), Runs).
+test(an_argument_is_no_variable, Runs == [[set_to(hall)]]) :-
+    runs(outer(hall), Runs).
+test(a_fluent_as_a_value_in_pi, Runs == [[set_to(0)]]) :-
+    runs(pi(x, [?(x = n), set_to(x)]), Runs).
+test(a_procedure, Runs == [[a, b]]) :-                  % [C] procedures
+    runs(both, Runs).
+test(a_procedure_has_all_its_clauses, Runs == [[a], [c]]) :-
+    runs(either(a), Runs).
+test(a_procedure_may_call_itself, Runs == [[up, up]]) :-
+    runs(count(2), Runs).
+test(a_procedure_with_pi, Runs == [[go(lab)]]) :-
+    runs(shut(lab), Runs).
+test(for_takes_each_in_turn, Runs == [[set_to(hall), set_to(lab)]]) :- % [I]
+    runs(for(r, room, set_to(r)), Runs).
+test(for_over_nothing_is_final) :-
+    lab_final(for(r, [], set_to(r))).
+test(for_over_the_value_of_a_fluent, Runs == [[set_to(1), set_to(2)]]) :-
+    runs(for(r, list, set_to(r)), Runs).
+
+:- end_tests(golog_programs).
+
+:- begin_tests(golog_concurrent).
+
+test(conc_interleaves, Steps == [conc([], b)-[a], conc(a, [])-[b]]) :- % [C]
+    steps(conc(a, b), Steps).
+test(conc_runs, Runs == [[a, b, c], [a, c, b], [c, a, b]]) :-
+    runs(conc([a, b], c), Runs).
+test(conc_is_final_if_both_are) :-
+    lab_final(conc(star(a), [])),
+    \+ lab_final(conc(a, [])).
+test(pconc_prefers_the_first, Steps == [pconc([], b)-[a]]) :- % [C] >>
+    steps(pconc(a, b), Steps).
+test(pconc_takes_the_second_if_the_first_is_blocked,
+     Steps == [pconc(never, [])-[b]]) :-
+    steps(pconc(never, b), Steps).
+test(pconc_tries_all_of_its_first, Runs == [[b, c]]) :-
+    runs(pconc([ndet(a, b), ?(done(b)), c], []), Runs).
+test(pconc_goes_back_to_its_first, Runs == [[up, a, b]]) :-
+    runs(pconc([?(n = 1), a], [up, b]), Runs).
+test(iconc, Steps == [conc([], iconc(a))-[a]]) :-       % [C] d||
+    lab_final(iconc(a)),
+    steps(iconc(a), Steps).
+test(interrupt_tests_and_steps_at_once,                 % [C] <phi -> d>
+     Steps == [[[], interrupt(n = 0, up)]-[up]]) :-
+    steps(interrupt(n = 0, up), Steps).
+test(interrupt_with_a_variable_takes_all,
+     Hs == [[off(1)], [off(3)]]) :-
+    findall(H, golog_lab:trans(interrupt(x, light(x) = on, off(x)), [], _, H), Hs).
+test(interrupt_with_variables_and_sorts,
+     Hs == [[set_to(1-left)], [set_to(3-left)], [set_to(1-right)],
+            [set_to(3-right)]]) :-
+    findall(H,
+            golog_lab:trans(interrupt([x, (d, direction)], light(x) = on,
+                                      set_to(x-d)), [], _, H),
+            Hs).
+test(the_first_interrupt_is_the_highest, Runs == [[up, up, off(1), off(3)]]) :-
+    once(golog_lab:do(prioritized_interrupts(
+                          [ interrupt(n < 2, up),
+                            interrupt(x, lit(x), off(x)) ]), H)),
+    reverse(H, Run),
+    Runs = [Run].
+test(interrupts_end_when_none_can_step, Runs == [[b]]) :-
+    runs([prioritized_interrupts([interrupt(n > 5, a)]), b], Runs).
+test(what_an_interrupt_has_begun_is_ended, Runs == [[up, a, b]]) :-
+    runs([prioritized_interrupts([interrupt(n = 0, [up, a])]), b], Runs).
+test(interrupts_can_be_repeated, Runs == [[up, down, up, down]]) :-
+    P = prioritized_interrupts([interrupt(n = 0, [up])]),
+    runs([P, down, P, down], Runs).
+test(nested_interrupts_end_alone,
+     Runs == [[off(1), up, down, off(3), up, down]]) :-
+    once(golog_lab:do(
+             prioritized_interrupts(
+                 [ interrupt(x, lit(x),
+                             [ off(x),
+                               prioritized_interrupts(
+                                   [interrupt(n = 0, up)]),
+                               down ]) ]), H)),
+    reverse(H, Run),
+    Runs = [Run].
+test(interrupts_beside_others, Runs == [[up, a]]) :-
+    runs(pconc(prioritized_interrupts([interrupt(n = 0, up)]), a), Runs).
+test(atomic_is_not_interleaved, Runs == [[a, b, c], [c, a, b]]) :- % [I]
+    runs(conc(atomic([a, b]), c), Runs).
+test(rrobin, Runs == [[a, b, a, b]]) :-
+    once(golog_lab:do(rrobin([[a, a], [b, b]]), H)),
+    reverse(H, Run),
+    Runs = [Run].
+test(rconc_has_all_orders, Sorted == [[a, b], [b, a]]) :-
+    runs(rconc(a, b), Runs),
+    sort(Runs, Sorted).
+test(rconc_of_a_list_has_all_orders, Count == 6) :-
+    runs(rconc([a, b, c]), Runs),
+    sort(Runs, Sorted),
+    length(Sorted, Count).
+test(sync_takes_the_same_action, Runs == [[a, b]]) :-
+    runs(sync([[a, ndet(b, c)], [?(true), a, b]]), Runs).
+
+:- end_tests(golog_concurrent).
+
+:- begin_tests(golog_more).
+
+test(wndet_takes_the_first, Runs == [[a]]) :-           % [I]
+    runs(wndet(a, b), Runs).
+test(wndet_takes_the_second_if_it_must, Runs == [[b]]) :-
+    runs(wndet(never, b), Runs).
+test(rndet_has_both, Sorted == [[a], [b]]) :-           % [I]
+    runs(rndet(a, b), Runs),
+    sort(Runs, Sorted).
+test(rpi_has_all, Sorted == [[set_to(hall)], [set_to(lab)]]) :- % [I]
+    runs(rpi(r, room, set_to(r)), Runs),
+    sort(Runs, Sorted).
+test(pi_of_chance, Sorted == [[set_to(hall)], [set_to(lab)]]) :-
+    runs(pi(r(x), room, set_to(x)), Runs),
+    sort(Runs, Sorted).
+test(gexec_runs_as_long_as_its_guard_holds, Runs == [[up, b]]) :- % [I]
+    runs([gexec(n = 0, [up, a]), b], Runs).
+test(gexec_ends_with_its_program, Runs == [[a, b]]) :-
+    runs([gexec(n = 0, a), b], Runs).
+test(goal_ends_when_reached, Runs == [[up, c]]) :-
+    runs([goal(n = 1, [up, a], false, b), c], Runs).
+test(goal_recovers, Runs == [[up, b, c]]) :-
+    runs([goal(n = 5, [up, a], n = 1, b), c], Runs).
+test(set_and_unset, Runs == [[set(ringing), a, unset(ringing), b]]) :-
+    runs([set(ringing), if(ringing, a, b), unset(ringing),
+          if(ringing, a, b)], Runs).
+test(sim_changes_fluents, Runs == [[sim(ring), a]]) :-
+    runs([sim(ring), if(ringing, a, b)], Runs).
+test(abort_of_a_process, Runs == [[set(ringing), e(ringing, false)]]) :-
+    runs([set(ringing), gexec(ringing, [abort(ringing), a])], Runs).
+test(a_test_with_a_mark, Runs == [[test(n = 0)]]) :-
+    runs(??(n = 0), Runs).
+test(achieve_by_rules, Runs == [[up, up]]) :-
+    setup_call_cleanup(
+        assertz(golog_lab:rule(level(N), n < N, count(N))),
+        runs(achieve(level(2)), Runs),
+        retractall(golog_lab:rule(_, _, _))).
+test(wait_is_a_mark_offline, Runs == [[wait]]) :-
+    runs(wait, Runs).
+test(exogint_is_its_program, Runs == [[a]]) :-
+    runs(exogint(a, true), Runs).
+test(time_is_its_program, Runs == [[a, b]]) :-
+    runs([time(a, 10), ttime(b, 10)], Runs).
+test(printing_the_history_is_a_step, Steps == [[]-[a]]) :-
+    steps(?(printHistory), [a], Steps).
+
+:- end_tests(golog_more).
+
+:- begin_tests(golog_search).
+
+test(search_takes_the_way_that_ends, H == [b]) :-       % [I] Sigma
+    golog_lab:trans(search([ndet(a, b), ?(done(b)), c]), [], _, H),
+    !.
+test(search_blocks_if_there_is_none, Steps == []) :-
+    steps(search([a, never]), Steps).
+test(search_follows_its_plan, Runs == [[b, c]]) :-
+    runs(search([ndet(a, b), ?(done(b)), c]), Runs).
+test(search_is_final_if_its_program_is) :-
+    lab_final(search(star(a))).
+test(search_has_all_plans, Runs == [[a], [b]]) :-
+    runs(search(ndet(a, b)), Runs).
+test(search_with_a_message, Runs == [[a]]) :-
+    runs(search(a, ["a plan", 1]), Runs).
+test(search_with_options, Runs == [[a]]) :-
+    runs(search(a, plan, [depth(5)]), Runs).
+test(searchn_is_search, Runs == [[a]]) :-
+    runs(searchn(a, []), Runs).
+test(commit_cuts, Runs == []) :-
+    runs(search([ndet(a, b), commit, ?(done(b))]), Runs).
+test(a_limit_turns_to_deepening, Run == [up, up]) :-
+    once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
+                              ?(n = 2)], [depth(30)]), H)),
+    reverse(H, Run).
+test(a_time_limit_turns_to_deepening, Run == [up, up]) :-
+    once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
+                              ?(n = 2)], [timeout(0)]), H)),
+    reverse(H, Run).
+test(deepening_ends_if_all_was_seen, Runs == []) :-
+    runs(search([star(a, 4), never], [steps(3)]), Runs).
+test(a_plan_broken_by_another_is_made_again, Run == [up, b]) :-
+    golog_lab:trans(search([up, if(ringing, b, a)]), [], E, [up]),
+    !,
+    once(golog_lab:do(E, [ring, up], H)),
+    reverse(H, [up, ring|Rest]),
+    Run = [up|Rest].
+test(a_conditional_plan, Plan == [up, if(ringing, [b], [c])]) :- % [I] searchc
+    golog_lab:trans(searchc([up, branch(ringing), if(ringing, b, c)]),
+                    [], Plan, []),
+    !.
+test(achieve_plans_the_least_steps, Run == [all_off]) :-
+    once(golog_lab:do(achieve(neg(some(x, light(x) = on))), H)),
+    msort(H, Run).
+
+:- end_tests(golog_search).
+
+:- begin_tests(golog_conditions).
+
+test(and) :-
+    true_in(and(n = 0, light(1) = on), []),
+    true_in(and([n = 0, light(1) = on, true]), []),
+    \+ true_in(and(n = 0, light(2) = on), []).
+test(or) :-
+    true_in(or(n = 1, light(1) = on), []),
+    true_in(or([n = 1, n = 2, n = 0]), []),
+    \+ true_in(or([]), []).
+test(neg) :-
+    true_in(neg(n = 1), []),
+    \+ true_in(neg(n = 0), []).
+test(impl_and_equiv) :-
+    true_in(impl(n = 1, false), []),
+    true_in(impl(n = 0, true), []),
+    \+ true_in(impl(n = 0, false), []),
+    true_in(equiv(n = 1, light(2) = on), []),
+    \+ true_in(equiv(n = 0, light(2) = on), []).
+test(some) :-
+    true_in(some(x, light(x) = off), []),
+    true_in(some([x, y], and(light(x) = y, x = 3)), []),
+    true_in(some((x, [2, 3]), light(x) = on), []),
+    true_in(some(x, [2, 3], light(x) = on), []),
+    \+ true_in(some((x, [2]), light(x) = on), []).
+test(all) :-
+    true_in(all((x, [1, 3]), light(x) = on), []),
+    true_in(all(x, [1, 3], light(x) = on), []),
+    \+ true_in(all((x, number_of_light), light(x) = on), []).
+test(a_closed_condition_holds_once, Answers == [yes]) :-
+    answers(yes, some(x, light(x) = on), [], Answers).
+test(an_open_condition_has_each_solution, Answers == [1, 3]) :-
+    answers(X, light(X) = on, [], Answers).
+test(done) :-
+    true_in(done(a), [b, a]),
+    \+ true_in(done(c), [b, a]),
+    true_in(haveExecuted(a), [a]),
+    answers(X, done(off(X)), [off(3), off(1)], [1, 3]).
+test(know) :-
+    true_in(know(n), []),
+    \+ true_in(know(weather), []),
+    \+ true_in(kwhether(weather), []),
+    true_in(kwhether(weather), [e(weather, rain), look]).
+test(both_sides_are_evaluated) :-
+    true_in(last = last, []),
+    true_in(n = n, [up]),
+    \+ true_in(last = n, []).
+test(comparisons) :-
+    true_in(n < 1, []),
+    true_in(n+1 =:= 2, [up]),
+    true_in(n \= 1, []),
+    answers(X, X is n*2+1, [up], [3]).
+test(any_goal) :-
+    true_in(memberchk(1, list), []),
+    answers(X, member(X, list), [], [1, 2]).
+test(fluents_in_fluents) :-
+    true_in(light(n) = on, [up]),
+    \+ true_in(light(n) = on, [up, up]).
+test(relational_fluents) :-
+    true_in(at(hall), []),
+    \+ true_in(at(lab), []),
+    true_in(neg(ringing), []),
+    answers(P, at(P), [], [hall]).
+test(a_condition_of_the_program) :-
+    true_in(two, [up, up]),
+    \+ true_in(two, [up]),
+    answers(X, lit(X), [], [1, 3]).
+test(prologs_own_connectives) :-
+    true_in((n = 0, \+ n = 1), []),
+    true_in((n = 1 ; n = 0), []),
+    true_in((n = 0 -> true ; false), []).
+
+:- end_tests(golog_conditions).
+
+:- begin_tests(golog_domain).
+
+test(causes_val, V == 2) :-
+    golog_lab:has_val(n, V, [up, down, up, up]).
+test(causes_true_and_false) :-
+    true_in(at(lab), [go(lab)]),
+    \+ true_in(at(hall), [go(lab)]),
+    true_in(at(yard), [go(yard), go(lab)]),
+    \+ true_in(at(lab), [go(yard), go(lab)]).
+test(an_effect_on_all_instances, Answers == []) :-
+    answers(X, light(X) = on, [all_off], Answers).
+test(an_effect_by_an_equation, [V, W] == [red, white]) :-
+    golog_lab:has_val(color(door), V, [paint(door, red)]),
+    golog_lab:has_val(color(wall), W, [paint(door, red)]).
+test(an_effect_that_nothing_enumerates, [V, W, U] == [clean, red, blue]) :-
+    golog_lab:has_val(color(door), V, [wipe, paint(door, red)]),
+    golog_lab:has_val(color(wall), W, [wipe, paint(wall, red)]),
+    golog_lab:has_val(color(door), U, [paint(door, blue), wipe]).
+test(sensing_of_a_fluent, V == rain) :-
+    golog_lab:has_val(weather, V, [a, e(weather, rain), look]).
+test(sensing_by_the_action, V == rain) :-
+    golog_lab:has_val(weather, V, [e(look, rain), look]).
+test(sensing_of_several, V-W == rain-rain) :-
+    golog_lab:has_val(weather, V, [e(look_twice, rain)]),
+    golog_lab:has_val(wind, W, [e(look_twice, rain)]).
+test(sensing_by_an_outcome) :-
+    true_in(warm, [e(feel, 25), feel]),
+    \+ true_in(warm, [e(feel, 15), feel]).
+test(forgetting, fail) :-
+    golog_lab:has_val(weather, _, [lose, e(weather, rain), look]).
+test(a_history_may_be_long, V == 1) :-
+    numlist(1, 2000, Numbers),
+    findall(A, ( member(N, Numbers), ( N mod 2 =:= 0 -> A = up ; A = down ) ),
+            As),
+    golog_lab:has_val(n, V0, [up|As]),
+    V is V0.
+test(eval, Truths == [false]) :-
+    findall(T, golog_lab:eval(n = 1, [], T), Truths).
+test(sorts, [A, B, C] == [[hall, lab], [left, right], [1]]) :-
+    findall(X, golog_lab:domain(X, room), A),
+    golog_lab:getdomain(direction, B),
+    golog_lab:getdomain([1], C).
+test(random_sorts, Sorted == [left, right]) :-
+    findall(X, golog_lab:rdomain(X, direction), Xs),
+    sort(Xs, Sorted).
+test(shuffle, Sorted == [1, 2, 3]) :-
+    shuffle([3, 1, 2], Shuffled),
+    sort(Shuffled, Sorted).
+test(sensing_action, Fs == [weather, wind]) :-
+    findall(F, golog_lab:sensing_action(look_twice, F), Fs).
+test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
+    golog_lab:sensing_action(feel, F).
+
+:- end_tests(golog_domain).
+
+                /*******************************
+                *            ONLINE            *
+                *******************************/
+
+%   A module with the domain Text, a list of clauses as terms; it is gone
+%   after Goal.
+
+:- dynamic used/1.
+
+with_domain(Clauses, Module, Goal) :-
+    flag(golog_test, N, N+1),
+    atom_concat(golog_test_, N, Module),
+    add_import_module(Module, user, start),
+    forall(member(Clause, Clauses), assertz(Module:Clause)),
+    call(Goal).
+
+%   Run Program of the lab; H is its history, oldest first.
+
+online(Program, Options, Run) :-
+    golog_lab:executed(_),
+    retractall(golog_lab:next_exog(_)),
+    golog_lab:golog(Program, [history(H)|Options]),
+    reverse(H, Run).
+
+exogenous(Actions) :-
+    forall(member(A, Actions), assertz(golog_lab:next_exog(A))).
+
+:- begin_tests(golog_online).
+
+test(actions_are_executed, As == [a, b]) :-
+    online([a, b], [], _),
+    golog_lab:executed(As).
+test(tests_are_not_executed, As == [up]) :-
+    online([?(n = 0), up, ?(n = 1)], [], _),
+    golog_lab:executed(As).
+test(internal_actions_are_not_executed, Run-As == [set(ringing), a]-[a]) :-
+    online([set(ringing), sim(quiet), commit, branch(n = 0),
+            ?(ringing), a], [], Run),
+    golog_lab:executed(As).
+test(sensing_enters_the_history, Run == [look, e(weather, rain), a]) :-
+    sensing(look, rain, [look, if(weather = rain, a, b)], Run).
+test(sensing_several, Run == [look_twice, e(weather, 7), e(wind, 7)]) :-
+    sensing(look_twice, 7, look_twice, Run).
+test(sensing_an_outcome, Run == [feel, e(feel, 25), a]) :-
+    sensing(feel, 25, [feel, if(warm, a, b)], Run).
+test(a_precondition_that_does_not_hold_is_told,
+     R == not_possible(down, n > 0)) :-
+    online([a, down], [reason(R)], _).
+test(no_step_is_told, R == no_step(?(n = 1))) :-
+    online([a, ?(n = 1)], [reason(R)], _).
+test(the_end_is_told, R == final) :-
+    online(a, [reason(R)], _).
+test(indigolog_fails_and_says_why, [Said, Text] == [true, a]) :-
+    said(\+ golog_lab:indigolog([a, down]), Texts),
+    (   member(Text0, Texts),
+        sub_atom(Text0, _, _, _, 'the action down is not possible')
+    ->  Said = true,
+        Text = a
+    ;   Said = false,
+        Text = Texts
+    ).
+test(abort_stops, R-Run == stopped-[a]) :-
+    online([a, abort, b], [reason(R)], Run).
+test(a_limit_of_steps, R-Run == limit-[a, a, a]) :-
+    online(while(true, a), [limit(3), reason(R)], Run).
+test(a_timeout_ends_a_wait, R == timeout) :-
+    online(wait, [timeout(0.05), reason(R)], _).
+test(a_failed_action_is_in_the_history, Run == [failed(breaks), a]) :-
+    online([breaks, a], [], Run).
+test(a_failed_action_may_stop, R-Run == failed(breaks)-[failed(breaks)]) :-
+    online([breaks, a], [on_failed(stop), reason(R)], Run).
+test(a_failed_action_may_backtrack, Run == [b]) :-
+    online(ndet(breaks, b), [on_failed(backtrack)], Run).
+test(an_initial_history, Run == [up, a]) :-
+    online(if(n = 1, a, b), [initial([up])], Run).
+test(gexec_that_assumes, Run == [e(ringing, true), a, b]) :-
+    online([gexec(ringing, a), b], [gexec(assume)], Run0),
+    exclude(==(none), Run0, Run).
+test(gexec_that_guards, Run == [b]) :-
+    online([gexec(ringing, a), b], [], Run).
+test(a_trace, Events == [exog(ring), action(look), sensed(look, 1)]) :-
+    nb_setval(golog_events, []),
+    retractall(golog_lab:next_exog(_)),
+    golog_lab:golog_exog(ring),
+    asserta(golog_lab:sensed_value(look, 1)),
+    golog_lab:golog(look, [trace(user:event)]),
+    retractall(golog_lab:sensed_value(_, _)),
+    nb_getval(golog_events, Events0),
+    findall(E, ( member(E, Events0), E \= step(_) ), Events1),
+    reverse(Events1, Events),
+    memberchk(step([]), Events0).
+test(now_has_the_history_of_the_last_run, H == [b, a]) :-
+    online([a, b], [], _),
+    now(H).
+test(conc_is_fair, Run == [a, b, a, b]) :-
+    online(conc([a, a], [b, b]), [], Run).
+test(a_plan_is_followed, Run == [b, c]) :-
+    online(search([ndet(a, b), ?(done(b)), c]), [], Run).
+test(a_plan_with_sensing_is_made_again, Run == [look, e(weather, sun), b]) :-
+    sensing(look, sun,
+            search([look, if(weather = rain, a, b)]), Run).
+
+sensing(Action, Value, Program, Run) :-
+    setup_call_cleanup(
+        asserta(golog_lab:sensed_value(Action, Value)),
+        online(Program, [], Run),
+        retractall(golog_lab:sensed_value(_, _))).
+
+:- end_tests(golog_online).
+
+user:event(E) :-
+    nb_getval(golog_events, Es),
+    nb_setval(golog_events, [E|Es]).
+
+%   Call Goal; Texts are what it prints by print_message/2.
+
+:- dynamic said_text/1.
+
+said(Goal, Texts) :-
+    retractall(said_text(_)),
+    setup_call_cleanup(
+        asserta((user:thread_message_hook(Term, _, Lines) :-
+                     plunit_keep(Term, Lines)), Ref),
+        call(Goal),
+        erase(Ref)),
+    findall(Text, retract(said_text(Text)), Texts).
+
+said_of_all(Goal, Kinds) :-
+    retractall(said_text(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(_, Kind, _) :-
+                     memberchk(Kind, [warning, error]),
+                     assertz(said_text(Kind))), Ref),
+        call(Goal),
+        erase(Ref)),
+    findall(Kind, retract(said_text(Kind)), Kinds).
+
+user:plunit_keep(golog(_), Lines) :-
+    with_output_to(atom(Text), print_message_lines(current_output, '', Lines)),
+    assertz(said_text(Text)).
+
+:- begin_tests(golog_exogenous).
+
+test(they_enter_before_the_next_step, Run == [ring, b]) :-
+    retractall(golog_lab:next_exog(_)),
+    exogenous([ring]),
+    golog_lab:golog(if(ringing, b, a), [history(H)]),
+    reverse(H, Run).
+test(all_are_kept_in_order, H == [a, quiet, ring, ring, call(2)]) :-
+    exogenous([call(2), ring, ring, quiet]),
+    golog_lab:golog(a, [history(H)]).
+test(a_list_is_oldest_first, H == [a, ring, call(1)]) :-
+    exogenous([[call(1), ring]]),
+    golog_lab:golog(a, [history(H)]).
+test(what_is_none_is_dropped, H == [a]) :-
+    exogenous([nil]),
+    golog_lab:golog(a, [history(H)]).
+test(told_from_the_prompt, H == [a, ring, call(3)]) :-
+    golog_lab:golog_exog(call(3)),
+    golog_lab:golog_exog(ring),
+    golog_lab:golog(a, [history(H)]).
+test(told_by_another_thread, H == [a, ring]) :-
+    thread_create(golog_lab:golog_exog(ring), Id, []),
+    golog_lab:golog([while(neg(ringing), wait), a], [history(H)]),
+    thread_join(Id, true).
+test(poss_is_not_asked, H == [a, call(2)]) :-
+    exogenous([call(2)]),
+    golog_lab:golog(a, [history(H)]).
+test(wait_returns_at_once_if_one_came_after_the_action, H == [b, ring, a]) :-
+    with_ring_after(a, [a, wait, b], H).
+test(a_second_wait_waits, R == timeout) :-
+    exogenous([ring]),
+    golog_lab:golog([wait, wait], [timeout(0.05), reason(R)]).
+test(an_idle_interrupt_waits, R-H == timeout-[b, ring]) :-
+    exogenous([ring]),
+    golog_lab:golog(prioritized_interrupts(
+                        [ interrupt(and(ringing, neg(done(b))), b),
+                          interrupt(true, ?(wait_exog_action)) ]),
+                    [timeout(0.1), reason(R), history(H)]).
+test(interrupts_that_wait_for_each_other,
+     H == [off(2), call(2), off(3), off(1)]) :-
+    with_domain_of_calls(2, H).
+test(end_indi_ends_the_run, R == stopped) :-
+    golog_lab:golog_exog(end_indi),
+    golog_lab:golog(while(true, a), [limit(10), reason(R)]).
+test(a_replanned_search, [H, Again] == [[b, ring, a], 1]) :-
+    nb_setval(golog_events, []),
+    with_ring_after(a, search([a, if(ringing, b, c)]), H),
+    nb_getval(golog_events, Events),
+    findall(x, member(replanned(_), Events), Xs),
+    length(Xs, Again).
+test(ten_thousand_are_counted, [true(Sum-N == Expected-Expected)]) :-
+    Expected = 10000,
+    with_domain([ exog_action(tick), prim_action(tock), poss(tock, true),
+                  prim_fluent(count), initially(count, 0),
+                  causes_val(tick, count, N0, N0 is count+1),
+                  execute(tock, _) ],
+                M,
+                ( set_random(seed(7)),
+                  thread_create(forall(between(1, Expected, _),
+                                       M:golog_exog(tick)), Id, []),
+                  golog(M:while(count < Expected, [wait, tock]),
+                        [history(H)]),
+                  thread_join(Id, true),
+                  has_val(M:count, Sum, H),
+                  findall(x, member(tick, H), Ticks),
+                  length(Ticks, N) )).
+
+with_ring_after(A, Program, H) :-
+    golog_lab:golog(Program,
+                    [ history(H), trace(user:ring_after(A)) ]).
+
+with_domain_of_calls(N, H) :-
+    golog_lab:golog(prioritized_interrupts(
+                        [ interrupt(x, light(x) = on, off(x)),
+                          interrupt(neg(done(call(N))), wait) ]),
+                    [ history(H),
+                      trace(user:call_after(off(3), call(N))) ]).
+
+:- end_tests(golog_exogenous).
+
+user:ring_after(A, E) :-
+    event(E),
+    (   E == action(A)
+    ->  golog_lab:golog_exog(ring)
+    ;   true
+    ).
+
+user:call_after(A, Exog, E) :-
+    (   E == action(A)
+    ->  golog_lab:golog_exog(Exog)
+    ;   true
+    ).
+
+:- begin_tests(golog_world).
+
+test(execute_3_has_the_history, Seen == [b-[a], a-[]]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(a), prim_action(b), poss(_, true),
+                  (execute(A, H, 0) :- user:seen_action(A-H)) ],
+                M, indigolog(M:[a, b])),
+    nb_getval(golog_seen, Seen).
+test(how_to_execute_calls_the_code, Seen == [turn(2), go(1)]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(forward), prim_action(left), poss(_, true),
+                  how_to_execute(forward, wheels, go(1)),
+                  how_to_execute(left, wheels, turn(2)),
+                  (go(N) :- user:seen_action(go(N))),
+                  (turn(N) :- user:seen_action(turn(N))),
+                  (execute(_, _, _) :- user:seen_action(wrong)) ],
+                M, indigolog(M:[forward, left])),
+    nb_getval(golog_seen, Seen).
+test(a_device_runs_the_code, [Seen, H] == [[wheels-go(1), eye-peep],
+                                           [forward, e(light, 5), look]]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(forward), prim_action(look), poss(_, true),
+                  prim_fluent(light), senses(look, light),
+                  how_to_execute(forward, wheels, go(1)),
+                  how_to_execute(look, eye, peep),
+                  translate_sensing(look, raw(X), X) ],
+                M, golog(M:[look, forward],
+                         [device(user:device), history(H)])),
+    nb_getval(golog_seen, Seen).
+test(codes_of_exogenous_actions_are_translated, H == [bell, horn, bell]) :-
+    with_domain([ exog_action(bell), exog_action(horn),
+                  actionNum(bell, 5),
+                  translate_exog(toot, horn) ],
+                M, ( M:golog_exog(5), M:golog_exog(toot), M:golog_exog(bell),
+                     M:golog_exog(6),
+                     golog(M:[], [history(H)]) )).
+test(legologs_boundary, [Seen, H] == [[1], [go, bell]]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(go), exog_action(bell), poss(_, true),
+                  actionNum(go, 1), actionNum(bell, 2),
+                  (initialize :- initializeRcx, initializeExog),
+                  (finalize :- finalizeRcx, finalizeExog),
+                  (execute(A, _, R) :- actionNum(A, N),
+                                       sendRcxActionNumber(N, R)),
+                  (exog_occurs(L) :- checkOtherExog(L)),
+                  robot_exog(bell, fail),
+                  (sendRcxActionNumber(N, 0) :- user:seen_action(N)) ],
+                M, ( M:golog_exog(2), golog(M:go, [history(H)]) )),
+    nb_getval(golog_seen, Seen).
+test(initialize_and_finalize, Seen == [end, begin]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ (initialize :- user:seen_action(begin)),
+                  (finalize :- user:seen_action(end)) ],
+                M, indigolog(M:[])),
+    nb_getval(golog_seen, Seen).
+test(finalize_after_an_exception, [Seen, H] == [[end], [a]]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(a), prim_action(b), poss(_, true),
+                  (finalize :- user:seen_action(end)),
+                  execute(a, _),
+                  (execute(b, _) :- throw(error(oops, _))) ],
+                M, golog(M:[a, b], [history(H), reason(R)])),
+    nb_getval(golog_seen, Seen),
+    R = exception(error(oops, _)).
+test(exceptions_are_passed_on, [throws(oops)]) :-
+    with_domain([ prim_action(b), poss(_, true),
+                  (execute(b, _) :- throw(oops)) ],
+                M, indigolog(M:b)).
+test(two_agents_live_in_one_process, [H1, H2] == [[a], [b]]) :-
+    with_domain([prim_action(a), poss(a, true), proc(main, a),
+                 execute(_, _)], M1,
+                with_domain([prim_action(b), poss(b, true), proc(main, b),
+                             execute(_, _)], M2,
+                            ( golog(M1:main, [history(H1)]),
+                              golog(M2:main, [history(H2)]) ))).
+test(a_program_may_define_what_the_library_exports, Said == []) :-
+    with_file(":- module(golog_test_own, []).\n\c
+               :- use_module(library(ev3dev/golog)).\n\c
+               prim_action(a). poss(a, true). prim_action(b).\n\c
+               poss(b, true).\n\c
+               sendRcxActionNumber(N, N). checkOtherExog([ring]).\n\c
+               domain(1, 2).\n",
+              File,
+              said_of_all(load_files(File, []), Said)),
+    golog_test_own:sendRcxActionNumber(4, 4),
+    golog_test_own:domain(1, 2).
+test(indigolog_0_runs_main, H == [a]) :-
+    with_domain([prim_action(a), poss(a, true), proc(main, a),
+                 execute(_, _)], M, M:indigolog),
+    now(H).
+
+test(an_action_may_have_the_name_of_a_construct, Seen-H ==
+         [set(1), wait]-[set(1), wait]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(wait), prim_action(set(_)), poss(_, true),
+                  prim_fluent(f), initially(f, 0),
+                  causes_val(set(X), f, X, true),
+                  (execute(A, _) :- user:seen_action(A)) ],
+                M, golog(M:[wait, set(1), ?(f = 1)], [history(H)])),
+    nb_getval(golog_seen, Seen).
+test(a_controller_is_run, H == [b]) :-
+    with_domain([prim_action(b), poss(b, true), proc(mainControl(2), b),
+                 controller(2), execute(_, _)], M, indigolog(M:_)),
+    now(H).
+
+:- end_tests(golog_world).
+
+user:seen_action(A) :-
+    nb_getval(golog_seen, As),
+    nb_setval(golog_seen, [A|As]).
+
+user:device(wheels, Code, _) :-
+    seen_action(wheels-Code).
+user:device(eye, Code, raw(5)) :-
+    seen_action(eye-Code).
+
+:- begin_tests(golog_wrong).
+
+test(no_poss_for_an_action,
+     [error(existence_error(golog_precondition, a/1),
+            context(do/2, 'prim_action(a/1): the action a/1 has no precondition: there is no \c
+                           poss/2 for it'))]) :-
+    with_domain([prim_action(a(1))], M, do(M:a(1), _)).
+test(no_initial_value, Said == true) :-
+    with_domain([prim_fluent(f)], M,
+                said(\+ do(M:(?(f = 1)), _), [Text])),
+    (   sub_atom(Text, _, _, _, 'the fluent f/0 has no initial value')
+    ->  Said = true
+    ;   Said = Text
+    ).
+test(a_relational_fluent_without_initial_value_is_false) :-
+    with_domain([rel_fluent(f)], M, holds(M:neg(f), [])).
+test(an_unknown_construct, [error(existence_error(golog_program, fly/1))]) :-
+    golog_lab:do([a, fly(1)], _).
+test(a_cyclic_procedure, [error(domain_error(golog_procedure, p))]) :-
+    with_domain([proc(p, ndet(?(false), [p, p]))], M, do(M:p, _)).
+test(a_cyclic_condition, [error(domain_error(golog_procedure, p))]) :-
+    with_domain([proc(p, neg(p))], M, holds(M:p, [])).
+test(an_unknown_condition, [error(existence_error(golog_condition, wet/1))]) :-
+    golog_lab:holds(wet(1), []).
+test(a_domain_about_knowledge,
+     [error(permission_error(run, golog_domain, _))]) :-
+    with_domain([causes(a, f, 1, true)], M, indigolog(M:[])).
+test(several_initial_values,
+     [error(permission_error(run, golog_domain, _))]) :-
+    with_domain([prim_fluent(f), initially(f, 1), initially(f, 2)], M,
+                indigolog(M:[])).
+test(the_message_names_clause_and_line, true(Found == true)) :-
+    catch(golog_lab:do(broken, _), error(_, context(_, Message)), true),
+    module_property(golog_lab, file(File)),
+    (   sub_atom(Message, 0, _, _, File),
+        sub_atom(Message, _, _, _, ': proc(broken): ')
+    ->  Found = true
+    ;   Found = Message
+    ).
+
+:- end_tests(golog_wrong).
+
+:- begin_tests(golog_long).
+
+%   A domain of an endless delivery
+
+delivery([ prim_action(go(P)), prim_action(take(P)), prim_action(give(P)),
+           poss(go(_), true), poss(take(_), true), poss(give(_), true),
+           prim_fluent(at), prim_fluent(carries(_)), initially(at, 1),
+           initially(carries(_), no),
+           causes_val(go(P), at, P, true),
+           causes_val(take(P), carries(P), yes, true),
+           causes_val(give(P), carries(P), no, true),
+           proc(round, pi(p, [1, 2, 3, 4],
+                          [ ?(p is 1 + at mod 4), go(p),
+                            if(carries(p) = yes, give(p), take(p)) ])),
+           execute(_, _) ]).
+
+test(the_cost_of_an_action_is_flat, true(Most =< 1.2*Least)) :-
+    delivery(Clauses),
+    with_domain(Clauses, M,
+                ( nb_setval(golog_costs, []),
+                  nb_setval(golog_count, 0),
+                  golog(M:while(true, round),
+                        [limit(15000), reason(R), trace(user:cost)]) )),
+    R == limit,
+    nb_getval(golog_costs, Costs0),
+    differences(Costs0, Costs),
+    length(Costs, N),
+    assertion(N >= 9),
+    max_list(Costs, Most),
+    min_list(Costs, Least).
+test(the_memory_is_flat, true(Grown =< 100000)) :-
+    delivery(Clauses),
+    with_domain(Clauses, M,
+                ( golog(M:while(true, round), [limit(3000), reason(_)]),
+                  garbage_collect,
+                  statistics(globalused, Used0),
+                  golog(M:while(true, round), [limit(6000), reason(_)]),
+                  garbage_collect,
+                  statistics(globalused, Used) )),
+    Grown is Used-Used0.
+test(fifty_fluents_of_a_thousand_instances, true(V == Count)) :-
+    findall(Clause, many_clause(Clause), Clauses),
+    with_domain(Clauses, M,
+                ( nb_setval(golog_costs, []),
+                  nb_setval(golog_count, 0),
+                  golog(M:while(true, some_step),
+                        [ limit(8000), reason(_), history(H),
+                          trace(user:cost) ]),
+                  H = [inc(Name, N)|_],
+                  F =.. [Name, N],
+                  has_val(M:F, V, H) )),
+    findall(x, member(inc(Name, N), H), Xs),
+    length(Xs, Count),
+    nb_getval(golog_costs, Costs0),
+    differences(Costs0, Costs),
+    max_list(Costs, Most),
+    assertion(Most / 500 =< 3000).
+
+many_clause(prim_fluent(F)) :-
+    many_fluent(F).
+many_clause(initially(F, 0)) :-
+    many_fluent(F).
+many_clause((causes_val(inc(Name, N), F, V, V is F+1) :- F =.. [Name, N])).
+many_clause(prim_action(inc(_, _))).
+many_clause(poss(inc(_, _), true)).
+many_clause(execute(_, _)).
+many_clause((chance(inc(Name, N)) :- random_between(1, 50, I),
+                                     random_between(1, 1000, N),
+                                     atom_concat(f, I, Name))).
+many_clause(proc(some_step, pi(x, [?(chance(x)), x]))).
+
+many_fluent(F) :-
+    between(1, 50, I),
+    atom_concat(f, I, Name),
+    between(1, 1000, N),
+    F =.. [Name, N].
+
+differences([A|As], Ds) :-
+    differences(As, A, Ds).
+
+differences([], _, []).
+differences([B|Bs], A, [D|Ds]) :-
+    D is A-B,
+    differences(Bs, B, Ds).
+
+:- end_tests(golog_long).
+
+%   Note the inferences used so far at every five hundredth action.
+
+user:cost(E) :-
+    (   E = action(_)
+    ->  nb_getval(golog_count, N0),
+        N is N0+1,
+        nb_setval(golog_count, N),
+        (   N mod 500 =:= 0
+        ->  statistics(inferences, I),
+            nb_getval(golog_costs, Costs),
+            nb_setval(golog_costs, [I|Costs])
+        ;   true
+        )
+    ;   true
+    ).
+
+                /*******************************
+                *           THE ROBOT          *
+                *******************************/
+
+%   A robot that goes, is interrupted by a key, and looks
+
+rover([ prim_action(ahead), prim_action(look), prim_action(beep),
+        prim_action(roll), prim_action(halt),
+        poss(_, true),
+        exog_action(key), exog_action(near), exog_action(far),
+        prim_fluent(distance), prim_fluent(keys), prim_fluent(beeps),
+        initially(keys, 0), initially(beeps, 0),
+        senses(look, distance),
+        causes_val(key, keys, N, N is keys+1),
+        causes_val(beep, beeps, N, N is beeps+1),
+        robot_action(ahead, go_cm(30, 40)),
+        robot_action(roll, go(30)),
+        robot_action(halt, stop),
+        robot_action(beep, user:note_time(beep)),
+        robot_sense(look, D, us_dist_cm(_, D)),
+        robot_exog(key, button(enter)),
+        robot_exog(near, ( us_dist_cm(_, D), D < 40 )),
+        proc(reactive,
+             prioritized_interrupts(
+                 [ interrupt(beeps < keys, beep),
+                   interrupt(neg(done(ahead)), ahead) ])) ]).
+
+with_rover(Goal) :-
+    with_rover(_, Goal).
+
+with_rover(M, Goal) :-
+    rover(Clauses),
+    nb_setval(golog_times, []),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               with_domain(Clauses, M, Goal) )).
+
+user:note_time(What) :-
+    sim_time(T),
+    nb_getval(golog_times, Times),
+    nb_setval(golog_times, [What-T|Times]).
+
+user:note_exog(E) :-
+    (   E = exog(A)
+    ->  note_time(A)
+    ;   true
+    ).
+
+:- begin_tests(golog_robot).
+
+test(an_action_moves_the_robot, true(near(Way, 40, 1))) :-
+    with_rover(M, ( sim_pose(X0, Y0, _), indigolog(M:ahead),
+                    sim_pose(X1, Y1, _) )),
+    Way is sqrt((X1-X0)**2 + (Y1-Y0)**2).
+test(a_sensor_is_a_sensing_action, H == [e(distance, D), look]) :-
+    with_rover(M, ( us_dist_cm(_, D), golog(M:look, [history(H)]) )).
+test(an_exogenous_action_is_seen_in_a_move, true(Late =< 0.02)) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(0.5)]),
+                    golog(M:ahead, [trace(user:note_exog)]) )),
+    nb_getval(golog_times, [key-T]),
+    Late is T-T0-0.5,
+    assertion(Late >= 0).
+test(a_higher_interrupt_ends_a_move,
+     H == [ahead, beep, key, interrupted(ahead)]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:reactive, [history(H)]) )).
+test(it_stops_the_motors_at_once, true(Late =< 0.03)) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(0.5)]),
+                    indigolog(M:reactive) )),
+    nb_getval(golog_times, [beep-T]),
+    Late is T-T0-0.5.
+test(a_lower_one_does_not, H == [beep, key, ahead]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:prioritized_interrupts(
+                              [ interrupt(neg(done(ahead)), ahead),
+                                interrupt(beeps < keys, beep) ]),
+                          [history(H)]) )).
+test(an_atomic_program_is_not_interrupted, H == [beep, key, ahead]) :-
+    with_rover(M, ( sim_press(enter, [after(0.5)]),
+                    golog(M:prioritized_interrupts(
+                              [ interrupt(beeps < keys, beep),
+                                interrupt(neg(done(ahead)),
+                                          atomic([ahead, ?(true)])) ]),
+                          [history(H)]) )).
+test(a_condition_is_one_event, Count == 1) :-
+    with_rover(M, ( sim_press(enter, [for(0.5)]),
+                    golog(M:[ahead], [history(H)]) )),
+    findall(x, member(key, H), Keys),
+    length(Keys, Count).
+test(a_wait_ends_by_a_key, true(near(T, 2, 0.03))) :-
+    with_rover(M, ( sim_time(T0),
+                    sim_press(enter, [after(2)]),
+                    indigolog(M:[while(keys = 0, wait)]),
+                    sim_time(T1) )),
+    T is T1-T0.
+test(a_timeout_ends_a_move, [R, Late] == [timeout, true]) :-
+    with_rover(M, ( sim_time(T0),
+                    golog(M:ahead, [timeout(0.5), reason(R)]),
+                    sim_time(T1), assertion(at_rest) )),
+    (   T1-T0 < 0.53
+    ->  Late = true
+    ;   Late = T1-T0
+    ).
+test(the_motors_stop_if_the_program_fails, R == not_possible(gone, false)) :-
+    with_rover(M, ( assertz(M:prim_action(gone)),
+                    asserta((M:poss(gone, false))),
+                    retractall(M:poss(_, true)),
+                    assertz(M:poss(roll, true)),
+                    golog(M:[roll, gone], [reason(R)]),
+                    assertion(at_rest) )).
+test(the_motors_stop_after_an_exception) :-
+    with_rover(M, ( assertz(M:prim_action(bad)),
+                    assertz(M:robot_action(bad, throw(oops))),
+                    catch(indigolog(M:[roll, bad]), oops, true),
+                    assertion(at_rest),
+                    now([roll]) )).
+test(a_time_limit_is_passed_on, true(E == passed)) :-
+    with_rover(M, ( assertz(M:prim_action(long)),
+                    assertz(M:robot_action(long, throw(time_limit_exceeded))),
+                    catch(golog(M:[roll, long], [reason(_)]),
+                          time_limit_exceeded, E = passed),
+                    assertion(at_rest) )).
+test(a_search_may_try_in_the_simulator, H-Y == [long]-true) :-
+    % A wall stands 60 cm ahead.
+    nb_setval(golog_times, []),
+    with_sim([bounds(-100, -100, 100, 60), start(0, 0, 0)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               with_domain([ prim_action(long), prim_action(longer),
+                             poss(_, true),
+                             robot_action(long, go_cm(30, 20)),
+                             robot_action(longer,
+                                          ( go_cm(30, 40),
+                                            us_dist_cm(_, D), D > 20 )) ],
+                           M, golog(M:search(ndet(longer, long),
+                                             [simulate(true)]),
+                                    [history(H)])),
+               sim_pose(_, Y0, _) )),
+    (   near(Y0, 20, 1)
+    ->  Y = true
+    ;   Y = Y0
+    ).
+test(the_same_seed_the_same_run, H1 == H2) :-
+    runs_of_rover(H1),
+    runs_of_rover(H2).
+
+runs_of_rover(H-T) :-
+    with_rover(M, ( sim_press(enter, [after(0.7)]),
+                    sim_press(enter, [after(1.3)]),
+                    golog(M:[reactive, look], [history(H)]),
+                    sim_time(T) )).
+
+:- end_tests(golog_robot).
