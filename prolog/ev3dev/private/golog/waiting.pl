@@ -20,7 +20,8 @@ the robot, else `none`; then the library of the robot is not even loaded.
 
 %!  run_watched(+Action, :Goal, :Watch, -Outcome) is det.
 %
-%   Call Goal, which executes Action and may be a blocking move. Outcome is `done`, `failed`, or
+%   Call Goal, which executes Action and may be a blocking move. Outcome is
+%   `done`, `failed`, or
 %   `interrupted` if Watch succeeded before Goal ended. Watch is called before
 %   Goal and whenever Goal waits for the robot, every 15 ms. An exception
 %   leaves Goal then, so that the motors of its move stop.
