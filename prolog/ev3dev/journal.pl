@@ -105,6 +105,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %
 %     - rule(Name, Guard), event(Id, Condition)
 %       of library(ev3dev/rules)
+%     - golog(Action)
+%       of library(ev3dev/golog)
 %     - plan(Step, Cell)
 %       of library(ev3dev/grid): `turn` or `move`
 %     - leg(Part)

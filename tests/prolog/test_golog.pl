@@ -4,6 +4,7 @@
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(plunit)).
 
 % What each construct means is that of its definition: [G] Levesque, Reiter,
@@ -1081,6 +1082,13 @@ test(a_search_may_try_in_the_simulator, H-Y == [long]-true) :-
     (   near(Y0, 20, 1)
     ->  Y = true
     ;   Y = Y0
+    ).
+test(the_journal_knows_the_action, true(Why == true)) :-
+    with_rover(M, ( indigolog(M:ahead),
+                    why(robot, why(_, _, Causes)) )),
+    (   memberchk(golog(ahead), Causes)
+    ->  Why = true
+    ;   Why = Causes
     ).
 test(the_same_seed_the_same_run, H1 == H2) :-
     runs_of_rover(H1),

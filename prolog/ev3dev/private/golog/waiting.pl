@@ -1,5 +1,5 @@
 :- module(ev3dev_golog_waiting,
-          [ run_watched/3,              % :Goal, :Watch, -Outcome
+          [ run_watched/4,              % +Action, :Goal, :Watch, -Outcome
             guarded/2,                  % +Name, :Goal
             pause/4,                    % +Robot, +Queue, +Deadline,
                                         % -Message
@@ -15,30 +15,34 @@ the robot, else `none`; then the library of the robot is not even loaded.
 */
 
 :- meta_predicate
-    run_watched(0, 0, -),
+    run_watched(+, 0, 0, -),
     guarded(+, 0).
 
-%!  run_watched(:Goal, :Watch, -Outcome) is det.
+%!  run_watched(+Action, :Goal, :Watch, -Outcome) is det.
 %
-%   Call Goal, which may be a blocking move. Outcome is `done`, `failed`, or
+%   Call Goal, which executes Action and may be a blocking move. Outcome is
+%   `done`, `failed`, or
 %   `interrupted` if Watch succeeded before Goal ended. Watch is called before
 %   Goal and whenever Goal waits for the robot, every 15 ms. An exception
 %   leaves Goal then, so that the motors of its move stop.
 
-run_watched(Goal, Watch, Outcome) :-
+run_watched(Action, Goal, Watch, Outcome) :-
     (   call(Watch)
     ->  Outcome = interrupted
     ;   loaded,
         Ball = golog_interrupted(Id),
         flag(ev3dev_golog_watch, Id, Id+1),
-        catch(watched(Goal, Watch, Ball, Outcome), Ball,
+        catch(watched(Action, Goal, Watch, Ball, Outcome), Ball,
               Outcome = interrupted)
     ).
 
-watched(Goal, Watch, Ball, Outcome) :-
+%   library(ev3dev/journal) tells that what Goal commands is for Action.
+
+watched(Action, Goal, Watch, Ball, Outcome) :-
     (   ev3dev_waits:listening(0.015,
                                ev3dev_golog_waiting:watch(Watch, Ball),
-                               Goal)
+                               ev3dev_causes:acting_for(Goal,
+                                                        golog(Action)))
     ->  Outcome = done
     ;   Outcome = failed
     ).
@@ -97,12 +101,14 @@ on_robot_time(Robot) :-
     ).
 
 loaded :-
-    (   current_predicate(ev3dev_time:wait/1)
+    (   current_predicate(ev3dev_time:wait/1),
+        current_predicate(ev3dev_causes:acting_for/2)
     ->  true
     ;   module_property(ev3dev_golog_waiting, file(Here)),
         file_directory_name(Here, Directory),
         atom_concat(Directory, '/../../time', Time),
-        load_files(ev3dev_golog_waiting:Time,
+        atom_concat(Directory, '/../causes', Causes),
+        load_files(ev3dev_golog_waiting:[Time, Causes],
                    [if(not_loaded), imports([])])
     ).
 

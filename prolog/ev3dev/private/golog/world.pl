@@ -18,7 +18,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(theory, [has_clauses/2, is_exogenous/2]).
-:- use_module(waiting, [guarded/2, run_watched/3]).
+:- use_module(waiting, [guarded/2, run_watched/4]).
 :- use_module('../errors', [goal_of_program/1]).
 
 /** <module> The world: how actions are executed, and what happens by itself
@@ -272,11 +272,11 @@ executed(A, H, Watch, Agent, Outcome, Value) :-
     Agent = agent(M, _, _, _),
     (   has_clauses(M, robot_sense(_, _, _)),
         M:robot_sense(A, Value0, Goal)
-    ->  run_watched(M:Goal, Watch, Outcome),
+    ->  run_watched(A, M:Goal, Watch, Outcome),
         Value = Value0
     ;   has_clauses(M, robot_action(_, _)),
         M:robot_action(A, Goal)
-    ->  run_watched(M:Goal, Watch, Outcome)
+    ->  run_watched(A, M:Goal, Watch, Outcome)
     ;   has_clauses(M, how_to_execute(_, _, _))
     ->  (   M:how_to_execute(A, Device, Code)
         ->  code_run(A, Device, Code, Agent, Outcome0, Value0),
