@@ -6,20 +6,26 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(time)).
 
-%!  demo(+Example, +Seconds)
+%!  demo(+Example, +Seconds, +View)
 %
-%   Run an example for so many seconds by the wall at most, six times as fast
-%   as in reality.
+%   Run an example for at most Seconds by the wall: as fast as in reality with
+%   the view in a browser, if View is true; six times as fast without.
 
-demo(Example, Seconds) :-
-    (   demo(Example, World, Goal)
+demo(Example, Seconds, View) :-
+    (   example(Example, World, Goal)
     ->  true
     ;   World = room,
         Goal = start
     ),
     load_files(user:examples/Example, []),
-    format("~w of ~w, six times as fast as real:~n", [Goal, Example]),
-    sim_start(World, [clock(scaled(6))]),
+    (   View == true,
+        sim_start(World, [clock(realtime)]),
+        start_view
+    ->  Pace = 'in a browser'
+    ;   sim_start(World, [clock(scaled(6))]),
+        Pace = 'six times as fast as real'
+    ),
+    format("~w of ~w, ~w:~n", [Goal, Example, Pace]),
     thread_create(tell, Teller),
     prepare(Example),
     catch(call_with_time_limit(Seconds, ignore(user:Goal)),
@@ -34,18 +40,27 @@ demo(Example, Seconds) :-
     sim_svg('demo.svg'),
     halt(0).
 
-demo(obstacle_avoidance, room, start).
-demo(grid_navigation, grid, start).
-demo(braitenberg, lights, vehicle(taste)).
-demo(line_following, line, start).
-demo(square, [start(0, 0, 0)], start).
-demo(slalom, Poles, start) :-
+%   Prints its address. Without library(http) the demo goes on without it.
+
+start_view :-
+    catch(( use_module(library(ev3dev/view)),
+            View = ev3dev_view:view,
+            call(View) ),
+          Error,
+          ( print_message(warning, Error), fail )).
+
+example(obstacle_avoidance, room, start).
+example(grid_navigation, grid, start).
+example(braitenberg, lights, vehicle(taste)).
+example(line_following, line, start).
+example(square, [start(0, 0, 0)], start).
+example(slalom, Poles, start) :-
     findall(circle(0, Y, 3), member(Y, [30, 90, 150, 210]), Poles).
-demo(remote_control, [start(0, 0, 0)], drive).
-demo(thermometer, room, thermometer).
-demo(compare_planners, grid, start).
-demo(traffic_light, room, start).
-demo(brick_check, room, brick_check:report).
+example(remote_control, [start(0, 0, 0)], drive).
+example(thermometer, room, thermometer).
+example(compare_planners, grid, start).
+example(traffic_light, room, start).
+example(brick_check, room, brick_check:report).
 
 %   What somebody has to do beside the robot.
 
