@@ -82,19 +82,23 @@ export function clock(seconds) {
 
 let noticeEnds = 0;
 
-/** A line across the page; it goes away by itself if `seconds` are given. */
-export function notice(message, { bad = false, seconds = 0 } = {}) {
+/** A line over the page; it goes away by itself if `seconds` are given.
+    `act` is the words of a button and what it does. */
+export function notice(message, { bad = false, seconds = 0, act = null } = {}) {
   clearTimeout(noticeEnds);
   const box = $('notice');
   box.hidden = !message;
   toggle(box, 'bad', bad);
   text($('notice-text'), message || '');
+  $('notice-act').hidden = !act;
+  if (act) {
+    text($('notice-act'), act[0]);
+    $('notice-act').onclick = () => {
+      notice('');
+      act[1]();
+    };
+  }
   if (message && seconds) noticeEnds = setTimeout(() => notice(''), 1000 * seconds);
-}
-
-/** Said to those who listen to the page. */
-export function say(message) {
-  text($('said'), message);
 }
 
 export function download(name, content, type) {

@@ -61,6 +61,7 @@ export class Hands {
     this.model = model;
     const { clock } = model.frame;
     const { simulated } = model;
+    this.latch(model.frame.program?.latched === true);
     $('transport').hidden = !simulated;
     toggle(document.body, 'real', !simulated);
     if (simulated && clock) {
@@ -72,6 +73,19 @@ export class Hands {
       }
       for (const [pace, button] of this.paces) pressed(button, clock.pace === pace);
     }
+  }
+
+  /** After STOP motors stay locked until the program has ended. */
+  latch(on) {
+    if (!on) {
+      if (this.told) notice('');
+      this.latched = this.told = false;
+      return;
+    }
+    this.latched ||= performance.now();
+    if (this.told || performance.now() - this.latched < 1500) return;
+    this.told = true;
+    notice('The motors stay locked until the program ends.', { act: ['Unlock', () => this.wire.send('go')] });
   }
 
   pause() {

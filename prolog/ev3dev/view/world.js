@@ -39,6 +39,7 @@ export class World {
     this.motion = null;
     this.model = null;
     this.colors();
+    this.calm = matchMedia('(prefers-reduced-motion: reduce)');
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
       this.colors();
       this.draw();
@@ -207,6 +208,7 @@ export class World {
     if (model.frame.new && this.following) this.following = true;
     this.motion = this.blend(before, interval);
     this.legend();
+    if (this.selected === 'robot' && !this.drag) this.told();
     this.describe();
   }
 
@@ -223,7 +225,7 @@ export class World {
     const moved = (a, b) => a && b && Math.hypot(a[0] - b[0], a[1] - b[1]) + Math.abs(a[2] - b[2]) / 10;
     const way = before && after && (moved(before.true, after.true) ?? moved(before.pose, after.believed?.pose));
     this.now = null;
-    if (!way || way < 0.02 || way > 15 || this.drag?.kind === 'robot') return null;
+    if (!way || way < 0.02 || way > 15 || this.drag?.kind === 'robot' || this.calm.matches) return null;
     return { before, start: performance.now(), length: Math.min(120, interval) };
   }
 
