@@ -5,6 +5,7 @@ use crate::glue::places::places;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
 use crate::motors::stop_action;
+use crate::view;
 use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
@@ -53,7 +54,9 @@ predicates! {
         let call = Call::of(context, "set_pose", 3);
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
-        into_prolog_result(call.or_throw(drive.set_pose(pose))?)
+        let is_set = call.or_throw(drive.set_pose(pose))?;
+        view::pose_is_set(pose);
+        into_prolog_result(is_set)
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
@@ -138,7 +141,11 @@ fn robots_drive<'a, C: QueryableContextType>(
     robot: &Term<'a>,
 ) -> PrologResult<Arc<Drive>> {
     call.devices()?;
-    Ok(state::drive(&robot_of(call, robot)?))
+    let robot = robot_of(call, robot)?;
+    if state::known_drive().is_none() {
+        view::counting_begins();
+    }
+    Ok(state::drive(&robot))
 }
 
 /// `legs(Legs, Backwards)`, `cruise(CmPerSecond, DegreesPerSecond)`, `change` with

@@ -29,6 +29,7 @@ mod servo_motors;
 mod sim;
 mod sound;
 mod time;
+mod view;
 
 /// Registers all predicates; SWI-Prolog calls it when it loads the library.
 // Safety: SWI-Prolog defines the name and looks it up in this library only.
@@ -53,6 +54,7 @@ pub extern "C" fn install() {
     roadmap::register();
     navigation::register();
     drive::register();
+    view::register();
     #[cfg(feature = "sim")]
     sim::register();
 }

@@ -246,7 +246,20 @@ sim_start(World, Options) :-
     must_be_faultless(Fault, world(World, LocatedWorld),
                       robot(Robot, LocatedRobot)),
     set_added_facts([]),
-    forget_plans.
+    forget_plans,
+    note_world(World).
+
+%   What the view calls the world.
+:- dynamic sim_world/1.
+
+note_world(World) :-
+    retractall(sim_world(_)),
+    (   ( atom(World) ; string(World) )
+    ->  file_base_name(World, File),
+        file_name_extension(Name, _, File),
+        assertz(sim_world(Name))
+    ;   true
+    ).
 
 must_be_built :-
     (   predicate_property(sim_active_, foreign)

@@ -4,6 +4,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
+use crate::glue::watch;
 use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
@@ -40,6 +41,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
         }
+        watch::note_user();
         let devices = state::devices();
         self.wait_for(|about| devices.tree().turn(about))?;
         run_due_goals(self.context)?;

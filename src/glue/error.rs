@@ -139,6 +139,10 @@ fn formal<'a, C: QueryableContextType>(
             let (class, port) = (atomable(class.to_string()), atomable(port.as_str()));
             term! {context: existence_error(#class, #port)}
         }
+        Error::Latched { path } => {
+            let port = atomable(device_of(path, devices).1);
+            term! {context: permission_error(start, motor, #port)}
+        }
         Error::Malformed { .. } => term! {context: syntax_error(attribute)},
         Error::Format { format, .. } => term! {context: syntax_error(#atomable(*format))},
         Error::NoProgram { program, .. } => {

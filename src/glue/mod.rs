@@ -8,3 +8,4 @@ pub(crate) mod places;
 pub(crate) mod signals;
 pub(crate) mod state;
 pub(crate) mod terms;
+pub(crate) mod watch;

@@ -1,5 +1,5 @@
 //! The brick in use. This value holds the state of the process.
-use crate::glue::signals;
+use crate::glue::{signals, watch};
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
@@ -89,6 +89,11 @@ pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
     drive
 }
 
+/// The drive of the tree in use, if it has one.
+pub(crate) fn known_drive() -> Option<Arc<Drive>> {
+    BRICK.files().tree.drive.get().cloned()
+}
+
 /// The devices of the tree in use, if it is settled which one that is.
 pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
     let files = BRICK.files();
@@ -111,6 +116,7 @@ pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
         files.is_tree_chosen = true;
         std::mem::replace(&mut files.tree, tree)
     };
+    watch::begin_film();
     motor::stop_started(&before.devices)
 }
 

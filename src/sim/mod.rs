@@ -9,7 +9,7 @@ mod mount;
 mod mount;
 mod running;
 
-pub(crate) use self::running::end_unless_mounted;
+pub(crate) use self::running::{end_unless_mounted, running_simulation};
 
 use self::files::SimulatedFiles;
 use self::running::{is_running, simulation, start};
@@ -18,6 +18,7 @@ use crate::glue::call::Call;
 use crate::glue::due::Bell;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
 use crate::glue::state::devices;
+use crate::glue::watch;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Registry;
 use ev3_sim::facts::{Fact, Subject, culprit};
@@ -328,7 +329,10 @@ predicates! {
     semidet fn sim_restore(context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        simulation(context)?.machine().restore(machine);
+        let simulation = simulation(context)?;
+        simulation.machine().restore(machine);
+        simulation.machine().keep_samples(watch::is_watched());
+        watch::begin_film();
         devices().forget_listings();
         Ok(())
     }

@@ -4,6 +4,7 @@ use super::files::SimulatedFiles;
 use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
+use crate::glue::watch;
 use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
 use ev3_sim::{Clock, Machine, Simulation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -35,6 +36,11 @@ pub(super) fn simulation<C: QueryableContextType>(
     Ok(simulation)
 }
 
+/// The running simulation, for somebody who only looks or reaches in from outside.
+pub(crate) fn running_simulation() -> Option<Arc<Simulation>> {
+    running().as_ref().map(|running| Arc::clone(&running.simulation))
+}
+
 /// Fails because no simulation runs.
 fn none<C: QueryableContextType, T>(call: &Call<C>) -> PrologResult<T> {
     let context = call.context;
@@ -49,9 +55,10 @@ pub(super) fn is_running() -> bool {
 /// Starts a simulation and ends the running one.
 pub(super) fn start<C: QueryableContextType>(
     call: &Call<C>,
-    machine: Machine,
+    mut machine: Machine,
     clock: Clock,
 ) -> PrologResult<()> {
+    machine.keep_samples(watch::is_watched());
     let simulation = match Simulation::new(machine, clock, has_other_threads) {
         Ok(simulation) => Arc::new(simulation),
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),

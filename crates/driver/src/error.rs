@@ -128,6 +128,12 @@ pub enum Error {
         /// Its message.
         message: String,
     },
+    /// A motor was to start after an emergency stop.
+    #[error("the motors were stopped, and cannot start before the program has been interrupted")]
+    Latched {
+        /// Its `command`.
+        path: PathBuf,
+    },
     /// The caller abandoned a wait.
     #[error("interrupted")]
     Interrupted,
@@ -166,6 +172,7 @@ impl Error {
             | Self::Read { path, .. }
             | Self::Write { path, .. }
             | Self::Malformed { path, .. }
+            | Self::Latched { path }
             | Self::Format { path, .. } => Some(path),
             _ => None,
         }

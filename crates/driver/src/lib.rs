@@ -35,6 +35,7 @@ pub mod devfs;
 pub mod device;
 pub mod drive;
 pub mod error;
+pub mod latch;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;

@@ -114,7 +114,7 @@ pub use brick::panel::{Button, UnknownButton};
 pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;
 pub use brick::screen::Depth;
-pub use clock::{Act, Clock, Simulation};
+pub use clock::{Act, Clock, Simulation, stay_outside};
 pub use files::attr::Access;
 pub use files::errno::Errno;
 #[cfg(feature = "fuse")]
@@ -122,7 +122,7 @@ pub use fuse::{Mount, MountError};
 pub use machine::descriptor::Descriptor;
 pub use machine::dev::DevDescriptor;
 pub use machine::tree::{Entry, FileKind, NodeId, Stat};
-pub use machine::{Machine, Options, Written};
+pub use machine::{Belief, Beside, name_of, Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
 pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel};

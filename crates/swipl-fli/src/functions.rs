@@ -11,7 +11,7 @@ use crate::types::{
 };
 use crate::version::Version;
 use std::ffi::{c_char, c_int, c_uchar, c_void};
-use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
 /// Declares functions whose result is a truth value: `int` in old headers,
 /// `bool` in new ones. A `bool` leaves all but the low byte of the result
@@ -236,6 +236,39 @@ unsafe extern "C" {
     pub fn Sfwrite(data: *const c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
 }
 
+/// The threads that [`has_other_threads`] passes over, by their numbers, as bits. Those with
+/// higher numbers are never passed over.
+static PASSED_OVER: [AtomicU32; 32] = [const { AtomicU32::new(0) }; 32];
+
+/// Makes [`has_other_threads`] pass over a thread of Prolog, or count it again.
+pub fn pass_over_thread(thread: i32, passes: bool) {
+    let Ok(number) = usize::try_from(thread) else {
+        return;
+    };
+    if let Some(bits) = PASSED_OVER.get(number / 32) {
+        let bit = 1 << (number % 32);
+        if passes {
+            bits.fetch_or(bit, Ordering::Relaxed);
+        } else {
+            bits.fetch_and(!bit, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Whether [`has_other_threads`] passes over a thread.
+fn is_passed_over(thread: i32) -> bool {
+    let number = usize::try_from(thread).unwrap_or(usize::MAX);
+    let bits = PASSED_OVER.get(number / 32).map_or(0, |bits| bits.load(Ordering::Relaxed));
+    bits >> (number % 32) & 1 == 1
+}
+
+/// The number of this thread of Prolog.
+#[must_use]
+pub fn this_thread() -> i32 {
+    // Safety: asks only.
+    unsafe { PL_thread_self() }
+}
+
 /// Whether Prolog has threads besides the one that asks, which is one of Prolog's.
 #[must_use]
 pub fn has_other_threads() -> bool {
@@ -250,7 +283,7 @@ pub fn has_other_threads() -> bool {
         let (mut others, mut thread) = (false, 2);
         while thread <= HIGHEST.load(Ordering::Relaxed).saturating_add(1) {
             if PL_unify_thread_id(PL_new_term_ref(), thread) != -1 {
-                others = true;
+                others |= !is_passed_over(thread);
                 HIGHEST.fetch_max(thread, Ordering::Relaxed);
             }
             thread += 1;

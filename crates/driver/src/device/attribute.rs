@@ -1,5 +1,6 @@
 //! Attribute files: kept open, read whole, written in one go.
 use crate::error::{Access, Error, Result};
+use crate::latch;
 use crate::sysfs::{AttributeFile, Sysfs};
 use crate::value::Value;
 use std::path::{Path, PathBuf};
@@ -142,6 +143,9 @@ pub(super) fn open(
 
 /// Writes a text and a newline in one go: one write is one call of the driver.
 fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
+    if latch::refuses(path.file_name(), text) {
+        return Err(Error::Latched { path: path.to_owned() });
+    }
     let mut line = [b'\n'; SHORT];
     let written = match line.split_at_mut_checked(text.len()) {
         Some((start, [_, ..])) => {

@@ -6,6 +6,7 @@ use crate::drive::devices::{DriveDevices, Robot, angle, counts};
 use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD, Stuck};
 use crate::drive::odometry::Estimate;
 use crate::drive::steering::{Leg, Limits, Order, Steering};
+use crate::drive::track::Track;
 use crate::error::{Error, Result};
 use crate::motor::claim::Claim;
 use crate::motor::wait::Reason;
@@ -69,6 +70,7 @@ pub(super) struct Inner {
     pub(super) goal: Option<Pose>,
     pub(super) active: Option<ActiveMotion>,
     pub(super) last: Option<Arc<Outcome>>,
+    pub(super) track: Track,
 }
 
 impl Inner {
@@ -85,6 +87,7 @@ impl Inner {
             goal: None,
             active: None,
             last: None,
+            track: Track::default(),
         };
         inner.set_pose(Pose::default());
         inner
@@ -164,6 +167,10 @@ impl Inner {
                 }
             }
             None => {}
+        }
+        if self.track.is_due(now) {
+            let pose = self.pose();
+            self.track.note(now, pose);
         }
         Ok(true)
     }

@@ -16,6 +16,7 @@ mod devices;
 mod motion;
 pub mod odometry;
 pub mod steering;
+mod track;
 
 use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
@@ -40,6 +41,21 @@ const MUCH_TURNED: f64 = 16_384.0;
 
 /// How long the wheels must stand before that.
 const STANDS: Duration = Duration::from_millis(100);
+
+/// Where a robot believes to be.
+#[derive(Clone, Debug)]
+pub struct Believed {
+    /// Its wheels.
+    pub robot: Robot,
+    /// Its pose.
+    pub pose: Pose,
+    /// The covariance of x, y and heading, in cm and degrees.
+    pub covariance: [[f64; 3]; 3],
+    /// When it was where.
+    pub way: Vec<(Duration, Pose)>,
+    /// Points of the way that it is to go, while it goes one.
+    pub course: Option<Vec<[f64; 2]>>,
+}
 
 /// Odometry and control of one robot.
 ///
@@ -118,6 +134,21 @@ impl Drive {
     /// The kernel's.
     pub fn uncertainty(&self) -> Result<Option<[[f64; 3]; 3]>> {
         Ok(self.look()?.map(|inner| inner.estimate.uncertainty()))
+    }
+
+    /// What is known without looking: the pose, its covariance, and the way after a moment, with
+    /// the last point before. `None` while another thread is at it. Reads nothing, and changes
+    /// nothing.
+    #[must_use]
+    pub fn peek(&self, after: Duration) -> Option<Believed> {
+        let inner = self.inner.try_lock().ok()?;
+        Some(Believed {
+            robot: inner.robot.clone(),
+            pose: inner.pose(),
+            covariance: inner.estimate.uncertainty(),
+            way: inner.track.since(after).to_vec(),
+            course: inner.active.as_ref().map(|active| active.steering.course()),
+        })
     }
 
     /// Brings the estimate up to date; `None` where a motor is absent. A caller

@@ -15,7 +15,7 @@
 //! The motors' own regulator takes some 50 ms to follow; with these gains the
 //! loop around it has no overshoot worth mentioning.
 use crate::drive::odometry::Wheels;
-use ev3_motion::{Pose, Segment, direction, rounded, wrapped};
+use ev3_motion::{Path, Pose, Segment, direction, rounded, wrapped};
 use std::collections::VecDeque;
 
 /// Rate of turn for each radian off the heading, per second.
@@ -173,7 +173,40 @@ struct Turn {
     swings: u32,
 }
 
+/// How far apart points of a course are, in cm.
+const COURSE_STEP: f64 = 4.0;
+
 impl Steering {
+    /// Points of the way ahead; none on a cruise.
+    pub(super) fn course(&self) -> Vec<[f64; 2]> {
+        let Task::Legs { legs, phase } = &self.task else {
+            return Vec::new();
+        };
+        let sampled = |segments: &[Segment]| {
+            let path = Path::new(segments.to_vec());
+            let mut points: Vec<_> =
+                path.samples(COURSE_STEP).map(|(_, pose)| pose.point()).collect();
+            points.extend(path.segments().last().map(Segment::to));
+            points
+        };
+        let mut points = match phase {
+            Phase::Following { path, index, .. } => {
+                sampled(path.get(*index..).unwrap_or_default())
+            }
+            Phase::Next | Phase::Turning(_) => Vec::new(),
+        };
+        for leg in legs {
+            match leg {
+                Leg::To(place) | Leg::Reach(place) => points.push(*place),
+                Leg::Through(places, _) => points.extend(places),
+                Leg::Pieces(segments) => points.extend(sampled(segments)),
+                Leg::Turn(_) | Leg::Heading(_) | Leg::Face(_) | Leg::Towards(_) | Leg::Arc(..) => {}
+            }
+        }
+        points
+    }
+
+
     /// A motion of several parts, from a robot at rest at `pose`. It counts
     /// from `goal`, where the motion before was to end, if that is near.
     #[must_use]

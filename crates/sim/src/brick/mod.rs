@@ -63,7 +63,7 @@ impl Led {
         Led { full: FULL_ON_PORT, output, ..Led::new(&name, 0) }
     }
 
-    fn brightness(&self) -> u32 {
+    pub(crate) fn brightness(&self) -> u32 {
         self.output.map_or(self.brightness, |output| output.percent.unsigned_abs())
     }
 

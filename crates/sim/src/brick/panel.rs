@@ -93,6 +93,8 @@ pub(crate) struct Panel {
     pub(crate) volume: u8,
     /// The content of the screen. Snapshots share it until it changes.
     pub(crate) screen: Arc<Vec<u8>>,
+    /// How often that was written.
+    pub(crate) drawn: u64,
 }
 
 impl Panel {
@@ -109,6 +111,7 @@ impl Panel {
             tone: 0,
             volume: 100,
             screen: Arc::new(vec![white; depth.stride() * HEIGHT]),
+            drawn: 0,
         }
     }
 

@@ -142,6 +142,12 @@ impl Baton {
         }
     }
 
+    /// Keeps the turn of this thread for its wish, which it makes again after it has handled
+    /// signals.
+    pub(super) fn keep(&self, wish: Wish) {
+        self.line().grant(threads::me(), wish);
+    }
+
     /// Whether another thread stands in line, now that it is this thread's turn.
     pub(super) fn is_wanted(&self) -> bool {
         // One that handles signals just now keeps its place.

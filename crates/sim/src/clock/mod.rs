@@ -16,15 +16,18 @@
 
 mod acts;
 mod baton;
+mod pace;
 mod threads;
 mod wall;
 
+use std::cell::Cell;
 use std::io;
 use std::sync::{Arc, MutexGuard};
 use std::time::{Duration, Instant};
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
+use self::pace::Leave;
 use self::wall::{STEP, Stepper};
 use crate::machine::Machine;
 use crate::shared::Shared;
@@ -56,17 +59,28 @@ pub enum Clock {
     Virtual,
 }
 
+thread_local! {
+    static IS_OUTSIDE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Makes this thread a hand that reaches into simulations from outside, or a part of the program
+/// again. What a hand does takes no simulated time, and needs no turn. Its waits take wall time.
+pub fn stay_outside(is_outside: bool) {
+    IS_OUTSIDE.set(is_outside);
+}
+
 /// A machine whose time passes.
 #[derive(Debug)]
 pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
-    pace: Pace,
+    pace: Arc<pace::Pace>,
+    clock: Passing,
 }
 
 #[derive(Debug)]
-enum Pace {
-    Wall { _stepper: Stepper },
+enum Passing {
+    Wall { _stepper: Stepper, factor: f64 },
     Virtual { baton: Baton, has_others: fn() -> bool },
 }
 
@@ -79,14 +93,16 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let acts = Arc::new(PeriodicActs::default());
-        let pace = match clock {
+        let pace = Arc::<pace::Pace>::default();
+        let clock = match clock {
             Clock::Wall(factor) => {
                 let (shared, acts) = (Arc::clone(&shared), Arc::clone(&acts));
-                Pace::Wall { _stepper: Stepper::start(shared, acts, factor)? }
+                let stepper = Stepper::start(shared, acts, Arc::clone(&pace), factor)?;
+                Passing::Wall { _stepper: stepper, factor }
             }
-            Clock::Virtual => Pace::Virtual { baton: Baton::new(), has_others },
+            Clock::Virtual => Passing::Virtual { baton: Baton::new(), has_others },
         };
-        Ok(Self { shared, acts, pace })
+        Ok(Self { shared, acts, pace, clock })
     }
 
     /// The machine behind its lock, as a mount needs it.
@@ -110,10 +126,10 @@ impl Simulation {
     /// `false` when the caller has to handle signals, and to call again: every 20 ms of wall time,
     /// and when the turn has come after a wait for it. The caller holds no lock. `about` says what is called, and with what.
     pub fn turn(&self, about: &mut dyn FnMut() -> String) -> bool {
-        let Pace::Virtual { baton, has_others } = &self.pace else {
+        let Passing::Virtual { baton, has_others } = &self.clock else {
             return true;
         };
-        if self.acts.is_acting() {
+        if self.acts.is_acting() || IS_OUTSIDE.get() {
             return true;
         }
         let mut takes = Duration::ZERO;
@@ -126,8 +142,66 @@ impl Simulation {
                 takes = CALL_TAKES;
             }
         }
+        if !self.may_go_on() {
+            baton.keep(Wish::Turn(self.machine().now()));
+            return false;
+        }
         drop(self.acts.step(&self.shared, self.shared.lock(), takes));
         true
+    }
+
+    /// Holds this thread back, which has its turn, if time is to pass more slowly; `false` if it
+    /// has to handle signals, and to call again.
+    fn may_go_on(&self) -> bool {
+        if !self.pace.is_limited() {
+            return true;
+        }
+        let now = self.machine().now();
+        match self.pace.leave(now) {
+            Leave::Go(_) => true,
+            Leave::Wait(sleep) => {
+                std::thread::sleep(sleep);
+                matches!(self.pace.leave(now), Leave::Go(_))
+            }
+        }
+    }
+
+    /// The fastest that simulated time may pass, in seconds in a second of the wall clock. By the
+    /// wall clock it multiplies the factor of the clock. `None` is no limit.
+    pub fn set_pace(&self, factor: Option<f64>) {
+        self.pace.set_factor(factor);
+    }
+
+    /// The limit of [`Simulation::set_pace`].
+    #[must_use]
+    pub fn pace(&self) -> Option<f64> {
+        self.pace.factor()
+    }
+
+    /// Lets time stand, with any clock, or pass again. A program that waits, waits on.
+    pub fn set_paused(&self, is_paused: bool) {
+        self.pace.set_paused(is_paused);
+    }
+
+    /// Whether time stands.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        self.pace.is_paused()
+    }
+
+    /// Lets this time pass while paused, as far as the program uses it.
+    pub fn allow(&self, time: Duration) {
+        let now = self.machine().now();
+        self.pace.allow(now, time);
+    }
+
+    /// How time passes.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        match self.clock {
+            Passing::Wall { factor, .. } => Clock::Wall(factor),
+            Passing::Virtual { .. } => Clock::Virtual,
+        }
     }
 
     /// A read of a file by this thread. On the virtual clock it takes some time.
@@ -143,10 +217,10 @@ impl Simulation {
     /// No periodic act runs, and no other thread has a turn: the caller may hold a lock that
     /// these would wait for.
     fn access(&self, takes: Duration) -> MutexGuard<'_, Machine> {
-        let Pace::Virtual { baton, .. } = &self.pace else {
+        let Passing::Virtual { baton, .. } = &self.clock else {
             return self.shared.lock();
         };
-        if self.acts.is_acting() {
+        if self.acts.is_acting() || IS_OUTSIDE.get() {
             return self.shared.lock();
         }
         // Who comes without a turn, as at the end of the program, waits, but not for ever.
@@ -197,21 +271,43 @@ impl Simulation {
         is_done: impl Fn(&Machine) -> bool,
         wall: Option<Instant>,
     ) -> bool {
-        match &self.pace {
-            Pace::Wall { .. } => self.pause_by_wall(end, is_done),
-            Pace::Virtual { baton, has_others } => {
+        if IS_OUTSIDE.get() {
+            std::thread::sleep(SLICE);
+            return true;
+        }
+        match &self.clock {
+            Passing::Wall { .. } => self.pause_by_wall(end, is_done),
+            Passing::Virtual { baton, has_others } => {
                 let wish = wall.map_or(Wish::Moment(end), |wall| Wish::NotBefore(end, wall));
                 let is_alone = baton.is_mine() && wall.is_none() && !has_others();
                 if !is_alone && !baton.stand(wish, &mut String::new, SLICE) {
                     return false;
                 }
-                let machine = self.shared.lock();
-                let left = end.saturating_sub(machine.now());
-                drop(self.acts.step(&self.shared, machine, left));
-                self.shared.wake();
+                if !self.pass_until(end) {
+                    baton.keep(wish);
+                    return false;
+                }
             }
         }
         true
+    }
+
+    /// Lets time pass until a moment, as fast as it may; `false` if it is not over yet, and the
+    /// caller has to handle signals first.
+    fn pass_until(&self, end: Duration) -> bool {
+        let machine = self.shared.lock();
+        let left = end.saturating_sub(machine.now());
+        let most = match self.pace.leave(machine.now()) {
+            Leave::Go(most) => most,
+            Leave::Wait(sleep) => {
+                drop(machine);
+                std::thread::sleep(sleep);
+                return left.is_zero();
+            }
+        };
+        drop(self.acts.step(&self.shared, machine, left.min(most)));
+        self.shared.wake();
+        left <= most
     }
 
     fn pause_by_wall(&self, end: Duration, is_done: impl Fn(&Machine) -> bool) {

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::acts::PeriodicActs;
+use super::pace::Pace;
 use crate::shared::Shared;
 
 /// How often the machine is stepped.
@@ -26,6 +27,7 @@ impl Stepper {
     pub(super) fn start(
         shared: Arc<Shared>,
         acts: Arc<PeriodicActs>,
+        pace: Arc<Pace>,
         factor: f64,
     ) -> io::Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
@@ -36,8 +38,9 @@ impl Stepper {
                 std::thread::sleep(STEP);
                 let now = Instant::now();
                 // A machine that cannot keep up falls behind, but not without limit.
-                let passed = (now - last).min(LATE).mul_f64(factor);
-                drop(acts.step(&shared, shared.lock(), passed));
+                let machine = shared.lock();
+                let passed = pace.of_wall(machine.now(), (now - last).min(LATE), factor);
+                drop(acts.step(&shared, machine, passed));
                 shared.wake();
                 last = now;
             }

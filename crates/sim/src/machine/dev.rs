@@ -217,6 +217,7 @@ impl DevDescriptor {
         bytes: &[u8],
     ) -> Result<usize, Errno> {
         if self.device == Device::Screen {
+            machine.panel.drawn += 1;
             let screen = Arc::make_mut(&mut machine.panel.screen);
             let room = screen.get_mut(offset..).ok_or(Errno::EFBIG)?;
             let length = room.len().min(bytes.len());

@@ -184,10 +184,15 @@ impl Machine {
     }
 
     pub(crate) fn measure(&self, sensor: &Sensor) -> Reading {
+        self.view(sensor).measure(sensor.mode().sense)
+    }
+
+    /// The world as a sensor sees it now.
+    pub(crate) fn view(&self, sensor: &Sensor) -> View<'_> {
         let port = sensor.port();
         let (pose, noise) = self.mount(port);
         let sample = self.tick / JIFFY_TICKS;
-        let mut view = View {
+        View {
             scene: &self.scene,
             pose: self.body.pose.compose(&pose),
             angle: sensor.angle,
@@ -196,8 +201,7 @@ impl Machine {
             axle: sensor.axle,
             is_held: self.held[port as usize],
             noise: Source::new(noise, self.options.seed, port as usize, sample),
-        };
-        view.measure(sensor.mode().sense)
+        }
     }
 
     pub(crate) fn mount(&self, port: Port) -> (Pose, Noise) {

@@ -1,17 +1,20 @@
 //! The whole: brick, robot and world, and their state.
 //!
 //! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
-//! time pass.
+//! time pass, `report` says how everything is.
 
 pub(crate) mod descriptor;
 pub(crate) mod dev;
 mod files;
 mod panel;
 mod plugs;
+mod report;
 mod socket;
 mod svg;
 mod time;
 pub(crate) mod tree;
+
+pub use report::{Belief, Beside, name_of};
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -23,6 +26,7 @@ use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::files::errno::Errno;
+use crate::machine::report::samples::Samples;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
@@ -82,6 +86,8 @@ pub struct Machine {
     /// Which touch sensors a hand holds down, by port.
     held: [bool; Port::ALL.len()],
     trace: Trace,
+    /// A film of the run, if somebody wants it.
+    samples: Option<Samples>,
 }
 
 impl Machine {
@@ -134,6 +140,7 @@ impl Machine {
             panel: Panel::new(options.depth),
             held: Default::default(),
             trace: Trace::new(),
+            samples: None,
         };
         machine.check_free(&world.start)?;
         for mount in &robot.motors {
@@ -218,6 +225,34 @@ impl Machine {
     pub fn remove_item(&mut self, id: ItemId) -> bool {
         self.body.world_changed();
         Arc::make_mut(&mut self.scene).remove(id)
+    }
+
+    /// Moves an item to another place, and turns it to a heading if one is given; `false` if there
+    /// is no such item, or it has no single place.
+    ///
+    /// # Errors
+    /// If the place is impossible, or the robot is there. Then nothing moves.
+    pub fn move_item(
+        &mut self,
+        id: ItemId,
+        to: [f64; 2],
+        heading: Option<f64>,
+    ) -> Result<bool, SpecError> {
+        let item = self.scene.items().iter().find(|(other, _)| *other == id);
+        let Some(moved) = item.and_then(|(_, item)| item.at(to, heading)) else {
+            return Ok(false);
+        };
+        let name = moved.to_string();
+        let scene = Arc::make_mut(&mut self.scene);
+        let before = scene.replace(id, moved)?;
+        if scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
+            if let Some(before) = before {
+                scene.replace(id, before)?;
+            }
+            return Err(SpecError::new(name, "is where the robot stands"));
+        }
+        self.body.world_changed();
+        Ok(true)
     }
 
     /// Holds down these buttons of a remote control on a channel from 1 to 4, and no others, until

@@ -44,6 +44,14 @@ impl Plug {
         }
     }
 
+    /// The name of its driver.
+    pub(crate) fn driver(self) -> &'static str {
+        match self {
+            Plug::Motor(kind) => kind.driver_name,
+            Plug::Sensor(kind) => kind.driver_name,
+        }
+    }
+
     /// How long the kernel takes to notice it.
     fn notice(self) -> u64 {
         ticks_from_ms(match self {

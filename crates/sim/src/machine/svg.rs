@@ -11,9 +11,9 @@ use crate::world::{Item, Point};
 const MARGIN: f64 = 10.0;
 
 /// A rectangle that grows.
-struct Frame {
-    low: Point,
-    high: Point,
+pub(super) struct Frame {
+    pub(super) low: Point,
+    pub(super) high: Point,
 }
 
 impl Frame {
@@ -53,16 +53,7 @@ impl Machine {
     #[must_use]
     pub fn svg(&self) -> String {
         let pose = self.pose();
-        let mut frame = Frame { low: [pose.x, pose.y], high: [pose.x, pose.y] };
-        frame.include([pose.x, pose.y], self.robot.hull.reach());
-        self.trace.path().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
-        self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
-        if let Some(bounds) = self.scene.bounds {
-            frame.include(bounds.low, 0.0);
-            frame.include(bounds.high, 0.0);
-        }
-        let [left, bottom] = frame.low.map(|n| n - MARGIN);
-        let [right, top] = frame.high.map(|n| n + MARGIN);
+        let Frame { low: [left, bottom], high: [right, top] } = self.frame();
         let (width, height) = (right - left, top - bottom);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" \
@@ -96,6 +87,20 @@ impl Machine {
         draw_robot(&mut svg, pose, self.robot.hull);
         svg.push_str("</g>\n</svg>\n");
         svg
+    }
+
+    /// What has everything in it, with a margin.
+    pub(super) fn frame(&self) -> Frame {
+        let pose = self.pose();
+        let mut frame = Frame { low: [pose.x, pose.y], high: [pose.x, pose.y] };
+        frame.include([pose.x, pose.y], self.robot.hull.reach());
+        self.trace.path().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
+        self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
+        if let Some(bounds) = self.scene.bounds {
+            frame.include(bounds.low, 0.0);
+            frame.include(bounds.high, 0.0);
+        }
+        Frame { low: frame.low.map(|n| n - MARGIN), high: frame.high.map(|n| n + MARGIN) }
     }
 
     fn draw_floor(&self, svg: &mut String, [x, y]: Point, [width, height]: Point) {

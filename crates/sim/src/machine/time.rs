@@ -72,6 +72,7 @@ impl Machine {
         self.apply_planned_buttons();
         let at = Duration::from_micros(self.tick * TICK_US);
         self.trace.tick(self.tick, at, self.body.pose);
+        self.sample_at_tick();
     }
 
     /// True if a motor's wire is in its socket.
@@ -123,7 +124,7 @@ impl Machine {
         (loads, amperes)
     }
 
-    fn is_moving(&self) -> bool {
+    pub(super) fn is_moving(&self) -> bool {
         self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
     }
 

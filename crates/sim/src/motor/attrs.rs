@@ -11,7 +11,7 @@ const LONGEST_RAMP_MS: i32 = 60_000;
 
 impl Tacho {
     /// Physical numbers to the numbers in the files, and back.
-    fn sign(&self, value: i32) -> i32 {
+    pub(super) fn sign(&self, value: i32) -> i32 {
         if self.inversed { value.wrapping_neg() } else { value }
     }
 }

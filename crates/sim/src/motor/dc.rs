@@ -164,11 +164,11 @@ impl DcMotor {
     }
 
     /// The duty of the port, in the sign of the program.
-    fn shown_duty(&self) -> i32 {
+    pub(crate) fn shown_duty(&self) -> i32 {
         if self.active.inversed { -self.output.duty() } else { self.output.duty() }
     }
 
-    fn state(&self) -> String {
+    pub(crate) fn state(&self) -> String {
         let running = self.output.is_driving().then_some("running");
         let ramping = self.step_timer.is_some().then_some("ramping");
         running.into_iter().chain(ramping).collect::<Vec<_>>().join(" ")

@@ -16,7 +16,7 @@ mod sample;
 pub(crate) mod servo;
 
 pub(crate) use encoder::Encoder;
-pub(crate) use kind::RATED_VOLTS;
+pub(crate) use kind::{COUNT_PER_M, RATED_VOLTS};
 pub use kind::{MOTOR_KINDS, MotorKind};
 use pid::Pid;
 
@@ -121,6 +121,14 @@ struct Ramp {
     stepped: i64,
 }
 
+/// What the files show of a motor that turns.
+pub(crate) struct Shown {
+    pub(crate) position: i32,
+    pub(crate) speed: i32,
+    pub(crate) duty: i32,
+    pub(crate) stop_action: &'static str,
+}
+
 /// A motor as the class and its driver see it.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own in the kernel, too")]
@@ -206,6 +214,18 @@ impl Tacho {
 
     fn position(&self) -> i32 {
         self.count.wrapping_sub(self.zero)
+    }
+
+    /// Position, speed, duty and the stop action, as the files show them.
+    pub(crate) fn shown(&self) -> Shown {
+        let stop_action =
+            StopAction::WORDS.iter().find(|(_, action)| *action == self.set.stop_action);
+        Shown {
+            position: self.sign(self.position()),
+            speed: self.sign(self.speed),
+            duty: self.sign(self.duty),
+            stop_action: stop_action.map_or("", |(word, _)| word),
+        }
     }
 
     fn running(&self) -> bool {

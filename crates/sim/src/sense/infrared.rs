@@ -6,7 +6,7 @@ use crate::sensor::Reading;
 use crate::world::geometry::length;
 
 /// A beacon is seen from this far, in cm: there an EV3 sensor says 100 %.
-const BEACON_FAR: f64 = 200.0;
+pub(super) const BEACON_FAR: f64 = 200.0;
 /// This far to the side, in degrees, an EV3 sensor says 25.
 const SEEK_HALF_ANGLE: f64 = 60.0;
 const SEEK_HEADING: f64 = 25.0;

@@ -2,6 +2,9 @@
 
 mod floor;
 mod infrared;
+mod sight;
+
+pub(crate) use sight::Sight;
 
 use crate::noise::Source;
 use crate::sensor::{Axle, Reading, Sense};

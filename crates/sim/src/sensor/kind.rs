@@ -180,6 +180,28 @@ impl Mode {
         self
     }
 
+    /// The word for what it measures, if there is a common one.
+    pub(crate) fn label(&self) -> Option<&'static str> {
+        Some(match self.sense {
+            Sense::Distance { .. } | Sense::NxtDistance { .. } | Sense::Millimeters => "distance",
+            Sense::Reflection | Sense::ReflectionRaw | Sense::FineReflection => "reflected light",
+            Sense::Ambient | Sense::FineAmbient => "ambient light",
+            Sense::Color | Sense::ColorNumber { .. } => "color",
+            Sense::Rgb | Sense::Parts(_) => "red, green, blue",
+            Sense::Angle | Sense::AxleAngle | Sense::Hundredths { .. } => "angle",
+            Sense::Rate | Sense::FineRate | Sense::RateWithin { .. } => "rate",
+            Sense::AngleAndRate => "angle, rate",
+            Sense::Proximity | Sense::Reflector { .. } => "proximity",
+            Sense::Seek | Sense::Direction { .. } => "beacon",
+            Sense::Remote | Sense::RemoteBits => "remote control",
+            Sense::Touch => "touch",
+            Sense::Silence => "sound",
+            Sense::Temperature { .. } => "temperature",
+            Sense::Compass => "compass",
+            _ => return None,
+        })
+    }
+
     /// True if it measures only when the mode is written.
     pub(crate) fn is_single(&self) -> bool {
         let (Sense::Distance { single, .. } | Sense::NxtDistance { single, .. }) = self.sense

@@ -256,6 +256,17 @@ impl Sensor {
         self.is_on_bus() && self.is_polled_now()
     }
 
+    /// The values that the files show now, where a measurement is `fresh` if the sensor would
+    /// take one; `None` while it has no data.
+    pub(crate) fn shown(&self, fresh: Option<Reading>) -> Option<impl Iterator<Item = i32>> {
+        let mode = self.mode();
+        let raw = move |index: usize| match fresh {
+            Some(fresh) => mode.format.fit(mode.scale.raw(fresh[index])),
+            None => self.reading[index],
+        };
+        self.has_data().then(|| (0..mode.values.min(8)).map(move |index| mode.scale.shown(raw(index))))
+    }
+
     fn value(&self, index: usize) -> Result<i32, Errno> {
         if self.has_data() && index < self.mode().values {
             Ok(self.mode().scale.shown(self.reading[index]))

@@ -99,6 +99,21 @@ impl Item {
         Item::Patch { corners: vec![[x1, y1], [x2, y1], [x2, y2], [x1, y2]], color }
     }
 
+    /// The same at another place, with a heading if one is given and it has one; `None` for what
+    /// has several places.
+    pub(crate) fn at(&self, [x, y]: Point, heading: Option<f64>) -> Option<Item> {
+        let mut item = self.clone();
+        match &mut item {
+            Item::Box { pose, .. } => {
+                *pose = Pose::new(x, y, heading.unwrap_or(pose.heading));
+            }
+            Item::Circle { center, .. } => *center = [x, y],
+            Item::Lamp { at, .. } | Item::Bulb { at, .. } | Item::Beacon { at, .. } => *at = [x, y],
+            Item::Wall { .. } | Item::Patch { .. } | Item::Line { .. } => return None,
+        }
+        Some(item)
+    }
+
     /// The word for it in error messages.
     #[must_use]
     pub fn kind(&self) -> &'static str {

@@ -71,6 +71,28 @@ impl Scene {
         true
     }
 
+    /// Puts an item in the place of another, whose number it gets; the other one, if there is one.
+    pub(crate) fn replace(&mut self, id: ItemId, item: Item) -> Result<Option<Item>, SpecError> {
+        item.validate()?;
+        let Some((_, old)) = self.items.iter_mut().find(|(other, _)| *other == id) else {
+            return Ok(None);
+        };
+        let place = self.obstacles.iter().position(|obstacle| obstacle.id == id);
+        self.obstacles.retain(|obstacle| obstacle.id != id);
+        let place = place.unwrap_or(self.obstacles.len());
+        let obstacles: Vec<_> = Obstacle::new(id, &item).into_iter().collect();
+        self.obstacles.splice(place..place, obstacles);
+        // The world is another one.
+        self.next_id += 1;
+        Ok(Some(std::mem::replace(old, item)))
+    }
+
+    /// A number that changes with each item that comes or goes.
+    pub(crate) fn version(&self) -> u64 {
+        // Each one that comes has a new number, and those that go leave fewer.
+        u64::from(self.next_id) << 32 | self.items.len() as u64
+    }
+
     pub(crate) fn items(&self) -> &[(ItemId, Item)] {
         &self.items
     }

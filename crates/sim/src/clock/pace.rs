@@ -1,0 +1,167 @@
+//! How fast simulated time may pass by the wall clock, for somebody who watches.
+//!
+//! A virtual clock is held back between its steps, a wall clock gets another factor. Both can be
+//! paused. What a program does, and what it sees, is the same at any pace.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long time is held back before signals are handled, by the wall clock, and between two
+/// steps of a paced clock.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// How far the wall clock may be ahead, as while a program computes, before that is forgotten.
+const LATE: Duration = Duration::from_millis(100);
+
+/// Less than this is not worth a sleep.
+const SHORT: Duration = Duration::from_millis(2);
+
+/// How fast time may pass at most. By default it is not held back.
+#[derive(Debug, Default)]
+pub(super) struct Pace {
+    /// A clock without a limit pays for one load.
+    is_limited: AtomicBool,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// Simulated seconds in a second; `None` is no limit.
+    factor: Option<f64>,
+    is_paused: bool,
+    /// While paused, time may pass until then.
+    allowed: Duration,
+    /// A moment of both clocks from which the limit counts.
+    since: Option<(Instant, Duration)>,
+}
+
+/// Whether time may pass now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Leave {
+    /// So much of it at once.
+    Go(Duration),
+    /// Not before a sleep of this length.
+    Wait(Duration),
+}
+
+impl Pace {
+    /// Sets the limit, in simulated seconds in a second; `None` is no limit.
+    pub(super) fn set_factor(&self, factor: Option<f64>) {
+        let mut state = self.state();
+        state.factor = factor;
+        state.since = None;
+        self.note(&state);
+    }
+
+    fn note(&self, state: &State) {
+        self.is_limited.store(state.is_paused || state.factor.is_some(), Ordering::Release);
+    }
+
+    pub(super) fn is_limited(&self) -> bool {
+        self.is_limited.load(Ordering::Acquire)
+    }
+
+    pub(super) fn factor(&self) -> Option<f64> {
+        self.state().factor
+    }
+
+    /// Lets time stand from now on, or pass again.
+    pub(super) fn set_paused(&self, is_paused: bool) {
+        let mut state = self.state();
+        state.is_paused = is_paused;
+        state.allowed = Duration::ZERO;
+        state.since = None;
+        self.note(&state);
+    }
+
+    pub(super) fn is_paused(&self) -> bool {
+        self.state().is_paused
+    }
+
+    /// Lets some time pass while paused.
+    pub(super) fn allow(&self, now: Duration, time: Duration) {
+        let mut state = self.state();
+        state.allowed = state.allowed.max(now).saturating_add(time);
+    }
+
+    /// Whether time may pass at a moment of simulated time.
+    pub(super) fn leave(&self, now: Duration) -> Leave {
+        if !self.is_limited() {
+            return Leave::Go(Duration::MAX);
+        }
+        let mut state = self.state();
+        let mut most = Duration::MAX;
+        if state.is_paused {
+            most = state.allowed.saturating_sub(now);
+            if most.is_zero() {
+                return Leave::Wait(SLICE);
+            }
+        }
+        let Some(factor) = state.factor else {
+            return Leave::Go(most);
+        };
+        let wall = Instant::now();
+        let (wall0, sim0) = *state.since.get_or_insert((wall, now));
+        let due = wall0 + now.saturating_sub(sim0).div_f64(factor);
+        if due > wall + LATE * 10 || now < sim0 || wall > due + LATE {
+            // Gone back to a snapshot, or the program has computed meanwhile.
+            state.since = Some((wall, now));
+        } else if due > wall + SHORT {
+            return Leave::Wait((due - wall).min(SLICE));
+        }
+        Leave::Go(most.min(SLICE.mul_f64(factor)))
+    }
+
+    /// How much simulated time passes in some wall time, which passes anyway, with a factor.
+    pub(super) fn of_wall(&self, now: Duration, wall: Duration, factor: f64) -> Duration {
+        let state = self.state();
+        let passed = wall.mul_f64(factor * state.factor.unwrap_or(1.0));
+        if state.is_paused { passed.min(state.allowed.saturating_sub(now)) } else { passed }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    #[test]
+    fn without_a_limit_time_passes_at_once() {
+        assert_eq!(Pace::default().leave(SECOND), Leave::Go(Duration::MAX));
+    }
+
+    #[test]
+    fn a_limit_makes_steps_of_20_ms_of_the_wall() {
+        let pace = Pace::default();
+        pace.set_factor(Some(10.0));
+        assert_eq!(pace.leave(SECOND), Leave::Go(Duration::from_millis(200)));
+        let next = pace.leave(SECOND + Duration::from_millis(200));
+        assert!(matches!(next, Leave::Wait(sleep) if sleep <= SLICE), "{next:?}");
+    }
+
+    #[test]
+    fn paused_time_passes_as_far_as_allowed() {
+        let pace = Pace::default();
+        pace.set_paused(true);
+        assert_eq!(pace.leave(SECOND), Leave::Wait(SLICE));
+        pace.allow(SECOND, SECOND);
+        assert_eq!(pace.leave(SECOND), Leave::Go(SECOND));
+        assert_eq!(pace.leave(SECOND * 2), Leave::Wait(SLICE));
+        assert_eq!(pace.of_wall(SECOND * 2, SECOND, 1.0), Duration::ZERO);
+        pace.set_paused(false);
+        assert_eq!(pace.leave(SECOND), Leave::Go(Duration::MAX));
+    }
+
+    #[test]
+    fn a_wall_clock_gets_another_factor() {
+        let pace = Pace::default();
+        pace.set_factor(Some(2.0));
+        assert_eq!(pace.of_wall(SECOND, SECOND, 3.0), SECOND * 6);
+    }
+}

@@ -1,0 +1,84 @@
+//! What of the world a sensor sees, as shapes that can be drawn.
+
+use super::infrared::BEACON_FAR;
+use super::{
+    BUMPER_HALF, INFRARED_FAR, INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR, SONAR_FAR,
+    SONAR_HALF_ANGLE, SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
+};
+use crate::sensor::Sense;
+use crate::world::color::Color;
+use crate::world::geometry::{Pose, Vec2, direction, length};
+
+/// The part of the world that a sensor sees in a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Sight {
+    /// The ends of a fan of rays: an obstacle, or as far as the sensor sees; and the nearest
+    /// obstacle.
+    Cone { fan: Vec<Vec2>, hit: Option<Vec2> },
+    /// A spot of the floor.
+    Spot(Color),
+    /// A bumper from a point to another, and whether it is pressed.
+    Bumper { from: Vec2, to: Vec2, is_on: bool },
+    /// The nearest beacon in sight, and its channel.
+    Beacon(Option<(Vec2, u8)>),
+}
+
+impl View<'_> {
+    /// What is seen in a mode; `None` for a sensor that sees nothing of the world.
+    pub(crate) fn sight(&self, sense: Sense) -> Option<Sight> {
+        let narrow = |far| self.fan(INFRARED_HALF_ANGLE, INFRARED_RAYS, far);
+        Some(match sense {
+            Sense::Distance { .. } | Sense::NxtDistance { .. } => {
+                self.fan(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR)
+            }
+            Sense::Proximity => narrow(INFRARED_FAR),
+            Sense::Millimeters => narrow(TIME_OF_FLIGHT_FAR),
+            Sense::Reflector { .. } => narrow(REFLECTOR_FAR),
+            Sense::Reflection
+            | Sense::Ambient
+            | Sense::Color
+            | Sense::ReflectionRaw
+            | Sense::Rgb
+            | Sense::FineReflection
+            | Sense::FineAmbient
+            | Sense::ColorNumber { .. }
+            | Sense::Part(_)
+            | Sense::Parts(_)
+            | Sense::Row { .. }
+            | Sense::LineSteering => Sight::Spot(self.scene.color_at(self.pose.point())),
+            Sense::Touch | Sense::Volts => {
+                let end = |x| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
+                let (from, to) = (end(-BUMPER_HALF), end(BUMPER_HALF));
+                Sight::Bumper { from, to, is_on: self.pressed() }
+            }
+            Sense::Seek | Sense::Direction { .. } => Sight::Beacon(self.nearest_beacon()),
+            _ => return None,
+        })
+    }
+
+    fn fan(&self, half_angle: f64, rays: u32, far: f64) -> Sight {
+        let here = self.pose.point();
+        let step = 2.0 * half_angle / f64::from(rays - 1);
+        let mut nearest: Option<(f64, Vec2)> = None;
+        let mut end = |ray: u32| {
+            let way = direction(self.pose.heading - half_angle + step * f64::from(ray));
+            let hit = self.scene.cast(here, way, far);
+            let end = here + way * hit.unwrap_or(far);
+            if let Some(distance) = hit.filter(|hit| nearest.is_none_or(|(near, _)| *hit < near)) {
+                nearest = Some((distance, end));
+            }
+            end
+        };
+        let fan = (0..rays).map(&mut end).collect();
+        Sight::Cone { fan, hit: nearest.map(|(_, end)| end) }
+    }
+
+    fn nearest_beacon(&self) -> Option<(Vec2, u8)> {
+        let here = self.pose.point();
+        let away = |(at, _): &(Vec2, u8)| length(*at - here);
+        let seen = self.scene.beacons().filter(|beacon| {
+            away(beacon) <= BEACON_FAR && self.scene.clear_between(here, beacon.0)
+        });
+        seen.min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+}

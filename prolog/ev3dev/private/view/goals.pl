@@ -1,0 +1,137 @@
+:- module(ev3dev_view_goals,
+          [ goal_line/4,                % +Word, +Rest, +Out, -Refused
+            goals_end/0
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../native', [view_json_/2]).
+:- use_module(log, [error_text/2]).
+:- use_module(program, [program_state/1]).
+:- use_module(socket, [message_send/2]).
+
+/** <module> Goals that are typed into a page
+
+Only with the option `goals(true)`, and only at localhost. A goal runs in a
+thread of its own, as a part of the program.
+*/
+
+:- dynamic running/3.                   % Page, Number, Thread
+
+%!  goal_line(+Word, +Rest, +Out, -Refused) is semidet.
+%
+%   Start a goal, ask for its next answer, or end it. Fails if that is no
+%   line; Refused is bound to a text if it is not the time for it.
+
+goal_line(goal, Rest, Out, Refused) :-
+    sub_string(Rest, Before, 1, After, " "),
+    !,
+    sub_string(Rest, 0, Before, _, Number0),
+    sub_string(Rest, _, After, 0, Text),
+    number_of(Number0, Number),
+    thread_self(Page),
+    (   running(Page, _, Thread),
+        catch(thread_property(Thread, status(running)), _, fail)
+    ->  Refused = "Another goal is not finished."
+    ;   program_state(State),
+        State \== idle
+    ->  Refused = "A program runs."
+    ;   retractall(running(Page, _, _)),
+        thread_create(ev3dev_view_goals:solve(Text, Number, Out), Thread,
+                      [detached(true)]),
+        assertz(running(Page, Number, Thread))
+    ).
+goal_line(Word, Rest, _, _) :-
+    memberchk(Word, [more, enough]),
+    number_of(Rest, Number),
+    thread_self(Page),
+    (   running(Page, Number, Thread)
+    ->  catch(thread_send_message(Thread, ev3dev_view_goal(Word)), _, true)
+    ;   true
+    ).
+
+number_of(Text, Number) :-
+    string_length(Text, Length),
+    between(1, 9, Length),
+    string_codes(Text, Codes),
+    \+ ( member(Code, Codes),
+         \+ between(0'0, 0'9, Code) ),
+    number_codes(Number, Codes).
+
+%!  goals_end is det.
+%
+%   End the goals of this page.
+
+goals_end :-
+    thread_self(Page),
+    forall(running(Page, _, Thread),
+           catch(thread_signal(Thread, abort), _, true)),
+    retractall(running(Page, _, _)).
+
+solve(Text, Number, Out) :-
+    catch(solve_(Text, Number, Out), Error, true),
+    (   var(Error)
+    ->  true
+    ;   Error = error(_, _)
+    ->  error_text(Error, Why),
+        answer(Out, Number, error, Why)
+    ;   format(string(Why), "~p", [Error]),
+        answer(Out, Number, stopped, Why)
+    ).
+
+solve_(Text, Number, Out) :-
+    term_string_with_names(Text, Goal, Names),
+    (   solution(Goal, Last),
+        bindings_text(Names, Answer),
+        (   Last == true
+        ->  answer(Out, Number, last, Answer)
+        ;   answer(Out, Number, more, Answer),
+            thread_get_message(ev3dev_view_goal(Word)),
+            Word == enough
+        )
+    ->  true
+    ;   answer(Out, Number, false, "false")
+    ).
+
+solution(Goal, Last) :-
+    call_cleanup(user:Goal, Deterministic = true),
+    (   Deterministic == true
+    ->  Last = true
+    ;   Last = false
+    ).
+
+term_string_with_names(Text, Goal, Names) :-
+    setup_call_cleanup(
+        open_string(Text, In),
+        read_term(In, Goal, [variable_names(Names), module(user)]),
+        close(In)),
+    (   Goal == end_of_file
+    ->  throw(error(syntax_error(end_of_file), _))
+    ;   true
+    ).
+
+bindings_text(Names, Text) :-
+    findall(Line,
+            ( member(Name=Value, Names),
+              \+ sub_atom(Name, 0, _, _, '_'),
+              nonvar(Value),
+              format(string(Line), "~w = ~W",
+                     [ Name, Value,
+                       [ quoted(true), portray(true), max_depth(30),
+                         spacing(next_argument) ] ])
+            ),
+            Lines),
+    (   Lines == []
+    ->  Text = "true"
+    ;   atomic_list_concat(Lines, ',\n', Text0),
+        atom_string(Text0, Text)
+    ).
+
+%   Two threads write to a page: this and its own.
+answer(Out, Number, State, Text) :-
+    view_json_(Text, Json),
+    format(string(Message),
+           "{\"type\":\"answer\",\"n\":~w,\"state\":\"~w\",\"text\":~w}",
+           [Number, State, Json]),
+    catch(with_output_lock(Out, Message), _, true).
+
+with_output_lock(Out, Message) :-
+    message_send(Out, Message).

@@ -1,0 +1,87 @@
+:- module(ev3dev_view_log,
+          [ watch_messages/0,
+            leave_messages/0,
+            mark/1,                     % +Term
+            error_text/2                % +Error, -Text
+          ]).
+:- use_module('../native', [view_log_/4, view_serves_/0]).
+
+/** <module> What the page's log is told
+
+Warnings and errors of the program, and its marks.
+*/
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+%!  watch_messages is det.
+%!  leave_messages is det.
+%
+%   Note from now on what the program is warned of; and no more.
+
+watch_messages :-
+    leave_messages,
+    asserta((user:message_hook(_, Kind, Lines) :-
+                 ev3dev_view_log:seen(Kind, Lines),
+                 fail)).
+
+leave_messages :-
+    forall(( clause(user:message_hook(_, _, _), Body, Clause),
+             Body = (ev3dev_view_log:seen(_, _), fail) ),
+           erase(Clause)).
+
+seen(Kind, Lines) :-
+    (   memberchk(Kind, [warning, error]),
+        \+ view_serves_
+    ->  lines_text(Lines, Text),
+        note(Kind, Text)
+    ;   true
+    ).
+
+lines_text(Lines, Text) :-
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text0, "", "\n ", [Text]).
+
+note(Kind, Text) :-
+    thread_self(Me),
+    format(string(Thread), "~w", [Me]),
+    view_log_(Kind, Text, [], Thread).
+
+%!  mark(+Term) is det.
+%
+%   A line in the log.
+
+mark(Term) :-
+    (   ( atom(Term) ; string(Term) )
+    ->  format(string(Text), "~w", [Term])
+    ;   \+ \+ ( numbervars(Term, 0, _, [singletons(true)]),
+                format(string(Text0), "~W",
+                       [ Term,
+                         [quoted(true), numbervars(true), max_depth(20)] ]),
+                nb_setval(ev3dev_view_mark, Text0) ),
+        nb_getval(ev3dev_view_mark, Text)
+    ),
+    note(mark, Text).
+
+%!  error_text(+Error, -Text) is det.
+%
+%   What a person is told of an error.
+
+error_text(error(Formal, context(_, Message)), Text) :-
+    nonvar(Message),
+    atomic(Message),
+    Message \== '',
+    !,
+    (   compound(Formal),
+        Formal = domain_error(possible_geometry, Item)
+    ->  format(string(Text), "~w ~w", [Item, Message])
+    ;   format(string(Text), "~w", [Message])
+    ).
+error_text(Error, Text) :-
+    catch(( '$messages':translate_message(Error, Lines, []),
+            lines_text(Lines, Text) ),
+          _, fail),
+    !.
+error_text(Error, Text) :-
+    format(string(Text), "~q", [Error]).

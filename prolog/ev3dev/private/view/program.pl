@@ -1,0 +1,237 @@
+:- module(ev3dev_view_program,
+          [ watch_program/0,
+            leave_program/0,
+            program_state/1,            % -State
+            probe_program/0,
+            stop_program/0,
+            lift_latch/0,
+            view_thread/0
+          ]).
+:- use_module(library(lists), [delete/3, member/2]).
+:- use_module('../native',
+              [ view_latch_/0, view_lift_/0, view_stop_motors_/0,
+                view_thread_/1, view_users_/1 ]).
+
+/** <module> The program that is watched
+
+Whether a program runs at the toplevel, and how it is stopped.
+*/
+
+:- dynamic
+    state/1,                            % idle, running
+    queries/1,                          % how many there were
+    stopping/1.                         % the thread that does it
+
+state(running).
+queries(0).
+
+%!  program_state(-State) is det.
+%
+%   State is `idle` while the toplevel waits for a query, else `running`.
+
+program_state(State) :-
+    (   state(State0)
+    ->  State = State0
+    ;   State = running
+    ).
+
+set_state(State) :-
+    (   state(State)
+    ->  true
+    ;   retractall(state(_)),
+        assertz(state(State))
+    ).
+
+%!  watch_program is det.
+%!  leave_program is det.
+%
+%   Note from now on when queries begin and end; and no more.
+
+:- multifile
+    user:expand_query/4,
+    user:message_hook/3.
+:- dynamic
+    user:expand_query/4,
+    user:message_hook/3.
+
+watch_program :-
+    leave_program,
+    asserta((user:expand_query(_, _, _, _) :-
+                 ev3dev_view_program:query_begins,
+                 fail)),
+    asserta((user:message_hook(Message, Kind, _) :-
+                 ev3dev_view_program:message_seen(Message, Kind),
+                 fail)).
+
+leave_program :-
+    retractall((user:expand_query(_, _, _, _) :-
+                    ev3dev_view_program:query_begins,
+                    fail)),
+    forall(( clause(user:expand_query(_, _, _, _), Body, Clause),
+             Body = (ev3dev_view_program:query_begins, fail) ),
+           erase(Clause)),
+    forall(( clause(user:message_hook(_, _, _), Body, Clause),
+             Body = (ev3dev_view_program:message_seen(_, _), fail) ),
+           erase(Clause)).
+
+query_begins :-
+    (   is_main
+    ->  retract(queries(Count0)),
+        Count is Count0 + 1,
+        assertz(queries(Count)),
+        set_state(running)
+    ;   true
+    ).
+
+message_seen(Message, Kind) :-
+    (   ends(Message, Kind),
+        is_main
+    ->  set_state(idle)
+    ;   true
+    ).
+
+ends(query(_), _).
+ends(unhandled_exception(_), _).
+ends(unwind(abort), _).
+ends('$aborted', _).
+ends(_, banner).
+
+is_main :-
+    thread_self(main).
+
+%!  probe_program is det.
+%
+%   Have the program say whether it runs. Does not wait for the answer.
+
+probe_program :-
+    catch(thread_signal(main, ev3dev_view_program:probed), _, true).
+
+probed :-
+    (   reads_query
+    ->  set_state(idle)
+    ;   set_state(running)
+    ).
+
+%   True if the toplevel of this thread waits for a query. Asks for the parent
+%   by its predicate, which takes no time in a deep recursion.
+reads_query :-
+    prolog_current_frame(Frame),
+    (   prolog_frame_attribute(Frame, parent_goal,
+                               '$toplevel':read_expanded_query(_, _, _))
+    ->  true
+    ;   prolog_frame_attribute(Frame, parent_goal,
+                               '$toplevel':read_query(_, _, _))
+    ).
+
+%!  stop_program is det.
+%
+%   Stop all motors, interrupt the program, and stop the motors once more when
+%   it has ended. Until then no motor can be started. Does not wait for the
+%   end of the program.
+
+stop_program :-
+    view_latch_,
+    stop_motors,
+    with_mutex(ev3dev_view_stop, begin_to_stop).
+
+stop_motors :-
+    catch(view_stop_motors_, _, true),
+    !.
+stop_motors.
+
+begin_to_stop :-
+    stopping(Thread),
+    catch(thread_property(Thread, status(running)), _, fail),
+    !.
+begin_to_stop :-
+    retractall(stopping(_)),
+    thread_create(interrupt, Thread, [detached(true)]),
+    assertz(stopping(Thread)).
+
+interrupt :-
+    view_thread,
+    thread_self(Me),
+    view_users_(Users0),
+    delete(Users0, 1, Users),
+    forall(member(User, Users),
+           send_signal(User, ev3dev_view_program:interrupted_thread(Me))),
+    (   send_signal(main, ev3dev_view_program:interrupted(Me))
+    ->  thread_get_message(answer(Answer)),
+        until_ended(Answer, Me)
+    ;   true
+    ),
+    forall(member(User, Users),
+           until_over(User)),
+    stop_motors,
+    with_mutex(ev3dev_view_stop,
+               ( retractall(stopping(Me)),
+                 view_lift_ )).
+
+send_signal(Thread, Goal) :-
+    catch(thread_signal(Thread, Goal), _, fail).
+
+%   The signals run in the program's threads.
+interrupted(Stopper) :-
+    (   reads_query
+    ->  answer(Stopper, ended)
+    ;   queries(Count),
+        answer(Stopper, interrupted(Count)),
+        abort
+    ).
+
+interrupted_thread(_) :-
+    abort.
+
+ended_since(Count0, Stopper) :-
+    (   reads_query
+    ->  Answer = ended
+    ;   queries(Count),
+        Count =\= Count0
+    ->  Answer = ended
+    ;   Answer = interrupted(Count0)
+    ),
+    answer(Stopper, Answer).
+
+answer(Stopper, Answer) :-
+    catch(thread_send_message(Stopper, answer(Answer)), _, true).
+
+%   While the cleanup of the program goes on, ask again.
+until_ended(ended, _) :-
+    set_state(idle).
+until_ended(interrupted(Count), Me) :-
+    sleep(0.02),
+    (   send_signal(main, ev3dev_view_program:ended_since(Count, Me))
+    ->  thread_get_message(answer(Answer)),
+        until_ended(Answer, Me)
+    ;   true
+    ).
+
+until_over(Thread) :-
+    (   catch(thread_property(Thread, status(running)), _, fail)
+    ->  sleep(0.02),
+        until_over(Thread)
+    ;   true
+    ).
+
+%!  lift_latch is det.
+%
+%   Let motors start again, unless a program is still to be interrupted.
+
+lift_latch :-
+    with_mutex(ev3dev_view_stop,
+               (   stopping(Thread),
+                   catch(thread_property(Thread, status(running)), _, fail)
+               ->  true
+               ;   view_lift_
+               )).
+
+%!  view_thread is det.
+%
+%   This thread serves the view from now on, and is no part of the program.
+
+view_thread :-
+    view_thread_(true),
+    thread_at_exit(ev3dev_view_program:view_thread_ended).
+
+view_thread_ended :-
+    view_thread_(false).

@@ -1,0 +1,92 @@
+//! Somebody watches the program: `prolog/ev3dev/view.pl`.
+use ev3_motion::Pose;
+use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use swipl::fli::this_thread;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+static IS_WATCHED: AtomicBool = AtomicBool::new(false);
+
+/// Counts the films: each tree, and each return to a snapshot, begins one.
+static FILM: AtomicU32 = AtomicU32::new(1);
+
+/// The frame in which the robot's odometry counts, in the world.
+static FRAME: Mutex<Option<Frame>> = Mutex::new(None);
+
+/// A pose in the odometry's frame, and the same in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    pub(crate) believed: Pose,
+    pub(crate) real: Pose,
+}
+
+/// The threads of Prolog that have used devices, by their numbers, as bits.
+static USERS: [AtomicU32; 32] = [const { AtomicU32::new(0) }; 32];
+
+thread_local! {
+    static USER: RefCell<Option<User>> = const { RefCell::new(None) };
+}
+
+/// A thread that has used devices, until it ends.
+struct User(usize);
+
+impl User {
+    fn set(&self, uses: bool) {
+        if let Some(bits) = USERS.get(self.0 / 32) {
+            let bit = 1 << (self.0 % 32);
+            if uses {
+                bits.fetch_or(bit, Ordering::Relaxed);
+            } else {
+                bits.fetch_and(!bit, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+impl Drop for User {
+    fn drop(&mut self) {
+        self.set(false);
+    }
+}
+
+/// This thread of Prolog uses devices.
+pub(crate) fn note_user() {
+    USER.with_borrow_mut(|user| {
+        if user.is_none() {
+            let this = User(usize::try_from(this_thread()).unwrap_or(usize::MAX));
+            this.set(true);
+            *user = Some(this);
+        }
+    });
+}
+
+/// The numbers of the threads that have used devices.
+pub(crate) fn users() -> impl Iterator<Item = usize> {
+    let has = |thread: &usize| USERS[thread / 32].load(Ordering::Relaxed) >> (thread % 32) & 1 == 1;
+    (0..USERS.len() * 32).filter(has)
+}
+
+/// Whether somebody watches.
+pub(crate) fn is_watched() -> bool {
+    IS_WATCHED.load(Ordering::Relaxed)
+}
+
+/// Somebody watches from now on, or nobody.
+pub(crate) fn set_watched(is_watched: bool) {
+    IS_WATCHED.store(is_watched, Ordering::Relaxed);
+}
+
+/// The number of the film.
+pub(crate) fn film() -> u64 {
+    FILM.load(Ordering::Relaxed).into()
+}
+
+/// What was seen so far is void.
+pub(crate) fn begin_film() {
+    FILM.fetch_add(1, Ordering::Relaxed);
+}
+
+/// The frame in which the odometry counts; `None` if it is the world's.
+pub(crate) fn frame() -> MutexGuard<'static, Option<Frame>> {
+    FRAME.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,132 @@
+//! What a person does on a page to the simulated world and its time.
+use super::{outside, running_simulation};
+use crate::glue::call::Call;
+use crate::glue::error::{wrong_because, wrong_value};
+use crate::glue::terms::unify_atom;
+use ev3_sim::{Clock, ItemId, Port, Simulation};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use swipl::prelude::*;
+
+/// The driver of what was pulled out of each port.
+static PULLED: Mutex<[Option<&'static str>; 8]> = Mutex::new([None; 8]);
+
+/// Registers the predicates below.
+pub(super) fn register() {
+    register_view_pace();
+    register_view_pause();
+    register_view_step();
+    register_view_pull();
+    register_view_put_back();
+    register_view_move();
+    register_view_world();
+    register_view_stands();
+}
+
+predicates! {
+    /// view_pace_(+Factor): simulated seconds in a second at most; 0 is no limit.
+    #[module("ev3dev_native")]
+    #[name("view_pace_")]
+    semidet fn view_pace(context, factor) {
+        let factor = Call::of(context, "view", 1).float(factor)?;
+        simulation()?.set_pace((factor > 0.0).then_some(factor));
+        Ok(())
+    }
+
+    /// view_pause_(+Pauses)
+    #[module("ev3dev_native")]
+    #[name("view_pause_")]
+    semidet fn view_pause(_context, pauses) {
+        simulation()?.set_paused(pauses.get_ex()?);
+        Ok(())
+    }
+
+    /// view_step_(+Seconds, +IsIdle): lets time pass while paused. If the program waits for a
+    /// person, nobody else would.
+    #[module("ev3dev_native")]
+    #[name("view_step_")]
+    semidet fn view_step(context, seconds, is_idle) {
+        let call = Call::of(context, "view", 1);
+        let (time, is_idle) = (call.time(seconds)?, is_idle.get_ex()?);
+        let simulation = simulation()?;
+        if is_idle && simulation.clock() == Clock::Virtual {
+            outside(|| simulation.step(time));
+        } else {
+            simulation.allow(time);
+        }
+        Ok(())
+    }
+
+    /// view_stands_: the clock is virtual, so time stands while no program runs.
+    #[module("ev3dev_native")]
+    #[name("view_stands_")]
+    semidet fn view_stands(_context) {
+        into_prolog_result(simulation()?.clock() == Clock::Virtual)
+    }
+
+    /// view_pull_(+Port): fails if nothing is plugged in.
+    #[module("ev3dev_native")]
+    #[name("view_pull_")]
+    semidet fn view_pull(context, port) {
+        let call = Call::of(context, "view", 1);
+        let (port, simulation) = (port_of(&call, port)?, simulation()?);
+        let driver = simulation.machine().plugged(port);
+        let is_pulled = simulation.machine().unplug(port);
+        pulled()[port as usize] = driver;
+        into_prolog_result(is_pulled)
+    }
+
+    /// view_put_back_(+Port, -Driver): what was pulled out of a port; fails if nothing was.
+    #[module("ev3dev_native")]
+    #[name("view_put_back_")]
+    semidet fn view_put_back(context, port, driver) {
+        let port = port_of(&Call::of(context, "view", 1), port)?;
+        match pulled()[port as usize] {
+            Some(name) => unify_atom(driver, name),
+            None => Err(PrologError::Failure),
+        }
+    }
+
+    /// view_move_(+Id, +X, +Y, +Heading): heading may be an atom. Fails if there is no such item.
+    #[module("ev3dev_native")]
+    #[name("view_move_")]
+    semidet fn view_move(context, id, x, y, heading) {
+        let call = Call::of(context, "view", 1);
+        let item = ItemId(u32::try_from(call.integer(id)?).map_err(|_| PrologError::Failure)?);
+        let to = [call.float(x)?, call.float(y)?];
+        let heading = if heading.is_atom() { None } else { Some(call.float(heading)?) };
+        let moved = simulation()?.machine().move_item(item, to, heading);
+        match moved {
+            Ok(is_there) => into_prolog_result(is_there),
+            Err(error) => wrong_because(&call, "possible_geometry", id, &error.to_string()),
+        }
+    }
+
+    /// view_world_(-Text): the world as facts.
+    #[module("ev3dev_native")]
+    #[name("view_world_")]
+    semidet fn view_world(_context, text) {
+        let facts = simulation()?.machine().world_facts();
+        text.unify(facts.as_str())
+    }
+}
+
+/// The simulation; fails if none runs.
+fn simulation() -> PrologResult<Arc<Simulation>> {
+    running_simulation().ok_or(PrologError::Failure)
+}
+
+/// What was pulled out of each port.
+pub(super) fn pulled() -> MutexGuard<'static, [Option<&'static str>; 8]> {
+    PULLED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Port> {
+    match call.text(term)?.parse() {
+        Ok(port) => Ok(port),
+        Err(_) => wrong_value(call, "port", term),
+    }
+}
+
+/// The shortest that two frames may lie apart in time, if they are the same for all pages.
+pub(super) const SHARED_FOR: Duration = Duration::from_millis(15);

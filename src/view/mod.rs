@@ -1,0 +1,265 @@
+//! `prolog/ev3dev/view.pl`: what a page in a browser shows of the robot.
+//!
+//! What is shown is taken from the simulation under its lock, or is what the driver knows: no
+//! time passes, and nothing is read on the program's behalf.
+mod believed;
+mod brick;
+mod frame;
+mod hand;
+mod notes;
+mod threads;
+
+pub(crate) use self::believed::{counting_begins, pose_is_set};
+
+use self::notes::{Entry, notes};
+use crate::glue::call::{Call, Text};
+use crate::glue::state::devices;
+use crate::glue::terms::unify_atom;
+use crate::glue::watch;
+#[cfg(feature = "sim")]
+use crate::sim::running_simulation;
+use ev3_json::Json;
+use ev3_driver::{Error, latch, motor};
+#[cfg(not(feature = "sim"))]
+use ev3_sim::Simulation;
+use ev3_sim::stay_outside;
+#[cfg(not(feature = "sim"))]
+use std::sync::Arc;
+use std::time::Duration;
+use swipl::fli::pass_over_thread;
+use swipl::prelude::*;
+
+/// Registers the predicates below.
+pub(crate) fn register() {
+    hand::register();
+    register_view_open();
+    register_view_close();
+    register_view_thread();
+    register_view_pass_over();
+    register_view_keep_sockets();
+    register_view_frame();
+    register_view_keep();
+    register_view_log();
+    register_view_value();
+    register_view_csv();
+    register_view_latch();
+    register_view_lift();
+    register_view_stop_motors();
+    register_view_source();
+    register_view_users();
+    register_view_serves();
+    register_view_json();
+    register_view_to_world();
+}
+
+predicates! {
+    /// view_open_: somebody may watch from now on.
+    #[module("ev3dev_native")]
+    #[name("view_open_")]
+    semidet fn view_open(_context) {
+        watch::set_watched(true);
+        keep_samples(true);
+        Ok(())
+    }
+
+    /// view_close_: nobody does any more. Time passes as fast as ever.
+    #[module("ev3dev_native")]
+    #[name("view_close_")]
+    semidet fn view_close(_context) {
+        watch::set_watched(false);
+        keep_samples(false);
+        if let Some(simulation) = running_simulation() {
+            simulation.set_pace(None);
+            simulation.set_paused(false);
+        }
+        latch::set(false);
+        Ok(())
+    }
+
+    /// view_thread_(+Serves): this thread serves a page from now on, and is no part of the
+    /// program; or it ends.
+    #[module("ev3dev_native")]
+    #[name("view_thread_")]
+    semidet fn view_thread(_context, serves) {
+        threads::serve(serves.get_ex()?);
+        Ok(())
+    }
+
+    /// view_pass_over_(+Thread, +Passes): another thread is no part of the program, by its number.
+    #[module("ev3dev_native")]
+    #[name("view_pass_over_")]
+    semidet fn view_pass_over(context, thread, passes) {
+        let thread = Call::of(context, "view", 1).integer(thread)?;
+        pass_over_thread(i32::try_from(thread).unwrap_or(-1), passes.get_ex()?);
+        Ok(())
+    }
+
+    /// view_keep_sockets_(+Port): programs that are started do not get the sockets of this port.
+    #[module("ev3dev_native")]
+    #[name("view_keep_sockets_")]
+    semidet fn view_keep_sockets(context, port) {
+        let port = Call::of(context, "view", 1).integer(port)?;
+        threads::keep_sockets(u16::try_from(port).unwrap_or_default());
+        Ok(())
+    }
+
+    /// view_frame_(+Have, +State, +Settings, -Text): the next frame for a page that has some. State is
+    /// that of the program; Settings are members of the frame that never change.
+    #[module("ev3dev_native")]
+    #[name("view_frame_")]
+    semidet fn view_frame(context, have, state, settings, text) {
+        let call = Call::of(context, "view", 1);
+        let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
+        text.unify(frame::next(&have, &state, &settings).as_str())
+    }
+
+    /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
+    #[module("ev3dev_native")]
+    #[name("view_keep_")]
+    semidet fn view_keep(context, name, json) {
+        let call = Call::of(context, "view", 1);
+        let (name, json) = (call.text(name)?, call.text(json)?);
+        notes().keep(&name, &json);
+        Ok(())
+    }
+
+    /// view_log_(+Kind, +Text, +Causes, +Thread)
+    #[module("ev3dev_native")]
+    #[name("view_log_")]
+    semidet fn view_log(context, kind, text, causes, thread) {
+        let call = Call::of(context, "view_mark", 1);
+        let owned = |term: &Term| call.text(term).map(Text::into_owned);
+        let entry = Entry {
+            time: seconds(),
+            kind: owned(kind)?,
+            text: owned(text)?,
+            causes: call.map_list(causes, |cause| owned(&cause))?,
+            thread: owned(thread)?,
+        };
+        notes().log(entry);
+        Ok(())
+    }
+
+    /// view_value_(+Name, +Number)
+    #[module("ev3dev_native")]
+    #[name("view_value_")]
+    semidet fn view_value(context, name, number) {
+        let call = Call::of(context, "view_value", 2);
+        let (name, number) = (call.text(name)?, call.float(number)?);
+        notes().value(&name, seconds(), number);
+        Ok(())
+    }
+
+    /// view_csv_(-Text): all samples; fails if there are none.
+    #[module("ev3dev_native")]
+    #[name("view_csv_")]
+    semidet fn view_csv(_context, text) {
+        match frame::csv() {
+            Some(csv) => text.unify(csv.as_str()),
+            None => Err(PrologError::Failure),
+        }
+    }
+
+    /// view_latch_: no motor starts from now on.
+    #[module("ev3dev_native")]
+    #[name("view_latch_")]
+    semidet fn view_latch(_context) {
+        latch::set(true);
+        Ok(())
+    }
+
+    /// view_lift_: motors may start again.
+    #[module("ev3dev_native")]
+    #[name("view_lift_")]
+    semidet fn view_lift(_context) {
+        latch::set(false);
+        Ok(())
+    }
+
+    /// view_stop_motors_: stops all motors that are connected, with brake, at once.
+    #[module("ev3dev_native")]
+    #[name("view_stop_motors_")]
+    semidet fn view_stop_motors(context) {
+        let call = Call::of(context, "view", 1);
+        let stopped = outside(|| motor::stop_connected(&devices(), &mut || true));
+        call.or_throw(stopped.or_else(|error| match error {
+            // A motor whose files are not open yet does not run.
+            Error::Interrupted => Ok(()),
+            error => Err(error),
+        }))
+    }
+
+    /// view_users_(-Threads): the numbers of the threads that have used devices.
+    #[module("ev3dev_native")]
+    #[name("view_users_")]
+    semidet fn view_users(_context, list) {
+        list.unify(threads::users().collect::<Vec<_>>().as_slice())
+    }
+
+    /// view_serves_: this thread serves a page.
+    #[module("ev3dev_native")]
+    #[name("view_serves_")]
+    semidet fn view_serves(_context) {
+        into_prolog_result(threads::serves())
+    }
+
+    /// view_json_(+Text, -Json): a text as JSON, all of it ASCII.
+    #[module("ev3dev_native")]
+    #[name("view_json_")]
+    semidet fn view_json(context, text, json) {
+        let mut written = Json::new();
+        written.text(&Call::of(context, "view", 1).text(text)?);
+        json.unify(written.as_text())
+    }
+
+    /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and
+    /// the turn from its frame to the world's.
+    #[module("ev3dev_native")]
+    #[name("view_to_world_")]
+    semidet fn view_to_world(context, x, y, world_x, world_y, turn) {
+        let call = Call::of(context, "view", 1);
+        let to_world = believed::ToWorld::now();
+        let [x, y] = to_world.point([call.float(x)?, call.float(y)?]);
+        world_x.unify(x)?;
+        world_y.unify(y)?;
+        turn.unify(to_world.turn())
+    }
+
+    /// view_source_(-Source): `sim`, `brick` or `none`.
+    #[module("ev3dev_native")]
+    #[name("view_source_")]
+    semidet fn view_source(_context, source) {
+        unify_atom(source, frame::source())
+    }
+}
+
+#[cfg(not(feature = "sim"))]
+fn running_simulation() -> Option<Arc<Simulation>> {
+    None
+}
+
+/// Reaches in from outside: no simulated time passes, and no turn is waited for.
+fn outside<T>(act: impl FnOnce() -> T) -> T {
+    stay_outside(true);
+    let done = act();
+    stay_outside(threads::serves());
+    done
+}
+
+/// The time that frames tell.
+fn now() -> Duration {
+    match running_simulation() {
+        Some(simulation) => simulation.machine().now(),
+        None => devices().tree().now(),
+    }
+}
+
+fn seconds() -> f64 {
+    now().as_secs_f64()
+}
+
+fn keep_samples(keep: bool) {
+    if let Some(simulation) = running_simulation() {
+        simulation.machine().keep_samples(keep);
+    }
+}
