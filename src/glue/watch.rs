@@ -1,5 +1,6 @@
 //! Somebody watches the program: `prolog/ev3dev/view.pl`.
 use ev3_motion::Pose;
+use ev3_sim::is_outside;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use swipl::fli::this_thread;
@@ -52,7 +53,7 @@ impl Drop for User {
 /// This thread of Prolog uses devices.
 pub(crate) fn note_user() {
     USER.with_borrow_mut(|user| {
-        if user.is_none() {
+        if user.is_none() && !is_outside() {
             let this = User(usize::try_from(this_thread()).unwrap_or(usize::MAX));
             this.set(true);
             *user = Some(this);

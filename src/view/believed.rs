@@ -5,9 +5,10 @@
 //! its frame is laid on the robot as it truly was at that moment.
 use super::running_simulation;
 use crate::glue::state::known_drive;
-use crate::glue::watch::{Frame, frame};
+use crate::glue::watch::{Frame, film, frame};
 use ev3_driver::drive::Believed;
 use ev3_motion::{Pose, wrapped};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// How far a pose may be from the true one to be one in the world, in cm and degrees.
@@ -32,9 +33,19 @@ pub(crate) fn pose_is_set(believed: Pose) {
     *frame() = (!is_near).then_some(Frame { believed, real });
 }
 
-/// What the drive knows, without looking; with the way after a moment.
+/// What the drive knows, without looking; with the way after a moment. While a thread of the
+/// program is at it, what it knew last, without the way.
 pub(super) fn believed(after: Duration) -> Option<Believed> {
-    known_drive()?.peek(after)
+    static LAST: Mutex<Option<(u64, Believed)>> = Mutex::new(None);
+    let drive = known_drive()?;
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    match drive.peek(after) {
+        Some(believed) => {
+            *last = Some((film(), Believed { way: Vec::new(), ..believed.clone() }));
+            Some(believed)
+        }
+        None => last.as_ref().filter(|(of, _)| *of == film()).map(|(_, last)| last.clone()),
+    }
 }
 
 /// From the odometry's frame to the world's.

@@ -114,7 +114,9 @@ pub(super) fn next(have: &str, state: &str, settings: &str) -> String {
         json.raw(&shared);
         if let Source::Simulation(simulation) = &source {
             let after = (!is_new).then(|| Duration::from_micros(have.sampled_us));
-            if let Some(last) = report_samples(json, &simulation.machine(), after) {
+            let way = believed(after.unwrap_or_default()).map(|believed| believed.way);
+            let way = way.unwrap_or_default();
+            if let Some(last) = report_samples(json, &simulation.machine(), after, &way) {
                 have.sampled_us = micros(last);
             }
         } else if let Some(last) = brick::report_samples(json, have.sampled_us) {
@@ -253,8 +255,12 @@ fn report_clock(json: &mut Json, source: &Source, time: Duration, before_us: u64
     json.key("stands").bool(micros(time) == before_us);
 }
 
-fn report_samples(json: &mut Json, machine: &Machine, after: Option<Duration>) -> Option<Duration> {
-    let way = believed(after.unwrap_or_default()).map(|believed| believed.way).unwrap_or_default();
+fn report_samples(
+    json: &mut Json,
+    machine: &Machine,
+    after: Option<Duration>,
+    way: &[(Duration, ev3_motion::Pose)],
+) -> Option<Duration> {
     let (to_world, mut next) = (ToWorld::now(), 0);
     let mut belief = |at: Duration| {
         while way.get(next).is_some_and(|(noted, _)| *noted <= at) {

@@ -145,8 +145,8 @@ predicates! {
     #[name("view_value_")]
     semidet fn view_value(context, name, number) {
         let call = Call::of(context, "view_value", 2);
-        let (name, number) = (call.text(name)?, call.float(number)?);
-        notes().value(&name, seconds(), number);
+        let (name, number, time) = (call.text(name)?, call.float(number)?, seconds());
+        notes().value(&name, time, number);
         Ok(())
     }
 

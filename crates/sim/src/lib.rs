@@ -114,7 +114,7 @@ pub use brick::panel::{Button, UnknownButton};
 pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;
 pub use brick::screen::Depth;
-pub use clock::{Act, Clock, Simulation, stay_outside};
+pub use clock::{Act, Clock, Simulation, is_outside, stay_outside};
 pub use files::attr::Access;
 pub use files::errno::Errno;
 #[cfg(feature = "fuse")]

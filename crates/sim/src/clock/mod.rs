@@ -69,6 +69,12 @@ pub fn stay_outside(is_outside: bool) {
     IS_OUTSIDE.set(is_outside);
 }
 
+/// Whether this thread reaches in from outside.
+#[must_use]
+pub fn is_outside() -> bool {
+    IS_OUTSIDE.get()
+}
+
 /// A machine whose time passes.
 #[derive(Debug)]
 pub struct Simulation {

@@ -70,6 +70,9 @@ solve(Text, Number, Out) :-
     catch(solve_(Text, Number, Out), Error, true),
     (   var(Error)
     ->  true
+    ;   Error = error(syntax_error(What), _)
+    ->  format(string(Why), "Syntax error: ~w", [What]),
+        answer(Out, Number, error, Why)
     ;   Error = error(_, _)
     ->  error_text(Error, Why),
         answer(Out, Number, error, Why)
@@ -99,8 +102,10 @@ solution(Goal, Last) :-
     ).
 
 term_string_with_names(Text, Goal, Names) :-
+    split_string(Text, "", " \t\r\n.", [Bare]),
+    string_concat(Bare, " .", Ended),
     setup_call_cleanup(
-        open_string(Text, In),
+        open_string(Ended, In),
         read_term(In, Goal, [variable_names(Names), module(user)]),
         close(In)),
     (   Goal == end_of_file

@@ -44,9 +44,23 @@ lines_text(Lines, Text) :-
     split_string(Text0, "", "\n ", [Text]).
 
 note(Kind, Text) :-
-    thread_self(Me),
-    format(string(Thread), "~w", [Me]),
+    thread_name(Thread),
     view_log_(Kind, Text, [], Thread).
+
+thread_name(page) :-
+    view_serves_,
+    !.
+thread_name(Name) :-
+    thread_self(Me),
+    (   atom(Me)
+    ->  Name = Me
+    ;   integer(Me)
+    ->  atom_number(Name, Me)
+    ;   catch(thread_property(Me, id(Id)), _, fail),
+        atom_number(Name, Id)
+    ->  true
+    ;   Name = ''
+    ).
 
 %!  mark(+Term) is det.
 %

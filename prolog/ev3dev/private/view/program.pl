@@ -112,16 +112,27 @@ probed :-
     ;   set_state(running)
     ).
 
-%   True if the toplevel of this thread waits for a query. Asks for the parent
-%   by its predicate, which takes no time in a deep recursion.
+%   True if the toplevel of this thread waits for a query. Then there are few
+%   frames above it; in a deep recursion there is no need to look at all.
 reads_query :-
     prolog_current_frame(Frame),
-    (   prolog_frame_attribute(Frame, parent_goal,
-                               '$toplevel':read_expanded_query(_, _, _))
+    reads_query(Frame, 100).
+
+reads_query(Frame, Left) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
+    (   reader(Indicator)
     ->  true
-    ;   prolog_frame_attribute(Frame, parent_goal,
-                               '$toplevel':read_query(_, _, _))
+    ;   Left > 0,
+        prolog_frame_attribute(Frame, parent, Parent),
+        Left1 is Left - 1,
+        reads_query(Parent, Left1)
     ).
+
+%   Prolog may have given up some of these frames for their last calls.
+reader('$toplevel':read_query_line/2).
+reader('$toplevel':read_query/3).
+reader('$toplevel':read_expanded_query/3).
+reader('$toplevel':read_term_as_atom/2).
 
 %!  stop_program is det.
 %
