@@ -71,6 +71,8 @@ export class Hands {
         $('pause').title = `${words} (space)`;
         attribute($('pause').querySelector('use'), 'href', clock.paused ? '#i-play' : '#i-pause');
       }
+      // Where the wall's clock counts, nothing is faster than x10.
+      this.paces.get('max').hidden = clock.kind !== 'virtual' && clock.pace !== 'max';
       for (const [pace, button] of this.paces) pressed(button, clock.pace === pace);
     }
   }
