@@ -37,6 +37,7 @@ export class Session {
     this.output = '';
     this.asked = 0;
     for (const stream of [this.prolog.stdout, this.prolog.stderr]) stream.on('data', (data) => { this.output += data; });
+    process.on('exit', () => this.prolog.kill('SIGKILL'));
     this.ended = new Promise((resolve) => { this.prolog.on('exit', resolve); });
   }
 
@@ -107,12 +108,12 @@ export async function open(browser, url, { width = 1280, height = 800, scheme = 
 export const state = (page) => page.evaluate(() => window.ev3view.state());
 
 /** Waits until the page's state satisfies a test; answers that state. */
-export async function shows(page, test, what) {
+export async function shows(page, test, what, seconds = 20) {
   let last = null;
   return until(async () => {
     last = await state(page);
     return test(last) ? last : null;
-  }, what).catch((error) => {
+  }, what, seconds).catch((error) => {
     throw new Error(`${error.message}; last: ${JSON.stringify({ ...last, world: undefined })}`);
   });
 }

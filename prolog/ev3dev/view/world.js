@@ -57,10 +57,11 @@ export class World {
     this.font = style.getPropertyValue('--sans');
   }
 
-  /** The floor's colors. In the dark they are dimmed, but stay apart. */
+  /** The floor's colors. White tape reflects 92 %, and looks white here. In
+      the dark colors are dimmed, but stay apart. */
   tone(color) {
-    if (!this.dark) return color;
-    const parts = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
+    const parts = [1, 3, 5].map((i) => Math.min(255, 1.085 * parseInt(color.slice(i, i + 2), 16)));
+    if (!this.dark) return `rgb(${parts.map(Math.round).join(' ')})`;
     const light = 0.3 * parts[0] + 0.59 * parts[1] + 0.11 * parts[2];
     const dim = (c) => Math.round(Math.max(0, Math.min(255, 12 + 0.2 * light + 0.6 * (c - light))));
     return `rgb(${parts.map(dim).join(' ')})`;
