@@ -3,6 +3,7 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
+use ev3_driver::wait::AnyWait;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use swipl::prelude::*;
 
@@ -53,16 +54,21 @@ predicates! {
         keys.unify(words.as_slice())
     }
 
-    /// button_wait_(?Key, ?Event, +Timeout)
+    /// button_wait_(?Key, ?Event, +Timeout, -Reason): `over` at the end. Fails if the time
+    /// is up before.
     #[module("ev3dev_native")]
     #[name("button_wait_")]
-    semidet fn button_wait(context, key, event, timeout) {
-        let call = Call::of(context, "button_wait", 3);
-        let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
-        let timeout = call.seconds(timeout)?;
-        let events = events_from_now(&call)?;
-        let next = events.next_matching(wanted, is_press, timeout, &mut call.interrupted());
-        unify_event(key, event, call.or_fail(next)?)
+    nondet fn button_wait<UntilEvent>(context, key, event, timeout, reason) {
+        setup => {
+            let call = Call::of(context, "button_wait", 3);
+            let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
+            let timeout = call.seconds(timeout)?;
+            let events = Arc::new(events_from_now(&call)?);
+            Ok(Some(events.until_next(wanted, is_press, timeout)))
+        },
+        call(waiting) => {
+            next_event(&Call::of(context, "button_wait", 3), waiting, key, event, reason)
+        }
     }
 
     /// button_source_(-Source)
@@ -77,17 +83,38 @@ predicates! {
         source.unify(opened)
     }
 
-    /// button_event_(+Source, +Index, -Key, -Event)
+    /// button_event_(+Source, +Index, -Key, -Event, -Reason): `over` at the end.
     #[module("ev3dev_native")]
     #[name("button_event_")]
-    semidet fn button_event(context, source, index, key, event) {
-        let call = Call::of(context, "button_events", 1);
-        let source: Arc<Source> = source.get_ex()?;
-        let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
-        let events = source.events().clone().ok_or(PrologError::Failure)?;
-        let read = events.nth(index, &mut call.interrupted());
-        unify_event(key, event, call.or_throw(read)?)
+    nondet fn button_event<UntilEvent>(context, source, index, key, event, reason) {
+        setup => {
+            let call = Call::of(context, "button_events", 1);
+            let source: Arc<Source> = source.get_ex()?;
+            let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
+            let events = source.events().clone().ok_or(PrologError::Failure)?;
+            Ok(Some(events.until_nth(index)))
+        },
+        call(waiting) => {
+            next_event(&Call::of(context, "button_events", 1), waiting, key, event, reason)
+        }
     }
+}
+
+/// A wait for a button.
+type UntilEvent = AnyWait<'static, Option<Event>>;
+
+/// A slice of that wait.
+fn next_event<C: QueryableContextType>(
+    call: &Call<C>,
+    waiting: &mut UntilEvent,
+    key: &Term,
+    event: &Term,
+    reason: &Term,
+) -> PrologResult<bool> {
+    call.slice(waiting, reason, |read| {
+        unify_event(key, event, read.ok_or(PrologError::Failure)?)?;
+        unify_atom(reason, "over")
+    })
 }
 
 /// The events from now on; fails if the brick has no buttons.

@@ -1,8 +1,8 @@
 //! `prolog/ev3dev/dc_motors.pl`: motors without a rotation sensor.
 use crate::glue::call::Call;
-use crate::glue::terms::unify_atom;
 use crate::motors::move_options;
-use ev3_driver::motor::dc;
+use ev3_driver::motor::{Moving, dc};
+use ev3_driver::wait::Slices;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -26,12 +26,17 @@ predicates! {
     /// as those of motor_turn_/3.
     #[module("ev3dev_native")]
     #[name("dc_motor_run_timed_")]
-    semidet fn dc_motor_run_timed(context, port, percent, seconds, options, reason) {
-        let call = Call::of(context, "dc_motor_run_timed", 4);
-        let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let ended = dc::run_timed(&devices, &port, percent, time, &options, interrupted);
-        unify_atom(reason, call.or_fail(ended)?.word())
+    nondet fn dc_motor_run_timed<Slices<Moving>>(context, port, percent, seconds, options, reason) {
+        setup => {
+            let call = Call::of(context, "dc_motor_run_timed", 4);
+            let (port, percent) = (call.text(port)?, call.float(percent)?);
+            let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
+            let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+            let begun = dc::begin_timed(&devices, &port, percent, time, &options, interrupted);
+            call.or_fail(begun).map(Some)
+        },
+        call(moving) => {
+            Call::of(context, "dc_motor_run_timed", 4).slice_of_move(moving, reason)
+        }
     }
 }

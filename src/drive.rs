@@ -8,8 +8,9 @@ use crate::motors::stop_action;
 use crate::view;
 use ev3_driver::drive::odometry::Wheels;
 use ev3_driver::drive::steering::Leg;
-use ev3_driver::drive::{Command, Drive, DriveOptions, Robot};
+use ev3_driver::drive::{Command, Drive, DriveOptions, Robot, UntilEnded};
 use ev3_driver::motor::wait::Reason;
+use ev3_driver::wait::Slices;
 use ev3_motion::{Pose, wrapped};
 use std::sync::Arc;
 use std::time::Duration;
@@ -78,30 +79,39 @@ predicates! {
     }
 
     /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
-    /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`.
+    /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`. Who leaves
+    /// the wait ends the motion.
     #[module("ev3dev_native")]
     #[name("drive_")]
-    semidet fn drive(context, robot, course, options, reason) {
-        let call = Call::of(context, "go_to", 4);
-        let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
-        let (options, wait, timeout) = options_of(&call, options)?;
-        let interrupted = &mut call.interrupted();
-        let begun = call.or_fail(drive.begin(&course, &options, interrupted))?;
-        if !wait {
-            return unify_atom(reason, Reason::Reached.word());
+    nondet fn drive<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) {
+        setup => {
+            let call = Call::of(context, "go_to", 4);
+            let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
+            let (options, wait, timeout) = options_of(&call, options)?;
+            let begun = drive.begin(&course, &options, &mut call.interrupted());
+            let begun = call.or_fail(begun)?;
+            Ok(Some(wait.then(|| drive.until_ended(begun, timeout))))
+        },
+        call(waiting) => {
+            match waiting {
+                Some(waiting) => Call::of(context, "go_to", 4).slice_of_move(waiting, reason),
+                None => unify_atom(reason, Reason::Reached.word()).map(|()| false),
+            }
         }
-        let ended = drive.wait(&begun, timeout, interrupted);
-        unify_atom(reason, call.or_throw(ended)?.word())
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
     #[module("ev3dev_native")]
     #[name("drive_wait_")]
-    semidet fn drive_wait(context, robot, timeout, reason) {
-        let call = Call::of(context, "drive_wait", 2);
-        let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
-        let ended = drive.wait_last(timeout, &mut call.interrupted());
-        unify_atom(reason, call.or_throw(ended)?.word())
+    nondet fn drive_wait<Slices<UntilEnded>>(context, robot, timeout, reason) {
+        setup => {
+            let call = Call::of(context, "drive_wait", 2);
+            let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);
+            Ok(Some(drive.until_last_ended(timeout)))
+        },
+        call(waiting) => {
+            Call::of(context, "drive_wait", 2).slice_of_move(waiting, reason)
+        }
     }
 }
 

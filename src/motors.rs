@@ -3,10 +3,13 @@ use crate::driver::{class_of, unify_port};
 use crate::glue::call::{Call, ListedDevices};
 use crate::glue::error::wrong_value;
 use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::waiting;
 use ev3_driver::device::retry;
-use ev3_driver::motor::wait;
-use ev3_driver::motor::{self, Extent, Move, MoveOptions, Run, Speed, StopAction};
+use ev3_driver::motor::wait::{self, UntilDone, UntilFlag};
+use ev3_driver::motor::{self, Extent, Move, MoveOptions, Moving, Run, Speed, StopAction};
+use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -19,6 +22,9 @@ pub(crate) fn register() {
     register_motor_turn();
     register_motor_stop();
     register_stop_all_motors();
+    register_commands();
+    register_motors_stop();
+    register_motors_leave();
     register_motor_reset();
     register_motor_wait();
     register_motor_wait_flag();
@@ -69,22 +75,27 @@ predicates! {
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
     /// move(Port, Speed, Degrees), to(Port, Speed, Degrees) and
     /// for(Port, Speed, Seconds), options is
-    /// options(StopAction, RampUp, RampDown, Wait, Timeout).
+    /// options(StopAction, RampUp, RampDown, Wait, Timeout). Who leaves the wait stops
+    /// the motors.
     #[module("ev3dev_native")]
     #[name("motor_turn_")]
-    semidet fn motor_turn(context, moves, options, reason) {
-        let call = Call::of(context, "motor_run", 4);
-        let turn = |turn: &Term<'a>| -> PrologResult<_> {
-            let [port, percent, way] = call.arguments(turn)?;
-            let speed = speed_of(&call, &percent)?;
-            Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
-        };
-        let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
-        let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
-        let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
-        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
-        let ended = motor::run_to(&devices, &moves, &options, interrupted);
-        unify_atom(reason, call.or_fail(ended)?.word())
+    nondet fn motor_turn<Slices<Moving>>(context, moves, options, reason) {
+        setup => {
+            let call = Call::of(context, "motor_run", 4);
+            let turn = |turn: &Term<'a>| -> PrologResult<_> {
+                let [port, percent, way] = call.arguments(turn)?;
+                let speed = speed_of(&call, &percent)?;
+                Ok((call.text(&port)?, speed, self::way(&call, turn, &way)?))
+            };
+            let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
+            let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
+            let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
+            let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+            call.or_fail(motor::begin(&devices, &moves, &options, interrupted)).map(Some)
+        },
+        call(moving) => {
+            Call::of(context, "motor_run", 4).slice_of_move(moving, reason)
+        }
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
@@ -107,6 +118,32 @@ predicates! {
         call.or_throw(motor::stop_connected(&*call.devices()?, &mut call.interrupted()))
     }
 
+    /// commands_(-Count): how many commands the program has given to motors.
+    #[module("ev3dev_native")]
+    #[name("commands_")]
+    semidet fn commands(_context, count) {
+        count.unify(u64::from(motor::command_count()))
+    }
+
+    /// motors_stop_(+From, +Before): stops the motors whose last command was one of
+    /// these.
+    #[module("ev3dev_native")]
+    #[name("motors_stop_")]
+    semidet fn motors_stop(context, from, before) {
+        let call = Call::of(context, "behave", 2);
+        let commands = commands_of(&call, from, before)?;
+        call.or_throw(motor::stop_commanded(&*call.devices()?, &commands))
+    }
+
+    /// motors_leave_(+From, +Before): the same at the first wait of this thread.
+    #[module("ev3dev_native")]
+    #[name("motors_leave_")]
+    semidet fn motors_leave(context, from, before) {
+        let call = Call::of(context, "behave", 2);
+        waiting::stop_at_wait(Some(commands_of(&call, from, before)?));
+        Ok(())
+    }
+
     /// motor_reset_(+Port)
     #[module("ev3dev_native")]
     #[name("motor_reset_")]
@@ -121,27 +158,36 @@ predicates! {
     /// motor_wait_(+Ports, +Timeout, -Reason)
     #[module("ev3dev_native")]
     #[name("motor_wait_")]
-    semidet fn motor_wait(context, ports, timeout, reason) {
-        let call = Call::of(context, "motor_wait", 3);
-        let devices = call.devices()?;
-        let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
-        let timeout = call.seconds(timeout)?;
-        let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
-        let ended = wait::wait_for(&devices, &motors, timeout, &mut call.interrupted());
-        unify_atom(reason, call.or_throw(ended)?.word())
+    nondet fn motor_wait<Slices<UntilDone>>(context, ports, timeout, reason) {
+        setup => {
+            let call = Call::of(context, "motor_wait", 3);
+            let devices = call.devices()?;
+            let ports = call.list(ports)?.iter().map(|p| call.text(p)).collect::<PrologResult<Vec<_>>>()?;
+            let timeout = call.seconds(timeout)?;
+            let motors = call.or_fail(motor::find_all(&devices, ports.iter().map(AsRef::as_ref)))?;
+            Ok(Some(wait::until_done(&devices, &motors, timeout)))
+        },
+        call(waiting) => {
+            Call::of(context, "motor_wait", 3).slice_of_move(waiting, reason)
+        }
     }
 
-    /// motor_wait_flag_(+Port, +Flag, +Present)
+    /// motor_wait_flag_(+Port, +Flag, +Present, -Reason): `over` at the end.
     #[module("ev3dev_native")]
     #[name("motor_wait_flag_")]
-    semidet fn motor_wait_flag(context, port, flag, present) {
-        let call = Call::of(context, "motor_wait_while", 2);
-        let devices = call.devices()?;
-        let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
-        let found = devices.find(Class::TachoMotor, &name);
-        let motor = call.or_absent(Class::TachoMotor, port, found)?;
-        let interrupted = &mut call.interrupted();
-        call.or_throw(wait::wait_for_flag(&devices, &motor, &flag, present, interrupted))
+    nondet fn motor_wait_flag<Slices<UntilFlag>>(context, port, flag, present, reason) {
+        setup => {
+            let call = Call::of(context, "motor_wait_while", 2);
+            let devices = call.devices()?;
+            let (name, flag, present) = (call.text(port)?, call.text(flag)?, present.get_ex()?);
+            let found = devices.find(Class::TachoMotor, &name);
+            let motor = call.or_absent(Class::TachoMotor, port, found)?;
+            Ok(Some(wait::until_flag(&devices, &motor, &flag, present)))
+        },
+        call(waiting) => {
+            let call = Call::of(context, "motor_wait_while", 2);
+            call.slice(waiting, reason, |()| unify_atom(reason, "over"))
+        }
     }
 
     /// motor_run_direct_(+Class, +Port, +Percent)
@@ -197,6 +243,16 @@ fn speed_of<'a, C: QueryableContextType>(
         Some([degrees]) => call.float(&degrees).map(Speed::DegreesPerSecond),
         None => call.float(term).map(Speed::Percent),
     }
+}
+
+/// Commands by their numbers.
+fn commands_of<C: QueryableContextType>(
+    call: &Call<C>,
+    from: &Term,
+    before: &Term,
+) -> PrologResult<Range<u32>> {
+    let number = |term| u32::try_from(call.integer(term)?).map_err(|_| PrologError::Failure);
+    Ok(number(from)?..number(before)?)
 }
 
 /// How far a move goes, by the name of its term.

@@ -4,7 +4,8 @@ use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::interned::words;
 use crate::glue::terms::{unify_atom, unify_value};
-use ev3_driver::sensor::wait::{Until, wait_until};
+use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
+use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device, Registry, sensor};
 use std::sync::Arc;
 use swipl::prelude::*;
@@ -25,6 +26,7 @@ predicates! {
     nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
+            call.serve_if_due()?;
             let index = index_of(&call, index)?;
             readings(&call, port, types, mode, index).map(Some)
         },
@@ -49,6 +51,7 @@ predicates! {
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
+            call.serve_if_due()?;
             let count = usize::try_from(call.integer(count)?).unwrap_or_default();
             let readings = readings(&call, port, types, mode, count)?;
             if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }
@@ -87,17 +90,21 @@ predicates! {
     /// reading(Types, Mode, Index), test is test(Operator, Number) or `bumped`.
     #[module("ev3dev_native")]
     #[name("sensor_wait_")]
-    semidet fn sensor_wait(context, port, reading, test, timeout, ended) {
-        let call = Call::of(context, "sensor_wait", 2);
-        let [types, mode, index] = call.arguments(reading)?;
-        let (index, until) = (index_of(&call, &index)?, until(&call, test)?);
-        let timeout = call.seconds(timeout)?;
-        let Readings { devices, mut sensors, mode, .. } =
-            readings(&call, port, &types, &mode, index)?;
-        let sensor = sensors.next().ok_or(PrologError::Failure)?;
-        let interrupted = &mut call.interrupted();
-        let waited = wait_until(&devices, &sensor, &mode, index, until, timeout, interrupted);
-        unify_atom(ended, call.or_throw(waited)?.word())
+    nondet fn sensor_wait<Slices<UntilShown>>(context, port, reading, test, timeout, ended) {
+        setup => {
+            let call = Call::of(context, "sensor_wait", 2);
+            let [types, mode, index] = call.arguments(reading)?;
+            let (index, until) = (index_of(&call, &index)?, until(&call, test)?);
+            let timeout = call.seconds(timeout)?;
+            let Readings { devices, mut sensors, mode, .. } =
+                readings(&call, port, &types, &mode, index)?;
+            let sensor = sensors.next().ok_or(PrologError::Failure)?;
+            Ok(Some(until_shown(&devices, &sensor, &mode, index, until, timeout)))
+        },
+        call(waiting) => {
+            let call = Call::of(context, "sensor_wait", 2);
+            call.slice(waiting, ended, |end| unify_atom(ended, end.word()))
+        }
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)

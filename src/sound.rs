@@ -1,7 +1,9 @@
 //! `prolog/ev3dev/sound.pl`: the loudspeaker.
 use crate::glue::call::Call;
 use crate::glue::state::{dev, devices, sound};
+use crate::glue::terms::unify_atom;
 use ev3_driver::brick::sound::{self, Tone};
+use ev3_driver::wait::AnyWait;
 use std::path::Path;
 use std::time::Duration;
 use swipl::prelude::*;
@@ -18,45 +20,68 @@ pub(crate) fn register() {
 }
 
 predicates! {
-    /// tones_(+Tones, +Wait): a list of tone(Hertz, Milliseconds); 0 Hz is silence.
+    /// tones_(+Tones, +Wait, -Reason): a list of tone(Hertz, Milliseconds); 0 Hz is
+    /// silence. `over` at the end.
     #[module("ev3dev_native")]
     #[name("tones_")]
-    semidet fn tones(context, tones, wait) {
-        let call = Call::of(context, "tones", 2);
-        let tones = call.list(tones)?;
-        let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
-        let dev = call.dev()?;
-        call.or_fail(if wait.get_ex()? {
-            sound().play_tones(&*dev, &tones, &mut call.interrupted())
-        } else {
-            sound().begin_tones(devices().tree(), &*dev, tones)
-        })
+    nondet fn tones<UntilSilent>(context, tones, wait, reason) {
+        setup => {
+            let call = Call::of(context, "tones", 2);
+            let tones = call.list(tones)?;
+            let tones = tones.iter().map(|tone| tone_of(&call, tone)).collect::<PrologResult<Vec<_>>>()?;
+            let dev = call.dev()?;
+            Ok(Some(if wait.get_ex()? {
+                Some(call.or_fail(sound().play_tones(&dev, tones))?)
+            } else {
+                call.or_fail(sound().begin_tones(devices().tree(), &*dev, tones))?;
+                None
+            }))
+        },
+        call(sound) => {
+            let call = Call::of(context, "tones", 2);
+            play_on(&call, sound, reason)
+        }
     }
 
-    /// say_(+Text, +Wait)
+    /// say_(+Text, +Wait, -Reason)
     #[module("ev3dev_native")]
     #[name("say_")]
-    semidet fn say(context, text, wait) {
-        let call = Call::of(context, "say", 1);
-        let (text, dev) = (call.text(text)?, call.dev()?);
-        call.or_throw(if wait.get_ex()? {
-            sound().say(&*dev, &text, &mut call.interrupted())
-        } else {
-            sound().begin_saying(devices().tree(), &*dev, &text)
-        })
+    nondet fn say<UntilSilent>(context, text, wait, reason) {
+        setup => {
+            let call = Call::of(context, "say", 1);
+            let (text, dev) = (call.text(text)?, call.dev()?);
+            Ok(Some(if wait.get_ex()? {
+                Some(call.or_throw(sound().say(&dev, &text))?)
+            } else {
+                call.or_throw(sound().begin_saying(devices().tree(), &*dev, &text))?;
+                None
+            }))
+        },
+        call(sound) => {
+            let call = Call::of(context, "say", 1);
+            play_on(&call, sound, reason)
+        }
     }
 
-    /// play_(+File, +Wait)
+    /// play_(+File, +Wait, -Reason)
     #[module("ev3dev_native")]
     #[name("play_")]
-    semidet fn play(context, file, wait) {
-        let call = Call::of(context, "play", 1);
-        let (file, dev) = (call.text(file)?, call.dev()?);
-        call.or_throw(if wait.get_ex()? {
-            sound().play(&*dev, Path::new(&*file), &mut call.interrupted())
-        } else {
-            sound().begin_playing(devices().tree(), &*dev, Path::new(&*file))
-        })
+    nondet fn play<UntilSilent>(context, file, wait, reason) {
+        setup => {
+            let call = Call::of(context, "play", 1);
+            let (file, dev) = (call.text(file)?, call.dev()?);
+            Ok(Some(if wait.get_ex()? {
+                Some(call.or_throw(sound().play(&dev, Path::new(&*file)))?)
+            } else {
+                let tree = devices();
+                call.or_throw(sound().begin_playing(tree.tree(), &*dev, Path::new(&*file)))?;
+                None
+            }))
+        },
+        call(sound) => {
+            let call = Call::of(context, "play", 1);
+            play_on(&call, sound, reason)
+        }
     }
 
     /// volume_(-Percent)
@@ -78,12 +103,18 @@ predicates! {
         set.map_or_else(|| call.lacking("speaker"), Ok)
     }
 
-    /// sound_wait_
+    /// sound_wait_(-Reason): `over` at the end.
     #[module("ev3dev_native")]
     #[name("sound_wait_")]
-    semidet fn sound_wait(context) {
-        let call = Call::of(context, "sound_wait", 0);
-        call.or_throw(sound().wait(&*dev(), &mut call.interrupted()))
+    nondet fn sound_wait<UntilSilent>(context, reason) {
+        setup => {
+            let waiting = sound().until_silent(&dev());
+            Ok(Some(Some(waiting)))
+        },
+        call(sound) => {
+            let call = Call::of(context, "sound_wait", 0);
+            play_on(&call, sound, reason)
+        }
     }
 
     /// sound_stop_
@@ -92,6 +123,21 @@ predicates! {
     semidet fn sound_stop(context) {
         // This does not choose a tree: the call that started the sound has done so.
         Call::of(context, "sound_stop", 0).or_throw(sound().stop(&*dev()))
+    }
+}
+
+/// A sound that somebody waits for, or none.
+type UntilSilent = Option<AnyWait<'static, ()>>;
+
+/// A slice of that wait.
+fn play_on<C: QueryableContextType>(
+    call: &Call<C>,
+    sound: &mut UntilSilent,
+    reason: &Term,
+) -> PrologResult<bool> {
+    match sound {
+        Some(sound) => call.slice(sound, reason, |()| unify_atom(reason, "over")),
+        None => unify_atom(reason, "over").map(|()| false),
     }
 }
 

@@ -10,8 +10,9 @@
 :- use_module(private/arguments,
               [must_be_options/3, timeout_option/2, word/2]).
 :- use_module(private/one_of).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
-              [ button_event_/4, button_source_/1, button_wait_/3,
+              [ button_event_/5, button_source_/1, button_wait_/4,
                 buttons_/1 ]).
 
 /** <module> The buttons of the brick
@@ -66,12 +67,17 @@ button(Key0) :-
 %   @error domain_error(timeout, Seconds)
 
 button_wait(Key, Event) :-
-    button_wait_(Key, Event, infinite).
+    button_waited(Key, Event, infinite).
 
 button_wait(Key, Event, Options) :-
     must_be_options(button_option, [timeout], Options),
     timeout_option(Options, Timeout),
-    button_wait_(Key, Event, Timeout).
+    button_waited(Key, Event, Timeout).
+
+button_waited(Key, Event, Timeout) :-
+    button_wait_(Key, Event, Timeout, Reason),
+    waited(Reason),
+    !.
 
 %!  button_events(-Events) is semidet.
 %
@@ -97,7 +103,9 @@ events(Source, Index, Events) :-
 %   freeze/2 calls this when Events is bound.
 
 events_are([Key-Event|Rest], Source, Index) :-
-    button_event_(Source, Index, Key0, Event0),
+    button_event_(Source, Index, Key0, Event0, Reason),
+    waited(Reason),
+    !,
     Key = Key0,
     Event = Event0,
     Next is Index + 1,

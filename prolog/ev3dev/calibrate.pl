@@ -12,7 +12,7 @@
 :- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
 :- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/robot_state, [robot_description/1]).
-:- use_module(private/native, [wait_/1]).
+:- use_module(time, [wait/1]).
 
 /** <module> Calibration: the true size of wheels and axle
 
@@ -181,7 +181,7 @@ rest_angle(Gyro, Angle) :-
     Angle is Sum / 50.0.
 
 pause_ang(Gyro, Angle) :-
-    wait_(0.01),
+    wait(0.01),
     gyro_ang(Gyro, Angle).
 
 %   The call that describes a robot, to a hundredth of a millimeter.

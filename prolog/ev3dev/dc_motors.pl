@@ -21,6 +21,7 @@
 :- use_module(motors, []).
 :- use_module(private/arguments, [motor_options/5, word/2]).
 :- use_module(private/attributes, [attribute/4, attribute_words/4]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
               [ attribute_/4, dc_motor_run_/2, dc_motor_run_timed_/5,
                 motor_run_direct_/3, motor_stop_/3 ]).
@@ -90,7 +91,8 @@ dc_motor_run_timed(Port, Percent0, Seconds0, Options) :-
     evaluated(Percent0, Percent),
     evaluated(Seconds0, Seconds),
     motor_options(Options, brake, [coast, brake], 10000, Native),
-    (   dc_motor_run_timed_(Port, Percent, Seconds, Native, Reason)
+    (   dc_motor_run_timed_(Port, Percent, Seconds, Native, Reason),
+        waited(Reason)
     ->  run_ended(Reason, Port)
     ;   cannot(Port, Percent)
     ).

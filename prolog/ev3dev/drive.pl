@@ -34,6 +34,7 @@
 :- reexport(odometry).
 :- reexport(calibrate).
 :- use_module(private/robot_state, [robot_description/1]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native, [drive_wait_/3]).
 
 /** <module> Driving: curves, odometry, going to places
@@ -325,6 +326,12 @@ drive_wait(Options, Reason) :-
     must_be_options(drive_option, [timeout], Options),
     timeout_option(Options, Timeout),
     robot_description(Robot),
-    catch(drive_wait_(Robot, Timeout, Reason),
+    catch(drive_waited(Robot, Timeout, Ended),
           error(existence_error(_, _), _),
-          Reason = unplugged).
+          Ended = unplugged),
+    Reason = Ended.
+
+drive_waited(Robot, Timeout, Ended) :-
+    drive_wait_(Robot, Timeout, Ended),
+    waited(Ended),
+    !.

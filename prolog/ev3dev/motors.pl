@@ -32,10 +32,11 @@
               [ angle_value/2, motor_moves/2, motor_options/5, motor_runs/2,
                 must_be_options/3, speed_value/2, timeout_option/2, word/2
               ]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
               [ motor_reset_/1, motor_run_/2, motor_run_direct_/3,
                 motor_stop_/3, motor_turn_/3, motor_wait_/3,
-                motor_wait_flag_/3, motors_run_/1, run_forever_/2,
+                motor_wait_flag_/4, motors_run_/1, run_forever_/2,
                 stop_all_motors_/0
               ]).
 :- use_module(private/one_of).
@@ -157,7 +158,8 @@ motors_turn(Moves0, Options) :-
     must_be(list, Moves0),
     motor_options(Options, hold, [coast, brake, hold], 60000, Native),
     motor_moves(Moves0, Moves),
-    (   motor_turn_(Moves, Native, Reason)
+    (   motor_turn_(Moves, Native, Reason),
+        waited(Reason)
     ->  turn_ended(Reason, Moves)
     ;   fail_because(cannot(Moves))
     ).
@@ -251,11 +253,15 @@ speed_adjust(Percent, Port, CountsPerSecond) :-
 
 motor_wait_while(Port, Flag0) :-
     motor_flag(Flag0, Flag),
-    motor_wait_flag_(Port, Flag, false).
+    motor_wait_flag_(Port, Flag, false, Reason),
+    waited(Reason),
+    !.
 
 motor_wait_until(Port, Flag0) :-
     motor_flag(Flag0, Flag),
-    motor_wait_flag_(Port, Flag, true).
+    motor_wait_flag_(Port, Flag, true, Reason),
+    waited(Reason),
+    !.
 
 motor_flag(Flag0, Flag) :-
     word(Flag0, Flag),
@@ -298,7 +304,8 @@ motor_wait(Ports, Options, Reason) :-
     ->  All = Ports
     ;   All = [Ports]
     ),
-    (   motor_wait_(All, Timeout, Ended)
+    (   motor_wait_(All, Timeout, Ended),
+        waited(Ended)
     ->  Reason = Ended
     ;   findall(run(Port, 0), one_of(All, Port), Runs),
         fail_because(cannot(Runs))

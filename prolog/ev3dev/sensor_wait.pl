@@ -13,6 +13,7 @@
               [ must_be_options/3, number_value/2, option/2,
                 timeout_option/2
               ]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native, [sensor_wait_/5]).
 
 /** <module> Waiting for a sensor
@@ -77,7 +78,8 @@ sensor_wait(Condition, Options) :-
     port(Sensor, Reading, Port),
     (   reading_of(Reading, Types, Mode, Index),
         sensor_wait_(Port, reading(Types, Mode, Index), Test, Timeout,
-                     Ended)
+                     Ended),
+        waited(Ended)
     ->  (   option(reason(Reason), Options)
         ->  Reason = Ended
         ;   ended(Ended, Port)

@@ -15,10 +15,11 @@
                 term_expansion/2
               ]).
 :- use_module(private/arguments, [number_value/3]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
               [ sim_plan_/1, sim_restore_/1, sim_snapshot_/1,
-                sim_snapshots_/1, sim_step_/1, sim_time_/1, sim_wait_/1 ]).
+                sim_snapshots_/1, sim_step_/1, sim_time_/1, sim_wait_/2 ]).
 
 :- meta_predicate
     sim_at(+, 0),
@@ -42,7 +43,9 @@ All predicates fail if no simulation runs.
 
 sim_wait(Seconds0) :-
     evaluated(Seconds0, Seconds),
-    sim_wait_(Seconds).
+    sim_wait_(Seconds, Reason),
+    waited(Reason),
+    !.
 
 %!  sim_step(+Seconds) is semidet.
 %

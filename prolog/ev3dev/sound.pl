@@ -19,8 +19,9 @@
 :- use_module(files, []).
 :- use_module(private/arguments, [must_be_options/3, option/3, word/2]).
 :- use_module(private/directory, [file_path/2]).
+:- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
-              [ play_/2, say_/2, sound_stop_/0, sound_wait_/0, tones_/2,
+              [ play_/3, say_/3, sound_stop_/0, sound_wait_/1, tones_/3,
                 volume_/1, volume_set_/1 ]).
 
 /** <module> The speaker
@@ -72,7 +73,8 @@ wait_option(Names, Options, Wait) :-
     must_be(boolean, Wait).
 
 tones_or_explain(Native, Wait) :-
-    (   tones_(Native, Wait)
+    (   tones_(Native, Wait, Reason),
+        waited(Reason)
     ->  true
     ;   fail_because(lacking(speaker))
     ).
@@ -224,7 +226,9 @@ say(Text) :-
 say(Text, Options) :-
     must_be(text, Text),
     wait_option([], Options, Wait),
-    say_(Text, Wait).
+    say_(Text, Wait, Reason),
+    waited(Reason),
+    !.
 
 %!  play(+File) is semidet.
 %!  play(+File, +Options) is semidet.
@@ -245,7 +249,9 @@ play(File, Options) :-
     must_be(nonvar, File),
     wait_option([], Options, Wait),
     file_path(File, Path),
-    play_(Path, Wait).
+    play_(Path, Wait, Reason),
+    waited(Reason),
+    !.
 
 %!  volume(?Percent) is semidet.
 %
@@ -278,7 +284,9 @@ volume(Percent0) :-
 %   @error system_error(Words) if `espeak` or `aplay` reported an error
 
 sound_wait :-
-    sound_wait_.
+    sound_wait_(Reason),
+    waited(Reason),
+    !.
 
 %!  sound_stop is det.
 %

@@ -9,7 +9,8 @@
               [ domain_error/2, must_be/2, term_expansion/2 ]).
 :- use_module(files, []).
 :- use_module(private/arguments, [number_value/3]).
-:- use_module(private/native, [now_/1, wait_/1]).
+:- use_module(private/waits, [waited/1]).
+:- use_module(private/native, [now_/1, wait_/2]).
 
 /** <module> Waiting, the clock, stopwatches
 
@@ -42,7 +43,9 @@ ev3_time(Seconds) :-
 
 wait(Seconds0) :-
     number_value(seconds, Seconds0, Seconds),
-    wait_(Seconds).
+    wait_(Seconds, Reason),
+    waited(Reason),
+    !.
 
 %!  stopwatch(-Watch) is det.
 %

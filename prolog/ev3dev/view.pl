@@ -84,7 +84,7 @@ view :-
 view(Options) :-
     must_be_options(view_option,
                     [port, address, token, open, rate, goals], Options),
-    option(port(Port), Options, default),
+    port(Options, Port),
     option(address(Address), Options, localhost),
     option(token(Token0), Options, auto),
     option(open(Open), Options, display),
@@ -100,8 +100,16 @@ view(Options) :-
     must_be_near(Goals, Address),
     with_mutex(ev3dev_view,
                ensure_served(Port, Address, Token0, Rate, Goals, Url)),
+    !,
     print_message(informational, ev3dev(view(Url))),
     open_browser(Open, Url).
+
+%   A variable stays one: a default must not be taken for it.
+port(Options, Port) :-
+    (   memberchk(port(_), Options)
+    ->  memberchk(port(Port), Options)
+    ;   Port = default
+    ).
 
 must_be_port(Port) :-
     (   var(Port)
@@ -184,7 +192,8 @@ ensure_served(Port, Address, Token0, Rate, Goals, Url) :-
     format(atom(Url), 'http://~w:~w/?t=~w', [Host, Served, Token]),
     assertz(serving(Served, Url)).
 
-start(default, Address, Token, Port) :-
+start(Wanted, Address, Token, Port) :-
+    Wanted == default,
     !,
     (   catch(server_start(Address, 8033, Token), error(_, _), fail)
     ->  Port = 8033
@@ -329,16 +338,16 @@ column(Port0-Attribute0, Column) :-
     nonvar(Attribute0),
     atomic(Attribute0),
     atom_string(Attribute, Attribute0),
-    port(Port0, Port, Kind),
+    named_port(Port0, Port, Kind),
     attribute(Kind, Attribute, Short),
     format(string(Column), "~w.~w", [Port, Short]).
 column(Port0, Column) :-
-    port(Port0, Port, Kind),
+    named_port(Port0, Port, Kind),
     attribute(Kind, _, Short),
     !,
     format(string(Column), "~w.~w", [Port, Short]).
 
-port(Port0, Port, Kind) :-
+named_port(Port0, Port, Kind) :-
     ( atom(Port0) ; string(Port0) ),
     !,
     atom_string(Port1, Port0),

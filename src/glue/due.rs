@@ -34,3 +34,9 @@ pub(crate) fn has_rung() -> bool {
     ANY.load(Ordering::Acquire)
         && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
 }
+
+/// The same, and it is still to be heard.
+pub(crate) fn is_ringing() -> bool {
+    ANY.load(Ordering::Acquire)
+        && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.load(Ordering::Acquire)))
+}

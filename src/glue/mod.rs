@@ -8,4 +8,5 @@ pub(crate) mod places;
 pub(crate) mod signals;
 pub(crate) mod state;
 pub(crate) mod terms;
+pub(crate) mod waiting;
 pub(crate) mod watch;

@@ -21,6 +21,8 @@ use crate::glue::state::devices;
 use crate::glue::watch;
 use crate::glue::terms::unify_atom;
 use ev3_driver::Registry;
+use ev3_driver::device::sleep::Sleep;
+use ev3_driver::wait::Slices;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
@@ -243,16 +245,22 @@ predicates! {
         }
     }
 
-    /// sim_wait_(+Seconds)
+    /// sim_wait_(+Seconds, -Reason): `over` at the end.
     #[module("ev3dev_native")]
     #[name("sim_wait_")]
-    semidet fn sim_wait(context, seconds) {
-        let call = Call::of(context, "sim_wait", 1);
-        let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
-            return wrong_value(&call, "seconds", seconds);
-        };
-        let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(context)?)));
-        call.or_throw(ev3_driver::sysfs::sleep(files.tree(), time, &mut call.interrupted()))
+    nondet fn sim_wait<Slices<Sleep>>(context, seconds, reason) {
+        setup => {
+            let call = Call::of(context, "sim_wait", 1);
+            let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
+                return wrong_value(&call, "seconds", seconds);
+            };
+            let files = Registry::new(Arc::new(SimulatedFiles::new(simulation(context)?)));
+            Ok(Some(Sleep::new(Arc::new(files), time)))
+        },
+        call(sleep) => {
+            let call = Call::of(context, "sim_wait", 1);
+            call.slice(sleep, reason, |()| unify_atom(reason, "over"))
+        }
     }
 
     /// sim_plan_(+Seconds): runs the due goals of this thread after some time.

@@ -167,8 +167,7 @@ fn report_simulation(json: &mut Json, simulation: &Simulation) -> Duration {
         json.key("hits").integer(machine.trace().collision_count().into());
         json.key("moving").bool(machine.moves());
     });
-    let pulled = pulled();
-    machine.report_state(json, &Beside { pulled: *pulled });
+    machine.report_state(json, &Beside { pulled: pulled() });
     machine.now()
 }
 

@@ -3,13 +3,17 @@ use super::{outside, running_simulation};
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::terms::unify_atom;
+use crate::glue::watch::film;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
 
 /// The driver of what was pulled out of each port.
-static PULLED: Mutex<[Option<&'static str>; 8]> = Mutex::new([None; 8]);
+type Pulled = [Option<&'static str>; 8];
+
+/// The same, and the film in which that happened.
+static PULLED: Mutex<(u64, Pulled)> = Mutex::new((0, [None; 8]));
 
 /// Registers the predicates below.
 pub(super) fn register() {
@@ -72,7 +76,11 @@ predicates! {
         let (port, simulation) = (port_of(&call, port)?, simulation()?);
         let driver = simulation.machine().plugged(port);
         let is_pulled = simulation.machine().unplug(port);
-        pulled()[port as usize] = driver;
+        if is_pulled {
+            let mut now = pulled();
+            now[port as usize] = driver;
+            *locked() = (film(), now);
+        }
         into_prolog_result(is_pulled)
     }
 
@@ -117,7 +125,12 @@ fn simulation() -> PrologResult<Arc<Simulation>> {
 }
 
 /// What was pulled out of each port.
-pub(super) fn pulled() -> MutexGuard<'static, [Option<&'static str>; 8]> {
+pub(super) fn pulled() -> Pulled {
+    let (of, pulled) = *locked();
+    if of == film() { pulled } else { Pulled::default() }
+}
+
+fn locked() -> MutexGuard<'static, (u64, Pulled)> {
     PULLED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

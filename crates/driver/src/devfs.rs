@@ -5,8 +5,9 @@
 //! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
 //! a named pipe or a file stands for each device. A simulator may stand in for
 //! it within the process by implementing [`Devfs`] and [`Stream`].
-use crate::error::{Access, Error, Interrupted, Result};
+use crate::error::{Access, Error, Result};
 use crate::sysfs::is_generated;
+use crate::wait::{Look, Slices, Wait};
 use input_linux::EvdevHandle;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
@@ -16,10 +17,11 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::os::fd::AsFd;
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The longest sleep before asking the caller whether to go on.
-const SLICE: Duration = Duration::from_millis(20);
+/// The longest pause before the caller can do something else.
+pub(crate) const SLICE: Duration = Duration::from_millis(20);
 
 /// A directory of device files.
 pub trait Devfs: Send + Sync {
@@ -236,33 +238,48 @@ pub(crate) fn open_first(
     Ok(None)
 }
 
-/// Calls `look` until it finds something or the time is up, and whenever there may
-/// be something to read.
-pub(crate) fn until<T>(
+/// Lets time pass, whether or not there is something to read.
+pub(crate) fn pause(dev: &dyn Devfs, end: Duration) -> Result<bool> {
+    pause_for(dev, None, end)
+}
+
+/// Lets time pass until there may be something to read.
+pub(crate) fn pause_for(
     dev: &dyn Devfs,
     stream: Option<&dyn Stream>,
-    timeout: Option<Duration>,
-    interrupted: Interrupted,
-    mut look: impl FnMut() -> Result<Option<T>>,
-) -> Result<Option<T>> {
-    let end = timeout.map(|timeout| dev.now().saturating_add(timeout));
-    loop {
-        if let Some(found) = look()? {
-            return Ok(Some(found));
-        }
-        let left = end.map_or(SLICE, |end| end.saturating_sub(dev.now()));
-        if left.is_zero() {
-            return Ok(None);
-        }
-        let slice_end = dev.now().saturating_add(left.min(SLICE));
-        let mut is_over = false;
-        while !is_over {
-            let paused = dev.pause(stream, slice_end);
-            is_over =
-                paused.map_err(|source| Error::Read { path: dev.root().to_owned(), source })?;
-            if interrupted() {
-                return Err(Error::Interrupted);
-            }
-        }
+    end: Duration,
+) -> Result<bool> {
+    let paused = dev.pause(stream, end);
+    paused.map_err(|source| Error::Read { path: dev.root().to_owned(), source })
+}
+
+/// What is found some time.
+pub(crate) trait Finds {
+    /// Whether it is.
+    fn find(&mut self) -> Result<bool>;
+}
+
+/// Until something is found.
+pub(crate) struct UntilFound<L> {
+    dev: Arc<dyn Devfs>,
+    look: L,
+}
+
+impl<L: Finds> UntilFound<L> {
+    pub(crate) fn new(dev: &Arc<dyn Devfs>, look: L) -> Slices<Self> {
+        Slices::new(Self { dev: Arc::clone(dev), look })
+    }
+}
+
+impl<L: Finds> Wait for UntilFound<L> {
+    type End = ();
+
+    fn look(&mut self) -> Result<Look<()>> {
+        let is_found = self.look.find()?;
+        Ok(if is_found { Look::Over(()) } else { Look::Again(self.dev.now() + SLICE) })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        pause(&*self.dev, end)
     }
 }

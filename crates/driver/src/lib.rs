@@ -41,6 +41,7 @@ pub mod port_name;
 pub mod sensor;
 pub mod sysfs;
 pub mod value;
+pub mod wait;
 
 pub use class::Class;
 pub use devfs::{Devfs, DevfsDir};

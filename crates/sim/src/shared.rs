@@ -1,8 +1,9 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use crate::clock::pace::Pace;
 use crate::machine::Machine;
 
 /// A machine behind a lock. The thread with the clock calls [`Shared::step`], or steps under the
@@ -12,19 +13,85 @@ use crate::machine::Machine;
 pub struct Shared {
     machine: Mutex<Machine>,
     changed: Condvar,
+    /// Locked after the machine.
+    wall: Mutex<Option<Wall>>,
+    pace: Pace,
 }
+
+/// How the machine follows the wall clock.
+#[derive(Debug)]
+struct Wall {
+    factor: f64,
+    /// Up to when it has.
+    last: Instant,
+}
+
+/// The most wall time that one step makes up for.
+const LATE: Duration = Duration::from_millis(100);
+
+/// How far behind a machine may be when it is used: two steps of its clock.
+const BEHIND: Duration = Duration::from_millis(4);
 
 impl Shared {
     /// Takes a machine in.
     #[must_use]
     pub fn new(machine: Machine) -> Shared {
-        Shared { machine: Mutex::new(machine), changed: Condvar::new() }
+        Shared {
+            machine: Mutex::new(machine),
+            changed: Condvar::new(),
+            wall: Mutex::default(),
+            pace: Pace::default(),
+        }
     }
 
     /// The machine, for as long as the guard lives. A thread that panicked with the lock in its
     /// hand leaves a machine that is still in order, at most in the middle of a step.
+    ///
+    /// If the machine is to follow the wall clock, and the thread that steps it is late, this makes
+    /// up for it: so what a program does on a busy computer happens at its time.
     pub fn lock(&self) -> MutexGuard<'_, Machine> {
+        let mut machine = self.lock_as_it_is();
+        let late = self.behind(BEHIND);
+        if !late.is_zero() {
+            machine.step(late);
+        }
+        machine
+    }
+
+    /// The same, whatever the time.
+    pub(crate) fn lock_as_it_is(&self) -> MutexGuard<'_, Machine> {
         self.machine.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Follows the wall clock from now on, faster by a factor.
+    pub fn follow(&self, factor: f64) {
+        *self.wall() = Some(Wall { factor, last: Instant::now() });
+    }
+
+    /// How far the machine is behind the wall clock, in its own time, if that is more than
+    /// `more_than` of wall time. The caller makes up for it. A machine that cannot keep up falls
+    /// behind, but not without limit.
+    pub(crate) fn behind(&self, more_than: Duration) -> Duration {
+        let mut wall = self.wall();
+        let Some(Wall { factor, last }) = &mut *wall else {
+            return Duration::ZERO;
+        };
+        let now = Instant::now();
+        let passed = now - *last;
+        if passed <= more_than {
+            return Duration::ZERO;
+        }
+        *last = now;
+        self.pace.of_wall(passed.min(LATE), *factor)
+    }
+
+    /// How fast time may pass.
+    pub(crate) fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
+    fn wall(&self) -> MutexGuard<'_, Option<Wall>> {
+        self.wall.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Lets virtual time pass and wakes all waiting threads.

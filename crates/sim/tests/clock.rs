@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use ev3_sim::{Act, Button, Clock, Machine, Options, Simulation, WorldSpec};
+use ev3_sim::{Act, Button, Clock, Machine, Options, Shared, Simulation, WorldSpec};
 use robots::default_robot;
 
 const fn ms(count: u64) -> Duration {
@@ -503,4 +503,77 @@ fn the_wall_clock_runs_by_itself_and_returns_early_from_long_waits() {
     // Reading takes no time of its own, and dropping ends the thread.
     drop(simulation);
     while times.recv().is_ok() {}
+}
+
+#[test]
+fn a_machine_whose_clock_is_late_is_on_time_when_it_is_used() {
+    let machine = Machine::new(&WorldSpec::default(), &default_robot(), Options::default());
+    let shared = Shared::new(machine.unwrap());
+    shared.follow(10.0);
+    compute(ms(20));
+    assert!(shared.lock().now() >= ms(200));
+}
+
+/// What a program does that drives, waits and reads, with the time at each step.
+fn drives(simulation: &Simulation) -> Vec<(Duration, String)> {
+    let mut seen = Vec::new();
+    let write = |path: &str, text: &str| {
+        simulation.write(|machine| machine.write_path(path, text)).unwrap();
+    };
+    write("tacho-motor/motor1/speed_sp", "300");
+    write("tacho-motor/motor1/command", "run-forever");
+    for _ in 0..3 {
+        wait(simulation, ms(70));
+        call(simulation, "read");
+        let text = simulation.read(|machine| machine.read_path("tacho-motor/motor1/position"));
+        seen.push((now(simulation), text.unwrap()));
+    }
+    seen
+}
+
+#[test]
+fn a_run_is_the_same_at_any_pace() {
+    let free = drives(&simulation(Clock::Virtual));
+    let paced = simulation(Clock::Virtual);
+    paced.set_pace(Some(2.0));
+    let begun = Instant::now();
+    assert_eq!(drives(&paced), free);
+    assert!(begun.elapsed() >= ms(60), "{:?}", begun.elapsed());
+}
+
+#[test]
+fn a_paused_run_goes_on_as_far_as_it_may() {
+    let free = drives(&simulation(Clock::Virtual));
+    let paused = simulation(Clock::Virtual);
+    paused.set_paused(true);
+    let driver = {
+        let paused = Arc::clone(&paused);
+        thread::spawn(move || drives(&paused))
+    };
+    paused.allow(ms(100));
+    while now(&paused) < ms(100) {
+        thread::yield_now();
+    }
+    // It asks again and again, and time stands.
+    thread::sleep(ms(50));
+    assert!(now(&paused) < ms(110), "{:?}", now(&paused));
+    paused.set_paused(false);
+    assert_eq!(driver.join().unwrap(), free);
+}
+
+#[test]
+fn a_hand_from_outside_needs_no_turn_and_takes_no_time() {
+    let simulation = simulation(Clock::Virtual);
+    call(&simulation, "hold the turn");
+    let before = now(&simulation);
+    let hand = {
+        let simulation = Arc::clone(&simulation);
+        thread::spawn(move || {
+            ev3_sim::stay_outside(true);
+            call(&simulation, "reach in");
+            simulation.write(|machine| machine.write_path("tacho-motor/motor1/command", "stop"))
+        })
+    };
+    hand.join().unwrap().unwrap();
+    assert_eq!(now(&simulation), before);
 }

@@ -14,6 +14,7 @@
               ]).
 :- use_module(robot_state,
               [drive_default/2, robot/4, robot_description/1, robot_set/4]).
+:- use_module(waits, [waited/1]).
 :- use_module(native, [attribute_/4, drive_/4]).
 
 /** <module> How a move is carried out
@@ -58,7 +59,7 @@ move(Percent, Course, Options) :-
     move_options(Percent, Course, Options, Native),
     option(reason(Reason), Options, _),
     robot_description(Robot),
-    (   catch(drive_(Robot, Course, Native, Ended), E, true)
+    (   catch(drive_to_end(Robot, Course, Native, Ended), E, true)
     ->  (   var(E)
         ->  true
         ;   E = error(existence_error(_, _), _),
@@ -74,6 +75,11 @@ move(Percent, Course, Options) :-
         arg(2, Robot, Right),
         fail_because(cannot_move(Left, Right, Percent, Course))
     ).
+
+drive_to_end(Robot, Course, Native, Ended) :-
+    drive_(Robot, Course, Native, Ended),
+    waited(Ended),
+    !.
 
 move_options(Percent, Course, Options,
              options(Speed, Acceleration, Action, UseGyro, Wait, Timeout)) :-

@@ -12,7 +12,13 @@
             sysfs_/1,
             sysfs_use_/1,
             now_/1,
-            wait_/1,
+            wait_/2,
+            commands_/1,
+            motors_leave_/2,
+            motors_stop_/2,
+            slices_/1,
+            tick_after_/1,
+            tick_never_/0,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
@@ -21,7 +27,7 @@
             motor_stop_/3,
             motor_turn_/3,
             motor_wait_/3,
-            motor_wait_flag_/3,
+            motor_wait_flag_/4,
             motors_run_/1,
             run_forever_/2,
             stop_all_motors_/0,
@@ -39,17 +45,17 @@
             led_set_color_/2,
             led_set_delays_/3,
             led_set_trigger_/2,
-            button_event_/4,
+            button_event_/5,
             button_source_/1,
-            button_wait_/3,
+            button_wait_/4,
             buttons_/1,
             sim_key_/2,
             sim_plan_key_/3,
-            play_/2,
-            say_/2,
+            play_/3,
+            say_/3,
             sound_stop_/0,
-            sound_wait_/0,
-            tones_/2,
+            sound_wait_/1,
+            tones_/3,
             volume_/1,
             volume_set_/1,
             screen_clear_/0,
@@ -105,7 +111,7 @@
             sim_unmount_/0,
             sim_unplug_/1,
             sim_unshow_/2,
-            sim_wait_/1,
+            sim_wait_/2,
             stop_started_/0,
             view_close_/0,
             view_csv_/1,
@@ -171,7 +177,13 @@ missing.
 % Time
 
 %!  now_(-Seconds) is det.
-%!  wait_(+Seconds) is semidet.
+%!  wait_(+Seconds, -Reason) is nondet.
+%!  commands_(-Count) is semidet.
+%!  motors_leave_(+From, +Before) is semidet.
+%!  motors_stop_(+From, +Before) is semidet.
+%!  slices_(-Count) is semidet.
+%!  tick_after_(+Seconds) is semidet.
+%!  tick_never_ is semidet.
 %
 %   `src/time.rs`
 
@@ -183,9 +195,9 @@ missing.
 %!  motor_run_direct_(+Class, +Port, +Percent) is semidet.
 %!  motor_set_position_(+Port, +Position) is semidet.
 %!  motor_stop_(+Class, +Port, +StopAction) is semidet.
-%!  motor_turn_(+Moves, +Options, -Reason) is semidet.
-%!  motor_wait_(+Ports, +Timeout, -Reason) is semidet.
-%!  motor_wait_flag_(+Port, +Flag, +Present) is semidet.
+%!  motor_turn_(+Moves, +Options, -Reason) is nondet.
+%!  motor_wait_(+Ports, +Timeout, -Reason) is nondet.
+%!  motor_wait_flag_(+Port, +Flag, +Present, -Reason) is nondet.
 %!  motors_run_(+Runs) is semidet.
 %!  run_forever_(+Port, +CountsPerSecond) is semidet.
 %!  stop_all_motors_ is semidet.
@@ -213,7 +225,7 @@ missing.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
-%!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is semidet.
+%!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is nondet.
 %
 %   `src/sensors.rs`
 
@@ -228,9 +240,9 @@ missing.
 
 % Buttons
 
-%!  button_event_(+Source, +Index, -Key, -Event) is semidet.
+%!  button_event_(+Source, +Index, -Key, -Event, -Reason) is nondet.
 %!  button_source_(-Source) is semidet.
-%!  button_wait_(?Key, ?Event, +Timeout) is semidet.
+%!  button_wait_(?Key, ?Event, +Timeout, -Reason) is nondet.
 %!  buttons_(-Keys) is semidet.
 %!  sim_key_(+Button, +IsPress) is semidet.
 %!  sim_plan_key_(+Button, +After, +For) is semidet.
@@ -239,11 +251,11 @@ missing.
 
 % Sound
 
-%!  play_(+File, +Wait) is semidet.
-%!  say_(+Text, +Wait) is semidet.
+%!  play_(+File, +Wait, -Reason) is nondet.
+%!  say_(+Text, +Wait, -Reason) is nondet.
 %!  sound_stop_ is semidet.
-%!  sound_wait_ is semidet.
-%!  tones_(+Tones, +Wait) is semidet.
+%!  sound_wait_(-Reason) is nondet.
+%!  tones_(+Tones, +Wait, -Reason) is nondet.
 %!  volume_(-Percent) is semidet.
 %!  volume_set_(+Percent) is semidet.
 %
@@ -276,8 +288,8 @@ missing.
 
 % Driving and odometry
 
-%!  drive_(+Robot, +Course, +Options, -Reason) is semidet.
-%!  drive_wait_(+Robot, +Timeout, -Reason) is semidet.
+%!  drive_(+Robot, +Course, +Options, -Reason) is nondet.
+%!  drive_wait_(+Robot, +Timeout, -Reason) is nondet.
 %!  heading_wrapped_(+Heading, -Wrapped) is semidet.
 %!  odometry_(+Robot) is semidet.
 %!  pose_(+Robot, +UseGyro, -X, -Y, -Heading) is semidet.
@@ -339,7 +351,7 @@ missing.
 %!  sim_unmount_ is semidet.
 %!  sim_unplug_(+Port) is semidet.
 %!  sim_unshow_(+Port, +Attribute) is semidet.
-%!  sim_wait_(+Seconds) is semidet.
+%!  sim_wait_(+Seconds, -Reason) is nondet.
 %
 %   `src/sim/mod.rs`
 

@@ -7,8 +7,9 @@
 //!
 //! A plain file may stand in for the device: it holds the earlier events, and a
 //! reader that waits gets those that are appended.
-use crate::devfs::{Devfs, Stream, open_first, until};
-use crate::error::{Access, Error, Interrupted, Result};
+use crate::devfs::{Devfs, SLICE, Stream, open_first, pause_for};
+use crate::error::{Access, Error, Result};
+use crate::wait::{AnyWait, Look, Slices, Wait};
 use input_linux::sys::input_event;
 use rustix::io::Errno;
 use std::collections::VecDeque;
@@ -165,34 +166,22 @@ impl Events {
         Ok(Some(Self { dev, stream, path, queue: Mutex::default() }))
     }
 
-    /// Waits for the next event; `None` if there was none in that time.
+    /// Waits for the next event of that button, or any, and of that kind, or any; `None`
+    /// if there was none in that time.
     ///
-    /// # Errors
-    /// The kernel's; [`Error::Interrupted`].
-    pub fn next(
-        &self,
-        timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Option<Event>> {
-        self.wait(timeout, interrupted, |queue| queue.events.pop_front())
-    }
-
-    /// Waits for the next event of that button, or any, and of that kind, or any.
-    ///
-    /// # Errors
-    /// As [`next`](Self::next).
-    pub fn next_matching(
-        &self,
+    /// The errors are the kernel's.
+    #[must_use]
+    pub fn until_next(
+        self: &Arc<Self>,
         button: Option<Button>,
         is_press: Option<bool>,
         timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Option<Event>> {
-        let is_it = |event: &Event| {
+    ) -> AnyWait<'static, Option<Event>> {
+        let is_it = move |event: &Event| {
             button.is_none_or(|button| button == event.button)
                 && is_press.is_none_or(|is_press| is_press == event.is_press)
         };
-        self.wait(timeout, interrupted, |queue| {
+        self.until(timeout, move |queue| {
             std::iter::from_fn(|| queue.events.pop_front()).find(is_it)
         })
     }
@@ -200,28 +189,51 @@ impl Events {
     /// Waits for event number `index` since the beginning. The same number is
     /// the same event each time: what was read is kept.
     ///
-    /// # Errors
-    /// As [`next`](Self::next).
-    pub fn nth(&self, index: usize, interrupted: Interrupted) -> Result<Event> {
-        let event = self.wait(None, interrupted, |queue| queue.events.get(index).copied())?;
-        event.ok_or(Error::Interrupted)
+    /// The errors are the kernel's.
+    #[must_use]
+    pub fn until_nth(self: &Arc<Self>, index: usize) -> AnyWait<'static, Option<Event>> {
+        self.until(None, move |queue| queue.events.get(index).copied())
     }
 
-    fn wait<T>(
-        &self,
+    fn until(
+        self: &Arc<Self>,
         timeout: Option<Duration>,
-        interrupted: Interrupted,
-        mut take: impl FnMut(&mut Queue) -> Option<T>,
-    ) -> Result<Option<T>> {
-        until(&*self.dev, Some(&*self.stream), timeout, interrupted, || {
-            let mut queue = self.queue();
-            while queue.fill(&*self.stream, &self.path)? {}
-            Ok(take(&mut queue))
-        })
+        take: impl FnMut(&mut Queue) -> Option<Event> + Send + 'static,
+    ) -> AnyWait<'static, Option<Event>> {
+        let end = timeout.map(|timeout| self.dev.now().saturating_add(timeout));
+        Slices::new(UntilTaken { events: Arc::clone(self), end, take }).boxed()
     }
 
     fn queue(&self) -> MutexGuard<'_, Queue> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Until an event can be taken from the queue.
+struct UntilTaken<T> {
+    events: Arc<Events>,
+    /// `None` to wait for ever.
+    end: Option<Duration>,
+    take: T,
+}
+
+impl<T: FnMut(&mut Queue) -> Option<Event>> Wait for UntilTaken<T> {
+    type End = Option<Event>;
+
+    fn look(&mut self) -> Result<Look<Option<Event>>> {
+        let Events { dev, stream, path, .. } = &*self.events;
+        let mut queue = self.events.queue();
+        while queue.fill(&**stream, path)? {}
+        if let Some(event) = (self.take)(&mut queue) {
+            return Ok(Look::Over(Some(event)));
+        }
+        let now = dev.now();
+        let left = self.end.map_or(SLICE, |end| end.saturating_sub(now));
+        Ok(if left.is_zero() { Look::Over(None) } else { Look::Again(now + left.min(SLICE)) })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        pause_for(&*self.events.dev, Some(&*self.events.stream), end)
     }
 }
 

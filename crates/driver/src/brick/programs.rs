@@ -1,13 +1,14 @@
 //! Other programs: those that speak and play.
-use crate::devfs::{Devfs, until};
-use crate::error::{Error, Interrupted, Result};
+use crate::devfs::{Devfs, Finds, UntilFound};
+use crate::error::{Error, Result};
+use crate::wait::Slices;
 use nix::sys::signal::Signal;
 use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How a program ends that could not be started, where that is only found out
 /// later: in shells, and on an emulated processor.
@@ -105,6 +106,24 @@ impl Drop for Started {
     }
 }
 
+/// Programs that somebody waits for.
+pub(crate) struct Running<'a> {
+    programs: &'a Programs,
+    number: u32,
+}
+
+impl Finds for Running<'_> {
+    fn find(&mut self) -> Result<bool> {
+        Ok(self.programs.are_over(self.number)?.is_some())
+    }
+}
+
+impl Drop for Running<'_> {
+    fn drop(&mut self) {
+        self.programs.running().retain(|(other, _)| *other != self.number);
+    }
+}
+
 /// Programs that run, by a number for those that run together.
 #[derive(Debug, Default)]
 pub(crate) struct Programs {
@@ -118,14 +137,11 @@ impl Programs {
     /// left, they have.
     pub(crate) fn run<const N: usize>(
         &self,
-        dev: &dyn Devfs,
+        dev: &Arc<dyn Devfs>,
         start: impl FnOnce() -> Result<[Started; N]>,
-        interrupted: Interrupted,
-    ) -> Result<()> {
-        let number = self.begin(start)?;
-        let over = until(dev, None, None, interrupted, || self.are_over(number));
-        self.running().retain(|(other, _)| *other != number);
-        over.map(drop)
+    ) -> Result<Slices<UntilFound<Running<'_>>>> {
+        let running = Running { programs: self, number: self.begin(start)? };
+        Ok(UntilFound::new(dev, running))
     }
 
     /// Starts programs, in the order of the pipe between them, and does not
@@ -206,7 +222,8 @@ mod tests {
                 is_ended.recv().unwrap();
                 Ok([started])
             };
-            programs.run(&DevfsDir::new("/dev"), start, &mut || false).unwrap();
+            let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new("/dev"));
+            programs.run(&dev, start).unwrap().block(&mut || false).unwrap();
         });
         assert!(begun.elapsed() < Duration::from_secs(60), "it ran to its end");
     }

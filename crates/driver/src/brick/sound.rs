@@ -9,9 +9,10 @@
 //! none while a recording plays.
 use crate::brick::buttons::EVENT_BYTES;
 use crate::brick::programs::{Program, Programs, Started};
-use crate::devfs::{Devfs, Speaker, Stream, open, open_first, until};
-use crate::error::{Access, Error, Interrupted, Result};
+use crate::devfs::{Devfs, Finds, SLICE, Stream, UntilFound, open, open_first, pause};
+use crate::error::{Access, Error, Result};
 use crate::sysfs::{Repeated, Sysfs};
+use crate::wait::{AnyWait, Look, Slices, Wait};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
@@ -63,35 +64,24 @@ pub struct Sound {
 
 impl Sound {
     /// Plays tones one after the other, and waits until they are over; `None`
-    /// where there is no speaker. The speaker is silent afterwards, also after an
-    /// error.
+    /// where there is no speaker. The speaker is silent afterwards, also when the wait
+    /// is left.
     ///
     /// # Errors
-    /// The kernel's, as EACCES for a user who is not in the group `input`;
-    /// [`Error::Interrupted`].
+    /// The kernel's, as EACCES for a user who is not in the group `input`.
     pub fn play_tones(
         &self,
-        dev: &dyn Devfs,
-        tones: &[Tone],
-        interrupted: Interrupted,
-    ) -> Result<Option<()>> {
-        let Some((stream, path)) = open_first(dev, &DEVICES, Access::Write)? else {
+        dev: &Arc<dyn Devfs>,
+        tones: Vec<Tone>,
+    ) -> Result<Option<AnyWait<'_, ()>>> {
+        let Some((stream, path)) = open_first(&**dev, &DEVICES, Access::Write)? else {
             return Ok(None);
         };
         append(&*stream, &path)?;
-        let stops = self.stops();
-        let generator = Generator { sound: self, stream: &*stream, path: &path };
-        let mut end = dev.now();
-        for tone in tones {
-            end = end.saturating_add(tone.lasts);
-            generator.set(tone.hertz)?;
-            let left = end.saturating_sub(dev.now());
-            if self.pause(dev, left, stops, interrupted)? {
-                return Ok(Some(()));
-            }
-        }
-        generator.set(0)?;
-        Ok(Some(()))
+        let generator = Generator { sound: self, stream, path };
+        let (dev, end, tones) = (Arc::clone(dev), dev.now(), tones.into_iter());
+        let playing = Playing { generator, dev, tones, end, stops: self.stops() };
+        Ok(Some(Slices::new(playing).boxed()))
     }
 
     /// Starts to play tones one after the other, in the place of all other sounds;
@@ -149,29 +139,15 @@ impl Sound {
         Ok(())
     }
 
-    /// Waits; `true` if the sounds were stopped meanwhile.
-    fn pause(
-        &self,
-        dev: &dyn Devfs,
-        time: Duration,
-        stops: u32,
-        interrupted: Interrupted,
-    ) -> Result<bool> {
-        let stopped =
-            until(dev, None, Some(time), interrupted, || Ok((self.stops() != stops).then_some(())));
-        Ok(stopped?.is_some())
-    }
-
     /// Says a text, and waits until it is said.
     ///
     /// # Errors
-    /// [`Error::NoProgram`] without espeak or aplay, [`Error::Program`];
-    /// [`Error::Interrupted`].
-    pub fn say(&self, dev: &dyn Devfs, text: &str, interrupted: Interrupted) -> Result<()> {
-        if let Some(speaker) = dev.speaker() {
-            return self.let_speak(dev, speaker, || speaker.say(text), interrupted);
+    /// [`Error::NoProgram`] without espeak or aplay, [`Error::Program`].
+    pub fn say(&self, dev: &Arc<dyn Devfs>, text: &str) -> Result<AnyWait<'_, ()>> {
+        match dev.speaker() {
+            Some(speaker) => Ok(self.let_speak(dev, || speaker.say(text))),
+            None => Ok(self.programs.run(dev, || speaking(text))?.boxed()),
         }
-        self.programs.run(dev, || speaking(text), interrupted)
     }
 
     /// Starts to say a text, in the place of all other sounds.
@@ -196,16 +172,16 @@ impl Sound {
     /// # Errors
     /// As [`say`](Self::say); [`Error::Open`], [`Error::Format`] for what is no
     /// WAV file.
-    pub fn play(&self, dev: &dyn Devfs, path: &Path, interrupted: Interrupted) -> Result<()> {
+    pub fn play(&self, dev: &Arc<dyn Devfs>, path: &Path) -> Result<AnyWait<'_, ()>> {
         let lasts = length_of(path)?;
-        if let Some(speaker) = dev.speaker() {
-            let start = || {
-                speaker.play(&path.to_string_lossy());
-                lasts
-            };
-            return self.let_speak(dev, speaker, start, interrupted);
-        }
-        self.programs.run(dev, || playing(path), interrupted)
+        let Some(speaker) = dev.speaker() else {
+            return Ok(self.programs.run(dev, || playing(path))?.boxed());
+        };
+        let start = || {
+            speaker.play(&path.to_string_lossy());
+            lasts
+        };
+        Ok(self.let_speak(dev, start))
     }
 
     /// Starts to play a recording, in the place of all other sounds.
@@ -244,31 +220,18 @@ impl Sound {
 
     /// Waits until no sound plays in the background.
     ///
-    /// # Errors
-    /// That of a program that played; [`Error::Interrupted`].
-    pub fn wait(&self, dev: &dyn Devfs, interrupted: Interrupted) -> Result<()> {
-        let over = until(dev, None, None, interrupted, || {
-            let is_over = Arc::strong_count(&self.in_background()) == 1;
-            if is_over { self.programs.are_all_over() } else { Ok(None) }
-        });
-        over.map(drop)
+    /// The errors are those of a program that played.
+    pub fn until_silent(&self, dev: &Arc<dyn Devfs>) -> AnyWait<'_, ()> {
+        UntilFound::new(dev, Background(self)).boxed()
     }
 
     /// `start` returns how long it speaks.
-    fn let_speak(
-        &self,
-        dev: &dyn Devfs,
-        speaker: &dyn Speaker,
-        start: impl FnOnce() -> Duration,
-        interrupted: Interrupted,
-    ) -> Result<()> {
+    fn let_speak(&self, dev: &Arc<dyn Devfs>, start: impl FnOnce() -> Duration) -> AnyWait<'_, ()> {
         // Before it starts: a stop from then on is one of it.
         let stops = self.stops();
-        let spoken = self.pause(dev, start(), stops, interrupted);
-        if !matches!(spoken, Ok(false)) {
-            speaker.silence();
-        }
-        spoken.map(drop)
+        let end = start().saturating_add(dev.now());
+        let speaking = Speaking { sound: self, dev: Arc::clone(dev), stops, end, is_over: false };
+        Slices::new(speaking).boxed()
     }
 
     /// Ends every sound that this program makes.
@@ -366,16 +329,93 @@ fn controls() -> Result<Vec<(&'static str, u8)>> {
     Ok(CONTROLS.into_iter().filter_map(set_to).collect())
 }
 
+/// Tones that play one after the other.
+struct Playing<'a> {
+    generator: Generator<'a>,
+    dev: Arc<dyn Devfs>,
+    tones: std::vec::IntoIter<Tone>,
+    /// When the tone that plays ends.
+    end: Duration,
+    stops: u32,
+}
+
+impl Wait for Playing<'_> {
+    type End = ();
+
+    fn look(&mut self) -> Result<Look<()>> {
+        if self.generator.sound.stops() != self.stops {
+            return Ok(Look::Over(()));
+        }
+        let now = self.dev.now();
+        while now >= self.end {
+            let Some(tone) = self.tones.next() else {
+                return self.generator.set(0).map(Look::Over);
+            };
+            self.end = self.end.saturating_add(tone.lasts);
+            self.generator.set(tone.hertz)?;
+        }
+        Ok(Look::Again(self.end.min(now + SLICE)))
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        pause(&*self.dev, end)
+    }
+}
+
+/// The simulated speaker speaks.
+struct Speaking<'a> {
+    sound: &'a Sound,
+    dev: Arc<dyn Devfs>,
+    stops: u32,
+    end: Duration,
+    is_over: bool,
+}
+
+impl Wait for Speaking<'_> {
+    type End = ();
+
+    fn look(&mut self) -> Result<Look<()>> {
+        if self.sound.stops() != self.stops {
+            return Ok(Look::Over(()));
+        }
+        let now = self.dev.now();
+        self.is_over = now >= self.end;
+        Ok(if self.is_over { Look::Over(()) } else { Look::Again(self.end.min(now + SLICE)) })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        pause(&*self.dev, end)
+    }
+}
+
+impl Drop for Speaking<'_> {
+    fn drop(&mut self) {
+        if let Some(speaker) = self.dev.speaker().filter(|_| !self.is_over) {
+            speaker.silence();
+        }
+    }
+}
+
+/// Sounds that nobody waited for.
+struct Background<'a>(&'a Sound);
+
+impl Finds for Background<'_> {
+    fn find(&mut self) -> Result<bool> {
+        let is_over = Arc::strong_count(&self.0.in_background()) == 1;
+        Ok(is_over && self.0.programs.are_all_over()?.is_some())
+    }
+}
+
 /// A tone generator, which is off at the end.
 struct Generator<'a> {
     sound: &'a Sound,
-    stream: &'a dyn Stream,
-    path: &'a Path,
+    stream: Box<dyn Stream>,
+    path: PathBuf,
 }
 
 impl Generator<'_> {
     fn set(&self, hertz: u32) -> Result<()> {
-        self.sound.set_tone(self.stream, self.path, hertz)
+        self.sound.set_tone(&*self.stream, &self.path, hertz)
     }
 }
 

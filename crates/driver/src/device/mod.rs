@@ -5,6 +5,7 @@ pub(crate) mod motion;
 mod observer;
 pub mod registry;
 pub mod retry;
+pub mod sleep;
 
 use crate::class::{Class, Detected};
 use crate::device::attribute::{Attribute, LINE, PAGE, SHORT, malformed, open, read_node, text_of};
@@ -16,6 +17,7 @@ use crate::error::{Access, Error, Result};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -43,6 +45,8 @@ pub struct Device {
     constants: List<Constant>,
     /// The last command to a motor.
     run: Mutex<Option<MotorRun>>,
+    /// The number of the last command, among those of the whole program.
+    commanded: AtomicU32,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// The thread that is putting a sensor into a mode and reading it there.
@@ -100,6 +104,7 @@ impl Device {
             tree: Arc::clone(tree),
             attributes: List::default(),
             constants: List::default(),
+            commanded: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
             observer: Arc::clone(observer),
             user: Mutex::default(),
@@ -196,6 +201,16 @@ impl Device {
     /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The program has given the motor a command.
+    pub(crate) fn was_commanded(&self) {
+        self.commanded.store(motion::next_command(), Ordering::Relaxed);
+    }
+
+    /// Whether the last command of the program to the motor was one of these.
+    pub(crate) fn is_commanded_in(&self, commands: &Range<u32>) -> bool {
+        commands.contains(&self.commanded.load(Ordering::Relaxed))
     }
 
     /// Reports that the motor was started.

@@ -1,6 +1,20 @@
 //! The last command to a motor: pure data that is kept with the device.
 use std::num::NonZeroU32;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
+
+/// How many commands the program has given to motors. What a drive does on its course is the
+/// command that began the course.
+static COMMANDS: AtomicU32 = AtomicU32::new(0);
+
+/// The number of the next command.
+pub(crate) fn command_count() -> u32 {
+    COMMANDS.load(Ordering::Relaxed)
+}
+
+pub(super) fn next_command() -> u32 {
+    COMMANDS.fetch_add(1, Ordering::Relaxed)
+}
 
 /// The last command to a motor, as far as a wait for its end needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,11 +21,12 @@ mod track;
 use crate::device::registry::Registry;
 use crate::device::retry::while_permissions_settle;
 use crate::device::{Device, MotionObserver};
-use crate::error::{Error, Interrupted, Result};
+use crate::error::{Interrupted, Result};
 use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor::{self, gyro};
 use crate::sysfs::sleep;
+use crate::wait::{Look, Slices, Wait};
 use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
@@ -209,6 +210,9 @@ impl Drive {
         inner.integrate(&self.registry)?;
         let begun = inner.begin(command, options)?;
         if begun.is_some() {
+            inner.devices.iter().flat_map(|devices| &devices.motors).for_each(|motor| {
+                motor.was_commanded();
+            });
             let stepped = inner.control();
             inner.conclude(stepped);
         }
@@ -238,64 +242,41 @@ impl Drive {
         Ok(())
     }
 
-    /// Waits for the end of a motion.
-    ///
-    /// # Errors
-    /// [`Error::Unplugged`] if a motor or the gyro was unplugged; the kernel's;
-    /// [`Error::Interrupted`]. The motors are stopped before.
-    pub fn wait(
-        &self,
-        outcome: &Arc<Outcome>,
+    /// Waits for the end of a motion, which ends it when it is left.
+    #[must_use]
+    pub fn until_ended(
+        self: &Arc<Self>,
+        outcome: Arc<Outcome>,
         timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Reason> {
-        let ended = self.await_outcome(outcome, timeout, interrupted);
-        let mut inner = self.lock();
-        inner.last.take_if(|last| Arc::ptr_eq(last, outcome));
-        let is_mine =
-            inner.active.as_ref().is_some_and(|active| Arc::ptr_eq(&active.outcome, outcome));
-        if is_mine && matches!(ended, Ok(Reason::Timeout) | Err(_)) {
-            inner.end_motion(Ok(Reason::Stopped));
-        }
-        ended
+    ) -> Slices<UntilEnded> {
+        self.until(Some(outcome), timeout, true)
     }
 
     /// Waits for the end of the motion under way or last begun, and stops
     /// nothing.
-    ///
-    /// # Errors
-    /// As [`wait`](Self::wait).
-    pub fn wait_last(&self, timeout: Option<Duration>, interrupted: Interrupted) -> Result<Reason> {
+    #[must_use]
+    pub fn until_last_ended(self: &Arc<Self>, timeout: Option<Duration>) -> Slices<UntilEnded> {
         let last = self.lock().last.clone();
-        match last {
-            Some(outcome) => {
-                let ended = self.await_outcome(&outcome, timeout, interrupted);
-                if !matches!(ended, Ok(Reason::Timeout) | Err(Error::Interrupted)) {
-                    let mut inner = self.lock();
-                    inner.last.take_if(|last| Arc::ptr_eq(last, &outcome));
-                }
-                ended
-            }
-            None => Ok(Reason::Reached),
-        }
+        self.until(last, timeout, false)
     }
 
-    fn await_outcome(
-        &self,
-        outcome: &Outcome,
+    fn until(
+        self: &Arc<Self>,
+        outcome: Option<Arc<Outcome>>,
         timeout: Option<Duration>,
-        interrupted: Interrupted,
-    ) -> Result<Reason> {
+        ends: bool,
+    ) -> Slices<UntilEnded> {
         let deadline = timeout.map(|timeout| self.registry.tree().now().saturating_add(timeout));
-        loop {
-            if let Some(ended) = outcome.ended() {
-                return ended;
-            }
-            let left = deadline.map(|deadline| deadline.saturating_sub(self.registry.tree().now()));
-            if left.is_some_and(|left| left.is_zero()) {
-                return Ok(Reason::Timeout);
-            }
-            sleep(self.registry.tree(), left.map_or(PERIOD, |left| left.min(PERIOD)), interrupted)?;
+        Slices::new(UntilEnded { drive: Arc::clone(self), outcome, deadline, ends })
+    }
+
+    /// Nobody waits any more for a motion.
+    fn leave(&self, outcome: &Arc<Outcome>) {
+        let mut inner = self.lock();
+        inner.last.take_if(|last| Arc::ptr_eq(last, outcome));
+        let active = inner.active.as_ref();
+        if active.is_some_and(|active| Arc::ptr_eq(&active.outcome, outcome)) {
+            inner.end_motion(Ok(Reason::Stopped));
         }
     }
 
@@ -333,6 +314,52 @@ impl Drive {
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Until a motion has ended.
+///
+/// The errors are [`Error::Unplugged`](crate::Error::Unplugged) if a motor or the gyro was
+/// unplugged, and the kernel's. The motors are stopped before.
+pub struct UntilEnded {
+    drive: Arc<Drive>,
+    /// `None` if there was no motion.
+    outcome: Option<Arc<Outcome>>,
+    deadline: Option<Duration>,
+    /// Whether the motion ends with the wait.
+    ends: bool,
+}
+
+impl Wait for UntilEnded {
+    type End = Reason;
+
+    fn look(&mut self) -> Result<Look<Reason>> {
+        let Some(outcome) = &self.outcome else {
+            return Ok(Look::Over(Reason::Reached));
+        };
+        if let Some(ended) = outcome.ended() {
+            self.drive.lock().last.take_if(|last| Arc::ptr_eq(last, outcome));
+            return ended.map(Look::Over);
+        }
+        let now = self.drive.registry.tree().now();
+        let left = self.deadline.map_or(PERIOD, |deadline| deadline.saturating_sub(now));
+        Ok(if left.is_zero() {
+            Look::Over(Reason::Timeout)
+        } else {
+            Look::Again(now + left.min(PERIOD))
+        })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        Ok(self.drive.registry.tree().pause(&[], end).unwrap_or(true))
+    }
+}
+
+impl Drop for UntilEnded {
+    fn drop(&mut self) {
+        if let Some(outcome) = self.outcome.as_ref().filter(|_| self.ends) {
+            self.drive.leave(outcome);
+        }
     }
 }
 

@@ -69,6 +69,7 @@ pub(crate) fn start(motor: &Device, word: &str, end: Option<End>) -> Result<()> 
         return motor.without_counting(&mut || start_as(motor, word, end));
     }
     start_as(motor, word, end)?;
+    motor.was_commanded();
     if end.is_some() {
         motor.started();
     }

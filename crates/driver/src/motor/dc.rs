@@ -15,7 +15,8 @@ use crate::device::retry;
 use crate::device::retry::while_permissions_settle;
 use crate::error::{Interrupted, Result};
 use crate::motor::wait::Reason;
-use crate::motor::{self, MoveOptions, Ramps};
+use crate::motor::{self, MoveOptions, Moving, Ramps};
+use crate::wait::Slices;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -50,13 +51,31 @@ pub fn run_forever(
 /// # Errors
 /// As [`motor::run_to`].
 pub fn run_timed(
-    registry: &Registry,
+    registry: &Arc<Registry>,
     port: &str,
     percent: f64,
     time: Duration,
     options: &MoveOptions,
     interrupted: Interrupted,
 ) -> Result<Option<Reason>> {
+    match begin_timed(registry, port, percent, time, options, &mut *interrupted)? {
+        Some(moving) => moving.block(interrupted).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// The same as a wait that can be left: that stops the motor.
+///
+/// # Errors
+/// As [`run_timed`].
+pub fn begin_timed(
+    registry: &Arc<Registry>,
+    port: &str,
+    percent: f64,
+    time: Duration,
+    options: &MoveOptions,
+    interrupted: Interrupted,
+) -> Result<Option<Slices<Moving>>> {
     let (Some(duty), Some(milliseconds)) =
         (motor::duty(percent), motor::milliseconds(time, LONGEST_MS))
     else {
@@ -73,8 +92,6 @@ pub fn run_timed(
             Ok(Arc::clone(motor))
         })
     };
-    match while_permissions_settle(registry, &mut *interrupted, start)? {
-        Some(motor) => motor::finish(registry, &[motor], options, interrupted).map(Some),
-        None => Ok(None),
-    }
+    let motor = while_permissions_settle(registry, interrupted, start)?;
+    Ok(motor.map(|motor| Slices::new(Moving::new(registry, vec![motor], options))))
 }

@@ -17,19 +17,21 @@ pub mod wait;
 
 use crate::class::Class;
 use crate::device::Device;
-use crate::device::motion::End;
+use crate::device::motion::{self, End, MotorRun};
 use crate::device::registry::Registry;
 use crate::device::retry::{self, while_permissions_settle};
 use crate::error::{Error, Interrupted, Result};
+use crate::wait::{Look, Slices, Wait};
 pub use command::{StopAction, command, reset, stop, stop_all};
 use command::{best_effort, start_all, stop_best_effort, stop_run};
 pub(crate) use command::{prepare, runs_on, start};
 use plan::plan;
 pub use plan::{Extent, Move, Speed, position, set_position};
 pub(crate) use plan::{duty, milliseconds};
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
-use wait::{Reason, wait_and_end};
+use wait::{Reason, UntilDone};
 
 /// A motor and the speed at which to run.
 #[derive(Clone, Debug)]
@@ -83,6 +85,30 @@ pub fn stop_started(registry: &Registry) -> Result<()> {
                 Class::ServoMotor => best_effort(start(motor, "float", None)),
                 _ => stop_best_effort(motor, StopAction::Brake),
             });
+        }
+    }
+    result
+}
+
+/// How many commands the program has given to motors so far.
+#[must_use]
+pub fn command_count() -> u32 {
+    motion::command_count()
+}
+
+/// Stops the motors that were started, and whose last command by the program was one of
+/// these, counted from 0. A robot's motors are commanded when its course begins.
+///
+/// # Errors
+/// The first that occurred.
+pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> {
+    let mut result = Ok(());
+    for class in [Class::TachoMotor, Class::DcMotor] {
+        let all = registry.known(class);
+        let is_one =
+            |motor: &&Arc<Device>| motor.is_commanded_in(commands) && motor.run().is_some();
+        for motor in all.iter().filter(is_one) {
+            result = result.and(stop_best_effort(motor, StopAction::Brake));
         }
     }
     result
@@ -186,58 +212,101 @@ pub fn run_direct(
 /// [`Interrupted`](crate::Error::Interrupted) if the caller abandoned the wait.
 /// The motors are stopped before. [`Error::DuplicatePort`].
 pub fn run_to(
-    registry: &Registry,
+    registry: &Arc<Registry>,
     moves: &[Move],
     options: &MoveOptions,
     interrupted: Interrupted,
 ) -> Result<Option<Reason>> {
-    let start = || start_moves(registry, moves, options);
-    match while_permissions_settle(registry, &mut *interrupted, start)? {
-        Some(motors) => finish(registry, &motors, options, interrupted).map(Some),
+    match begin(registry, moves, options, &mut *interrupted)? {
+        Some(moving) => moving.block(interrupted).map(Some),
         None => Ok(None),
     }
 }
 
-/// Waits, if that is asked for, until motors that were started are done. Those
-/// that do not get there are stopped.
-pub(crate) fn finish(
-    registry: &Registry,
-    motors: &[Arc<Device>],
+/// The same as a wait that can be left: that stops the motors.
+///
+/// # Errors
+/// As [`run_to`].
+pub fn begin(
+    registry: &Arc<Registry>,
+    moves: &[Move],
     options: &MoveOptions,
     interrupted: Interrupted,
-) -> Result<Reason> {
-    if !options.wait {
-        return Ok(Reason::Reached);
-    }
-    let result = wait_to_the_end(registry, motors, options, interrupted);
-    if !matches!(result, Ok(Reason::Reached)) {
-        // No motor may keep turning, however the wait ended. The result already says
-        // that a motor was unplugged, so the error of stopping it is ignored.
-        let _ = stop_all(motors, StopAction::Brake);
-    }
-    match (result?, motors.iter().find(|motor| !registry.has(motor).unwrap_or(false))) {
-        (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
-        (reason, _) => Ok(reason),
+) -> Result<Option<Slices<Moving>>> {
+    let start = || start_moves(registry, moves, options);
+    let motors = while_permissions_settle(registry, interrupted, start)?;
+    Ok(motors.map(|motors| Slices::new(Moving::new(registry, motors, options))))
+}
+
+/// Motors that make a move.
+pub struct Moving {
+    registry: Arc<Registry>,
+    motors: Vec<Arc<Device>>,
+    /// `None` if nobody waits for the end.
+    wait: Option<UntilDone>,
+    is_left_alone: bool,
+}
+
+impl Moving {
+    pub(crate) fn new(
+        registry: &Arc<Registry>,
+        motors: Vec<Arc<Device>>,
+        options: &MoveOptions,
+    ) -> Self {
+        let options = *options;
+        let end = move |motor: &Arc<Device>, run| end_timed_run(motor, run, &options);
+        let wait =
+            options.wait.then(|| UntilDone::new(registry, &motors, options.timeout, Box::new(end)));
+        let registry = Arc::clone(registry);
+        Self { registry, motors, wait, is_left_alone: !options.wait }
     }
 }
 
-/// Waits, and ends timed runs at their time: the kernel's timer is late, by up to an
-/// eighth of it (docs/ev3dev-sysfs.md, 0.5).
-fn wait_to_the_end(
-    registry: &Registry,
-    motors: &[Arc<Device>],
-    options: &MoveOptions,
-    interrupted: Interrupted,
-) -> Result<Reason> {
-    let mut end = |motor: &Arc<Device>, run| {
-        // A stop with a ramp up only would take a step of it.
-        let has_ramp_up = ramped::ramps(motor)?[0] > 0;
-        let ramp_up_ms = has_ramp_up.then_some(0);
-        let mut ramps = Ramps::default();
-        ramps.set(motor, &MoveOptions { ramp_up_ms, ..*options })?;
-        stop_run(motor, run)
-    };
-    wait_and_end(registry, motors, options.timeout, interrupted, &mut end)
+impl Wait for Moving {
+    type End = Reason;
+
+    fn look(&mut self) -> Result<Look<Reason>> {
+        let Some(wait) = &mut self.wait else {
+            return Ok(Look::Over(Reason::Reached));
+        };
+        let found = wait.look()?;
+        let Look::Over(reason) = found else {
+            return Ok(found);
+        };
+        let gone = self.motors.iter().find(|motor| !self.registry.has(motor).unwrap_or(false));
+        match (reason, gone) {
+            (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
+            _ => {
+                self.is_left_alone = reason == Reason::Reached;
+                Ok(found)
+            }
+        }
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        self.wait.as_mut().map_or(Ok(true), |wait| wait.pause(end))
+    }
+}
+
+impl Drop for Moving {
+    /// No motor may keep turning, however the wait ended. The result already says
+    /// that a motor was unplugged, so the error of stopping it is ignored.
+    fn drop(&mut self) {
+        if !self.is_left_alone {
+            let _ = stop_all(&self.motors, StopAction::Brake);
+        }
+    }
+}
+
+/// Ends a timed run at its time: the kernel's timer is late, by up to an eighth of it
+/// (docs/ev3dev-sysfs.md, 0.5).
+fn end_timed_run(motor: &Arc<Device>, run: MotorRun, options: &MoveOptions) -> Result<()> {
+    // A stop with a ramp up only would take a step of it.
+    let has_ramp_up = ramped::ramps(motor)?[0] > 0;
+    let ramp_up_ms = has_ramp_up.then_some(0);
+    let mut ramps = Ramps::default();
+    ramps.set(motor, &MoveOptions { ramp_up_ms, ..*options })?;
+    stop_run(motor, run)
 }
 
 /// Starts the motors of a move; `None` if one is absent or cannot make it.

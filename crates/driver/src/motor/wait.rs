@@ -8,8 +8,9 @@
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
 use crate::device::registry::Registry;
-use crate::error::{Error, Interrupted, Result};
-use crate::sysfs::{AttributeFile, SLICE, pause};
+use crate::error::{Interrupted, Result};
+use crate::sysfs::{AttributeFile, SLICE};
+use crate::wait::{Look, Slices, Wait};
 use rustix::io::Errno;
 use std::sync::Arc;
 use std::time::Duration;
@@ -80,138 +81,227 @@ impl Reason {
 /// Waits until none of the motors runs, or one of them is blocked or unplugged.
 ///
 /// # Errors
-/// The kernel's; [`Error::Interrupted`].
+/// The kernel's; [`Error::Interrupted`](crate::Error::Interrupted).
 pub fn wait_for(
-    registry: &Registry,
+    registry: &Arc<Registry>,
     motors: &[Arc<Device>],
     timeout: Option<Duration>,
     interrupted: Interrupted,
 ) -> Result<Reason> {
-    wait_and_end(registry, motors, timeout, interrupted, &mut |_, _| Ok(()))
+    until_done(registry, motors, timeout).block(interrupted)
 }
 
-/// Ends a timed run.
-pub(super) type EndRun<'a> = &'a mut dyn FnMut(&Arc<Device>, MotorRun) -> Result<()>;
-
-/// The same, and lets a run that still goes on after its time be ended.
-pub(super) fn wait_and_end(
-    registry: &Registry,
+/// The same as a wait that can be left.
+#[must_use]
+pub fn until_done(
+    registry: &Arc<Registry>,
     motors: &[Arc<Device>],
     timeout: Option<Duration>,
-    interrupted: Interrupted,
-    end: EndRun,
-) -> Result<Reason> {
-    let mut all: Vec<Progress> = motors.iter().map(|motor| Progress::new(motor)).collect();
-    let mut reason = Reason::Reached;
-    let waited = until(registry, motors, timeout, interrupted, |now| {
-        let mut nearest = None;
-        for (motor, progress) in motors.iter().zip(&mut all).filter(|(_, one)| !one.is_done) {
-            match progress.sample(now)? {
-                Sample::Runs(_) if progress.is_overdue(now) => {
-                    progress.run.map_or(Ok(()), |run| end(motor, run))?;
-                    nearest = Some(SHORT_SLICE);
-                }
-                Sample::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
-                Sample::Blocked => {
-                    reason = Reason::Stalled;
-                    return Ok(None);
-                }
-                Sample::Done(Reason::Reached) => {}
-                Sample::Done(other) => reason = other,
-            }
-        }
-        Ok(nearest)
-    });
-    match waited {
-        Ok(true) => Ok(reason),
-        Ok(false) => Ok(Reason::Timeout),
-        Err(error) if error.is_unplugged() => {
-            // The caller may ask which motor it was: list again at once.
-            registry.forget_listings();
-            Ok(Reason::Unplugged)
-        }
-        Err(error) => Err(error),
-    }
+) -> Slices<UntilDone> {
+    Slices::new(UntilDone::new(registry, motors, timeout, Box::new(|_, _| Ok(()))))
 }
 
 /// Waits until a flag is among the motor's states, or no longer.
 ///
 /// # Errors
-/// [`Error::Unplugged`] when the motor is unplugged, the kernel's,
-/// [`Error::Interrupted`].
+/// [`Error::Unplugged`](crate::Error::Unplugged) when the motor is unplugged, the kernel's,
+/// [`Error::Interrupted`](crate::Error::Interrupted).
 pub fn wait_for_flag(
-    registry: &Registry,
+    registry: &Arc<Registry>,
     motor: &Arc<Device>,
     flag: &str,
     present: bool,
     interrupted: Interrupted,
 ) -> Result<()> {
-    let mut progress = Progress::new(motor);
-    let motors = std::slice::from_ref(motor);
-    let waited = until(registry, motors, None, interrupted, |now| {
-        let is_there = motor.with_word("state", |state| has(state, flag))?;
-        if !is_there && !progress.is_confirmed()? {
-            return Ok(Some(SHORT_SLICE));
+    until_flag(registry, motor, flag, present).block(interrupted)
+}
+
+/// The same as a wait that can be left.
+#[must_use]
+pub fn until_flag(
+    registry: &Arc<Registry>,
+    motor: &Arc<Device>,
+    flag: &str,
+    present: bool,
+) -> Slices<UntilFlag> {
+    let samples = Samples::new(registry, std::slice::from_ref(motor), None);
+    let progress = Progress::new(motor);
+    Slices::new(UntilFlag { samples, progress, flag: flag.to_owned(), present })
+}
+
+/// Ends a timed run.
+pub(super) type EndRun = Box<dyn Fn(&Arc<Device>, MotorRun) -> Result<()> + Send>;
+
+/// Until none of some motors runs.
+pub struct UntilDone {
+    samples: Samples,
+    all: Vec<Progress>,
+    reason: Reason,
+    end: EndRun,
+}
+
+impl UntilDone {
+    /// `end` ends a run that goes on after its time.
+    pub(super) fn new(
+        registry: &Arc<Registry>,
+        motors: &[Arc<Device>],
+        timeout: Option<Duration>,
+        end: EndRun,
+    ) -> Self {
+        Self {
+            samples: Samples::new(registry, motors, timeout),
+            all: motors.iter().map(Progress::new).collect(),
+            reason: Reason::Reached,
+            end,
         }
-        progress.has_run |= is_there && flag == "running";
-        // Right after a command the motor may not run yet; this is not its end.
-        if is_there == present && (present || flag != "running" || progress.is_over(now)?) {
-            return Ok(None);
+    }
+
+    fn sample(&mut self) -> Result<Look<Reason>> {
+        let now = self.samples.begin()?;
+        let mut nearest = None;
+        for progress in self.all.iter_mut().filter(|one| !one.is_done) {
+            match progress.sample(now)? {
+                Sample::Runs(_) if progress.is_overdue(now) => {
+                    progress.run.map_or(Ok(()), |run| (self.end)(&progress.motor, run))?;
+                    nearest = Some(SHORT_SLICE);
+                }
+                Sample::Runs(slice) => nearest = nearest.into_iter().chain([slice]).min(),
+                Sample::Blocked => return Ok(Look::Over(Reason::Stalled)),
+                Sample::Done(Reason::Reached) => {}
+                Sample::Done(other) => self.reason = other,
+            }
         }
-        Ok(Some(progress.slice(now)?))
-    });
-    match waited {
-        Err(error) if error.is_unplugged() => Err(motor.unplugged()),
-        waited => waited.map(drop),
+        Ok(match nearest {
+            None => Look::Over(self.reason),
+            Some(slice) => self.samples.again(now, slice).unwrap_or(Look::Over(Reason::Timeout)),
+        })
     }
 }
 
-/// Calls `look` until it returns `None`. Otherwise it returns the longest time to
-/// sleep before the next call. `false` when the time is up.
-fn until(
-    registry: &Registry,
-    motors: &[Arc<Device>],
-    timeout: Option<Duration>,
-    interrupted: Interrupted,
-    mut look: impl FnMut(Duration) -> Result<Option<Duration>>,
-) -> Result<bool> {
-    let tree = registry.tree();
-    let deadline = timeout.map(|timeout| tree.now().saturating_add(timeout));
-    let mut listen = true;
-    loop {
-        let now = tree.now();
-        let Some(slice) = look(now)? else {
-            return Ok(true);
+impl Wait for UntilDone {
+    type End = Reason;
+
+    fn look(&mut self) -> Result<Look<Reason>> {
+        match self.sample() {
+            Err(error) if error.is_unplugged() => {
+                // The caller may ask which motor it was: list again at once.
+                self.samples.registry.forget_listings();
+                Ok(Look::Over(Reason::Unplugged))
+            }
+            sampled => sampled,
+        }
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        Ok(self.samples.pause(end))
+    }
+}
+
+/// Until a motor's state has a flag, or no longer.
+pub struct UntilFlag {
+    samples: Samples,
+    progress: Progress,
+    flag: String,
+    present: bool,
+}
+
+impl UntilFlag {
+    fn sample(&mut self) -> Result<Look<()>> {
+        let now = self.samples.begin()?;
+        let Self { samples, progress, flag, present } = self;
+        let is_there = progress.motor.with_word("state", |state| has(state, flag))?;
+        let slice = if !is_there && !progress.is_confirmed()? {
+            SHORT_SLICE
+        } else {
+            progress.has_run |= is_there && flag == "running";
+            // Right after a command the motor may not run yet; this is not its end.
+            if is_there == *present && (*present || flag != "running" || progress.is_over(now)?) {
+                return Ok(Look::Over(()));
+            }
+            progress.slice(now)?
         };
-        if interrupted() {
-            return Err(Error::Interrupted);
+        Ok(samples.again(now, slice).unwrap_or(Look::Over(())))
+    }
+}
+
+impl Wait for UntilFlag {
+    type End = ();
+
+    fn look(&mut self) -> Result<Look<()>> {
+        match self.sample() {
+            Err(error) if error.is_unplugged() => Err(self.progress.motor.unplugged()),
+            sampled => sampled,
         }
-        let left = deadline.map_or(SLICE, |deadline| deadline.saturating_sub(now));
-        if left.is_zero() {
-            return Ok(false);
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        Ok(self.samples.pause(end))
+    }
+}
+
+/// When to look at motors again.
+struct Samples {
+    registry: Arc<Registry>,
+    motors: Vec<Arc<Device>>,
+    deadline: Option<Duration>,
+    /// Whether the kernel may announce the next change.
+    listens: bool,
+    /// Whether time has passed since the last sample.
+    has_paused: bool,
+}
+
+impl Samples {
+    fn new(registry: &Arc<Registry>, motors: &[Arc<Device>], timeout: Option<Duration>) -> Self {
+        let now = registry.tree().now();
+        Self {
+            registry: Arc::clone(registry),
+            motors: motors.to_vec(),
+            deadline: timeout.map(|timeout| now.saturating_add(timeout)),
+            listens: true,
+            has_paused: false,
         }
-        let attributes: Vec<_> = motors.iter().map(|motor| motor.attribute("state")).collect();
-        let nodes: Vec<&dyn AttributeFile> = attributes
-            .iter()
-            .filter(|_| listen)
-            .filter_map(|attribute| attribute.reader(tree).ok())
-            .collect();
-        let slice = slice.min(left).min(SLICE);
-        pause(tree, &nodes, slice, interrupted)?;
-        // Woken early, and perhaps for nothing: sleep through the next slice,
-        // so that a descriptor that is always ready does not make us spin.
-        listen = !listen || tree.now().saturating_sub(now) >= slice;
-        for motor in motors {
-            if !registry.has(motor)? {
-                return Err(motor.unplugged());
+    }
+
+    /// The time of the next sample; an error if a motor is gone.
+    fn begin(&mut self) -> Result<Duration> {
+        if std::mem::take(&mut self.has_paused) {
+            for motor in &self.motors {
+                if !self.registry.has(motor)? {
+                    return Err(motor.unplugged());
+                }
             }
         }
+        Ok(self.registry.tree().now())
+    }
+
+    /// When to take the next one; `None` when the time is up.
+    fn again<T>(&self, now: Duration, slice: Duration) -> Option<Look<T>> {
+        let left = self.deadline.map_or(SLICE, |deadline| deadline.saturating_sub(now));
+        (!left.is_zero()).then(|| Look::Again(now + slice.min(left).min(SLICE)))
+    }
+
+    fn pause(&mut self, end: Duration) -> bool {
+        let tree = self.registry.tree();
+        let attributes: Vec<_> = self.motors.iter().map(|one| one.attribute("state")).collect();
+        let nodes: Vec<&dyn AttributeFile> = attributes
+            .iter()
+            .filter(|_| self.listens)
+            .filter_map(|attribute| attribute.reader(tree).ok())
+            .collect();
+        if !tree.pause(&nodes, end).unwrap_or(true) {
+            return false;
+        }
+        // Woken early, and perhaps for nothing: sleep through the next slice, so that a
+        // descriptor that is always ready does not make us spin.
+        self.listens = !self.listens || tree.now() >= end;
+        self.has_paused = true;
+        true
     }
 }
 
 /// One motor under observation.
-struct Progress<'a> {
-    motor: &'a Device,
+struct Progress {
+    motor: Arc<Device>,
     /// The command under way when the wait began. If the motor gets another one, it
     /// does not reach the end of this one.
     run: Option<MotorRun>,
@@ -234,10 +324,10 @@ enum Sample {
     Done(Reason),
 }
 
-impl<'a> Progress<'a> {
-    fn new(motor: &'a Device) -> Self {
+impl Progress {
+    fn new(motor: &Arc<Device>) -> Self {
         Self {
-            motor,
+            motor: Arc::clone(motor),
             run: *motor.run(),
             has_run: false,
             is_done: false,

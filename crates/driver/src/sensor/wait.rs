@@ -3,8 +3,8 @@ use crate::device::Device;
 use crate::device::registry::Registry;
 use crate::error::{Interrupted, Result};
 use crate::sensor::read;
-use crate::sysfs::sleep;
 use crate::value::Value;
+use crate::wait::{Look, Slices, Wait};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -59,7 +59,7 @@ impl Ended {
 /// # Errors
 /// As [`read`].
 pub fn wait_until(
-    registry: &Registry,
+    registry: &Arc<Registry>,
     sensor: &Arc<Device>,
     mode: &str,
     index: usize,
@@ -67,21 +67,65 @@ pub fn wait_until(
     timeout: Option<Duration>,
     interrupted: Interrupted,
 ) -> Result<Ended> {
-    let tree = registry.tree();
-    let deadline = timeout.map(|timeout| tree.now().saturating_add(timeout));
-    let mut was_pressed = false;
-    loop {
-        let Some(value) = read(registry, sensor, Some(mode), index, &mut *interrupted)? else {
-            return Ok(Ended::Unplugged);
+    until_shown(registry, sensor, mode, index, until, timeout).block(interrupted)
+}
+
+/// The same as a wait that can be left.
+#[must_use]
+pub fn until_shown(
+    registry: &Arc<Registry>,
+    sensor: &Arc<Device>,
+    mode: &str,
+    index: usize,
+    until: Until,
+    timeout: Option<Duration>,
+) -> Slices<UntilShown> {
+    Slices::new(UntilShown {
+        registry: Arc::clone(registry),
+        sensor: Arc::clone(sensor),
+        mode: mode.to_owned(),
+        index,
+        until,
+        deadline: timeout.map(|timeout| registry.tree().now().saturating_add(timeout)),
+        was_pressed: false,
+    })
+}
+
+/// Until a sensor shows something.
+pub struct UntilShown {
+    registry: Arc<Registry>,
+    sensor: Arc<Device>,
+    mode: String,
+    index: usize,
+    until: Until,
+    deadline: Option<Duration>,
+    was_pressed: bool,
+}
+
+impl Wait for UntilShown {
+    type End = Ended;
+
+    fn look(&mut self) -> Result<Look<Ended>> {
+        let Self { registry, sensor, mode, index, .. } = self;
+        // A sensor that settles in its mode is waited for without handling signals: for a
+        // hundredth of a second.
+        let Some(value) = read(registry, sensor, Some(mode), *index, &mut || false)? else {
+            return Ok(Look::Over(Ended::Unplugged));
         };
-        if is_met(until, number(&value), &mut was_pressed) {
-            return Ok(Ended::Reached);
+        if is_met(self.until, number(&value), &mut self.was_pressed) {
+            return Ok(Look::Over(Ended::Reached));
         }
-        let left = deadline.map_or(PERIOD, |deadline| deadline.saturating_sub(tree.now()));
-        if left.is_zero() {
-            return Ok(Ended::Timeout);
-        }
-        sleep(tree, left.min(PERIOD), &mut *interrupted)?;
+        let now = self.registry.tree().now();
+        let left = self.deadline.map_or(PERIOD, |deadline| deadline.saturating_sub(now));
+        Ok(if left.is_zero() {
+            Look::Over(Ended::Timeout)
+        } else {
+            Look::Again(now + left.min(PERIOD))
+        })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        Ok(self.registry.tree().pause(&[], end).unwrap_or(true))
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-fn motor_with(attributes: &[(&str, &str)]) -> (PlainTree, Registry, Arc<Device>) {
+fn motor_with(attributes: &[(&str, &str)]) -> (PlainTree, Arc<Registry>, Arc<Device>) {
     let tree = PlainTree::new();
     tree.plug(Class::TachoMotor, "motor0", "outA", attributes);
     let devices = tree.devices();

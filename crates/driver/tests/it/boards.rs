@@ -5,9 +5,10 @@ use ev3_driver::brick::{battery, port as lego_port};
 use ev3_driver::{Class, Error, Registry};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A tree with LEDs of these names.
-fn lights(names: &[&str]) -> (PlainTree, Registry) {
+fn lights(names: &[&str]) -> (PlainTree, Arc<Registry>) {
     let tree = PlainTree::new();
     for name in names {
         let files =
@@ -102,7 +103,7 @@ fn a_file_that_a_board_does_not_have_is_an_answer_and_not_an_error() {
 }
 
 /// A port for motors with a motor in it.
-fn port() -> (PlainTree, Registry) {
+fn port() -> (PlainTree, Arc<Registry>) {
     let tree = PlainTree::new();
     let files = [("mode", "auto"), ("set_device", "")];
     let port = tree.plug(Class::Port, "port4", "ev3-ports:outA", &files);

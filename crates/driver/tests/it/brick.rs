@@ -577,8 +577,8 @@ impl Brick {
         Arc::new(Self(Arc::new(Mutex::new(world)), Mutex::default()))
     }
 
-    pub(crate) fn devices(self: &Arc<Self>) -> Registry {
-        Registry::new(Arc::<Self>::clone(self))
+    pub(crate) fn devices(self: &Arc<Self>) -> Arc<Registry> {
+        Arc::new(Registry::new(Arc::<Self>::clone(self)))
     }
 
     pub(crate) fn world(&self) -> MutexGuard<'_, World> {

@@ -53,14 +53,17 @@ fn an_event_may_come_in_pieces() {
     let path = directory.path().join(KEYS);
     fs::write(&path, record(1, 103, 1)).unwrap();
     let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
-    let events = Events::from_now(dev).unwrap().unwrap();
+    let events = Arc::new(Events::from_now(dev).unwrap().unwrap());
     let mut file = OpenOptions::new().append(true).open(&path).unwrap();
     let (first, second) = (record(1, 106, 1), record(1, 106, 0));
     file.write_all(&first[..5]).unwrap();
-    assert_eq!(events.next(Some(Duration::ZERO), &mut never).unwrap(), None);
+    assert_eq!(
+        events.until_next(None, None, Some(Duration::ZERO)).block(&mut never).unwrap(),
+        None
+    );
     file.write_all(&first[5..]).unwrap();
     file.write_all(&second).unwrap();
-    let next = || events.next(Some(Duration::ZERO), &mut never).unwrap();
+    let next = || events.until_next(None, None, Some(Duration::ZERO)).block(&mut never).unwrap();
     assert_eq!(next(), Some(Event { button: Button::Right, is_press: true }));
     assert_eq!(next(), Some(Event { button: Button::Right, is_press: false }));
     assert_eq!(next(), None);
@@ -71,9 +74,9 @@ fn a_wait_for_a_key_asks_whether_to_go_on() {
     let directory = directory();
     fs::write(directory.path().join(KEYS), "").unwrap();
     let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
-    let events = Events::from_now(dev).unwrap().unwrap();
+    let events = Arc::new(Events::from_now(dev).unwrap().unwrap());
     let mut asked = 0;
-    let ended = events.next(None, &mut || {
+    let ended = events.until_next(None, None, None).block(&mut || {
         asked += 1;
         asked == 3
     });
@@ -93,16 +96,20 @@ fn a_directory_in_the_place_of_the_keys_is_an_error() {
 fn a_tone_ends_however_it_is_left() {
     let directory = directory();
     let path = directory.path().join(SOUND);
-    let dev = DevfsDir::new(directory.path());
+    let dev: Arc<dyn Devfs> = Arc::new(DevfsDir::new(directory.path()));
     let sound = Sound::default();
-    let tones = [Tone { hertz: 440, lasts: Duration::from_secs(1000) }];
-    assert!(sound.play_tones(&dev, &tones, &mut || true).unwrap().is_none(), "no device");
+    let tones = || vec![Tone { hertz: 440, lasts: Duration::from_secs(1000) }];
+    assert!(sound.play_tones(&dev, tones()).unwrap().is_none(), "no device");
     fs::write(&path, "").unwrap();
-    let left = sound.play_tones(&dev, &tones, &mut || true);
+    let mut asked = 0;
+    let left = sound.play_tones(&dev, tones()).unwrap().unwrap().block(&mut || {
+        asked += 1;
+        asked == 2
+    });
     assert!(matches!(left, Err(Error::Interrupted)));
     let written = [record(0x12, 2, 440), record(0x12, 2, 0)].concat();
     assert_eq!(fs::read(&path).unwrap(), written);
-    sound.stop(&dev).unwrap();
+    sound.stop(&*dev).unwrap();
     assert_eq!(fs::read(&path).unwrap(), written, "nothing sounds");
 }
 

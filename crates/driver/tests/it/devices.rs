@@ -5,11 +5,11 @@ use ev3_driver::{Class, Errno, Error, Registry, SysfsDir};
 use std::fs;
 use std::sync::Arc;
 
-fn ports(devices: &Registry, class: Class) -> Vec<String> {
+fn ports(devices: &Arc<Registry>, class: Class) -> Vec<String> {
     devices.all(class).unwrap().iter().map(|device| device.port().to_owned()).collect()
 }
 
-fn name_at(devices: &Registry, port: &str) -> Option<String> {
+fn name_at(devices: &Arc<Registry>, port: &str) -> Option<String> {
     let device = devices.find(Class::TachoMotor, port).unwrap()?;
     Some(device.path().file_name().unwrap().to_str().unwrap().to_owned())
 }
@@ -92,7 +92,8 @@ fn of_two_devices_at_one_port_the_later_one_is_meant() {
 #[test]
 fn there_are_no_devices_without_class_directory_or_root() {
     let tree = PlainTree::new();
-    let nowhere = Registry::new(Arc::new(SysfsDir::new(tree.root().join("no/such"))));
+    let nowhere = SysfsDir::new(tree.root().join("no/such"));
+    let nowhere = Arc::new(Registry::new(Arc::new(nowhere)));
     for devices in [tree.devices(), nowhere] {
         for class in Class::ALL {
             assert!(devices.all(class).unwrap().is_empty());

@@ -34,7 +34,7 @@ impl Driven {
         let gyro = world.plug_sensor("in2", "lego-ev3-gyro", GYRO);
         (gyro.gyro, gyro.gyro_lag) = (Some(1.0), ms(20));
         drop(world);
-        let registry = Arc::new(brick.devices());
+        let registry = brick.devices();
         let robot = Robot {
             ports: ["outB".to_owned(), "outC".to_owned()],
             wheels: Wheels {
@@ -65,7 +65,9 @@ impl Driven {
         let command = Command::Legs(legs.to_vec(), false);
         let begun = self.drive.begin(&command, &options, &mut *interrupted);
         let ended = begun.and_then(|begun| {
-            begun.map(|outcome| self.drive.wait(&outcome, None, interrupted)).transpose()
+            begun
+                .map(|outcome| self.drive.until_ended(outcome, None).block(interrupted))
+                .transpose()
         });
         self.assert_at_rest();
         ended
@@ -174,7 +176,7 @@ fn a_turn_that_its_acceleration_makes_swing_ends_all_the_same() {
         };
         let never = &mut robot.brick.attentive();
         let begun = robot.drive.begin(&command, &options, &mut *never).unwrap().unwrap();
-        let ended = robot.drive.wait(&begun, Some(ms(10_000)), never).unwrap();
+        let ended = robot.drive.until_ended(begun, Some(ms(10_000))).block(never).unwrap();
         let heading = robot.heading();
         assert_eq!(ended, Reason::Reached, "{acceleration}");
         assert!((heading - 90.0).abs() <= 5.0, "{acceleration}: {heading}");
@@ -269,7 +271,8 @@ fn so_are_those_that_a_program_commands_again_and_again() {
     let again = |speed| {
         let never = &mut robot.brick.attentive();
         let begun = robot.drive.begin(&Command::Cruise(speed, 0.0), &options, &mut *never);
-        robot.drive.wait_last(Some(ms(50)), never).map(|ended| (begun.unwrap().is_some(), ended))
+        let ended = robot.drive.until_last_ended(Some(ms(50))).block(never);
+        ended.map(|ended| (begun.unwrap().is_some(), ended))
     };
     // To push one way and then the other is no stall.
     for speed in [15.0, -15.0, 15.0, -15.0] {
@@ -422,7 +425,7 @@ fn turned_while(
     };
     let command = Command::Legs(vec![Leg::Turn(90.0)], false);
     let begun = robot.drive.begin(&command, &options, &mut interrupted)?.unwrap();
-    let ended = robot.drive.wait(&begun, None, &mut interrupted);
+    let ended = robot.drive.until_ended(begun, None).block(&mut interrupted);
     assert!(is_done, "it was over before");
     ended.map(Some)
 }

@@ -58,12 +58,12 @@ impl PlainTree {
         fs::remove_dir_all(self.root().join(class.directory()).join(name)).unwrap();
     }
 
-    pub(crate) fn devices(&self) -> Registry {
-        Registry::new(Arc::new(SysfsDir::new(self.root())))
+    pub(crate) fn devices(&self) -> Arc<Registry> {
+        Arc::new(Registry::new(Arc::new(SysfsDir::new(self.root()))))
     }
 
     /// The same files behind something that counts what is asked of them.
-    pub(crate) fn counted(&self) -> (Arc<Counted>, Registry) {
+    pub(crate) fn counted(&self) -> (Arc<Counted>, Arc<Registry>) {
         let counted = Arc::new(Counted {
             files: SysfsDir::new(self.root()),
             now_ms: AtomicUsize::new(0),
@@ -71,7 +71,7 @@ impl PlainTree {
             opens: AtomicUsize::new(0),
             accesses: Arc::default(),
         });
-        (Arc::clone(&counted), Registry::new(counted))
+        (Arc::clone(&counted), Arc::new(Registry::new(counted)))
     }
 }
 

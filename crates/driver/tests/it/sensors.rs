@@ -22,14 +22,14 @@ fn brick() -> Arc<Brick> {
     brick
 }
 
-fn sensor(devices: &Registry, port: &str) -> Arc<Device> {
+fn sensor(devices: &Arc<Registry>, port: &str) -> Arc<Device> {
     devices.find(Class::Sensor, port).unwrap().unwrap()
 }
 
 /// Reads a value, or says why not.
 fn value(
     brick: &Arc<Brick>,
-    devices: &Registry,
+    devices: &Arc<Registry>,
     port: &str,
     mode: &str,
     index: usize,

@@ -13,11 +13,14 @@ const IMU: &[(&str, &[i64], i64)] = &[("GYRO", &[1, 2, 3], 1)];
 /// Accesses take this long.
 const ACCESS: Duration = Duration::from_micros(40);
 
-fn sensor(devices: &Registry, port: &str) -> Arc<Device> {
+fn sensor(devices: &Arc<Registry>, port: &str) -> Arc<Device> {
     devices.find(Class::Sensor, port).unwrap().unwrap()
 }
 
-fn brick(driver: &'static str, modes: &[(&'static str, &[i64], i64)]) -> (Arc<Brick>, Registry) {
+fn brick(
+    driver: &'static str,
+    modes: &[(&'static str, &[i64], i64)],
+) -> (Arc<Brick>, Arc<Registry>) {
     let brick = Brick::new(&[]);
     brick.world().plug_sensor("in1:i2c8", driver, modes).settling = ms(30);
     let devices = brick.devices();
@@ -27,7 +30,7 @@ fn brick(driver: &'static str, modes: &[(&'static str, &[i64], i64)]) -> (Arc<Br
 /// The values, and how many accesses it took to read them.
 fn read(
     brick: &Arc<Brick>,
-    devices: &Registry,
+    devices: &Arc<Registry>,
     mode: &str,
     count: Option<usize>,
 ) -> (ev3_driver::Result<Option<Vec<Value>>>, u128) {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Starts a move of some motors at half speed.
-fn start(devices: &Registry, ports: &[&str], degrees: f64) {
+fn start(devices: &Arc<Registry>, ports: &[&str], degrees: f64) {
     let speed = Speed::Percent(50.0);
     let moves: Vec<_> =
         ports.iter().map(|port| Move { port, speed, extent: Extent::By(degrees) }).collect();
@@ -19,7 +19,7 @@ fn start(devices: &Registry, ports: &[&str], degrees: f64) {
 }
 
 /// Waits for some motors, with a time limit that a working wait does not need.
-fn wait(brick: &Arc<Brick>, devices: &Registry, ports: &[&str]) -> Reason {
+fn wait(brick: &Arc<Brick>, devices: &Arc<Registry>, ports: &[&str]) -> Reason {
     let all = motors(devices, ports);
     wait_for(devices, &all, Some(Duration::from_secs(60)), &mut brick.attentive()).unwrap()
 }

@@ -16,7 +16,7 @@
 
 mod acts;
 mod baton;
-mod pace;
+pub(crate) mod pace;
 mod threads;
 mod wall;
 
@@ -80,7 +80,6 @@ pub fn is_outside() -> bool {
 pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
-    pace: Arc<pace::Pace>,
     clock: Passing,
 }
 
@@ -99,16 +98,15 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let acts = Arc::new(PeriodicActs::default());
-        let pace = Arc::<pace::Pace>::default();
         let clock = match clock {
             Clock::Wall(factor) => {
                 let (shared, acts) = (Arc::clone(&shared), Arc::clone(&acts));
-                let stepper = Stepper::start(shared, acts, Arc::clone(&pace), factor)?;
+                let stepper = Stepper::start(shared, acts, factor)?;
                 Passing::Wall { _stepper: stepper, factor }
             }
             Clock::Virtual => Passing::Virtual { baton: Baton::new(), has_others },
         };
-        Ok(Self { shared, acts, pace, clock })
+        Ok(Self { shared, acts, clock })
     }
 
     /// The machine behind its lock, as a mount needs it.
@@ -159,15 +157,15 @@ impl Simulation {
     /// Holds this thread back, which has its turn, if time is to pass more slowly; `false` if it
     /// has to handle signals, and to call again.
     fn may_go_on(&self) -> bool {
-        if !self.pace.is_limited() {
+        if !self.shared.pace().is_limited() {
             return true;
         }
         let now = self.machine().now();
-        match self.pace.leave(now) {
+        match self.shared.pace().leave(now) {
             Leave::Go(_) => true,
             Leave::Wait(sleep) => {
                 std::thread::sleep(sleep);
-                matches!(self.pace.leave(now), Leave::Go(_))
+                matches!(self.shared.pace().leave(now), Leave::Go(_))
             }
         }
     }
@@ -175,30 +173,30 @@ impl Simulation {
     /// The fastest that simulated time may pass, in seconds in a second of the wall clock. By the
     /// wall clock it multiplies the factor of the clock. `None` is no limit.
     pub fn set_pace(&self, factor: Option<f64>) {
-        self.pace.set_factor(factor);
+        self.shared.pace().set_factor(factor);
     }
 
     /// The limit of [`Simulation::set_pace`].
     #[must_use]
     pub fn pace(&self) -> Option<f64> {
-        self.pace.factor()
+        self.shared.pace().factor()
     }
 
     /// Lets time stand, with any clock, or pass again. A program that waits, waits on.
     pub fn set_paused(&self, is_paused: bool) {
-        self.pace.set_paused(is_paused);
+        self.shared.pace().set_paused(is_paused);
     }
 
     /// Whether time stands.
     #[must_use]
     pub fn is_paused(&self) -> bool {
-        self.pace.is_paused()
+        self.shared.pace().is_paused()
     }
 
     /// Lets this time pass while paused, as far as the program uses it.
     pub fn allow(&self, time: Duration) {
         let now = self.machine().now();
-        self.pace.allow(now, time);
+        self.shared.pace().allow(now, time);
     }
 
     /// How time passes.
@@ -303,7 +301,7 @@ impl Simulation {
     fn pass_until(&self, end: Duration) -> bool {
         let machine = self.shared.lock();
         let left = end.saturating_sub(machine.now());
-        let most = match self.pace.leave(machine.now()) {
+        let most = match self.shared.pace().leave(machine.now()) {
             Leave::Go(most) => most,
             Leave::Wait(sleep) => {
                 drop(machine);

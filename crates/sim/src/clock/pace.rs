@@ -19,7 +19,7 @@ const SHORT: Duration = Duration::from_millis(2);
 
 /// How fast time may pass at most. By default it is not held back.
 #[derive(Debug, Default)]
-pub(super) struct Pace {
+pub(crate) struct Pace {
     /// A clock without a limit pays for one load.
     is_limited: AtomicBool,
     state: Mutex<State>,
@@ -30,15 +30,17 @@ struct State {
     /// Simulated seconds in a second; `None` is no limit.
     factor: Option<f64>,
     is_paused: bool,
-    /// While paused, time may pass until then.
+    /// While paused, time may pass until then on the virtual clock.
     allowed: Duration,
+    /// The same by the wall clock: so much of it.
+    left: Duration,
     /// A moment of both clocks from which the limit counts.
     since: Option<(Instant, Duration)>,
 }
 
 /// Whether time may pass now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Leave {
+pub(crate) enum Leave {
     /// So much of it at once.
     Go(Duration),
     /// Not before a sleep of this length.
@@ -47,7 +49,7 @@ pub(super) enum Leave {
 
 impl Pace {
     /// Sets the limit, in simulated seconds in a second; `None` is no limit.
-    pub(super) fn set_factor(&self, factor: Option<f64>) {
+    pub(crate) fn set_factor(&self, factor: Option<f64>) {
         let mut state = self.state();
         state.factor = factor;
         state.since = None;
@@ -58,35 +60,37 @@ impl Pace {
         self.is_limited.store(state.is_paused || state.factor.is_some(), Ordering::Release);
     }
 
-    pub(super) fn is_limited(&self) -> bool {
+    pub(crate) fn is_limited(&self) -> bool {
         self.is_limited.load(Ordering::Acquire)
     }
 
-    pub(super) fn factor(&self) -> Option<f64> {
+    pub(crate) fn factor(&self) -> Option<f64> {
         self.state().factor
     }
 
     /// Lets time stand from now on, or pass again.
-    pub(super) fn set_paused(&self, is_paused: bool) {
+    pub(crate) fn set_paused(&self, is_paused: bool) {
         let mut state = self.state();
         state.is_paused = is_paused;
         state.allowed = Duration::ZERO;
+        state.left = Duration::ZERO;
         state.since = None;
         self.note(&state);
     }
 
-    pub(super) fn is_paused(&self) -> bool {
+    pub(crate) fn is_paused(&self) -> bool {
         self.state().is_paused
     }
 
     /// Lets some time pass while paused.
-    pub(super) fn allow(&self, now: Duration, time: Duration) {
+    pub(crate) fn allow(&self, now: Duration, time: Duration) {
         let mut state = self.state();
         state.allowed = state.allowed.max(now).saturating_add(time);
+        state.left = state.left.saturating_add(time);
     }
 
     /// Whether time may pass at a moment of simulated time.
-    pub(super) fn leave(&self, now: Duration) -> Leave {
+    pub(crate) fn leave(&self, now: Duration) -> Leave {
         if !self.is_limited() {
             return Leave::Go(Duration::MAX);
         }
@@ -114,10 +118,18 @@ impl Pace {
     }
 
     /// How much simulated time passes in some wall time, which passes anyway, with a factor.
-    pub(super) fn of_wall(&self, now: Duration, wall: Duration, factor: f64) -> Duration {
-        let state = self.state();
+    pub(crate) fn of_wall(&self, wall: Duration, factor: f64) -> Duration {
+        if !self.is_limited() {
+            return wall.mul_f64(factor);
+        }
+        let mut state = self.state();
         let passed = wall.mul_f64(factor * state.factor.unwrap_or(1.0));
-        if state.is_paused { passed.min(state.allowed.saturating_sub(now)) } else { passed }
+        if !state.is_paused {
+            return passed;
+        }
+        let passed = passed.min(state.left);
+        state.left -= passed;
+        passed
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -153,7 +165,8 @@ mod tests {
         pace.allow(SECOND, SECOND);
         assert_eq!(pace.leave(SECOND), Leave::Go(SECOND));
         assert_eq!(pace.leave(SECOND * 2), Leave::Wait(SLICE));
-        assert_eq!(pace.of_wall(SECOND * 2, SECOND, 1.0), Duration::ZERO);
+        assert_eq!(pace.of_wall(SECOND * 2, 1.0), SECOND);
+        assert_eq!(pace.of_wall(SECOND, 1.0), Duration::ZERO);
         pace.set_paused(false);
         assert_eq!(pace.leave(SECOND), Leave::Go(Duration::MAX));
     }
@@ -162,6 +175,6 @@ mod tests {
     fn a_wall_clock_gets_another_factor() {
         let pace = Pace::default();
         pace.set_factor(Some(2.0));
-        assert_eq!(pace.of_wall(SECOND, SECOND, 3.0), SECOND * 6);
+        assert_eq!(pace.of_wall(SECOND, 3.0), SECOND * 6);
     }
 }

@@ -14,6 +14,7 @@ mod motors;
 mod panel;
 mod plugs;
 mod properties;
+mod report;
 mod robots;
 mod sensors;
 mod servos;

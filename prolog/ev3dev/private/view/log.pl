@@ -13,6 +13,7 @@ Warnings and errors of the program, and its marks.
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
+:- dynamic hook/1.                      % Clause
 
 %!  watch_messages is det.
 %!  leave_messages is det.
@@ -23,12 +24,13 @@ watch_messages :-
     leave_messages,
     asserta((user:message_hook(_, Kind, Lines) :-
                  ev3dev_view_log:seen(Kind, Lines),
-                 fail)).
+                 fail),
+            Hook),
+    assertz(hook(Hook)).
 
 leave_messages :-
-    forall(( clause(user:message_hook(_, _, _), Body, Clause),
-             Body = (ev3dev_view_log:seen(_, _), fail) ),
-           erase(Clause)).
+    forall(retract(hook(Hook)),
+           erase(Hook)).
 
 seen(Kind, Lines) :-
     (   memberchk(Kind, [warning, error]),

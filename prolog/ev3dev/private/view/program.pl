@@ -20,7 +20,8 @@ Whether a program runs at the toplevel, and how it is stopped.
 :- dynamic
     state/1,                            % idle, running
     queries/1,                          % how many there were
-    stopping/1.                         % the thread that does it
+    stopping/1,                         % the thread that does it
+    hook/1.                             % a clause
 
 state(running).
 queries(0).
@@ -58,21 +59,18 @@ watch_program :-
     leave_program,
     asserta((user:expand_query(_, _, _, _) :-
                  ev3dev_view_program:query_begins,
-                 fail)),
+                 fail),
+            Hook1),
     asserta((user:message_hook(Message, Kind, _) :-
                  ev3dev_view_program:message_seen(Message, Kind),
-                 fail)).
+                 fail),
+            Hook2),
+    assertz(hook(Hook1)),
+    assertz(hook(Hook2)).
 
 leave_program :-
-    retractall((user:expand_query(_, _, _, _) :-
-                    ev3dev_view_program:query_begins,
-                    fail)),
-    forall(( clause(user:expand_query(_, _, _, _), Body, Clause),
-             Body = (ev3dev_view_program:query_begins, fail) ),
-           erase(Clause)),
-    forall(( clause(user:message_hook(_, _, _), Body, Clause),
-             Body = (ev3dev_view_program:message_seen(_, _), fail) ),
-           erase(Clause)).
+    forall(retract(hook(Hook)),
+           erase(Hook)).
 
 query_begins :-
     (   is_main

@@ -104,6 +104,23 @@ type(svg, 'image/svg+xml').
 type(png, 'image/png').
 type(woff2, 'font/woff2').
 
+%   What library(http) says by itself of a request that it cannot read tells
+%   the other side nothing, either. (Before version 9 there is no such hook.)
+:- multifile http:status_page/3.
+:- dynamic http:status_page/3.
+
+http:status_page(Status, _, ['Not possible.\n']) :-
+    integer(Status),
+    ev3dev_view_server:serves_here.
+
+serves_here :-
+    served(Port, _, _),
+    thread_self(Me),
+    catch(thread_property(Me, alias(Alias)), _, fail),
+    format(atom(Ours), ':~w_', [Port]),
+    sub_atom(Alias, _, _, _, Ours),
+    !.
+
 %!  request(+Request) is det.
 %
 %   Answer a request of library(http). Tells the other side nothing of an

@@ -1,0 +1,36 @@
+//! Sleeping.
+use crate::device::registry::Registry;
+use crate::error::Result;
+use crate::sysfs::SLICE;
+use crate::wait::{Look, Slices, Wait};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Sleeping, by the clock of the tree.
+pub struct Sleep {
+    registry: Arc<Registry>,
+    end: Duration,
+}
+
+impl Sleep {
+    /// For some time from now on.
+    #[must_use]
+    pub fn new(registry: Arc<Registry>, time: Duration) -> Slices<Self> {
+        let end = registry.tree().now().saturating_add(time);
+        Slices::new(Self { registry, end })
+    }
+}
+
+impl Wait for Sleep {
+    type End = ();
+
+    fn look(&mut self) -> Result<Look<()>> {
+        let now = self.registry.tree().now();
+        let left = self.end.saturating_sub(now);
+        Ok(if left.is_zero() { Look::Over(()) } else { Look::Again(now + left.min(SLICE)) })
+    }
+
+    fn pause(&mut self, end: Duration) -> Result<bool> {
+        Ok(self.registry.tree().pause(&[], end).unwrap_or(true))
+    }
+}

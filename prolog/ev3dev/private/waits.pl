@@ -1,0 +1,194 @@
+:- module(ev3dev_waits,
+          [ waited/1,                   % +Reason
+            listening/3,                % +Seconds, :Closure, :Goal
+            leave/2,                    % +Listener, +Ball
+            listen_for_events/1,        % +Seconds
+            in_guard/2,                 % +Name, :Goal
+            serve_at_read/0
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(native, [tick_after_/1, tick_never_/0]).
+:- use_module(errors, [goal_of_program/1, throw_error/3]).
+
+:- meta_predicate
+    listening(+, 1, 0),
+    in_guard(+, 0).
+
+/** <module> Waits, and what happens meanwhile
+
+A native wait returns `pause` or `tick` after each slice of time, with a choice
+point, and at its end its reason. So a caller writes
+
+```
+    wait_(Seconds, Reason),
+    waited(Reason),
+    !
+```
+
+Between two slices Prolog handles its signals. An exception that leaves the
+wait ends it: a move stops its motors.
+
+A tick is a slice at whose end this thread serves its listeners and events:
+those that library(ev3dev/events) and library(ev3dev/rules) add. A program
+that does not load them has no ticks.
+
+What listens stands in a backtrackable global variable. So an exception, a
+failure and a cut end it, whatever they leave.
+*/
+
+%!  waited(+Reason) is semidet.
+%
+%   True if a wait is over. Fails back into it if not, once the events of this
+%   thread that are due have been served.
+%
+%   @error permission_error(wait, guard, Name) in a guard, see in_guard/2
+
+waited(Reason) :-
+    (   Reason == pause
+    ->  no_guard,
+        fail
+    ;   Reason == tick
+    ->  no_guard,
+        serve,
+        fail
+    ;   true
+    ).
+
+no_guard :-
+    (   nb_current(ev3dev_guard, Name),
+        Name \== []
+    ->  throw_error(permission_error(wait, guard, Name), _,
+                    'a guard must not wait')
+    ;   true
+    ).
+
+%!  in_guard(+Name, :Goal) is semidet.
+%
+%   Call Goal once, which is the guard of Name, or its condition. It must not
+%   wait, and serves no events.
+
+in_guard(Name, Goal) :-
+    b_setval(ev3dev_guard, Name),
+    goal_of_program(Goal),
+    !,
+    b_setval(ev3dev_guard, []).
+
+%!  listening(+Seconds, :Closure, :Goal) is semidet.
+%
+%   Call Goal once. Meanwhile, each time that this thread has waited for
+%   Seconds, call(Closure, Listener) is called. It may call leave/2 with that
+%   Listener.
+
+listening(Seconds, Closure, Goal) :-
+    listeners(Outer),
+    period(Outer, Before),
+    Period is min(Seconds, Before),
+    append_listener(Outer, listener(Closure, [], Period), Listeners),
+    b_setval(ev3dev_listeners, Listeners),
+    tick_after_(Period),
+    goal_of_program(Goal),
+    !,
+    b_setval(ev3dev_listeners, Outer).
+
+listeners(Listeners) :-
+    (   nb_current(ev3dev_listeners, Listeners)
+    ->  true
+    ;   Listeners = []
+    ).
+
+append_listener([], Listener, [Listener]).
+append_listener([First|Rest0], Listener, [First|Rest]) :-
+    append_listener(Rest0, Listener, Rest).
+
+%   The period of the innermost is the shortest.
+period([], Period) :-
+    (   nb_current(ev3dev_event_period, Seconds)
+    ->  Period = Seconds
+    ;   Period = 1.0
+    ).
+period([listener(_, _, Period)], Period) :- !.
+period([_|Listeners], Period) :-
+    period(Listeners, Period).
+
+%!  leave(+Listener, +Ball)
+%
+%   Throw Ball now, and again at each tick until the goal of the Listener is
+%   left: so a program that catches everything cannot keep it alive.
+
+leave(Listener, Ball) :-
+    nb_setarg(2, Listener, leave(Ball)),
+    throw(Ball).
+
+%!  listen_for_events(+Seconds) is det.
+%
+%   From now on this thread serves its events each time that it has waited for
+%   Seconds.
+
+listen_for_events(Seconds) :-
+    nb_setval(ev3dev_event_period, Seconds),
+    listeners(Listeners),
+    period(Listeners, Period),
+    tick_after_(Period).
+
+%!  serve_at_read is det.
+%
+%   Serve events while the program reads a sensor, and does not wait. The
+%   native code calls this at most once in a period.
+
+serve_at_read :-
+    (   nb_current(ev3dev_guard, Name),
+        Name \== []
+    ->  true
+    ;   nb_current(ev3dev_branch, true)
+    ->  true
+    ;   serve
+    ).
+
+%!  serve_events is det.
+%
+%   Serves the events of this thread; library(ev3dev/events) adds a clause.
+
+:- multifile
+    serve_events/0.
+
+serve :-
+    due_goals,
+    (   nb_current(ev3dev_branch, true)
+    ->  engine_yield(tick)
+    ;   listeners(Listeners),
+        serve(Listeners)
+    ).
+
+serve(Listeners) :-
+    Listeners == [],
+    \+ nb_current(ev3dev_event_period, _),
+    !,
+    % They were left by an exception.
+    tick_never_.
+serve(Listeners) :-
+    period(Listeners, Period),
+    % Also while events are served, and after an exception.
+    tick_after_(Period),
+    forall(serve_events, true),
+    \+ ( listener_of(Listeners, Listener),
+         \+ serve_listener(Listener)
+       ),
+    tick_after_(Period).
+
+listener_of([Listener|_], Listener).
+listener_of([_|Listeners], Listener) :-
+    listener_of(Listeners, Listener).
+
+serve_listener(Listener) :-
+    Listener = listener(Closure, State, _),
+    (   State = leave(Ball)
+    ->  throw(Ball)
+    ;   call(Closure, Listener)
+    ).
+
+%   Loaded with the simulator.
+due_goals :-
+    (   current_predicate(ev3dev_sim_time:run_due_goals/0)
+    ->  ev3dev_sim_time:run_due_goals
+    ;   true
+    ).

@@ -1,0 +1,686 @@
+:- module(ev3dev_rules,
+          [ behave/1,                   % +Rules
+            behave/2,                   % +Rules, +Options
+            become/1,                   % +Rules
+            state/1,                    % ?State
+            set_state/1,                % +State
+            received/1,                 % ?Message
+            send_message/1,             % +Message
+            op(1160, xfx, ::),
+            op(1150, xfx, ~>)
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/errors,
+              [ domain_error/2, existence_error/2, goal_of_program/1,
+                instantiation_error/1, must_be/2, throw_error/3,
+                type_error/2, term_expansion/2
+              ]).
+:- use_module(private/arguments,
+              [must_be_options/3, number_value/3, option/2, option/3]).
+:- use_module(private/one_of, [one_of/2]).
+:- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
+:- use_module(private/native,
+              [ commands_/1, motors_leave_/2, motors_stop_/2, now_/1,
+                slices_/1 ]).
+:- use_module(time, [wait/1]).
+:- reexport(events).
+
+:- meta_predicate
+    behave(:),
+    behave(:, :),
+    become(:).
+
+/** <module> Rules: reactive robots
+
+A robot that reacts is a list of rules, the most important first:
+
+```
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/rules)).
+
+escape :: touch(_, 1)               ~> go_cm(30, -15), turn(30, 120).
+avoid  :: us_dist_cm(_, D), D < 25  ~> turn(30).
+wander :: true                      ~> go(40).
+
+?- behave([escape, avoid, wander]).
+```
+
+A rule is `Name :: Guard ~> Action`. Options stand beside the name: `near,
+while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
+
+  1. At each tick, every 20 ms, the rules are tried in order. The first one
+     whose guard holds is active; the first solution of the guard reaches the
+     action. While an action has not returned, only an earlier rule suppresses
+     it, and its own guard is not looked at.
+  2. A suppressed action is left by an exception, at its next wait or read of
+     a sensor. Its move stops, and its own clean-up runs. An action that
+     catches everything is left at its next wait.
+  3. An action is called once when its rule becomes active. If it has returned
+     without having waited, as `go(S)`, it is called again when the variables
+     that it shares with the guard have other values: `go(S)` follows `S`.
+  4. When another rule becomes active, nothing is stopped first: motors that
+     the old action left running, and that the new action has not commanded,
+     are stopped at the new action's first wait, or when it returns.
+  5. A rule whose action has waited and ended does not apply until its guard
+     has been false once, unless the guard is `true`. An action that fails
+     prints a warning the first time, and counts as ended. If no rule is
+     active, the robot rests.
+  6. Guards must not wait: that throws permission_error(wait, guard, Name).
+
+Options of a rule:
+
+  - while(:Condition)
+    The action is left when Condition is no longer true. An action that has
+    returned goes on while it is true, also when the guard is not.
+  - min_time(+Seconds)
+    An action that has returned goes on for at least so long.
+  - cooldown(+Seconds)
+    The rule does not apply for so long after it was active.
+
+An action may be a list: `[A:1.5, B:2, C]` is A for 1.5 s, then B for 2 s,
+then C until another rule is active.
+
+An action may call behave/1: so a state machine is a rule whose action is
+again a list of rules.
+*/
+
+                 /*******************************
+                 *            RULES             *
+                 *******************************/
+
+:- multifile user:term_expansion/2.
+:- dynamic user:term_expansion/2.
+
+user:term_expansion((Head :: Guard ~> Action), Clauses) :-
+    prolog_load_context(module, Module),
+    predicate_property(Module:behave(_), imported_from(ev3dev_rules)),
+    ev3dev_rules:rule_clauses(Head, Guard, Action, Clauses).
+
+%   A multifile predicate, so that rules may stand in several files.
+rule_clauses(Head, Guard, Action,
+             [ (:- multifile '$ev3dev rule'/4),
+               (:- discontiguous '$ev3dev rule'/4),
+               '$ev3dev rule'(Name, Options, Guard, Action)
+             ]) :-
+    head(Head, Name, Options).
+
+head(Head, _, _) :-
+    var(Head),
+    !,
+    instantiation_error(Head).
+head((Name0, Options0), Name, Options) :-
+    !,
+    head(Name0, Name, Options1),
+    conjuncts(Options0, Options2),
+    append_lists(Options1, Options2, Options),
+    must_be_options(rule_option, [while, min_time, cooldown], Options).
+head(Name, Name, []) :-
+    must_be(callable, Name).
+
+conjuncts(Term, _) :-
+    var(Term),
+    !,
+    instantiation_error(Term).
+conjuncts((A, B), Conjuncts) :-
+    !,
+    conjuncts(A, As),
+    conjuncts(B, Bs),
+    append_lists(As, Bs, Conjuncts).
+conjuncts(Term, [Term]).
+
+append_lists([], Ys, Ys).
+append_lists([X|Xs], Ys, [X|Zs]) :-
+    append_lists(Xs, Ys, Zs).
+
+%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the variables
+%   of the guard that the action has, too.
+
+rules(Module:Terms, Rules) :-
+    must_be(list, Terms),
+    rules(Terms, 1, Module, List),
+    Rules =.. [rules|List].
+
+rules([], _, _, []).
+rules([Term|Terms], Index, Module0, [Rule|Rules]) :-
+    strip_module(Module0:Term, Module, Plain),
+    rule(Plain, Module, Name, Options, Guard, Action),
+    term_variables(Guard, Variables0),
+    term_variables(Action, Variables1),
+    shared(Variables0, Variables1, Shared0),
+    Shared =.. [shared|Shared0],
+    Rule = rule(Index, Name, Module:Guard, Module:Action, Module:Options,
+                Shared),
+    Next is Index + 1,
+    rules(Terms, Next, Module0, Rules).
+
+rule(Term, _, _, _, _, _) :-
+    var(Term),
+    !,
+    instantiation_error(Term).
+rule((Head :: Guard ~> Action), _, Name, Options, Guard, Action) :-
+    !,
+    head(Head, Name, Options),
+    must_be(callable, Guard),
+    must_be(callable, Action).
+rule(Name, Module, Name, Options, Guard, Action) :-
+    (   \+ callable(Name)
+    ->  type_error(rule, Name)
+    ;   catch(Module:'$ev3dev rule'(Name, Options, Guard, Action),
+              error(existence_error(procedure, _), _), fail)
+    ->  true
+    ;   existence_error(rule, Name)
+    ).
+
+shared([], _, []).
+shared([V|Vs], Others, Shared) :-
+    (   one_of(Others, Other),
+        Other == V
+    ->  Shared = [V|Shared1]
+    ;   Shared = Shared1
+    ),
+    shared(Vs, Others, Shared1).
+
+                 /*******************************
+                 *            BEHAVE            *
+                 *******************************/
+
+%!  behave(+Rules) is det.
+%!  behave(+Rules, +Options) is det.
+%
+%   Let rules control the robot; see above for what they mean. Rules is a list
+%   of names of rules of this module, or of rules in parentheses: `(stop ::
+%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception ends
+%   it, and then the robot is at rest: the motors that actions have started are
+%   stopped. Options:
+%
+%     - until(:Goal)
+%       End as soon as Goal is true.
+%     - timeout(+Seconds)
+%       End after that time.
+%     - reason(-Reason)
+%       `until` or `timeout`.
+%     - period(+Seconds)
+%       The time between two ticks. Default is 0.02.
+%     - trace(:Closure)
+%       call(Closure, Event) at each change: Event is rule(Name),
+%       suppressed(Name), ended(Name), failed(Name) or rest.
+%     - on_error(+Action)
+%       `throw`, the default, or `continue`: print errors of guards and actions,
+%       and count the rule as not applicable, or ended.
+%     - state(+State)
+%       What state/1 is at the beginning. Default is `start`.
+%
+%   @error existence_error(rule, Name)
+%   @error type_error(rule, Term)
+%   @error permission_error(wait, guard, Name) if a guard waits
+%   @error domain_error(behave_option, Option)
+
+behave(Rules) :-
+    behave(Rules, []).
+
+behave(Rules0, Module:Options) :-
+    rules(Rules0, Rules),
+    must_be_options(behave_option,
+                    [until, timeout, reason, period, trace, on_error, state],
+                    Options),
+    option(period(Period0), Options, 0.02),
+    number_value(seconds, Period0, Period),
+    end_options(Options, Module, Until, Trace, OnError),
+    deadline(Options, Deadline),
+    option(state(State), Options, start),
+    commands_(First),
+    functor(Rules, _, Count),
+    functor(Since, since, Count),
+    Settings = settings(Until, Deadline, Period, Trace, OnError, First),
+    flag(ev3dev_behave, Id, Id + 1),
+    Behavior = behavior(Id, Rules, Settings, none, State, Since, [], []),
+    inner(Behavior, Outer),
+    setup_call_cleanup(true,
+                       run(Behavior, Reason0),
+                       rest(Behavior)),
+    b_setval(ev3dev_behavior, Outer),
+    option(reason(Reason), Options, _),
+    Reason = Reason0.
+
+inner(Behavior, Outer) :-
+    (   nb_current(ev3dev_behavior, Outer)
+    ->  true
+    ;   Outer = []
+    ),
+    b_setval(ev3dev_behavior, Behavior).
+
+end_options(Options, Module, Until, Trace, OnError) :-
+    (   option(until(Until0), Options)
+    ->  must_be(callable, Until0),
+        Until = Module:Until0
+    ;   Until = none
+    ),
+    (   option(trace(Trace0), Options)
+    ->  must_be(callable, Trace0),
+        Trace = Module:Trace0
+    ;   Trace = none
+    ),
+    option(on_error(OnError), Options, throw),
+    (   one_of([throw, continue], OnError)
+    ->  true
+    ;   domain_error(on_error, OnError)
+    ).
+
+deadline(Options, Deadline) :-
+    (   option(timeout(Seconds0), Options)
+    ->  number_value(seconds, Seconds0, Seconds),
+        now_(Now),
+        Deadline is Now + Seconds
+    ;   Deadline = inf
+    ).
+
+%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages), changed
+%   by nb_setarg/3, as a tick undoes bindings:
+%
+%     - Active
+%       none, or active(Index, Time, Mode): Mode is `waits` for an action that
+%       has not returned, or going(Values), the values of the shared variables.
+%     - Since
+%       for each rule, unbound, `ended` until its guard has been false, or the
+%       time from which on it applies
+%     - Next
+%       what the suppressed action makes room for: [] or next(Index, Values),
+%       over(Reason) or become(Rules)
+%     - Messages
+%       what was received since the last tick
+
+active(Behavior, Active) :-
+    arg(4, Behavior, Active).
+
+run(Behavior, Reason) :-
+    repeat,
+    step(Behavior, Step),
+    Step = over(Reason),
+    !.
+
+step(Behavior, Step) :-
+    arg(7, Behavior, Next),
+    nb_setarg(7, Behavior, []),
+    (   Next = over(_)
+    ->  Step = Next
+    ;   Next = become(Rules)
+    ->  replace(Behavior, Rules),
+        Step = goes_on
+    ;   is_over(Behavior, Reason)
+    ->  Step = over(Reason)
+    ;   choice(Next, Behavior, Rule)
+    ->  nb_setarg(8, Behavior, []),
+        take(Rule, Behavior),
+        Step = goes_on
+    ;   nb_setarg(8, Behavior, []),
+        none(Behavior),
+        pass(Behavior),
+        Step = goes_on
+    ).
+
+is_over(Behavior, Reason) :-
+    arg(3, Behavior, settings(Until, Deadline, _, _, _, _)),
+    (   Deadline \== inf,
+        now_(Now),
+        Now >= Deadline
+    ->  Reason = timeout
+    ;   Until \== none,
+        in_guard(until, Until)
+    ->  Reason = until
+    ).
+
+pass(Behavior) :-
+    arg(3, Behavior, settings(_, _, Period, _, _, _)),
+    wait(Period).
+
+replace(Behavior, Rules) :-
+    functor(Rules, _, Count),
+    functor(Since, since, Count),
+    nb_setarg(2, Behavior, Rules),
+    nb_setarg(4, Behavior, none),
+    nb_setarg(6, Behavior, Since).
+
+%   The first rule that applies, with its guard's bindings.
+choice(next(Index, Values), Behavior, Rule) :-
+    arg(2, Behavior, Rules),
+    arg(Index, Rules, Rule),
+    Rule = rule(_, _, _, _, _, Values).
+choice([], Behavior, Rule) :-
+    arg(2, Behavior, Rules),
+    functor(Rules, _, Count),
+    applies_within(Behavior, Rules, 1, Count, Rule).
+
+applies_within(Behavior, Rules, Index, Last, Rule) :-
+    Index =< Last,
+    arg(Index, Rules, Rule0),
+    (   applies(Rule0, Behavior)
+    ->  Rule = Rule0
+    ;   Next is Index + 1,
+        applies_within(Behavior, Rules, Next, Last, Rule)
+    ).
+
+applies(Rule, Behavior) :-
+    Rule = rule(Index, _, _, _, _, _),
+    arg(6, Behavior, Since),
+    arg(Index, Since, From),
+    (   number(From)
+    ->  now_(Now),
+        Now >= From,
+        holds(Rule, Behavior)
+    ;   From == ended
+    ->  \+ \+ holds(Rule, Behavior)
+    ->  fail
+    ;   From == ended
+    ->  nb_setarg(Index, Since, _),
+        fail
+    ;   holds(Rule, Behavior)
+    ).
+
+holds(rule(Index, Name, Guard, _, Options, Shared), Behavior) :-
+    (   guard(Name, Guard, Behavior)
+    ->  true
+    ;   active(Behavior, active(Index, Start, going(Values))),
+        goes_on(Options, Name, Start, Behavior),
+        Shared = Values
+    ).
+
+guard(Name, Guard, Behavior) :-
+    catch(in_guard(Name, Guard), E, true),
+    (   nonvar(E)
+    ->  failed(E, Name, guard, Behavior)
+    ;   true
+    ).
+
+goes_on(Module:Options, Name, Start, Behavior) :-
+    (   option(while(Condition), Options),
+        guard(Name, Module:Condition, Behavior)
+    ->  true
+    ;   option(min_time(Seconds0), Options),
+        number_value(seconds, Seconds0, Seconds),
+        now_(Now),
+        Now < Start + Seconds
+    ).
+
+%   An error names the rule.
+failed(E, Name, Where, Behavior) :-
+    b_setval(ev3dev_guard, []),
+    (   E = error(permission_error(wait, guard, _), _)
+    ->  throw(E)
+    ;   E = error(Formal, Context)
+    ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
+        Named = error(Formal, ev3dev_rule(Name, Where, Context)),
+        (   OnError == throw
+        ->  throw(Named)
+        ;   print_message(error, Named),
+            fail
+        )
+    ;   throw(E)
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(error(Formal, ev3dev_rule(Name, Where, Context))) -->
+    [ 'Rule ~p, ~w: '-[Name, Where] ],
+    '$messages':translate_message(error(Formal, Context)).
+prolog:message(ev3dev(rule_failed(Name))) -->
+    [ 'Rule ~p: its action failed'-[Name] ].
+
+                 /*******************************
+                 *           ACTIONS            *
+                 *******************************/
+
+%   No rule applies.
+none(Behavior) :-
+    active(Behavior, Active),
+    (   Active == none
+    ->  true
+    ;   left(Behavior),
+        rest(Behavior),
+        traced(Behavior, rest)
+    ).
+
+rest(Behavior) :-
+    arg(3, Behavior, settings(_, _, _, _, _, First)),
+    commands_(Before),
+    motors_stop_(First, Before).
+
+%   The active rule is no longer active.
+left(Behavior) :-
+    active(Behavior, Active),
+    (   Active = active(Index, _, _)
+    ->  cool_down(Index, Behavior),
+        nb_setarg(4, Behavior, none)
+    ;   true
+    ).
+
+cool_down(Index, Behavior) :-
+    rule_at(Index, Behavior, rule(_, _, _, _, _:Options, _)),
+    (   option(cooldown(Seconds0), Options)
+    ->  number_value(seconds, Seconds0, Seconds),
+        now_(Now),
+        From is Now + Seconds,
+        arg(6, Behavior, Since),
+        nb_setarg(Index, Since, From)
+    ;   true
+    ).
+
+rule_at(Index, Behavior, Rule) :-
+    arg(2, Behavior, Rules),
+    arg(Index, Rules, Rule).
+
+take(Rule, Behavior) :-
+    Rule = rule(Index, _, _, _, _, Shared),
+    (   active(Behavior, active(Index, Start, going(Values)))
+    ->  (   Values =@= Shared
+        ->  true
+        ;   act(Rule, Start, Behavior)
+        ),
+        pass_if_going(Index, Behavior)
+    ;   left(Behavior),
+        arg(3, Behavior, settings(_, _, _, _, _, First)),
+        commands_(Before),
+        motors_leave_(First, Before),
+        now_(Now),
+        Rule = rule(_, Name, _, _, _, _),
+        traced(Behavior, rule(Name)),
+        act(Rule, Now, Behavior),
+        motors_left(First, Before),
+        pass_if_going(Index, Behavior)
+    ).
+
+%   At its return, if it has not waited.
+motors_left(First, Before) :-
+    motors_stop_(First, Before),
+    motors_leave_(0, 0).
+
+%   Another rule is chosen at once after an action that has waited.
+pass_if_going(Index, Behavior) :-
+    (   active(Behavior, active(Index, _, going(_)))
+    ->  pass(Behavior)
+    ;   true
+    ).
+
+act(rule(Index, Name, Guard, Action, Options, Shared), Start, Behavior) :-
+    nb_setarg(4, Behavior, active(Index, Start, waits)),
+    arg(1, Behavior, Id),
+    arg(3, Behavior, settings(_, _, Period, _, _, _)),
+    slices_(Slices0),
+    catch(( listening(Period, ev3dev_rules:tick(Behavior),
+                      ev3dev_rules:carry_out(Action, Name, Options))
+          ->  Outcome = ended
+          ;   Outcome = failed
+          ),
+          E,
+          outcome(E, Id, Name, Behavior, Outcome)),
+    slices_(Slices),
+    (   Outcome == ended,
+        Slices =:= Slices0
+    ->  nb_setarg(4, Behavior, active(Index, Start, going(Shared)))
+    ;   over(Outcome, Index, Name, Guard, Behavior),
+        (   Slices =:= Slices0
+        ->  pass(Behavior)
+        ;   true
+        )
+    ).
+
+outcome(ev3dev_leave(Id), Id, _, _, Outcome) :-
+    !,
+    Outcome = suppressed.
+outcome(E, _, Name, Behavior, Outcome) :-
+    b_setval(ev3dev_behavior, Behavior),
+    (   failed(E, Name, action, Behavior)
+    ->  true
+    ;   Outcome = ended
+    ).
+
+over(Outcome, Index, Name, Guard, Behavior) :-
+    left(Behavior),
+    (   Outcome == suppressed
+    ->  true
+    ;   Guard = _:true
+    ->  true
+    ;   arg(6, Behavior, Since),
+        arg(Index, Since, From),
+        (   number(From)                % cools down
+        ->  true
+        ;   nb_setarg(Index, Since, ended)
+        )
+    ),
+    (   Outcome == failed
+    ->  print_message(warning, ev3dev(rule_failed(Name)))
+    ;   true
+    ),
+    Event =.. [Outcome, Name],
+    traced(Behavior, Event).
+
+traced(Behavior, Event) :-
+    arg(3, Behavior, settings(_, _, _, Trace, _, _)),
+    (   Trace == none
+    ->  true
+    ;   \+ goal_of_program(call(Trace, Event))
+    ->  true
+    ;   true
+    ).
+
+carry_out(Module:Action, _, _) :-
+    (   is_list(Action)
+    ->  one_after_the_other(Action, Module)
+    ;   goal_of_program(Module:Action)
+    ).
+
+one_after_the_other([], _).
+one_after_the_other([Step|Steps], Module) :-
+    (   nonvar(Step),
+        Step = Goal:Seconds0
+    ->  number_value(seconds, Seconds0, Seconds),
+        now_(Now),
+        End is Now + Seconds,
+        until(ev3dev_rules:is_late(End), Module:Goal, Which),
+        (   Which == goal
+        ->  until(ev3dev_rules:is_late(End), true)
+        ;   true
+        ),
+        one_after_the_other(Steps, Module)
+    ;   Steps == []
+    ->  goal_of_program(Module:Step),
+        repeat,
+        wait(3600),
+        fail
+    ;   goal_of_program(Module:Step),
+        one_after_the_other(Steps, Module)
+    ).
+
+is_late(End) :-
+    now_(Now),
+    Now >= End.
+
+%   While an action waits: is it time to leave it?
+tick(Behavior, Listener) :-
+    arg(1, Behavior, Id),
+    (   next(Behavior, Next)
+    ->  nb_setarg(7, Behavior, Next),
+        leave(Listener, ev3dev_leave(Id))
+    ;   true
+    ).
+
+next(Behavior, over(Reason)) :-
+    is_over(Behavior, Reason),
+    !.
+next(Behavior, Next) :-
+    active(Behavior, active(Index, _, _)),
+    rule_at(Index, Behavior, rule(_, Name, _, _, Module:Options, _)),
+    arg(2, Behavior, Rules),
+    Last is Index - 1,
+    (   applies_within(Behavior, Rules, 1, Last, Rule)
+    ->  Rule = rule(Earlier, _, _, _, _, Values),
+        Next = next(Earlier, Values)
+    ;   option(while(Condition), Options),
+        \+ guard(Name, Module:Condition, Behavior)
+    ->  Next = []
+    ).
+
+                 /*******************************
+                 *       STATE, MESSAGES        *
+                 *******************************/
+
+%!  become(+Rules).
+%
+%   Replace the rules of the innermost behave/1 under way, and leave the
+%   action that calls this. Does not return.
+%
+%   @error permission_error(become, behavior, none) outside of an action
+
+become(Rules0) :-
+    rules(Rules0, Rules),
+    behavior(Behavior, become),
+    arg(1, Behavior, Id),
+    nb_setarg(7, Behavior, become(Rules)),
+    throw(ev3dev_leave(Id)).
+
+%!  state(?State) is semidet.
+%!  set_state(+State) is det.
+%
+%   The state of the innermost behave/1 under way: any term, `start` at the
+%   beginning. Guards read it, actions set it.
+%
+%   @error permission_error(read, behavior, none) outside of behave/1
+%   @error permission_error(set, behavior, none)
+
+state(State) :-
+    behavior(Behavior, read),
+    arg(5, Behavior, State0),
+    State = State0.
+
+set_state(State) :-
+    must_be(nonvar, State),
+    behavior(Behavior, set),
+    nb_setarg(5, Behavior, State).
+
+behavior(Behavior, Action) :-
+    (   nb_current(ev3dev_behavior, Behavior),
+        Behavior \== []
+    ->  true
+    ;   throw_error(permission_error(Action, behavior, none), _,
+                    'no behave/1 is under way')
+    ).
+
+%!  send_message(+Message) is det.
+%!  received(?Message) is nondet.
+%
+%   Send a Message to the innermost behave/1 under way, and, in a guard, ask
+%   whether it was sent. A message is there for one tick: the rules see it when
+%   they are tried next.
+%
+%   @error permission_error(send, behavior, none) outside of behave/1
+
+send_message(Message) :-
+    must_be(nonvar, Message),
+    behavior(Behavior, send),
+    arg(8, Behavior, Messages),
+    append_lists(Messages, [Message], More),
+    nb_setarg(8, Behavior, More).
+
+received(Message) :-
+    behavior(Behavior, read),
+    arg(8, Behavior, Messages),
+    one_of(Messages, Message).

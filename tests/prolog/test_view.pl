@@ -1,0 +1,753 @@
+:- use_module('../support/child').
+:- use_module('../support/simulation').
+:- use_module('../support/web').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/view)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(http/http_dispatch)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+
+%   The token of these tests.
+token(test_token).
+
+:- meta_predicate
+    viewed(?, 0),
+    viewed(?, 0, +),
+    quietly(0).
+
+%   Call Goal while the view is served at Port.
+viewed(Port, Goal) :-
+    viewed(Port, Goal, []).
+
+viewed(Port, Goal, Options) :-
+    token(Token),
+    setup_call_cleanup(
+        quietly(view([port(Port), token(Token), open(false)|Options])),
+        once(Goal),
+        view_stop).
+
+quietly(Goal) :-
+    current_prolog_flag(verbose, Verbose),
+    setup_call_cleanup(
+        set_prolog_flag(verbose, silent),
+        once(Goal),
+        set_prolog_flag(verbose, Verbose)).
+
+%   Call Goal with a page of the simulated room.
+paged(Page, Goal) :-
+    token(Token),
+    with_sim(room,
+             viewed(Port,
+                    setup_call_cleanup(page_open(Port, Token, Page),
+                                       once(Goal),
+                                       page_close(Page)))).
+
+:- meta_predicate paged(?, 0).
+
+frame(Page, Have, Frame) :-
+    format(string(Line), "next ~w", [Have]),
+    page_ask(Page, Line, Frame).
+
+:- meta_predicate
+    frame_with(+, ?, 0),
+    frame_with(+, ?, 0, +).
+
+%   Ask for frames until one satisfies a condition.
+frame_with(Page, Frame, Condition) :-
+    frame_with(Page, Frame, Condition, 500).
+
+frame_with(Page, Frame, Condition, Left) :-
+    Left > 0,
+    page_ask(Page, "next", Seen),
+    (   \+ \+ ( Frame = Seen, call(Condition) )
+    ->  Frame = Seen,
+        call(Condition)
+    ;   Left1 is Left - 1,
+        frame_with(Page, Frame, Condition, Left1)
+    ).
+
+:- begin_tests(view).
+
+test(there_is_no_address_before, fail) :-
+    view_url(_).
+test(the_address_has_the_token, true(Url == Expected)) :-
+    viewed(Port, view_url(Url)),
+    format(atom(Expected), 'http://localhost:~w/?t=test_token', [Port]).
+test(a_second_start_says_the_same_address, true(Url1 == Url2)) :-
+    viewed(Port, ( view_url(Url1),
+                   quietly(view([port(Port2), open(false)])),
+                   Port2 == Port,
+                   view_url(Url2) )).
+test(tokens_differ, true(Url1 \== Url2)) :-
+    quietly(view([port(Port), open(false)])),
+    view_url(Url1),
+    view_stop,
+    quietly(view([port(Port), open(false)])),
+    view_url(Url2),
+    view_stop.
+test(a_port_that_is_busy, error(_, _)) :-
+    setup_call_cleanup(
+        ( tcp_socket(Socket), tcp_bind(Socket, localhost:Port),
+          tcp_listen(Socket, 1) ),
+        view([port(Port), open(false)]),
+        ( tcp_close_socket(Socket), view_stop )).
+test(stop_twice) :-
+    view_stop,
+    view_stop.
+test(library_loads_no_server) :-
+    run_program("", [goal('use_module(library(ev3dev)), \c
+                           \\+ current_module(thread_httpd)')], Status, _),
+    Status == exit(0).
+
+:- end_tests(view).
+
+:- begin_tests(view_page).
+
+test(a_page_with_the_token) :-
+    viewed(Port,
+           ( get(Port, '/?t=test_token', [], Code, Answer),
+             memberchk(Code, [200, 404]) )),
+    (   Code == 200
+    ->  has(Answer, "default-src 'self'"),
+        has(Answer, "HttpOnly; SameSite=Strict"),
+        has(Answer, "X-Content-Type-Options: nosniff")
+    ;   true
+    ).
+test(a_file_with_the_cookie, true(Code == 200)) :-
+    with_sim(room, viewed(Port, ( own(Port, Fields),
+                                  get(Port, '/world.pl', Fields, Code,
+                                      Answer) ))),
+    has(Answer, "bounds("),
+    has(Answer, "Content-Security-Policy: ").
+test(samples_as_a_table, true(Code == 200)) :-
+    with_sim(room, viewed(Port, ( own(Port, Fields), wait(1),
+                                  get(Port, '/samples.csv', Fields, Code,
+                                      Answer) ))),
+    has(Answer, "time,x,y,heading,").
+
+% Each of these is refused.
+refused(403, '/', []).
+refused(403, '/world.pl', []).
+refused(403, '/?t=wrong_token', []).
+refused(403, '/?t=test_tokem', []).
+refused(403, '/?t=', []).
+refused(403, '/world.pl?t=test_token', []).
+refused(403, '/world.pl', ["Cookie: ev3view_1=test_token"]).
+refused(403, '/world.pl', [own, "Host: example.org"]).
+refused(403, '/world.pl', [own, "Host: localhost"]).
+refused(403, '/world.pl', [own, "Host: localhost:1"]).
+refused(403, '/?t=test_token', ["Host: localhost.example.org:80"]).
+refused(403, '/world.pl', [own, "Origin: http://example.org"]).
+refused(403, '/world.pl', [own, "Origin: null"]).
+refused(403, '/world.pl', [own, "Origin: http://localhost:1"]).
+refused(403, '/ws', [own]).
+refused(400, '/ws', [own, origin]).
+refused(404, '/missing.js', [own]).
+refused(404, '/../view.pl', [own]).
+refused(404, '/%2e%2e/view.pl', [own]).
+refused(404, '/../../../../../../etc/passwd', [own]).
+
+test(refused, [forall(refused(Code0, Path, Fields0)), true(Code == Code0)]) :-
+    with_sim([], viewed(Port, ( fields(Fields0, Port, Fields),
+                                get(Port, Path, Fields, Code, _) ))).
+
+method(405, "POST /world.pl").
+method(405, "PUT /").
+method(405, "DELETE /stop").
+method(405, "GET /stop").
+
+test(method, [forall(method(Code0, Line)), true(Code == Code0)]) :-
+    with_sim([], viewed(Port, ( fields([own, origin], Port, Fields),
+                                send(Port, Line, Fields, Code) ))).
+test(stop_needs_an_origin, true(Code == 403)) :-
+    viewed(Port, ( own(Port, Fields),
+                   send(Port, "POST /stop", Fields, Code) )).
+test(stop_of_another_page, true(Code == 403)) :-
+    viewed(Port, ( own(Port, [Cookie]),
+                   send(Port, "POST /stop",
+                        [Cookie, "Origin: http://example.org"], Code) )).
+
+send(Port, Line, Fields, Code) :-
+    string_concat(Line, " HTTP/1.1", First),
+    format(string(Host), "Host: localhost:~w", [Port]),
+    append([First, Host, "Connection: close", "Content-Length: 0"], Fields,
+           Lines),
+    request(Port, Lines, Code, _).
+
+% A websocket of another page, and one of another name for this computer.
+socket_refused(["Origin: http://example.org", own]).
+socket_refused(["Origin: http://localhost:1", own]).
+socket_refused([origin]).
+socket_refused([origin, "Cookie: ev3view_1=test_token"]).
+socket_refused([origin, own, "Host: example.org"]).
+socket_refused([own, "Host: example.org:80", "Origin: http://example.org:80"]).
+
+test(socket_refused, [forall(socket_refused(Fields0)), true(Code == 403)]) :-
+    viewed(Port, ( fields(Fields0, Port, Fields),
+                   page_open(Port, '/ws', Fields, Code, none) )).
+test(what_is_no_request_at_all, true(Code == 404)) :-
+    viewed(Port, ( no_messages(( request(Port, ["\x01\\x02\garbage"], _, _),
+                                 request(Port, ["GET"], _, _) )),
+                   own(Port, Fields),
+                   get(Port, '/missing', Fields, Code, _) )).
+test(no_words_of_an_exception_go_to_the_other_side, true(Code >= 400)) :-
+    viewed(Port, get(Port, '/', ["Cookie: test_token"], Code, Answer)),
+    (   current_prolog_flag(version, Version),
+        Version < 90000
+    ->  true
+    ;   \+ sub_string(Answer, _, _, _, "Domain")
+    ).
+test(handlers_of_the_program_are_not_served_here, true(Code == 404)) :-
+    setup_call_cleanup(
+        http_handler('/mine', mine, []),
+        viewed(Port, ( own(Port, Fields),
+                       get(Port, '/mine', Fields, Code, _) )),
+        http_delete_handler(path('/mine'))).
+
+mine(_) :-
+    format("Content-type: text/plain~n~nmine~n").
+
+own(Port, [Cookie]) :-
+    token(Token),
+    cookie(Port, Token, Cookie).
+
+fields([], _, []).
+fields([Field0|Fields0], Port, [Field|Fields]) :-
+    (   Field0 == own
+    ->  own(Port, [Field])
+    ;   Field0 == origin
+    ->  format(string(Field), "Origin: http://localhost:~w", [Port])
+    ;   Field = Field0
+    ),
+    fields(Fields0, Port, Fields).
+
+has(Answer, Part) :-
+    sub_string(Answer, _, _, _, Part),
+    !.
+
+:- end_tests(view_page).
+
+%   Call Goal, and print nothing.
+:- meta_predicate unseen(0).
+
+unseen(Goal) :-
+    setup_call_cleanup(
+        assertz((user:message_hook(_, _, _) :- true), Hook),
+        once(Goal),
+        erase(Hook)).
+
+%   Call Goal; fails if anything is printed meanwhile.
+:- meta_predicate no_messages(0).
+:- dynamic said/1.
+
+no_messages(Goal) :-
+    retractall(said(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(Message, Kind, _) :-
+                     memberchk(Kind, [error, warning]),
+                     assertz(user:said(Message)),
+                     fail),
+                Hook),
+        once(Goal),
+        erase(Hook)),
+    \+ said(_).
+
+:- begin_tests(view_socket).
+
+% What a page must not send, and the code with which it is closed.
+fault(1003, [0x82, 0x81, 0, 0, 0, 0, 0'x]).               % binary
+fault(1007, [0x81, 0x81, 0, 0, 0, 0, 0xff]).              % no UTF-8
+fault(1007, [0x81, 0x82, 0, 0, 0, 0, 0xc0, 0x80]).        % too long
+fault(1007, [0x81, 0x83, 0, 0, 0, 0, 0xed, 0xa0, 0x80]).  % surrogate
+fault(1002, [0x83, 0x80, 0, 0, 0, 0]).                    % reserved opcode
+fault(1002, [0x8b, 0x80, 0, 0, 0, 0]).
+fault(1002, [0xc1, 0x80, 0, 0, 0, 0]).                    % reserved bit
+fault(1002, [0x81, 0x01, 0'x]).                           % not masked
+fault(1002, [0x80, 0x80, 0, 0, 0, 0]).                    % goes on with nothing
+fault(1002, [0x09, 0x80, 0, 0, 0, 0]).                    % ping in parts
+fault(1002, [0x89, 0xfe, 0, 126, 0, 0, 0, 0]).            % long ping
+fault(1009, [0x81, 0xff, 0, 0, 0, 0, 0x17, 0, 0, 0]).     % 385 MB
+fault(1009, [0x81, 0xff, 0xff, 0, 0, 0, 0, 0, 0, 0]).
+fault(1000, [0x88, 0x80, 0, 0, 0, 0]).                    % it closes itself
+
+test(fault, [forall(fault(Code, Bytes)), true(Answer == close(Code))]) :-
+    paged(Page, no_messages(( page_bytes(Page, Bytes),
+                              page_hear(Page, Answer) ))).
+
+% Lines that there are not.
+no_line("").
+no_line("nothing").
+no_line("stop now").
+no_line("place 1 2").
+no_line("place 1 2 x").
+no_line("place 1 2 0'a").
+no_line("place 1e400 2 3").
+no_line("place 1 2  3").
+no_line("place 1 2 1r3").
+no_line("pace x3").
+no_line("step 0").
+no_line("step -1").
+no_line("step 1000").
+no_line("press escape").
+no_line("unplug outE").
+no_line("plug in1 'halt'").
+no_line("add halt 1 2 3").
+no_line("add box 1 2").
+no_line("move 1.5 2 3").
+no_line("save ../x").
+no_line("jog 101 0").
+no_line("jog 10").
+
+test(no_line, [forall(no_line(Line)), true(Answer == close(1008))]) :-
+    paged(Page, no_messages(page_ask(Page, Line, Answer))).
+test(the_longest_line) :-
+    long_text(65000, Text),
+    string_concat("mark ", Text, Line),
+    paged(Page, page_ask(Page, Line, Answer)),
+    Answer.what == "mark".
+test(a_line_in_parts) :-
+    paged(Page,
+          ( page_bytes(Page, [0x01, 0x84, 0, 0, 0, 0, 0'm, 0'a, 0'r, 0'k]),
+            page_bytes(Page, [0x89, 0x80, 0, 0, 0, 0]),
+            page_bytes(Page, [0x80, 0x82, 0, 0, 0, 0, 0' , 0'x]),
+            page_hear(Page, Answer) )),
+    Answer.what == "mark".
+test(too_long_in_parts, true(Answer == close(1009))) :-
+    long_text(60000, Text),
+    string_codes(Text, Codes),
+    paged(Page,
+          ( append([0x01, 0xfe, 0xea, 0x60, 0, 0, 0, 0], Codes, First),
+            append([0x80, 0xfe, 0xea, 0x60, 0, 0, 0, 0], Codes, Second),
+            page_bytes(Page, First),
+            page_bytes(Page, Second),
+            page_hear(Page, Answer) )).
+test(goals_are_not_allowed) :-
+    paged(Page, page_ask(Page, "goal 1 halt", Answer)),
+    Answer.type == "refused".
+test(there_are_enough_pages, true(Codes == [503])) :-
+    token(Token),
+    viewed(Port,
+           ( findall(Page, ( between(1, 16, _),
+                             page_open(Port, Token, Page) ), Pages),
+             forall(member(Page, Pages), page_ask(Page, "next", _)),
+             fields_of(Port, Fields),
+             page_open(Port, '/ws', Fields, Code, _),
+             Codes = [Code],
+             maplist(page_close, Pages) )).
+test(the_server_starts_again_while_pages_are_open,
+     true(Ends-Type == [bye, close(1001)]-"frame")) :-
+    token(Token),
+    quietly(view([port(Port), token(Token), open(false)])),
+    page_open(Port, Token, Page),
+    page_ask(Page, "next", _),
+    view_stop,
+    page_hear(Page, Bye),
+    page_hear(Page, Close),
+    atom_string(ByeType, Bye.type),
+    Ends = [ByeType, Close],
+    page_close(Page),
+    viewed(Port,
+           ( page_open(Port, Token, Page2),
+             page_ask(Page2, "next", Frame),
+             page_close(Page2) )),
+    Type = Frame.type.
+test(a_program_that_was_started_does_not_keep_the_port) :-
+    token(Token),
+    quietly(view([port(Port), token(Token), open(false)])),
+    page_open(Port, Token, Page),
+    process_create(path(sleep), [20], [process(Pid)]),
+    call_cleanup(( view_stop,
+                   viewed(Port, true) ),
+                 ( process_kill(Pid),
+                   process_wait(Pid, _),
+                   page_close(Page) )).
+
+fields_of(Port, [Cookie, Origin]) :-
+    token(Token),
+    cookie(Port, Token, Cookie),
+    format(string(Origin), "Origin: http://localhost:~w", [Port]).
+
+long_text(Length, Text) :-
+    length(Codes, Length),
+    maplist(=(0'x), Codes),
+    string_codes(Text, Codes).
+
+:- end_tests(view_socket).
+
+:- begin_tests(view_frame).
+
+test(the_first_frame_has_everything) :-
+    paged(Page,
+          ( page_ask(Page, "next", Frame),
+            Frame.type == "frame",
+            Frame.new == true,
+            Frame.source == "sim",
+            Frame.clock.kind == "virtual",
+            Frame.name == "room",
+            length(Frame.ports, 8),
+            Frame.world.bounds = [_, _, _, _],
+            Frame.spec.axle =:= 10.6,
+            Frame.screen.w =:= 178,
+            Frame.robot.true = [_, _, _] )).
+test(the_next_frame_has_what_is_new) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            wait(1),
+            frame(Page, First.have, Frame),
+            \+ get_dict(new, Frame, _),
+            \+ get_dict(world, Frame, _),
+            \+ get_dict(screen, Frame, _),
+            length(Frame.samples.rows, Count),
+            Count > 0,
+            frame(Page, Frame.have, Last),
+            \+ get_dict(samples, Last, _) )).
+test(samples_are_a_film, true(Times == Expected)) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            motor_run(outB, 50),
+            wait(1),
+            frame(Page, First.have, Frame) )),
+    findall(Time, ( member([Time|_], Frame.samples.rows), Time =< 1 ), Times),
+    findall(T, ( between(1, 20, N), T is N/20 ), Expected).
+test(another_simulation_is_another_film) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            sim_start([bounds(0, 0, 100, 100), start(50, 50, 0)],
+                      [clock(virtual)]),
+            frame(Page, First.have, Frame),
+            Frame.new == true,
+            Frame.world.bounds == [0, 0, 100, 100] )).
+test(marks_and_values_and_warnings) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            view_mark(hello(_)),
+            view_value(error, 1+0.5),
+            unseen(print_message(warning, format("beware ~w", [x]))),
+            frame(Page, First.have, Frame),
+            Frame.log = [Mark, Warning],
+            Mark.kind == "mark",
+            Mark.text == "hello(_)",
+            Warning.kind == "warning",
+            Warning.text == "beware x",
+            Frame.values = [["error", _, 1.5]],
+            frame(Page, Frame.have, Last),
+            \+ get_dict(log, Last, _),
+            \+ get_dict(values, Last, _) )).
+test(watches, true(Watches == Expected)) :-
+    paged(Page,
+          ( view_watch(left, outB),
+            view_watch("way", outB-position),
+            view_watch(eye, in1),
+            page_ask(Page, "next", Frame) )),
+    findall(Name-Column, ( member(Watch, Frame.watches),
+                           Name = Watch.name, Column = Watch.column ),
+            Watches),
+    Expected = ["left"-"outB.speed", "way"-"outB.position", "eye"-"in1.value0"].
+test(a_watch_of_nothing, error(domain_error(view_watch, outE), _)) :-
+    view_watch(x, outE).
+test(a_watch_of_no_attribute,
+     error(domain_error(view_watch, outA-color), _)) :-
+    view_watch(x, outA-color).
+test(a_value_that_is_none, error(type_error(evaluable, _), _)) :-
+    view_value(x, high).
+test(what_the_robot_believes_is_laid_on_the_world) :-
+    paged(Page,
+          ( set_robot(5.6, 10.6, outB, outC),
+            go_cm(20, 20),
+            page_ask(Page, "next", Frame),
+            Frame.robot.true = [X, Y, _],
+            Frame.robot.believed.pose = [BX, BY, _],
+            near(X, BX, 2), near(Y, BY, 2),
+            Frame.robot.believed.odometry = [_, OY, _],
+            near(OY, 20, 2) )).
+test(a_pose_in_the_world_is_as_it_is, true(Believed == [41, 42, 40])) :-
+    paged(Page,
+          ( set_robot(5.6, 10.6, outB, outC),
+            set_pose(41, 42, 40),
+            page_ask(Page, "next", Frame),
+            Believed = Frame.robot.believed.pose )).
+test(the_grid_that_the_program_knows) :-
+    token(Token),
+    with_sim(grid,
+        viewed(Port,
+               ( set_robot(5.6, 10.6, outB, outC),
+                 set_grid([bounds(0, 0, 3, 2), origin(10, 10)]),
+                 obstacle_add([1, 2]),
+                 page_open(Port, Token, Page),
+                 page_ask(Page, "next", Frame),
+                 page_close(Page) ))),
+    Frame.grid.cols =:= 4,
+    Frame.grid.rows =:= 3,
+    Frame.grid.blocked == [[1, 2]].
+test(without_a_simulation_nothing_is_chosen) :-
+    ignore(sim_stop),
+    token(Token),
+    viewed(Port,
+           ( page_open(Port, Token, Page),
+             page_ask(Page, "next", Frame),
+             page_close(Page) )),
+    memberchk(Frame.source, ["none", "brick"]).
+
+:- end_tests(view_frame).
+
+:- begin_tests(view_hands).
+
+% What a hand says, and whether it is done.
+hand("place 100 100 90", "done").
+hand("place 0 0 0", "refused").
+hand("press enter", "done").
+hand("press in1", "refused").
+hand("unplug outA", "done").
+hand("unplug outD", "refused").
+hand("plug outA", "refused").
+hand("plug outD lego-ev3-m-motor", "done").
+hand("plug outD lego-ev3-us", "refused").
+hand("hold outB", "done").
+hand("free outB", "done").
+hand("add box 150 150 20 10 45", "done").
+hand("add box 40 40 20 20", "refused").
+hand("add beacon 10 10 7", "refused").
+hand("move 99 10 10", "refused").
+hand("remove 99", "refused").
+hand("save a", "done").
+hand("restore b", "refused").
+hand("forget b", "refused").
+hand("pace x10", "done").
+hand("pause", "done").
+hand("step", "done").
+hand("resume", "done").
+hand("go", "done").
+hand("jog 10 10", "refused").
+
+test(hand, [forall(hand(Line, Type)), true(Type1 == Type)]) :-
+    paged(Page, page_ask(Page, Line, Answer)),
+    Type1 = Answer.type.
+test(the_robot_is_placed, true([X, Y, H] == [100.0, 110.0, 90.0])) :-
+    paged(Page, ( page_ask(Page, "place 100 110 90", _),
+                  sim_pose(X, Y, H) )).
+test(a_key_is_pressed_and_released) :-
+    paged(Page, ( page_ask(Page, "press enter", _),
+                  button(enter),
+                  page_ask(Page, "release enter", _),
+                  \+ button(enter) )).
+test(a_wire_is_pulled_and_put_back) :-
+    paged(Page, ( page_ask(Page, "unplug outA", _),
+                  wait(1),
+                  \+ tacho_motor(outA),
+                  page_ask(Page, "next", Frame),
+                  Frame.ports = [Port|_],
+                  Port.kind == "gone",
+                  page_ask(Page, "plug outA", _),
+                  wait(2),
+                  tacho_motor(outA) )).
+test(a_thing_is_added_moved_and_removed) :-
+    paged(Page, ( page_ask(Page, "add circle 150 150 10", Added),
+                  Id = Added.id,
+                  format(string(Move), "move ~w 160 150", [Id]),
+                  page_ask(Page, Move, Moved),
+                  Moved.id =:= Id,
+                  page_ask(Page, "next", Frame),
+                  once(( member(Item, Frame.world.items),
+                         Item.id =:= Id )),
+                  Item.x =:= 160,
+                  sim_remove(circle(160, 150, 10)) )).
+test(a_snapshot_brings_the_robot_back, true([X, Y] == [40.0, 40.0])) :-
+    paged(Page, ( page_ask(Page, "save start", _),
+                  motor_run(outB, 50),
+                  wait(1),
+                  page_ask(Page, "restore start", _),
+                  sim_pose(X, Y, _) )).
+test(there_are_enough_snapshots) :-
+    paged(Page, ( forall(between(1, 16, N),
+                         ( format(string(Line), "save s~w", [N]),
+                           page_ask(Page, Line, Done),
+                           Done.type == "done" )),
+                  page_ask(Page, "save s17", Answer) )),
+    Answer.type == "refused".
+test(a_program_waits_while_time_is_paused, true(Paused-Stood == true-true)) :-
+    token(Token),
+    with_sim(room,
+        viewed(Port,
+               ( page_open(Port, Token, Page),
+                 page_ask(Page, "pause", _),
+                 thread_self(Me),
+                 thread_create(watch_pause(Page, Me), Id, []),
+                 wait(0.3),
+                 thread_join(Id, _),
+                 page_close(Page),
+                 thread_get_message(paused(Paused, Stood)) ))).
+
+%   The program can wait no longer than this lets it.
+watch_pause(Page, Main) :-
+    ev3dev_native:view_thread_(true),
+    page_ask(Page, "next", Frame1),
+    page_ask(Page, "step 0.1", _),
+    frame_with(Page, Frame2, Frame2.clock.time >= 0.1),
+    Time = Frame2.clock.time,
+    (   Time < 0.15
+    ->  Stood = true
+    ;   Stood = Time
+    ),
+    page_ask(Page, "resume", _),
+    thread_send_message(Main, paused(Frame1.clock.paused, Stood)),
+    ev3dev_native:view_thread_(false).
+
+:- end_tests(view_hands).
+
+:- begin_tests(view_same).
+
+% A run is byte for byte the same, whoever looks.
+test(six_pages_change_nothing, true(Watched == Alone)) :-
+    token(Token),
+    with_sim(room, run(Alone), [noise(true), seed(7)]),
+    viewed(Port,
+           ( findall(Id, ( between(1, 6, _),
+                           thread_create(looks(Port, Token), Id, []) ), Ids),
+             length(Ids, Count),
+             forall(between(1, Count, _), thread_get_message(looks)),
+             with_sim(room, run(Watched), [noise(true), seed(7)]),
+             forall(member(Id, Ids), thread_send_message(Id, enough)),
+             maplist(thread_join, Ids, Ends) ),
+           [rate(60)]),
+    Ends = [true, true, true, true, true, true].
+
+run(Seen) :-
+    set_robot(5.6, 10.6, outB, outC),
+    go_cm(30, 30),
+    turn(30, 90),
+    findall(D, ( between(1, 20, _), us_dist_cm(in1, D), wait(0.05) ), Ds),
+    motor_run(outA, 50, 90),
+    sim_pose(X, Y, H),
+    sim_time(T),
+    sim_trace(Trace),
+    format(string(Seen), "~q", [run(Ds, X, Y, H, T, Trace)]).
+
+looks(Port, Token) :-
+    ev3dev_native:view_thread_(true),
+    page_open(Port, Token, Page),
+    page_ask(Page, "next", Frame),
+    thread_send_message(main, looks),
+    look_on(Page, Frame.have),
+    page_close(Page),
+    ev3dev_native:view_thread_(false).
+
+look_on(Page, Have) :-
+    frame(Page, Have, Frame),
+    (   thread_peek_message(enough)
+    ->  true
+    ;   look_on(Page, Frame.have)
+    ).
+
+:- end_tests(view_same).
+
+:- begin_tests(view_stop).
+
+% A toplevel in a process of its own, and a page of it.
+:- meta_predicate with_toplevel(?, 0).
+
+with_toplevel(top(In, Out, Page), Goal) :-
+    child:library_directory_under_test(Library),
+    child:swipl(Swipl),
+    token(Token),
+    format(string(Start),
+           "asserta(user:file_search_path(library, ~q)), \c
+            set_prolog_flag(ev3dev_hints, off), \c
+            use_module(library(ev3dev)), use_module(library(ev3dev/sim)), \c
+            use_module(library(ev3dev/view)), \c
+            sim_start([], [clock(virtual)]), \c
+            view([port(P), token(~q), open(false)]), \c
+            format('port ~~w~~n', [P]), flush_output", [Library, Token]),
+    setup_call_cleanup(
+        process_create(Swipl, ['-q', '-f', none, '-g', Start],
+                       [ process(Pid), stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(pipe(Err)) ]),
+        ( read_line_to_string(Out, Line),
+          split_string(Line, " ", "", ["port", Port0]),
+          number_string(Port, Port0),
+          page_open(Port, Token, Page),
+          once(Goal),
+          page_close(Page),
+          format(In, "halt.~n", []),
+          flush_output(In),
+          read_stream_to_codes(Err, _),
+          process_wait(Pid, exit(0)) ),
+        ( catch(process_kill(Pid, kill), _, true),
+          close(In, [force(true)]), close(Out), close(Err) )).
+
+query(top(In, _, _), Text) :-
+    format(In, "~w~n", [Text]),
+    flush_output(In).
+
+%   What it prints, up to a line with that text.
+printed(top(_, Out, _), Text) :-
+    read_line_to_string(Out, Line),
+    Line \== end_of_file,
+    (   sub_string(Line, _, _, _, Text)
+    ->  true
+    ;   printed(top(_, Out, _), Text)
+    ).
+
+runs(Frame) :-
+    member(Port, Frame.ports),
+    get_dict(state, Port, States),
+    memberchk("running", States),
+    !.
+
+ended(Frame) :-
+    Frame.program.state == "idle",
+    Frame.program.latched == false.
+
+% Programs that must be stopped, whatever they do.
+program("motor_run(outA, 50), repeat, fail.").
+program("motor_run(outA, 50), repeat, position(outA, _), fail.").
+program("motor_run(outA, 50), repeat, catch(motor_run(outA, 40), _, true), fail.").
+program("repeat, catch((motor_run(outA, 40), wait(0.1)), _, true), fail.").
+program("motor_run(outA, 50), wait(1000000).").
+program("motor_run(outA, 50), sleep(1000).").
+program("motor_run(outA, 50), thread_get_message(nothing).").
+program("motor_run(outA, 50), X is 7**3000000 mod 3, write(X).").
+program("motor_run(outA, 50), setup_call_cleanup(true, wait(1000000), motor_run(outB, 50)).").
+program("thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, []), thread_get_message(x).").
+
+test(program, [forall(program(Text))]) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, Text),
+          frame_with(Page, Frame, runs(Frame), 2000),
+          page_ask(Page, "stop", Stopped),
+          Stopped.what == "stop",
+          frame_with(Page, Last, ended(Last), 5000),
+          \+ runs(Last),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive"),
+          page_ask(Page, "next", Frame2),
+          \+ runs(Frame2) )).
+test(at_the_prompt_nothing_is_aborted) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "motor_run(outA, 50), writeln(begun)."),
+          printed(Top, "begun"),
+          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          page_ask(Page, "stop", _),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          \+ runs(Last),
+          query(Top, "motor_run(outA, 30), writeln(again)."),
+          printed(Top, "again"),
+          frame_with(Page, Again, runs(Again), 2000) )).
+test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, [])."),
+          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          query(Top, "wait(1), writeln(alive)."),
+          printed(Top, "alive"),
+          page_ask(Page, "next", Frame2),
+          \+ runs(Frame2) )).
+
+:- end_tests(view_stop).
