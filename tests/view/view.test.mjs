@@ -359,6 +359,25 @@ group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
   });
 });
 
+group('a real robot', [
+  'use_module(\'tests/support/trees\')',
+  'set_robot(5.6, 10.6, outB, outC)',
+], '', (it) => {
+  test('is shown by its files: what it believes, no truth, no hands', async () => {
+    // A plain tree stands in for a brick: nothing moves in it.
+    it.session.type('with_tree(plain, [outB-\'lego-ev3-l-motor\', outC-\'lego-ev3-l-motor\', in1-\'lego-ev3-us\'], ( pose(_, _, _), us_dist_cm(_, _), repeat, thread_get_message(over) ))');
+    const shown = await shows(it.page, (s) => s.source === 'brick' && s.robot?.believed && s.ports.filter((p) => p.kind === 'motor').length === 2, 'the robot');
+    assert.equal(shown.world, null);
+    assert.equal(shown.robot.true ?? null, null);
+    assert.equal(shown.ports.find((p) => p.port === 'in1').kind, 'sensor');
+    assert.deepEqual(await it.page.evaluate(() => ['transport', 'add-box', 'more'].filter((id) => document.getElementById(id).offsetParent)), []);
+    assert.ok(await it.page.$eval('[data-key=enter]', (key) => key.disabled));
+    assert.deepEqual(await violations(it.page), []);
+    await it.page.keyboard.press('Escape');
+    await shows(it.page, (s) => s.program.state === 'idle', 'the prompt');
+  });
+});
+
 group('those who should not', ROOM, '', (it) => {
   const unmoved = async () => {
     const [x, y] = await it.session.pose();
