@@ -1,7 +1,7 @@
 // A Prolog session with the view, and the browser that looks at it.
 
 import { spawn } from 'node:child_process';
-import http from 'node:http';
+import net from 'node:net';
 import path from 'node:path';
 import { createRequire } from 'node:module';
 import { fileURLToPath } from 'node:url';
@@ -141,25 +141,29 @@ function axeSource() {
   return axeText;
 }
 
-/** A request with headers of one's choice; answers the status. */
+/** A request with headers of one's choice; answers status and body. By a
+    bare socket, because node's own client will not send such things. */
 export function request(url, { headers = {}, method = 'GET', upgrade = false } = {}) {
+  const { host, hostname, port } = new URL(url);
+  const lines = {
+    Host: host, Connection: upgrade ? 'Upgrade' : 'close',
+    ...(upgrade && { Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==' }),
+    ...(method === 'POST' && { 'Content-Length': '0' }), ...headers,
+  };
   return new Promise((resolve, reject) => {
-    const asked = http.request(url, {
-      method,
-      headers: upgrade
-        ? { Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==', ...headers }
-        : headers,
-    });
-    asked.on('response', (answer) => {
-      let body = '';
-      answer.on('data', (data) => { body += data; });
-      answer.on('end', () => resolve({ status: answer.statusCode, headers: answer.headers, body }));
-    });
-    asked.on('upgrade', (answer, socket) => {
+    const socket = net.connect(port, hostname === 'localhost' ? '127.0.0.1' : hostname);
+    let text = '';
+    const over = () => {
       socket.destroy();
-      resolve({ status: answer.statusCode, headers: answer.headers, body: '' });
+      resolve({ status: Number(text.split(' ')[1]), body: text.slice(text.indexOf('\r\n\r\n') + 4) });
+    };
+    socket.on('data', (data) => {
+      text += data;
+      if (upgrade && text.includes('\r\n\r\n')) over();
     });
-    asked.on('error', reject);
-    asked.end();
+    socket.on('end', over);
+    socket.on('error', reject);
+    const path = url.slice(new URL(url).origin.length) || '/';
+    socket.write(`${method} ${path} HTTP/1.1\r\n${Object.entries(lines).map(([name, value]) => `${name}: ${value}\r\n`).join('')}\r\n`);
   });
 }

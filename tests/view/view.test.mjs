@@ -360,6 +360,7 @@ group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
 });
 
 group('a real robot', [
+  'use_module(library(ev3dev/drive))',
   'use_module(\'tests/support/trees\')',
   'set_robot(5.6, 10.6, outB, outC)',
 ], '', (it) => {
@@ -399,7 +400,7 @@ group('those who should not', ROOM, '', (it) => {
       ['a socket of a foreign Host', '/ws', { upgrade: true, headers: { Cookie: cookies, Origin: origin, Host: 'evil.example' } }, 403],
       ['STOP without a cookie', '/stop', { method: 'POST', headers: { Origin: origin } }, 403],
       ['STOP of a foreign Origin', '/stop', { method: 'POST', headers: { Cookie: cookies, Origin: 'http://evil.example' } }, 403],
-      ['another method', '/', { method: 'DELETE', headers: { Cookie: cookies } }, 405],
+      ['another method', '/', { method: 'DELETE', headers: { Cookie: cookies, Origin: origin } }, 405],
       ['a file of another folder', '/../view.pl', { headers: { Cookie: cookies } }, 404],
       ['all as it should be', '/', { headers: { Cookie: cookies, Host: host } }, 200],
     ]) {

@@ -87,7 +87,7 @@ function heading() {
   const { frame: now } = model;
   const { program, clock: time } = now ?? {};
   const [what, name] = phase !== 'live' ? ['', ''] : {
-    sim: ['Simulation', model.world?.name], brick: ['Robot', now?.tree], none: ['No robot yet', ''],
+    sim: ['Simulation', model.name], brick: ['Robot', now?.tree], none: ['No robot yet', ''],
   }[now?.source] ?? ['Connected', ''];
   const doing = phase !== 'live' ? { waiting: 'Connecting', lost: 'Not connected', refused: 'Refused' }[phase]
     : program?.latched ? 'stopping' : time?.paused ? 'paused' : { running: 'a program runs', idle: 'ready' }[program?.state] ?? '';
@@ -96,7 +96,7 @@ function heading() {
   text($('place-doing'), name && doing ? ` · ${doing}` : doing);
   if (phase !== 'live') return;
   text($('clock-text'), clock(time?.time ?? 0));
-  const title = model.world?.name ? `${model.world.name} – ev3dev` : 'ev3dev';
+  const title = model.name ? `${model.name} – ev3dev` : 'ev3dev';
   if (document.title !== title) document.title = title;
   emptiness();
 }
@@ -144,7 +144,7 @@ function shown() {
     time: now?.clock?.time ?? null,
     clock: now?.clock ?? null,
     program: now?.program ?? null,
-    world: model.world ? { name: model.world.name, bounds: model.world.bounds, items: model.world.items } : null,
+    world: model.world ? { name: model.name, bounds: model.world.bounds, items: model.world.items } : null,
     robot: now?.robot ?? null,
     see: now?.see ?? [],
     ports: now?.ports ?? [],

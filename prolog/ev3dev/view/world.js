@@ -256,7 +256,7 @@ export class World {
     if (world) {
       const things = (world.items ?? []).filter((item) => ['wall', 'box', 'circle'].includes(item.kind)).length;
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
-      parts.push(`World ${world.name ?? ''}${size}, ${things} ${things === 1 ? 'obstacle' : 'obstacles'}.`);
+      parts.push(`${this.model.name ? `World ${this.model.name}` : 'A world'}${size}, ${things} ${things === 1 ? 'obstacle' : 'obstacles'}.`);
     }
     const said = (pose) => `x ${num(pose[0])}, y ${num(pose[1])}, heading ${num(pose[2])}`;
     const { true: truly, believed } = frame.robot ?? {};
