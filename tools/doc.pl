@@ -45,6 +45,7 @@ task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
+task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
 
 main :-

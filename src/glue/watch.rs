@@ -3,8 +3,8 @@ use ev3_motion::Pose;
 use ev3_sim::is_outside;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use swipl::fli::this_thread;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use swipl::fli::this_thread;
 
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 

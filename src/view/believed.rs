@@ -3,10 +3,12 @@
 //! Odometry counts from where the robot was when it was set, or from a pose that the program
 //! gives. If that pose is near the true one, then the program counts in the world's frame. Else
 //! its frame is laid on the robot as it truly was at that moment.
-use super::running_simulation;
+use super::notes::notes;
+use super::reach::running_simulation;
 use crate::glue::state::known_drive;
 use crate::glue::watch::{Frame, film, frame};
 use ev3_driver::drive::Believed;
+use ev3_json::Json;
 use ev3_motion::{Pose, wrapped};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -84,11 +86,38 @@ impl ToWorld {
 
 /// The ellipse of one standard deviation: its semi-axes, the longer one first, and the heading of
 /// that.
-pub(super) fn ellipse(covariance: [[f64; 3]; 3]) -> [f64; 3] {
+fn ellipse(covariance: [[f64; 3]; 3]) -> [f64; 3] {
     let [[xx, xy, _], [_, yy, _], _] = covariance;
     let (mean, half) = (f64::midpoint(xx, yy), (xx - yy) / 2.0);
     let root = half.hypot(xy);
     let angle = 0.5 * xy.atan2(half);
     let axis = |variance: f64| variance.max(0.0).sqrt();
     [axis(mean + root), axis(mean - root), 90.0 - angle.to_degrees()]
+}
+
+/// Where the program believes the robot to be, and where it is to go.
+pub(super) fn report_believed(json: &mut Json, believed: Option<&Believed>) {
+    let Some(Believed { pose, covariance, course, .. }) = believed else {
+        json.key("believed").null();
+        notes().keep("path", "null");
+        return;
+    };
+    let to_world = ToWorld::now();
+    json.key("believed").object(|json| {
+        let ours = to_world.pose(*pose);
+        json.key("pose").numbers([ours.x, ours.y, ours.heading], 2);
+        json.key("odometry").numbers([pose.x, pose.y, pose.heading], 2);
+        let [a, b, heading] = ellipse(*covariance);
+        json.key("ellipse").numbers([a, b, heading + to_world.turn()], 2);
+    });
+    let mut path = Json::new();
+    match course.as_deref() {
+        None | Some([]) => path.null(),
+        Some(points) => path.array(|json| {
+            for point in points {
+                json.numbers(to_world.point(*point), 1);
+            }
+        }),
+    }
+    notes().keep("path", path.as_text());
 }

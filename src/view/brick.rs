@@ -1,6 +1,5 @@
 //! The state of a real tree: what the driver knows, and a few reads a second.
-use super::believed::believed;
-use super::frame::report_believed;
+use super::believed::{believed, report_believed};
 use crate::glue::state::devices;
 use ev3_driver::{Class, Device, Registry};
 use ev3_json::Json;
@@ -49,9 +48,8 @@ pub(super) fn report(json: &mut Json) -> Duration {
     let tree = devices.tree().root().to_string_lossy().into_owned();
     let is_fresh = |read: &Read| read.tree == tree && read.at.elapsed() < EVERY;
     if !read.as_ref().is_some_and(is_fresh) {
-        let pose = believed.map(|believed| {
-            [believed.pose.x, believed.pose.y, believed.pose.heading]
-        });
+        let pose =
+            believed.map(|believed| [believed.pose.x, believed.pose.y, believed.pose.heading]);
         let (text, values) = look(&devices);
         let mut samples = read.take().filter(|read| read.tree == tree).map(|read| read.samples);
         let samples = samples.get_or_insert_default();
@@ -82,19 +80,29 @@ pub(super) fn report_samples(json: &mut Json, after: u64) -> Option<u64> {
     }
     json.key("samples").object(|json| {
         json.key("columns").array(|json| {
-            ["time", "bx", "by", "bh"].into_iter().for_each(|name| json.text(name));
-            columns.iter().for_each(|(name, _)| json.text(name));
+            for name in ["time", "bx", "by", "bh"] {
+                json.text(name);
+            }
+            for (name, _) in &columns {
+                json.text(name);
+            }
         });
         json.key("units").array(|json| {
-            ["s", "cm", "cm", "deg"].into_iter().for_each(|unit| json.text(unit));
-            columns.iter().for_each(|(_, unit)| json.text(unit));
+            for unit in ["s", "cm", "cm", "deg"] {
+                json.text(unit);
+            }
+            for (_, unit) in &columns {
+                json.text(unit);
+            }
         });
         json.key("rows").array(|json| {
             for row in rows {
                 json.array(|json| {
                     json.number(Duration::from_micros(row.at).as_secs_f64(), 3);
                     let pose = row.pose.unwrap_or([f64::NAN; 3]);
-                    pose.into_iter().for_each(|part| json.number(part, 2));
+                    for part in pose {
+                        json.number(part, 2);
+                    }
                     for (name, _) in &columns {
                         let value = row.values.iter().find(|(other, ..)| other == name);
                         let number = value.and_then(|(.., number)| *number);
@@ -125,9 +133,9 @@ fn look(devices: &Registry) -> (String, Values) {
         json.key("lights").object(|json| {
             for (side, name) in ["left", "right"].into_iter().enumerate() {
                 json.key(name).array(|json| {
-                    ["red", "green"].into_iter().for_each(|color| {
+                    for color in ["red", "green"] {
                         json.integer(light(devices, side, name, color));
-                    });
+                    }
                 });
             }
         });
@@ -176,7 +184,8 @@ fn report_motor(json: &mut Json, motor: &Device, values: &mut Values) {
         Some(count) => 360.0 / count as f64,
         None => 1000.0 / motor.constant("count_per_m").unwrap_or(1000).max(1) as f64,
     };
-    let names = [("position", "position", unit), ("speed", "speed", unit), ("duty", "duty_cycle", 1.0)];
+    let names =
+        [("position", "position", unit), ("speed", "speed", unit), ("duty", "duty_cycle", 1.0)];
     let units = if per_turn.is_some() { ["deg", "deg/s", "%"] } else { ["mm", "mm/s", "%"] };
     for ((name, attribute, unit), words) in names.into_iter().zip(units) {
         let value = number(motor, attribute).map(|value| value * unit);

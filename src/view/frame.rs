@@ -1,11 +1,11 @@
 //! Frames: what a page is sent, beginning with what it has not got yet.
-use super::believed::{ToWorld, believed, ellipse};
-use super::hand::{SHARED_FOR, pulled};
+use super::believed::{ToWorld, believed, report_believed};
+use super::brick;
+use super::hand::pulled;
 use super::notes::notes;
-use super::{brick, running_simulation};
+use super::reach::running_simulation;
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
-use ev3_driver::drive::Believed;
 use ev3_driver::latch;
 use ev3_json::Json;
 use ev3_sim::{Beside, Clock, MOTOR_KINDS, Machine, Pose, SensorKind, Simulation};
@@ -51,6 +51,9 @@ struct Shared {
     time: Duration,
     text: Arc<str>,
 }
+
+/// For how long.
+const SHARED_FOR: Duration = Duration::from_millis(15);
 
 static SHARED: Mutex<Option<Shared>> = Mutex::new(None);
 
@@ -199,37 +202,14 @@ fn keep_versions(machine: &Machine) {
 fn report_plugs(json: &mut Json) {
     json.object(|json| {
         json.key("out").array(|json| {
-            MOTOR_KINDS.iter().for_each(|kind| json.text(kind.driver_name));
+            for kind in &MOTOR_KINDS {
+                json.text(kind.driver_name);
+            }
         });
         json.key("in").array(|json| {
             SensorKind::all().for_each(|kind| json.text(kind.driver_name));
         });
     });
-}
-
-/// Where the program believes the robot to be, and where it is to go.
-pub(super) fn report_believed(json: &mut Json, believed: Option<&Believed>) {
-    let Some(Believed { pose, covariance, course, .. }) = believed else {
-        json.key("believed").null();
-        notes().keep("path", "null");
-        return;
-    };
-    let to_world = ToWorld::now();
-    json.key("believed").object(|json| {
-        let ours = to_world.pose(*pose);
-        json.key("pose").numbers([ours.x, ours.y, ours.heading], 2);
-        json.key("odometry").numbers([pose.x, pose.y, pose.heading], 2);
-        let [a, b, heading] = ellipse(*covariance);
-        json.key("ellipse").numbers([a, b, heading + to_world.turn()], 2);
-    });
-    let mut path = Json::new();
-    match course.as_deref() {
-        None | Some([]) => path.null(),
-        Some(points) => path.array(|json| {
-            points.iter().for_each(|point| json.numbers(to_world.point(*point), 1));
-        }),
-    }
-    notes().keep("path", path.as_text());
 }
 
 fn report_clock(json: &mut Json, source: &Source, time: Duration, before_us: u64) {
@@ -240,13 +220,13 @@ fn report_clock(json: &mut Json, source: &Source, time: Duration, before_us: u64
     };
     json.key("kind").text(match simulation.clock() {
         Clock::Virtual => "virtual",
-        #[expect(clippy::float_cmp, reason = "it is 1.0 by itself")]
-        Clock::Wall(factor) if factor == 1.0 => "realtime",
+        Clock::Wall(1.0) => "realtime",
         Clock::Wall(_) => "scaled",
     });
     let pace = match (simulation.pace(), simulation.clock()) {
         (None, Clock::Virtual) => "max".to_owned(),
         (None, Clock::Wall(_)) => "x1".to_owned(),
+        (Some(factor), _) if factor.is_infinite() => "max".to_owned(),
         (Some(factor), _) => format!("x{factor}"),
     };
     json.key("pace").text(&pace);

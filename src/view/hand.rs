@@ -1,12 +1,11 @@
 //! What a person does on a page to the simulated world and its time.
-use super::{outside, running_simulation};
+use super::reach::{outside, running_simulation};
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch::film;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 use swipl::prelude::*;
 
 /// The driver of what was pulled out of each port.
@@ -33,7 +32,13 @@ predicates! {
     #[name("view_pace_")]
     semidet fn view_pace(context, factor) {
         let factor = Call::of(context, "view", 1).float(factor)?;
-        simulation()?.set_pace((factor > 0.0).then_some(factor));
+        let simulation = simulation()?;
+        let limit = match simulation.clock() {
+            Clock::Wall(_) => f64::INFINITY,
+            Clock::Virtual => 0.0,
+        };
+        let factor = if factor > 0.0 { factor } else { limit };
+        simulation.set_pace((factor > 0.0).then_some(factor));
         Ok(())
     }
 
@@ -140,6 +145,3 @@ fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult
         Err(_) => wrong_value(call, "port", term),
     }
 }
-
-/// The shortest that two frames may lie apart in time, if they are the same for all pages.
-pub(super) const SHARED_FOR: Duration = Duration::from_millis(15);

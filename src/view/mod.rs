@@ -7,26 +7,19 @@ mod brick;
 mod frame;
 mod hand;
 mod notes;
+mod reach;
 mod threads;
 
 pub(crate) use self::believed::{counting_begins, pose_is_set};
 
 use self::notes::{Entry, notes};
+use self::reach::{keep_samples, outside, running_simulation, seconds};
 use crate::glue::call::{Call, Text};
 use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
-#[cfg(feature = "sim")]
-use crate::sim::running_simulation;
-use ev3_json::Json;
 use ev3_driver::{Error, latch, motor};
-#[cfg(not(feature = "sim"))]
-use ev3_sim::Simulation;
-use ev3_sim::stay_outside;
-#[cfg(not(feature = "sim"))]
-use std::sync::Arc;
-use std::time::Duration;
-use swipl::fli::pass_over_thread;
+use ev3_json::Json;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
@@ -35,7 +28,6 @@ pub(crate) fn register() {
     register_view_open();
     register_view_close();
     register_view_thread();
-    register_view_pass_over();
     register_view_keep_sockets();
     register_view_frame();
     register_view_keep();
@@ -59,7 +51,7 @@ predicates! {
     semidet fn view_open(_context) {
         watch::set_watched(true);
         keep_samples(true);
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// view_close_: nobody does any more. Time passes as fast as ever.
@@ -73,7 +65,7 @@ predicates! {
             simulation.set_paused(false);
         }
         latch::set(false);
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// view_thread_(+Serves): this thread serves a page from now on, and is no part of the
@@ -82,15 +74,6 @@ predicates! {
     #[name("view_thread_")]
     semidet fn view_thread(_context, serves) {
         threads::serve(serves.get_ex()?);
-        Ok(())
-    }
-
-    /// view_pass_over_(+Thread, +Passes): another thread is no part of the program, by its number.
-    #[module("ev3dev_native")]
-    #[name("view_pass_over_")]
-    semidet fn view_pass_over(context, thread, passes) {
-        let thread = Call::of(context, "view", 1).integer(thread)?;
-        pass_over_thread(i32::try_from(thread).unwrap_or(-1), passes.get_ex()?);
         Ok(())
     }
 
@@ -165,7 +148,7 @@ predicates! {
     #[name("view_latch_")]
     semidet fn view_latch(_context) {
         latch::set(true);
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// view_lift_: motors may start again.
@@ -173,7 +156,7 @@ predicates! {
     #[name("view_lift_")]
     semidet fn view_lift(_context) {
         latch::set(false);
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// view_stop_motors_: stops all motors that are connected, with brake, at once.
@@ -230,36 +213,5 @@ predicates! {
     #[name("view_source_")]
     semidet fn view_source(_context, source) {
         unify_atom(source, frame::source())
-    }
-}
-
-#[cfg(not(feature = "sim"))]
-fn running_simulation() -> Option<Arc<Simulation>> {
-    None
-}
-
-/// Reaches in from outside: no simulated time passes, and no turn is waited for.
-fn outside<T>(act: impl FnOnce() -> T) -> T {
-    stay_outside(true);
-    let done = act();
-    stay_outside(threads::serves());
-    done
-}
-
-/// The time that frames tell.
-fn now() -> Duration {
-    match running_simulation() {
-        Some(simulation) => simulation.machine().now(),
-        None => devices().tree().now(),
-    }
-}
-
-fn seconds() -> f64 {
-    now().as_secs_f64()
-}
-
-fn keep_samples(keep: bool) {
-    if let Some(simulation) = running_simulation() {
-        simulation.machine().keep_samples(keep);
     }
 }

@@ -125,7 +125,6 @@
             view_move_/4,
             view_open_/0,
             view_pace_/1,
-            view_pass_over_/2,
             view_pause_/1,
             view_pull_/1,
             view_put_back_/2,
@@ -354,6 +353,39 @@ missing.
 %!  sim_wait_(+Seconds, -Reason) is nondet.
 %
 %   `src/sim/mod.rs`
+
+% The view
+
+%!  view_close_ is det.
+%!  view_csv_(-Text) is semidet.
+%!  view_frame_(+Have, +State, +Settings, -Text) is det.
+%!  view_json_(+Text, -Json) is det.
+%!  view_keep_(+Name, +Json) is det.
+%!  view_keep_sockets_(+Port) is det.
+%!  view_latch_ is det.
+%!  view_lift_ is det.
+%!  view_log_(+Kind, +Text, +Causes, +Thread) is det.
+%!  view_open_ is det.
+%!  view_serves_ is semidet.
+%!  view_source_(-Source) is det.
+%!  view_stop_motors_ is det.
+%!  view_thread_(+Serves) is det.
+%!  view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn) is det.
+%!  view_users_(-Threads) is det.
+%!  view_value_(+Name, +Number) is det.
+%
+%   `src/view/mod.rs`
+
+%!  view_move_(+Id, +X, +Y, +Heading) is semidet.
+%!  view_pace_(+Factor) is semidet.
+%!  view_pause_(+Pauses) is semidet.
+%!  view_pull_(+Port) is semidet.
+%!  view_put_back_(+Port, -Driver) is semidet.
+%!  view_stands_ is semidet.
+%!  view_step_(+Seconds, +IsIdle) is semidet.
+%!  view_world_(-Text) is semidet.
+%
+%   `src/view/hand.rs`
 
 % The end of the program
 

@@ -190,9 +190,7 @@ impl Steering {
             points
         };
         let mut points = match phase {
-            Phase::Following { path, index, .. } => {
-                sampled(path.get(*index..).unwrap_or_default())
-            }
+            Phase::Following { path, index, .. } => sampled(path.get(*index..).unwrap_or_default()),
             Phase::Next | Phase::Turning(_) => Vec::new(),
         };
         for leg in legs {
@@ -205,7 +203,6 @@ impl Steering {
         }
         points
     }
-
 
     /// A motion of several parts, from a robot at rest at `pose`. It counts
     /// from `goal`, where the motion before was to end, if that is near.

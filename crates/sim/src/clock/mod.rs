@@ -67,6 +67,7 @@ thread_local! {
 /// again. What a hand does takes no simulated time, and needs no turn. Its waits take wall time.
 pub fn stay_outside(is_outside: bool) {
     IS_OUTSIDE.set(is_outside);
+    threads::stay_outside(is_outside);
 }
 
 /// Whether this thread reaches in from outside.

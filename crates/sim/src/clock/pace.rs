@@ -14,6 +14,9 @@ const SLICE: Duration = Duration::from_millis(20);
 /// How far the wall clock may be ahead, as while a program computes, before that is forgotten.
 const LATE: Duration = Duration::from_millis(100);
 
+/// A wall clock goes faster by this factor at most.
+const FASTEST: f64 = 10.0;
+
 /// Less than this is not worth a sleep.
 const SHORT: Duration = Duration::from_millis(2);
 
@@ -123,7 +126,7 @@ impl Pace {
             return wall.mul_f64(factor);
         }
         let mut state = self.state();
-        let passed = wall.mul_f64(factor * state.factor.unwrap_or(1.0));
+        let passed = wall.mul_f64(factor * state.factor.unwrap_or(1.0).min(FASTEST));
         if !state.is_paused {
             return passed;
         }

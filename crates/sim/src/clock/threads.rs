@@ -3,11 +3,12 @@
 //! A thread that can run is not asleep, also while other programs have the processors. Nothing
 //! here depends on how much wall time passes.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io::Read;
 use std::os::unix::fs::MetadataExt;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The kernel's number of a thread.
 pub(super) type Id = u32;
@@ -32,10 +33,43 @@ pub(super) fn me() -> Id {
     ME.get()
 }
 
-/// How many threads this process has. Where the kernel does not tell, one is assumed.
+/// Threads that are no part of the program.
+static OUTSIDE: Mutex<Vec<Id>> = Mutex::new(Vec::new());
+
+fn outside() -> MutexGuard<'static, Vec<Id>> {
+    OUTSIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A thread that is no part of the program, until it ends.
+struct Outsider(Id);
+
+impl Drop for Outsider {
+    fn drop(&mut self) {
+        outside().retain(|other| *other != self.0);
+    }
+}
+
+thread_local! {
+    static OUTSIDER: RefCell<Option<Outsider>> = const { RefCell::new(None) };
+}
+
+/// Makes this thread no part of the program, or a part again.
+pub(super) fn stay_outside(is_outside: bool) {
+    OUTSIDER.with_borrow_mut(|outsider| {
+        if !is_outside {
+            *outsider = None;
+        } else if outsider.is_none() {
+            outside().push(me());
+            *outsider = Some(Outsider(me()));
+        }
+    });
+}
+
+/// How many threads this process has that may be a part of the program. Where the kernel does not tell, one is assumed.
 pub(super) fn count() -> u64 {
     // A directory has a link more for each directory in it, and two for itself.
-    fs::metadata(TASKS).map_or(1, |tasks| tasks.nlink().saturating_sub(2))
+    let all = fs::metadata(TASKS).map_or(1, |tasks| tasks.nlink().saturating_sub(2));
+    all.saturating_sub(outside().len() as u64)
 }
 
 /// The threads of this process when they were last looked at.
@@ -74,10 +108,14 @@ impl Threads {
 /// The threads; `None` if one is awake that should not be.
 fn look(need_not: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
     let mut seen = Vec::new();
+    let outside = outside().clone();
     for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
         let Some(id) = task.file_name().to_str().and_then(|name| name.parse().ok()) else {
             continue;
         };
+        if outside.contains(&id) {
+            continue;
+        }
         let sleeps = if need_not(id) { None } else { Some(sleeps(id)?) };
         seen.push((id, sleeps));
     }

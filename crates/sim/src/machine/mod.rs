@@ -6,15 +6,14 @@
 pub(crate) mod descriptor;
 pub(crate) mod dev;
 mod files;
+mod film;
 mod panel;
 mod plugs;
-mod report;
+pub(crate) mod report;
 mod socket;
 mod svg;
 mod time;
 pub(crate) mod tree;
-
-pub use report::{Belief, Beside, name_of};
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -26,7 +25,7 @@ use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
 use crate::files::errno::Errno;
-use crate::machine::report::samples::Samples;
+use crate::machine::film::Film;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
@@ -87,7 +86,7 @@ pub struct Machine {
     held: [bool; Port::ALL.len()],
     trace: Trace,
     /// A film of the run, if somebody wants it.
-    samples: Option<Samples>,
+    film: Option<Film>,
 }
 
 impl Machine {
@@ -140,7 +139,7 @@ impl Machine {
             panel: Panel::new(options.depth),
             held: Default::default(),
             trace: Trace::new(),
-            samples: None,
+            film: None,
         };
         machine.check_free(&world.start)?;
         for mount in &robot.motors {

@@ -2,9 +2,7 @@
 
 mod floor;
 mod infrared;
-mod sight;
-
-pub(crate) use sight::Sight;
+pub(crate) mod sight;
 
 use crate::noise::Source;
 use crate::sensor::{Axle, Reading, Sense};

@@ -264,7 +264,8 @@ impl Sensor {
             Some(fresh) => mode.format.fit(mode.scale.raw(fresh[index])),
             None => self.reading[index],
         };
-        self.has_data().then(|| (0..mode.values.min(8)).map(move |index| mode.scale.shown(raw(index))))
+        self.has_data()
+            .then(|| (0..mode.values.min(8)).map(move |index| mode.scale.shown(raw(index))))
     }
 
     fn value(&self, index: usize) -> Result<i32, Errno> {

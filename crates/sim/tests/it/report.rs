@@ -71,7 +71,9 @@ fn ports_say_what_is_plugged_in() {
     assert!(shown.contains(r#"{"port":"outD","kind":"coming","driver":"lego-ev3-m-motor""#));
     assert!(shown.contains(r#"{"port":"in1","kind":"gone","driver":"lego-ev3-us""#), "{shown}");
     machine.step(Duration::from_secs(2));
-    assert!(state(&machine).contains(r#"{"port":"outD","kind":"motor","driver":"lego-ev3-m-motor""#));
+    assert!(
+        state(&machine).contains(r#"{"port":"outD","kind":"motor","driver":"lego-ev3-m-motor""#)
+    );
     assert!(state(&machine).contains(r#"{"port":"in1","kind":"empty"}"#));
 }
 

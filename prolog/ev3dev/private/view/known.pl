@@ -125,4 +125,5 @@ ending('.duty', '%').
 
 watches_end :-
     retractall(watch(_, _, _)),
+    retractall(renewed(_)),
     keep_watches.

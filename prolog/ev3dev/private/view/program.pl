@@ -184,6 +184,7 @@ interrupted(Stopper) :-
     (   reads_query
     ->  answer(Stopper, ended)
     ;   queries(Count),
+        set_state(running),
         answer(Stopper, interrupted(Count)),
         abort
     ).
@@ -204,14 +205,29 @@ ended_since(Count0, Stopper) :-
 answer(Stopper, Answer) :-
     catch(thread_send_message(Stopper, answer(Answer)), _, true).
 
-%   While the cleanup of the program goes on, ask again.
+%   While the cleanup of the program goes on, ask again. The toplevel says that
+%   a query was aborted before it reads the next one.
 until_ended(ended, _) :-
     set_state(idle).
 until_ended(interrupted(Count), Me) :-
     sleep(0.02),
-    (   send_signal(main, ev3dev_view_program:ended_since(Count, Me))
-    ->  thread_get_message(answer(Answer)),
-        until_ended(Answer, Me)
+    (   program_state(idle)
+    ->  true
+    ;   send_signal(main, ev3dev_view_program:ended_since(Count, Me))
+    ->  await_end(Count, Me)
+    ;   true
+    ).
+
+await_end(Count, Me) :-
+    (   thread_get_message(Me, answer(Answer), [timeout(0.05)])
+    ->  (   Answer == ended
+        ->  set_state(idle)
+        ;   until_ended(interrupted(Count), Me)
+        )
+    ;   program_state(idle)
+    ->  true
+    ;   catch(thread_property(main, status(running)), _, fail)
+    ->  await_end(Count, Me)
     ;   true
     ).
 

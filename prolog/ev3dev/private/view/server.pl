@@ -7,8 +7,7 @@
               [http_server/2, http_spawn/2, http_stop_server/2]).
 :- use_module(library(http/http_stream), []).
 :- use_module('../native',
-              [ view_csv_/1, view_keep_sockets_/1, view_pass_over_/2,
-                view_world_/1 ]).
+              [ view_csv_/1, view_keep_sockets_/1,                 view_world_/1 ]).
 :- use_module(page, [page_serve/2, pages/1]).
 :- use_module(program, [stop_program/0, view_thread/0]).
 :- use_module(socket, [accept_key/2]).
@@ -65,13 +64,10 @@ server_start(Address, Port, Token) :-
 bound(localhost, Port, localhost:Port).
 bound(any, Port, Port).
 
+%   A thread of the server says itself that it is no part of the program.
 pass_over(Thread) :-
-    (   integer(Thread)
-    ->  view_pass_over_(Thread, true)
-    ;   catch(thread_property(Thread, id(Id)), _, fail)
-    ->  view_pass_over_(Id, true)
-    ;   true
-    ).
+    catch(thread_signal(Thread, ev3dev_view_server:view_thread_once),
+          error(_, _), true).
 
 %!  server_stop(+Port) is det.
 %

@@ -4,12 +4,9 @@
 //! trace. So a run is the same whether somebody looks or not. Lengths are in centimeters, angles
 //! in degrees, times in seconds.
 
-mod ports;
+pub(crate) mod ports;
 pub(crate) mod samples;
 mod world;
-
-pub use ports::name_of;
-pub use samples::Belief;
 
 use std::time::Duration;
 
@@ -20,7 +17,7 @@ use crate::brick::screen::{Depth, HEIGHT, WIDTH};
 use crate::machine::Machine;
 use crate::machine::tree::Hardware;
 use crate::robot::Wheel;
-use crate::sense::Sight;
+use crate::sense::sight::Sight;
 use crate::world::Hull;
 use crate::world::geometry::{Pose, Vec2};
 
@@ -53,7 +50,8 @@ impl Machine {
         json.object(|json| {
             json.key("hull");
             report_hull(json, robot.hull);
-            for (name, Wheel { port, diameter, .. }) in [("left", robot.left), ("right", robot.right)]
+            for (name, Wheel { port, diameter, .. }) in
+                [("left", robot.left), ("right", robot.right)]
             {
                 json.key(name).object(|json| {
                     json.key("port").text(port.name());
@@ -99,9 +97,8 @@ impl Machine {
             json.key("h").integer(HEIGHT.try_into().unwrap_or(0));
             if is_plain {
                 let byte = |eight: &[[u8; 3]]| {
-                    let bit = |(index, pixel): (usize, &[u8; 3])| {
-                        u8::from(pixel[0] == 0) << (7 - index)
-                    };
+                    let bit =
+                        |(index, pixel): (usize, &[u8; 3])| u8::from(pixel[0] == 0) << (7 - index);
                     eight.iter().enumerate().map(bit).fold(0, |byte, bit| byte | bit)
                 };
                 json.key("bits").base64(&pixels.chunks(8).map(byte).collect::<Vec<_>>());

@@ -11,16 +11,8 @@ use crate::motor::{COUNT_PER_M, Tacho};
 use crate::sensor::Sensor;
 
 /// As they stand on the brick.
-const ORDER: [Port; 8] = [
-    Port::OutA,
-    Port::OutB,
-    Port::OutC,
-    Port::OutD,
-    Port::In1,
-    Port::In2,
-    Port::In3,
-    Port::In4,
-];
+const ORDER: [Port; 8] =
+    [Port::OutA, Port::OutB, Port::OutC, Port::OutD, Port::In1, Port::In2, Port::In3, Port::In4];
 
 /// What people call the devices of the sets.
 const NAMES: [(&str, &str); 14] = [

@@ -1,8 +1,5 @@
-//! A film of the run: where the robot was, and what motors and sensors showed, every 50 ms of
-//! simulated time. On long runs the samples are farther apart.
-//!
-//! A virtual clock jumps, so somebody who only looked now and then would miss what lies between.
-//! Samples are kept only where a machine is told so, as a sample costs as much as some ticks.
+//! The film of a run, as a table. It is kept only where a machine is told so, as a sample costs as
+//! much as some ticks.
 
 use std::time::Duration;
 
@@ -10,50 +7,14 @@ use ev3_json::Json;
 
 use super::seconds;
 use crate::brick::port::Port;
-use crate::log::Log;
 use crate::machine::Machine;
+use crate::machine::film::{Film, Sample, State, Values};
 use crate::machine::tree::Hardware;
 use crate::ticks::TICK_US;
 use crate::world::geometry::Pose;
 
-/// How many samples are kept.
-const MOST: usize = 2048;
-/// At first one is taken every 50 ms.
-const FIRST_SPACING_TICKS: u64 = 25;
-/// How many values of a sensor are kept.
-const VALUES: usize = 4;
-
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 const INPUTS: [Port; 4] = [Port::In1, Port::In2, Port::In3, Port::In4];
-
-/// The samples so far.
-#[derive(Clone, Debug)]
-pub(crate) struct Samples {
-    kept: Log<Sample>,
-    spacing: u64,
-}
-
-/// What there was at a moment.
-#[derive(Clone, Debug)]
-struct Sample {
-    at: Duration,
-    state: State,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct State {
-    pose: Pose,
-    /// Position, speed and duty.
-    motors: [Option<[i32; 3]>; 4],
-    sensors: [Values; 4],
-}
-
-/// The first values of a sensor, with their decimals.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Values {
-    count: usize,
-    values: [f64; VALUES],
-}
 
 /// A column of the film.
 #[derive(Clone, Copy)]
@@ -65,38 +26,20 @@ enum Column {
 /// What the program believed its pose to be at a moment, in the world.
 pub type Belief<'a> = &'a mut dyn FnMut(Duration) -> Option<Pose>;
 
-impl Samples {
-    fn new() -> Self {
-        Self { kept: Log::new(MOST), spacing: FIRST_SPACING_TICKS }
-    }
-
-    fn take(&mut self, at: Duration, state: State) {
-        // Of a time at which nothing changes, the first and the last are enough.
-        if self.kept.newest().take(2).filter(|old| old.state == state).count() == 2 {
-            self.kept.pop();
-        }
-        self.kept.push(|_| Sample { at, state });
-        if self.kept.len() >= MOST {
-            self.kept.thin_out();
-            self.spacing *= 2;
-        }
-    }
-}
-
 impl Machine {
     /// Keeps samples from now on, or none.
     pub fn keep_samples(&mut self, keep: bool) {
         if !keep {
-            self.samples = None;
-        } else if self.samples.is_none() {
-            self.samples = Some(Samples::new());
+            self.film = None;
+        } else if self.film.is_none() {
+            self.film = Some(Film::new());
             self.take_sample();
         }
     }
 
     /// A tick has passed.
     pub(crate) fn sample_at_tick(&mut self) {
-        if self.samples.as_ref().is_some_and(|samples| self.tick % samples.spacing == 0) {
+        if self.film.as_ref().is_some_and(|samples| self.tick % samples.spacing == 0) {
             self.take_sample();
         }
     }
@@ -104,7 +47,7 @@ impl Machine {
     fn take_sample(&mut self) {
         let state = self.sampled();
         let at = Duration::from_micros(self.tick * TICK_US);
-        if let Some(samples) = &mut self.samples {
+        if let Some(samples) = &mut self.film {
             samples.take(at, state);
         }
     }
@@ -141,7 +84,7 @@ impl Machine {
         after: Option<Duration>,
         belief: Belief,
     ) -> Option<Duration> {
-        let samples = self.samples.as_ref()?;
+        let samples = self.film.as_ref()?;
         let is_new = |sample: &&Sample| after.is_none_or(|after| sample.at > after);
         let mut rows: Vec<_> = samples.kept.newest().take_while(is_new).collect();
         rows.reverse();
@@ -150,13 +93,21 @@ impl Machine {
         json.key("samples").object(|json| {
             json.key("columns").array(|json| {
                 let first = ["time", "x", "y", "heading", "bx", "by", "bh"];
-                first.into_iter().for_each(|name| json.text(name));
-                columns.iter().for_each(|column| json.text(&column.name()));
+                for name in first {
+                    json.text(name);
+                }
+                for column in &columns {
+                    json.text(&column.name());
+                }
             });
             json.key("units").array(|json| {
                 let first = ["s", "cm", "cm", "deg", "cm", "cm", "deg"];
-                first.into_iter().for_each(|unit| json.text(unit));
-                columns.iter().for_each(|column| json.text(self.unit(*column)));
+                for unit in first {
+                    json.text(unit);
+                }
+                for column in &columns {
+                    json.text(self.unit(*column));
+                }
             });
             json.key("rows").array(|json| {
                 for row in rows {
@@ -172,7 +123,7 @@ impl Machine {
     /// `None` if there are none.
     #[must_use]
     pub fn samples_csv(&self) -> Option<String> {
-        let rows: Vec<_> = self.samples.as_ref()?.kept.iter().collect();
+        let rows: Vec<_> = self.film.as_ref()?.kept.iter().collect();
         let columns = columns(&rows);
         let mut lines = vec!["time,x,y,heading".to_owned()];
         lines[0].extend(columns.iter().map(|column| format!(",{}", column.name())));
@@ -180,8 +131,12 @@ impl Machine {
             let mut json = Json::new();
             let Sample { at, state: State { pose, .. } } = row;
             json.number(at.as_secs_f64(), 3);
-            [pose.x, pose.y, pose.heading].into_iter().for_each(|part| json.number(part, 2));
-            columns.iter().for_each(|column| row.report_column(&mut json, *column));
+            for part in [pose.x, pose.y, pose.heading] {
+                json.number(part, 2);
+            }
+            for column in &columns {
+                row.report_column(&mut json, *column);
+            }
             lines.push(json.into_text().replace("null", ""));
         }
         lines.push(String::new());
@@ -236,7 +191,9 @@ impl Sample {
                 json.number(part, 2);
             }
         }
-        columns.iter().for_each(|column| self.report_column(json, *column));
+        for column in columns {
+            self.report_column(json, *column);
+        }
     }
 
     fn report_column(&self, json: &mut Json, column: Column) {

@@ -44,7 +44,7 @@ impl Machine {
         let Pose { x, y, heading } = self.pose();
         facts.push(format!("start({x:.2}, {y:.2}, {heading:.1})"));
         facts.extend(scene.items().iter().map(|(_, item)| fact(item)));
-        facts.iter().map(|fact| format!("{fact}.\n")).collect()
+        facts.join(".\n") + ".\n"
     }
 }
 

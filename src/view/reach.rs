@@ -1,0 +1,45 @@
+//! Reaching into the simulation that runs, from outside of the program.
+use super::threads;
+use crate::glue::state::devices;
+#[cfg(feature = "sim")]
+pub(super) use crate::sim::running_simulation;
+#[cfg(not(feature = "sim"))]
+use ev3_sim::Simulation;
+use ev3_sim::stay_outside;
+#[cfg(not(feature = "sim"))]
+use std::sync::Arc;
+use std::time::Duration;
+
+/// There is none.
+#[cfg(not(feature = "sim"))]
+pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
+    None
+}
+
+/// Reaches in from outside: no simulated time passes, and no turn is waited for.
+pub(super) fn outside<T>(act: impl FnOnce() -> T) -> T {
+    stay_outside(true);
+    let done = act();
+    stay_outside(threads::serves());
+    done
+}
+
+/// The time that frames tell.
+fn now() -> Duration {
+    match running_simulation() {
+        Some(simulation) => simulation.machine().now(),
+        None => devices().tree().now(),
+    }
+}
+
+/// The same in seconds.
+pub(super) fn seconds() -> f64 {
+    now().as_secs_f64()
+}
+
+/// Keeps samples from now on, or none.
+pub(super) fn keep_samples(keep: bool) {
+    if let Some(simulation) = running_simulation() {
+        simulation.machine().keep_samples(keep);
+    }
+}
