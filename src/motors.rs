@@ -239,6 +239,9 @@ fn speed_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     term: &Term<'a>,
 ) -> PrologResult<Speed> {
+    if let Some(percent) = attempt_opt(term.get())? {
+        return Ok(Speed::Percent(percent));
+    }
     match attempt_opt(call.context.compound_terms::<1>(term))? {
         Some([degrees]) => call.float(&degrees).map(Speed::DegreesPerSecond),
         None => call.float(term).map(Speed::Percent),

@@ -7,12 +7,14 @@ use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
 use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device, Registry, sensor};
+use std::cell::Cell;
 use std::sync::Arc;
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_sensor_value();
+    register_sensor_value_or_why();
     register_sensor_values();
     register_sensor_restart();
     register_sensor_wait();
@@ -31,16 +33,26 @@ predicates! {
             readings(&call, port, types, mode, index).map(Some)
         },
         call(readings) => {
+            next_value(&Call::of(context, "sensor_value", 4), readings, port, value)
+        }
+    }
+
+    /// sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value): the same, but explains
+    /// it if there is no value.
+    #[module("ev3dev_native")]
+    #[name("sensor_value_or_why_")]
+    nondet fn sensor_value_or_why<Readings>(context, port, types, mode, index, value) {
+        setup => {
             let call = Call::of(context, "sensor_value", 4);
-            let Readings { devices, sensors, names_port, mode, index } = readings;
-            let read = |device: &Arc<Device>| {
-                let interrupted = &mut call.interrupted();
-                call.or_fail(sensor::read(devices, device, Some(mode), *index, interrupted))
-            };
-            call.next(sensors, read, |device, read| {
-                unify_value(value, read)?;
-                unify_asked(*names_port, port, device.port())
-            })
+            let index = index_of(&call, index)?;
+            readings(&call, port, types, mode, index).map(Some)
+        },
+        call(readings) => {
+            let call = Call::of(context, "sensor_value", 4);
+            match next_value(&call, readings, port, value) {
+                Err(PrologError::Failure) if !readings.has_value => no_sensor(&call, port, types, mode),
+                next => next,
+            }
         }
     }
 
@@ -58,7 +70,7 @@ predicates! {
         },
         call(readings) => {
             let call = Call::of(context, "sensor_values", 3);
-            let Readings { devices, sensors, names_port, mode, index: count } = readings;
+            let Readings { devices, sensors, names_port, mode, index: count, .. } = readings;
             let count = (*count > 0).then_some(*count);
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
@@ -127,6 +139,30 @@ struct Readings {
     mode: Text,
     /// The index of a value, or the number of values.
     index: usize,
+    /// Whether a sensor has shown a value.
+    has_value: bool,
+}
+
+/// The next value that unifies.
+fn next_value<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    readings: &mut Readings,
+    port: &Term<'a>,
+    value: &Term<'a>,
+) -> PrologResult<bool> {
+    let Readings { devices, sensors, names_port, mode, index, has_value } = readings;
+    let has_value = Cell::from_mut(has_value);
+    let read = |device: &Arc<Device>| {
+        let interrupted = &mut call.interrupted();
+        let read = sensor::read(devices, device, Some(mode), *index, interrupted);
+        let read = call.or_fail(read)?;
+        has_value.set(true);
+        Ok(read)
+    };
+    call.next(sensors, read, |device, read| {
+        unify_value(value, read)?;
+        unify_asked(*names_port, port, device.port())
+    })
 }
 
 /// What to wait for.
@@ -163,7 +199,8 @@ fn readings<'a, C: QueryableContextType>(
             None => sensor::with_mode(&devices, types, &mode),
         })
     })?;
-    Ok(Readings { devices, sensors: found.into_iter(), names_port: port.is_none(), mode, index })
+    let (sensors, names_port) = (found.into_iter(), port.is_none());
+    Ok(Readings { devices, sensors, names_port, mode, index, has_value: false })
 }
 
 /// Fails because no sensor is of one of the types; or, if there are none, has the mode.

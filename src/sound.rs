@@ -108,7 +108,8 @@ predicates! {
     #[name("sound_wait_")]
     nondet fn sound_wait<UntilSilent>(context, reason) {
         setup => {
-            let waiting = sound().until_silent(&dev());
+            let dev = Call::of(context, "sound_wait", 0).dev()?;
+            let waiting = sound().until_silent(&dev);
             Ok(Some(Some(waiting)))
         },
         call(sound) => {

@@ -4,15 +4,20 @@ use crate::glue::terms::unify_atom;
 use crate::glue::waiting;
 use ev3_driver::device::sleep::Sleep;
 use ev3_driver::wait::Slices;
+use std::time::Duration;
 use swipl::prelude::*;
+
+/// The longest time between two looks of branches.
+const BRANCHES_LOOK: Duration = Duration::from_millis(20);
 
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_now();
     register_wait();
     register_tick_after();
-    register_tick_never();
     register_slices();
+    register_branches_begin();
+    register_branches_end();
 }
 
 predicates! {
@@ -39,22 +44,35 @@ predicates! {
         }
     }
 
-    /// tick_after_(+Seconds): this thread serves its events after some time.
+    /// tick_after_(+Seconds): this thread serves its events after some time, or, if that
+    /// is `infinite`, has none.
     #[module("ev3dev_native")]
     #[name("tick_after_")]
     semidet fn tick_after(context, seconds) {
         let call = Call::of(context, "every", 2);
-        let now = call.devices()?.tree().now();
-        waiting::tick_at(Some(now.saturating_add(call.time(seconds)?)));
+        waiting::tick_at(match call.seconds(seconds)? {
+            Some(time) => Some(call.devices()?.tree().now().saturating_add(time)),
+            None => None,
+        });
         Ok(())
     }
 
-    /// tick_never_: this thread has no events.
+    /// branches_begin_: from now on the waits of this thread let no time pass.
     #[module("ev3dev_native")]
-    #[name("tick_never_")]
-    semidet fn tick_never(_context) {
-        waiting::tick_at(None);
+    #[name("branches_begin_")]
+    semidet fn branches_begin(context) {
+        let now = Call::of(context, "both", 2).devices()?.tree().now();
+        waiting::set_branches(Some(now.saturating_add(BRANCHES_LOOK)));
         Ok(())
+    }
+
+    /// branches_end_(-Seconds): after what time the first of them has to look again.
+    #[module("ev3dev_native")]
+    #[name("branches_end_")]
+    semidet fn branches_end(context, seconds) {
+        let now = Call::of(context, "both", 2).devices()?.tree().now();
+        let next = waiting::set_branches(None).unwrap_or(now);
+        seconds.unify(next.saturating_sub(now).as_secs_f64())
     }
 
     /// slices_(-Count): how many slices of time this thread has waited.

@@ -4,7 +4,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled,
               [ contents/2, index_file/1, pack_folder/1, read_index/2,
-                source_time/2, this_prolog/1, use_sources/0 ]).
+                source_time/2, this_prolog/1 ]).
+:- use_module(private/units, [use_sources/0]).
 
 /** <module> Compile the pack where it is installed
 
@@ -32,17 +33,33 @@ the pack it is not used any more, and the command is to be given again.
 %!  unit(?Name, ?Entries) is nondet.
 %
 %   A unit has what its Entries load and no unit before it has. The first is
-%   what library(ev3dev) loads.
+%   what library(ev3dev) loads. A library that a program may load first is a
+%   unit apart from what it loads: Prolog is reading its source already when
+%   it comes to know the units.
 
 unit(core, ['ev3dev/private/core']).
+unit(drive_parts, ['ev3dev/private/places', 'ev3dev/odometry',
+                   'ev3dev/calibrate']).
 unit(drive, ['ev3dev/drive']).
 unit(tables, ['ev3dev/private/sensor_table/lego',
               'ev3dev/private/sensor_table/other']).
 unit(facts, ['ev3dev/private/facts']).
+unit(planners_parts, ['ev3dev/private/grid/problem',
+                      'ev3dev/planners/search']).
+unit(grid_parts, ['ev3dev/private/grid/moves']).
 unit(grid, ['ev3dev/grid']).
+unit(comparison, ['ev3dev/planners/comparison']).
 unit(planners, ['ev3dev/planners']).
+unit(roadmap_parts, ['ev3dev/navigation']).
 unit(roadmap, ['ev3dev/roadmap']).
+unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/sim_time',
+                 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
+unit(console, ['ev3dev/console']).
+unit(jog, ['ev3dev/jog']).
+unit(colors, ['ev3dev/colors']).
+unit(events, ['ev3dev/events']).
+unit(rules, ['ev3dev/rules']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),
@@ -154,12 +171,13 @@ delete_folder(Folder) :-
                 *           THE UNITS          *
                 *******************************/
 
-units_compiled(Folder, Units) :-
+units_compiled(Folder, [Loader|Units]) :-
     forall(( source_file(File), in_pack(File) ),
            assertz(source_of(File, none))),
     findall(Name-Files,
             ( unit(Name, Entries), entry_files(Entries, Files) ),
             Plan),
+    compile_loader(Folder, Loader),
     compile_units(Plan, Folder, Units, Libraries),
     compile_libraries([], Folder, Libraries).
 
@@ -167,6 +185,15 @@ entry_files([], []).
 entry_files([Entry|Entries], [File|Files]) :-
     pack_file(Entry, File),
     entry_files(Entries, Files).
+
+%   The first of them loads the others. Its file is loaded here already.
+
+compile_loader(Folder, Unit) :-
+    pack_file('ev3dev/private/units', Base),
+    atom_concat(Base, '.pl', File),
+    retractall(needed(_)),
+    compile(units, [File], true, Folder, Qlf),
+    unit_term(Qlf, [File], Unit).
 
 compile_units([], _, Units, Units).
 compile_units([Name-Files|Plan], Folder, [Unit|Units], Rest) :-
@@ -208,13 +235,15 @@ unit_term(Qlf, Files, unit(Qlf, Sum, Needed, Sources)) :-
             ),
             Sources).
 
-%   By way of a file that loads all of the unit's.
+%   By way of a file that loads all of the unit's. Its module has another name
+%   each time: the loader of the last time may be loaded.
 
 compile(Name, Files, If, Folder, Qlf) :-
     atomic_list_concat([Folder, /, Name], Base),
     atom_concat(Base, '.pl', Source),
     atom_concat(Base, '.qlf', Qlf),
-    atom_concat(ev3dev_unit_, Name, Module),
+    file_base_name(Folder, Time),
+    atomic_list_concat([ev3dev_unit_, Name, '_', Time], Module),
     setup_call_cleanup(
         open(Source, write, Out, [encoding(utf8)]),
         ( format(Out, ':- module(~q, []).~n', [Module]),

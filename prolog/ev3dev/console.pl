@@ -4,6 +4,7 @@
             screen_forget/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/2]).
 :- use_module(private/brick).

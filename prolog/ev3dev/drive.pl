@@ -20,6 +20,7 @@
             drive_wait/2        % +Options, -Reason
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [must_be/2, term_expansion/2]).
 :- use_module(private/arguments,

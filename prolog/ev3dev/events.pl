@@ -8,11 +8,14 @@
             event_cancel/1,             % ?Id
             event/2,                    % ?Id, ?Kind
             until/2,                    % :Condition, :Goal
-            until/3                     % :Condition, :Goal, -Which
+            until/3,                    % :Condition, :Goal, -Which
+            both/2,                     % :Goal1, :Goal2
+            race/2                      % :Goals, -Winner
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ domain_error/2, goal_of_program/1, must_be/2,
+              [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
                 term_expansion/2
               ]).
 :- use_module(private/arguments,
@@ -20,7 +23,9 @@
 :- use_module(private/waits,
               [in_guard/2, leave/2, listen_for_events/1, listening/3]).
 :- use_module(private/native,
-              [ commands_/1, motors_stop_/2, now_/1, slices_/1 ]).
+              [ branches_begin_/0, branches_end_/1, commands_/1,
+                motors_stop_/2, now_/1, slices_/1
+              ]).
 :- use_module(time, [wait/1]).
 
 :- meta_predicate
@@ -31,7 +36,9 @@
     after(+, 0),
     after(+, 0, +),
     until(0, 0),
-    until(0, 0, -).
+    until(0, 0, -),
+    both(0, 0),
+    race(:, -).
 
 /** <module> Events
 
@@ -67,9 +74,10 @@ look_every(0.02).
 %   From now on, call Action each time that Condition becomes true. Does not
 %   wait. The bindings of Condition reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
-%   and wait; it interrupts the program for so long, and its event happens only
-%   once at a time. If Action fails or throws, a warning is printed and the
-%   event stays. Options:
+%   and wait; it interrupts the program for so long, and its event happens
+%   only once at a time. If Action fails or throws, a message is printed and
+%   the event stays; if Condition throws, a message is printed and the event
+%   ends. Options:
 %
 %     - id(+Id)
 %       A name for event_cancel/1. An event with the same Id is replaced.
@@ -162,14 +170,12 @@ add_event(Kind, Action, State, Options) :-
 
 %!  event_cancel(?Id) is semidet.
 %
-%   End the event Id of this thread, or all if Id is unbound. Fails if there
-%   is none.
+%   End the event Id of this thread, or all if Id is unbound. Fails if this
+%   thread has no such event.
 
 event_cancel(Id) :-
-    (   event_(Id, _, _, _)
-    ->  retractall(event_(Id, _, _, _))
-    ;   fail
-    ).
+    \+ \+ event_(Id, _, _, _),
+    retractall(event_(Id, _, _, _)).
 
 %!  event(?Id, ?Kind) is nondet.
 %
@@ -205,9 +211,10 @@ member_of([_|Elements], Element) :-
 serve(due(Next, Count), Kind, Id, Now, Action) :-
     !,
     (   Now + 1.0e-9 >= Next
-    ->  again(Kind, Next, Now, Count, Id, State),
-        change(Id, State),
-        happen(Id, Kind, Action)
+    ->  again(Kind, Next, Count, State),
+        change(Id, running(State)),
+        happen(Id, Kind, Action),
+        happened(Id)
     ;   true
     ).
 serve(running(_), _, _, _, _) :- !.
@@ -218,11 +225,16 @@ serve(happened(Count), on(Condition, _, Rearm), Id, _, _) :-
     ;   true
     ).
 serve(State, on(Condition, Stable, _), Id, Now, Action) :-
-    (   in_guard(Id, Condition)         % its bindings reach Action
+    (   looked_at(Id, Condition)        % its bindings reach Action
     ->  (   is_stable(State, Stable, Id, Now, Count)
-        ->  change(Id, running(Count)),
+        ->  (   Count == 1
+            ->  After = over
+            ;   less(Count, Left),
+                After = happened(Left)
+            ),
+            change(Id, running(After)),
             happen(Id, on(Condition), Action),
-            happened(Id, Count)
+            happened(Id)
         ;   true
         )
     ;   State = since(_, Count)
@@ -230,13 +242,26 @@ serve(State, on(Condition, Stable, _), Id, Now, Action) :-
     ;   true
     ).
 
-again(after(_), _, _, _, _, over).
-again(every(Seconds), Next0, Now, Count0, _, State) :-
+%   An error in a condition is printed once, and ends the event.
+looked_at(Id, Condition) :-
+    catch(in_guard(Id, Condition), E, true),
+    (   var(E)
+    ->  true
+    ;   b_setval(ev3dev_guard, []),
+        E = error(_, _),
+        E \= error(permission_error(wait, guard, _), _)
+    ->  change(Id, over),
+        print_error(E, Id, on),
+        fail
+    ;   throw(E)
+    ).
+
+again(after(_), _, _, over).
+again(every(Seconds), Next0, Count0, State) :-
     (   Count0 == 1
     ->  State = over
     ;   less(Count0, Count),
-        Next1 is Next0 + Seconds,
-        Next is max(Next1, Now),
+        Next is Next0 + Seconds,
         State = due(Next, Count)
     ).
 
@@ -245,9 +270,9 @@ less(Count0, Count) :-
     Count is Count0 - 1.
 
 is_armed(rearm, Id, Condition) :-
-    \+ in_guard(Id, Condition).
+    \+ looked_at(Id, Condition).
 is_armed(rearm(Condition), Id, _) :-
-    \+ \+ in_guard(Id, Condition).
+    \+ \+ looked_at(Id, Condition).
 
 is_stable(since(Since, Count), Stable, _, Now, Count) :-
     Now + 1.0e-9 >= Since + Stable.
@@ -258,14 +283,20 @@ is_stable(armed(Count), Stable, Id, Now, Count) :-
         fail
     ).
 
-happened(Id, Count0) :-
-    (   event_(Id, _, _, running(_))
-    ->  (   Count0 == 1
-        ->  change(Id, over)
-        ;   less(Count0, Count),
-            change(Id, happened(Count))
-        )
-    ;   true                            % the action has cancelled it
+%   A time that was missed meanwhile is not made up for.
+happened(Id) :-
+    (   event_(Id, Kind, _, running(State0))
+    ->  now_(Now),
+        (   State0 = due(Next0, Count),
+            Next0 < Now,
+            Kind = every(Seconds)
+        ->  Missed is ceiling((Now - Next0) / max(Seconds, 0.001)),
+            Next is Next0 + Missed * Seconds,
+            State = due(Next, Count)
+        ;   State = State0
+        ),
+        change(Id, State)
+    ;   true                            % the action has ended it
     ).
 
 change(Id, State) :-
@@ -285,9 +316,14 @@ happen(Id, Kind, Action) :-
     (   var(E)
     ->  true
     ;   E = error(_, _)
-    ->  print_message(error, ev3dev(event_error(Id, Name, E)))
+    ->  print_error(E, Id, Name)
     ;   throw(E)
     ).
+
+print_error(E0, Id, Name) :-
+    format(atom(Where), 'event ~p (~w)', [Id, Name]),
+    error_within(E0, Where, E),
+    print_message(error, E).
 
 ignore_failure(Id, Name, Action) :-
     (   goal_of_program(Action)
@@ -297,9 +333,6 @@ ignore_failure(Id, Name, Action) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(ev3dev(event_error(Id, Name, E))) -->
-    [ 'Event ~p (~w): '-[Id, Name] ],
-    '$messages':translate_message(E).
 prolog:message(ev3dev(event_failed(Id, Name))) -->
     [ 'Event ~p (~w): its action failed'-[Id, Name] ].
 
@@ -367,3 +400,200 @@ to_the_end(Goal) :-
         wait(3600),
         fail
     ).
+
+                 /*******************************
+                 *           BRANCHES           *
+                 *******************************/
+
+%!  both(:Goal1, :Goal2) is semidet.
+%!  race(:Goals, -Winner) is semidet.
+%
+%   Call goals at the same time, in this thread: each goes on when another one
+%   waits. both/2 succeeds when both have succeeded; if one fails, the other
+%   is left, and both/2 fails. race/2 succeeds when the first of a list of
+%   Goals succeeds, and leaves the others: their moves stop, and so do the
+%   motors that they have started. Winner is the number of the first, from 1
+%   on; if several succeed at the same time, the earliest in the list. race/2
+%   fails if all goals fail.
+%
+%   ```
+%   ?- both(go_cm(30, 100), tones([tone(440, 500), tone(880, 500)])).
+%   ?- race([go_cm(30, 100), button_wait(enter, pressed)], Winner).
+%   ```
+%
+%   A goal that does not wait, as one that only reads sensors, lets no other
+%   go on. Events that a goal adds end with it.
+%
+%   @error existence_error(feature, engines) in SWI-Prolog before 7.3.26
+%   @error what one of the goals throws; the others are left
+
+both(Goal1, Goal2) :-
+    must_be_goal(Goal1),
+    must_be_goal(Goal2),
+    branches([Goal1, Goal2], all, _).
+
+race(Module:Goals0, Winner) :-
+    must_be(list, Goals0),
+    forall(member_of(Goals0, Goal), must_be_goal(Goal)),
+    qualified(Goals0, Module, Goals),
+    branches(Goals, first, Winner0),
+    Winner = Winner0.
+
+qualified([], _, []).
+qualified([Goal|Goals], Module, [Module:Goal|Qualified]) :-
+    qualified(Goals, Module, Qualified).
+
+:- if(current_predicate(engine_create/3)).
+
+branches(Goals, Which, Winner) :-
+    setup_call_cleanup(
+        created(Goals, 1, Branches),
+        run_branches(Branches, Which, Winner),
+        leave_branches(Branches)).
+
+%   branch(Number, Engine, Goal, Over, Commands): Over is `false`, `true` or
+%   `failed`, and Commands are the ranges of commands that it gave. Both are
+%   changed by nb_setarg/3.
+created([], _, []).
+created([Goal|Goals], Number,
+        [branch(Number, Engine, Goal, false, [])|Branches]) :-
+    engine_create(Goal, ev3dev_events:in_branch(Goal), Engine),
+    Next is Number + 1,
+    created(Goals, Next, Branches).
+
+in_branch(Goal) :-
+    b_setval(ev3dev_branch, true),
+    goal_of_program(Goal),
+    !.
+
+run_branches(Branches, Which, Winner) :-
+    repeat,
+    branches_begin_,
+    catch(each_goes_on(Branches, Which), E, true),
+    branches_end_(Seconds),
+    (   nonvar(E)
+    ->  throw(E)
+    ;   is_decided(Branches, Which, Decision)
+    ->  true
+    ;   wait(Seconds),
+        fail
+    ),
+    !,
+    Decision = over(Winner),
+    taken_over(Branches, Which, Winner).
+
+%   In the order of the list; a race is over with the first.
+each_goes_on([], _).
+each_goes_on([Branch|Branches], Which) :-
+    (   arg(4, Branch, false)
+    ->  goes_on(Branch)
+    ;   true
+    ),
+    (   Which == first,
+        arg(4, Branch, true(_))
+    ->  true
+    ;   Which == all,
+        arg(4, Branch, failed)
+    ->  true
+    ;   each_goes_on(Branches, Which)
+    ).
+
+goes_on(Branch) :-
+    arg(2, Branch, Engine),
+    commands_(From),
+    (   catch(engine_next(Engine, Answer), E, true)
+    ->  (   nonvar(E)
+        ->  nb_setarg(4, Branch, failed)
+        ;   Answer == tick
+        ->  true
+        ;   nb_setarg(4, Branch, true(Answer))
+        )
+    ;   nb_setarg(4, Branch, failed)
+    ),
+    commands_(Before),
+    (   From =:= Before
+    ->  true
+    ;   arg(5, Branch, Commands),
+        joined(Commands, From, Before, Joined),
+        nb_setarg(5, Branch, Joined)
+    ),
+    (   nonvar(E)
+    ->  throw(E)
+    ;   true
+    ).
+
+joined([From0-From|Ranges], From, Before, [From0-Before|Ranges]) :- !.
+joined(Ranges, From, Before, [From-Before|Ranges]).
+
+is_decided(Branches, first, over(Winner)) :-
+    (   member_of(Branches, Branch),
+        arg(4, Branch, true(_))
+    ->  arg(1, Branch, Winner)
+    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+        Winner = none
+    ).
+is_decided(Branches, all, over(Winner)) :-
+    (   member_of(Branches, Branch),
+        arg(4, Branch, failed)
+    ->  Winner = none
+    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+        Winner = all
+    ).
+
+%   The bindings of what has succeeded.
+taken_over(Branches, first, Winner) :-
+    integer(Winner),
+    member_of(Branches, branch(Winner, _, Goal, true(Goal), _)),
+    !.
+taken_over(Branches, all, all) :-
+    answers(Branches).
+
+answers([]).
+answers([branch(_, _, Goal, true(Goal), _)|Branches]) :-
+    answers(Branches).
+
+%   By an exception, so that clean-ups run; one that catches everything is
+%   destroyed.
+leave_branches([]).
+leave_branches([Branch|Branches]) :-
+    Branch = branch(_, Engine, _, Over, Commands),
+    (   Over == false
+    ->  leave_branch(3, Engine),
+        motors_stopped(Commands)
+    ;   true
+    ),
+    catch(engine_destroy(Engine), _, true),
+    leave_branches(Branches).
+
+leave_branch(Times, Engine) :-
+    (   Times > 0,
+        catch(engine_post(Engine, leave), _, fail),
+        catch(engine_next(Engine, Answer), _, fail),
+        Answer == tick
+    ->  Next is Times - 1,
+        leave_branch(Next, Engine)
+    ;   true
+    ).
+
+motors_stopped([]).
+motors_stopped([From-Before|Ranges]) :-
+    motors_stop_(From, Before),
+    motors_stopped(Ranges).
+
+:- multifile ev3dev_waits:yield/0.
+
+%   A branch lets the others go on, and may be left.
+ev3dev_waits:yield :-
+    engine_yield(tick),
+    (   catch(engine_fetch(leave), _, fail)
+    ->  throw(ev3dev_branch_left)
+    ;   true
+    ).
+
+:- else.
+
+branches(_, _, _) :-
+    throw_error(existence_error(feature, engines), _,
+                'this SWI-Prolog has no engines').
+
+:- endif.

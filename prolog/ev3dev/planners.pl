@@ -1,5 +1,6 @@
 :- module(ev3dev_planners, []).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors, [term_expansion/2]).
 
 /** <module> Planners to compare

@@ -5,6 +5,7 @@
             roadmap_svg/5       % +Map, +Start, +Goal, +File, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors, [term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).

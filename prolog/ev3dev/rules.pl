@@ -10,10 +10,11 @@
             op(1150, xfx, ~>)
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, goal_of_program/1,
-                instantiation_error/1, must_be/2, throw_error/3,
-                type_error/2, term_expansion/2
+              [ domain_error/2, error_within/3, existence_error/2,
+                goal_of_program/1, instantiation_error/1, must_be/2,
+                term_expansion/2, throw_error/3, type_error/2
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
@@ -53,8 +54,9 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
      action. While an action has not returned, only an earlier rule suppresses
      it, and its own guard is not looked at.
   2. A suppressed action is left by an exception, at its next wait or read of
-     a sensor. Its move stops, and its own clean-up runs. An action that
-     catches everything is left at its next wait.
+     a sensor. Its move stops, and its own clean-up runs. If the action
+     catches everything, the exception comes again at its next wait. (A loop
+     around `catch(_, _, true)` cannot be left.)
   3. An action is called once when its rule becomes active. If it has returned
      without having waited, as `go(S)`, it is called again when the variables
      that it shares with the guard have other values: `go(S)` follows `S`.
@@ -70,7 +72,8 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
 Options of a rule:
 
   - while(:Condition)
-    The action is left when Condition is no longer true. An action that has
+    The action is left when Condition is no longer true. Its variables are its
+    own, not those of the guard. An action that has
     returned goes on while it is true, also when the guard is not.
   - min_time(+Seconds)
     An action that has returned goes on for at least so long.
@@ -132,8 +135,8 @@ append_lists([], Ys, Ys).
 append_lists([X|Xs], Ys, [X|Zs]) :-
     append_lists(Xs, Ys, Zs).
 
-%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the variables
-%   of the guard that the action has, too.
+%   rule(Index, Name, Guard, Action, Options, Shared): Shared are the
+%   variables of the guard that the action has, too.
 
 rules(Module:Terms, Rules) :-
     must_be(list, Terms),
@@ -143,7 +146,9 @@ rules(Module:Terms, Rules) :-
 rules([], _, _, []).
 rules([Term|Terms], Index, Module0, [Rule|Rules]) :-
     strip_module(Module0:Term, Module, Plain),
-    rule(Plain, Module, Name, Options, Guard, Action),
+    rule(Plain, Module, Name, Options0, Guard, Action),
+    % A variable of while(Condition) is its own.
+    copy_term(Options0, Options),
     term_variables(Guard, Variables0),
     term_variables(Action, Variables1),
     shared(Variables0, Variables1, Shared0),
@@ -189,9 +194,9 @@ shared([V|Vs], Others, Shared) :-
 %
 %   Let rules control the robot; see above for what they mean. Rules is a list
 %   of names of rules of this module, or of rules in parentheses: `(stop ::
-%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception ends
-%   it, and then the robot is at rest: the motors that actions have started are
-%   stopped. Options:
+%   us_dist_cm(_, D), D < 9 ~> stop)`. Runs until an option or an exception
+%   ends it, and then the robot is at rest: the motors that actions have
+%   started are stopped. Options:
 %
 %     - until(:Goal)
 %       End as soon as Goal is true.
@@ -203,10 +208,10 @@ shared([V|Vs], Others, Shared) :-
 %       The time between two ticks. Default is 0.02.
 %     - trace(:Closure)
 %       call(Closure, Event) at each change: Event is rule(Name),
-%       suppressed(Name), ended(Name), failed(Name) or rest.
+%       suppressed(Name), ended(Name), failed(Name), thrown(Name) or rest.
 %     - on_error(+Action)
-%       `throw`, the default, or `continue`: print errors of guards and actions,
-%       and count the rule as not applicable, or ended.
+%       `throw`, the default, or `continue`: print errors of guards and
+%       actions, and count the rule as not applicable, or ended.
 %     - state(+State)
 %       What state/1 is at the beginning. Default is `start`.
 %
@@ -233,7 +238,8 @@ behave(Rules0, Module:Options) :-
     functor(Since, since, Count),
     Settings = settings(Until, Deadline, Period, Trace, OnError, First),
     flag(ev3dev_behave, Id, Id + 1),
-    Behavior = behavior(Id, Rules, Settings, none, State, Since, [], []),
+    Behavior = behavior(Id, Rules, Settings, none, State, Since, [], [],
+                        []),
     inner(Behavior, Outer),
     setup_call_cleanup(true,
                        run(Behavior, Reason0),
@@ -274,12 +280,13 @@ deadline(Options, Deadline) :-
     ;   Deadline = inf
     ).
 
-%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages), changed
-%   by nb_setarg/3, as a tick undoes bindings:
+%   behavior(Id, Rules, Settings, Active, State, Since, Next, Messages,
+%   Warned), changed by nb_setarg/3, as a tick undoes bindings:
 %
 %     - Active
 %       none, or active(Index, Time, Mode): Mode is `waits` for an action that
-%       has not returned, or going(Values), the values of the shared variables.
+%       has not returned, or going(Values) with the values of the shared
+%       variables.
 %     - Since
 %       for each rule, unbound, `ended` until its guard has been false, or the
 %       time from which on it applies
@@ -288,6 +295,8 @@ deadline(Options, Deadline) :-
 %       over(Reason) or become(Rules)
 %     - Messages
 %       what was received since the last tick
+%     - Warned
+%       the rules whose actions have failed
 
 active(Behavior, Active) :-
     arg(4, Behavior, Active).
@@ -301,6 +310,7 @@ run(Behavior, Reason) :-
 step(Behavior, Step) :-
     arg(7, Behavior, Next),
     nb_setarg(7, Behavior, []),
+    look_again(Behavior),
     (   Next = over(_)
     ->  Step = Next
     ;   Next = become(Rules)
@@ -368,12 +378,24 @@ applies(Rule, Behavior) :-
         Now >= From,
         holds(Rule, Behavior)
     ;   From == ended
-    ->  \+ \+ holds(Rule, Behavior)
     ->  fail
-    ;   From == ended
-    ->  nb_setarg(Index, Since, _),
-        fail
     ;   holds(Rule, Behavior)
+    ).
+
+%   Has the guard of a rule that has ended been false? Also while an earlier
+%   rule is active.
+look_again(Behavior) :-
+    arg(6, Behavior, Since),
+    (   Since =.. [_|List],
+        \+ ( one_of(List, From), From == ended )
+    ->  true
+    ;   arg(2, Behavior, Rules),
+        forall(( arg(Index, Since, From), From == ended ),
+               ( arg(Index, Rules, Rule),
+                 (   holds(Rule, Behavior)
+                 ->  true
+                 ;   nb_setarg(Index, Since, _)
+                 ) ))
     ).
 
 holds(rule(Index, Name, Guard, _, Options, Shared), Behavior) :-
@@ -406,9 +428,10 @@ failed(E, Name, Where, Behavior) :-
     b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
-    ;   E = error(Formal, Context)
+    ;   E = error(_, _)
     ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
-        Named = error(Formal, ev3dev_rule(Name, Where, Context)),
+        format(atom(Text), 'the ~w of rule ~p', [Where, Name]),
+        error_within(E, Text, Named),
         (   OnError == throw
         ->  throw(Named)
         ;   print_message(error, Named),
@@ -419,9 +442,6 @@ failed(E, Name, Where, Behavior) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(error(Formal, ev3dev_rule(Name, Where, Context))) -->
-    [ 'Rule ~p, ~w: '-[Name, Where] ],
-    '$messages':translate_message(error(Formal, Context)).
 prolog:message(ev3dev(rule_failed(Name))) -->
     [ 'Rule ~p: its action failed'-[Name] ].
 
@@ -517,7 +537,8 @@ act(rule(Index, Name, Guard, Action, Options, Shared), Start, Behavior) :-
         Slices =:= Slices0
     ->  nb_setarg(4, Behavior, active(Index, Start, going(Shared)))
     ;   over(Outcome, Index, Name, Guard, Behavior),
-        (   Slices =:= Slices0
+        (   Outcome \== suppressed,
+            Slices =:= Slices0
         ->  pass(Behavior)
         ;   true
         )
@@ -528,10 +549,8 @@ outcome(ev3dev_leave(Id), Id, _, _, Outcome) :-
     Outcome = suppressed.
 outcome(E, _, Name, Behavior, Outcome) :-
     b_setval(ev3dev_behavior, Behavior),
-    (   failed(E, Name, action, Behavior)
-    ->  true
-    ;   Outcome = ended
-    ).
+    \+ failed(E, Name, action, Behavior),
+    Outcome = thrown.
 
 over(Outcome, Index, Name, Guard, Behavior) :-
     left(Behavior),
@@ -547,11 +566,22 @@ over(Outcome, Index, Name, Guard, Behavior) :-
         )
     ),
     (   Outcome == failed
-    ->  print_message(warning, ev3dev(rule_failed(Name)))
+    ->  warn_once(Name, Behavior)
     ;   true
     ),
-    Event =.. [Outcome, Name],
-    traced(Behavior, Event).
+    (   arg(7, Behavior, over(_))
+    ->  true
+    ;   Event =.. [Outcome, Name],
+        traced(Behavior, Event)
+    ).
+
+warn_once(Name, Behavior) :-
+    arg(9, Behavior, Warned),
+    (   one_of(Warned, Name)
+    ->  true
+    ;   nb_setarg(9, Behavior, [Name|Warned]),
+        print_message(warning, ev3dev(rule_failed(Name)))
+    ).
 
 traced(Behavior, Event) :-
     arg(3, Behavior, settings(_, _, _, Trace, _, _)),
@@ -597,6 +627,7 @@ is_late(End) :-
 %   While an action waits: is it time to leave it?
 tick(Behavior, Listener) :-
     arg(1, Behavior, Id),
+    look_again(Behavior),
     (   next(Behavior, Next)
     ->  nb_setarg(7, Behavior, Next),
         leave(Listener, ev3dev_leave(Id))
@@ -668,8 +699,8 @@ behavior(Behavior, Action) :-
 %!  received(?Message) is nondet.
 %
 %   Send a Message to the innermost behave/1 under way, and, in a guard, ask
-%   whether it was sent. A message is there for one tick: the rules see it when
-%   they are tried next.
+%   whether it was sent. A message is there for one tick: the rules see it
+%   when they are tried next.
 %
 %   @error permission_error(send, behavior, none) outside of behave/1
 

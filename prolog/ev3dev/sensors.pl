@@ -31,7 +31,7 @@
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
               [ sensor_restart_/3, sensor_scale_/3, sensor_value_/5,
-                sensor_values_/5 ]).
+                sensor_value_or_why_/5, sensor_values_/5 ]).
 
 /** <module> Sensors
 
@@ -82,41 +82,49 @@ ev3dev_sensors:reading(weight, ['my-scale'], 'WEIGHT', 0).
 %   Libraries that add readings use it.
 
 reading_of(Reading, Types, Mode, Index) :-
-    reading(Reading, Types, Mode, Index).
+    (   \+ reading(Reading, _, _, _)
+    ->  known(Reading, Types, Mode, Index)
+    ;   known(Reading, Types, Mode, Index)
+    ;   reading(Reading, Types, Mode, Index)
+    ).
 
 %!  reading(?Reading, ?Types, ?Mode, ?Index) is nondet.
 %
-%   True if the sensors of Types show Reading as value Index of Mode.
+%   The same, of the readings that a program has added.
 
-reading(col_ambient,        ['lego-ev3-color'], 'COL-AMBIENT', 0).
-reading(col_reflect,        ['lego-ev3-color'], 'COL-REFLECT', 0).
-reading(col_color,          ['lego-ev3-color'], 'COL-COLOR', 0).
-reading(us_dist_cm,         ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-CM', 0).
-reading(us_dist_inches,     ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-IN', 0).
-reading(us_listen,          ['lego-ev3-us', 'lego-nxt-us'], 'US-LISTEN', 0).
-reading(gyro_ang,           ['lego-ev3-gyro'], 'GYRO-ANG', 0).
-reading(gyro_rate,          ['lego-ev3-gyro'], 'GYRO-G&A', 1).
-reading(touch,              ['lego-ev3-touch', 'lego-nxt-touch'], 'TOUCH', 0).
-reading(ir_prox,            ['lego-ev3-ir'], 'IR-PROX', 0).
-reading(nxt_light,          ['lego-nxt-light'], 'REFLECT', 0).
-reading(nxt_ambient,        ['lego-nxt-light'], 'AMBIENT', 0).
-reading(temperature,        ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
-reading(temperature,        ['ht-nxt-barometric'], 'TEMP', 0).
-reading(temperature,        ['ms-ir-thermometer'], 'AMBIENT-C', 0).
-reading(target_temperature, ['ms-ir-thermometer'], 'TARGET-C', 0).
-reading(compass,            ['ht-nxt-compass', 'ms-absolute-imu'],
-        'COMPASS', 0).
-reading(ht_color,           ['ht-nxt-color', 'ht-nxt-color-v2'], 'COLOR', 0).
-reading(ht_gyro_rate,       ['ht-nxt-gyro'], 'GYRO', 0).
-reading(angle_deg,          ['ht-nxt-angle'], 'ANGLE', 0).
-reading(angle_total,        ['ht-nxt-angle'], 'ANGLE-ACC', 0).
-reading(angle_total,        ['ms-angle'], 'ANGLE2', 0).
-reading(angle_rpm,          ['ht-nxt-angle', 'ms-angle'], 'SPEED', 0).
-reading(force,              ['ht-nxt-force'], 'FORCE', 0).
-reading(magnet,             ['ht-nxt-mag'], 'MAG', 0).
-reading(motion,             ['ht-nxt-pir'], 'PROX', 0).
-reading(flex,               ['di-dflex'], 'FLEX', 0).
-reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
+%!  known(?Reading, ?Types, ?Mode, ?Index) is nondet.
+%
+%   The same, of the readings that this library knows.
+
+known(col_ambient,        ['lego-ev3-color'], 'COL-AMBIENT', 0).
+known(col_reflect,        ['lego-ev3-color'], 'COL-REFLECT', 0).
+known(col_color,          ['lego-ev3-color'], 'COL-COLOR', 0).
+known(us_dist_cm,         ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-CM', 0).
+known(us_dist_inches,     ['lego-ev3-us', 'lego-nxt-us'], 'US-DIST-IN', 0).
+known(us_listen,          ['lego-ev3-us', 'lego-nxt-us'], 'US-LISTEN', 0).
+known(gyro_ang,           ['lego-ev3-gyro'], 'GYRO-ANG', 0).
+known(gyro_rate,          ['lego-ev3-gyro'], 'GYRO-G&A', 1).
+known(touch,              ['lego-ev3-touch', 'lego-nxt-touch'], 'TOUCH', 0).
+known(ir_prox,            ['lego-ev3-ir'], 'IR-PROX', 0).
+known(nxt_light,          ['lego-nxt-light'], 'REFLECT', 0).
+known(nxt_ambient,        ['lego-nxt-light'], 'AMBIENT', 0).
+known(temperature,        ['lego-nxt-temp'], 'NXT-TEMP-C', 0).
+known(temperature,        ['ht-nxt-barometric'], 'TEMP', 0).
+known(temperature,        ['ms-ir-thermometer'], 'AMBIENT-C', 0).
+known(target_temperature, ['ms-ir-thermometer'], 'TARGET-C', 0).
+known(compass,            ['ht-nxt-compass', 'ms-absolute-imu'],
+      'COMPASS', 0).
+known(ht_color,           ['ht-nxt-color', 'ht-nxt-color-v2'], 'COLOR', 0).
+known(ht_gyro_rate,       ['ht-nxt-gyro'], 'GYRO', 0).
+known(angle_deg,          ['ht-nxt-angle'], 'ANGLE', 0).
+known(angle_total,        ['ht-nxt-angle'], 'ANGLE-ACC', 0).
+known(angle_total,        ['ms-angle'], 'ANGLE2', 0).
+known(angle_rpm,          ['ht-nxt-angle', 'ms-angle'], 'SPEED', 0).
+known(force,              ['ht-nxt-force'], 'FORCE', 0).
+known(magnet,             ['ht-nxt-mag'], 'MAG', 0).
+known(motion,             ['ht-nxt-pir'], 'PROX', 0).
+known(flex,               ['di-dflex'], 'FLEX', 0).
+known(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
@@ -127,19 +135,21 @@ reading(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
 
 sensor_reading(Reading, Port, Value) :-
     (   var(Port)
-    ->  (   reading(Reading, Types, Mode, Index),
+    ->  (   reading_of(Reading, Types, Mode, Index),
             sensor_value_(Port, Types, Mode, Index, Read)
         *-> Value = Read
         ;   no_sensor_for(Reading, Port)
         )
-    ;   reading(Reading, Types, Mode, Index),
+    ;   (   known(Reading, Types, Mode, Index)
+        ;   reading(Reading, Types, Mode, Index)
+        ),
         sensor_value_(Port, Types, Mode, Index, Read)
     ->  Value = Read
     ;   no_sensor_for(Reading, Port)
     ).
 
 no_sensor_for(Reading, Port) :-
-    (   reading(Reading, _, _, _)
+    (   reading_of(Reading, _, _, _)
     ->  fail_because(absent(reading(Reading), Port))
     ;   fail_because(no_reading(Reading))
     ).
@@ -147,7 +157,28 @@ no_sensor_for(Reading, Port) :-
 :- multifile ev3dev_explain:reading_types/2.
 
 ev3dev_explain:reading_types(Reading, Types) :-
-    reading(Reading, Types, _, _).
+    reading_of(Reading, Types, _, _).
+
+%   A lookup takes as long as reading a file does. So the clause of a reading
+%   that is known here gets its row when it is compiled. The table is asked if
+%   there is no such sensor at the port, or if a program has added rows.
+
+goal_expansion(sensor_reading(Reading, Port, Value), Goal) :-
+    atom(Reading),
+    findall(Types-Mode-Index, known(Reading, Types, Mode, Index),
+            [Types-Mode-Index]),
+    Goal = (   nonvar(Port)
+           ->  (   sensor_value_(Port, Types, Mode, Index, Read)
+               ->  Value = Read
+               ;   table_reading(Reading, Port, Value)
+               )
+           ;   reading(Reading, _, _, _)
+           ->  table_reading(Reading, Port, Value)
+           ;   sensor_value_or_why_(Port, Types, Mode, Index, Value)
+           ).
+
+table_reading(Reading, Port, Value) :-
+    sensor_reading(Reading, Port, Value).
 
 %!  light_sensor(?Port) is nondet.
 %!  ultrasonic_sensor(?Port) is nondet.
@@ -293,10 +324,7 @@ ir_prox(Port, Percent) :-
 %   @error domain_error(sensor_value_index, Index) if Mode has no such value
 
 sensor_value(Port, Mode, Index, Value) :-
-    (   sensor_value_(Port, [], Mode, Index, Read)
-    *-> Value = Read
-    ;   fail_because(absent(mode(Mode), Port))
-    ).
+    sensor_value_or_why_(Port, [], Mode, Index, Value).
 
 %!  sensor_values(?Port, +Mode, -Values) is nondet.
 %

@@ -6,6 +6,7 @@
             with_sim/3                  % +World, :Goal, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
                 must_be/2, term_expansion/2

@@ -155,6 +155,13 @@ run_due_goals :-
     !.
 run_due_goals.
 
+:- multifile ev3dev_waits:serve_planned/0.
+
+ev3dev_waits:serve_planned :-
+    planned(_, _, _, _),
+    !,
+    run_due_goals.
+
 %   The clock counts nanoseconds.
 run_due([Seconds-Id|Planned], Now, Me) :-
     Seconds =< Now + 1.0e-6,

@@ -1,5 +1,5 @@
 //! One call of a native predicate: its arguments, its answers.
-use crate::glue::due::has_rung;
+use crate::glue::due::{has_rung, is_any_due};
 use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::time::Duration;
+use swipl::fli::integer_in;
 use swipl::prelude::*;
 
 /// The text of an atom or a string.
@@ -37,14 +38,18 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices of the tree in use. If no tree is chosen yet, asks Prolog to choose
     /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
-        if state::chosen_devices().is_none() {
+        let Some(devices) = state::chosen_devices() else {
             self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
-        }
+            return self.devices();
+        };
         watch::note_user();
-        let devices = state::devices();
+        if !devices.tree().takes_turns() && !is_any_due() {
+            return Ok(devices);
+        }
         self.wait_for(|about| devices.tree().turn(about))?;
         run_due_goals(self.context)?;
+        // Another thread, or a goal, may have changed the tree.
         Ok(state::devices())
     }
 
@@ -107,7 +112,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// The text of an atom, a string or a number, as it is written to a file.
     pub(crate) fn value(&self, term: &Term) -> PrologResult<Text> {
-        if let Some(integer) = attempt_opt(self.integer_of(term))? {
+        if let Some(integer) = integer_in!(term) {
             return Ok(Text::Owned(integer.to_string()));
         }
         if term.is_integer() {
@@ -131,7 +136,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// An integer of at most 64 bits.
     pub(crate) fn integer(&self, term: &Term) -> PrologResult<i64> {
-        match attempt_opt(self.integer_of(term))? {
+        match integer_in!(term) {
             Some(integer) => Ok(integer),
             None if term.is_integer() => crate::glue::error::too_long(self),
             None => self.wrong_type("integer", term),
@@ -290,12 +295,6 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     fn wrong_type<T>(&self, expected: &str, term: &Term) -> PrologResult<T> {
         crate::glue::error::wrong_type(self, expected, term)
-    }
-
-    /// An integer; a float without decimals is no integer.
-    #[expect(clippy::unused_self, reason = "reads as one of its kind")]
-    fn integer_of(&self, term: &Term) -> PrologResult<i64> {
-        if term.is_integer() { term.get() } else { Err(PrologError::Failure) }
     }
 }
 

@@ -29,14 +29,13 @@ impl Bell {
     }
 }
 
-/// Whether this thread's bell has rung since the last call.
-pub(crate) fn has_rung() -> bool {
+/// Whether a goal may be due, of any thread.
+pub(crate) fn is_any_due() -> bool {
     ANY.load(Ordering::Acquire)
-        && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
 }
 
-/// The same, and it is still to be heard.
-pub(crate) fn is_ringing() -> bool {
-    ANY.load(Ordering::Acquire)
-        && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.load(Ordering::Acquire)))
+/// Whether this thread's bell has rung since the last call.
+pub(crate) fn has_rung() -> bool {
+    is_any_due()
+        && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
 }

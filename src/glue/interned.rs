@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::OnceLock;
-use swipl::fli::for_each_atom;
+use swipl::fli::{atom_in, for_each_atom};
 use swipl::prelude::*;
 
 /// Ports, attributes, modes and types of the EV3's own devices, and of a few others.
@@ -54,7 +54,7 @@ pub(crate) fn register() {
 
 /// The text of an atom; `None` if the term is no atom.
 pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> {
-    match term.get_atom(|atom| atom.and_then(|atom| word(atom.atom_ptr())))? {
+    match atom_in!(term).and_then(word) {
         Some(word) => Ok(Some(Cow::Borrowed(word))),
         None => term.get_atom_name(|name| name.map(|name| Cow::Owned(name.to_owned()))),
     }
@@ -109,13 +109,19 @@ fn atom(text: &str) -> Option<&'static Atom> {
 
 /// A handle is the number of an atom, above seven bits of type.
 fn slot_of_handle(handle: usize) -> usize {
-    handle >> 7
+    scattered(handle >> 7)
 }
 
-/// Words differ in their lengths, and where these agree, at their ends.
+/// Words differ in their lengths, and where these agree, mostly at their ends.
 fn slot_of_text(text: &str) -> usize {
-    let last = text.bytes().rev().take(4);
-    last.fold(text.len(), |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()))
+    let last: [u8; 2] = text.as_bytes().last_chunk().copied().unwrap_or_default();
+    scattered((text.len() << 16) | usize::from(u16::from_le_bytes(last)))
+}
+
+/// Spreads numbers that follow one another: where they do, a slot that is taken has a
+/// long row of such slots behind it.
+fn scattered(number: usize) -> usize {
+    number.wrapping_mul(0x9E37_79B1) >> 16
 }
 
 /// An open hash table of indices, each plus one: 0 is an empty slot.

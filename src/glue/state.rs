@@ -122,6 +122,7 @@ pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
 
 /// Uses the tree of files below a directory from now on.
 pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
+    watch::set_simulated(false);
     use_tree(Arc::new(SysfsDir::new(root)))
 }
 

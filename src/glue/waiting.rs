@@ -10,7 +10,7 @@ use crate::glue::due;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
 use ev3_driver::motor::{self, wait::Reason};
-use ev3_driver::wait::{Slices, Wait};
+use ev3_driver::wait::{Look, Slices, Wait};
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
 use std::time::Duration;
@@ -19,6 +19,9 @@ use swipl::prelude::*;
 thread_local! {
     /// When this thread serves its events next, by the tree's clock; `None` if it has none.
     static NEXT_TICK: Cell<Option<Duration>> = const { Cell::new(None) };
+    /// While this thread runs one of several branches, the time at which the first of them
+    /// has to look again. No time passes then, and the branches' own ticks are not of the thread.
+    static BRANCHES: Cell<Option<Duration>> = const { Cell::new(None) };
     /// The motors, by their last commands, to stop at the first wait.
     static LEFT: RefCell<Option<Range<u32>>> = const { RefCell::new(None) };
     /// How many slices of time this thread has waited.
@@ -27,7 +30,15 @@ thread_local! {
 
 /// Sets when this thread serves its events next.
 pub(crate) fn tick_at(time: Option<Duration>) {
-    NEXT_TICK.set(time);
+    if BRANCHES.get().is_none() {
+        NEXT_TICK.set(time);
+    }
+}
+
+/// Branches run from now on, which let no time pass, and look again at this time at the
+/// latest; or the branches pause.
+pub(crate) fn set_branches(latest: Option<Duration>) -> Option<Duration> {
+    BRANCHES.replace(latest)
 }
 
 /// Sets which motors are stopped when this thread waits next, by their last commands.
@@ -45,7 +56,7 @@ pub(crate) fn is_tick_due(now: impl FnOnce() -> Duration) -> bool {
     NEXT_TICK.get().is_some_and(|tick| now() >= tick)
 }
 
-impl<'a, C: QueryableContextType> Call<'a, C> {
+impl<C: QueryableContextType> Call<'_, C> {
     /// One slice of a wait: unifies `reason` with what is to be done before the next one, or calls
     /// `ended`. The result is that of a nondeterministic predicate.
     pub(crate) fn slice<W: Wait>(
@@ -58,16 +69,24 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         if let Some(commands) = LEFT.take() {
             self.or_throw(motor::stop_commanded(&state::devices(), &commands))?;
         }
-        match self.or_throw(wait.slice(tick))? {
-            Some(end) => ended(end).map(|()| false),
-            None => {
-                SLICES.set(SLICES.get() + 1);
-                let now = || state::devices().tree().now();
-                let is_tick = due::is_ringing() || is_tick_due(now);
-                unify_atom(reason, if is_tick { "tick" } else { "pause" })?;
-                Ok(true)
-            }
+        if let Some(next) = BRANCHES.get() {
+            let now = state::devices().tree().now();
+            return match self.or_throw(wait.poll(now))? {
+                Look::Over(end) => ended(end).map(|()| false),
+                Look::Again(end) => {
+                    SLICES.set(SLICES.get() + 1);
+                    BRANCHES.set(Some(next.min(end)));
+                    unify_atom(reason, "tick").map(|()| true)
+                }
+            };
         }
+        if let Some(end) = self.or_throw(wait.slice(tick))? {
+            return ended(end).map(|()| false);
+        }
+        SLICES.set(SLICES.get() + 1);
+        let now = || state::devices().tree().now();
+        let is_tick = due::has_rung() || is_tick_due(now);
+        unify_atom(reason, if is_tick { "tick" } else { "pause" }).map(|()| true)
     }
 
     /// Has Prolog serve the events of this thread, if it is time to: a read of a sensor is

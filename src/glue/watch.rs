@@ -8,6 +8,9 @@ use swipl::fli::this_thread;
 
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 
+/// Whether the tree in use is that of the simulation within this process.
+static IS_SIMULATED: AtomicBool = AtomicBool::new(false);
+
 /// Counts the films: each tree, and each return to a snapshot, begins one.
 static FILM: AtomicU32 = AtomicU32::new(1);
 
@@ -68,6 +71,7 @@ pub(crate) fn users() -> impl Iterator<Item = usize> {
 }
 
 /// Whether somebody watches.
+#[cfg(feature = "sim")]
 pub(crate) fn is_watched() -> bool {
     IS_WATCHED.load(Ordering::Relaxed)
 }
@@ -75,6 +79,17 @@ pub(crate) fn is_watched() -> bool {
 /// Somebody watches from now on, or nobody.
 pub(crate) fn set_watched(is_watched: bool) {
     IS_WATCHED.store(is_watched, Ordering::Relaxed);
+}
+
+/// Whether the tree in use is that of the simulation within this process, and not files.
+#[cfg(feature = "sim")]
+pub(crate) fn is_simulated() -> bool {
+    IS_SIMULATED.load(Ordering::Relaxed)
+}
+
+/// Another tree is used from now on.
+pub(crate) fn set_simulated(is_simulated: bool) {
+    IS_SIMULATED.store(is_simulated, Ordering::Relaxed);
 }
 
 /// The number of the film.

@@ -81,6 +81,10 @@ impl Sysfs for SimulatedFiles {
         Ok(self.simulation.pause(end))
     }
 
+    fn takes_turns(&self) -> bool {
+        true
+    }
+
     fn turn(&self, about: &mut dyn FnMut() -> String) -> bool {
         self.simulation.turn(about)
     }

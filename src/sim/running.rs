@@ -69,6 +69,7 @@ pub(super) fn start<C: QueryableContextType>(
     let ended = running().replace(Running { simulation: Arc::clone(&simulation), before });
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
+    watch::set_simulated(true);
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 

@@ -1,14 +1,15 @@
 //! Reaching into the simulation that runs, from outside of the program.
 use super::threads;
 use crate::glue::state::devices;
-#[cfg(feature = "sim")]
-pub(super) use crate::sim::running_simulation;
-#[cfg(not(feature = "sim"))]
-use ev3_sim::Simulation;
-use ev3_sim::stay_outside;
-#[cfg(not(feature = "sim"))]
+use ev3_sim::{Simulation, stay_outside};
 use std::sync::Arc;
 use std::time::Duration;
+
+/// The simulation whose tree is in use.
+#[cfg(feature = "sim")]
+pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
+    crate::sim::running_simulation().filter(|_| crate::glue::watch::is_simulated())
+}
 
 /// There is none.
 #[cfg(not(feature = "sim"))]

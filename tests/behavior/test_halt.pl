@@ -164,6 +164,21 @@ test(a_handler_of_the_program_decides,
               ":- on_signal(term, _, later).
                later(_) :- thread_create(( sleep(2.5), halt(7) ), _, []).",
               [goal(main)], Status, B, C).
+test(a_handler_of_a_module_decides,
+     [forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(7)-stop-stop)]) :-
+    signalled(Tree, term,
+              ":- on_signal(term, _:_, other:later).
+               other:later(_) :- thread_create(halt(7), _, []).",
+              [goal(main)], Status, B, C).
+test(a_handler_set_before_loading_stays,
+     [forall(tree(Tree)), true(Status-Output == exit(0)-"user:mine")]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor'],
+              ( program_in_tree("main :- on_signal(term, M:H, M:H),
+                                         format(\"~w\", [M:H]).",
+                                Program, Options),
+                string_concat(":- on_signal(term, _, mine).\nmine(_).\n",
+                              Program, Before),
+                run_program(Before, [goal(main)|Options], Status, Output) )).
 
 signalled(Tree, Signal, Text, Options, B, C) :-
     signalled(Tree, Signal, Text, Options, _, B, C).

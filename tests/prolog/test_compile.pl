@@ -184,6 +184,24 @@ test(is_used_for_the_libraries_beside, Result == 0-"core drive grid ") :-
                   ev3dev_compiled:used(F), file_name_extension(B, _, F),
                   file_base_name(B, U) ),
                 format('~w ', [U]))", Result).
+test(is_used_by_a_library_that_is_loaded_first,
+     [ forall(member(Library-Units,
+                     [ drive-[core, drive_parts],
+                       grid-[core, drive, planners_parts, grid_parts],
+                       planners-[core, planners_parts, comparison],
+                       roadmap-[core, drive, facts, roadmap_parts],
+                       sim-[core, facts, sim_parts],
+                       console-[core], jog-[core], colors-[core],
+                       events-[core], rules-[core, events] ])),
+       true(Result == 0-Used) ]) :-
+    format(string(Goal),
+           "use_module(library(ev3dev/~w)),
+            forall(( member(U, ~q), ev3dev_compiled:used(F),
+                     file_name_extension(B, _, F), file_base_name(B, U) ),
+                   format('~~w ', [U]))", [Library, Units]),
+    atomic_list_concat(Units, ' ', Joined),
+    string_concat(Joined, " ", Used),
+    run(Goal, Result).
 test(has_the_same_exports) :-
     same_compiled_or_not(
         "use_module(library(ev3dev)), module_property(ev3dev, exports(Es)),

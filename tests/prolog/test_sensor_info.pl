@@ -43,7 +43,7 @@ test(a_program_adds_one, true(W-M == 'kitchen scale'-'weight in grams')) :-
 test(what_is_not_in_the_table_fails, [fail]) :-
     sensor_mode('lego-ev3-nose', _, _, _, _, _).
 test(each_reading_is_of_a_mode,
-     [ forall(( ev3dev_sensors:reading(_, Types, Mode, Index),
+     [ forall(( ev3dev_sensors:reading_of(_, Types, Mode, Index),
                 member(Type, Types) )) ]) :-
     once(sensor_mode(Type, Mode, Count, _, _, _)),
     Index < Count.

@@ -10,6 +10,7 @@
 :- multifile ev3dev_sensors:reading/4.
 
 ev3dev_sensors:reading(voltage, ['ev3-analog-01'], 'ANALOG', 0).
+ev3dev_sensors:reading(us_dist_inches, ['ev3-analog-01'], 'ANALOG', 0).
 
                 /*******************************
                 *            KINDS             *
@@ -191,6 +192,15 @@ test(a_program_adds_a_sensor_by_a_fact,
     with_tree(Tree, [in1-'lego-ev3-us', in2-'ev3-analog-01'],
               ( put_attribute(in2, value0, 2150),
                 sensor_reading(voltage, P, V) )).
+test(a_program_adds_a_sensor_to_a_reading_of_the_table,
+     [forall(tree(Tree)), all(P == [in1, in2])]) :-
+    with_tree(Tree, [in1-'lego-ev3-us', in2-'ev3-analog-01'],
+              us_dist_inches(P, _)).
+test(a_sensor_that_was_added_is_read_by_its_port,
+     [forall(tree(Tree)), true(V == 2.15)]) :-
+    with_tree(Tree, [in1-'lego-ev3-us', in2-'ev3-analog-01'],
+              ( put_attribute(in2, value0, 2150),
+                us_dist_inches(in2, V) )).
 test(an_added_sensor_fails_elsewhere, [forall(tree(Tree)), fail]) :-
     with_tree(Tree, sensor_reading(voltage, _, _)).
 test(of_several_sensors_with_a_reading_that_at_the_port_is_meant,

@@ -1,5 +1,6 @@
 :- use_module('../support/child').
 :- use_module('../support/simulation').
+:- use_module('../support/trees').
 :- use_module('../support/web').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -751,3 +752,61 @@ test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
           \+ runs(Frame2) )).
 
 :- end_tests(view_stop).
+
+:- begin_tests(view_brick).
+
+% A tree of files stands in for a brick: truth, world and hands are not there.
+
+of_a_brick(plain).
+of_a_brick(mount).
+
+test(a_motor_and_a_sensor, [forall(( tree(Tree), of_a_brick(Tree) ))]) :-
+    token(Token),
+    with_tree(Tree,
+        ( ( Tree == plain -> put_attribute(in1, value0, 123) ; true ),
+          motor_run(outB, 30),
+          viewed(Port,
+                 ( page_open(Port, Token, Page),
+                   frame_with(Page, Frame, motor_shows(Frame)),
+                   page_ask(Page, "place 1 2 3", Refused),
+                   page_close(Page) )),
+          stop_all_motors )),
+    Frame.source == "brick",
+    Frame.robot.true == null,
+    Refused.type == "refused",
+    port_of(Frame, "in1", Sensor),
+    Sensor.kind == "sensor",
+    Sensor.values = [_].
+
+motor_shows(Frame) :-
+    port_of(Frame, "outB", Motor),
+    Motor.kind == "motor",
+    number(Motor.position).
+
+port_of(Frame, Name, Port) :-
+    member(Port, Frame.ports),
+    Port.port == Name,
+    !.
+
+test(looking_switches_no_mode,
+     [forall(( tree(Tree), of_a_brick(Tree) )), true(Mode == Mode0)]) :-
+    token(Token),
+    with_tree(Tree,
+        ( get_attribute(in2, mode, Mode0),
+          viewed(Port,
+                 ( page_open(Port, Token, Page),
+                   forall(between(1, 5, _), page_ask(Page, "next", _)),
+                   page_close(Page) )),
+          get_attribute(in2, mode, Mode) )).
+test(a_motor_is_stopped,
+     [forall(( tree(Tree), of_a_brick(Tree) ))]) :-
+    with_tree(Tree,
+        ( motor_run(outB, 30),
+          ev3dev_native:view_latch_,
+          ev3dev_native:view_stop_motors_,
+          catch(motor_run(outB, 30), Error, true),
+          ev3dev_native:view_lift_,
+          stops(outB) )),
+    Error = error(permission_error(start, motor, outB), _).
+
+:- end_tests(view_brick).

@@ -67,6 +67,11 @@ pub trait Sysfs: Send + Sync {
     /// The kernel's, as ENOMEM.
     fn pause(&self, nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool>;
 
+    /// Whether threads wait for their turns, see [`turn`](Self::turn).
+    fn takes_turns(&self) -> bool {
+        false
+    }
+
     /// A call of the program begins, and this thread holds no lock. A simulation waits
     /// for the thread's turn here; `false` as for [`pause`](Self::pause). `about` says
     /// what is called, and with what.

@@ -88,6 +88,24 @@ impl<W: Wait> Slices<W> {
         Ok(None)
     }
 
+    /// Looks when it is time to, and lets no time pass. `now` is the time of the tree.
+    ///
+    /// # Errors
+    /// As [`slice`](Self::slice).
+    pub fn poll(&mut self, now: Duration) -> Result<Look<W::End>> {
+        if let Some(end) = self.pausing.take() {
+            if now < end || !self.wait.pause(now)? {
+                self.pausing = Some(end);
+                return Ok(Look::Again(end));
+            }
+        }
+        let look = self.wait.look()?;
+        if let Look::Again(end) = look {
+            self.pausing = Some(end);
+        }
+        Ok(look)
+    }
+
     /// Waits to the end.
     ///
     /// # Errors

@@ -54,6 +54,9 @@ pub fn distance([x0, y0]: Point, [x1, y1]: Point) -> f64 {
 /// An angle between -180 and 180 degrees, the latter included.
 #[must_use]
 pub fn wrapped(degrees: f64) -> f64 {
+    if degrees > -180.0 && degrees <= 180.0 {
+        return degrees;
+    }
     let wrapped = degrees.rem_euclid(360.0);
     if wrapped > 180.0 { wrapped - 360.0 } else { wrapped }
 }
@@ -61,5 +64,16 @@ pub fn wrapped(degrees: f64) -> f64 {
 /// sin(x) / x: the chord of an arc by its length, for half of its turn in radians.
 #[must_use]
 pub fn sinc(x: f64) -> f64 {
-    if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { libm::sin(x) / x }
+    if x.abs() > SHORT_ARC {
+        return libm::sin(x) / x;
+    }
+    let square = x * x;
+    SERIES.iter().fold(0.0, |sum, term| sum * square + term)
 }
+
+/// Up to here, in radians, [`SERIES`] is sin(x) / x in all digits.
+const SHORT_ARC: f64 = 0.1;
+
+/// The factors of the powers of x², highest first. They take a processor without
+/// floating point unit less time than a sine and a division.
+const SERIES: [f64; 5] = [1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0];

@@ -17,6 +17,8 @@ const TIGHTEST: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     start: Pose,
+    /// Sine and cosine of the heading at the start.
+    direction: [f64; 2],
     length: f64,
     curvature: f64,
     to: Point,
@@ -37,7 +39,7 @@ impl Segment {
     pub fn line(from: Point, to: Point) -> Self {
         let [x, y] = from;
         let start = Pose { x, y, heading: direction(from, to) };
-        Self { start, length: distance(from, to), curvature: 0.0, to }
+        Self::new(start, distance(from, to), 0.0, to)
     }
 
     /// The arc from a pose: its length in cm, and 1 / radius in 1/cm, clockwise
@@ -45,7 +47,12 @@ impl Segment {
     #[must_use]
     pub fn arc(start: Pose, length: f64, curvature: f64) -> Self {
         let to = start.along_arc(length, (length * curvature).to_degrees()).point();
-        Self { start, length, curvature, to }
+        Self::new(start, length, curvature, to)
+    }
+
+    fn new(start: Pose, length: f64, curvature: f64, to: Point) -> Self {
+        let (sin, cos) = libm::sincos(start.heading.to_radians());
+        Self { start, direction: [sin, cos], length, curvature, to }
     }
 
     /// The arc of a radius that touches both lines of a corner, the second of
@@ -59,12 +66,8 @@ impl Segment {
             [corner[0] + (x - corner[0]) * share, corner[1] + (y - corner[1]) * share]
         };
         let ([x, y], to) = (towards(before), towards(after));
-        Self {
-            start: Pose { x, y, heading: direction(before, corner) },
-            length: radius * turn.to_radians().abs(),
-            curvature: turn.signum() / radius,
-            to,
-        }
+        let start = Pose { x, y, heading: direction(before, corner) };
+        Self::new(start, radius * turn.to_radians().abs(), turn.signum() / radius, to)
     }
 
     /// Where it starts, and the direction of travel there.
@@ -135,6 +138,12 @@ impl Segment {
         Pose { x: x + (self.to[0] - x) * share, y: y + (self.to[1] - y) * share, heading }
     }
 
+    /// The direction of travel `along` cm from its start.
+    #[must_use]
+    pub fn heading_at(&self, along: f64) -> f64 {
+        self.start.heading + (along * self.curvature).to_degrees()
+    }
+
     /// The same with another length, which may be longer.
     #[must_use]
     pub fn with_length(&self, length: f64) -> Self {
@@ -145,7 +154,7 @@ impl Segment {
     /// which tells the turns of an arc apart.
     #[must_use]
     pub fn locate(&self, [x, y]: Point, near: f64) -> Place {
-        let (sin, cos) = libm::sincos(self.start.heading.to_radians());
+        let [sin, cos] = self.direction;
         let (dx, dy) = (x - self.start.x, y - self.start.y);
         let (ahead, right) = (dx * sin + dy * cos, dx * cos - dy * sin);
         let Some(radius) = self.radius() else {

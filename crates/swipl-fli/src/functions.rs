@@ -171,6 +171,43 @@ pub unsafe fn for_each_atom(list: term_t, mut act: impl FnMut(atom_t) -> Option<
     }
 }
 
+/// The atom that a term is, if it is one.
+pub unsafe fn atom_in(t: term_t) -> Option<atom_t> {
+    let mut atom = 0;
+    unsafe { (PL_get_atom(t, &raw mut atom) != 0).then_some(atom) }
+}
+
+/// The integer that a term is, if it is one of at most 64 bits; a float without decimals
+/// is none.
+pub unsafe fn integer_in(t: term_t) -> Option<i64> {
+    let mut integer = 0;
+    unsafe { (PL_is_integer(t) != 0 && PL_get_int64(t, &raw mut integer) != 0).then_some(integer) }
+}
+
+/// The atom that a term is, if it is one. None of the functions raises an exception, so
+/// that it need not be asked for, as `swipl` does.
+#[macro_export]
+macro_rules! atom_in {
+    ($term:expr) => {{
+        let term = $term;
+        term.assert_term_handling_possible();
+        // Safety: the term is one of the engine that runs, as was just made sure.
+        unsafe { $crate::functions::atom_in(term.term_ptr()) }
+    }};
+}
+
+/// The integer that a term is, if it is one of at most 64 bits. Makes sure of the engine
+/// once.
+#[macro_export]
+macro_rules! integer_in {
+    ($term:expr) => {{
+        let term = $term;
+        term.assert_term_handling_possible();
+        // Safety: the term is one of the engine that runs, as was just made sure.
+        unsafe { $crate::functions::integer_in(term.term_ptr()) }
+    }};
+}
+
 /// Calls a closure with each atom of a list, see [`for_each_atom`](fn@for_each_atom).
 /// The list is a term of `swipl`, which panics if it is not one of the engine that
 /// runs. With the functions of `swipl`, which make sure of that at each step, it takes

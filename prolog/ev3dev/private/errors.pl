@@ -8,6 +8,7 @@
             existence_error/2,          % +Kind, +Name
             instantiation_error/1,      % +Term
             throw_error/3,              % +Formal, +Called, +Message
+            error_within/3,             % +Error0, +Where, -Error
             term_expansion/2            % +Clause0, -Clause
           ]).
 :- use_module(domains, [allowed/2]).
@@ -176,6 +177,23 @@ throw_error(Formal, Called0, Message) :-
     ;   true
     ),
     throw(error(Formal, context(Called, Text))).
+
+%!  error_within(+Error0, +Where, -Error) is det.
+%
+%   Error is Error0, and its message also says Where it occurred: a text as
+%   `the guard of rule avoid`.
+
+error_within(error(Formal, Context0), Where,
+             error(Formal, context(Called, Text))) :-
+    (   nonvar(Context0),
+        Context0 = context(Called0, Text0)
+    ->  Called = Called0
+    ;   true
+    ),
+    (   nonvar(Text0)
+    ->  format(atom(Text), '~w; in ~w', [Text0, Where])
+    ;   format(atom(Text), 'in ~w', [Where])
+    ).
 
 %   The last exported predicate of the pack between Frame and the program.
 

@@ -29,10 +29,20 @@ stop_at_halt :-
 % SIGTERM, and SIGINT without a debugger, end Prolog at once and without its
 % at_halt/1 goals. This does not replace handlers of the program.
 halt_on(Signal) :-
-    on_signal(Signal, Handler, Handler),
+    handler(Signal, Handler),
     (   ends_at_once(Signal, Handler)
-    ->  on_signal(Signal, _, halt_by)
+    ->  ours(Ours),
+        on_signal(Signal, _:_, Ours)
     ;   true
+    ).
+
+% Of any module: with a plain variable, on_signal/3 fails before 8.1.20 if the
+% handler belongs to another one.
+handler(Signal, Handler) :-
+    on_signal(Signal, Module:Name, Module:Name),
+    (   var(Module)
+    ->  Handler = Name
+    ;   Handler = Module:Name
     ).
 
 % Before version 9 SIGINT starts the debugger even if there is no terminal.
@@ -47,18 +57,35 @@ halt_by(Signal) :-
     status(Signal, Status),
     halt(Status).
 
+% There a program's on_signal(term, _, Goal_1) would fail, too. So the handler
+% is in the module of programs.
+:- if((current_prolog_flag(version, Version), Version < 80120)).
+
+:- multifile user:ev3dev_halt_by/1.
+
+user:ev3dev_halt_by(Signal) :-
+    ev3dev_halt:halt_by(Signal).
+
+ours(user:ev3dev_halt_by).
+
+:- else.
+
+ours(ev3dev_halt:halt_by).
+
+:- endif.
+
 %   True if Signal ends this program, whose motors are stopped before. The
 %   native library asks in a thread of its own: Prolog handles no signal while
 %   it loads a file, as in main/0 of `:- initialization(main).`, nor in
 %   shell/1.
 told_to_end(Signal) :-
-    on_signal(Signal, Handler, Handler),
+    handler(Signal, Handler),
     ends(Handler),
     stop_at_halt.
 
-ends(halt_by).
-ends(ev3dev_halt:halt_by).
 ends('$foreign_function'(_)).
+ends(Handler) :-
+    ours(Handler).
 
 status(int, 130).
 status(term, 143).

@@ -13,12 +13,13 @@
             sysfs_use_/1,
             now_/1,
             wait_/2,
+            branches_begin_/0,
+            branches_end_/1,
             commands_/1,
             motors_leave_/2,
             motors_stop_/2,
             slices_/1,
             tick_after_/1,
-            tick_never_/0,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
@@ -39,6 +40,7 @@
             sensor_restart_/3,
             sensor_scale_/3,
             sensor_value_/5,
+            sensor_value_or_why_/5,
             sensor_values_/5,
             sensor_wait_/5,
             led_/3,
@@ -177,12 +179,13 @@ missing.
 
 %!  now_(-Seconds) is det.
 %!  wait_(+Seconds, -Reason) is nondet.
+%!  branches_begin_ is semidet.
+%!  branches_end_(-Seconds) is semidet.
 %!  commands_(-Count) is semidet.
 %!  motors_leave_(+From, +Before) is semidet.
 %!  motors_stop_(+From, +Before) is semidet.
 %!  slices_(-Count) is semidet.
 %!  tick_after_(+Seconds) is semidet.
-%!  tick_never_ is semidet.
 %
 %   `src/time.rs`
 
@@ -223,6 +226,7 @@ missing.
 %!  sensor_restart_(+Port, +Types, +Mode) is semidet.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
+%!  sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
 %!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is nondet.
 %

@@ -7,7 +7,7 @@
             serve_at_read/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(native, [tick_after_/1, tick_never_/0]).
+:- use_module(native, [tick_after_/1]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -16,8 +16,8 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, with a choice
-point, and at its end its reason. So a caller writes
+A native wait returns `pause` or `tick` after each slice of time, with a
+choice point, and at its end its reason. So a caller writes
 
 ```
     wait_(Seconds, Reason),
@@ -145,26 +145,36 @@ serve_at_read :-
     ).
 
 %!  serve_events is det.
+%!  serve_planned is det.
 %
-%   Serves the events of this thread; library(ev3dev/events) adds a clause.
+%   Serve the events of this thread, and the goals that are planned for it:
+%   library(ev3dev/events) and the simulator add a clause each.
+
+%!  yield is det.
+%
+%   Lets the other branches of race/2 or both/2 go on; library(ev3dev/events)
+%   adds the clause.
 
 :- multifile
-    serve_events/0.
+    serve_events/0,
+    serve_planned/0,
+    yield/0.
 
 serve :-
-    due_goals,
     (   nb_current(ev3dev_branch, true)
-    ->  engine_yield(tick)
-    ;   listeners(Listeners),
-        serve(Listeners)
-    ).
+    ->  yield
+    ;   true
+    ),
+    forall(serve_planned, true),
+    listeners(Listeners),
+    serve(Listeners).
 
 serve(Listeners) :-
     Listeners == [],
     \+ nb_current(ev3dev_event_period, _),
     !,
     % They were left by an exception.
-    tick_never_.
+    tick_after_(infinite).
 serve(Listeners) :-
     period(Listeners, Period),
     % Also while events are served, and after an exception.
@@ -184,11 +194,4 @@ serve_listener(Listener) :-
     (   State = leave(Ball)
     ->  throw(Ball)
     ;   call(Closure, Listener)
-    ).
-
-%   Loaded with the simulator.
-due_goals :-
-    (   current_predicate(ev3dev_sim_time:run_due_goals/0)
-    ->  ev3dev_sim_time:run_due_goals
-    ;   true
     ).

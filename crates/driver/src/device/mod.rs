@@ -19,7 +19,7 @@ use crate::value::{first_line, integer};
 use rustix::io::Errno;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
@@ -45,6 +45,8 @@ pub struct Device {
     constants: List<Constant>,
     /// The last command to a motor.
     run: Mutex<Option<MotorRun>>,
+    /// Whether the files are open that start and stop it.
+    is_prepared: AtomicBool,
     /// The number of the last command, among those of the whole program.
     commanded: AtomicU32,
     /// Learns of commands that start it.
@@ -106,6 +108,7 @@ impl Device {
             constants: List::default(),
             commanded: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
+            is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
             user: Mutex::default(),
             settled_at: Mutex::default(),
@@ -201,6 +204,16 @@ impl Device {
     /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether the files are open that start and stop a motor. They stay open.
+    pub(crate) fn is_prepared(&self) -> bool {
+        self.is_prepared.load(Ordering::Relaxed)
+    }
+
+    /// The files are open that start and stop a motor.
+    pub(crate) fn note_prepared(&self) {
+        self.is_prepared.store(true, Ordering::Relaxed);
     }
 
     /// The program has given the motor a command.

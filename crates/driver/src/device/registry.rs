@@ -11,6 +11,7 @@ use crate::error::{Access, Error, Result};
 use crate::port_name;
 use crate::sysfs::Sysfs;
 use rustix::io::Errno;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -32,7 +33,29 @@ struct Listing {
     made: Option<Duration>,
     /// In the order of ports.
     devices: Arc<[Arc<Device>]>,
-    by_port: BTreeMap<Box<str>, Arc<Device>>,
+    by_port: ByPort,
+}
+
+/// Devices by their ports, which differ at their ends: so these are compared first.
+#[derive(Default)]
+struct ByPort(Box<[(Box<str>, Arc<Device>)]>);
+
+impl ByPort {
+    fn new(devices: BTreeMap<&str, &Arc<Device>>) -> Self {
+        let owned = devices.into_iter().map(|(port, it)| (port.into(), Arc::clone(it)));
+        let mut devices: Box<[(Box<str>, _)]> = owned.collect();
+        devices.sort_unstable_by(|(a, _), (b, _)| Self::order(a, b));
+        Self(devices)
+    }
+
+    fn get(&self, port: &str) -> Option<&Arc<Device>> {
+        let at = self.0.binary_search_by(|(other, _)| Self::order(other, port)).ok()?;
+        self.0.get(at).map(|(_, device)| device)
+    }
+
+    fn order(a: &str, b: &str) -> Ordering {
+        a.bytes().rev().cmp(b.bytes().rev())
+    }
 }
 
 impl Registry {
@@ -81,7 +104,7 @@ impl Registry {
         match self.list(class, &mut listing) {
             // If the class cannot be listed, trust the last listing: a robot
             // can still be stopped.
-            Err(error) if is_exhaustion(&error) && listing.by_port.contains_key(port) => {}
+            Err(error) if is_exhaustion(&error) && listing.by_port.get(port).is_some() => {}
             listed => listed?,
         }
         Ok(listing.by_port.get(port).cloned())
@@ -258,7 +281,7 @@ impl Registry {
         let in_socket = in_socket.map(|device| (port_name::socket(device.port()), device));
         let at_port = devices.iter().map(|device| (device.port(), device));
         let all = in_socket.chain(at_port);
-        listing.by_port = all.map(|(port, it)| (port.into(), Arc::clone(it))).collect();
+        listing.by_port = ByPort::new(all.collect());
         listing.devices = devices.into();
         Ok(())
     }

@@ -6,7 +6,7 @@
 //! is broken, or the wheels spin on the spot. Both show within a short turn, and
 //! wheels that merely slip, or an axle that was measured badly, do not look like
 //! either.
-use crate::drive::motion::PERIOD;
+use crate::drive::motion::{PERIOD, seconds};
 use std::time::Duration;
 
 /// The time in which the robot must turn far enough for a comparison. Slower
@@ -55,7 +55,7 @@ impl Agreement {
     /// by its wheels, and the gyro shows `angle`.
     pub(super) fn sample(&mut self, now: Duration, turned: f64, angle: f64) {
         let passed = now.saturating_sub(self.sampled).max(PERIOD);
-        let jumped = (angle - self.shown).abs() > FASTEST * passed.as_secs_f64();
+        let jumped = (angle - self.shown).abs() > FASTEST * seconds(passed);
         (self.sampled, self.shown) = (now, angle);
         let is_recent = |start: &Start| now.saturating_sub(start.at) <= WINDOW;
         let Some(start) = self.start.filter(|start| is_recent(start) && !jumped) else {

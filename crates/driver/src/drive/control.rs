@@ -3,7 +3,7 @@ use crate::class::Class;
 use crate::device::registry::Registry;
 use crate::drive::agreement::Agreement;
 use crate::drive::devices::{DriveDevices, Robot, angle, counts};
-use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD, Stuck};
+use crate::drive::motion::{ActiveMotion, LONGEST_LOOK, Landed, Outcome, PERIOD, Stuck, seconds};
 use crate::drive::odometry::Estimate;
 use crate::drive::steering::{Leg, Limits, Order, Steering};
 use crate::drive::track::Track;
@@ -143,7 +143,7 @@ impl Inner {
             self.end_motion(Ok(Reason::Stopped));
             return Ok(true);
         }
-        let seconds = if is_new { 0.0 } else { now.saturating_sub(before).as_secs_f64() };
+        let seconds = if is_new { 0.0 } else { seconds(now.saturating_sub(before)) };
         let ways = devices.ways(counts, seconds);
         devices.counts = counts;
         if ways != [0.0, 0.0] || is_new {
@@ -345,7 +345,7 @@ impl Inner {
             },
             None => None,
         };
-        let seconds = self.now.saturating_sub(active.steered).as_secs_f64().clamp(0.001, 0.1);
+        let seconds = seconds(self.now.saturating_sub(active.steered)).clamp(0.001, 0.1);
         active.steered = self.now;
         let order = match order {
             Some(order) => order,

@@ -32,6 +32,7 @@ pub(super) struct DriveDevices {
     pub(super) gyro: Option<Arc<Device>>,
     pub(super) counts: [i64; 2],
     pub(super) cm_per_count: [f64; 2],
+    counts_per_cm: [f64; 2],
     /// Counts per second.
     pub(super) fastest: f64,
 }
@@ -51,13 +52,14 @@ impl DriveDevices {
             Ok(robot.wheels.cm_per_count(side, counts))
         };
         let cm_per_count = [way(0, left)?, way(1, right)?];
+        let counts_per_cm = cm_per_count.map(|way| 1.0 / way);
         let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
         let counts = counts(&motors)?;
         let sensors = registry.all(Class::Sensor)?;
         let gyro = sensors.iter().find(|sensor| sensor.driver() == gyro::DRIVER).cloned();
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let fastest = fastest as f64;
-        Ok(Some(Self { motors, gyro, counts, cm_per_count, fastest }))
+        Ok(Some(Self { motors, gyro, counts, cm_per_count, counts_per_cm, fastest }))
     }
 
     /// Whether the motors are still plugged in.
@@ -78,7 +80,7 @@ impl DriveDevices {
 
     /// Counts from a distance in cm, or counts per second from a speed.
     pub(super) fn in_counts(&self, ways: [f64; 2]) -> [f64; 2] {
-        [ways[0] / self.cm_per_count[0], ways[1] / self.cm_per_count[1]]
+        [ways[0] * self.counts_per_cm[0], ways[1] * self.counts_per_cm[1]]
     }
 }
 

@@ -113,6 +113,14 @@ impl Outcome {
     }
 }
 
+/// A time in seconds. The standard library's divides, which the brick's processor does
+/// in software.
+pub(super) fn seconds(time: Duration) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "no robot drives for so long")]
+    let whole = time.as_secs() as f64;
+    whole + f64::from(time.subsec_nanos()) * 1e-9
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "a motor's speed or a short way")]
 fn whole(counts: f64) -> i64 {
     counts.round() as i64
@@ -192,12 +200,13 @@ impl ActiveMotion {
     #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
     fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
+        let seconds = seconds(passed);
         for (side, wheel) in self.stuck.iter_mut().enumerate() {
             let (count, way) = (devices.counts[side], speeds[side].signum());
             let is_still = count.abs_diff(wheel.count) < STUCK_WITHIN && way == wheel.way;
             if is_still {
                 wheel.stood += passed;
-                wheel.owed += speeds[side].abs() as f64 * passed.as_secs_f64();
+                wheel.owed += speeds[side].abs() as f64 * seconds;
             } else {
                 *wheel = Stuck { way, ..Stuck::new(count) };
             }

@@ -159,6 +159,8 @@ enum Phase {
         path: Vec<Segment>,
         index: usize,
         along: f64,
+        /// The length of what comes after that segment.
+        rest: f64,
     },
 }
 
@@ -265,8 +267,8 @@ impl Steering {
                     None => return Order::Arrived,
                 },
                 Phase::Turning(turn) => return self.turn_on(pose, seconds, turn),
-                Phase::Following { path, index, along } => {
-                    return self.follow_on(pose, seconds, (path, index, along));
+                Phase::Following { path, index, along, rest } => {
+                    return self.follow_on(pose, seconds, path, (index, along, rest));
                 }
             }
         }
@@ -394,7 +396,8 @@ impl Steering {
         if let Some(last) = path.last() {
             self.goal = Pose { heading, ..last.end() };
         }
-        Phase::Following { path, index: 0, along: 0.0 }
+        let rest = rest(&path, 0);
+        Phase::Following { path, index: 0, along: 0.0, rest }
     }
 
     fn turn_on(&mut self, pose: Pose, seconds: f64, mut turn: Turn) -> Order {
@@ -429,37 +432,36 @@ impl Steering {
         &mut self,
         pose: Pose,
         seconds: f64,
-        (path, mut index, mut along): (Vec<Segment>, usize, f64),
+        path: Vec<Segment>,
+        (mut index, mut along, mut after): (usize, f64, f64),
     ) -> Order {
         let sign = if self.is_backwards { -1.0 } else { 1.0 };
         let mut place = path[index].locate([pose.x, pose.y], along);
         while place.along > path[index].length() && index + 1 < path.len() {
             along = place.along - path[index].length();
             index += 1;
+            after = rest(&path, index);
             place = path[index].locate([pose.x, pose.y], along);
         }
         along = place.along;
-        let left = path[index + 1..].iter().map(Segment::length).sum::<f64>()
-            + path[index].length()
-            - along;
+        let left = after + path[index].length() - along;
         let speed = self.speed * sign;
         if left - speed * LAG < LANDING && index + 1 == path.len() {
             let end = self.goal.heading;
             let turn = (end - pose.heading).to_radians();
-            self.set_phase(Phase::Following { path, index, along });
+            self.set_phase(Phase::Following { path, index, along, rest: after });
             return Order::Land(self.wheels.ways(left * sign, turn));
         }
         let part = path[index];
-        let turns = 1.0 + part.curvature().abs() * self.wheels.axle / 2.0;
-        let braking = BRAKING * self.limits.acceleration;
-        let mut most = self.limits.speed / turns;
-        most = most.min((2.0 * braking * (left - speed * LAG).max(0.0)).sqrt().max(2.0));
+        let braking = 2.0 * BRAKING * self.limits.acceleration;
+        let most = self.fastest_on(&part);
+        let to_the_end = braked(most, braking * (left - speed * LAG).max(0.0));
+        let mut most = most.min(to_the_end.max(2.0));
         if let Some(next) = path.get(index + 1) {
             // Slow down for a tighter part before it comes.
-            let next_turns = 1.0 + next.curvature().abs() * self.wheels.axle / 2.0;
-            let limit = self.limits.speed / next_turns;
+            let limit = self.fastest_on(next);
             let room = (part.length() - along).max(0.0);
-            most = most.min((limit * limit + 2.0 * braking * room).sqrt());
+            most = braked(most, limit * limit + braking * room);
         }
         let speed = approach(speed, most, self.limits.acceleration * seconds)
             .min(most.max(speed - 1.5 * self.limits.acceleration * seconds));
@@ -467,14 +469,23 @@ impl Steering {
         let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
         let place = part.locate([soon.x, soon.y], along);
         let ahead = place.along.clamp(0.0, part.length());
-        let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(1.0 / part.curvature().abs().max(1e-3));
+        let (aim, bend) = ((speed * LOOKAHEAD).max(NEAREST_AIM), part.curvature().abs());
+        let aim = if aim * bend > 1.0 { 1.0 / bend } else { aim };
         let back = (place.aside / aim).clamp(-1.0, 1.0).asin().to_degrees();
-        let heading = self.travel(part.at(ahead).heading) - back;
+        let heading = self.travel(part.heading_at(ahead)) - back;
         let off = wrapped(heading - soon.heading).to_radians();
         self.speed = speed * sign;
         self.rate = speed * part.curvature() + HEADING_GAIN * off;
-        self.set_phase(Phase::Following { path, index, along });
+        self.set_phase(Phase::Following { path, index, along, rest: after });
         Order::Roll(self.ways())
+    }
+
+    /// The speed on a segment, where the outer wheel is to be no faster than it may.
+    fn fastest_on(&self, part: &Segment) -> f64 {
+        if part.curvature() == 0.0 {
+            return self.limits.speed;
+        }
+        self.limits.speed / (1.0 + part.curvature().abs() * self.wheels.axle / 2.0)
     }
 
     fn cruise_on(
@@ -507,6 +518,16 @@ impl Steering {
 fn strayed(pose: Pose, [x, y]: [f64; 2]) -> f64 {
     let (sin, cos) = pose.heading.to_radians().sin_cos();
     (pose.x - x) * sin + (pose.y - y) * cos
+}
+
+/// The length of a path behind one of its segments.
+fn rest(path: &[Segment], index: usize) -> f64 {
+    path.iter().skip(index + 1).map(Segment::length).sum()
+}
+
+/// A speed, or that of the given square if it is less.
+fn braked(speed: f64, square: f64) -> f64 {
+    if square < speed * speed { square.sqrt() } else { speed }
 }
 
 /// A value on its way to another one, by at most `step`.

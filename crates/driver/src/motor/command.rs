@@ -170,10 +170,14 @@ pub fn reset(motor: &Device) -> Result<()> {
 /// Opens the motors' files for writing, before anything is written to one of them: what
 /// starts them, and what stops them, since there may be no descriptors left then.
 pub(crate) fn prepare(motors: &[Arc<Device>]) -> Result<()> {
-    motors.iter().try_for_each(|motor| {
+    motors.iter().filter(|motor| !motor.is_prepared()).try_for_each(|motor| {
         // Without it, the command to stop is enough.
-        let _ = motor.prepare("stop_action");
-        motor.prepare("command")
+        let action = motor.prepare("stop_action");
+        motor.prepare("command")?;
+        if action.is_ok() {
+            motor.note_prepared();
+        }
+        Ok(())
     })
 }
 

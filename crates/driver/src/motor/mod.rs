@@ -274,13 +274,11 @@ impl Wait for Moving {
             return Ok(found);
         };
         let gone = self.motors.iter().find(|motor| !self.registry.has(motor).unwrap_or(false));
-        match (reason, gone) {
-            (Reason::Unplugged, Some(gone)) => Err(gone.unplugged()),
-            _ => {
-                self.is_left_alone = reason == Reason::Reached;
-                Ok(found)
-            }
+        if let (Reason::Unplugged, Some(gone)) = (reason, gone) {
+            return Err(gone.unplugged());
         }
+        self.is_left_alone = reason == Reason::Reached;
+        Ok(found)
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {

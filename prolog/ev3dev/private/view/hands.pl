@@ -7,7 +7,8 @@
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plug_/2, sim_remove_/1, view_json_/2, view_keep_/2,
                 view_move_/4, view_pace_/1, view_pause_/1, view_pull_/1,
-                view_put_back_/2, view_step_/2 ]).
+                view_put_back_/2, view_source_/1, view_step_/2
+              ]).
 :- use_module('../../sim_hand', [added_facts/1, set_added_facts/1]).
 :- use_module('../../sim_time', [sim_restore/1, sim_snapshot/1]).
 :- use_module(jog, [jog_line/3]).
@@ -33,7 +34,7 @@ most_snapshots(16).
 hand_line(Word, Rest, Answer) :-
     arguments(Rest, Arguments),
     form(Word, Arguments, Hand),
-    (   catch(hand(Hand, Answer0), Error, true)
+    (   catch(( reaches(Hand), hand(Hand, Answer0) ), Error, true)
     ->  (   var(Error)
         ->  Answer = Answer0
         ;   Error = error(_, _)
@@ -43,6 +44,12 @@ hand_line(Word, Rest, Answer) :-
     ;   why_not(Hand, Why),
         Answer = refused(Why)
     ).
+
+%   All but driving is for the simulator.
+reaches(jog(_, _)) :-
+    !.
+reaches(_) :-
+    view_source_(sim).
 
 arguments("", []) :-
     !.
@@ -235,6 +242,10 @@ hand(forget(Name), done([])) :-
 hand(jog(L, R), Answer) :-
     jog_line(L, R, Answer).
 
+why_not(_, Why) :-
+    \+ view_source_(sim),
+    !,
+    Why = "No simulation runs.".
 why_not(restore(Name), Why) :-
     \+ snapshot(_, Name, _),
     !,

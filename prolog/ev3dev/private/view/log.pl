@@ -58,8 +58,13 @@ thread_name(Name) :-
     ->  Name = Me
     ;   integer(Me)
     ->  atom_number(Name, Me)
-    ;   catch(thread_property(Me, id(Id)), _, fail),
-        atom_number(Name, Id)
+    ;   % <thread>(3,0x55d0)
+        format(atom(Handle), "~w", [Me]),
+        sub_atom(Handle, Before, 1, _, '('),
+        sub_atom(Handle, End, 1, _, ','),
+        Start is Before + 1,
+        Length is End - Start,
+        sub_atom(Handle, Start, Length, _, Name)
     ->  true
     ;   Name = ''
     ).
@@ -95,9 +100,14 @@ error_text(error(Formal, context(_, Message)), Text) :-
     ;   format(string(Text), "~w", [Message])
     ).
 error_text(Error, Text) :-
-    catch(( '$messages':translate_message(Error, Lines, []),
+    catch(( message_lines(Error, Lines),
             lines_text(Lines, Text) ),
           _, fail),
     !.
 error_text(Error, Text) :-
     format(string(Text), "~q", [Error]).
+
+%   As print_message/2 words it. All versions have this, though none tells.
+message_lines(Error, Lines) :-
+    Translation =.. [translate_message, Error, Lines, []],
+    call('$messages':Translation).

@@ -205,8 +205,8 @@ ended_since(Count0, Stopper) :-
 answer(Stopper, Answer) :-
     catch(thread_send_message(Stopper, answer(Answer)), _, true).
 
-%   While the cleanup of the program goes on, ask again. The toplevel says that
-%   a query was aborted before it reads the next one.
+%   While the cleanup of the program goes on, ask again. The toplevel says
+%   that a query was aborted before it reads the next one.
 until_ended(ended, _) :-
     set_state(idle).
 until_ended(interrupted(Count), Me) :-

@@ -7,7 +7,7 @@
               [http_server/2, http_spawn/2, http_stop_server/2]).
 :- use_module(library(http/http_stream), []).
 :- use_module('../native',
-              [ view_csv_/1, view_keep_sockets_/1,                 view_world_/1 ]).
+              [view_csv_/1, view_keep_sockets_/1, view_world_/1]).
 :- use_module(page, [page_serve/2, pages/1]).
 :- use_module(program, [stop_program/0, view_thread/0]).
 :- use_module(socket, [accept_key/2]).
@@ -22,7 +22,8 @@ then the method.
 
 :- dynamic
     served/3,                           % Port, Address, Token
-    served_file/3.                      % Path, Type, File
+    served_file/3,                      % Path, Type, File
+    files_directory/1.
 
 %   The most pages at once.
 most_pages(16).

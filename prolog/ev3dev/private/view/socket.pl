@@ -165,7 +165,7 @@ byte(In, Byte) :-
     ;   throw(end)
     ).
 
-%   Bytes as a text in UTF-8; fails if they are none (RFC 3629).
+%   Bytes as a text in UTF-8; fails if they are not (RFC 3629).
 text(Bytes, Text) :-
     phrase(letters(Codes), Bytes),
     string_codes(Text, Codes).

@@ -1,0 +1,245 @@
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(lists)).
+:- use_module(library(apply)).
+
+% What the test makes true, and what happens.
+:- dynamic up/1, done/2, printed/1.
+
+raise(Signal) :- assertz(up(Signal)).
+lower(Signal) :- retractall(up(Signal)).
+
+note(What) :-
+    ev3_time(Time),
+    assertz(done(Time, What)).
+
+:- meta_predicate noted(+, 0, -).
+
+% Goal with a robot on an endless floor, and what it noted.
+noted(Plan, Goal, Notes) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               forget,
+               forall(member(Seconds-Planned, Plan), sim_at(Seconds, user:Planned)),
+               call_cleanup(once(Goal),
+                            ( findall(T-What, retract(done(T, What)), Notes0), forget ))
+             )),
+    Notes = Notes0.
+
+forget :-
+    retractall(up(_)),
+    retractall(done(_, _)),
+    ignore(event_cancel(_)).
+
+times(Notes, What, Times) :-
+    findall(T, member(T-What, Notes), Times).
+
+near_all(Times, Expected) :-
+    maplist([T, E]>>near(T, E, 0.025), Times, Expected).
+
+:- meta_predicate messages(0, -).
+
+% The kinds and terms of the messages of events that Goal prints.
+messages(Goal, Messages) :-
+    setup_call_cleanup(
+        asserta((user:message_hook(Term, Kind, _) :-
+                     memberchk(Kind, [error, warning]),
+                     assertz(printed(Kind-Term))), Ref),
+        once(Goal),
+        erase(Ref)),
+    findall(M, retract(printed(M)), Messages).
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+:- begin_tests(on).
+
+test(it_happens_each_time_that_the_condition_becomes_true) :-
+    noted([ 1-raise(a), 2-lower(a), 3-raise(a) ],
+          ( on(up(a), note(up)), wait(5) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [1, 3]).
+test(bindings_reach_the_action, true(Whats == [b])) :-
+    noted([1-raise(b)], ( on(up(X), note(X)), wait(2) ), Notes),
+    findall(W, member(_-W, Notes), Whats).
+test(it_is_served_in_every_kind_of_wait_and_read,
+     [ forall(member(Goal, [ wait(2), go_cm(20, 40), motor_run(outA, 20, 400),
+                             button_wait(_, _, [timeout(2)]),
+                             tone(440, 2000), sim_wait(2), polls(2),
+                             ( go(20), until(fail, wait(2)) ) ])) ]) :-
+    noted([0.5-raise(a)], ( on(up(a), note(up)), ignore(Goal) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [0.5]).
+test(nothing_is_served_without_a_wait, true(Notes == [])) :-
+    noted([], ( on(true, note(now)), numlist(1, 1000, Ns), sum_list(Ns, _) ), Notes).
+test(it_ends_after_its_count) :-
+    noted([ 1-raise(a), 2-lower(a), 3-raise(a), 4-lower(a), 5-raise(a) ],
+          ( on(up(a), note(up), [count(2), id(x)]), wait(6), \+ event(x, _) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [1, 3]).
+test(stable_ignores_what_is_short) :-
+    noted([ 1-raise(a), 1.3-lower(a), 2-raise(a) ],
+          ( on(up(a), note(up), [stable(0.5)]), wait(4) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [2.5]).
+test(rearm_is_another_condition) :-
+    noted([ 1-raise(a), 1.5-lower(a), 2-raise(a), 3-raise(b), 3.015-lower(b) ],
+          ( on(up(a), note(up), [rearm(up(b))]), wait(5) ), Notes),
+    times(Notes, up, [First, Second]),
+    near(First, 1, 0.03),
+    near(Second, 3.02, 0.05).
+test(an_id_replaces, true(Whats == [second])) :-
+    noted([1-raise(a)],
+          ( on(up(a), note(first), [id(x)]), on(up(a), note(second), [id(x)]), wait(2) ),
+          Notes),
+    findall(W, member(_-W, Notes), Whats).
+test(it_happens_only_once_at_a_time) :-
+    noted([ 1-raise(a), 1.2-lower(a), 1.4-raise(a) ],
+          ( on(up(a), ( note(in), wait(1), note(out) )), wait(4) ), Notes),
+    findall(W, member(_-W, Notes), [in, out|_]).
+test(an_action_may_cancel_its_event, true(Whats == [up])) :-
+    noted([ 1-raise(a), 2-lower(a), 3-raise(a) ],
+          ( on(up(a), ( note(up), event_cancel(x) ), [id(x)]), wait(5) ), Notes),
+    findall(W, member(_-W, Notes), Whats).
+test(one_that_fails_warns_and_stays, true(Messages == [warning-ev3dev(event_failed(x, on))])) :-
+    noted([1-raise(a)], messages(( on(up(a), fail, [id(x)]), wait(2), event(x, on) ),
+                                 Messages), _).
+test(one_that_throws_is_printed_and_stays) :-
+    noted([1-raise(a)], messages(( on(up(a), atom_length(_, _), [id(x)]), wait(2),
+                                   event(x, on) ), Messages), _),
+    Messages = [error-error(instantiation_error, context(_, 'in event x (on)'))].
+test(a_condition_that_throws_is_printed_and_ends) :-
+    noted([], messages(( on(atom_length(_, _), true, [id(x)]), wait(2),
+                         \+ event(x, on) ), Messages), _),
+    Messages = [error-error(instantiation_error, context(_, 'in event x (on)'))].
+test(what_is_no_error_ends_the_wait, throws(enough)) :-
+    noted([1-raise(a)], ( on(up(a), throw(enough)), wait(2) ), _).
+test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
+    noted([], ( on(wait(1), true, [id(x)]), wait(2) ), _).
+test(each_thread_has_its_own, true(Kinds-Notes == []-[])) :-
+    noted([1-raise(a)],
+          ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id),
+            thread_join(Id, true),
+            findall(K, event(_, K), Kinds), wait(2) ), Notes).
+
+polls(Seconds) :-
+    repeat,
+    us_dist_cm(in1, _),
+    ev3_time(Time),
+    Time >= Seconds,
+    !.
+
+:- end_tests(on).
+
+:- begin_tests(times).
+
+test(every_keeps_its_rhythm) :-
+    noted([], ( every(1, note(tick)), wait(3.5) ), Notes),
+    times(Notes, tick, Times),
+    near_all(Times, [1, 2, 3]).
+test(every_ends_after_its_count) :-
+    noted([], ( every(1, note(tick), [count(2)]), wait(3.5) ), Notes),
+    times(Notes, tick, Times),
+    near_all(Times, [1, 2]).
+test(every_does_not_run_within_itself_nor_make_up, true(Whats == [in, out, in])) :-
+    noted([], ( every(1, ( note(in), wait(1.5), note(out) ), [count(2)]), wait(1.2) ), Notes0),
+    noted([], true, _),
+    findall(W, member(_-W, Notes0), Whats0),
+    append(Whats0, [in], Whats).
+test(after_is_once) :-
+    noted([], ( after(1, note(now)), wait(3), \+ event(_, _) ), Notes),
+    times(Notes, now, Times),
+    near_all(Times, [1]).
+test(cancel_ends_one_or_all, true(Left == [])) :-
+    noted([], ( every(1, true, [id(a)]), after(9, true, [id(b)]), on(up(a), true, [id(c)]),
+                event_cancel(b), \+ event(b, _), event(a, every),
+                event_cancel(_), findall(I, event(I, _), Left), \+ event_cancel(_) ), _).
+test(a_move_that_an_action_interrupts_goes_on) :-
+    noted([], ( every(1, tone(440, 300)), go_cm(20, 40), sim_pose(X, Y, _) ), _),
+    near(sqrt(X*X + Y*Y), 40, 1.0).
+
+:- end_tests(times).
+
+:- begin_tests(until).
+
+test(a_move_is_left, true(Which == condition)) :-
+    noted([1-raise(a)], ( until(up(a), go_cm(20, 500), Which), at_rest, ev3_time(T) ), _),
+    near(T, 2, 0.1).
+test(what_goes_on_by_itself_is_waited_for, true(Which == condition)) :-
+    noted([1-raise(a)], ( until(up(a), go(20), Which), ev3_time(T), at_rest ), _),
+    near(T, 1, 0.03).
+test(the_goal_may_end_before, true(Which == goal)) :-
+    noted([9-raise(a)], until(up(a), go_cm(20, 5), Which), _).
+test(the_goal_may_fail, fail) :-
+    noted([9-raise(a)], until(up(a), ( wait(1), fail )), _).
+test(a_condition_that_holds_calls_nothing, true(Whats == [])) :-
+    noted([], until(true, note(called)), Whats).
+test(a_loop_that_only_reads_is_left) :-
+    noted([1-raise(a)], ( until(up(a), ( repeat, us_dist_cm(in1, _), fail )), ev3_time(T) ), _),
+    near(T, 1, 0.03).
+test(they_nest, true(Which == condition)) :-
+    noted([1-raise(a)],
+          ( until(up(a), ( until(up(b), wait(9)), note(inner) ), Which) ), []).
+test(the_inner_one_may_end_first, true(Which == goal)) :-
+    noted([ 1-raise(b), 2-raise(a) ],
+          until(up(a), ( until(up(b), wait(9), condition), wait(0.1) ), Which), _).
+test(motors_that_ran_before_go_on, true(States == [running])) :-
+    noted([1-raise(a)],
+          ( motor_run(outA, 20), until(up(a), go(20)), motor_states(outA, States) ), _).
+test(a_condition_must_not_wait, error(permission_error(wait, guard, until), _)) :-
+    noted([], until(wait(1), go(20)), _).
+test(an_error_of_the_goal_goes_through, error(type_error(_, _), _)) :-
+    noted([], until(up(a), atom_length(f(x), _)), _).
+
+:- end_tests(until).
+
+:- begin_tests(branches, [condition(current_predicate(system:engine_create/3))]).
+
+test(both_go_on_at_the_same_time) :-
+    noted([], ( both(( wait(1), note(a), wait(2), note(b) ), ( wait(2), note(c) )),
+                ev3_time(T) ), Notes),
+    findall(W, member(_-W, Notes), [a, c, b]),
+    near(T, 3, 0.05).
+test(moves_at_the_same_time) :-
+    noted([], ( both(go_cm(20, 40), ( motor_run(outA, 30, 90), motor_run(outA, 30, -90) )),
+                sim_pose(X, Y, _), position(outA, P) ), _),
+    near(sqrt(X*X + Y*Y), 40, 1.0),
+    near(P, 0, 5).
+test(bindings_come_back, true(X-Y == 1-2)) :-
+    noted([], both(( wait(1), X = 1 ), Y = 2), _).
+test(one_that_fails_ends_the_other, true(Whats == [])) :-
+    noted([], ( \+ both(( wait(1), fail ), ( wait(2), note(late) )), ev3_time(T) ), Notes),
+    near(T, 1, 0.05),
+    findall(W, member(_-W, Notes), Whats).
+test(an_error_of_one_leaves_the_other, throws(oh)) :-
+    noted([], both(( wait(1), throw(oh) ), go_cm(20, 900)), _).
+test(the_first_wins_and_the_others_are_left, true(Winner-States == 2-[])) :-
+    noted([], ( race([go_cm(20, 500), wait(1), ( motor_run(outA, 20), wait(9) )], Winner),
+                ev3_time(T), motor_states(outA, States), at_rest ), _),
+    near(T, 1, 0.05).
+test(the_clean_up_of_the_others_runs, true(Whats == [cleaned])) :-
+    noted([], race([wait(1), setup_call_cleanup(true, wait(9), note(cleaned))], 1), Notes),
+    findall(W, member(_-W, Notes), Whats).
+test(one_that_catches_everything_is_left, true(Winner == 2)) :-
+    noted([], race([( repeat, catch(wait(9), _, true), fail ), wait(1)], Winner), _).
+test(the_earliest_of_several_wins, true(Winner == 1)) :-
+    noted([], race([wait(1), wait(1)], Winner), _).
+test(a_race_of_failures_fails, [forall(member(Gs, [[], [fail], [fail, ( wait(1), fail )]])), fail]) :-
+    noted([], race(Gs, _), _).
+test(events_are_served_meanwhile) :-
+    noted([0.5-raise(a)], ( on(up(a), note(up)), both(wait(1), wait(1)) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [0.5]).
+test(until_leaves_a_branch, true(Which == condition)) :-
+    noted([0.5-raise(a)], both(until(up(a), wait(9), Which), wait(1)), _).
+test(they_nest, true(Winner == 1)) :-
+    noted([], race([both(wait(1), wait(0.5)), wait(2)], Winner), _).
+test(waits_do_not_add_up) :-
+    noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
+    noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),
+    near(T, Alone, 0.05).
+
+:- end_tests(branches).

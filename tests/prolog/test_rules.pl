@@ -1,0 +1,365 @@
+:- use_module('../support/simulation').
+:- use_module('../support/trees').
+:- use_module('../support/cases').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/rules),
+              [ behave/1, behave/2, become/1, state/1, set_state/1, received/1,
+                send_message/1, op(_, _, ::), op(_, _, ~>) ]).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(random)).
+
+                 /*******************************
+                 *            SUPPORT           *
+                 *******************************/
+
+% Guards that the test makes true, and what happens.
+:- dynamic up/1, value/1, done/2.
+
+raise(Signal) :- assertz(up(Signal)).
+lower(Signal) :- retractall(up(Signal)).
+
+note(What) :-
+    ev3_time(Time),
+    assertz(done(Time, What)).
+
+% Goal with a robot on an endless floor, and what it noted. Plan is a list of
+% Seconds-Goal.
+:- meta_predicate noted(+, 0, -).
+
+noted(Plan, Goal, Notes) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               forget,
+               forall(member(Seconds-Planned, Plan), sim_at(Seconds, Planned)),
+               call_cleanup(once(Goal),
+                            findall(Time-What, retract(done(Time, What)), Notes0)),
+               forget
+             )),
+    Notes = Notes0.
+
+forget :-
+    retractall(up(_)),
+    retractall(value(_)),
+    retractall(done(_, _)).
+
+whats(Notes, Whats) :-
+    findall(What, member(_-What, Notes), Whats).
+
+changes(Notes, Changes) :-
+    findall(What, ( member(_-What, Notes), What \= called(_) ), Changes).
+
+at_time(What, Notes, Time) :-
+    memberchk(Time-What, Notes).
+
+:- meta_predicate with_messages(+, 0, -).
+
+% The messages of a kind that Goal prints.
+with_messages(Kind, Goal, Messages) :-
+    setup_call_cleanup(
+        asserta((user:message_hook(ev3dev(Term), Kind, _) :-
+                     assertz(printed(Term))), Ref0),
+        setup_call_cleanup(
+            asserta((user:message_hook(error(Formal, Context), Kind, _) :-
+                         assertz(printed(error(Formal, Context)))), Ref1),
+            once(Goal),
+            erase(Ref1)),
+        erase(Ref0)),
+    findall(M, retract(printed(M)), Messages).
+
+:- dynamic printed/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+move_a  :: up(a) ~> note(called(a)), go_cm(30, 20).
+go_a    :: up(a) ~> note(called(a)), go(30).
+turn_b  :: up(b) ~> note(called(b)), turn(20, 360).
+wander  :: true  ~> note(called(wander)), go(40).
+far     :: true  ~> note(called(far)), go_cm(20, 100).
+follow  :: value(S) ~> note(called(S)), go(S).
+lift    :: up(a) ~> motor_run(outA, 20), wait(1).
+
+behave_for(Seconds, Rules) :-
+    behave_for(Seconds, Rules, []).
+
+behave_for(Seconds, Rules, Options) :-
+    behave(Rules, [timeout(Seconds), trace(user:note)|Options]).
+
+                 /*******************************
+                 *            CHOICE            *
+                 *******************************/
+
+:- begin_tests(choice).
+
+test(the_first_rule_that_holds_is_active,
+     true(Whats == [rule(go_a), called(a)])) :-
+    noted([0-raise(a), 0-raise(b)], behave_for(1, [go_a, turn_b, wander]), Notes),
+    whats(Notes, Whats).
+test(an_earlier_rule_suppresses_within_a_period,
+     true(Changes == [rule(far), suppressed(far), rule(go_a)])) :-
+    noted([1-raise(a)], behave_for(2, [go_a, far]), Notes),
+    changes(Notes, Changes),
+    at_time(rule(go_a), Notes, Time),
+    near(Time, 1.0, 0.021).
+test(a_later_rule_does_not, true(Whats == [rule(far), called(far)])) :-
+    noted([1-raise(a)], behave_for(2, [far, go_a]), Notes),
+    whats(Notes, Whats).
+test(the_guard_of_an_action_that_waits_is_not_looked_at,
+     true(Whats == [rule(turn_b), called(b)])) :-
+    noted([0-raise(b), 0.5-lower(b)], behave_for(2, [turn_b]), Notes),
+    whats(Notes, Whats).
+test(bindings_of_the_guard_reach_the_action, true(Whats == [rule(r), 7])) :-
+    noted([], behave_for(0.5, [(r :: member(X, [7, 8]) ~> note(X))]), Notes),
+    whats(Notes, Whats).
+test(rules_stand_in_the_list_with_options, true(Whats == [rule(r(1)), 1])) :-
+    noted([], behave_for(0.5, [(r(1), cooldown(1) :: true ~> note(1))]), Notes),
+    whats(Notes, Whats).
+test(without_a_rule_the_robot_rests,
+     true(Changes == [rule(go_a), rest, rule(go_a)])) :-
+    noted([ 0-raise(a), 1-lower(a), 1.5-note(speed), 3-raise(a) ],
+          behave_for(4, [go_a]), Notes0),
+    exclude([_-speed]>>true, Notes0, Notes),
+    changes(Notes, Changes).
+test(at_the_end_it_rests, true(Reason == timeout)) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   behave([wander], [timeout(1), reason(Reason)]),
+                   at_rest, forget )).
+test(an_action_that_catches_everything_is_left,
+     true(Changes == [rule(stubborn), suppressed(stubborn), rule(go_a)])) :-
+    noted([1-raise(a)],
+          behave_for(2, [ go_a,
+                          (stubborn :: true ~> catch(go_cm(20, 90), _, true),
+                                               catch(wait(90), _, true), wait(90))
+                        ]), Notes),
+    changes(Notes, Changes),
+    at_time(rule(go_a), Notes, Time),
+    near(Time, 1.0, 0.07).
+test(an_action_that_only_reads_sensors_is_left,
+     true(Changes == [rule(reads), suppressed(reads), rule(go_a)])) :-
+    noted([1-raise(a)],
+          behave_for(2, [ go_a, (reads :: true ~> repeat, us_dist_cm(in1, _), fail) ]),
+          Notes),
+    changes(Notes, Changes),
+    at_time(rule(go_a), Notes, Time),
+    near(Time, 1.0, 0.025).
+test(the_clean_up_of_a_suppressed_action_runs,
+     true(Whats == [rule(clean), cleaned, suppressed(clean), rule(go_a), called(a)])) :-
+    noted([1-raise(a)],
+          behave_for(2, [ go_a,
+                          (clean :: true ~> setup_call_cleanup(true, wait(5), note(cleaned)))
+                        ]), Notes),
+    whats(Notes, Whats).
+
+:- end_tests(choice).
+
+                 /*******************************
+                 *           ACTIONS            *
+                 *******************************/
+
+:- begin_tests(actions).
+
+test(an_action_is_called_once, true(Whats == [rule(wander), called(wander)])) :-
+    noted([], behave_for(3, [wander]), Notes),
+    whats(Notes, Whats).
+test(it_is_called_again_for_other_values,
+     true(Whats == [rule(follow), called(10), called(20)])) :-
+    noted([ 0-assertz(value(10)),
+            1-( retractall(value(_)), assertz(value(20)) ) ],
+          behave_for(2, [follow]), Notes),
+    whats(Notes, Whats).
+test(commanding_the_same_costs_no_speed) :-
+    findall(T-( speed(outB, S), note(speed(S)) ), ( between(1, 12, I), T is 0.9 + I*0.02 ),
+            Looks),
+    noted([ 0-raise(a), 1-lower(a) | Looks ],
+          behave_for(2, [(one :: up(a) ~> go(40)), (other :: true ~> go(40))]), Notes),
+    length(Looks, Count),
+    findall(S, member(_-speed(S), Notes), Speeds),
+    length(Speeds, Count),
+    forall(member(S, Speeds), S > 350).
+test(what_the_new_action_has_not_commanded_stops_at_its_first_wait,
+     true(Notes == [running, []])) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), forget, raise(a),
+                   sim_at(0.5, lower(a)),
+                   behave([ (arm  :: up(a) ~> motor_run(outA, 20)),
+                            (none :: true ~> motor_states(outA, S0), note(S0), wait(0.1),
+                                             motor_states(outA, S), note(S), wait(5)) ],
+                          [timeout(1)]),
+                   findall(N, retract(user:done(_, N)), [[running|_], S1]) )),
+    Notes = [running, S1].
+test(one_that_has_waited_and_ended_waits_for_its_guard,
+     true(Changes == [ rule(move_a), ended(move_a), rule(wander),
+                       rule(move_a), ended(move_a), rule(wander) ])) :-
+    noted([ 0-raise(a), 4-lower(a), 5-raise(a) ],
+          behave_for(9, [move_a, wander]), Notes),
+    changes(Notes, Changes).
+test(one_with_the_guard_true_is_called_again, true(Changes == Expected)) :-
+    noted([], behave_for(2.5, [(w :: true ~> wait(1))]), Notes),
+    changes(Notes, Changes),
+    Expected = [rule(w), ended(w), rule(w), ended(w), rule(w)].
+test(one_that_fails_warns_and_has_ended,
+     true(Changes == [rule(fails), failed(fails), rule(go_a)])) :-
+    noted([0-raise(a)],
+          with_messages(warning, behave_for(1, [(fails :: up(a) ~> fail), go_a]), Warnings), Notes),
+    changes(Notes, Changes),
+    Warnings == [rule_failed(fails)].
+test(while_leaves_it, true(Changes == [rule(w), suppressed(w), rule(wander)])) :-
+    noted([ 0-raise(a), 1-lower(a) ],
+          behave_for(2, [ (w, while(up(a)) :: up(a) ~> wait(9)), wander ]), Notes),
+    changes(Notes, Changes),
+    at_time(rule(wander), Notes, Time),
+    near(Time, 1, 0.03).
+test(while_keeps_one_that_has_returned, true(Changes == [rule(w), rule(wander)])) :-
+    noted([ 0-raise(a), 0-raise(b), 1-lower(a), 2-lower(b) ],
+          behave_for(3, [ (w, while(up(b)) :: up(a) ~> go(20)), wander ]), Notes),
+    changes(Notes, Changes),
+    at_time(rule(wander), Notes, Time),
+    near(Time, 2, 0.03).
+test(min_time_keeps_it, true(Changes == [rule(w), rule(wander)])) :-
+    noted([ 0-raise(a), 0.5-lower(a) ],
+          behave_for(3, [ (w, min_time(2) :: up(a) ~> go(20)), wander ]), Notes),
+    changes(Notes, Changes),
+    at_time(rule(wander), Notes, Time),
+    near(Time, 2, 0.06).
+test(cooldown_keeps_it_away, true(Changes == [ rule(w), ended(w), rule(wander), rule(w),
+                                               ended(w), rule(wander) ])) :-
+    noted([ 0-raise(a), 0.7-lower(a), 0.8-raise(a) ],
+          behave_for(4, [ (w, cooldown(2) :: up(a) ~> wait(0.5)), wander ]), Notes),
+    changes(Notes, Changes),
+    findall(T, member(T-rule(w), Notes), [_, Second]),
+    near(Second, 2.5, 0.06).
+test(a_list_is_done_one_after_the_other, true(Whats == [rule(w), 1, 2, 3])) :-
+    noted([], behave_for(5, [ (w :: true ~> [note(1):1.5, (note(2), wait(9)):2, note(3)]) ]),
+          Notes),
+    whats(Notes, Whats),
+    maplist([W-T]>>( at_time(W, Notes, T0), near(T0, T, 0.06) ), [1-0, 2-1.5, 3-3.5]).
+test(an_error_names_the_rule,
+     [ forall(member(Rule-Where, [ (bad :: true ~> atom_length(_, _))-action,
+                                   (bad :: atom_length(_, _) ~> true)-guard ])),
+       true(Found == Where), cleanup(forget) ]) :-
+    catch(with_sim([], behave([Rule], [timeout(1)])),
+          error(instantiation_error, context(_, Text)), true),
+    format(atom(In), 'in the ~w of rule bad', [Where]),
+    (   sub_atom(Text, _, _, 0, In)
+    ->  Found = Where
+    ;   Found = Text
+    ).
+test(errors_can_be_printed, true(Changes == Expected)) :-
+    noted([], with_messages(error, behave_for(0.3, [ (bad :: up(_), fail ~> true),
+                                              (worse :: true ~> throw(error(oh, _))) ],
+                                       [on_error(continue)]), Ws), Notes),
+    changes(Notes, Changes0),
+    Ws = [error(oh, context(_, 'in the action of rule worse'))|_],
+    Changes0 = [First, Second|_],
+    Changes = [First, Second],
+    Expected = [rule(worse), thrown(worse)].
+test(an_exception_that_is_no_error_goes_through, [throws(over), cleanup(forget)]) :-
+    with_sim([], behave([(r :: true ~> throw(over))])).
+test(a_guard_must_not_wait,
+     [ forall(member(Guard, [ wait(1), go_cm(20, 5), button_wait(_, _) ])),
+       error(permission_error(wait, guard, r), context(_, _)) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   behave([(r :: Guard ~> true)], [timeout(1)]) )).
+
+:- end_tests(actions).
+
+                 /*******************************
+                 *       NESTING, MESSAGES      *
+                 *******************************/
+
+:- begin_tests(nested).
+
+test(an_inner_behave_is_left_for_an_outer_rule,
+     true(Changes == [ rule(inner), rule(go_a), suppressed(inner), rule(turn_b) ])) :-
+    noted([ 0-raise(a), 1-raise(b) ],
+          behave_for(2, [ turn_b,
+                          (inner :: true ~> behave([go_a, far], [trace(user:note)])) ]), Notes),
+    changes(Notes, Changes).
+test(an_inner_one_lets_its_own_rules_change,
+     true(Changes == [ rule(inner), rule(far), suppressed(far), rule(go_a) ])) :-
+    noted([1-raise(a)],
+          behave_for(2, [ (inner :: true ~> behave([go_a, far], [trace(user:note)])) ]), Notes),
+    changes(Notes, Changes).
+test(become_replaces_the_rules, true(Changes == [rule(w), suppressed(w), rule(wander)])) :-
+    noted([], behave_for(2, [ (w :: true ~> wait(1), become([wander])) ]), Notes),
+    changes(Notes, Changes).
+test(a_state_is_read_and_set, true(Whats == [rule(a), start, rule(b), end(1)])) :-
+    noted([], behave_for(1, [ (a :: state(start) ~> state(S), note(S), set_state(end(1))),
+                              (b :: state(end(X)) ~> note(end(X))) ]), Notes),
+    whats(Notes, Whats).
+test(a_message_is_there_for_one_tick, true(Whats == [rule(m), got(hello), rule(wander)])) :-
+    noted([1-send_message(hello)],
+          behave_for(2, [ (m, cooldown(9) :: received(X) ~> note(got(X))),
+                          (wander :: up(never) ~> true),
+                          (wander :: up(_) ; true ~> true) ]), Notes0),
+    exclude([0.0-_]>>true, Notes0, Notes1),
+    drop_before(1, Notes1, Notes),
+    whats(Notes, Whats).
+test(until_ends_it, true(Reason-Near == until-true)) :-
+    with_sim([], ( forget, sim_at(1, raise(a)),
+                   behave([], [until(up(a)), reason(Reason), timeout(5)]), ev3_time(T) )),
+    forget,
+    ( near(T, 1, 0.03) -> Near = true ; Near = T ).
+test(outside_of_a_behave_there_is_none,
+     [ forall(member(Goal, [state(_), set_state(1), received(_), send_message(1), become([])])),
+       error(permission_error(_, behavior, none), context(_, _)) ]) :-
+    call(Goal).
+
+drop_before(T0, Notes0, Notes) :-
+    include({T0}/[T-_]>>( T >= T0 ), Notes0, Notes).
+
+:- end_tests(nested).
+
+:- begin_tests(wrong).
+
+test(an_unknown_rule, error(existence_error(rule, nobody), context(behave/1, _))) :-
+    behave([nobody]).
+test(what_is_no_rule, [forall(member(R, [7, "x"])), error(type_error(rule, R), _)]) :-
+    behave([R]).
+test(what_is_unbound, error(instantiation_error, _)) :-
+    behave([_]).
+test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _)) :-
+    behave([(r, hurry(1) :: true ~> true)]).
+test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
+    behave([], [hurry(1)]).
+
+:- end_tests(wrong).
+
+                 /*******************************
+                 *            RANDOM            *
+                 *******************************/
+
+:- begin_tests(random_rules).
+
+% Whatever rules there are and whatever happens: at the end the robot rests, each
+% rule that was chosen held and no earlier one that could suppress it did, and a
+% second run is the same.
+test(random_rules_keep_to_their_meaning, [forall(case(30, Seed))]) :-
+    random_run(Seed, Notes),
+    random_run(Seed, Again),
+    Notes == Again,
+    alternate(Notes).
+
+random_run(Seed, Notes) :-
+    set_random(seed(Seed)),
+    findall(Rule, ( nth1(I, [a, b, c, d], S), random_action(Action),
+                    Rule = (r(I) :: up(S) ~> Action) ), Rules),
+    findall(Time-Goal, ( between(1, 12, _), random(R), Time is R*5,
+                         random_member(S, [a, b, c, d]),
+                         random_member(Goal, [raise(S), lower(S)]) ), Plan),
+    noted(Plan, ( behave_for(5, Rules), at_rest ), Notes).
+
+random_action(Action) :-
+    random_member(Action, [ go(30), turn(20), go_cm(30, 10), turn(30, 90), wait(0.3),
+                            motor_run(outA, 30), (motor_run(outA, 50, 90)),
+                            (go(20), wait(0.2)), (go_cm(20, 5), go(-20)) ]).
+
+% No rule begins while another is not over: suppressed, ended, or one that has
+% returned.
+alternate(Notes) :-
+    findall(What, member(_-What, Notes), Whats),
+    \+ ( nextto(suppressed(X), suppressed(X), Whats) ),
+    \+ ( nextto(rule(X), rule(X), Whats) ).
+
+:- end_tests(random_rules).
