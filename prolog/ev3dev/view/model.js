@@ -32,6 +32,8 @@ export class Model {
         came.add(name);
       }
     }
+    // Nobody knows the world of a real robot.
+    if (frame.source !== 'sim') this.world = this.name = null;
     this.frame = frame;
     this.count += 1;
     if (frame.samples) this.append(frame.samples);
