@@ -9,7 +9,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/2,
+                throw_error/3
               ]).
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/native,
@@ -167,8 +168,8 @@ must_be_rate(Rate) :-
 
 must_be_near(true, any) :-
     !,
-    throw(error(permission_error(open, goals, any),
-                context(ev3dev_view:view/1, _))).
+    throw_error(permission_error(open, goals, any), view/1,
+                'goals(true) is for this computer: address(localhost)').
 must_be_near(_, _).
 
 :- dynamic

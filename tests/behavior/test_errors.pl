@@ -9,6 +9,7 @@
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/view)).
 :- use_module(library(lists)).
 
 % A call, and its wrong, unbound and impossible arguments: each is tried alone.
@@ -40,6 +41,12 @@ bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(roadmap_path([], 0-0, 10-10, _), [a-1, foo-2, foo-3, _-3]).
 bad(roadmap_path([], 0-0, 10-10, _, []), [a-1, foo-2, foo-3, [speed(1)]-5, [method(x)]-5]).
+bad(view([]), [a-1, _-1, [port(0)]-1, [port(x)]-1, [address(all)]-1, [token(short)]-1,
+               [token('not a token')]-1, [open(maybe)]-1, [rate(0)]-1, [rate(fast)]-1,
+               [goals(1)]-1, [goals(true), address(any)]-1, [colour(red)]-1]).
+bad(view_mark(a), [_-1]).
+bad(view_watch(a, outA), [_-1, _-2, outE-2, outA-value0-2, 7-2]).
+bad(view_value(a, 1), [_-1, _-2, high-2]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
 bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
 bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).

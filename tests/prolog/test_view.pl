@@ -201,6 +201,29 @@ test(no_words_of_an_exception_go_to_the_other_side, true(Code >= 400)) :-
     ->  true
     ;   \+ sub_string(Answer, _, _, _, "Domain")
     ).
+test(a_line_without_end_takes_no_memory, true(Code == 404)) :-
+    length(Codes, 1000000),
+    maplist(=(0'x), Codes),
+    string_codes(Part, Codes),
+    viewed(Port, ( no_messages(( request(Port, ["GET / HTTP/1.1", "X: ", Part], _, _),
+                                 request(Port, [Part], _, _) )),
+                   own(Port, Fields),
+                   get(Port, '/missing', Fields, Code, _) )).
+test(other_names_of_this_computer,
+     true(Codes == [200, 403, 403, 403])) :-
+    token(Token),
+    with_sim([],
+        viewed(Port,
+               ( findall(Code,
+                         ( member(Name-Secret, [ '192.168.1.5'-Token,
+                                                 'example.org'-Token,
+                                                 '192.168.1.256'-Token,
+                                                 '192.168.1.5'-other_token ]),
+                           format(string(Host), "Host: ~w:~w", [Name, Port]),
+                           cookie(Port, Secret, Cookie),
+                           get(Port, '/world.pl', [Host, Cookie], Code, _) ),
+                         Codes) ),
+               [address(any)])).
 test(handlers_of_the_program_are_not_served_here, true(Code == 404)) :-
     setup_call_cleanup(
         http_handler('/mine', mine, []),
@@ -359,7 +382,11 @@ test(a_program_that_was_started_does_not_keep_the_port) :-
     token(Token),
     quietly(view([port(Port), token(Token), open(false)])),
     page_open(Port, Token, Page),
-    process_create(path(sleep), [20], [process(Pid)]),
+    % Until it has begun it is a copy of this program.
+    process_create(path(sh), ['-c', 'echo begun; exec sleep 20 >/dev/null'],
+                   [ process(Pid), stdout(pipe(Out)) ]),
+    read_stream_to_codes(Out, _),
+    close(Out),
     call_cleanup(( view_stop,
                    viewed(Port, true) ),
                  ( process_kill(Pid),
@@ -659,7 +686,7 @@ with_toplevel(top(In, Out, Page), Goal) :-
             use_module(library(ev3dev)), use_module(library(ev3dev/sim)), \c
             use_module(library(ev3dev/view)), \c
             sim_start([], [clock(virtual)]), \c
-            view([port(P), token(~q), open(false)]), \c
+            view([port(P), token(~q), open(false), goals(true)]), \c
             format('port ~~w~~n', [P]), flush_output", [Library, Token]),
     setup_call_cleanup(
         process_create(Swipl, ['-q', '-f', none, '-g', Start],
@@ -701,6 +728,18 @@ ended(Frame) :-
     Frame.program.state == "idle",
     Frame.program.latched == false.
 
+drives(Page, Y0, Left) :-
+    Left > 0,
+    page_say(Page, "jog 40 40"),
+    page_ask(Page, "next", Frame),
+    (   Frame.type == "frame",
+        Frame.robot.true = [_, Y, _],
+        Y > Y0 + 1
+    ->  true
+    ;   Left1 is Left - 1,
+        drives(Page, Y0, Left1)
+    ).
+
 % Programs that must be stopped, whatever they do.
 program("motor_run(outA, 50), repeat, fail.").
 program("motor_run(outA, 50), repeat, position(outA, _), fail.").
@@ -726,6 +765,28 @@ test(program, [forall(program(Text))]) :-
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
           \+ runs(Frame2) )).
+test(a_goal_has_answers) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          frame_with(Page, Frame, ended(Frame), 2000),
+          page_ask(Page, "goal 1 member(X, [a, f(_)])", First),
+          First.state == "more", First.text == "X = a", First.n =:= 1,
+          page_ask(Page, "more 1", Second),
+          Second.state == "last",
+          page_ask(Page, "goal 2 fail.", Third),
+          Third.state == "false",
+          page_ask(Page, "goal 3 atom_length(_, _)", Fourth),
+          Fourth.state == "error",
+          page_ask(Page, "goal 4 p(", Fifth),
+          Fifth.state == "error" )).
+test(a_page_drives_while_no_program_runs) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "set_robot(5.6, 10.6, outB, outC)."),
+          frame_with(Page, Frame, ended(Frame), 2000),
+          Frame.robot.true = [_, Y0, _],
+          drives(Page, Y0, 200),
+          frame_with(Page, Last, \+ runs(Last), 2000) )).
 test(at_the_prompt_nothing_is_aborted) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),

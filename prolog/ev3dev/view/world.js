@@ -504,15 +504,19 @@ export class World {
 
   drawGrid(c, grid) {
     const { dot } = this;
-    const { cell, origin: [x0, y0], cols, rows } = grid;
+    const { cell, cols, rows } = grid;
+    // In a frame of its own: turned clockwise about its origin.
+    c.save();
+    c.translate(...grid.origin);
+    c.rotate(-(grid.h ?? 0) * TURN);
     const each = (cells, inset, fill) => {
       c.fillStyle = fill;
-      for (const [i, j] of cells ?? []) c.fillRect(x0 + i * cell + inset, y0 + j * cell + inset, cell - 2 * inset, cell - 2 * inset);
+      for (const [i, j] of cells ?? []) c.fillRect(i * cell + inset, j * cell + inset, cell - 2 * inset, cell - 2 * inset);
     };
     each(grid.free, 0.5 * dot, this.dark ? 'rgb(111 177 255 / .10)' : 'rgb(11 98 196 / .07)');
     c.beginPath();
-    for (let i = 0; i <= cols; i += 1) { c.moveTo(x0 + i * cell, y0); c.lineTo(x0 + i * cell, y0 + rows * cell); }
-    for (let j = 0; j <= rows; j += 1) { c.moveTo(x0, y0 + j * cell); c.lineTo(x0 + cols * cell, y0 + j * cell); }
+    for (let i = 0; i <= cols; i += 1) { c.moveTo(i * cell, 0); c.lineTo(i * cell, rows * cell); }
+    for (let j = 0; j <= rows; j += 1) { c.moveTo(0, j * cell); c.lineTo(cols * cell, j * cell); }
     c.strokeStyle = this.paint.blue;
     c.globalAlpha = 0.28;
     c.lineWidth = dot;
@@ -522,7 +526,7 @@ export class World {
     c.lineWidth = 1.5 * dot;
     c.beginPath();
     for (const [i, j] of grid.blocked ?? []) {
-      const [x, y] = [x0 + i * cell, y0 + j * cell];
+      const [x, y] = [i * cell, j * cell];
       c.rect(x + 1.5 * dot, y + 1.5 * dot, cell - 3 * dot, cell - 3 * dot);
       for (let k = 1; k < 4; k += 1) {
         c.moveTo(x + 1.5 * dot, y + (cell * k) / 4); c.lineTo(x + cell - (cell * k) / 4, y + cell - 1.5 * dot);
@@ -531,9 +535,8 @@ export class World {
     }
     c.stroke();
     c.globalAlpha = 1;
-    if (grid.plan?.length > 1 && !this.model.path && this.shown.path) {
-      this.drawPath(c, grid.plan.map(([i, j]) => [x0 + (i + 0.5) * cell, y0 + (j + 0.5) * cell]));
-    }
+    if (grid.plan?.length > 1 && this.shown.path) this.drawPath(c, grid.plan.map(([i, j]) => [(i + 0.5) * cell, (j + 0.5) * cell]));
+    c.restore();
   }
 
   /** Cones lie under the boxes, spots and touches above. */
@@ -649,7 +652,7 @@ export class World {
       c.setLineDash([4 * line, 3 * line]);
       c.stroke(path);
       c.setLineDash([]);
-      this.nose(c, reach * 0.8, 1.6 * line, this.paint.blue);
+      if (this.apart(x, y, h)) this.nose(c, reach * 0.8, 1.6 * line, this.paint.blue);
       c.restore();
       return;
     }
@@ -692,6 +695,12 @@ export class World {
     }
     this.nose(c, reach, Math.max(1.6 * line, 0.13 * reach), kind === 'real' ? this.paint.card : ink);
     c.restore();
+  }
+
+  /** Whether a believed pose differs visibly from the true one. */
+  apart(x, y, h) {
+    const truly = this.model.frame.robot?.true;
+    return !truly || Math.hypot(x - truly[0], y - truly[1]) > 0.4 * this.reach() || Math.abs(h - truly[2]) > 8;
   }
 
   /** An arrow that says where ahead is. */
@@ -820,7 +829,7 @@ export class World {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, pixel);
     if (this.pointers.size === 2) {
-      this.drag = { kind: 'pinch', apart: this.apart() };
+      this.drag = { kind: 'pinch', apart: this.spread() };
       return;
     }
     this.moved = false;
@@ -848,7 +857,7 @@ export class World {
     this.draw();
   }
 
-  apart() {
+  spread() {
     const [a, b] = [...this.pointers.values()];
     return Math.hypot(a[0] - b[0], a[1] - b[1]);
   }
@@ -872,7 +881,7 @@ export class World {
     if (this.start && Math.hypot(pixel[0] - this.start[0], pixel[1] - this.start[1]) > 3) this.moved = true;
     if (drag.kind === 'pinch') {
       if (this.pointers.size < 2) return;
-      const apart = this.apart();
+      const apart = this.spread();
       const all = [...this.pointers.values()];
       this.zoom(apart / drag.apart, [(all[0][0] + all[1][0]) / 2, (all[0][1] + all[1][1]) / 2]);
       drag.apart = apart;

@@ -130,13 +130,15 @@ bindings_text(Names, Text) :-
         atom_string(Text0, Text)
     ).
 
-%   Two threads write to a page: this and its own.
+%   After all but `more` the page may send another goal at once.
 answer(Out, Number, State, Text) :-
+    (   State == more
+    ->  true
+    ;   thread_self(Me),
+        retractall(running(_, _, Me))
+    ),
     view_json_(Text, Json),
     format(string(Message),
            "{\"type\":\"answer\",\"n\":~w,\"state\":\"~w\",\"text\":~w}",
            [Number, State, Json]),
-    catch(with_output_lock(Out, Message), _, true).
-
-with_output_lock(Out, Message) :-
-    message_send(Out, Message).
+    catch(message_send(Out, Message), _, true).

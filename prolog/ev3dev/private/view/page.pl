@@ -4,7 +4,6 @@
             pages_close/0,
             page_settings/2             % +Rate, +Goals
           ]).
-:- use_module(library(lists), [member/2]).
 :- use_module('../native', [view_frame_/4, view_json_/2]).
 :- use_module(goals, [goal_line/4, goals_end/0]).
 :- use_module(hands, [hand_line/3]).
@@ -171,10 +170,7 @@ frame_send(Out, Have) :-
 
 pong_send(Out, Bytes) :-
     length(Bytes, Length),
-    put_code(Out, 0x8a),
-    put_code(Out, Length),
-    forall(member(Byte, Bytes),
-           put_code(Out, Byte)),
+    format(Out, "~s", [[0x8a, Length|Bytes]]),
     flush_output(Out).
 
 word_rest(Line, Word, Rest) :-

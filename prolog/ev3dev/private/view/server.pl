@@ -43,12 +43,14 @@ server_start(Address, Port, Token) :-
             asserta((user:message_hook(httpd_started_server(_, _), _, _) :-
                          true),
                     Hook2),
-            http_server(ev3dev_view_server:request,
-                        [ port(Where),
-                          workers(6),
-                          timeout(5),
-                          keep_alive_timeout(1)
-                        ]),
+            ( stack_options(Stacks),
+              http_server(ev3dev_view_server:request,
+                          [ port(Where),
+                            workers(6),
+                            timeout(5),
+                            keep_alive_timeout(1)
+                          | Stacks
+                          ]) ),
             erase(Hook2)),
         erase(Hook1)),
     findall(Thread, thread_property(Thread, status(_)), After),
@@ -61,6 +63,16 @@ server_start(Address, Port, Token) :-
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
+
+%   library(http) reads a line of any length: what does not fit into these
+%   stacks ends the request. Before version 8 there is one for each purpose, in
+%   kilobytes.
+stack_options(Options) :-
+    (   current_prolog_flag(version, Version),
+        Version >= 80000
+    ->  Options = [stack_limit(16000000)]
+    ;   Options = [global(8000), local(4000), trail(4000)]
+    ).
 
 bound(localhost, Port, localhost:Port).
 bound(any, Port, Port).

@@ -214,47 +214,38 @@ tail(Bits) -->
 
 %!  message_send(+Out, +Text) is det.
 %
-%   Send a text, all of whose letters are ASCII.
+%   Send a text, all of whose letters are ASCII. One call of format/3 writes
+%   all of it, and no other thread in between.
 
 message_send(Out, Text) :-
     string_length(Text, Length),
-    put_code(Out, 0x81),
-    put_length(Length, Out),
-    write(Out, Text),
+    (   Length < 126
+    ->  Head = [Length]
+    ;   Length < 65536
+    ->  Head = [126|Bytes],
+        bytes(2, Length, Bytes)
+    ;   Head = [127|Bytes],
+        bytes(8, Length, Bytes)
+    ),
+    format(Out, "~s~w", [[0x81|Head], Text]),
     flush_output(Out).
 
-put_length(Length, Out) :-
-    Length < 126,
-    !,
-    put_code(Out, Length).
-put_length(Length, Out) :-
-    Length < 65536,
-    !,
-    put_code(Out, 126),
-    put_bytes(2, Length, Out).
-put_length(Length, Out) :-
-    put_code(Out, 127),
-    put_bytes(8, Length, Out).
-
-put_bytes(0, _, _) :-
+bytes(0, _, []) :-
     !.
-put_bytes(Count, Number, Out) :-
+bytes(Count, Number, [Byte|Bytes]) :-
     Left is Count - 1,
     Byte is Number >> (8 * Left) /\ 255,
-    put_code(Out, Byte),
-    put_bytes(Left, Number, Out).
+    bytes(Left, Number, Bytes).
 
 %!  ping_send(+Out) is det.
 
 ping_send(Out) :-
-    put_code(Out, 0x89),
-    put_code(Out, 0),
+    format(Out, "~s", [[0x89, 0]]),
     flush_output(Out).
 
 %!  close_send(+Out, +Code) is det.
 
 close_send(Out, Code) :-
-    put_code(Out, 0x88),
-    put_code(Out, 2),
-    put_bytes(2, Code, Out),
+    bytes(2, Code, Bytes),
+    format(Out, "~s", [[0x88, 2|Bytes]]),
     flush_output(Out).

@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""What library(ev3dev/view) costs: processor time of its threads, and delays.
+
+    benches/view.py [--seconds S]
+
+A toplevel with a simulated robot that drives in the room, at x1 of the virtual
+clock; and pages, as small as can be, that ask for 20 frames a second. Processor time
+is that of all threads but the program's, in percent of one core. Beside it the time
+from STOP to the motors' `stop`, and from a motor's start until a page is told.
+"""
+import argparse
+import base64
+import json
+import os
+import socket
+import statistics
+import struct
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parent.parent
+SWIPL = os.environ.get("SWIPL", "swipl")
+TOKEN = "bench_token"
+
+
+class Page:
+    """A websocket of the view."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=20)
+        self.read = b""
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall(
+            f"GET /ws HTTP/1.1\r\nHost: localhost:{port}\r\nOrigin: http://localhost:{port}\r\n"
+            f"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            f"Sec-WebSocket-Key: {key}\r\nCookie: ev3view_{port}={TOKEN}\r\n\r\n".encode())
+        while b"\r\n\r\n" not in self.read:
+            self.read += self.socket.recv(4096)
+        self.read = self.read.partition(b"\r\n\r\n")[2]
+
+    def take(self, count):
+        while len(self.read) < count:
+            more = self.socket.recv(1 << 16)
+            if not more:
+                raise EOFError
+            self.read += more
+        taken, self.read = self.read[:count], self.read[count:]
+        return taken
+
+    def say(self, line):
+        data = line.encode()
+        self.socket.sendall(bytes([0x81, 0x80 | len(data), 0, 0, 0, 0]) + data)
+
+    def hear(self):
+        _, length = self.take(2)
+        if length == 126:
+            length = struct.unpack(">H", self.take(2))[0]
+        elif length == 127:
+            length = struct.unpack(">Q", self.take(8))[0]
+        return json.loads(self.take(length))
+
+    def ask(self, line):
+        self.say(line)
+        return self.hear()
+
+
+class Toplevel:
+    """A toplevel with a robot and the view."""
+
+    def __init__(self):
+        goal = (f"use_module(library(ev3dev)), use_module(library(ev3dev/sim)), "
+                f"use_module(library(ev3dev/view)), sim_start(room, [clock(virtual)]), "
+                f"set_robot(5.6, 10.6, outB, outC), "
+                f"view([port(P), token({TOKEN}), open(false)]), "
+                f"format('port ~w~n', [P]), flush_output")
+        self.process = subprocess.Popen(
+            [SWIPL, "-q", "-p", f"library={TOP}/prolog", "-g", goal],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.port = int(self.process.stdout.readline().split()[1])
+
+    def query(self, text):
+        self.process.stdin.write(text + "\n")
+        self.process.stdin.flush()
+
+    def begun(self):
+        """The time that it has printed."""
+        for line in self.process.stdout:
+            if line.startswith("at("):
+                return float(line[3:].rstrip(")\n"))
+        raise EOFError
+
+    def cpu(self):
+        """Seconds of all threads but the first."""
+        of = Path(f"/proc/{self.process.pid}")
+        main = (of / "task" / str(self.process.pid) / "schedstat").read_text().split()[0]
+        alive = sum(int((task / "schedstat").read_text().split()[0])
+                    for task in (of / "task").iterdir()) / 1e9
+        return alive - int(main) / 1e9
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.kill()
+        self.process.wait()
+
+
+def watch(port, until, counts):
+    page, have, count = Page(port), "", 0
+    while time.monotonic() < until:
+        have, count = page.ask(f"next {have}".strip())["have"], count + 1
+    counts.append(count)
+
+
+def share(toplevel, pages, seconds):
+    """Percent of a core that so many pages take, and frames a second of each."""
+    counts, until = [], time.monotonic() + seconds + 1
+    threads = [threading.Thread(target=watch, args=(toplevel.port, until, counts))
+               for _ in range(pages)]
+    for thread in threads:
+        thread.start()
+    time.sleep(1)
+    before = toplevel.cpu()
+    time.sleep(seconds - 0.5)
+    percent = (toplevel.cpu() - before) / (seconds - 0.5) * 100
+    for thread in threads:
+        thread.join()
+    rate = statistics.mean(counts) / (seconds + 1) if counts else 0
+    return percent, rate
+
+
+def runs(frame):
+    return any("running" in port.get("state", []) for port in frame["ports"])
+
+
+def until(page, is_it):
+    have = ""
+    while True:
+        frame = page.ask(f"next {have}".strip())
+        have = frame["have"]
+        if is_it(frame):
+            return frame
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=10)
+    seconds = parser.parse_args().seconds
+    toplevel = Toplevel()
+    try:
+        page = Page(toplevel.port)
+        idle = share(toplevel, 1, seconds)[0]
+        print(f"one page, the robot stands: {idle:.2f} %")
+        page.ask("pace x1")
+        toplevel.query("repeat, motors_run([run(outB, 20), run(outC, 10)]), wait(0.1), fail.")
+        for pages in (0, 1, 10):
+            percent, rate = share(toplevel, pages, seconds)
+            print(f"{pages} pages, the robot drives: {percent:.2f} %, {rate:.1f} frames a second")
+        delays = []
+        for _ in range(10):
+            begun = time.monotonic()
+            page.say("stop")
+            page.hear()
+            delays.append((time.monotonic() - begun) * 1000)
+            until(page, lambda frame: frame["program"] == {"state": "idle", "latched": False})
+            toplevel.query("repeat, motors_run([run(outB, 20), run(outC, 10)]), wait(0.1), fail.")
+            until(page, runs)
+        print(f"STOP to stop: median {statistics.median(delays):.1f} ms, most {max(delays):.1f} ms")
+        page.ask("stop")
+        until(page, lambda frame: frame["program"] == {"state": "idle", "latched": False})
+        delays = []
+        for _ in range(10):
+            toplevel.query("get_time(T), motor_run(outA, 30), writeln(at(T)).")
+            until(page, runs)
+            seen = time.time()
+            delays.append((seen - toplevel.begun()) * 1000)
+            toplevel.query("motor_stop(outA).")
+            until(page, lambda frame: not runs(frame))
+        print(f"start to seen: median {statistics.median(delays):.0f} ms, most {max(delays):.0f} ms")
+    finally:
+        toplevel.end()
+
+
+if __name__ == "__main__":
+    main()
