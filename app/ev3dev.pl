@@ -36,8 +36,8 @@ main(Arguments) :-
 %!  run_command(+Arguments, -Status) is det.
 
 run_command(Arguments, Status) :-
-    catch(command_line(Arguments, Command, Files, Options), usage(Format, Values),
-          true),
+    catch(command_line(Arguments, Command, Files, Options),
+          usage(Format, Values), true),
     (   nonvar(Format)
     ->  complain(Format, Values),
         Status = 2
@@ -61,27 +61,29 @@ help :-
 help_line(`swipl ev3dev COMMAND [ARGUMENT] [OPTION ...]`).
 help_line(``).
 help_line(`  view [FILE]   show the robot in a browser, beside the toplevel`).
-help_line(`  sim WORLD     the same with a simulated robot in a world:`).
-help_line(`                room, lights, line, grid, maze, or a file of facts`).
-help_line(`  run FILE      load a program and run it: its start/0, main/0, or --goal`).
+help_line(`  sim WORLD     the same with a simulated robot, in a world: room,`).
+help_line(`                lights, line, grid, maze, or a file of facts`).
+help_line(`  run FILE      load a program, call start/0 or main/0 or --goal`).
 help_line(`  devices       what is connected`).
-help_line(`  check         try each motor and sensor; lift the robot off the ground`).
+help_line(`  check         try each motor and sensor; lift the robot first`).
 help_line(`  jog           drive with the arrow keys of the terminal`).
 help_line(``).
 help_line(`  --world W     simulate: run, devices, check, jog`).
-help_line(`  --robot R     the simulated robot: default, touch, or a file of facts`).
-help_line(`  --seed N      of the simulation's noise, which --noise switches on`).
-help_line(`  --clock C     virtual (run's default), realtime, or how many times as fast`).
-help_line(`  --for S       run: end after so many seconds, simulated ones if simulated`).
+help_line(`  --robot R     the simulated robot: default, touch, or a file`).
+help_line(`  --noise       errors as of real devices; --seed N, other ones`).
+help_line(`  --clock C     virtual (for run), realtime, or a factor`).
+help_line(`  --for S       run: end after S seconds of the robot's time`).
 help_line(`  --goal G      run: the goal`).
 help_line(`  --view        run, jog: with the view`).
-help_line(`  --port P      of the view's address; --no-open opens no browser`).
-help_line(`  --address any the view for other machines, too; else for this one alone`).
+help_line(`  --port P      of the view's address`).
+help_line(`  --address any other machines can open the view, too`).
+help_line(`  --no-open     open no browser`).
 help_line(`  --speed P     jog: percent of full speed`).
 help_line(`  --wheel D --axle L --left PORT --right PORT`).
 help_line(`                jog: the robot; 5.6, 10.6, outB and outC`).
 help_line(``).
-help_line(`Status: 0; 1 if the answer is no or the program failed; 2 for wrong arguments.`).
+help_line(`Status: 0; 1 if the answer is no, or the program failed;`).
+help_line(`2 if the command line makes no sense.`).
 
                 /*******************************
                 *         COMMAND LINE         *

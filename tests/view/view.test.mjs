@@ -64,7 +64,10 @@ group('a simulated robot', ROOM, '', (it) => {
     assert.ok(after.robot.believed, 'it was asked where it is');
     assert.ok(near(after.robot.believed.pose[0], after.robot.true[0], 3));
     assert.ok(after.charts.some((chart) => chart.title === 'speed'));
-    assert.ok(after.log.some((line) => line.kind === 'command'));
+  });
+
+  test('has its commands in the log', async () => {
+    await shows(it.page, (s) => s.log.some((line) => line.kind === 'command' && /^out[BC] /.test(line.text)), 'a command');
   });
 
   test('is dragged by a hand', async () => {
