@@ -18,11 +18,15 @@ demo(Example, Seconds, View) :-
         Goal = start
     ),
     load_files(user:examples/Example, []),
+    (   robot(Example, Robot)
+    ->  true
+    ;   Robot = default
+    ),
     (   View == true,
-        sim_start(World, [clock(realtime)]),
+        sim_start(World, [clock(realtime), robot(Robot)]),
         start_view
     ->  Pace = 'in a browser'
-    ;   sim_start(World, [clock(scaled(6))]),
+    ;   sim_start(World, [clock(scaled(6)), robot(Robot)]),
         Pace = 'six times as fast as real'
     ),
     format("~w of ~w, ~w:~n", [Goal, Example, Pace]),
@@ -61,6 +65,13 @@ example(thermometer, room, thermometer).
 example(compare_planners, grid, start).
 example(traffic_light, room, start).
 example(brick_check, room, brick_check:report).
+example(rules_light_seeker, lights, start).
+example(rules_line_follower, line, start).
+example(rules_sumo, sumo, start).
+example(rules_traffic_light, [ambient(20)], start).
+example(rules_processes, [wall(-50, 150, 50, 150)], start).
+
+robot(rules_wander, touch).
 
 %   What somebody has to do beside the robot.
 
@@ -68,6 +79,16 @@ prepare(traffic_light) :-
     !,
     sim_press(enter, [after(10)]),
     sim_press(down, [after(60)]).
+prepare(rules_line_follower) :-
+    !,
+    sim_add(circle(150, 40, 4)),
+    sim_at(10, sim_remove(circle(150, 40, 4))).
+prepare(rules_processes) :-
+    !,
+    sim_press(enter, [after(2)]),
+    sim_press(up, [after(15)]),
+    sim_press(enter, [after(30)]),
+    sim_press(down, [after(33)]).
 prepare(remote_control) :-
     !,
     sim_unplug(in4),

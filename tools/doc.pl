@@ -34,10 +34,12 @@
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
+:- use_module(library(ev3dev/rules)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
      [robot, drive, odometry, calibrate, jog]).
+task('Let a robot react', [rules, events]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
 task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors ]).

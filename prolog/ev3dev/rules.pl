@@ -73,8 +73,8 @@ Options of a rule:
 
   - while(:Condition)
     The action is left when Condition is no longer true. Its variables are its
-    own, not those of the guard. An action that has
-    returned goes on while it is true, also when the guard is not.
+    own, not those of the guard. An action that has returned goes on while it
+    is true, also when the guard is not.
   - min_time(+Seconds)
     An action that has returned goes on for at least so long.
   - cooldown(+Seconds)

@@ -97,7 +97,8 @@ It may contain any number of
     and `n` are black, blue, green, yellow, red, white and brown floor.
 
 The pack has the worlds `room` with walls and boxes, `lights` with a lamp,
-`line` with a track, `grid` with boxes in cells of 20 cm, and `maze`.
+`line` with a track, `grid` with boxes in cells of 20 cm, `maze`, and `sumo`,
+a ring.
 
 ## Robots {#sim-robots}
 

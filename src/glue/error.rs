@@ -40,9 +40,23 @@ pub(crate) fn raise<T, C: QueryableContextType>(
         // The signal handler has raised an exception already.
         return Err(PrologError::Exception);
     }
+    let formal = formal(call.context, error, devices)?;
+    throw(call, &formal, &message(error, devices))
+}
+
+/// `throw(Formal, Called, Message)`, for `private/waits.pl` to throw.
+///
+/// A nondeterministic predicate must not throw when it is called again: before SWI-Prolog 7.3,
+/// Prolog then calls it once more, to forget a state that is gone already.
+pub(crate) fn to_be_thrown<'a, C: QueryableContextType>(
+    call: &Origin<'a, C>,
+    error: &Error,
+    devices: &Registry,
+) -> PrologResult<Term<'a>> {
     let context = call.context;
     let formal = formal(context, error, devices)?;
-    throw(call, &formal, &message(error, devices))
+    let [formal, indicator, text] = ball(call, formal, &message(error, devices))?;
+    term! {context: throw(#&formal, #&indicator, #&text)}
 }
 
 /// Raises `instantiation_error` for a variable, else `type_error`.
@@ -104,21 +118,30 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRe
 /// Raises `error(Formal, context(Called, Message))`, as
 /// `prolog/ev3dev/private/errors.pl` does: that file finds the predicate that the
 /// program called, and words an empty message.
-fn throw<T, C: QueryableContextType>(
-    call: &Origin<C>,
-    formal: &Term,
+fn throw<'a, T, C: QueryableContextType>(
+    call: &Origin<'a, C>,
+    formal: &Term<'a>,
     message: &str,
 ) -> PrologResult<T> {
-    let context = call.context;
-    let indicator = context.new_term_ref();
+    let formal = formal.clone();
+    let ball = ball(call, formal, message)?;
+    call.context.call_once(pred!("ev3dev_errors:throw_error/3"), ball.each_ref())?;
+    // It has thrown.
+    Err(PrologError::Exception)
+}
+
+/// The arguments of `throw_error/3`.
+fn ball<'a, C: QueryableContextType>(
+    call: &Origin<'a, C>,
+    formal: Term<'a>,
+    message: &str,
+) -> PrologResult<[Term<'a>; 3]> {
+    let (indicator, text) = (call.context.new_term_ref(), call.context.new_term_ref());
     indicator.unify(Functor::new("/", 2))?;
     indicator.unify_arg(1, atomable(call.name))?;
     indicator.unify_arg(2, call.arity)?;
-    let text = context.new_term_ref();
     unify_atom(&text, message)?;
-    context.call_once(pred!("ev3dev_errors:throw_error/3"), [formal, &indicator, &text])?;
-    // It has thrown.
-    Err(PrologError::Exception)
+    Ok([formal, indicator, text])
 }
 
 /// The formal term of a driver's error.

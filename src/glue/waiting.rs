@@ -7,8 +7,10 @@
 //! stops the motors of a move.
 use crate::glue::call::Call;
 use crate::glue::due;
+use crate::glue::error;
 use crate::glue::state;
 use crate::glue::terms::unify_atom;
+use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
 use std::cell::{Cell, RefCell};
@@ -71,17 +73,20 @@ impl<C: QueryableContextType> Call<'_, C> {
         }
         if let Some(next) = BRANCHES.get() {
             let now = state::devices().tree().now();
-            return match self.or_throw(wait.poll(now))? {
-                Look::Over(end) => ended(end).map(|()| false),
-                Look::Again(end) => {
+            return match wait.poll(now) {
+                Err(error) => self.leave(&error, reason),
+                Ok(Look::Over(end)) => ended(end).map(|()| false),
+                Ok(Look::Again(end)) => {
                     SLICES.set(SLICES.get() + 1);
                     BRANCHES.set(Some(next.min(end)));
                     unify_atom(reason, "tick").map(|()| true)
                 }
             };
         }
-        if let Some(end) = self.or_throw(wait.slice(tick))? {
-            return ended(end).map(|()| false);
+        match wait.slice(tick) {
+            Err(error) => return self.leave(&error, reason),
+            Ok(Some(end)) => return ended(end).map(|()| false),
+            Ok(None) => {}
         }
         SLICES.set(SLICES.get() + 1);
         let now = || state::devices().tree().now();
@@ -96,6 +101,12 @@ impl<C: QueryableContextType> Call<'_, C> {
             self.context.call_once(pred!("ev3dev_waits:serve_at_read/0"), [])?;
         }
         Ok(())
+    }
+
+    /// The end of a wait by an error, for Prolog to throw.
+    fn leave(&self, error: &Error, reason: &Term) -> PrologResult<bool> {
+        reason.unify(&error::to_be_thrown(self, error, &state::devices())?)?;
+        Ok(false)
     }
 
     /// The same for a wait whose end is a reason.

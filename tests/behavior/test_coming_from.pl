@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
 :- use_module(library(readutil)).

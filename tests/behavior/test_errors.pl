@@ -8,6 +8,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
 :- use_module(library(lists)).
@@ -62,6 +63,27 @@ bad(sim_press(enter), [space-1, _-1]).
 bad(sim_press(enter, []), [space-1, [soon]-2]).
 bad(sim_remote(1, []), [5-1, a-2, [green]-2]).
 bad(sim_restore(_), [a-1, _-1]).
+bad(behave([]), [a-1, _-1, [_]-1, [7]-1, [nowhere]-1, [(7 :: true ~> true)]-1]).
+bad(behave([]), [[(_ :: true ~> true)]-1, [(a :: _ ~> true)]-1, [(a :: true ~> 7)]-1]).
+bad(behave([]), [[(a, sped(5) :: true ~> true)]-1]).
+bad(behave([], []), [a-1, [nowhere]-1, _-2, [sped(5)]-2, [timeout(-1)]-2, [timeout(a)]-2]).
+bad(behave([], []), [[period(-1)]-2, [on_error(stop)]-2, [until(7)]-2, [trace(7)]-2]).
+bad(become([]), [a-1, _-1, [nowhere]-1, []-1]).
+bad(state(_), [start-1]).
+bad(set_state(start), [_-1, start-1]).
+bad(send_message(hello), [_-1, hello-1]).
+bad(received(_), [hello-1]).
+bad(on(true, true), [7-1, _-1, 7-2, _-2]).
+bad(on(true, true, []), [7-1, _-2, a-3, [sped(5)]-3, [id(_)]-3, [count(0)]-3, [count(a)]-3]).
+bad(on(true, true, []), [[stable(-1)]-3, [stable(a)]-3, [rearm(7)]-3]).
+bad(every(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
+bad(every(1, true, []), [a-1, 7-2, [stable(1)]-3, [count(0)]-3]).
+bad(after(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
+bad(after(1, true, []), [a-1, 7-2, [count(2)]-3]).
+bad(both(true, true), [7-1, _-1, 7-2, _-2]).
+bad(race([true], _), [a-1, _-1, [7]-1, [_]-1]).
+bad(until(true, true), [7-1, _-1, 7-2, _-2]).
+bad(until(true, true, _), [7-1, _-1, 7-2, _-2]).
 
 :- begin_tests(errors).
 
@@ -101,6 +123,9 @@ test(list_what_is_allowed,
                        button_wait(space, _)-"up, down, left",
                        motor_polarity(outB, upside)-"normal, inversed",
                        calibrate(all, [], _)-"wheels, axle",
+                       behave([], [on_error(stop)])-"throw, continue",
+                       behave([], [sped(5)])-"until, timeout",
+                       on(true, true, [sped(5)])-"id, count",
                        sim_start(room, [clock(slow)])-"realtime" ])) ]) :-
     with_sim(room, catch(Goal, error(_, context(_, Message)), true)),
     assertion(sub_atom(Message, _, _, _, Words)).
@@ -150,6 +175,11 @@ measure(X, navigate_to([], 1-1, [sensor(0, 7, X)])).
 measure(X, sim_place(40, 40, X)).
 measure(X, sim_wait(X)).
 measure(X, wait(X)).
+measure(X, behave([], [timeout(X)])).
+measure(X, behave([], [timeout(1), period(X)])).
+measure(X, on(fail, true, [stable(X), id(measure)])).
+measure(X, every(X, true, [count(1), id(measure)])).
+measure(X, after(X, true, [id(measure)])).
 measure(X, sim_at(X, true)).
 measure(X, for_seconds(X, true)).
 measure(X, sim_press(up, [after(X)])).

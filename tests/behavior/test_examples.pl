@@ -12,6 +12,7 @@ test(loads_without_a_word, [forall(example(File)), true(Said-End == ""-exit(0))]
 test(loads_beside_any_library,
      [forall(example(File)), true(Said-End == ""-exit(0))]) :-
     loads(File, maplist(use_module, [ library(ev3dev/drive),
+                                      library(ev3dev/rules),
                                       library(ev3dev/grid),
                                       library(ev3dev/planners),
                                       library(ev3dev/roadmap),

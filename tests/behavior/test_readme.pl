@@ -16,6 +16,7 @@
 
 test(their_queries_succeed, [forall(paper(File)), true(Failed == [])]) :-
     queries(File, Queries),
+    load_programs(File),
     with_sim(room,
              in_temporary_directory(
                  findall(Query,
@@ -56,7 +57,8 @@ test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
 test(each_predicate_is_in_the_table, true(Missing == [])) :-
     read_file_to_string('docs/predicates.md', Text, []),
     findall(Name/Arity,
-            ( member(Library, [ev3dev, drive, odometry, calibrate, grid,
+            ( member(Library, [ev3dev, drive, events, rules,
+                               odometry, calibrate, grid,
                                planners, roadmap, navigation, sim]),
               ( Library == ev3dev -> Alias = ev3dev ; Alias = ev3dev/Library ),
               absolute_file_name(library(Alias), File,
@@ -132,6 +134,45 @@ queries(File, Queries) :-
               sub_string(Rest, 0, Before, _, Query)
             ),
             Queries).
+
+%   The queries of this paper call its programs: its other code blocks.
+
+load_programs('docs/reactive.md') :-
+    !,
+    read_file_to_string('docs/reactive.md', Text, []),
+    split_string(Text, "\n", "", Lines),
+    phrase(programs(Programs), Lines),
+    forall(nth1(Index, Programs, Program),
+           ( atomic_list_concat(Program, '\n', Code),
+             format(atom(Name), 'reactive_~w', [Index]),
+             setup_call_cleanup(
+                 open_string(Code, In),
+                 load_files(user:Name, [stream(In)]),
+                 close(In)) )).
+load_programs(_).
+
+programs(Programs) -->
+    ["```prolog"],
+    !,
+    block(Lines),
+    { (   member(Line, Lines), sub_string(Line, 0, _, _, "?- ")
+      ->  Programs = Rest
+      ;   Programs = [Lines|Rest]
+      ) },
+    programs(Rest).
+programs(Programs) -->
+    [_],
+    !,
+    programs(Programs).
+programs([]) -->
+    [].
+
+block([]) -->
+    ["```"],
+    !.
+block([Line|Lines]) -->
+    [Line],
+    block(Lines).
 
 picture(Bytes) :-
     tmp_file(picture, File),

@@ -37,8 +37,10 @@ forget :-
 times(Notes, What, Times) :-
     findall(T, member(T-What, Notes), Times).
 
-near_all(Times, Expected) :-
-    maplist([T, E]>>near(T, E, 0.025), Times, Expected).
+near_all([], []).
+near_all([Time|Times], [Expected|Rest]) :-
+    near(Time, Expected, 0.025),
+    near_all(Times, Rest).
 
 :- meta_predicate messages(0, -).
 
@@ -121,7 +123,7 @@ test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
     noted([], ( on(wait(1), true, [id(x)]), wait(2) ), _).
 test(each_thread_has_its_own, true(Kinds-Notes == []-[])) :-
     noted([1-raise(a)],
-          ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id),
+          ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id, []),
             thread_join(Id, true),
             findall(K, event(_, K), Kinds), wait(2) ), Notes).
 

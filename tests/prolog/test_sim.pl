@@ -13,7 +13,7 @@ empty([start(0, 0, 0)]).
 :- begin_tests(sim_start).
 
 test(starts_each_shipped_world,
-     [forall(member(World, [room, lights, line, grid, maze]))]) :-
+     [forall(member(World, [room, lights, line, grid, maze, sumo]))]) :-
     with_sim(World, sim_collisions([])).
 test(shows_the_robot_of_the_paper) :-
     with_sim(room, findall(P-T, ( tacho_motor(P, T) ; lego_sensor(P, T) ), Devices)),

@@ -383,9 +383,9 @@ test(a_program_that_was_started_does_not_keep_the_port) :-
     quietly(view([port(Port), token(Token), open(false)])),
     page_open(Port, Token, Page),
     % Until it has begun it is a copy of this program.
-    process_create(path(sh), ['-c', 'echo begun; exec sleep 20 >/dev/null'],
+    process_create(path(sh), ['-c', 'echo begun; exec sleep 20'],
                    [ process(Pid), stdout(pipe(Out)) ]),
-    read_stream_to_codes(Out, _),
+    read_line_to_string(Out, "begun"),
     close(Out),
     call_cleanup(( view_stop,
                    viewed(Port, true) ),

@@ -85,6 +85,7 @@ allowed(neighbors,         [4, 8]).
 allowed(nonnegative_number, 'a number from 0 on is expected').
 allowed(note,               'a note is named like c4 or fs5').
 allowed(note_length,        [whole, half, quarter, eighth, sixteenth]).
+allowed(on_error,           [throw, continue]).
 allowed(pid,                'a term pid(P, I, D) is expected').
 allowed(pixels,             'a number from -10000 to 10000 is expected').
 allowed(place,              'a place X-Y is expected').

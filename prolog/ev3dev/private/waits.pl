@@ -17,7 +17,8 @@
 /** <module> Waits, and what happens meanwhile
 
 A native wait returns `pause` or `tick` after each slice of time, with a
-choice point, and at its end its reason. So a caller writes
+choice point, and at its end its reason, or what is to be thrown. So a caller
+writes
 
 ```
     wait_(Seconds, Reason),
@@ -51,6 +52,8 @@ waited(Reason) :-
     ->  no_guard,
         serve,
         fail
+    ;   Reason = throw(Formal, Called, Message)
+    ->  throw_error(Formal, Called, Message)
     ;   true
     ).
 

@@ -191,6 +191,8 @@ sample("p --> q, { nb_dict(1) }, call(r), [x], !. q --> \"a\". r(_, _).",
                 *           SYNTAX             *
                 *******************************/
 
+sample(":- use_module(library(ev3dev/rules)).\na :: true ~> true.", []).
+sample("a :: true ~> true.", [syntax-operator_expected]).
 sample("p(X), X > 3 => true.\np(_).", [syntax-operator_expected]).
 sample("p(X) :- X = 1r3.", [syntax-1r3]).
 sample("p(X) :- X = f(1.0Inf).", [syntax-Inf]) :-

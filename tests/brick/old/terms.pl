@@ -68,7 +68,16 @@ new_operator((:- module(_, Exports)), op(Priority, Type, Name)) :-
     member(op(Priority, Type, Name), Exports).
 new_operator((:- Directive), op(Priority, Type, Name)) :-
     library_goal(Directive, library(Library), _),
-    old_export(Library, op(Priority, Type, Name)).
+    (   old_export(Library, op(Priority, Type, Name))
+    ;   pack_export(Library, op(Priority, Type, Name))
+    ).
+
+%   What a library of the pack exports.
+pack_export(ev3dev/Name, Export) :-
+    atomic_list_concat(['prolog/ev3dev/', Name, '.pl'], File),
+    exists_file(File),
+    declared_exports(File, Exports),
+    member(Export, Exports).
 
 %!  declared_exports(+File, -Exports) is semidet.
 %

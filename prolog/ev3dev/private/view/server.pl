@@ -65,8 +65,8 @@ server_start(Address, Port, Token) :-
 :- dynamic user:message_hook/3.
 
 %   library(http) reads a line of any length: what does not fit into these
-%   stacks ends the request. Before version 8 there is one for each purpose, in
-%   kilobytes.
+%   stacks ends the request. Before version 8 there is one for each purpose,
+%   in kilobytes.
 stack_options(Options) :-
     (   current_prolog_flag(version, Version),
         Version >= 80000
