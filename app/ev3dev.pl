@@ -61,8 +61,8 @@ help :-
 help_line(`swipl ev3dev COMMAND [ARGUMENT] [OPTION ...]`).
 help_line(``).
 help_line(`  view [FILE]   show the robot in a browser, and the toplevel`).
-help_line(`  sim WORLD     the same with a simulated robot in a world: room,`).
-help_line(`                lights, line, grid, maze, or a file of facts`).
+help_line(`  sim WORLD     the same with a simulated robot in a world:`).
+help_line(`                room, lights, line, grid, maze, or a file`).
 help_line(`  run FILE      load a program, call start/0 or main/0 or --goal`).
 help_line(`  devices       what is connected`).
 help_line(`  check         try each motor and sensor; lift the robot first`).
