@@ -6,13 +6,13 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(time)).
 
-%!  demo(+Example, +Seconds, +View)
+%!  show(+Example, +Seconds, +View)
 %
 %   Run an example for at most Seconds by the wall: as fast as in reality with
 %   the view in a browser, if View is true; six times as fast without.
 
-demo(Example, Seconds, View) :-
-    (   example(Example, World, Goal)
+show(Example, Seconds, View) :-
+    (   demo(Example, World, Goal)
     ->  true
     ;   World = room,
         Goal = start
@@ -53,23 +53,23 @@ start_view :-
           Error,
           ( print_message(warning, Error), fail )).
 
-example(obstacle_avoidance, room, start).
-example(grid_navigation, grid, start).
-example(braitenberg, lights, vehicle(taste)).
-example(line_following, line, start).
-example(square, [start(0, 0, 0)], start).
-example(slalom, Poles, start) :-
+demo(obstacle_avoidance, room, start).
+demo(grid_navigation, grid, start).
+demo(braitenberg, lights, vehicle(taste)).
+demo(line_following, line, start).
+demo(square, [start(0, 0, 0)], start).
+demo(slalom, Poles, start) :-
     findall(circle(0, Y, 3), member(Y, [30, 90, 150, 210]), Poles).
-example(remote_control, [start(0, 0, 0)], drive).
-example(thermometer, room, thermometer).
-example(compare_planners, grid, start).
-example(traffic_light, room, start).
-example(brick_check, room, brick_check:report).
-example(rules_light_seeker, lights, start).
-example(rules_line_follower, line, start).
-example(rules_sumo, sumo, start).
-example(rules_traffic_light, [ambient(20)], start).
-example(rules_processes, [wall(-50, 150, 50, 150)], start).
+demo(remote_control, [start(0, 0, 0)], drive).
+demo(thermometer, room, thermometer).
+demo(compare_planners, grid, start).
+demo(traffic_light, room, start).
+demo(brick_check, room, brick_check:report).
+demo(rules_light_seeker, lights, start).
+demo(rules_line_follower, line, start).
+demo(rules_sumo, sumo, start).
+demo(rules_traffic_light, [ambient(20)], start).
+demo(rules_processes, [wall(-50, 150, 50, 150)], start).
 
 robot(rules_wander, touch).
 

@@ -20,4 +20,4 @@ if [ ! -f "examples/$example.pl" ]; then
     echo "There is no examples/$example.pl; there are:" examples/*.pl >&2
     exit 1
 fi
-exec "${SWIPL:-swipl}" -g "demo('$example', $seconds, $view)" -t 'halt(1)' tools/demo.pl
+exec "${SWIPL:-swipl}" -g "show('$example', $seconds, $view)" -t 'halt(1)' tools/demo.pl
