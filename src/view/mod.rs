@@ -29,6 +29,7 @@ pub(crate) fn register() {
     register_view_close();
     register_view_thread();
     register_view_keep_sockets();
+    register_view_hang_up();
     register_view_frame();
     register_view_keep();
     register_view_log();
@@ -83,6 +84,15 @@ predicates! {
     semidet fn view_keep_sockets(context, port) {
         let port = Call::of(context, "view", 1).integer(port)?;
         threads::keep_sockets(u16::try_from(port).unwrap_or_default());
+        Ok(())
+    }
+
+    /// view_hang_up_(+Port): ends the connections to a port.
+    #[module("ev3dev_native")]
+    #[name("view_hang_up_")]
+    semidet fn view_hang_up(context, port) {
+        let port = Call::of(context, "view_stop", 0).integer(port)?;
+        threads::hang_up_all(u16::try_from(port).unwrap_or_default());
         Ok(())
     }
 

@@ -378,6 +378,18 @@ test(the_server_starts_again_while_pages_are_open,
              page_ask(Page2, "next", Frame),
              page_close(Page2) )),
     Type = Frame.type.
+test(a_connection_that_says_nothing_holds_nobody_up, true(Took < 3)) :-
+    token(Token),
+    quietly(view([port(Port), token(Token), open(false)])),
+    web:connect(Port, In, Out),
+    own(Port, Fields),
+    get(Port, '/missing', Fields, 404, _),
+    get_time(Before),
+    view_stop,
+    get_time(After),
+    close(In, [force(true)]),
+    close(Out, [force(true)]),
+    Took is After - Before.
 test(a_program_that_was_started_does_not_keep_the_port) :-
     token(Token),
     quietly(view([port(Port), token(Token), open(false)])),
@@ -392,6 +404,10 @@ test(a_program_that_was_started_does_not_keep_the_port) :-
                  ( process_kill(Pid),
                    process_wait(Pid, _),
                    page_close(Page) )).
+
+own(Port, [Cookie]) :-
+    token(Token),
+    cookie(Port, Token, Cookie).
 
 fields_of(Port, [Cookie, Origin]) :-
     token(Token),
@@ -695,6 +711,7 @@ with_toplevel(top(In, Out, Page), Goal) :-
         ( read_line_to_string(Out, Line),
           split_string(Line, " ", "", ["port", Port0]),
           number_string(Port, Port0),
+          nb_setval(view_port, Port),
           page_open(Port, Token, Page),
           once(Goal),
           page_close(Page),
@@ -765,6 +782,21 @@ test(program, [forall(program(Text))]) :-
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
           \+ runs(Frame2) )).
+test(a_request_stops_the_program, true(Code == 200)) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "motor_run(outA, 50), repeat, wait(0.1), fail."),
+          frame_with(Page, Frame, runs(Frame), 2000),
+          nb_getval(view_port, Port),
+          token(Token),
+          cookie(Port, Token, Cookie),
+          format(string(Host), "localhost:~w", [Port]),
+          string_concat("Host: ", Host, HostLine),
+          string_concat("Origin: http://", Host, Origin),
+          request(Port, [ "POST /stop HTTP/1.1", HostLine, Origin, Cookie,
+                          "Connection: close", "Content-Length: 0" ], Code, _),
+          frame_with(Page, Last, ended(Last), 5000),
+          \+ runs(Last) )).
 test(a_goal_has_answers) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),

@@ -60,6 +60,12 @@ pub fn keep_from_children(descriptor: i32) {
     let _ = unsafe { libc::fcntl(descriptor, libc::F_SETFD, libc::FD_CLOEXEC) };
 }
 
+/// Ends the connection of a socket, so that a thread that waits for it goes on.
+pub fn hang_up(descriptor: i32) {
+    // Safety: sends no data. What is no socket stays as it is.
+    let _ = unsafe { libc::shutdown(descriptor, libc::SHUT_RDWR) };
+}
+
 /// A file that is told `stop` in a crash. Dropped before the file is closed.
 #[derive(Debug)]
 pub struct Kept(&'static AtomicI32);

@@ -118,6 +118,7 @@
             view_close_/0,
             view_csv_/1,
             view_frame_/4,
+            view_hang_up_/1,
             view_json_/2,
             view_keep_/2,
             view_keep_sockets_/1,
@@ -363,6 +364,7 @@ missing.
 %!  view_close_ is det.
 %!  view_csv_(-Text) is semidet.
 %!  view_frame_(+Have, +State, +Settings, -Text) is det.
+%!  view_hang_up_(+Port) is det.
 %!  view_json_(+Text, -Json) is det.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_keep_sockets_(+Port) is det.

@@ -7,7 +7,8 @@
               [http_server/2, http_spawn/2, http_stop_server/2]).
 :- use_module(library(http/http_stream), []).
 :- use_module('../native',
-              [view_csv_/1, view_keep_sockets_/1, view_world_/1]).
+              [ view_csv_/1, view_hang_up_/1, view_keep_sockets_/1,
+                view_world_/1 ]).
 :- use_module(page, [page_serve/2, pages/1]).
 :- use_module(program, [stop_program/0, view_thread/0]).
 :- use_module(socket, [accept_key/2]).
@@ -88,6 +89,8 @@ pass_over(Thread) :-
 
 server_stop(Port) :-
     retractall(served(_, _, _)),
+    % A browser keeps connections open, and a worker waits for each.
+    view_hang_up_(Port),
     catch(http_stop_server(Port, []), _, true).
 
 :- prolog_load_context(directory, Here),
