@@ -9,9 +9,9 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-bench check-torture check-all check-old check-dist \
+.PHONY: all setup build check check-rust check-prolog check-clients check-view check-bench check-torture check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
-        lint bench doc dist demo install clean distclean realclean
+        lint bench pictures doc dist demo install clean distclean realclean
 
 all: build
 
@@ -34,7 +34,7 @@ place:
 	@mv -f "$(LIBRARY).new" "$(LIBRARY)"
 
 # In minutes
-check: build check-rust check-prolog check-clients check-bench
+check: build check-rust check-prolog check-clients check-view check-bench
 
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
@@ -53,6 +53,14 @@ check-prolog:
 # Programs in other languages on the simulator's mount
 check-clients: build
 	@tests/clients/run.sh
+
+# The page of library(ev3dev/view) in a headless Chromium, where there is one
+check-view: build
+	@tests/view/run.sh
+
+# The pictures of README.md and docs/view.md, from the simulator
+pictures: build
+	@tests/view/run.sh --pictures
 
 # The bench still runs, and its tables are those of its last run
 check-bench: build

@@ -6,24 +6,30 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(time)).
 
-%!  demo(+Example, +Seconds)
+%!  show(+Example, +Seconds, +View)
 %
-%   Run an example for so many seconds by the wall at most, six times as fast
-%   as in reality.
+%   Run an example for at most Seconds by the wall: as fast as in reality with
+%   the view in a browser, if View is true; six times as fast without.
 
-demo(Example, Seconds) :-
+show(Example, Seconds, View) :-
     (   demo(Example, World, Goal)
     ->  true
     ;   World = room,
         Goal = start
     ),
     load_files(user:examples/Example, []),
-    format("~w of ~w, six times as fast as real:~n", [Goal, Example]),
     (   robot(Example, Robot)
     ->  true
     ;   Robot = default
     ),
-    sim_start(World, [clock(scaled(6)), robot(Robot)]),
+    (   View == true,
+        sim_start(World, [clock(realtime), robot(Robot)]),
+        start_view
+    ->  Pace = 'in a browser'
+    ;   sim_start(World, [clock(scaled(6)), robot(Robot)]),
+        Pace = 'six times as fast as real'
+    ),
+    format("~w of ~w, ~w:~n", [Goal, Example, Pace]),
     thread_create(tell, Teller),
     prepare(Example),
     catch(call_with_time_limit(Seconds, ignore(user:Goal)),
@@ -37,6 +43,15 @@ demo(Example, Seconds) :-
            [Count]),
     sim_svg('demo.svg'),
     halt(0).
+
+%   Prints its address. Without library(http) the demo goes on without it.
+
+start_view :-
+    catch(( use_module(library(ev3dev/view)),
+            View = ev3dev_view:view,
+            call(View) ),
+          Error,
+          ( print_message(warning, Error), fail )).
 
 demo(obstacle_avoidance, room, start).
 demo(grid_navigation, grid, start).

@@ -42,6 +42,7 @@ source(File) :-
 source(File) :-
     expand_file_name('examples/*.pl', Files),
     member(File, Files).
+source('app/ev3dev.pl').
 source('tests/brick/smoke.pl').
 source('tests/brick/example.pl').
 

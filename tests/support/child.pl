@@ -2,6 +2,7 @@
           [ run_program/4,              % +Text, +Options, -Status, -Output
             start_program/3,            % +Text, +Options, -Child
             run_state/4,                % +File, +Options, -Status, -Output
+            run_script/4,               % +File, +Arguments, -Status, -Output
             end_program/3,              % +Child, -Status, -Output
             end_output/2                % +Child, -Output
           ]).
@@ -78,6 +79,15 @@ start(Arguments, Options, Pid, Out) :-
 
 run_state(File, Options, Status, Output) :-
     start(['-x', file(File)], Options, Pid, Out),
+    read_to_end(Out, Output),
+    process_wait(Pid, Status).
+
+%!  run_script(+File, +Arguments, -Status, -Output)
+%
+%   As run_program/4, but of a file, which gets Arguments.
+
+run_script(File, Arguments, Status, Output) :-
+    start(['-q', '-f', none, File | Arguments], [], Pid, Out),
     read_to_end(Out, Output),
     process_wait(Pid, Status).
 

@@ -88,7 +88,7 @@ named(Pattern, Prefix, Name, File) :-
 source(File) :-
     member(Pattern, ['pack.pl', 'prolog/*.pl', 'prolog/*/*.pl',
                      'prolog/*/*/*.pl', 'prolog/*/*/*/*.pl',
-                     'examples/*.pl']),
+                     'examples/*.pl', 'app/*.pl']),
     expand_file_name(Pattern, Files),
     member(File, Files).
 

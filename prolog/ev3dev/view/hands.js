@@ -1,0 +1,264 @@
+// STOP, time, driving with the arrow keys, and the menus.
+
+import { $, attribute, el, notice, pressed, toggle } from './dom.js';
+import { LAYERS } from './world.js';
+
+const PACES = [['x1', '×1'], ['x2', '×2'], ['x10', '×10'], ['max', 'max']];
+const ARROWS = { ArrowUp: 'ahead', ArrowDown: 'back', ArrowLeft: 'left', ArrowRight: 'right' };
+const JOG_SPEED = 30;
+const JOG_AGAIN = 150;
+
+export class Hands {
+  constructor(wire, world, charts, log, ports) {
+    Object.assign(this, { wire, world, charts, log, ports });
+    this.held = new Set();
+    this.paces = new Map(PACES.map(([pace, name]) => {
+      const button = el('button', { type: 'button', 'aria-pressed': 'false', title: pace === 'max' ? 'As fast as possible' : `${name.slice(1)} times as fast as real` }, name);
+      button.addEventListener('click', () => wire.send(`pace ${pace}`));
+      return [pace, button];
+    }));
+    $('speeds').append(...this.paces.values());
+    $('stop').addEventListener('click', () => this.stop());
+    $('pause').addEventListener('click', () => this.pause());
+    $('step').addEventListener('click', () => wire.send('step'));
+    $('zoom-in').addEventListener('click', () => world.zoom(1.5));
+    $('zoom-out').addEventListener('click', () => world.zoom(1 / 1.5));
+    $('fit').addEventListener('click', () => world.unfollow(() => world.fit()));
+    $('follow').addEventListener('click', () => this.follow());
+    $('measure').addEventListener('click', () => world.use('measure'));
+    $('add-box').addEventListener('click', () => world.use('add-box'));
+    $('drive').addEventListener('click', () => this.drive(!this.driving));
+    $('layers').addEventListener('click', () => this.menu('layers'));
+    $('more').addEventListener('click', () => this.menu('more'));
+    world.changed = () => this.tools();
+    for (const button of $('pad').querySelectorAll('[data-jog]')) {
+      const way = button.dataset.jog;
+      button.addEventListener('pointerdown', (event) => {
+        button.setPointerCapture(event.pointerId);
+        this.jog(way, true);
+      });
+      for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) button.addEventListener(end, () => this.jog(way, false));
+      button.addEventListener('keydown', (event) => { if (event.key === 'Enter' || event.key === ' ') { this.jog(way, true); event.preventDefault(); } });
+      button.addEventListener('keyup', () => this.jog(way, false));
+    }
+    document.addEventListener('keydown', (event) => this.key(event));
+    document.addEventListener('keyup', (event) => { if (ARROWS[event.key]) this.jog(ARROWS[event.key], false); });
+    addEventListener('blur', () => this.letGo());
+    document.addEventListener('pointerdown', (event) => {
+      if (!event.target.closest('.menu, [aria-expanded=true]')) this.close();
+    });
+    this.tools();
+  }
+
+  stop() {
+    this.letGo();
+    this.wire.stop();
+    toggle($('stop'), 'pressed', true);
+    setTimeout(() => toggle($('stop'), 'pressed', false), 160);
+  }
+
+  take(model) {
+    this.model = model;
+    const { clock } = model.frame;
+    const { simulated } = model;
+    this.latch(model.frame.program?.latched === true);
+    $('transport').hidden = !simulated;
+    toggle(document.body, 'real', !simulated);
+    if (simulated && clock) {
+      pressed($('pause'), clock.paused);
+      const words = clock.paused ? 'Go on' : 'Pause';
+      if ($('pause').title !== `${words} (space)`) {
+        $('pause').title = `${words} (space)`;
+        attribute($('pause').querySelector('use'), 'href', clock.paused ? '#i-play' : '#i-pause');
+      }
+      // Where the wall's clock counts, nothing is faster than x10.
+      this.paces.get('max').hidden = clock.kind !== 'virtual' && clock.pace !== 'max';
+      for (const [pace, button] of this.paces) pressed(button, clock.pace === pace);
+    }
+  }
+
+  /** After STOP motors stay locked until the program has ended. */
+  latch(on) {
+    if (!on) {
+      if (this.told) notice('');
+      this.latched = this.told = false;
+      return;
+    }
+    this.latched ||= performance.now();
+    if (this.told || performance.now() - this.latched < 1500) return;
+    this.told = true;
+    notice('The motors stay locked until the program ends.', { act: ['Unlock', () => this.wire.send('go')] });
+  }
+
+  pause() {
+    this.wire.send(this.model?.frame.clock?.paused ? 'resume' : 'pause');
+  }
+
+  follow() {
+    this.world.follow(!this.world.following);
+    this.tools();
+  }
+
+  tools() {
+    pressed($('follow'), this.world.following);
+    pressed($('measure'), this.world.tool === 'measure');
+    pressed($('add-box'), this.world.tool === 'add-box');
+    pressed($('drive'), this.driving === true);
+    this.world.told();
+  }
+
+  // ------------------------------------------------------------- driving
+
+  drive(on) {
+    this.driving = on;
+    $('pad').hidden = !on;
+    if (!on) this.letGo();
+    this.tools();
+  }
+
+  jog(way, on) {
+    if (!this.driving || this.held.has(way) === on) return;
+    if (on) this.held.add(way);
+    else this.held.delete(way);
+    $('pad').querySelector(`[data-jog=${way}]`).classList.toggle('on', on);
+    clearInterval(this.again);
+    this.wheels();
+    if (this.held.size) this.again = setInterval(() => this.wheels(), JOG_AGAIN);
+  }
+
+  wheels() {
+    const has = (way) => (this.held.has(way) ? 1 : 0);
+    const along = has('ahead') - has('back');
+    const turn = (has('right') - has('left')) * (along ? 0.4 : 0.6) * (along < 0 ? -1 : 1);
+    const speed = (n) => Math.round(JOG_SPEED * Math.max(-1, Math.min(1, n)));
+    this.wire.send(`jog ${speed(along + turn)} ${speed(along - turn)}`);
+  }
+
+  letGo() {
+    if (!this.held.size) return;
+    for (const way of [...this.held]) this.jog(way, false);
+  }
+
+  // ------------------------------------------------------------- keys
+
+  key(event) {
+    if (event.key === 'Escape') {
+      this.close();
+      this.stop();
+      event.preventDefault();
+      return;
+    }
+    const { target } = event;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input')) return;
+    if (ARROWS[event.key] && this.driving && !target.closest('.charts, .log')) {
+      if (!event.repeat) this.jog(ARROWS[event.key], true);
+      event.preventDefault();
+      return;
+    }
+    if (target.id === 'world' && ARROWS[event.key]) {
+      this.pan(event.key);
+      event.preventDefault();
+      return;
+    }
+    if (event.repeat || (event.key === ' ' && target.closest('button'))) return;
+    const { world, model } = this;
+    const act = {
+      ' ': () => model?.simulated && this.pause(),
+      '.': () => model?.simulated && this.wire.send('step'),
+      '+': () => world.zoom(1.5),
+      '=': () => world.zoom(1.5),
+      '-': () => world.zoom(1 / 1.5),
+      0: () => world.unfollow(() => world.fit()),
+      f: () => this.follow(),
+      m: () => world.use('measure'),
+      b: () => model?.simulated && world.use('add-box'),
+      d: () => this.drive(!this.driving),
+      h: () => this.charts.hold(this.charts.held === null),
+    }[event.key.toLowerCase()];
+    if (!act) return;
+    act();
+    event.preventDefault();
+  }
+
+  pan(key) {
+    const { world } = this;
+    const step = 60 / world.camera.scale;
+    world.unfollow(() => {
+      world.camera.own = true;
+      world.camera.x += { ArrowLeft: -step, ArrowRight: step }[key] ?? 0;
+      world.camera.y += { ArrowUp: step, ArrowDown: -step }[key] ?? 0;
+    });
+  }
+
+  // ------------------------------------------------------------- menus
+
+  menu(name) {
+    const open = $(`${name}-menu`).hidden;
+    this.close();
+    if (!open) return;
+    const menu = $(`${name}-menu`);
+    menu.replaceChildren(...(name === 'layers' ? this.layers() : this.simulation()));
+    menu.hidden = false;
+    attribute($(name), 'aria-expanded', true);
+    this.opened = name;
+    menu.querySelector('button')?.focus();
+  }
+
+  close() {
+    this.ports.close();
+    if (!this.opened) return;
+    const menu = $(`${this.opened}-menu`);
+    const inside = menu.contains(document.activeElement);
+    menu.hidden = true;
+    attribute($(this.opened), 'aria-expanded', false);
+    if (inside) $(this.opened).focus();
+    this.opened = null;
+  }
+
+  layers() {
+    const { world } = this;
+    return LAYERS.map(([name, words]) => {
+      const button = el('button', { type: 'button', class: 'check', role: 'checkbox', 'aria-checked': String(world.shown[name]) }, words);
+      button.addEventListener('click', () => {
+        world.shown[name] = !world.shown[name];
+        attribute(button, 'aria-checked', world.shown[name]);
+        world.legend();
+        world.draw();
+      });
+      return button;
+    });
+  }
+
+  simulation() {
+    const entry = (words, act) => {
+      const button = el('button', { type: 'button' }, words);
+      button.addEventListener('click', () => {
+        this.close();
+        act();
+      });
+      return button;
+    };
+    const taken = this.model.snapshots ?? [];
+    let n = 1;
+    while (taken.includes(`snapshot-${n}`)) n += 1;
+    return [
+      entry('Take a snapshot', () => this.wire.send(`save snapshot-${n}`)),
+      ...taken.map((name) => entry(`Go back to ${name}`, () => this.wire.send(`restore ${name}`))),
+      entry('Save the world as facts', () => el('a', { href: 'world.pl', download: 'world.pl' }).click()),
+      entry('Save the log', () => this.log.save()),
+    ];
+  }
+
+  /** What the program answered to a hand. */
+  reply({ type, what, why, id }) {
+    if (type === 'refused') notice(sentence(why ?? `It cannot ${what}.`), { seconds: 6 });
+    else if (what === 'save') notice('The snapshot is taken.', { seconds: 3 });
+    if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);
+  }
+}
+
+function sentence(words) {
+  const first = words[0].toUpperCase() + words.slice(1);
+  return /[.!?]$/.test(first) ? first : `${first}.`;
+}
+

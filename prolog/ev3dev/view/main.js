@@ -1,0 +1,189 @@
+// The page: takes frames, shows them, and asks for the next.
+
+import { $, clock, notice, text, toggle } from './dom.js';
+import { Brick } from './brick.js';
+import { Charts } from './charts.js';
+import { Hands } from './hands.js';
+import { Log } from './log.js';
+import { Model } from './model.js';
+import { Ports } from './ports.js';
+import { Wire } from './wire.js';
+import { World } from './world.js';
+
+const PHASES = ['waiting', 'live', 'lost', 'refused'];
+const LOST = 'The program has ended, or the view was stopped. The page goes on when it is there again.';
+const REFUSED = 'The view was started again. Open the address that it printed.';
+
+// The token is in the cookie now, and need not stay in the address.
+if (location.search) history.replaceState(null, '', location.pathname);
+
+const model = new Model();
+let phase = 'waiting';
+let waiting = false;
+let animation = 0;
+let arrived = 0;
+let interval = 50;
+
+const send = (line) => wire.send(line);
+const world = new World(send);
+const charts = new Charts(() => model.frame && ports.take(model));
+const ports = new Ports(send, (column) => charts.plot(column), (column) => charts.plotted(column));
+const brick = new Brick(send);
+const log = new Log(send);
+const wire = new Wire({ state, frame, reply });
+const hands = new Hands(wire, world, charts, log, ports);
+
+// ----------------------------------------------------------------- the line
+
+function state(name) {
+  if (name === 'lost' && phase === 'refused') return;
+  phase = name;
+  for (const each of PHASES) toggle(document.body, each, each === name);
+  if (name === 'live') notice('');
+  else if (name === 'refused') notice(REFUSED, { bad: true });
+  else if (model.frame) notice(LOST, { bad: true });
+  else notice('The program does not answer. The page goes on when it does.', { bad: true });
+  if (name !== 'live') heading();
+}
+
+function reply(message) {
+  if (message.type === 'answer') log.answer(message);
+  else hands.reply(message);
+}
+
+function frame(next) {
+  const now = performance.now();
+  // How long frames take, as a moving average: that is how long a motion may.
+  if (arrived && now - arrived < 500) interval += 0.2 * (now - arrived - interval);
+  arrived = now;
+  const came = model.take(next);
+  ports.take(model);
+  brick.take(model, came);
+  hands.take(model);
+  log.take(model);
+  charts.take(model);
+  world.take(model, came, interval);
+  heading();
+  if (came.has('world')) layout();
+  waiting = true;
+  if (!animation) animation = requestAnimationFrame(draw);
+}
+
+/** A hidden page draws nothing, and so asks for nothing. */
+function draw(time) {
+  animation = 0;
+  const more = world.animate(time);
+  if (waiting) {
+    waiting = false;
+    charts.draw();
+    wire.next();
+  }
+  if (more && !animation) animation = requestAnimationFrame(draw);
+}
+
+// ----------------------------------------------------------------- the top
+
+function heading() {
+  const { frame: now } = model;
+  const { program, clock: time } = now ?? {};
+  const [what, name] = phase !== 'live' ? ['', ''] : {
+    sim: ['Simulation', model.name], brick: ['Robot', now?.tree], none: ['No robot yet', ''],
+  }[now?.source] ?? ['Connected', ''];
+  const doing = phase !== 'live' ? { waiting: 'Connecting', lost: 'Not connected', refused: 'Refused' }[phase]
+    : program?.latched ? 'stopping' : time?.paused ? 'paused' : { running: 'a program runs', idle: 'ready' }[program?.state] ?? '';
+  text($('place-what'), what && (name || doing) ? `${what} · ` : what);
+  text($('place-name'), name ?? '');
+  text($('place-doing'), name && doing ? ` · ${doing}` : doing);
+  if (phase !== 'live') return;
+  text($('clock-text'), clock(time?.time ?? 0));
+  const title = model.name ? `${model.name} – ev3dev` : 'ev3dev';
+  if (document.title !== title) document.title = title;
+  emptiness();
+}
+
+function emptiness() {
+  const { frame: now } = model;
+  const known = now?.robot?.true || now?.robot?.believed;
+  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one.'
+    : !known && !model.world ? 'Where the robot is, is not known. set_robot/4 and pose/3 say it.' : '';
+  $('world-empty').hidden = !words;
+  text($('world-empty'), words);
+}
+
+// ----------------------------------------------------------------- layout
+
+/** The card of the world takes the world's aspect. */
+function layout() {
+  const style = document.documentElement.style;
+  const aspect = Math.max(0.6, Math.min(2.4, world.aspect || 1.2));
+  style.setProperty('--aspect', aspect.toFixed(4));
+  const gap = 12, pad = 16;
+  const main = $('main').getBoundingClientRect();
+  const free = world.margins;
+  const [sides, ends] = [free.left + free.right, free.top + free.bottom];
+  const tall = main.height - pad;
+  const most = main.width - 2 * pad - 2 * gap - 276 - 340;
+  const tallest = Math.max(300, tall - gap - (tall > 900 ? 280 : 228));
+  const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
+  const height = Math.min(tallest, Math.max(432, (width - sides) / aspect + ends));
+  style.setProperty('--world', `${Math.round(width)}px`);
+  style.setProperty('--row', `${Math.round(height)}px`);
+}
+
+new ResizeObserver(layout).observe($('main'));
+
+// ----------------------------------------------------------------- state()
+
+/** What is drawn, for tests and for other programs: a canvas cannot be read. */
+function shown() {
+  const { frame: now } = model;
+  return {
+    phase,
+    frames: model.count,
+    source: now?.source ?? null,
+    time: now?.clock?.time ?? null,
+    clock: now?.clock ?? null,
+    program: now?.program ?? null,
+    world: model.world ? { name: model.name, bounds: model.world.bounds, items: model.world.items } : null,
+    robot: now?.robot ?? null,
+    see: now?.see ?? [],
+    ports: now?.ports ?? [],
+    brick: { ...now?.brick, pixels: brick.black },
+    path: model.path,
+    grid: model.grid,
+    snapshots: model.snapshots ?? [],
+    samples: model.samples.time.length,
+    charts: (charts.shown ?? []).map((strip) => ({
+      title: strip.title, unit: strip.unit,
+      series: strip.series.map((series) => ({ label: series.label, value: charts.valueAt(series, null) })),
+    })),
+    chartHeld: charts.held !== null,
+    log: model.log.map(({ kind, text: words }) => ({ kind, text: words })),
+    goals: now?.goals ?? false,
+    camera: { ...world.camera, pixels: [world.width, world.height] },
+    robotPixels: world.model && world.width ? 2 * Math.max(13, world.reach() * world.camera.scale) : 0,
+    tool: world.tool,
+    following: world.following,
+    driving: hands.driving === true,
+    selected: world.selected === null ? null : world.selected.kind ?? world.selected,
+    measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,
+    words: world.words ?? '',
+    notice: $('notice').hidden ? '' : $('notice-text').textContent,
+  };
+}
+
+window.ev3view = {
+  state: shown,
+  pixel: (x, y) => {
+    const box = $('world').getBoundingClientRect();
+    const [px, py] = world.pixel([x, y]);
+    return [box.left + px, box.top + py];
+  },
+  csv: () => charts.csv(),
+};
+
+// Said now and then to those who do not see the world.
+setInterval(() => {
+  if (phase === 'live' && model.frame && world.words !== $('world-text').textContent) text($('world-text'), world.words);
+}, 2000);
+

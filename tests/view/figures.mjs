@@ -1,0 +1,51 @@
+// How long things take from a program to the page and back; printed, not
+// judged: wall time depends on what else the machine does.
+
+import { Session, browse, open, shows, state } from './session.mjs';
+
+const TIMES = 30;
+const session = await Session.start('sim_start(room)', 'set_robot(5.6, 10.6, outB, outC)');
+const browser = await browse();
+const page = await open(browser, await session.view());
+
+/** In the page: when a port first shows that it runs, or does not. */
+const seen = (running) => page.evaluate((wanted) => new Promise((resolve) => {
+  const look = () => {
+    const port = window.ev3view.state().ports.find((each) => each.port === 'outA');
+    if (port.state.includes('running') === wanted) resolve(performance.timeOrigin + performance.now());
+    else setTimeout(look, 1);
+  };
+  look();
+}), running);
+
+const median = (numbers) => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
+const worst = (numbers) => Math.max(...numbers);
+const row = (what, numbers) => console.log(`${what}: median ${median(numbers).toFixed(0)} ms, worst ${worst(numbers).toFixed(0)} ms of ${numbers.length}`);
+
+const starts = [];
+const stops = [];
+for (let i = 0; i < TIMES; i += 1) {
+  const shown = seen(true);
+  const [at] = await session.numbers('get_time(T), motor_run(outA, 20), Ms is T * 1000, format("~3f", [Ms])');
+  starts.push(await shown - at);
+  const stands = seen(false);
+  const pressed = await page.evaluate(() => {
+    document.getElementById('stop').click();
+    return performance.timeOrigin + performance.now();
+  });
+  stops.push(await stands - pressed);
+  await shows(page, (s) => !s.program.latched && s.program.state === 'idle', 'the prompt');
+}
+row('from a motor\'s start to its being seen', starts);
+row('from STOP to its effect being seen', stops);
+
+session.type('repeat, go(20), wait(1), turn(20, 90), fail');
+await shows(page, (s) => s.program.state === 'running', 'a program');
+const [before, begin] = [await page.metrics(), await state(page)];
+await new Promise((resolve) => { setTimeout(resolve, 5000); });
+const [after, end] = [await page.metrics(), await state(page)];
+const frames = end.frames - begin.frames;
+console.log(`${(frames / (after.Timestamp - before.Timestamp)).toFixed(1)} frames a second; `
+  + `the page takes ${(((after.TaskDuration - before.TaskDuration) * 1000) / frames).toFixed(1)} ms for each`);
+await browser.close();
+await session.end();

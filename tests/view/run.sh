@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The page of library(ev3dev/view), driven in a headless Chromium.
+#
+#   tests/view/run.sh [--pictures | --figures] [ARGUMENT...]
+#
+# Arguments go to `node --test`, as --test-name-pattern=STOP. With --pictures
+# it makes the pictures of docs/pictures instead, with --figures it prints how
+# long things take.
+#
+# Skips, and says so, where there is no Chromium, no node 18, or where npm
+# cannot install the two packages that package-lock.json names; with
+# EV3DEV_BROWSER=required that is an error. CHROMIUM names another browser of
+# its kind.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+skip() {
+    echo "skipped: the page in a browser: $1"
+    [ "${EV3DEV_BROWSER:-}" != required ]
+    exit
+}
+
+browser=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)}
+[ -n "$browser" ] || skip "there is no Chromium (Debian's package: chromium)"
+command -v node >/dev/null && command -v npm >/dev/null ||
+    skip "there is no node (Debian's packages: nodejs npm)"
+[ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] || skip "node is older than 18"
+
+# Installed beside what is built, and again only if the versions changed.
+modules=target/view
+mkdir -p "$modules"
+if ! cmp -s tests/view/package-lock.json "$modules/installed.json"; then
+    cp tests/view/package.json tests/view/package-lock.json "$modules/"
+    npm ci --prefix "$modules" --no-audit --no-fund --silent 2>"$modules/npm.log" ||
+        skip "npm cannot install puppeteer-core: $(tail -n 1 "$modules/npm.log")"
+    cp tests/view/package-lock.json "$modules/installed.json"
+fi
+
+export CHROMIUM=$browser EV3DEV_NODE_MODULES=$PWD/$modules
+case ${1:-} in
+    --pictures) exec node tests/view/pictures.mjs "${@:2}" ;;
+    --figures) exec node tests/view/figures.mjs "${@:2}" ;;
+esac
+exec node --test --test-reporter=spec "$@" tests/view/view.test.mjs

@@ -1,0 +1,169 @@
+// A Prolog session with the view, and the browser that looks at it.
+
+import { spawn } from 'node:child_process';
+import net from 'node:net';
+import path from 'node:path';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+
+export const home = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
+const require = createRequire(`${process.env.EV3DEV_NODE_MODULES}/`);
+const puppeteer = require('puppeteer-core');
+export const axePath = require.resolve('axe-core/axe.min.js');
+
+/** Waits until `ask` answers something true; the tests bound no time but this. */
+export async function until(ask, what, seconds = 20) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    const answer = await ask();
+    if (answer) return answer;
+    if (Date.now() > end) throw new Error(`it did not come: ${what}`);
+    await new Promise((resolve) => { setTimeout(resolve, 20); });
+  }
+}
+
+/** A toplevel that reads its queries from a pipe. */
+export class Session {
+  static async start(...queries) {
+    const session = new Session();
+    for (const query of ['use_module(library(ev3dev))', 'use_module(library(ev3dev/sim))', 'use_module(library(ev3dev/view))', ...queries]) await session.ask(query);
+    return session;
+  }
+
+  constructor() {
+    this.prolog = spawn(process.env.SWIPL ?? 'swipl',
+      ['-q', '-f', 'none', '-p', 'library=prolog', '-g', 'set_prolog_flag(toplevel_prompt, \'\'),set_prolog_flag(ev3dev_hints, off)'],
+      { cwd: home, stdio: ['pipe', 'pipe', 'pipe'] });
+    this.output = '';
+    this.asked = 0;
+    for (const stream of [this.prolog.stdout, this.prolog.stderr]) stream.on('data', (data) => { this.output += data; });
+    process.on('exit', () => this.prolog.kill('SIGKILL'));
+    this.ended = new Promise((resolve) => { this.prolog.on('exit', resolve); });
+  }
+
+  /** Types a query, and does not wait. */
+  type(query) {
+    this.prolog.stdin.write(`${query}.\n`);
+  }
+
+  /** Types a query and waits for its end; answers what was printed. */
+  async ask(query, seconds = 30) {
+    this.asked += 1;
+    const [begin, end] = [`<<${this.asked}>>`, `<</${this.asked}>>`];
+    const from = this.output.length;
+    this.type(`format("~n<<~d>>", [${this.asked}]), ( catch((${query}), E, (print_message(error, E), fail)) -> true ; write(failed) ), format("<</~d>>~n", [${this.asked}])`);
+    await until(() => this.output.indexOf(end, from) >= 0, `the end of ${query} in ${this.output.slice(from)}`, seconds);
+    const start = this.output.indexOf(begin, from) + begin.length;
+    return this.output.slice(start, this.output.indexOf(end, from));
+  }
+
+  /** Starts the view; answers the address with the token. */
+  async view(options = '') {
+    await this.ask(`view([open(false)${options ? `, ${options}` : ''}])`);
+    return this.url();
+  }
+
+  async url() {
+    return (await this.ask('view_url(U), write(U)')).trim();
+  }
+
+  async numbers(query) {
+    return (await this.ask(query)).trim().split(/\s+/).map(Number);
+  }
+
+  pose() {
+    return this.numbers('sim_pose(X, Y, H), format("~4f ~4f ~4f", [X, Y, H])');
+  }
+
+  async end() {
+    this.prolog.stdin.end('halt.\n');
+    const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, 5000, false); })]);
+    if (!ended) this.prolog.kill('SIGKILL');
+    await this.ended;
+  }
+}
+
+export async function browse() {
+  return puppeteer.launch({
+    executablePath: process.env.CHROMIUM, headless: true,
+    args: [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--font-render-hinting=none'],
+  });
+}
+
+/** A page at an address; keeps what its console said and what it asked for. */
+export async function open(browser, url, { width = 1280, height = 800, scheme = 'light', phone = false, scale = 1 } = {}) {
+  const page = await browser.newPage();
+  page.said = [];
+  page.requests = [];
+  page.on('console', (message) => page.said.push(`${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => page.said.push(`error: ${error.message}`));
+  page.on('request', (request) => page.requests.push(request.url()));
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  await page.setViewport({ width, height, deviceScaleFactor: scale, isMobile: phone, hasTouch: phone });
+  await page.goto(url);
+  await shows(page, (state) => state.phase === 'live' && state.frames > 1, 'a live page');
+  return page;
+}
+
+export const state = (page) => page.evaluate(() => window.ev3view.state());
+
+/** Waits until the page's state satisfies a test; answers that state. */
+export async function shows(page, test, what, seconds = 20) {
+  let last = null;
+  return until(async () => {
+    last = await state(page);
+    return test(last) ? last : null;
+  }, what, seconds).catch((error) => {
+    throw new Error(`${error.message}; last: ${JSON.stringify({ ...last, world: undefined })}`);
+  });
+}
+
+/** Where a place in cm is on the page. */
+export const pixel = (page, x, y) => page.evaluate((a, b) => window.ev3view.pixel(a, b), x, y);
+
+export async function drag(page, from, to) {
+  await page.mouse.move(...await pixel(page, ...from));
+  await page.mouse.down();
+  await page.mouse.move(...await pixel(page, ...to), { steps: 4 });
+  await page.mouse.up();
+}
+
+export async function violations(page) {
+  // The rules come by DevTools: the page's own policy lets no script in.
+  await page.evaluate(`(() => { ${axeSource()} })()`);
+  const { violations: found } = await page.evaluate(() => window.axe.run());
+  return found.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.target).join(' ')}`);
+}
+
+let axeText = null;
+function axeSource() {
+  axeText ??= require('node:fs').readFileSync(axePath, 'utf8');
+  return axeText;
+}
+
+/** A request with headers of one's choice; answers status and body. By a
+    bare socket, because node's own client will not send such things. */
+export function request(url, { headers = {}, method = 'GET', upgrade = false } = {}) {
+  const { host, hostname, port } = new URL(url);
+  const lines = {
+    Host: host, Connection: upgrade ? 'Upgrade' : 'close',
+    ...(upgrade && { Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==' }),
+    ...(method === 'POST' && { 'Content-Length': '0' }), ...headers,
+  };
+  return new Promise((resolve, reject) => {
+    const socket = net.connect(port, hostname === 'localhost' ? '127.0.0.1' : hostname);
+    let text = '';
+    const over = () => {
+      socket.destroy();
+      resolve({ status: Number(text.split(' ')[1]), body: text.slice(text.indexOf('\r\n\r\n') + 4) });
+    };
+    socket.on('data', (data) => {
+      text += data;
+      if (upgrade && text.includes('\r\n\r\n')) over();
+    });
+    socket.on('end', over);
+    socket.on('error', reject);
+    const path = url.slice(new URL(url).origin.length) || '/';
+    socket.write(`${method} ${path} HTTP/1.1\r\n${Object.entries(lines).map(([name, value]) => `${name}: ${value}\r\n`).join('')}\r\n`);
+  });
+}
