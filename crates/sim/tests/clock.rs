@@ -551,12 +551,15 @@ fn a_paused_run_goes_on_as_far_as_it_may() {
         thread::spawn(move || drives(&paused))
     };
     paused.allow(ms(100));
+    // The driver has its turn only when all others rest, or are outside.
+    ev3_sim::stay_outside(true);
     while now(&paused) < ms(100) {
         thread::yield_now();
     }
     // It asks again and again, and time stands.
     thread::sleep(ms(50));
     assert!(now(&paused) < ms(110), "{:?}", now(&paused));
+    ev3_sim::stay_outside(false);
     paused.set_paused(false);
     assert_eq!(driver.join().unwrap(), free);
 }

@@ -65,7 +65,8 @@ pub(super) fn stay_outside(is_outside: bool) {
     });
 }
 
-/// How many threads this process has that may be a part of the program. Where the kernel does not tell, one is assumed.
+/// How many threads this process has that may be a part of the program. Where the kernel does not
+/// tell, one is assumed.
 pub(super) fn count() -> u64 {
     // A directory has a link more for each directory in it, and two for itself.
     let all = fs::metadata(TASKS).map_or(1, |tasks| tasks.nlink().saturating_sub(2));
