@@ -4,6 +4,7 @@
 //! time passes, and nothing is read on the program's behalf.
 mod believed;
 mod brick;
+mod commands;
 mod frame;
 mod hand;
 mod notes;
@@ -103,6 +104,13 @@ predicates! {
     semidet fn view_frame(context, have, state, settings, text) {
         let call = Call::of(context, "view", 1);
         let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
+        commands::log_new(|cause| {
+            let texts = context.new_term_ref();
+            let number = context.new_term_ref();
+            number.unify(u64::from(cause))?;
+            context.call_once(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
+            call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
+        })?;
         text.unify(frame::next(&have, &state, &settings).as_str())
     }
 

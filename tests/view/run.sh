@@ -22,8 +22,9 @@ skip() {
 
 browser=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)}
 [ -n "$browser" ] || skip "there is no Chromium (Debian's package: chromium)"
-command -v node >/dev/null && command -v npm >/dev/null ||
-    skip "there is no node (Debian's packages: nodejs npm)"
+for program in node npm; do
+    command -v "$program" >/dev/null || skip "there is no $program (Debian's packages: nodejs npm)"
+done
 [ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] || skip "node is older than 18"
 
 # Installed beside what is built, and again only if the versions changed.

@@ -66,7 +66,7 @@ group('a simulated robot', ROOM, '', (it) => {
     assert.ok(after.charts.some((chart) => chart.title === 'speed'));
   });
 
-  test('has its commands in the log', { todo: 'the journal is not in the log yet' }, async () => {
+  test('has its commands in the log', async () => {
     await shows(it.page, (s) => s.log.some((line) => line.kind === 'command' && /^out[BC] /.test(line.text)), 'a command');
   });
 

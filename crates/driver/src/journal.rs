@@ -359,6 +359,8 @@ struct Ring {
     entries: Vec<Entry>,
     /// Where the next one goes, once the ring is full.
     next: usize,
+    /// How many there were in all.
+    count: u64,
 }
 
 impl Journal {
@@ -372,6 +374,7 @@ impl Journal {
         let entry = Entry { time, act, origin };
         let mut ring = self.ring();
         let next = ring.next;
+        ring.count += 1;
         if ring.entries.len() < ROOM {
             if ring.entries.is_empty() {
                 // The memory is taken page by page, as the entries come.
@@ -392,6 +395,18 @@ impl Journal {
         new.iter().rev().chain(old.iter().rev()).cloned().collect()
     }
 
+    /// What was done after the first `count` commands, as far as it is kept, in its order; and
+    /// how many commands there were in all.
+    #[must_use]
+    pub fn after(&self, count: u64) -> (Vec<Entry>, u64) {
+        let ring = self.ring();
+        let new = usize::try_from(ring.count.saturating_sub(count)).unwrap_or(usize::MAX);
+        let (late, early) = ring.entries.split_at(ring.next);
+        let known = late.len() + early.len();
+        let in_order = early.iter().chain(late).skip(known.saturating_sub(new));
+        (in_order.cloned().collect(), ring.count)
+    }
+
     fn ring(&self) -> MutexGuard<'_, Ring> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -410,6 +425,22 @@ mod tests {
 
     fn times(journal: &Journal) -> Vec<u128> {
         journal.entries().iter().map(|entry| entry.time.as_millis()).collect()
+    }
+
+    #[test]
+    fn what_is_new_comes_in_its_order() {
+        let journal = Journal::default();
+        let new = |count| {
+            let (entries, count) = journal.after(count);
+            let times: Vec<_> = entries.iter().map(|entry| entry.time.as_millis()).collect();
+            (times, count)
+        };
+        assert_eq!(new(0), (vec![], 0));
+        let all = u64::try_from(ROOM).unwrap() + 2;
+        (0..all).for_each(|time| stop(&journal, time));
+        assert_eq!(new(all), (vec![], all));
+        assert_eq!(new(all - 2), (vec![u128::from(all) - 2, u128::from(all) - 1], all));
+        assert_eq!(new(0).0.len(), ROOM);
     }
 
     #[test]

@@ -2,8 +2,10 @@
           [ watch_messages/0,
             leave_messages/0,
             mark/1,                     % +Term
+            cause_texts/2,              % +Cause, -Texts
             error_text/2                % +Error, -Text
           ]).
+:- use_module('../causes', [causes/2]).
 :- use_module('../native', [view_log_/4, view_serves_/0]).
 
 /** <module> What the page's log is told
@@ -84,6 +86,45 @@ mark(Term) :-
         nb_getval(ev3dev_view_mark, Text)
     ),
     note(mark, Text).
+
+%!  cause_texts(+Cause, -Texts) is det.
+%
+%   What a command was given for, by the number of its cause: the innermost
+%   first. The native code calls this; it asks no device.
+
+cause_texts(Cause, Texts) :-
+    causes(Cause, Causes),
+    texts_of(Causes, Texts).
+
+texts_of([], []).
+texts_of([Cause|Causes], [Text|Texts]) :-
+    \+ \+ ( numbervars(Cause, 0, _, [singletons(true)]),
+            cause_words(Cause, Text0),
+            nb_setval(ev3dev_view_mark, Text0)
+          ),
+    nb_getval(ev3dev_view_mark, Text),
+    texts_of(Causes, Texts).
+
+cause_words(rule(Name, Guard), Text) :-
+    !,
+    named_words(rule, Name, Guard, Text).
+cause_words(event(Id, Condition), Text) :-
+    !,
+    named_words(event, Id, Condition, Text).
+cause_words(Cause, Text) :-
+    term_words(Cause, Text).
+
+named_words(Kind, Name, Condition, Text) :-
+    term_words(Name, NameText),
+    (   Condition == true
+    ->  format(string(Text), "~w ~s", [Kind, NameText])
+    ;   term_words(Condition, ConditionText),
+        format(string(Text), "~w ~s: ~s", [Kind, NameText, ConditionText])
+    ).
+
+term_words(Term, Text) :-
+    format(string(Text), "~W",
+           [Term, [quoted(true), numbervars(true), max_depth(12)]]).
 
 %!  error_text(+Error, -Text) is det.
 %
