@@ -186,7 +186,7 @@ fn others(case: &str) -> Case {
 fn gap(root: &Path, count: u32) -> f64 {
     let commands = Arc::new(Mutex::new(Vec::new()));
     let tree = Stamping { files: SysfsDir::new(root), commands: Arc::clone(&commands) };
-    let devices = Registry::new(Arc::new(tree));
+    let devices = Arc::new(Registry::new(Arc::new(tree)));
     let runs = [("outB", 20.0), ("outC", 20.0)]
         .map(|(port, percent)| Run { port, speed: Speed::Percent(percent) });
     let mut gaps: Vec<f64> = (0..=count)
@@ -214,7 +214,7 @@ fn latency(count: u32) -> [f64; 2] {
         let (shared, stopped, is_over) = (shared, Arc::clone(&stopped), Arc::clone(&is_over));
         move || step(&shared, &stopped, &is_over)
     });
-    let devices = Registry::new(Arc::new(SysfsDir::new(directory.path())));
+    let devices = Arc::new(Registry::new(Arc::new(SysfsDir::new(directory.path()))));
     let mut seconds: Vec<f64> = (0..count)
         .map(|number| {
             let degrees = 60.0 + f64::from(number % 10) * 10.0;
