@@ -20,6 +20,7 @@
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
+:- use_module(private/one_of, [one_of/2]).
 :- use_module(private/causes, [acting_for/2]).
 :- use_module(private/waits,
               [in_guard/2, leave/2, listen_for_events/1, listening/3]).
@@ -200,14 +201,10 @@ serve :-
     (   event_(_, _, _, _)
     ->  now_(Now),
         findall(Id, event_(Id, _, _, _), Ids),
-        forall(( member_of(Ids, Id), event_(Id, Kind, Action, State) ),
+        forall(( one_of(Ids, Id), event_(Id, Kind, Action, State) ),
                serve(State, Kind, Id, Now, Action))
     ;   true
     ).
-
-member_of([Element|_], Element).
-member_of([_|Elements], Element) :-
-    member_of(Elements, Element).
 
 serve(due(Next, Count), Kind, Id, Now, Action) :-
     !,
@@ -443,7 +440,7 @@ both(Goal1, Goal2) :-
 
 race(Module:Goals0, Winner) :-
     must_be(list, Goals0),
-    forall(member_of(Goals0, Goal), must_be_goal(Goal)),
+    forall(one_of(Goals0, Goal), must_be_goal(Goal)),
     qualified(Goals0, Module, Goals),
     branches(Goals, first, Winner0),
     Winner = Winner0.
@@ -545,24 +542,24 @@ joined([From0-From|Ranges], From, Before, [From0-Before|Ranges]) :- !.
 joined(Ranges, From, Before, [From-Before|Ranges]).
 
 is_decided(Branches, first, over(Winner)) :-
-    (   member_of(Branches, Branch),
+    (   one_of(Branches, Branch),
         arg(4, Branch, true(_))
     ->  arg(1, Branch, Winner)
-    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+    ;   \+ ( one_of(Branches, Branch), arg(4, Branch, false) ),
         Winner = none
     ).
 is_decided(Branches, all, over(Winner)) :-
-    (   member_of(Branches, Branch),
+    (   one_of(Branches, Branch),
         arg(4, Branch, failed)
     ->  Winner = none
-    ;   \+ ( member_of(Branches, Branch), arg(4, Branch, false) ),
+    ;   \+ ( one_of(Branches, Branch), arg(4, Branch, false) ),
         Winner = all
     ).
 
 %   The bindings of what has succeeded.
 taken_over(Branches, first, Winner) :-
     integer(Winner),
-    member_of(Branches, branch(Winner, _, Goal, true(Goal), _, _)),
+    one_of(Branches, branch(Winner, _, Goal, true(Goal), _, _)),
     !.
 taken_over(Branches, all, all) :-
     answers(Branches).

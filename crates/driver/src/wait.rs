@@ -15,6 +15,20 @@ pub enum Look<T> {
     Again(Duration),
 }
 
+impl<T> Look<T> {
+    /// Look again after this time, or earlier if the wait may last until `deadline` only. `over` is
+    /// its end if the time is up.
+    pub(crate) fn again(
+        now: Duration,
+        slice: Duration,
+        deadline: Option<Duration>,
+        over: T,
+    ) -> Self {
+        let left = deadline.map_or(Duration::MAX, |deadline| deadline.saturating_sub(now));
+        if left.is_zero() { Self::Over(over) } else { Self::Again(now + left.min(slice)) }
+    }
+}
+
 /// Something to wait for.
 pub trait Wait {
     /// What is known at the end.

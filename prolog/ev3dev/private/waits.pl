@@ -8,6 +8,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(native, [tick_after_/1]).
+:- use_module(one_of, [one_of/2]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -183,14 +184,10 @@ serve(Listeners) :-
     % Also while events are served, and after an exception.
     tick_after_(Period),
     forall(serve_events, true),
-    \+ ( listener_of(Listeners, Listener),
+    \+ ( one_of(Listeners, Listener),
          \+ serve_listener(Listener)
        ),
     tick_after_(Period).
-
-listener_of([Listener|_], Listener).
-listener_of([_|Listeners], Listener) :-
-    listener_of(Listeners, Listener).
 
 serve_listener(Listener) :-
     Listener = listener(Closure, State, _),

@@ -227,9 +227,7 @@ impl<T: FnMut(&mut Queue) -> Option<Event>> Wait for UntilTaken<T> {
         if let Some(event) = (self.take)(&mut queue) {
             return Ok(Look::Over(Some(event)));
         }
-        let now = dev.now();
-        let left = self.end.map_or(SLICE, |end| end.saturating_sub(now));
-        Ok(if left.is_zero() { Look::Over(None) } else { Look::Again(now + left.min(SLICE)) })
+        Ok(Look::again(dev.now(), SLICE, self.end, None))
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {

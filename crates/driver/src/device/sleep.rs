@@ -25,9 +25,7 @@ impl Wait for Sleep {
     type End = ();
 
     fn look(&mut self) -> Result<Look<()>> {
-        let now = self.registry.tree().now();
-        let left = self.end.saturating_sub(now);
-        Ok(if left.is_zero() { Look::Over(()) } else { Look::Again(now + left.min(SLICE)) })
+        Ok(Look::again(self.registry.tree().now(), SLICE, Some(self.end), ()))
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {

@@ -346,12 +346,7 @@ impl Wait for UntilEnded {
             return ended.map(Look::Over);
         }
         let now = self.drive.registry.tree().now();
-        let left = self.deadline.map_or(PERIOD, |deadline| deadline.saturating_sub(now));
-        Ok(if left.is_zero() {
-            Look::Over(Reason::Timeout)
-        } else {
-            Look::Again(now + left.min(PERIOD))
-        })
+        Ok(Look::again(now, PERIOD, self.deadline, Reason::Timeout))
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {

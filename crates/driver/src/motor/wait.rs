@@ -173,7 +173,7 @@ impl UntilDone {
         }
         Ok(match nearest {
             None => Look::Over(self.reason),
-            Some(slice) => self.samples.again(now, slice).unwrap_or(Look::Over(Reason::Timeout)),
+            Some(slice) => self.samples.again(now, slice, Reason::Timeout),
         })
     }
 }
@@ -220,7 +220,7 @@ impl UntilFlag {
             }
             progress.slice(now)?
         };
-        Ok(samples.again(now, slice).unwrap_or(Look::Over(())))
+        Ok(samples.again(now, slice, ()))
     }
 }
 
@@ -274,10 +274,9 @@ impl Samples {
         Ok(self.registry.tree().now())
     }
 
-    /// When to take the next one; `None` when the time is up.
-    fn again<T>(&self, now: Duration, slice: Duration) -> Option<Look<T>> {
-        let left = self.deadline.map_or(SLICE, |deadline| deadline.saturating_sub(now));
-        (!left.is_zero()).then(|| Look::Again(now + slice.min(left).min(SLICE)))
+    /// When to take the next one, unless the time is up.
+    fn again<T>(&self, now: Duration, slice: Duration, over: T) -> Look<T> {
+        Look::again(now, slice.min(SLICE), self.deadline, over)
     }
 
     fn pause(&mut self, end: Duration) -> bool {

@@ -115,13 +115,7 @@ impl Wait for UntilShown {
         if is_met(self.until, number(&value), &mut self.was_pressed) {
             return Ok(Look::Over(Ended::Reached));
         }
-        let now = self.registry.tree().now();
-        let left = self.deadline.map_or(PERIOD, |deadline| deadline.saturating_sub(now));
-        Ok(if left.is_zero() {
-            Look::Over(Ended::Timeout)
-        } else {
-            Look::Again(now + left.min(PERIOD))
-        })
+        Ok(Look::again(self.registry.tree().now(), PERIOD, self.deadline, Ended::Timeout))
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {
