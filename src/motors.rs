@@ -135,12 +135,13 @@ predicates! {
         call.or_throw(motor::stop_commanded(&*call.devices_to_command()?, &commands))
     }
 
-    /// motors_leave_(+From, +Before): the same at the first wait of this thread.
+    /// motors_leave_(+From, +Before): the same at the first wait of this thread, in the place of
+    /// other commands since From.
     #[module("ev3dev_native")]
     #[name("motors_leave_")]
     semidet fn motors_leave(context, from, before) {
         let call = Call::of(context, "behave", 2);
-        waiting::stop_at_wait(Some(commands_of(&call, from, before)?));
+        waiting::stop_at_wait(commands_of(&call, from, before)?);
         Ok(())
     }
 

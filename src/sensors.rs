@@ -4,9 +4,10 @@ use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
 use crate::glue::interned::words;
 use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::sensor::registers;
 use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
 use ev3_driver::wait::Slices;
-use ev3_driver::{Class, Device, Registry, sensor};
+use ev3_driver::{Class, Device, Registry, Value, sensor};
 use std::cell::Cell;
 use std::sync::Arc;
 use swipl::prelude::*;
@@ -19,6 +20,8 @@ pub(crate) fn register() {
     register_sensor_restart();
     register_sensor_wait();
     register_sensor_scale();
+    register_i2c_read();
+    register_i2c_write();
 }
 
 predicates! {
@@ -28,7 +31,9 @@ predicates! {
     nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
-            call.serve_if_due()?;
+            if call.serve_before("sensor_value_", [port, types, mode, index, value])? {
+                return Ok(None);
+            }
             let index = index_of(&call, index)?;
             readings(&call, port, types, mode, index).map(Some)
         },
@@ -44,6 +49,9 @@ predicates! {
     nondet fn sensor_value_or_why<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
+            if call.serve_before("sensor_value_or_why_", [port, types, mode, index, value])? {
+                return Ok(None);
+            }
             let index = index_of(&call, index)?;
             readings(&call, port, types, mode, index).map(Some)
         },
@@ -63,7 +71,9 @@ predicates! {
     nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
-            call.serve_if_due()?;
+            if call.serve_before("sensor_values_", [port, types, mode, count, values])? {
+                return Ok(None);
+            }
             let count = usize::try_from(call.integer(count)?).unwrap_or_default();
             let readings = readings(&call, port, types, mode, count)?;
             if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }
@@ -128,6 +138,40 @@ predicates! {
         let devices = call.devices()?;
         let scaled = devices.with(Class::Sensor, &name, |device| sensor::scale(device, raw));
         unify_value(value, &call.or_absent(Class::Sensor, port, scaled)?)
+    }
+
+    /// i2c_read_(+Port, +Register, +Count, -Bytes)
+    #[module("ev3dev_native")]
+    #[name("i2c_read_")]
+    semidet fn i2c_read(context, port, register, count, bytes) {
+        let call = Call::of(context, "i2c_read", 4);
+        let (name, register) = (call.text(port)?, byte(&call, register)?);
+        let mut buffer = vec![0; byte(&call, count)?.into()];
+        let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
+        let read = registers::read(&devices, &name, register, &mut buffer, interrupted);
+        call.or_absent(Class::Sensor, port, read)?;
+        let read: Vec<_> = buffer.into_iter().map(|byte| Value::Integer(byte.into())).collect();
+        bytes.unify(call.terms(&read)?.as_slice())
+    }
+
+    /// i2c_write_(+Port, +Register, +Bytes)
+    #[module("ev3dev_native")]
+    #[name("i2c_write_")]
+    semidet fn i2c_write(context, port, register, bytes) {
+        let call = Call::of(context, "i2c_write", 3);
+        let (name, register) = (call.text(port)?, byte(&call, register)?);
+        let bytes = call.map_list(bytes, |term| byte(&call, &term))?;
+        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+        let written = registers::write(&devices, &name, register, &bytes, interrupted);
+        call.or_absent(Class::Sensor, port, written)
+    }
+}
+
+/// An integer from 0 to 255.
+fn byte<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u8> {
+    match u8::try_from(call.integer(term)?) {
+        Ok(byte) => Ok(byte),
+        Err(_) => wrong_value(call, "byte", term),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/time.pl`: the clock of the tree in use.
 use crate::glue::call::Call;
 use crate::glue::terms::unify_atom;
-use crate::glue::waiting;
+use crate::glue::waiting::{self, Round};
 use ev3_driver::device::sleep::Sleep;
 use ev3_driver::wait::Slices;
 use std::time::Duration;
@@ -15,8 +15,13 @@ pub(crate) fn register() {
     register_now();
     register_wait();
     register_tick_after();
+    register_serve_at_prompt();
     register_slices();
     register_branches_begin();
+    register_branches_leave();
+    register_branches_look();
+    register_read_on();
+    register_serve_if_due();
     register_branches_end();
 }
 
@@ -62,17 +67,59 @@ predicates! {
     #[name("branches_begin_")]
     semidet fn branches_begin(context) {
         let now = Call::of(context, "both", 2).devices()?.tree().now();
-        waiting::set_branches(Some(now.saturating_add(BRANCHES_LOOK)));
+        waiting::begin_branches(Round::GoesOn(now.saturating_add(BRANCHES_LOOK)));
         Ok(())
     }
 
-    /// branches_end_(-Seconds): after what time the first of them has to look again.
+    /// branches_leave_: branches are left from now on. Their clean-ups may wait, and time passes,
+    /// but within 20 ms they are asked again to end.
+    #[module("ev3dev_native")]
+    #[name("branches_leave_")]
+    semidet fn branches_leave(context) {
+        let now = Call::of(context, "both", 2).devices()?.tree().now();
+        let again = now.saturating_add(BRANCHES_LOOK);
+        waiting::leave_branches(again);
+        Ok(())
+    }
+
+    /// read_on_: the next read of a branch lets no other go on before.
+    #[module("ev3dev_native")]
+    #[name("read_on_")]
+    semidet fn read_on(_context) {
+        waiting::read_on();
+        into_prolog_result(true)
+    }
+
+    /// serve_if_due_: serves the events of this thread, if it is time to.
+    #[module("ev3dev_native")]
+    #[name("serve_if_due_")]
+    semidet fn serve_if_due(context) {
+        Call::of(context, "both", 2).serve_if_due()
+    }
+
+    /// branches_look_(-Seconds): after what time the first of them has to look again.
+    #[module("ev3dev_native")]
+    #[name("branches_look_")]
+    semidet fn branches_look(context, seconds) {
+        let now = Call::of(context, "both", 2).devices()?.tree().now();
+        let look = waiting::branches_look().unwrap_or(now);
+        seconds.unify(look.saturating_sub(now).as_secs_f64())
+    }
+
+    /// branches_end_: they pause.
     #[module("ev3dev_native")]
     #[name("branches_end_")]
-    semidet fn branches_end(context, seconds) {
-        let now = Call::of(context, "both", 2).devices()?.tree().now();
-        let next = waiting::set_branches(None).unwrap_or(now);
-        seconds.unify(next.saturating_sub(now).as_secs_f64())
+    semidet fn branches_end(_context) {
+        waiting::end_branches();
+        into_prolog_result(true)
+    }
+
+    /// serve_at_prompt_: from now on the main thread serves its events at the prompt, too.
+    #[module("ev3dev_native")]
+    #[name("serve_at_prompt_")]
+    semidet fn serve_at_prompt(_context) {
+        waiting::serve_at_prompt();
+        into_prolog_result(true)
     }
 
     /// slices_(-Count): how many slices of time this thread has waited.

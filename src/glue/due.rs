@@ -1,5 +1,5 @@
 //! Goals that are planned for a simulated time, and run in the thread that planned them.
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,6 +8,8 @@ static ANY: AtomicBool = AtomicBool::new(false);
 
 thread_local! {
     static MINE: OnceCell<Bell> = const { OnceCell::new() };
+    /// Whether this thread runs a branch: an engine of its own, which has planned no goals.
+    static IS_IN_BRANCH: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Rings when a goal of a thread is due.
@@ -34,8 +36,14 @@ pub(crate) fn is_any_due() -> bool {
     ANY.load(Ordering::Acquire)
 }
 
-/// Whether this thread's bell has rung since the last call.
+/// Goals that are due wait while this thread runs a branch.
+pub(crate) fn set_in_branch(is_in_branch: bool) {
+    IS_IN_BRANCH.set(is_in_branch);
+}
+
+/// Whether this thread's bell has rung since the last call, and its goals can run.
 pub(crate) fn has_rung() -> bool {
     is_any_due()
+        && !IS_IN_BRANCH.get()
         && MINE.with(|mine| mine.get().is_some_and(|bell| bell.0.swap(false, Ordering::AcqRel)))
 }

@@ -17,6 +17,7 @@
 //!
 //! Access is `read` or `write`.
 use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::device::read_value;
 use ev3_driver::error::{Access, Error};
 use ev3_driver::{Class, Errno, Registry, Value};
 use std::error::Error as _;
@@ -174,6 +175,9 @@ fn formal<'a, C: QueryableContextType>(
         Error::NoValue { index, .. } => {
             term! {context: domain_error(sensor_value_index, #i64::try_from(*index).unwrap_or(i64::MAX))}
         }
+        Error::NotOnBus { port, .. } => {
+            term! {context: domain_error(i2c_sensor, #atomable(port.as_str()))}
+        }
         Error::DuplicatePort { port } => {
             term! {context: domain_error(distinct_ports, #atomable(port.as_str()))}
         }
@@ -211,15 +215,37 @@ fn formal<'a, C: QueryableContextType>(
     }
 }
 
-/// The operation, the path and the kernel's words; for a missing device also the
-/// connected devices.
+/// The operation, the path and the kernel's words; then what there is, if a device is
+/// missing, and what the kernel takes, if it refused a word.
 fn message(error: &Error, devices: &Registry) -> String {
-    let source = error.source().map(|source| format!(": {source}")).unwrap_or_default();
+    let source = error.source().map(|source| format!(": {}", words(&source.to_string())));
     // The list of devices does not help if a picture is missing.
     let is_device = |path: &Path| path.starts_with(devices.tree().root());
     let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
-    let connected = if is_gone { connected(devices) } else { String::new() };
-    format!("{error}{source}{connected}")
+    let rest = if is_gone { connected(devices) } else { allowed(error, devices) };
+    format!("{error}{}{rest}", source.unwrap_or_default())
+}
+
+/// What the kernel says, without the number that Rust adds.
+fn words(source: &str) -> &str {
+    source.split_once(" (os error ").map_or(source, |(words, _)| words)
+}
+
+/// What an attribute takes whose driver lists that in a file beside it.
+fn allowed(error: &Error, devices: &Registry) -> String {
+    let Some(path) = error.path().filter(|_| error.errno() == Some(Errno::INVAL)) else {
+        return String::new();
+    };
+    let list = match &*file_name(path) {
+        "command" => "commands",
+        "mode" => "modes",
+        "stop_action" => "stop_actions",
+        _ => return String::new(),
+    };
+    match read_value(devices.tree(), &path.with_file_name(list)) {
+        Ok(Value::Text(all)) => format!("; there are: {}", all.replace(' ', ", ")),
+        _ => String::new(),
+    }
 }
 
 /// The connected motors and sensors. Servos are left out because there are many.

@@ -16,36 +16,108 @@ use ev3_driver::wait::{Look, Slices, Wait};
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
 use std::time::Duration;
+use swipl::fli::{Act, act_without_input, this_thread};
 use swipl::prelude::*;
+
+/// The number of Prolog's main thread.
+const MAIN_THREAD: i32 = 1;
 
 thread_local! {
     /// When this thread serves its events next, by the tree's clock; `None` if it has none.
     static NEXT_TICK: Cell<Option<Duration>> = const { Cell::new(None) };
-    /// While this thread runs one of several branches, the time at which the first of them
-    /// has to look again. No time passes then, and the branches' own ticks are not of the thread.
-    static BRANCHES: Cell<Option<Duration>> = const { Cell::new(None) };
-    /// The motors, by their last commands, to stop at the first wait.
-    static LEFT: RefCell<Option<Range<u32>>> = const { RefCell::new(None) };
+    /// The branches that this thread runs, the innermost last. The branches' own ticks are not of
+    /// the thread.
+    static BRANCHES: RefCell<Vec<Round>> = const { RefCell::new(Vec::new()) };
+    /// Whether this thread has a next tick, or runs branches: all that a read has to test.
+    static IS_SERVING: Cell<bool> = const { Cell::new(false) };
+    /// Whether the next read of a branch happens without a look at the time.
+    static READS_ON: Cell<bool> = const { Cell::new(false) };
+    /// The motors, by their last commands, to stop at the first wait: for each of the rule sets
+    /// that are within each other.
+    static LEFT: RefCell<Vec<Range<u32>>> = const { RefCell::new(Vec::new()) };
     /// How many slices of time this thread has waited.
     static SLICES: Cell<u64> = const { Cell::new(0) };
 }
 
+/// One round of branches.
+#[derive(Clone, Copy)]
+pub(crate) enum Round {
+    /// Each goes on until it waits; no time passes. The first of them has to look again at this
+    /// time, and one that reads sensors then lets the others go on.
+    GoesOn(Duration),
+    /// One of them is left, and its clean-ups may wait. A read may leave it from this time on;
+    /// later the thread's own ticks go on.
+    Left(Duration, Option<Duration>),
+}
+
 /// Sets when this thread serves its events next.
 pub(crate) fn tick_at(time: Option<Duration>) {
-    if BRANCHES.get().is_none() {
+    if branches_look().is_none() {
         NEXT_TICK.set(time);
+        note_serving();
     }
 }
 
-/// Branches run from now on, which let no time pass, and look again at this time at the
-/// latest; or the branches pause.
-pub(crate) fn set_branches(latest: Option<Duration>) -> Option<Duration> {
-    BRANCHES.replace(latest)
+fn note_serving() {
+    let is_in_branch = round().is_some();
+    due::set_in_branch(is_in_branch);
+    IS_SERVING.set(NEXT_TICK.get().is_some() || is_in_branch);
 }
 
-/// Sets which motors are stopped when this thread waits next, by their last commands.
-pub(crate) fn stop_at_wait(commands: Option<Range<u32>>) {
-    LEFT.set(commands);
+/// Branches run from now on.
+pub(crate) fn begin_branches(round: Round) {
+    BRANCHES.with_borrow_mut(|rounds| rounds.push(round));
+    note_serving();
+}
+
+fn round() -> Option<Round> {
+    BRANCHES.with_borrow(|rounds| rounds.last().copied())
+}
+
+/// When the first of the branches that go on has to look again.
+pub(crate) fn branches_look() -> Option<Duration> {
+    match round() {
+        Some(Round::GoesOn(look)) => Some(look),
+        _ => None,
+    }
+}
+
+/// Branches are left from now on, which serve events, and so may be left again, at this time.
+pub(crate) fn leave_branches(again: Duration) {
+    begin_branches(Round::Left(again, NEXT_TICK.replace(Some(again))));
+}
+
+/// The branches pause. If they are within another branch, this runs on.
+pub(crate) fn end_branches() {
+    if let Some(Round::Left(_, tick)) = BRANCHES.with_borrow_mut(Vec::pop) {
+        NEXT_TICK.set(tick);
+    }
+    note_serving();
+}
+
+/// A branch has to look again at this time.
+fn look_at(time: Duration) {
+    BRANCHES.with_borrow_mut(|rounds| {
+        if let Some(Round::GoesOn(look)) = rounds.last_mut() {
+            *look = time.min(*look);
+        }
+    });
+}
+
+/// Lets the next read of a branch happen: the others have gone on.
+pub(crate) fn read_on() {
+    READS_ON.set(true);
+}
+
+/// Sets which motors are stopped when this thread waits next, by their last commands, in the
+/// place of those that start at the same one.
+pub(crate) fn stop_at_wait(commands: Range<u32>) {
+    LEFT.with_borrow_mut(|left| {
+        left.retain(|range| range.start != commands.start);
+        if !commands.is_empty() {
+            left.push(commands);
+        }
+    });
 }
 
 /// How many slices of time this thread has waited so far.
@@ -58,6 +130,25 @@ pub(crate) fn is_tick_due(now: impl FnOnce() -> Duration) -> bool {
     NEXT_TICK.get().is_some_and(|tick| now() >= tick)
 }
 
+/// From now on the main thread serves its events at the prompt, too.
+pub(crate) fn serve_at_prompt() {
+    if this_thread() == MAIN_THREAD {
+        act_without_input(Act {
+            is_due: is_tick_due_at_prompt,
+            module: c"ev3dev_events",
+            name: c"serve_at_prompt",
+        });
+    }
+}
+
+/// No time passes on a virtual clock there.
+fn is_tick_due_at_prompt() -> bool {
+    NEXT_TICK.get().is_some_and(|tick| {
+        let devices = state::devices();
+        devices.tree().goes_on() && devices.tree().now() >= tick
+    })
+}
+
 impl<C: QueryableContextType> Call<'_, C> {
     /// One slice of a wait: unifies `reason` with what is to be done before the next one, or calls
     /// `ended`. The result is that of a nondeterministic predicate.
@@ -68,17 +159,17 @@ impl<C: QueryableContextType> Call<'_, C> {
         ended: impl FnOnce(W::End) -> PrologResult<()>,
     ) -> PrologResult<bool> {
         let tick = NEXT_TICK.get();
-        if let Some(commands) = LEFT.take() {
+        for commands in LEFT.take() {
             self.or_throw(motor::stop_commanded(&state::devices(), &commands))?;
         }
-        if let Some(next) = BRANCHES.get() {
+        if branches_look().is_some() {
             let now = state::devices().tree().now();
             return match wait.poll(now) {
                 Err(error) => self.leave(&error, reason),
                 Ok(Look::Over(end)) => ended(end).map(|()| false),
                 Ok(Look::Again(end)) => {
                     SLICES.set(SLICES.get() + 1);
-                    BRANCHES.set(Some(next.min(end)));
+                    look_at(end);
                     unify_atom(reason, "tick").map(|()| true)
                 }
             };
@@ -101,6 +192,47 @@ impl<C: QueryableContextType> Call<'_, C> {
             self.context.call_once(pred!("ev3dev_waits:serve_at_read/0"), [])?;
         }
         Ok(())
+    }
+
+    /// The same before a native predicate `name` reads sensors with these arguments. In a branch
+    /// whose time is over it is `true`: then the predicate is to succeed without reading, and
+    /// Prolog calls it again when the other branches have gone on.
+    #[inline]
+    pub(crate) fn serve_before(
+        &self,
+        name: &'static str,
+        arguments: [&Term; 5],
+    ) -> PrologResult<bool> {
+        if IS_SERVING.get() { self.serve_before_read(name, arguments) } else { Ok(false) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn serve_before_read(&self, name: &str, arguments: [&Term; 5]) -> PrologResult<bool> {
+        match round() {
+            None => self.serve_if_due().map(|()| false),
+            Some(Round::GoesOn(time) | Round::Left(time, _)) => {
+                self.goes_on_later(time, name, arguments)
+            }
+        }
+    }
+
+    /// An engine cannot yield within a call from here, but in a goal that waits for a variable:
+    /// Prolog itself calls this, at the exit of the native predicate.
+    fn goes_on_later(
+        &self,
+        time: Duration,
+        name: &str,
+        [port, types, mode, number, value]: [&Term; 5],
+    ) -> PrologResult<bool> {
+        if READS_ON.take() || state::devices().tree().now() < time {
+            return Ok(false);
+        }
+        let [called, woken] = self.context.new_term_refs();
+        unify_atom(&called, name)?;
+        let arguments = [&called, port, types, mode, number, value, &woken];
+        self.context.call_once(pred!("ev3dev_waits:read_later/7"), arguments)?;
+        unify_atom(&woken, "true").map(|()| true)
     }
 
     /// The end of a wait by an error, for Prolog to throw.

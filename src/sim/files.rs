@@ -2,7 +2,7 @@
 //! files. [`ev3_sim::Simulation`] is their clock.
 use ev3_driver::error::Access;
 use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
-use ev3_sim::{Errno, NodeId, Simulation};
+use ev3_sim::{Clock, Errno, NodeId, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -77,6 +77,10 @@ impl Sysfs for SimulatedFiles {
         self.simulation.machine().now()
     }
 
+    fn goes_on(&self) -> bool {
+        self.simulation.clock() != Clock::Virtual
+    }
+
     fn pause(&self, _nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
         Ok(self.simulation.pause(end))
     }
@@ -111,8 +115,22 @@ impl AttributeFile for SimulatedFile {
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
+        self.write_at(text, 0)
+    }
+
+    fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {
+        let count = buffer.len();
+        let read = self.simulation.read(|machine| machine.read_at(self.node, offset.into(), count));
+        let bytes = read.map_err(error)?;
+        buffer[..bytes.len()].copy_from_slice(&bytes);
+        Ok(bytes.len())
+    }
+
+    fn write_at(&self, bytes: &[u8], offset: u8) -> io::Result<()> {
         let written = self.simulation.write(|machine| {
-            machine.write(self.node, text).map(|written| (written, machine.now()))
+            machine
+                .write_at(self.node, offset.into(), bytes)
+                .map(|written| (written, machine.now()))
         });
         let (written, start) = written.map_err(error)?;
         let end = start + written.blocks;

@@ -1,6 +1,8 @@
 //! The state of a real tree: what the driver knows, and a few reads a second.
 use super::believed::{believed, report_believed};
-use crate::glue::state::devices;
+use super::notes::notes;
+use crate::glue::state::{dev, devices};
+use ev3_driver::brick::{buttons, screen};
 use ev3_driver::{Class, Device, Registry};
 use ev3_json::Json;
 use std::collections::VecDeque;
@@ -139,7 +141,8 @@ fn look(devices: &Registry) -> (String, Values) {
                 });
             }
         });
-        json.key("keys").array(|_| {});
+        let keys = buttons::pressed(&*dev()).ok().flatten().unwrap_or_default();
+        json.key("keys").array(|json| keys.into_iter().for_each(|key| json.text(key.word())));
         let battery = devices.all(Class::Battery).ok().and_then(|all| all.first().cloned());
         if let Some(battery) = battery {
             for (name, attribute) in [("volts", "voltage_now"), ("amps", "current_now")] {
@@ -150,7 +153,19 @@ fn look(devices: &Registry) -> (String, Values) {
         }
         json.key("tone").integer(0);
     });
+    notes().keep("screen", &screen_text(devices));
     (json.into_text(), values)
+}
+
+/// The screen; `null` where there is none.
+fn screen_text(devices: &Registry) -> String {
+    let mut json = Json::new();
+    let Some(shades) = screen::seen(devices.tree(), &*dev()).ok().flatten() else {
+        json.null();
+        return json.into_text();
+    };
+    ev3_sim::report_shades(&mut json, &shades);
+    json.into_text()
 }
 
 fn report_port(json: &mut Json, devices: &Registry, port: &str, values: &mut Values) {

@@ -46,6 +46,20 @@ pub(crate) fn register() {
     register_view_to_world();
 }
 
+/// Adds what the program has commanded meanwhile to the log.
+fn log_commands<'a, C: QueryableContextType>(
+    context: &'a Context<'a, C>,
+    call: &Call<'a, C>,
+) -> PrologResult<()> {
+    commands::log_new(|cause| {
+        let texts = context.new_term_ref();
+        let number = context.new_term_ref();
+        number.unify(u64::from(cause))?;
+        context.call_once(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
+        call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
+    })
+}
+
 predicates! {
     /// view_open_: somebody may watch from now on.
     #[module("ev3dev_native")]
@@ -104,13 +118,7 @@ predicates! {
     semidet fn view_frame(context, have, state, settings, text) {
         let call = Call::of(context, "view", 1);
         let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
-        commands::log_new(|cause| {
-            let texts = context.new_term_ref();
-            let number = context.new_term_ref();
-            number.unify(u64::from(cause))?;
-            context.call_once(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
-            call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
-        })?;
+        log_commands(context, &call)?;
         text.unify(frame::next(&have, &state, &settings).as_str())
     }
 
@@ -130,6 +138,8 @@ predicates! {
     semidet fn view_log(context, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
         let owned = |term: &Term| call.text(term).map(Text::into_owned);
+        // What was commanded before stands before it.
+        log_commands(context, &call)?;
         let entry = Entry {
             time: seconds(),
             kind: owned(kind)?,

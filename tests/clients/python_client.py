@@ -42,6 +42,7 @@ from ev3dev2.motor import (  # noqa: E402
     SpeedPercent)
 from ev3dev2.port import LegoPort  # noqa: E402
 from ev3dev2.power import PowerSupply  # noqa: E402
+from ev3dev2.sensor import Sensor  # noqa: E402
 from ev3dev2.sensor.lego import (  # noqa: E402
     ColorSensor, GyroSensor, TouchSensor, UltrasonicSensor)
 
@@ -237,6 +238,26 @@ class Client(unittest.TestCase):
             screen.seek(0)
             shown = screen.read()
         self.assertEqual((len(shown), shown[712:716]), (91136, b"\x01\x02\x03\x00"))
+
+    def test_registers_of_the_bus_are_read_and_written_at_their_offsets(self):
+        servos = os.path.join(Sensor("ev3-ports:in3:i2c88")._path, "direct")
+        file = os.open(servos, os.O_RDWR)
+        try:
+            self.assertEqual(os.pread(file, 8, 0x08), b"mndsnsrs")
+            self.assertEqual(os.pwrite(file, b"\x01\xff", 0x80), 2)
+            self.assertEqual(os.pread(file, 3, 0x80), b"\x01\xff\x00")
+            os.lseek(file, 0x10, os.SEEK_SET)
+            self.assertEqual(os.read(file, 8), b"NXTServo")
+            self.assertEqual(os.pread(file, 8, 250), bytes(5))
+            self.assertEqual(os.pread(file, 8, 255), b"")
+            with self.assertRaisesRegex(OSError, "File too large"):
+                os.pwrite(file, b"x", 255)
+        finally:
+            os.close(file)
+        with open(os.path.join(Sensor("ev3-ports:in1")._path, "direct"),
+                  "rb", 0) as ultrasonic:
+            with self.assertRaisesRegex(OSError, "Operation not supported"):
+                ultrasonic.read(8)
 
     def test_missing_sensor_raises_device_not_found(self):
         with self.assertRaises(DeviceNotFound):

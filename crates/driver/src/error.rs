@@ -82,6 +82,14 @@ pub enum Error {
         /// The index that was asked for.
         index: usize,
     },
+    /// The sensor has no registers: it is not on the I2C bus.
+    #[error("the {driver} at {port} is not on the I2C bus")]
+    NotOnBus {
+        /// The port of the sensor.
+        port: String,
+        /// Its type.
+        driver: String,
+    },
     /// Two moves that start together name the same port.
     #[error("{port} is named twice")]
     DuplicatePort {

@@ -58,6 +58,11 @@ pub trait Sysfs: Send + Sync {
     /// The time since some fixed moment.
     fn now(&self) -> Duration;
 
+    /// Whether time passes also while the program does nothing.
+    fn goes_on(&self) -> bool {
+        true
+    }
+
     /// Lets time pass: returns when one of `nodes` announces a change (as the
     /// kernel does by POLLPRI), when a signal arrives, or at `end`. May return early.
     /// `false` if no time has passed for this thread: it is to handle signals, and to
@@ -156,6 +161,22 @@ pub trait AttributeFile: Send + Sync {
     /// # Errors
     /// The driver's, as EINVAL for a value it does not accept.
     fn write(&self, text: &[u8]) -> io::Result<()>;
+
+    /// Reads a file that is no text, from an offset on.
+    ///
+    /// # Errors
+    /// The driver's.
+    fn read_at(&self, _buffer: &mut [u8], _offset: u8) -> io::Result<usize> {
+        Err(Errno::OPNOTSUPP.into())
+    }
+
+    /// Writes a file that is no text, from an offset on.
+    ///
+    /// # Errors
+    /// The driver's.
+    fn write_at(&self, _bytes: &[u8], _offset: u8) -> io::Result<()> {
+        Err(Errno::OPNOTSUPP.into())
+    }
 
     /// The descriptor that poll(2) can wait on.
     fn descriptor(&self) -> Option<BorrowedFd<'_>> {
@@ -296,6 +317,17 @@ impl AttributeFile for OpenFile {
             self.file.set_len(text.len() as u64)?;
         }
         Ok(())
+    }
+
+    fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {
+        self.file.read_at(buffer, offset.into())
+    }
+
+    fn write_at(&self, bytes: &[u8], offset: u8) -> io::Result<()> {
+        match self.file.write_at(bytes, offset.into())? {
+            written if written == bytes.len() => Ok(()),
+            _ => Err(io::ErrorKind::WriteZero.into()),
+        }
     }
 
     fn descriptor(&self) -> Option<BorrowedFd<'_>> {

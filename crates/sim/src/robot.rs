@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::brick::port::Port;
-use crate::motor::MotorKind;
+use crate::motor::{MOTOR_KINDS, MotorKind};
 use crate::noise::{Noise, TYPICAL_TEETH};
 use crate::sensor::SensorKind;
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
@@ -196,7 +196,7 @@ fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<()
                 .in_part(Part::Motor(index)))
         };
         if MotorKind::named(driver).is_none() {
-            return fault("is of no known type");
+            return fault(&format!("is of no known type; there are: {}", motors_alike(driver)));
         }
         if !port.is_output() || used.contains(port) {
             return fault("needs an output port of its own");
@@ -214,7 +214,7 @@ fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<()
                 .in_part(Part::Sensor(index)))
         };
         if SensorKind::named(driver).is_none() {
-            return fault("is of no known type");
+            return fault(&format!("is of no known type; there are: {}", sensors_alike(driver)));
         }
         if port.is_output() || used.contains(port) {
             return fault("needs an input port of its own");
@@ -225,4 +225,25 @@ fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<()
         used.push(*port);
     }
     Ok(())
+}
+
+/// The types of motors that begin most like a name that is none of them.
+pub(crate) fn motors_alike(name: &str) -> String {
+    alike(name, MOTOR_KINDS.iter().map(|kind| kind.driver_name))
+}
+
+/// The types of sensors that begin most like a name that is none of them.
+pub(crate) fn sensors_alike(name: &str) -> String {
+    alike(name, SensorKind::all().map(|kind| kind.driver_name))
+}
+
+/// The names that begin most like one that is none of them, or those of the EV3's own devices.
+fn alike(name: &str, all: impl Iterator<Item = &'static str> + Clone) -> String {
+    let shared = |other: &str| name.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+    let most = all.clone().map(shared).max().unwrap_or(0);
+    let is_alike = |other: &&str| match most {
+        0 => other.starts_with("lego-ev3-"),
+        _ => shared(other) == most,
+    };
+    all.filter(is_alike).collect::<Vec<_>>().join(", ")
 }

@@ -3,7 +3,7 @@
 //! The published `swipl-fli` is made by bindgen from the headers of whichever
 //! SWI-Prolog is installed, and links that version's library. A binary made so
 //! runs with that version alone. This crate has the same name, version and
-//! interface, as far as `swipl` uses it, and differs in five points:
+//! interface, as far as `swipl` uses it, and differs in six points:
 //!
 //! * **Nothing is linked.** The process that loads the library is SWI-Prolog
 //!   and resolves the symbols. Neither libclang nor SWI-Prolog is needed to
@@ -19,6 +19,7 @@
 //!   of the register, or, on 32 bit, the same word.
 //! * **One end.** Old versions end a predicate that throws twice; here the second
 //!   time is left out ([`pruned`]).
+//! * **The prompt.** What is to be done while Prolog waits for input ([`prompt`]).
 //!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
@@ -35,11 +36,13 @@
 
 pub mod functions;
 pub mod late;
+pub mod prompt;
 pub mod pruned;
 pub mod types;
 mod version;
 
 pub use functions::*;
 pub use late::*;
+pub use prompt::{Act, act_without_input};
 pub use pruned::_PL_retry_address;
 pub use types::*;

@@ -1,6 +1,6 @@
 //! The numbers that changed between versions.
 //!
-//! Two changes touch what `swipl` passes or gets:
+//! Two changes touch what `swipl` passes or gets (two others are asked about below):
 //!
 //! * **7.3.23** brought `PL_Q_EXT_STATUS`. Before, a query that ended with an
 //!   exception answered 0, like one that failed.
@@ -23,6 +23,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 const RATIONAL_TYPES: Version = Version(8_01_22);
 /// The first version whose queries distinguish an exception from failure.
 const EXTENDED_STATUS: Version = Version(7_03_23);
+
+/// The first version whose hook for input gets a stream, not a descriptor.
+const DISPATCHED_STREAMS: Version = Version(9_03_25);
 
 /// The first version that does not prune a nondeterministic predicate that has thrown.
 const PRUNED_ONCE: Version = Version(8_01_30);
@@ -71,6 +74,12 @@ impl Version {
     #[inline]
     pub(crate) fn prunes_twice(self) -> bool {
         self < PRUNED_ONCE
+    }
+
+    /// Whether the hook for input gets a stream, not a descriptor.
+    #[inline]
+    pub(crate) fn dispatches_streams(self) -> bool {
+        self >= DISPATCHED_STREAMS
     }
 
     fn translates(self) -> bool {

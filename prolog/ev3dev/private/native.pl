@@ -14,10 +14,15 @@
             now_/1,
             wait_/2,
             branches_begin_/0,
-            branches_end_/1,
+            branches_leave_/0,
+            branches_look_/1,
+            branches_end_/0,
             commands_/1,
             motors_leave_/2,
             motors_stop_/2,
+            read_on_/0,
+            serve_at_prompt_/0,
+            serve_if_due_/0,
             slices_/1,
             tick_after_/1,
             motor_position_/2,
@@ -43,6 +48,8 @@
             sensor_value_or_why_/5,
             sensor_values_/5,
             sensor_wait_/5,
+            i2c_read_/4,
+            i2c_write_/3,
             led_/3,
             led_set_color_/2,
             led_set_delays_/3,
@@ -186,10 +193,15 @@ missing.
 %!  now_(-Seconds) is det.
 %!  wait_(+Seconds, -Reason) is nondet.
 %!  branches_begin_ is semidet.
-%!  branches_end_(-Seconds) is semidet.
+%!  branches_leave_ is semidet.
+%!  branches_look_(-Seconds) is semidet.
+%!  branches_end_ is semidet.
 %!  commands_(-Count) is semidet.
 %!  motors_leave_(+From, +Before) is semidet.
 %!  motors_stop_(+From, +Before) is semidet.
+%!  read_on_ is semidet.
+%!  serve_at_prompt_ is semidet.
+%!  serve_if_due_ is semidet.
 %!  slices_(-Count) is semidet.
 %!  tick_after_(+Seconds) is semidet.
 %
@@ -235,6 +247,8 @@ missing.
 %!  sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.
 %!  sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended) is nondet.
+%!  i2c_read_(+Port, +Register, +Count, -Bytes) is semidet.
+%!  i2c_write_(+Port, +Register, +Bytes) is semidet.
 %
 %   `src/sensors.rs`
 

@@ -114,6 +114,26 @@ impl Attribute {
         write_line(node, &self.path, text)
     }
 
+    /// Fills a buffer with the bytes from an offset on.
+    pub(super) fn read_at(&self, tree: &dyn Sysfs, buffer: &mut [u8], offset: u8) -> Result<()> {
+        let read = self.reader(tree)?.read_at(buffer, offset);
+        let length = read.map_err(|source| Error::Read { path: self.path.clone(), source })?;
+        if length < buffer.len() {
+            let read = buffer.get(..length).unwrap_or_default();
+            return Err(malformed(&self.path, read, "as much as was to be read"));
+        }
+        Ok(())
+    }
+
+    /// Writes bytes from an offset on, in one go.
+    pub(super) fn write_at(&self, tree: &dyn Sysfs, bytes: &[u8], offset: u8) -> Result<()> {
+        self.writer(tree)?.write_at(bytes, offset).map_err(|source| Error::Write {
+            path: self.path.clone(),
+            text: format!("{bytes:?}"),
+            source,
+        })
+    }
+
     pub(super) fn malformed(&self, bytes: &[u8], expected: &'static str) -> Error {
         malformed(&self.path, bytes, expected)
     }

@@ -362,6 +362,22 @@ impl Device {
         Ok(self.attribute(attribute).read(self.tree(), buffer)?.len())
     }
 
+    /// Fills a buffer with what an attribute that is no text has from an offset on.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] where it is shorter, else the kernel's.
+    pub(crate) fn read_at(&self, attribute: &str, buffer: &mut [u8], offset: u8) -> Result<()> {
+        self.attribute(attribute).read_at(self.tree(), buffer, offset)
+    }
+
+    /// Writes an attribute that is no text, from an offset on.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub(crate) fn write_at(&self, attribute: &str, bytes: &[u8], offset: u8) -> Result<()> {
+        self.attribute(attribute).write_at(self.tree(), bytes, offset)
+    }
+
     /// Calls `look` with the text of a short attribute, as `mode` or `state`.
     ///
     /// # Errors

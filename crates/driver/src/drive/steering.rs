@@ -333,17 +333,16 @@ impl Steering {
                     return;
                 };
                 // Pieces but the last end in corners that are turned on the spot.
-                let Task::Legs { legs, .. } = &mut self.task else {
-                    return;
-                };
                 let mut first = Vec::new();
                 for piece in pieces.into_iter().chain([last]) {
                     if let Some(start) = piece.first() {
-                        let next = start.end();
-                        first.push(Leg::Towards([next.x, next.y]));
+                        first.push(self.turn_before(start));
                     }
                     first.push(Leg::Pieces(piece));
                 }
+                let Task::Legs { legs, .. } = &mut self.task else {
+                    return;
+                };
                 for leg in first.into_iter().rev() {
                     legs.push_front(leg);
                 }
@@ -360,6 +359,17 @@ impl Steering {
             }
         };
         self.set_phase(phase);
+    }
+
+    /// The turn on the spot before a segment: towards the end of a line; the end of
+    /// an arc, or of a line that is hardly one, says nothing of where it begins.
+    fn turn_before(&self, segment: &Segment) -> Leg {
+        let end = segment.end();
+        if segment.curvature() == 0.0 && segment.length() >= THERE {
+            Leg::Towards([end.x, end.y])
+        } else {
+            Leg::Face(self.travel(segment.start().heading))
+        }
     }
 
     fn turn_to(&mut self, heading: f64) -> Phase {

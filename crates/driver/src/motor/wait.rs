@@ -31,6 +31,11 @@ const STALLED_FOR: Duration = Duration::from_millis(100);
 /// stands still for longer than [`STALLED_FOR`] at each start.
 const BEHIND: u64 = 8;
 
+/// How long `stalled` must last while the kernel walks up a ramp. The longest has 60 s to
+/// the highest speed, 1020 counts a second or more: it is [`BEHIND`] after
+/// `sqrt(2 * 8 * 60 / 1020)` = 0.97 s.
+const RAMPS_FOR: Duration = Duration::from_secs(1);
+
 /// How long a position may stay the same under way to one where the board
 /// never flags a stall.
 const STUCK_FOR: Duration = Duration::from_secs(2);
@@ -337,8 +342,8 @@ impl Progress {
     }
 
     fn sample(&mut self, now: Duration) -> Result<Sample> {
-        let (runs, holds, stalled) = self.motor.with_word("state", |state| {
-            (has(state, "running"), has(state, "holding"), has(state, "stalled"))
+        let [runs, holds, stalled, ramps] = self.motor.with_word("state", |state| {
+            ["running", "holding", "stalled", "ramping"].map(|flag| has(state, flag))
         })?;
         // Controllers on I2C go on running while they hold. As theirs may be
         // the state of the move before, what counts is whether it is there.
@@ -348,7 +353,7 @@ impl Progress {
             let since = stalled.then(|| *self.stalled_since.get_or_insert(now));
             self.stalled_since = since;
             let lasts = match since {
-                Some(since) => now.saturating_sub(since) >= self.believed_after()?,
+                Some(since) => now.saturating_sub(since) >= self.believed_after(ramps)?,
                 None => false,
             };
             if lasts || self.is_stuck(now)? {
@@ -417,14 +422,14 @@ impl Progress {
         end.is_some_and(|end| now >= end) && *self.motor.run() == self.run
     }
 
-    /// How long `stalled` must last to be believed, at the motor's speed.
-    fn believed_after(&self) -> Result<Duration> {
+    /// How long `stalled` must last to be believed, at the motor's speed. A ramp begins with none.
+    fn believed_after(&self, ramps: bool) -> Result<Duration> {
         let speed = self.motor.number("speed_sp")?.unsigned_abs();
         let slowly = Duration::from_millis((BEHIND * 1000).checked_div(speed).unwrap_or(0));
         Ok(if self.motor.is_linear() {
             SLOW_STUCK_FOR
         } else {
-            slowly.clamp(STALLED_FOR, STUCK_FOR)
+            slowly.clamp(if ramps { RAMPS_FOR } else { STALLED_FOR }, STUCK_FOR)
         })
     }
 

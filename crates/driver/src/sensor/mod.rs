@@ -7,6 +7,7 @@
 //! settled.
 mod bin_data;
 pub(crate) mod gyro;
+pub mod registers;
 pub mod wait;
 
 use crate::class::Class;
@@ -259,11 +260,16 @@ fn write_mode(sensor: &Device, mode: &str) -> Result<()> {
     sensor.write("mode", mode)?;
     let settling = match sensor.driver() {
         "lego-ev3-ir" => SETTLING_INFRARED,
-        _ if sensor.port().contains(":i2c") => SETTLING_ON_BUS,
+        _ if is_on_bus(sensor) => SETTLING_ON_BUS,
         _ => SETTLING,
     };
     *sensor.settled_at() = sensor.tree().now().saturating_add(settling);
     Ok(())
+}
+
+/// Whether the sensor is on the I2C bus: then its own address is part of its port's.
+fn is_on_bus(sensor: &Device) -> bool {
+    sensor.port().contains(":i2c")
 }
 
 /// Waits until the values are those of the mode; `false` if they were already. If

@@ -371,6 +371,10 @@ pub(crate) struct Sensor {
     pub(crate) gyro_lag: Duration,
     /// What the gyro shows for a heading of 0.
     pub(crate) gyro_zero: f64,
+    /// The registers of a sensor on the I2C bus.
+    pub(crate) registers: Vec<u8>,
+    /// What the bus answers, and until when.
+    pub(crate) bus_error: Option<(Errno, Duration)>,
     /// The format of the raw data, if there is a file of them: `u8`, or `s16_be`.
     pub(crate) raw_format: Option<&'static str>,
     frozen: Option<i64>,
@@ -396,6 +400,8 @@ impl Sensor {
             gyro: None,
             gyro_lag: Duration::ZERO,
             gyro_zero: 0.0,
+            registers: Vec::new(),
+            bus_error: None,
             raw_format: None,
             frozen: None,
         }
@@ -433,6 +439,18 @@ impl Sensor {
         Ok(bytes)
     }
 
+    /// What the bus has at a place in `direct`: an end, an error, or so many registers.
+    fn on_bus(&mut self, offset: u8, count: usize, now: Duration) -> io::Result<&mut [u8]> {
+        match self.bus_error {
+            _ if self.is_unplugged => errno(Errno::NODEV),
+            Some((error, until)) if now < until => errno(error),
+            _ => {
+                let end = self.registers.len().min(usize::from(offset) + count);
+                Ok(self.registers.get_mut(offset.into()..end).unwrap_or_default())
+            }
+        }
+    }
+
     fn read(&self, attribute: &str, now: Duration, headings: &VecDeque<f64>) -> io::Result<String> {
         let (mode, values, decimals) = &self.modes[self.mode];
         let is_lost = now < self.out_of_contact_until;
@@ -447,6 +465,7 @@ impl Sensor {
             "modes" => names.join(" "),
             "num_values" => values.len().to_string(),
             "decimals" => decimals.to_string(),
+            "direct" if !self.registers.is_empty() => String::new(),
             "bin_data_format" | "bin_data" if self.raw_format.is_some() => {
                 self.raw_format.unwrap().to_owned()
             }
@@ -780,6 +799,17 @@ impl AttributeFile for BrickNode {
         Ok(text.len())
     }
 
+    fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {
+        self.at_registers(offset, buffer.len(), |registers| {
+            buffer[..registers.len()].copy_from_slice(registers);
+            registers.len()
+        })
+    }
+
+    fn write_at(&self, bytes: &[u8], offset: u8) -> io::Result<()> {
+        self.at_registers(offset, bytes.len(), |registers| registers.copy_from_slice(bytes))
+    }
+
     fn write(&self, text: &[u8]) -> io::Result<()> {
         let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
         world.count();
@@ -816,6 +846,23 @@ impl AttributeFile for BrickNode {
             world.advance(wait, false);
         }
         written
+    }
+}
+
+impl BrickNode {
+    /// Does something with a sensor's registers.
+    fn at_registers<T>(
+        &self,
+        offset: u8,
+        count: usize,
+        act: impl FnOnce(&mut [u8]) -> T,
+    ) -> io::Result<T> {
+        assert_eq!(self.attribute, "direct");
+        let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
+        world.count();
+        let now = world.now;
+        let sensor = world.sensors.iter_mut().find(|sensor| sensor.inode == self.inode).unwrap();
+        sensor.on_bus(offset, count, now).map(act)
     }
 }
 

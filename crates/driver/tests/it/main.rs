@@ -13,6 +13,7 @@ mod motors;
 mod moves;
 mod odometry;
 mod paths;
+mod registers;
 mod sensors;
 mod several;
 mod waits;

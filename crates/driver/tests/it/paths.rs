@@ -51,6 +51,21 @@ fn a_wheel_that_lags_is_made_up_for() {
     assert!(pose.heading.abs() < 0.1, "{pose:?}");
 }
 
+/// A line of a millimeter before the first corner, and none at all: the robot faces
+/// the way before it rolls.
+#[test]
+fn a_path_may_begin_with_its_corner() {
+    for (points, radius) in [
+        (vec![[13.337, -12.425], [44.264, 16.837]], 19.273),
+        (vec![[0.175, -3.727], [31.905, -29.255]], 7.987),
+        (vec![[10.0, 0.0], [10.0, 30.0]], 10.0),
+    ] {
+        let last = points[1];
+        let (pose, _) = steered(vec![Leg::Through(points, radius)], false, [1.0, 1.0]).unwrap();
+        assert!((pose.x - last[0]).hypot(pose.y - last[1]) < 0.7, "{pose:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 

@@ -100,8 +100,13 @@ impl Served for Descriptor {
         self.pread(machine, offset, buffer)
     }
 
-    fn write(&mut self, machine: &mut Machine, _: usize, data: &[u8]) -> Result<Written, Errno> {
-        self.write(machine, data)
+    fn write(
+        &mut self,
+        machine: &mut Machine,
+        offset: usize,
+        data: &[u8],
+    ) -> Result<Written, Errno> {
+        self.pwrite(machine, offset, data)
     }
 
     fn is_ready(&self, machine: &Machine) -> bool {

@@ -36,7 +36,7 @@ impl Descriptor {
     }
 
     /// Reads from an offset. At offset 0 the driver makes a new text. Elsewhere this gives the
-    /// rest of the last one, 0 bytes at its end.
+    /// rest of the last one, 0 bytes at its end. A binary attribute is read again at each offset.
     ///
     /// # Errors
     /// ENODEV after an unplug; what the driver answers.
@@ -46,6 +46,11 @@ impl Descriptor {
         offset: usize,
         buffer: &mut [u8],
     ) -> Result<usize, Errno> {
+        if machine.is_binary(self.node) {
+            let bytes = machine.read_at(self.node, offset, buffer.len())?;
+            buffer[..bytes.len()].copy_from_slice(&bytes);
+            return Ok(bytes.len());
+        }
         if offset == 0 || self.text.is_empty() {
             self.seen = Some(machine.event_count(self.node)?);
             self.text = machine.read(self.node)?;
@@ -61,7 +66,20 @@ impl Descriptor {
     /// # Errors
     /// ENODEV after an unplug; what the driver answers.
     pub fn write(&mut self, machine: &mut Machine, bytes: &[u8]) -> Result<Written, Errno> {
-        machine.write(self.node, bytes)
+        self.pwrite(machine, 0, bytes)
+    }
+
+    /// Writes at an offset, which only a binary attribute looks at.
+    ///
+    /// # Errors
+    /// As [`Descriptor::write`]; EFBIG behind the end of a binary attribute.
+    pub fn pwrite(
+        &mut self,
+        machine: &mut Machine,
+        offset: usize,
+        bytes: &[u8],
+    ) -> Result<Written, Errno> {
+        machine.write_at(self.node, offset, bytes)
     }
 
     /// True if poll(2) would report POLLPRI and POLLERR: the attribute has notified since this

@@ -102,17 +102,55 @@ impl Machine {
         Ok(text)
     }
 
+    /// True if reads and writes go to the driver with their offset, as those of `direct` do.
+    #[must_use]
+    pub fn is_binary(&self, node: NodeId) -> bool {
+        self.tree.is_binary(node)
+    }
+
+    /// Reads from an offset on, of a binary attribute. Of another one, its text from there.
+    ///
+    /// # Errors
+    /// As [`Machine::read`].
+    pub fn read_at(&mut self, node: NodeId, offset: usize, count: usize) -> Result<Vec<u8>, Errno> {
+        if let Some(bytes) = self.tree.read_at(node, offset, count)? {
+            return Ok(bytes);
+        }
+        let text = self.read(node)?;
+        Ok(text.into_iter().skip(offset).take(count).collect())
+    }
+
     /// Writes an attribute: one call of its driver with these bytes.
     ///
     /// # Errors
     /// ENODEV if its device is gone; EACCES if it cannot be written; what the driver answers.
     pub fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Written, Errno> {
+        self.write_at(node, 0, bytes)
+    }
+
+    /// Writes from an offset on, which only a binary attribute looks at.
+    ///
+    /// # Errors
+    /// As [`Machine::write`]; EFBIG behind the end of a binary attribute.
+    pub fn write_at(
+        &mut self,
+        node: NodeId,
+        offset: usize,
+        bytes: &[u8],
+    ) -> Result<Written, Errno> {
         let mut written = Written { outcome: Ok(bytes.len()), blocks: Duration::ZERO };
         if bytes.is_empty() {
             return Ok(written);
         }
-        let effect = self.tree.write(node, bytes)?;
-        self.record(Action::Written, node, bytes);
+        let (effect, taken) = self.tree.write(node, offset, bytes)?;
+        match taken {
+            Some(count) => {
+                let taken = &bytes[..count];
+                written.outcome = Ok(count);
+                self.record(Action::Written, node, format!("{offset}: {taken:?}").as_bytes());
+            }
+            None => self.record(Action::Written, node, bytes),
+        }
         let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
         match (effect, port) {
             (Effect::Blocks(time), _) => written.blocks = time,

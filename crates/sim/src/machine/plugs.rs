@@ -12,6 +12,7 @@ use crate::machine::tree::Hardware;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
 use crate::motor::servo::{self, Servo};
+use crate::robot::{motors_alike, sensors_alike};
 use crate::sensor::{Sense, Sensor};
 use crate::ticks::{TICK_US, ticks_from_ms};
 use crate::trace::Action;
@@ -31,7 +32,9 @@ impl Machine {
     /// If no such thing fits the port.
     pub fn plug(&mut self, port: Port, driver: &str) -> Result<(), SpecError> {
         let plug = Plug::named(driver, port).ok_or_else(|| {
-            SpecError::new(format!("{driver} on {port}"), "is nothing that fits this port")
+            let alike = if port.is_output() { motors_alike(driver) } else { sensors_alike(driver) };
+            let reason = format!("is nothing that fits this port; there are: {alike}");
+            SpecError::new(format!("{driver} on {port}"), reason)
         })?;
         if let Plug::Motor(kind) = plug {
             self.shafts[port.slot()].connect(kind);

@@ -200,6 +200,8 @@ const FIRST_SERIAL: u64 = 16;
 const SERIAL_SHIFT: u32 = 8;
 const GROUP_BIT: u64 = 0x80;
 const PAGE: usize = 4096;
+/// The binary file of a sensor.
+const DIRECT: &str = "direct";
 
 /// All devices, in the order of their registration.
 #[derive(Clone, Debug)]
@@ -388,10 +390,37 @@ impl Tree {
         self.attribute(node).is_ok_and(|(device, row)| device.hardware.files().measured(row))
     }
 
+    /// True if reads and writes have offsets, as those of a sensor's `direct` have.
+    pub(crate) fn is_binary(&self, node: NodeId) -> bool {
+        self.attribute(node).is_ok_and(|(device, row)| device.direct(row).is_some())
+    }
+
     pub(crate) fn read(&self, node: NodeId) -> Result<Vec<u8>, Errno> {
         let (device, row) = self.attribute(node)?;
         let shown = device.shown.iter().find(|(other, _)| *other == row);
         shown.map_or_else(|| device.hardware.files().read(row), |(_, text)| Ok(text.clone()))
+    }
+
+    /// Reads a binary file: nothing behind its size (`sysfs_kf_bin_read` in the kernel's
+    /// `fs/sysfs/file.c`). `None` if it is a text.
+    pub(crate) fn read_at(
+        &self,
+        node: NodeId,
+        offset: usize,
+        count: usize,
+    ) -> Result<Option<Vec<u8>>, Errno> {
+        let (device, row) = self.attribute(node)?;
+        let Some(sensor) = device.direct(row) else {
+            return Ok(None);
+        };
+        let count = count.min(device.room(row, offset));
+        if count == 0 {
+            return Ok(Some(Vec::new()));
+        }
+        match device.shown.iter().find(|(other, _)| *other == row) {
+            Some((_, text)) => Ok(Some(text.iter().copied().skip(offset).take(count).collect())),
+            None => sensor.direct_read(offset, count).map(Some),
+        }
     }
 
     /// Makes an attribute show a text from now on, or its own one again; false if it does so
@@ -422,11 +451,27 @@ impl Tree {
         Ok(is_new)
     }
 
-    pub(crate) fn write(&mut self, node: NodeId, bytes: &[u8]) -> Result<Effect, Errno> {
+    /// Writes a file. What is behind the size of a binary file is cut off, or refused where
+    /// nothing is left (`sysfs_kf_bin_write`); how many bytes it took is answered, too.
+    pub(crate) fn write(
+        &mut self,
+        node: NodeId,
+        offset: usize,
+        bytes: &[u8],
+    ) -> Result<(Effect, Option<usize>), Errno> {
         let (device, row) = self.attribute(node)?;
         let serial = device.serial;
         let device = self.device_mut(serial).ok_or(Errno::ENODEV)?;
-        device.hardware.files_mut().write(row, &bytes[..bytes.len().min(PAGE)])
+        let room = device.room(row, offset);
+        let Some(sensor) = device.direct_mut(row) else {
+            let text = &bytes[..bytes.len().min(PAGE)];
+            return device.hardware.files_mut().write(row, text).map(|effect| (effect, None));
+        };
+        if room == 0 {
+            return Err(Errno::EFBIG);
+        }
+        let taken = &bytes[..bytes.len().min(room)];
+        sensor.direct_write(offset, taken).map(|effect| (effect, Some(taken.len())))
     }
 
     pub(crate) fn events(&self, node: NodeId) -> Result<u32, Errno> {
@@ -466,6 +511,27 @@ impl Tree {
 }
 
 impl Device {
+    /// The sensor, if that row is its `direct`.
+    fn direct(&self, row: usize) -> Option<&Sensor> {
+        match &self.hardware {
+            Hardware::Sensor(sensor) if sensor.name(row) == DIRECT => Some(sensor),
+            _ => None,
+        }
+    }
+
+    fn direct_mut(&mut self, row: usize) -> Option<&mut Sensor> {
+        match &mut self.hardware {
+            Hardware::Sensor(sensor) if sensor.name(row) == DIRECT => Some(sensor),
+            _ => None,
+        }
+    }
+
+    /// How many bytes there are from an offset to the end of a file.
+    fn room(&self, row: usize, offset: usize) -> usize {
+        let size = usize::try_from(self.hardware.files().size(row)).unwrap_or(PAGE);
+        size.saturating_sub(offset)
+    }
+
     fn open_to_group(&self, row: usize, now: u64) -> bool {
         CLASSES[self.class as usize].3 && now >= self.closed_until(row)
     }

@@ -23,7 +23,8 @@ impl Table for Sensor {
         ),
         Attr::ro("commands", |s| text(s.kind.commands.join(" "))),
         Attr::ro("decimals", |s| text(s.mode().decimals)),
-        Attr::rw("direct", Sensor::registers, Sensor::direct).size(255),
+        Attr::rw("direct", |s: &Sensor| s.direct_read(0, 255), |s, bytes| s.direct_write(0, bytes))
+            .size(255),
         Attr::ro("driver_name", |s| text(s.kind.driver_name)),
         Attr::ro("fw_version", |s| text(s.version())),
         Attr::rw("mode", |s| text(s.mode().name), |s, bytes| s.select(word(bytes, s.modes())?)),

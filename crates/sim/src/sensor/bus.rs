@@ -15,16 +15,19 @@ use crate::ticks::{TICK_MS, ticks_from_ms};
 /// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;
 /// What the sensors on the I2C bus say of their version, and where it, who made them, what they
-/// are and their data lie.
+/// are, the first register that can be written, and their data lie.
 const VERSION: &str = "V1.0";
 const VERSION_REGISTER: usize = 0x00;
 const VENDOR_REGISTER: usize = 0x08;
 const PRODUCT_REGISTER: usize = 0x10;
+const SETTINGS_REGISTER: usize = 0x18;
 const DATA_REGISTER: usize = 0x42;
 /// Numbers of errors are at most this.
 const LAST_ERRNO: i32 = 4095;
-/// How many registers the file `direct` shows.
-const REGISTERS: usize = 255;
+/// How many registers there are, of which the file `direct` shows all but the last.
+const REGISTERS: usize = 256;
+/// As many bytes go over the bus in one message, by `I2C_SMBUS_BLOCK_MAX`.
+const BLOCK: usize = 32;
 
 impl Sensor {
     /// The address that the files show: on the I2C bus, with that of the sensor.
@@ -106,11 +109,35 @@ impl Sensor {
         Ok(Effect::Done)
     }
 
-    /// The registers of a sensor on the I2C bus, as far as there is something in them.
-    pub(super) fn registers(&self) -> Result<Vec<u8>, Errno> {
+    /// Reads registers. The driver answers as many bytes as it was asked for, also where it did
+    /// not read them.
+    pub(crate) fn direct_read(&self, register: usize, count: usize) -> Result<Vec<u8>, Errno> {
         if !self.is_on_bus() {
             return Err(Errno::EOPNOTSUPP);
         }
+        let mut bytes: Vec<u8> = self.registers().into_iter().skip(register).take(BLOCK).collect();
+        bytes.resize(count, 0);
+        Ok(bytes)
+    }
+
+    /// Writes registers: what is beyond a message is dropped. What a sensor says of itself and
+    /// what it measures stays; all else is kept, and does nothing.
+    pub(super) fn write_registers(&mut self, register: usize, bytes: &[u8]) -> Effect {
+        for (at, byte) in (register..REGISTERS).zip(bytes.iter().take(BLOCK)) {
+            if (DATA_REGISTER..DATA_REGISTER + BLOCK).contains(&at) || at < SETTINGS_REGISTER {
+                continue;
+            }
+            self.settings.retain(|(other, _)| *other != at);
+            self.settings.push((at, *byte));
+        }
+        if self.instant {
+            return Effect::Done;
+        }
+        Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into()))
+    }
+
+    /// The registers of a sensor on the I2C bus, as far as there is something in them.
+    fn registers(&self) -> Vec<u8> {
         let mut registers = vec![0; REGISTERS];
         let [vendor, product] = self.kind.identity();
         for (at, text) in [
@@ -122,6 +149,9 @@ impl Sensor {
         }
         let data = self.bin_data();
         registers[DATA_REGISTER..DATA_REGISTER + data.len()].copy_from_slice(&data);
-        Ok(registers)
+        for (at, byte) in &self.settings {
+            registers[*at] = *byte;
+        }
+        registers
     }
 }

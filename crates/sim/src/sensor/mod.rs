@@ -65,6 +65,8 @@ pub(crate) struct Sensor {
     wanted: bool,
     /// How often it is polled; 0 is never.
     poll_ms: u32,
+    /// The registers that a program has written, of a sensor on the I2C bus.
+    settings: Vec<(usize, u8)>,
     /// The raw data, as they lie in `bin_data`.
     reading: Reading,
     /// The last measurement of each mode: the files show it until the mode has settled.
@@ -108,6 +110,7 @@ impl Sensor {
             last_single_shot: None,
             wanted: matches!(kind.link, Link::I2c(_)),
             poll_ms: kind.poll_ms(),
+            settings: Vec::new(),
             reading: [0; 8],
             left_over: vec![None; kind.modes.len()],
             read_at: None,
@@ -327,12 +330,16 @@ impl Sensor {
         Effect::TimesOut(Duration::from_millis(ticks * TICK_MS))
     }
 
-    /// A message to the sensor itself. The one that does something: 0x11 zeroes the gyro's angle.
-    fn direct(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
+    /// A message to the sensor itself; on the I2C bus it goes to its registers. Of those to a
+    /// serial sensor one does something: 0x11 zeroes the gyro's angle.
+    pub(crate) fn direct_write(&mut self, offset: usize, bytes: &[u8]) -> Result<Effect, Errno> {
         if self.kind.link.is_analog() {
             return Err(Errno::EOPNOTSUPP);
         }
-        if bytes.len() > 32 {
+        if self.is_on_bus() {
+            return Ok(self.write_registers(offset, bytes));
+        }
+        if offset > 0 || bytes.len() > 32 {
             return Err(Errno::EINVAL);
         }
         if self.mode().sense == Sense::Angle && bytes.first() == Some(&0x11) {

@@ -3,7 +3,7 @@
 use crate::robots::{default_robot, touch_robot};
 use std::time::Duration;
 
-use ev3_sim::{Errno, Item, Machine, Options, Pose, RemoteButton, WorldSpec};
+use ev3_sim::{Access, Descriptor, Errno, Item, Machine, Options, Pose, RemoteButton, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
@@ -159,6 +159,9 @@ fn what_is_on_the_bus_is_polled() {
     desk.step(10);
     assert_eq!(values(&mut desk, "COMPASS"), [90], "but when the mode is written");
     assert_eq!(desk.try_put(&format!("{path}poll_ms"), "soon"), Err(Errno::EINVAL));
+    desk.put(&format!("{path}poll_ms"), "2147483648");
+    assert_eq!(desk.try_get(&format!("{path}poll_ms")), Err(Errno::EINVAL), "stored as below 0");
+    assert_eq!(get(&mut self::desk("ms-nxtmmx", vec![]), "poll_ms"), "1000");
     let mut serial = self::desk("lego-ev3-ir", vec![]);
     assert_eq!(serial.try_put(&format!("{SENSOR}poll_ms"), "50"), Err(Errno::EOPNOTSUPP));
 }
@@ -382,7 +385,66 @@ fn registers_of_the_bus_can_be_read() {
     let node = desk.0.open(&path, ev3_sim::Access::ReadOnly).unwrap();
     let registers = desk.0.read(node).unwrap();
     assert_eq!(&registers[..4], b"V1.0");
+    assert_eq!(&registers[8..16], b"HITECHNC");
+    assert_eq!(&registers[16..23], b"Compass");
     assert_eq!(registers.len(), 255);
+}
+
+#[test]
+fn registers_are_read_and_written_at_their_offsets() {
+    let mut desk = desk("ht-nxt-compass", vec![]);
+    let path = sensor(&mut desk) + "direct";
+    let mut file = Descriptor::open(&desk.0, &path, Access::ReadWrite).unwrap();
+    let mut reader = file.clone();
+    let mut read = |desk: &mut Desk, offset, count| {
+        let mut bytes = vec![0xff; count];
+        let length = reader.pread(&mut desk.0, offset, &mut bytes).unwrap();
+        bytes.truncate(length);
+        bytes
+    };
+    assert_eq!(read(&mut desk, 0x08, 8), b"HITECHNC");
+    assert_eq!(read(&mut desk, 0x10, 8), b"Compass\0");
+    let mut write = |desk: &mut Desk, offset, bytes: &[u8]| {
+        let written = file.pwrite(&mut desk.0, offset, bytes)?;
+        written.outcome
+    };
+    assert_eq!(write(&mut desk, 0x41, &[0x43]), Ok(1));
+    assert_eq!(write(&mut desk, 0x80, &[1, 2, 3]), Ok(3));
+    assert_eq!(write(&mut desk, 0x81, &[9]), Ok(1));
+    assert_eq!(read(&mut desk, 0x41, 1), [0x43]);
+    assert_eq!(read(&mut desk, 0x80, 4), [1, 9, 3, 0]);
+    // What it is and what it measures stays.
+    assert_eq!(write(&mut desk, 0x08, b"nobody's"), Ok(8));
+    assert_eq!(write(&mut desk, 0x42, &[7; 4]), Ok(4));
+    assert_eq!(read(&mut desk, 0x08, 8), b"HITECHNC");
+    assert_eq!(read(&mut desk, 0x42, 4), [0; 4]);
+    // A message has 32 bytes, whatever was asked for; the file ends before the last register.
+    assert_eq!(write(&mut desk, 0x80, &[5; 40]), Ok(40));
+    assert_eq!(read(&mut desk, 0x9f, 2), [5, 0]);
+    assert_eq!(read(&mut desk, 0x80, 40), [vec![5; 32], vec![0; 8]].concat());
+    assert_eq!(write(&mut desk, 250, &[6; 9]), Ok(5));
+    assert_eq!(read(&mut desk, 250, 9), [6; 5]);
+    assert_eq!(read(&mut desk, 255, 1), []);
+    assert_eq!(write(&mut desk, 255, &[1]), Err(Errno::EFBIG));
+    desk.0.show(ev3_sim::Port::In4, "direct", "another sensor").unwrap();
+    assert_eq!(read(&mut desk, 8, 99), b"sensor\n");
+    let events = desk.0.trace().events();
+    assert!(events.iter().any(|event| event.text == "128: [1, 2, 3]"), "{events:?}");
+}
+
+#[test]
+fn what_is_not_on_the_bus_has_no_registers() {
+    for (driver, read, written) in [
+        ("lego-ev3-us", Errno::EOPNOTSUPP, Errno::EINVAL),
+        ("lego-nxt-light", Errno::EOPNOTSUPP, Errno::EOPNOTSUPP),
+    ] {
+        let mut desk = desk(driver, vec![]);
+        let path = sensor(&mut desk) + "direct";
+        let mut file = Descriptor::open(&desk.0, &path, Access::ReadWrite).unwrap();
+        assert_eq!(file.pread(&mut desk.0, 8, &mut [0; 8]), Err(read), "{driver}");
+        let at_8 = file.pwrite(&mut desk.0, 8, &[1]).unwrap_err();
+        assert_eq!(at_8, written, "{driver}");
+    }
 }
 
 #[test]

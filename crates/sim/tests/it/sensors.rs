@@ -149,11 +149,14 @@ fn single_shots_are_taken_once_and_not_too_often() {
     desk.step(100);
     assert_eq!(desk.try_put(&format!("{SONAR}mode"), "US-SI-CM"), Err(Errno::ETIMEDOUT));
     desk.step(1000);
+    let before = desk.0.now();
     assert_eq!(
         desk.try_put(&format!("{SONAR}mode"), "US-DIST-CM"),
         Err(Errno::ETIMEDOUT),
         "locked up"
     );
+    let took = desk.0.now().abs_diff(before).as_millis();
+    assert!((500..=600).contains(&took), "it tries ten times: {took} ms");
 }
 
 #[test]

@@ -91,23 +91,12 @@ impl Machine {
     pub fn report_screen(&self, json: &mut Json) {
         let pixels = self.pixels();
         let is_gray = pixels.iter().all(|[red, green, blue]| red == green && green == blue);
-        let is_plain = is_gray && pixels.iter().all(|[red, ..]| [0, 255].contains(red));
-        json.object(|json| {
-            json.key("w").integer(WIDTH.try_into().unwrap_or(0));
-            json.key("h").integer(HEIGHT.try_into().unwrap_or(0));
-            if is_plain {
-                let byte = |eight: &[[u8; 3]]| {
-                    let bit =
-                        |(index, pixel): (usize, &[u8; 3])| u8::from(pixel[0] == 0) << (7 - index);
-                    eight.iter().enumerate().map(bit).fold(0, |byte, bit| byte | bit)
-                };
-                json.key("bits").base64(&pixels.chunks(8).map(byte).collect::<Vec<_>>());
-            } else if is_gray {
-                json.key("gray").base64(&pixels.iter().map(|pixel| pixel[0]).collect::<Vec<_>>());
-            } else {
-                json.key("rgb").base64(pixels.as_flattened());
-            }
-        });
+        if is_gray {
+            let shades: Vec<_> = pixels.iter().map(|pixel| pixel[0]).collect();
+            report_shades(json, &shades);
+        } else {
+            report_pixels(json, |json| json.key("rgb").base64(pixels.as_flattened()));
+        }
     }
 
     /// Red, green and blue of each pixel.
@@ -251,4 +240,28 @@ fn place(json: &mut Json, pose: &Pose) {
 /// A time in seconds.
 pub(super) fn seconds(json: &mut Json, time: Duration) {
     json.number(time.as_secs_f64(), 3);
+}
+
+/// A screen of shades of gray, line by line: one bit for a pixel, or a byte if not all are black
+/// or white.
+pub fn report_shades(json: &mut Json, shades: &[u8]) {
+    report_pixels(json, |json| {
+        if shades.iter().all(|shade| [0, 255].contains(shade)) {
+            let byte = |eight: &[u8]| {
+                let bit = |(index, shade): (usize, &u8)| u8::from(*shade == 0) << (7 - index);
+                eight.iter().enumerate().map(bit).fold(0, |byte, bit| byte | bit)
+            };
+            json.key("bits").base64(&shades.chunks(8).map(byte).collect::<Vec<_>>());
+        } else {
+            json.key("gray").base64(shades);
+        }
+    });
+}
+
+fn report_pixels(json: &mut Json, pixels: impl FnOnce(&mut Json)) {
+    json.object(|json| {
+        json.key("w").integer(WIDTH.try_into().unwrap_or(0));
+        json.key("h").integer(HEIGHT.try_into().unwrap_or(0));
+        pixels(json);
+    });
 }

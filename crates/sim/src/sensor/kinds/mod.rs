@@ -13,7 +13,7 @@ impl SensorKind {
     }
 
     /// Every sensor type that a simulated port can have.
-    pub fn all() -> impl Iterator<Item = &'static SensorKind> {
+    pub fn all() -> impl Iterator<Item = &'static SensorKind> + Clone {
         ev3::KINDS.iter().chain(nxt::KINDS).chain(others::KINDS)
     }
 }
