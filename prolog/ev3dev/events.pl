@@ -21,12 +21,17 @@
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/one_of, [one_of/2]).
-:- use_module(private/causes, [acting_for/2]).
+:- use_module(private/causes, [acting_for/2, begins/1]).
+:- use_module(private/prompt, [acting_at_prompt/1, reads_query/0]).
 :- use_module(private/waits,
-              [in_guard/2, leave/2, listen_for_events/1, listening/3]).
+              [ in_guard/2, leave/2, let_others_go_on/0, listen_for_events/1,
+                listening/3
+              ]).
 :- use_module(private/native,
-              [ branches_begin_/0, branches_end_/1, cause_now_/1,
-                cause_set_/1, commands_/1, motors_stop_/2, now_/1, slices_/1
+              [ branches_begin_/0, branches_end_/0, branches_leave_/0,
+                branches_look_/1, cause_now_/1, cause_set_/1, commands_/1,
+                motors_stop_/2, now_/1, serve_at_prompt_/0, slices_/1,
+                tick_after_/1
               ]).
 :- use_module(time, [wait/1]).
 
@@ -54,7 +59,9 @@ What is to happen while a program does something else, in one thread:
 
 The thread that calls on/2, every/2 or after/2 serves its events whenever it
 waits or reads a sensor by a predicate of this pack: every 20 ms by the clock
-of the brick, or of the simulation. A thread that only computes serves none.
+of the brick, or of the simulation. The main thread also serves them while the
+toplevel waits for a query, unless the clock is a virtual one, which stands
+still there. A thread that only computes serves none.
 There are no other threads. So nothing happens at the same time, and a run on
 the virtual clock is the same each time.
 
@@ -168,7 +175,8 @@ add_event(Kind, Action, State, Options) :-
     ),
     assertz(event_(Id, Kind, Action, State)),
     look_every(Seconds),
-    listen_for_events(Seconds).
+    listen_for_events(Seconds),
+    serve_at_prompt_.
 
 %!  event_cancel(?Id) is semidet.
 %
@@ -206,13 +214,36 @@ serve :-
     ;   true
     ).
 
+%   The native code calls this in the main thread while Prolog waits for input
+%   at its terminal, if it is time to serve. What the toplevel waits for is a
+%   query; a program that reads, or is looked at in a break or by the tracer,
+%   is not interrupted.
+:- public serve_at_prompt/0.
+
+serve_at_prompt :-
+    (   reads_query,
+        \+ ( current_prolog_flag(break_level, Level), Level > 0 )
+    ->  look_every(Seconds),
+        % Also while events are served, and after an exception.
+        tick_after_(Seconds),
+        catch(acting_at_prompt(serve), E, left_at_prompt(E)),
+        tick_after_(Seconds)
+    ;   true
+    ).
+
+%   There is nobody whom it could reach.
+left_at_prompt(E) :-
+    (   ( E == '$aborted' ; E == unwind(abort) )
+    ->  true
+    ;   print_message(error, unhandled_exception(E))
+    ).
+
 serve(due(Next, Count), Kind, Id, Now, Action) :-
     !,
     (   Now + 1.0e-9 >= Next
     ->  again(Kind, Next, Count, State),
         change(Id, running(State)),
-        happen(Id, Kind, Action),
-        happened(Id)
+        happen(Id, Kind, Action)
     ;   true
     ).
 serve(running(_), _, _, _, _) :- !.
@@ -231,8 +262,7 @@ serve(State, on(Condition, Stable, _), Id, Now, Action) :-
                 After = happened(Left)
             ),
             change(Id, running(After)),
-            happen(Id, on(Condition), Action),
-            happened(Id)
+            happen(Id, on(Condition), Action)
         ;   true
         )
     ;   State = since(_, Count)
@@ -307,10 +337,17 @@ change(Id, State) :-
     ).
 
 %   What a program's own interrupt is goes on its way: only errors are
-%   printed.
+%   printed. The event stays in either case, also after an abort, which
+%   catch/3 does not see.
 happen(Id, Kind, Action) :-
+    setup_call_cleanup(true,
+                       act(Id, Kind, Action),
+                       happened(Id)).
+
+act(Id, Kind, Action) :-
     functor(Kind, Name, _),
     event_condition(Kind, Condition),
+    begins(event(Id, Condition)),
     catch(acting_for(ev3dev_events:ignore_failure(Id, Name, Action),
                      event(Id, Condition)),
           E, true),
@@ -427,8 +464,9 @@ to_the_end(Goal) :-
 %   ?- race([go_cm(30, 100), button_wait(enter, pressed)], Winner).
 %   ```
 %
-%   A goal that does not wait, as one that only reads sensors, lets no other
-%   go on. Events that a goal adds end with it.
+%   A goal that reads sensors and does not wait lets the others go on every
+%   20 ms; one that only computes lets no other go on. Events that a goal adds
+%   end with it.
 %
 %   @error existence_error(feature, engines) in SWI-Prolog before 7.3.26
 %   @error what one of the goals throws; the others are left
@@ -474,14 +512,18 @@ in_branch(Goal) :-
 
 run_branches(Branches, Which, Winner) :-
     repeat,
-    branches_begin_,
-    catch(each_goes_on(Branches, Which), E, true),
-    branches_end_(Seconds),
-    (   nonvar(E)
-    ->  throw(E)
-    ;   is_decided(Branches, Which, Decision)
+    setup_call_cleanup(                 % also after an abort
+        branches_begin_,
+        once(( each_goes_on(Branches, Which),
+               branches_look_(Seconds)
+             )),
+        branches_end_),
+    (   is_decided(Branches, Which, Decision)
     ->  true
-    ;   wait(Seconds),
+    ;   Seconds > 0
+    ->  wait(Seconds),
+        fail
+    ;   let_others_go_on,
         fail
     ),
     !,
@@ -584,7 +626,10 @@ leave_branches([Branch|Branches]) :-
 leave_branch(Times, Engine) :-
     (   Times > 0,
         catch(engine_post(Engine, leave), _, fail),
-        catch(engine_next(Engine, Answer), _, fail),
+        setup_call_cleanup(
+            branches_leave_,
+            catch(engine_next(Engine, Answer), _, fail),
+            branches_end_),
         Answer == tick
     ->  Next is Times - 1,
         leave_branch(Next, Engine)
@@ -602,7 +647,8 @@ motors_stopped([From-Before|Ranges]) :-
 ev3dev_waits:yield :-
     engine_yield(tick),
     (   catch(engine_fetch(leave), _, fail)
-    ->  throw(ev3dev_branch_left)
+    ->  nb_setval(ev3dev_branch, left),
+        throw(ev3dev_branch_left)
     ;   true
     ).
 

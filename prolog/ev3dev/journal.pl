@@ -16,7 +16,7 @@
 :- use_module(private/causes, [acting_for/2, causes/2]).
 :- use_module(private/facts, [throw_located/3]).
 :- use_module(private/robot_state, [robot/4, robot_description/1]).
-:- use_module(private/journal_words, [why_words//2]).
+:- use_module(private/journal_words, [why_words//3]).
 :- use_module(time, [wait/1]).
 :- use_module(private/native,
               [ attribute_/4, attribute_write_/4, device_/3, drive_/4,
@@ -70,21 +70,62 @@ plain_copy(Cause, Copy) :-
 
 %!  why(+What) is det.
 %
-%   Print why/2 in words, or that nothing is known.
+%   Print why/2 in words, or that nothing is known. Motors that were stopped
+%   together are named together: `outB and outC were stopped (brake) at
+%   3.20 s: rule halt`.
 %
 %   @error as why/2
 
 why(What0) :-
     word(What0, What),
-    (   why_(What, Why)
-    ->  print_message(help, ev3dev(why(What, Why)))
+    (   why_(What, Why, Last)
+    ->  stopped_with(What, Last, Ports),
+        print_message(help, ev3dev(why(What, Ports, Why)))
     ;   print_message(help, ev3dev(why_nothing(What)))
+    ).
+
+%   Which motors got the same stop as the Last one, in the same instant:
+%   within 0.02 s, by the same predicate, for the same cause.
+
+stopped_with(What, done(Time, Of, Command, Cause, Called), Ports) :-
+    ( What == stop ; What == robot ),
+    is_stop(Command),
+    Of \= robot(_, _),
+    !,
+    From is Time - 0.02,
+    findall(Port,
+            ( done_since(From, Done),
+              Done = done(Then, Port, Same, Cause, Called),
+              Then =< Time,
+              Port \= robot(_, _),
+              is_about(What, Port),
+              same_stop(Command, Same) ),
+            Ports0),
+    sort(Ports0, Ports).
+stopped_with(_, _, []).
+
+done_since(From, done(Time, What, Command, Cause, Called)) :-
+    done(Time, What, Command, Cause, Called),
+    (   Time >= From
+    ->  true
+    ;   !,
+        fail
+    ).
+
+%   The set-points that go with a stop are not the same for all.
+
+same_stop(Command, Same) :-
+    Command =.. [Class, Word, SetPoints],
+    Same =.. [Class, Word, Others],
+    (   memberchk(stop_action(Action), SetPoints)
+    ->  memberchk(stop_action(Action), Others)
+    ;   \+ memberchk(stop_action(_), Others)
     ).
 
 :- multifile prolog:message//1.
 
-prolog:message(ev3dev(why(What, Why))) -->
-    why_words(Why, What).
+prolog:message(ev3dev(why(What, Ports, Why))) -->
+    why_words(Why, What, Ports).
 prolog:message(ev3dev(why_nothing(What))) -->
     [ '~w: no command is recorded'-[What] ].
 
@@ -103,10 +144,13 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %   first, and at last called(Name/Arity), the predicate that wrote the
 %   command. The libraries say
 %
-%     - rule(Name, Guard), event(Id, Condition)
-%       of library(ev3dev/rules)
-%     - golog(Action)
-%       of library(ev3dev/golog)
+%     - rule(Name, Guard), rules(none), rules(ended), event(Id, Condition)
+%       of library(ev3dev/rules): `none` if no rule applies, `ended` if
+%       behave/1 has ended
+%     - golog(Step, Action, Condition), interrupt(Condition)
+%       of library(ev3dev/golog): the number of the step in the run, and the
+%       condition of poss/2 that held; around it the conditions of the
+%       interrupts that the action belongs to
 %     - plan(Step, Cell)
 %       of library(ev3dev/grid): `turn` or `move`
 %     - leg(Part)
@@ -138,17 +182,21 @@ prolog:message(ev3dev(why_nothing(What))) -->
 
 why(What0, Why) :-
     word(What0, What),
-    why_(What, Why).
+    why_(What, Why, _).
 
-why_(stop, Why) :-
+%   Last is what Why is about, as done/5 has it.
+
+why_(stop, Why, Last) :-
     !,
+    Last = done(Time, What, Command0, Cause, Called),
     once(( done(Time, What, Command0, Cause, Called),
            is_stop(Command0) )),
     shown(Command0, Command, First),
     all_causes(First, Cause, Called, Causes),
     Why = why(Time, stop(What, Command), Causes).
-why_(What, Why) :-
-    once(concerning(What, done(Time, Of, Command0, Cause, Called))),
+why_(What, Why, Last) :-
+    Last = done(Time, Of, Command0, Cause, Called),
+    once(concerning(What, Last)),
     (   Command0 = ended(_, _),
         What \== robot,
         once(( concerning(What, Before),
@@ -173,6 +221,7 @@ concerning(What, done(Time, Of, Command, Cause, Called)) :-
     Command \= pose(_, _, _),
     is_about(What, Of).
 
+is_about(stop, _) :- !.
 is_about(robot, Of) :-
     !,
     (   Of = robot(_, _)

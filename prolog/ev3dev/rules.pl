@@ -19,7 +19,7 @@
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
 :- use_module(private/one_of, [one_of/2]).
-:- use_module(private/causes, [acting_for/2]).
+:- use_module(private/causes, [acting_for/2, begins/1]).
 :- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
 :- use_module(private/native,
               [ commands_/1, motors_leave_/2, motors_stop_/2, now_/1,
@@ -79,7 +79,8 @@ Options of a rule:
   - min_time(+Seconds)
     An action that has returned goes on for at least so long.
   - cooldown(+Seconds)
-    The rule does not apply for so long after it was active.
+    The rule does not apply for so long after it was active. If its action has
+    waited and ended, its guard must have been false, too.
 
 An action may be a list: `[A:1.5, B:2, C]` is A for 1.5 s, then B for 2 s,
 then C until another rule is active.
@@ -239,12 +240,12 @@ behave(Rules0, Module:Options) :-
     functor(Since, since, Count),
     Settings = settings(Until, Deadline, Period, Trace, OnError, First),
     flag(ev3dev_behave, Id, Id + 1),
-    Behavior = behavior(Id, Rules, Settings, none, State, Since, [], [],
+    Behavior = behavior(Id, Rules, Settings, rest, State, Since, [], [],
                         []),
     inner(Behavior, Outer),
     setup_call_cleanup(true,
                        run(Behavior, Reason0),
-                       rest(Behavior)),
+                       rest(Behavior, ended)),
     b_setval(ev3dev_behavior, Outer),
     option(reason(Reason), Options, _),
     Reason = Reason0.
@@ -285,15 +286,16 @@ deadline(Options, Deadline) :-
 %   Warned), changed by nb_setarg/3, as a tick undoes bindings:
 %
 %     - Active
-%       none, or active(Index, Time, Mode): Mode is `waits` for an action that
-%       has not returned, or going(Values) with the values of the shared
-%       variables.
+%       active(Index, Time, Mode), none, or `rest`, when the motors rest:
+%       Mode is `waits` for an action that has not returned, or
+%       going(Values) with the values of the shared variables.
 %     - Since
-%       for each rule, unbound, `ended` until its guard has been false, or the
-%       time from which on it applies
+%       for each rule, unbound, ended(Time) until its guard has been false,
+%       and then the Time from which on it applies; 0 without a cooldown
 %     - Next
-%       what the suppressed action makes room for: [] or next(Index, Values),
-%       over(Reason) or become(Rules)
+%       what the suppressed action makes room for: [] or next(Index, Held),
+%       its guard and shared variables with their values, over(Reason) or
+%       become(Rules)
 %     - Messages
 %       what was received since the last tick
 %     - Warned
@@ -352,14 +354,15 @@ replace(Behavior, Rules) :-
     nb_setarg(6, Behavior, Since).
 
 %   The first rule that applies, with its guard's bindings.
-choice(next(Index, Values), Behavior, Rule) :-
-    arg(2, Behavior, Rules),
-    arg(Index, Rules, Rule),
-    Rule = rule(_, _, _, _, _, Values).
+choice(next(Index, Held), Behavior, Rule) :-
+    rule_at(Index, Behavior, Rule),
+    held(Rule, Held).
 choice([], Behavior, Rule) :-
     arg(2, Behavior, Rules),
     functor(Rules, _, Count),
     applies_within(Behavior, Rules, 1, Count, Rule).
+
+held(rule(_, _, Guard, _, _, Shared), held(Guard, Shared)).
 
 applies_within(Behavior, Rules, Index, Last, Rule) :-
     Index =< Last,
@@ -378,7 +381,7 @@ applies(Rule, Behavior) :-
     ->  now_(Now),
         Now >= From,
         holds(Rule, Behavior)
-    ;   From == ended
+    ;   nonvar(From)                    % ended
     ->  fail
     ;   holds(Rule, Behavior)
     ).
@@ -388,14 +391,15 @@ applies(Rule, Behavior) :-
 look_again(Behavior) :-
     arg(6, Behavior, Since),
     (   Since =.. [_|List],
-        \+ ( one_of(List, From), From == ended )
+        \+ ( one_of(List, From), compound(From) )
     ->  true
     ;   arg(2, Behavior, Rules),
-        forall(( arg(Index, Since, From), From == ended ),
+        forall(( arg(Index, Since, From), compound(From) ),
                ( arg(Index, Rules, Rule),
                  (   holds(Rule, Behavior)
                  ->  true
-                 ;   nb_setarg(Index, Since, _)
+                 ;   From = ended(Time),
+                     nb_setarg(Index, Since, Time)
                  ) ))
     ).
 
@@ -453,17 +457,18 @@ prolog:message(ev3dev(rule_failed(Name))) -->
 %   No rule applies.
 none(Behavior) :-
     active(Behavior, Active),
-    (   Active == none
+    (   Active == rest
     ->  true
     ;   left(Behavior),
-        rest(Behavior),
+        rest(Behavior, none),
+        nb_setarg(4, Behavior, rest),
         traced(Behavior, rest)
     ).
 
-rest(Behavior) :-
+rest(Behavior, Why) :-
     arg(3, Behavior, settings(_, _, _, _, _, First)),
     commands_(Before),
-    motors_stop_(First, Before).
+    acting_for(motors_stop_(First, Before), rules(Why)).
 
 %   The active rule is no longer active.
 left(Behavior) :-
@@ -502,8 +507,9 @@ take(Rule, Behavior) :-
         commands_(Before),
         motors_leave_(First, Before),
         now_(Now),
-        Rule = rule(_, Name, _, _, _, _),
+        Rule = rule(_, Name, _:Guard, _, _, _),
         traced(Behavior, rule(Name)),
+        begins(rule(Name, Guard)),
         act(Rule, Now, Behavior),
         motors_left(First, Before),
         pass_if_going(Index, Behavior)
@@ -512,7 +518,7 @@ take(Rule, Behavior) :-
 %   At its return, if it has not waited.
 motors_left(First, Before) :-
     motors_stop_(First, Before),
-    motors_leave_(0, 0).
+    motors_leave_(First, First).
 
 %   Another rule is chosen at once after an action that has waited.
 pass_if_going(Index, Behavior) :-
@@ -561,9 +567,9 @@ over(Outcome, Index, Name, Guard, Behavior) :-
     ->  true
     ;   arg(6, Behavior, Since),
         arg(Index, Since, From),
-        (   number(From)                % cools down
-        ->  true
-        ;   nb_setarg(Index, Since, ended)
+        (   number(From)                % cools down, too
+        ->  nb_setarg(Index, Since, ended(From))
+        ;   nb_setarg(Index, Since, ended(0))
         )
     ),
     (   Outcome == failed
@@ -649,8 +655,9 @@ next(Behavior, Next) :-
     arg(2, Behavior, Rules),
     Last is Index - 1,
     (   applies_within(Behavior, Rules, 1, Last, Rule)
-    ->  Rule = rule(Earlier, _, _, _, _, Values),
-        Next = next(Earlier, Values)
+    ->  Rule = rule(Earlier, _, _, _, _, _),
+        held(Rule, Held),
+        Next = next(Earlier, Held)
     ;   option(while(Condition), Options),
         \+ guard(Name, Module:Condition, Behavior)
     ->  Next = []

@@ -1,3 +1,4 @@
+:- use_module('../support/child').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
@@ -182,6 +183,12 @@ test(a_condition_that_holds_calls_nothing, true(Whats == [])) :-
 test(a_loop_that_only_reads_is_left) :-
     noted([1-raise(a)], ( until(up(a), ( repeat, us_dist_cm(in1, _), fail )), ev3_time(T) ), _),
     near(T, 1, 0.03).
+test(an_event_whose_action_is_left_happens_again) :-
+    noted([ 0.5-raise(a), 2-raise(b), 2.5-lower(b), 3-raise(b) ],
+          ( on(up(b), ( note(in), wait(1) )), every(0.5, note(tick), [id(t)]),
+            until(( ev3_time(T), T > 2.2 ), wait(9)), wait(3) ), Notes),
+    times(Notes, in, Times),
+    near_all(Times, [2, 3]).
 test(they_nest, true(Which == condition)) :-
     noted([1-raise(a)],
           ( until(up(a), ( until(up(b), wait(9)), note(inner) ), Which) ), []).
@@ -239,9 +246,209 @@ test(until_leaves_a_branch, true(Which == condition)) :-
     noted([0.5-raise(a)], both(until(up(a), wait(9), Which), wait(1)), _).
 test(they_nest, true(Winner == 1)) :-
     noted([], race([both(wait(1), wait(0.5)), wait(2)], Winner), _).
+test(what_goes_on_within_one_lets_the_others_go_on, true(Winner == 2)) :-
+    noted([], ( race([both(wait(3), wait(3)), wait(1)], Winner), ev3_time(T) ), _),
+    near(T, 1, 0.03).
+test(what_goes_on_within_two_adds_nothing) :-
+    noted([], ( both(both(wait(1), ( wait(2), note(a) )),
+                     race([( wait(1), note(b) ), both(wait(3), wait(3))], _)),
+                ev3_time(T) ), Notes),
+    near(T, 2, 0.03),
+    times(Notes, a, As), near_all(As, [2]),
+    times(Notes, b, Bs), near_all(Bs, [1]).
+test(an_error_within_one_leaves_all, true(Error-Motors == oh-[])) :-
+    noted([], ( catch(both(go_cm(20, 900), both(wait(9), ( wait(1), throw(oh) ))), Error, true),
+                wait(1), ev3_time(T), motor_states(outB, Motors) ), _),
+    near(T, 2, 0.03).
+test(one_that_only_reads_lets_the_others_go_on,
+     [ forall(member(Read, [ us_dist_cm(in1, D), us_dist_cm(_, D),
+                             sensor_value(in1, 'US-DIST-CM', 0, D),
+                             sensor_values(in1, 'US-DIST-CM', [D]) ])),
+       true(Winner == 2) ]) :-
+    noted([], ( race([( repeat, Read, D < 0, ! ), wait(1)], Winner), ev3_time(T) ), _),
+    near(T, 1, 0.05).
+test(several_that_only_read_all_go_on, true(Winner == 3)) :-
+    noted([1-raise(a), 2-raise(b)],
+          ( race([both(( repeat, us_dist_cm(in1, _), up(a), !, note(a), wait(9) ),
+                       ( repeat, us_dist_cm(in1, _), up(b), !, note(b), wait(9) )),
+                  ( repeat, us_dist_cm(in1, _), fail ),
+                  wait(3)], Winner),
+            ev3_time(T) ), Notes),
+    near(T, 3, 0.1),
+    times(Notes, a, [A]), near(A, 1, 0.1),
+    times(Notes, b, [B]), near(B, 2, 0.1).
+test(a_read_that_fails_is_one_too, true(Winner == 2)) :-
+    with_sim([], ( race([( repeat, touch(in4, 1), ! ), wait(1)], Winner), ev3_time(T) ),
+             [robot(touch)]),
+    near(T, 1, 0.05).
+test(a_read_has_its_value_and_its_other_sensors, true(Ports-Winner == [in1]-1)) :-
+    noted([], race([( repeat, findall(P, us_dist_cm(P, _), Ports), ev3_time(T), T > 0.5, ! ),
+                    wait(1)], Winner), _).
+test(a_read_where_no_other_can_go_on_reads, true(Winner-Text == 1-"ok")) :-
+    noted([], race([with_output_to(string(Text),
+                                   ( repeat, us_dist_cm(in1, _), ev3_time(T), T > 0.5, !, write(ok) )),
+                    wait(1)], Winner), _).
+test(events_are_served_while_all_only_read, true(Winner == 1)) :-
+    noted([0.5-raise(a)],
+          ( on(up(a), ( note(up), raise(b) )),
+            race([( repeat, us_dist_cm(in1, _), up(b), ! ),
+                  ( repeat, us_dist_cm(in1, _), fail )], Winner) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [0.5]).
+test(until_leaves_a_branch_that_only_reads, true(Winner-Which == 1-condition)) :-
+    noted([0.5-raise(a)],
+          ( race([until(up(a), ( repeat, us_dist_cm(in1, D), D < 0, ! ), Which), wait(2)], Winner),
+            ev3_time(T) ), _),
+    near(T, 0.5, 0.06).
+test(a_goal_that_is_planned_runs_while_branches_read, true(Winner == 1)) :-
+    noted([], ( sim_at(0.5, raise(a)),
+                race([( repeat, us_dist_cm(in1, _), up(a), ! ), wait(2)], Winner) ), _).
+test(events_go_on_after_branches) :-
+    noted([2-raise(a)],
+          ( on(up(a), note(up)),
+            race([both(race([wait(9), wait(0.5)], _), wait(9)), wait(1)], _),
+            wait(2) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [2]).
+test(one_that_catches_everything_and_reads_is_left, true(Winner == 2)) :-
+    noted([], race([( repeat, catch(( us_dist_cm(in1, _), fail ), _, fail)
+                    ; repeat, us_dist_cm(in1, _), fail ), wait(1)], Winner), _).
+test(a_clean_up_may_wait) :-
+    noted([], race([setup_call_cleanup(true, wait(9), ( wait(1), note(cleaned) )), wait(1)], 2),
+          Notes),
+    times(Notes, cleaned, Times),
+    near_all(Times, [2.01]).
 test(waits_do_not_add_up) :-
     noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
     noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),
     near(T, Alone, 0.05).
 
 :- end_tests(branches).
+
+                 /*******************************
+                 *            PROMPT            *
+                 *******************************/
+
+:- begin_tests(prompt).
+
+%   A toplevel that has loaded this.
+program(Tree, Text) :-
+    format(string(Text),
+           ":- use_module(library(ev3dev)).
+            :- use_module(library(ev3dev/events)).
+            :- use_module(library(ev3dev/sim)).
+            :- ~q.
+            tell(What) :- writeln(What), flush_output.
+            tell_often :- every(0.05, tell(served)).
+            :- dynamic todo/1.
+            next :- retract(todo(Goal)), !, call(Goal).
+            next :- tell(over).
+            do(Goals) :-
+                forall(lists:member(Goal, Goals), assertz(todo(Goal))),
+                every(0.05, next).
+            pass_time(S) :-
+                ev3_time(T0), repeat, motor_stop(outA), ev3_time(T), T >= T0 + S, !.~n",
+           [Tree]).
+
+tree(sim_start(room, [clock(realtime)])).
+tree(sim_start(room, [clock(scaled(5))])).
+tree(ev3_sysfs('/nonexistent')).
+
+kind(pipe).
+kind(terminal) :-
+    can_open_terminal.
+
+at_prompt(Kind, Tree, Closure) :-
+    program(Tree, Text),
+    at_toplevel(Kind, Text, Closure).
+
+%   What is typed on a terminal may stand before it.
+shows(Toplevel, Text) :-
+    repeat,
+    printed_line(Toplevel, Line),
+    sub_string(Line, _, _, 0, Text),
+    !.
+
+%   Its next lines up to Last.
+lines_to(Toplevel, Last, Lines) :-
+    printed_line(Toplevel, Line),
+    (   Line == Last
+    ->  Lines = []
+    ;   Lines = [Line|Lines1],
+        lines_to(Toplevel, Last, Lines1)
+    ).
+
+test(events_are_served, [forall(( kind(Kind), tree(Tree) ))]) :-
+    at_prompt(Kind, Tree, served).
+
+served(Toplevel) :-
+    type(Toplevel, "tell_often.\n"),
+    forall(between(1, 3, _), shows(Toplevel, "served")).
+
+test(with_half_a_line_typed, [condition(can_open_terminal)]) :-
+    at_prompt(terminal, sim_start(room, [clock(realtime)]), served_within_a_line).
+
+served_within_a_line(Toplevel) :-
+    served(Toplevel),
+    type(Toplevel, "tell(ha"),
+    forall(between(1, 3, _), shows(Toplevel, "served")),
+    type(Toplevel, "lf).\n"),
+    shows(Toplevel, "half").
+
+test(no_error_or_interrupt_ends_the_toplevel_or_the_event) :-
+    at_prompt(pipe, sim_start(room, [clock(realtime)]), bears(Lines)),
+    forall(member(Part, ["nobody", "oops"]),
+           assertion(( member(Line, Lines), sub_string(Line, _, _, _, Part) ))).
+
+bears(Lines, Toplevel) :-
+    type(Toplevel, "do([nobody, throw(oops), abort, fail, tell(there)]).\n"),
+    lines_to(Toplevel, "there", Lines),
+    shows(Toplevel, "over"),
+    type(Toplevel, "event(_, Kind).\n"),
+    shows(Toplevel, "Kind = every.").
+
+test(an_action_may_move_the_robot_and_wait) :-
+    at_prompt(pipe, sim_start(room, [clock(scaled(5))]), moves).
+
+moves(Toplevel) :-
+    type(Toplevel, "set_robot(5.6, 10.6, outB, outC).\n"),
+    type(Toplevel, "after(0.05, ( go_cm(30, 10), tell(arrived) )).\n"),
+    shows(Toplevel, "arrived").
+
+test(an_action_that_reads_reads_the_terminal) :-
+    at_prompt(pipe, sim_start(room, [clock(realtime)]), asks).
+
+asks(Toplevel) :-
+    type(Toplevel, "after(0.05, ( tell(what), read(X), tell(it_is(X)) )).\n"),
+    shows(Toplevel, "what"),
+    type(Toplevel, "this.\n"),
+    shows(Toplevel, "it_is(this)").
+
+%   Between two lines there are waits for input, in which nothing happens.
+test(nothing_happens_on_a_virtual_clock, true(Served == [])) :-
+    at_prompt(pipe, sim_start(room, [clock(virtual)]),
+              quiet("tell_often, pass_time(0.2).\n", "tell(true).\n", Served)).
+test(nothing_happens_while_a_program_reads, true(Served == [])) :-
+    at_prompt(pipe, sim_start(room, [clock(realtime)]),
+              quiet("tell_often, repeat, read(X), tell(X), X == end_of_file, !.\n", "true.\n", Served)).
+
+quiet(Query, Input, Served, Toplevel) :-
+    type(Toplevel, Query),
+    findall(Line,
+            ( between(1, 20, _),
+              type(Toplevel, Input),
+              lines_to(Toplevel, "true", Lines0),
+              member(Line, Lines0),
+              Line == "served" ),
+            Served).
+
+test(the_stop_of_the_view_interrupts_an_action) :-
+    at_prompt(pipe, sim_start(room, [clock(realtime)]), is_stopped).
+
+is_stopped(Toplevel) :-
+    type(Toplevel, "use_module(library(ev3dev/private/view/program)).\n"),
+    type(Toplevel, "do([( tell(waits), thread_create(stop_program, _, []), wait(900), tell(no) )]).\n"),
+    shows(Toplevel, "waits"),
+    shows(Toplevel, "over").
+
+:- end_tests(prompt).

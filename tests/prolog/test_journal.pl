@@ -81,8 +81,8 @@ test(a_cause_may_have_constrained_variables, true(Cause =@= f(_))) :-
               because(motor_run(outB, 20), f(X)),
               why(outB, why(_, _, [Cause|_])) )).
 test(each_thread_has_its_own_cause, true(Causes == [called(motor_run/2)])) :-
-    in_room(( because(( thread_create(motor_run(outB, 20), Thread),
-                        thread_join(Thread) ), outer),
+    in_room(( because(( thread_create(motor_run(outB, 20), Thread, []),
+                        thread_join(Thread, _) ), outer),
               why(outB, why(_, _, Causes)) )).
 test(an_error_names_what_the_goal_called,
      error(_, context(motor_run/2, _))) :-
@@ -213,13 +213,44 @@ sentence(true, outB, "outB: no command is recorded").
 sentence(because(motor_run(outB, 50, 360), event(e1, touch(in4, 1))), outB,
          "outB was turned by 360 degrees at 50 % at 2.01 s: event e1, touch in4 1").
 sentence(because(arc(30, 20), golog(go(kitchen))), robot,
-         "the robot runs its wheels at 30 % and 17 % since 2.02 s: action go(kitchen)").
+         "the robot runs its wheels at 30 % and 17 % since 2.02 s: golog: go(kitchen)").
+sentence(because(motor_run(outB, 30), golog(12, drive(3), at(robot) = 2)),
+         outB,
+         "outB runs at 30 % since 2.01 s: golog: step 12, drive(3): poss at(robot)=2").
+sentence(because(because(motor_run(outB, 30), golog(1, drive(3), true)),
+                 interrupt(calls > 0)), outB,
+         "outB runs at 30 % since 2.01 s: golog: step 1, drive(3); interrupt calls>0").
 sentence(because(turn(30, 90, [wait(false)]), rule(x, true)), outB,
          "outB drives the robot since 2.02 s: it turns by 90 degrees at 30 %; rule x").
 sentence(because(motor_run(outB, 30), rule(r, (\+ touch(in4, 1), (light(9) ; a)))), outB,
          "outB runs at 30 % since 2.01 s: rule r, not touch in4 1, light 9 or a").
 sentence(motor_stop(outB, hold), stop,
          "outB was stopped (hold) at 2.01 s: motor_stop/2 was called").
+sentence(( go(20), wait(1), because(stop, halt) ), stop,
+         "outB and outC were stopped (brake) at 3.01 s: halt").
+sentence(( motor_run(outA, 20), go(20), wait(1), stop_all_motors ), stop,
+         "outA, outB and outC were stopped (brake) at 3.01 s: stop_all_motors/0 was called").
+sentence(( motor_run(outA, 20), go(20), wait(1), stop_all_motors ), robot,
+         "outB and outC were stopped (brake) at 3.01 s: stop_all_motors/0 was called").
+sentence(( go(20), motor_stop(outB, hold), motor_stop(outC, hold) ), outC,
+         "outC was stopped (hold) at 2.01 s: motor_stop/2 was called").
+sentence(( go(20), motor_stop(outB, hold), motor_stop(outC, brake) ), stop,
+         "outC was stopped (brake) at 2.01 s: motor_stop/2 was called").
+sentence(( go(20), motor_stop(outB, hold), because(motor_stop(outC, hold), x) ), stop,
+         "outC was stopped (hold) at 2.01 s: x").
+sentence(( go(20), motor_stop(outB, hold), wait(0.1), motor_stop(outC, hold) ), stop,
+         "outC was stopped (hold) at 2.11 s: motor_stop/2 was called").
+sentence(( motor_reset(outB), motor_reset(outC) ), stop,
+         "outB and outC were reset at 2.02 s: motor_reset/1 was called").
+sentence(because(motor_run(outB, 20), rule(r, (us_dist_cm(_, D), D < 9))), outB,
+         "outB runs at 20 % since 2.01 s: rule r, us_dist_cm, _ < 9").
+sentence(because(motor_run(outB, 20), rule(r, (near(in1, 7, force), 7 < 9, x))), outB,
+         "outB runs at 20 % since 2.01 s: rule r, near 7 < 9, x").
+sentence(because(motor_run(outB, 20), f(_, g(_))), outB,
+         "outB runs at 20 % since 2.01 s: f(_,g(_))").
+sentence(because(motor_run(outB, 20), rule(r, G)), outB,
+         "outB runs at 20 % since 2.01 s: rule r, _") :-
+    member(G, [_, _:_]).
 sentence(led(left, green), left,
          "the light left is green since 2.01 s: led/2 was called").
 

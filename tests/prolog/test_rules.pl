@@ -1,14 +1,13 @@
 :- use_module('../support/simulation').
 :- use_module('../support/trees').
-:- use_module('../support/cases').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/rules),
               except([on/2])).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
-:- use_module(library(random)).
 
                  /*******************************
                  *            SUPPORT           *
@@ -115,6 +114,35 @@ test(bindings_of_the_guard_reach_the_action, true(Whats == [rule(r), 7])) :-
 test(rules_stand_in_the_list_with_options, true(Whats == [rule(r(1)), 1])) :-
     noted([], behave_for(0.5, [(r(1), cooldown(1) :: true ~> note(1))]), Notes),
     whats(Notes, Whats).
+test(the_journal_has_the_values_of_the_guard,
+     [ forall(member(Action, [wait(5), go(20)])), true(Guard == (value(7), 7 < 9)) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), forget,
+                   sim_at(0.5, assertz(value(7))),
+                   behave([ (see  :: value(X), X < 9 ~> led(left, red)),
+                            (wait :: true ~> Action) ], [timeout(1)]),
+                   why(left, why(_, _, [rule(see, Guard0)|_])),
+                   Guard = Guard0, forget )).
+test(from_a_change_to_the_first_write_it_is_a_period_at_most,
+     [ forall(member(Action, [wait(60), go(20)])), true(Late == []) ]) :-
+    % The rest of the read that was too early, a period, the read that sees the
+    % change, and the write. A read is that of two files.
+    Most is 0.001 + 0.020 + 0.001 + 0.0001,
+    findall(Seconds,
+            ( between(0, 10, Step), reaction(Action, Step, Seconds),
+              Seconds > Most + 1.0e-6 ),
+            Late).
+test(the_journal_has_the_values_of_a_guard_whose_rule_suppresses,
+     true(Cause == rule(near, ( value(7), 7 > 5 )))) :-
+    noted([1-note(7), 1-assertz(value(7))],
+          ( behave_for(2, [ (near :: value(V), V > 5 ~> go_cm(20, -50)), wander ]),
+            why(robot, why(_, _, [_, Cause|_])) ),
+          _).
+test(the_journal_says_why_the_robot_rests,
+     [ forall(member(Seconds-Cause, [3-rules(none), 0.5-rules(ended)])),
+       true(Causes = [Cause|_]) ]) :-
+    noted([0-raise(a), 1-lower(a)],
+          ( behave_for(Seconds, [go_a]), why(stop, why(_, _, Causes)) ),
+          _).
 test(without_a_rule_the_robot_rests,
      true(Changes == [rule(go_a), rest, rule(go_a)])) :-
     noted([ 0-raise(a), 1-lower(a), 1.5-note(speed), 3-raise(a) ],
@@ -151,6 +179,23 @@ test(the_clean_up_of_a_suppressed_action_runs,
                         ]), Notes),
     whats(Notes, Whats).
 
+% Another thread changes what the sensor shows.
+reaction(Action, Step, Seconds) :-
+    with_sim([],
+             ( set_robot(5.6, 10.6, outB, outC),
+               us_dist_cm(in1, _), motor_run(outA, 10), motor_stop(outA),
+               sim_time(Now),
+               After is 0.2 + Step*0.0021,
+               Change is Now + After,
+               thread_create(( sim_wait(After), sim_show(in1, value0, 100) ), Id, []),
+               behave([ (near :: us_dist_cm(in1, D), D < 30 ~> motor_run(outA, 50)),
+                        (before :: true ~> Action) ], [timeout(0.3)]),
+               thread_join(Id, _),
+               sim_trace(Events),
+               once(( member(Time-written('tacho-motor/motor0/speed_sp', _), Events),
+                      Time >= Change )),
+               Seconds is Time - Change )).
+
 :- end_tests(choice).
 
                  /*******************************
@@ -168,6 +213,11 @@ test(it_is_called_again_for_other_values,
             1-( retractall(value(_)), assertz(value(20)) ) ],
           behave_for(2, [follow]), Notes),
     whats(Notes, Whats).
+test(without_a_rule_after_one_that_has_ended_it_rests,
+     true(Changes == [rule(left_on), ended(left_on), rest])) :-
+    noted([ 0-raise(a), 1-( \+ ( motor_states(_, States), memberchk(running, States) ) ) ],
+          behave_for(2, [ (left_on :: up(a) ~> wait(0.5), motor_run(outA, 20)) ]), Notes),
+    changes(Notes, Changes).
 test(commanding_the_same_costs_no_speed) :-
     findall(T-( speed(outB, S), note(speed(S)) ), ( between(1, 12, I), T is 0.9 + I*0.02 ),
             Looks),
@@ -184,6 +234,18 @@ test(what_the_new_action_has_not_commanded_stops_at_its_first_wait,
                    behave([ (arm  :: up(a) ~> motor_run(outA, 20)),
                             (none :: true ~> motor_states(outA, S0), note(S0), wait(0.1),
                                              motor_states(outA, S), note(S), wait(5)) ],
+                          [timeout(1)]),
+                   findall(N, retract(user:done(_, N)), [[running|_], S1]) )),
+    Notes = [running, S1].
+test(what_runs_stops_at_the_first_wait_of_rules_within_rules,
+     [ forall(member(Inner, [ (in :: true ~> go(20)), (in :: up(c) ~> true),
+                              (in :: true ~> wait(5)) ])),
+       true(Notes == [running, []]) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC), forget, raise(a),
+                   sim_at(0.5, ( motor_states(outA, S0), note(S0), lower(a) )),
+                   sim_at(0.6, ( motor_states(outA, S), note(S) )),
+                   behave([ (arm :: up(a) ~> motor_run(outA, 20)),
+                            (set :: true ~> behave([Inner])) ],
                           [timeout(1)]),
                    findall(N, retract(user:done(_, N)), [[running|_], S1]) )),
     Notes = [running, S1].
@@ -228,6 +290,10 @@ test(cooldown_keeps_it_away, true(Changes == [ rule(w), ended(w), rule(wander), 
     changes(Notes, Changes),
     findall(T, member(T-rule(w), Notes), [_, Second]),
     near(Second, 2.5, 0.06).
+test(one_that_cools_down_waits_for_its_guard_too, true(Changes == [rule(w), ended(w), rule(far)])) :-
+    noted([ 0-raise(a) ],
+          behave_for(4, [ (w, cooldown(1) :: up(a) ~> wait(0.5)), far ]), Notes),
+    changes(Notes, Changes).
 test(a_list_is_done_one_after_the_other, true(Whats == [rule(w), 1, 2, 3])) :-
     noted([], behave_for(5, [ (w :: true ~> [note(1):1.5, (note(2), wait(9)):2, note(3)]) ]),
           Notes),
@@ -324,41 +390,3 @@ test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
     behave([], [hurry(1)]).
 
 :- end_tests(wrong).
-
-                 /*******************************
-                 *            RANDOM            *
-                 *******************************/
-
-:- begin_tests(random_rules).
-
-% Whatever rules there are and whatever happens: at the end the robot rests, each
-% rule that was chosen held and no earlier one that could suppress it did, and a
-% second run is the same.
-test(random_rules_keep_to_their_meaning, [forall(case(30, Seed))]) :-
-    random_run(Seed, Notes),
-    random_run(Seed, Again),
-    Notes == Again,
-    alternate(Notes).
-
-random_run(Seed, Notes) :-
-    set_random(seed(Seed)),
-    findall(Rule, ( nth1(I, [a, b, c, d], S), random_action(Action),
-                    Rule = (r(I) :: up(S) ~> Action) ), Rules),
-    findall(Time-Goal, ( between(1, 12, _), random(R), Time is R*5,
-                         random_member(S, [a, b, c, d]),
-                         random_member(Goal, [raise(S), lower(S)]) ), Plan),
-    noted(Plan, ( behave_for(5, Rules), at_rest ), Notes).
-
-random_action(Action) :-
-    random_member(Action, [ go(30), turn(20), go_cm(30, 10), turn(30, 90), wait(0.3),
-                            motor_run(outA, 30), (motor_run(outA, 50, 90)),
-                            (go(20), wait(0.2)), (go_cm(20, 5), go(-20)) ]).
-
-% No rule begins while another is not over: suppressed, ended, or one that has
-% returned.
-alternate(Notes) :-
-    findall(What, member(_-What, Notes), Whats),
-    \+ ( nextto(suppressed(X), suppressed(X), Whats) ),
-    \+ ( nextto(rule(X), rule(X), Whats) ).
-
-:- end_tests(random_rules).

@@ -1,6 +1,7 @@
 :- module(cases,
           [ case/2,                     % +Count, -Seed
             cases/2,                    % +Count, -Used
+            schedules/2,                % -First, -Last
             all_cases/0
           ]).
 
@@ -31,6 +32,19 @@ case(Count, Seed) :-
 cases(Count, Used) :-
     percent(Percent),
     Used is max(2, Count * Percent // 100).
+
+%!  schedules(-First, -Last) is det.
+%
+%   The seeds of 300 random programs. EV3DEV_TEST_SCHEDULES in the environment
+%   asks for more, or for other ones, as in `1-10000`.
+
+schedules(First, Last) :-
+    (   getenv('EV3DEV_TEST_SCHEDULES', Text),
+        term_to_atom(First-Last, Text)
+    ->  true
+    ;   First = 1,
+        cases(300, Last)
+    ).
 
 %!  all_cases is semidet.
 %

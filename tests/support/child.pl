@@ -3,8 +3,13 @@
             start_program/3,            % +Text, +Options, -Child
             run_state/4,                % +File, +Options, -Status, -Output
             run_script/4,               % +File, +Arguments, -Status, -Output
+            can_open_terminal/0,
+            at_toplevel/3,              % +Kind, +Text, :Closure
+            type/2,                     % +Toplevel, +Text
+            printed_line/2,             % +Toplevel, -Line
             end_program/3,              % +Child, -Status, -Output
-            end_output/2                % +Child, -Output
+            end_output/2,               % +Child, -Output
+            kill_program/1              % +Child
           ]).
 :- use_module(library(filesex)).
 :- use_module(library(option)).
@@ -46,6 +51,13 @@ run_program(Text, Options, Status, Output) :-
 %   As run_program/4, and do not wait. Child is child(Pid, Stream, File).
 
 start_program(Text, Options, child(Pid, Out, File)) :-
+    program_file(Text, Options, File),
+    option(goal(Goal), Options, true),
+    status_options(StatusOptions),
+    start([ '-q', '-f', none, '-l', file(File), '-g', Goal, '-t', halt
+          | StatusOptions ], Options, Pid, Out).
+
+program_file(Text, Options, File) :-
     tmp_file_stream(text, File, Stream),
     library_directory_under_test(Library),
     format(Stream, ":- asserta(user:file_search_path(library, ~q)).~n",
@@ -56,11 +68,7 @@ start_program(Text, Options, child(Pid, Out, File)) :-
     ;   format(Stream, ":- set_prolog_flag(ev3dev_hints, ~q).~n", [Hints])
     ),
     format(Stream, "~s~n", [Text]),
-    close(Stream),
-    option(goal(Goal), Options, true),
-    status_options(StatusOptions),
-    start([ '-q', '-f', none, '-l', file(File), '-g', Goal, '-t', halt
-          | StatusOptions ], Options, Pid, Out).
+    close(Stream).
 
 start(Arguments, Options, Pid, Out) :-
     option(cwd(Directory), Options, '.'),
@@ -107,6 +115,84 @@ status_options(Options) :-
     ;   Options = []
     ).
 
+%!  at_toplevel(+Kind, +Text, :Closure)
+%
+%   Load a program from a file, wait for queries, and call(Closure, Toplevel)
+%   once meanwhile. Kind is `pipe` or `terminal`.
+
+:- meta_predicate at_toplevel(+, +, 1).
+
+at_toplevel(Kind, Text, Closure) :-
+    program_file(Text, [], File),
+    setup_call_cleanup(
+        open_toplevel(Kind, File, Toplevel),
+        once(call(Closure, Toplevel)),
+        ( close_toplevel(Toplevel),
+          delete_file(File) )).
+
+open_toplevel(Kind, File, toplevel(Pid, In, Out)) :-
+    swipl(Swipl),
+    toplevel_command(Kind, Swipl, File, Program, Arguments),
+    process_create(path(Program), Arguments,
+                   [ process(Pid), stdin(pipe(In)),
+                     stdout(pipe(Out)), stderr(pipe(Out)) ]),
+    % Much longer than a machine that is busy with other things takes.
+    set_stream(Out, timeout(120)).
+
+toplevel_command(pipe, Swipl, File, env,
+                 [Swipl, '-q', '-f', none, '-l', file(File)]).
+toplevel_command(terminal, Swipl, File, script,
+                 ['-qfc', Command, '/dev/null']) :-
+    format(atom(Command), 'TERM=xterm "~w" -q -f none -l "~w"',
+           [Swipl, File]).
+
+%!  can_open_terminal
+%
+%   True if this machine has script(1), which makes terminals.
+
+can_open_terminal :-
+    absolute_file_name(path(script), _,
+                       [access(execute), file_errors(fail)]).
+
+%   It ends at the end of its input.
+close_toplevel(toplevel(Pid, In, Out)) :-
+    catch(close(In), _, true),
+    process_wait(Pid, Status, [timeout(60)]),
+    (   Status == timeout
+    ->  process_kill(Pid, kill),
+        process_wait(Pid, _)
+    ;   true
+    ),
+    close(Out).
+
+%!  type(+Toplevel, +Text)
+
+type(toplevel(_, In, _), Text) :-
+    write(In, Text),
+    flush_output(In).
+
+%!  printed_line(+Toplevel, -Line)
+%
+%   The next line that a toplevel prints, without prompts.
+
+printed_line(toplevel(_, _, Out), Line) :-
+    read_line_to_string(Out, Line0),
+    (   Line0 == end_of_file
+    ->  throw(error(toplevel_has_ended, _))
+    ;   without_prompts(Line0, Line)
+    ).
+
+without_prompts(Line0, Line) :-
+    split_string(Line0, "", "\r ", [Line1]),
+    (   sub_string(Line1, Before, _, After, "?- ")
+    ->  Start is Before + 3,
+        sub_string(Line1, Start, After, 0, Line2),
+        without_prompts(Line2, Line)
+    ;   string_concat("|: ", Line2, Line1)
+    ->  without_prompts(Line2, Line)
+    ;   Line = Line1
+    ).
+
 %!  end_program(+Child, -Status, -Output)
 
 end_program(child(Pid, Out, File), Status, Output) :-
@@ -119,6 +205,16 @@ end_program(child(Pid, Out, File), Status, Output) :-
 
 end_output(child(_, Out, File), Output) :-
     read_to_end(Out, Output),
+    delete_file(File).
+
+%!  kill_program(+Child)
+%
+%   End a program that does not end by itself.
+
+kill_program(child(Pid, Out, File)) :-
+    process_kill(Pid, kill),
+    process_wait(Pid, _),
+    close(Out),
     delete_file(File).
 
 read_to_end(Out, Output) :-

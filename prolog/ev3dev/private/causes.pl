@@ -1,5 +1,8 @@
 :- module(ev3dev_causes,
           [ acting_for/2,               % :Goal, +Cause
+            begins/1,                   % +Cause
+            follow/1,                   % +Closure
+            follow_no_more/0,
             causes/2                    % +Number, -Causes
           ]).
 :- use_module(native, [cause_/2, cause_active_/1]).
@@ -15,6 +18,7 @@ here. Those of 4096 causes are kept, and those that somebody still acts for.
 
 :- dynamic
     cause/3,                            % Number, Former, Cause
+    follower/1,                         % Closure, of library(ev3dev/view)
     kept/3.                             % Number, Due, State
 
 %!  acting_for(:Goal, +Cause) is semidet.
@@ -29,6 +33,29 @@ acting_for(Goal, Cause) :-
     ->  !
     ;   !,
         fail
+    ).
+
+%!  follow(+Closure) is det.
+%!  follow_no_more is det.
+%
+%   Call call(Closure, Cause) from now on whenever something begins.
+
+follow(Closure) :-
+    follow_no_more,
+    assertz(follower(Closure)).
+
+follow_no_more :-
+    retractall(follower(_)).
+
+%!  begins(+Cause) is det.
+%
+%   A rule becomes active, an event happens, an action of Golog is done: tell
+%   the follower, whether or not the robot is commanded anything.
+
+begins(Cause) :-
+    (   follower(Closure)
+    ->  ignore(call(Closure, Cause))
+    ;   true
     ).
 
 note(Number, Former, Cause) :-

@@ -1,5 +1,6 @@
 :- module(ev3dev_journal_words,
-          [ why_words//2                % +Why, +What
+          [ why_words//3,               % +Why, +What, +Ports
+            cause_words//1              % +Cause
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module(native, [attribute_/4, device_/3]).
@@ -7,21 +8,43 @@
 /** <module> Commands and their causes in words
 */
 
-%!  why_words(+Why, +What)// is semidet.
+%!  why_words(+Why, +What, +Ports)// is semidet.
 %
-%   The message for a Why of why/2, which was asked about What.
+%   The message for a Why of why/2, which was asked about What. Ports are the
+%   motors that were stopped together, if it is about such a stop, else [].
 
-why_words(why(Time, Command, Causes), What) -->
-    (   { Command = stop(Of, Stop) }
-    ->  { Of = robot(_, _)
-        ->  Who = robot
-        ;   Who = Of
-        },
-        command(Stop, Who)
-    ;   command(Command, What)
-    ),
+why_words(why(Time, Command0, Causes0), What, Ports) -->
+    { without_names(Causes0, Causes),
+      about(Command0, What, Command, Who0),
+      (   Ports = [_, _|_]
+      ->  Who = Ports
+      ;   Who = Who0
+      )
+    },
+    command(Command, Who),
     [ ' ~2f s'-[Time] ],
     reasons(Causes).
+
+%   A variable is written as _.
+
+without_names(Causes0, Causes) :-
+    copy_term(Causes0, Causes),
+    term_variables(Causes, Variables),
+    unnamed(Variables).
+
+unnamed([]).
+unnamed(['$VAR'('_')|Variables]) :-
+    unnamed(Variables).
+
+about(stop(Of, Stop), _, Stop, Who) :-
+    !,
+    (   Of = robot(_, _)
+    ->  Who = robot
+    ;   Who = Of
+    ).
+about(wheel(Port, Command), _, Command, Port) :-
+    !.
+about(Command, What, Command, What).
 
 %   ... since, or ... at
 
@@ -73,9 +96,6 @@ command(led_trigger(Word), Light) -->
 command(led_blink(On, Off), Light) -->
     !,
     [ 'the light ~w blinks, ~d ms on and ~d off, since'-[Light, On, Off] ].
-command(wheel(Port, Command), _) -->
-    !,
-    command(Command, Port).
 command(drive, Port) -->
     !,
     [ '~w drives the robot since'-[Port] ].
@@ -96,7 +116,8 @@ command(Command, Port) -->
 
 of_any(stop, SetPoints, Port) -->
     !,
-    [ '~w was stopped'-[Port] ],
+    those(Port),
+    [ ' stopped'-[] ],
     (   { memberchk(stop_action(Action), SetPoints) }
     ->  [ ' (~w)'-[Action] ]
     ;   []
@@ -104,11 +125,27 @@ of_any(stop, SetPoints, Port) -->
     [ ' at'-[] ].
 of_any(reset, _, Port) -->
     !,
-    [ '~w was reset at'-[Port] ].
+    those(Port),
+    [ ' reset at'-[] ].
 of_any(_, SetPoints, Port) -->
     [ '~w gets'-[Port] ],
     duty(SetPoints),
     [ ' since'-[] ].
+
+those([Port|Ports]) -->
+    !,
+    [ '~w'-[Port] ],
+    and(Ports),
+    [ ' were'-[] ].
+those(Port) -->
+    [ '~w was'-[Port] ].
+
+and([Port]) -->
+    !,
+    [ ' and ~w'-[Port] ].
+and([Port|Ports]) -->
+    [ ', ~w'-[Port] ],
+    and(Ports).
 
 speed(SetPoints, Port) -->
     (   { memberchk(speed_sp(Speed), SetPoints) }
@@ -267,21 +304,42 @@ causes([Cause|Causes]) -->
     [ '; '-[] ],
     causes(Causes).
 
-cause(Cause) -->
-    { var(Cause) },
-    !,
-    [ '_'-[] ].
+%!  cause_words(+Cause)// is det.
+%
+%   A cause in words, or what begins, as private/causes.pl tells its follower.
+
+cause_words(Cause0) -->
+    { without_names(Cause0, Cause) },
+    cause(Cause).
+
 cause(rule(Name, Guard)) -->
     !,
     [ 'rule ~p'-[Name] ],
     condition_after(Guard).
+cause(rules(none)) -->
+    !,
+    [ 'no rule applies'-[] ].
+cause(rules(ended)) -->
+    !,
+    [ 'the rules have ended'-[] ].
 cause(event(Id, Condition)) -->
     !,
     [ 'event ~p'-[Id] ],
     condition_after(Condition).
-cause(golog(Action)) -->
+cause(golog(Step, Action, Condition)) -->
     !,
-    [ 'action ~p'-[Action] ].
+    [ 'golog: step ~w, ~p'-[Step, Action] ],
+    (   { Condition == true }
+    ->  []
+    ;   [ ': poss ~p'-[Condition] ]
+    ).
+cause(golog(Event)) -->
+    !,
+    [ 'golog: '-[] ],
+    history(Event).
+cause(interrupt(Condition)) -->
+    !,
+    [ 'interrupt ~p'-[Condition] ].
 cause(plan(Step, Cell)) -->
     !,
     [ 'the plan says ~w, cell ~p'-[Step, Cell] ].
@@ -298,6 +356,20 @@ cause(replay(File)) -->
 cause(Cause) -->
     [ '~p'-[Cause] ].
 
+%   What library(ev3dev/golog) adds to its history.
+
+history(action(Action)) -->
+    !,
+    [ '~p'-[Action] ].
+history(exog(Action)) -->
+    !,
+    [ '~p happened'-[Action] ].
+history(sensed(Action, Value)) -->
+    !,
+    [ '~p sensed ~p'-[Action, Value] ].
+history(Event) -->
+    [ '~p'-[Event] ].
+
 condition_after(Condition) -->
     (   { Condition == true }
     ->  []
@@ -307,10 +379,6 @@ condition_after(Condition) -->
 
 %   A reading and the comparison of its value are said as one.
 
-condition(Condition) -->
-    { var(Condition) },
-    !,
-    [ '_'-[] ].
 condition(_:Condition) -->
     !,
     condition(Condition).
@@ -320,9 +388,8 @@ condition((A0, B)) -->
       first_of(B, Test0, Rest),
       plain(Test0, Test)
     },
-    (   { reading(A, Name, Value),
-          comparison(Test, Left, Operator, Right),
-          Left == Value
+    (   { comparison(Test, Value, Operator, Right),
+          reading(A, Name, Value)
         }
     ->  [ '~w ~p ~w ~p'-[Name, Value, Operator, Right] ],
         (   { Rest == true }
@@ -346,7 +413,8 @@ condition(\+ A) -->
 condition(Goal) -->
     (   { comparison(Goal, Left, Operator, Right) }
     ->  [ '~p ~w ~p'-[Left, Operator, Right] ]
-    ;   { callable(Goal),
+    ;   { Goal \= '$VAR'(_),
+          callable(Goal),
           Goal =.. [Name|Arguments0],
           Arguments0 \== []
         }
@@ -356,25 +424,22 @@ condition(Goal) -->
     ;   [ '~p'-[Goal] ]
     ).
 
-first_of(Goal, Goal, true) :-
-    var(Goal),
-    !.
 first_of((A, B), A, B) :-
     !.
 first_of(A, A, true).
 
 plain(Goal0, Goal) :-
-    (   nonvar(Goal0),
-        Goal0 = _:Goal1
+    (   Goal0 = _:Goal1
     ->  Goal = Goal1
     ;   Goal = Goal0
     ).
 
 reading(Goal, Name, Value) :-
     callable(Goal),
-    Goal =.. [Name|Arguments],
-    append(_, [Value], Arguments),
     number(Value),
+    Goal =.. [Name|Arguments],
+    append(_, [Read|_], Arguments),
+    Read == Value,
     !.
 
 comparison(Goal, Left, Operator, Right) :-
@@ -384,7 +449,7 @@ comparison(Goal, Left, Operator, Right) :-
 
 bound([], []).
 bound([Argument|Arguments0], Arguments) :-
-    (   var(Argument)
+    (   Argument == '$VAR'('_')
     ->  Arguments = Arguments1
     ;   Arguments = [Argument|Arguments1]
     ),

@@ -4,10 +4,11 @@
             leave/2,                    % +Listener, +Ball
             listen_for_events/1,        % +Seconds
             in_guard/2,                 % +Name, :Goal
-            serve_at_read/0
+            serve_at_read/0,
+            let_others_go_on/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(native, [tick_after_/1]).
+:- use_module(native, [read_on_/0, serve_if_due_/0, tick_after_/1]).
 :- use_module(one_of, [one_of/2]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
@@ -143,10 +144,50 @@ serve_at_read :-
     (   nb_current(ev3dev_guard, Name),
         Name \== []
     ->  true
-    ;   nb_current(ev3dev_branch, true)
+    ;   branch(_)
     ->  true
     ;   serve
     ).
+
+%   A branch that reads a sensor, and whose time is over, lets the others go
+%   on first. The native code calls this, and binds Woken; the read that it
+%   was called for, Name(A, B, C, D, E), has succeeded without reading.
+:- public read_later/7.
+
+read_later(Name, A, B, C, D, E, Woken) :-
+    Read =.. [Name, A, B, C, D, E],
+    freeze(Woken, ev3dev_waits:read_after_others(Read)).
+
+read_after_others(Read) :-
+    (   nb_current(ev3dev_guard, Name),
+        Name \== []
+    ->  true
+    ;   yield_if_possible,
+        serve_own
+    ),
+    read_on_,
+    ev3dev_native:Read.
+
+%!  let_others_go_on is det.
+%
+%   Between two rounds of branches that did not wait: this thread serves its
+%   events, if it is time to; if it runs a branch itself, others go on.
+
+let_others_go_on :-
+    (   branch(_)
+    ->  yield_if_possible
+    ;   serve_if_due_
+    ).
+
+%   `true`, or `left` if it is asked to end.
+branch(Branch) :-
+    nb_current(ev3dev_branch, Branch),
+    Branch \== [].
+
+%   It is not while native code calls Prolog, as in with_output_to/2, or in a
+%   clean-up after an exception.
+yield_if_possible :-
+    catch(yield, error(permission_error(execute, vmi, _), _), true).
 
 %!  serve_events is det.
 %!  serve_planned is det.
@@ -165,10 +206,16 @@ serve_at_read :-
     yield/0.
 
 serve :-
-    (   nb_current(ev3dev_branch, true)
-    ->  yield
+    (   branch(Branch)
+    ->  (   Branch == left
+        ->  yield_if_possible
+        ;   yield
+        )
     ;   true
     ),
+    serve_own.
+
+serve_own :-
     forall(serve_planned, true),
     listeners(Listeners),
     serve(Listeners).
