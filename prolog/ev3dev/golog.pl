@@ -20,6 +20,8 @@
             ask_execute/2,              % :Action, -Value
             ask_exog_occurs/1,          % :Action
             report_message/2,           % +Kind, +Message
+            get_integer/3,              % +Low, ?Integer, +High
+            pathfind/3,                 % :Start, +End, -Moves
             set_option/2,               % +Option, +Value
             initializeRcx/0,
             finalizeRcx/0,
@@ -37,13 +39,16 @@
                 timeout_option/2
               ]).
 :- use_module(private/errors,
-              [ domain_error/2, must_be/2, term_expansion/2 ]).
+              [ domain_error/2, existence_error/2, must_be/2,
+                term_expansion/2
+              ]).
 :- use_module(private/golog/context, [context/3]).
 :- use_module(private/golog/domain, [fluent_value/4, situation/3,
                                      situation_history/2]).
 :- use_module(private/golog/messages, []).
-:- use_module(private/golog/run, [recorded_history/1, run_online/4]).
-:- use_module(private/golog/search, []).
+:- use_module(private/golog/run,
+              [recorded_history/1, run_online/4, situation_of_run/4]).
+:- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
                 refuse_epistemic/1, vocabulary/1
@@ -111,6 +116,7 @@ order and in several files.
     sensing_action(:, ?),
     ask_execute(:, -),
     ask_exog_occurs(:),
+    pathfind(:, +, -),
     sendRcxActionNumber(:, -).
 
 :- module_transparent indigolog/0.
@@ -392,7 +398,10 @@ situation_now(M, History, S, X) :-
     prepare(M),
     refuse_epistemic(M),
     context(M, [], X),
-    situation(History, S, X).
+    (   situation_of_run(History, M, S0, X)
+    ->  S = S0
+    ;   situation(History, S, X)
+    ).
 
 %!  now(-History) is det.
 %
@@ -484,6 +493,38 @@ ask_exog_occurs(M:Action) :-
 
 report_message(Kind, Message) :-
     print_message(informational, golog(report(Kind, Message))).
+
+%!  get_integer(+Low, ?Integer, +High) is nondet.
+%
+%   As between(Low, High, Integer).
+
+get_integer(Low, Integer, High) :-
+    must_be(integer, Low),
+    must_be(integer, High),
+    between(Low, High, Integer).
+
+%!  pathfind(:Start, +End, -Moves) is semidet.
+%
+%   Moves is a shortest list of moves from the state Start to End, by A*. The
+%   domain has pathfind_move/3 (State, Next, Move), and pathfind_heuristic/3
+%   (State, Goal, Estimate), which is never too high. Fails if there is no
+%   way.
+%
+%   @error existence_error(golog_condition, Name/Arity) if it has not
+
+pathfind(M:Start, End, Moves) :-
+    must_be(nonvar, Start),
+    must_be(nonvar, End),
+    must_have(M, pathfind_move(_, _, _)),
+    must_have(M, pathfind_heuristic(_, _, _)),
+    found_path(M, Start, End, Moves).
+
+must_have(M, Head) :-
+    (   has_clauses(M, Head)
+    ->  true
+    ;   functor(Head, Name, Arity),
+        existence_error(golog_condition, Name/Arity)
+    ).
 
 %!  set_option(+Option, +Value) is det.
 %

@@ -1,11 +1,11 @@
 % The program of docs/cognitive-robotics.md loads, its queries have the answers
 % that stand below them, and its examples do what it says.
 
+:- use_module('../support/papers').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(readutil)).
 
 :- initialization(load_files(chapter_elevator:example(golog_elevator), [])).
 :- initialization(load_files(chapter_post:example(golog_delivery), [])).
@@ -14,19 +14,11 @@
 %   The lines in code blocks of the chapter.
 
 code_lines(Lines) :-
-    read_file_to_string('docs/cognitive-robotics.md', Text, []),
-    split_string(Text, "\n", "", All),
-    in_blocks(All, Lines).
-
-in_blocks([], []).
-in_blocks([Line|Lines], Code) :-
-    (   Line == "```prolog"
-    ->  append(Block, ["```"|Rest], Lines),
-        !,
-        append(Block, [""|Code1], Code),
-        in_blocks(Rest, Code1)
-    ;   in_blocks(Lines, Code)
-    ).
+    code_blocks('docs/cognitive-robotics.md', Blocks),
+    findall(Line,
+            ( member(block("prolog", Block), Blocks),
+              ( member(Line, Block) ; Line = "" ) ),
+            Lines).
 
 %   Program text, and queries with the answer below each.
 

@@ -269,6 +269,146 @@ test(printing_the_history_is_a_step, Steps == [[]-[a]]) :-
 
 :- end_tests(golog_more).
 
+                /*******************************
+                *           EACH ONE           *
+                *******************************/
+
+%   trans_of(Program, Final, Steps): all steps that Program can take in the lab
+%   at the beginning, as Program1-History, and whether it may end there. [G],
+%   [C], [I] as above; [M] the manual and the source of full IndiGolog, which
+%   is where these words are defined; [L] Levesque, Pagnucco: Legolog (2000).
+
+trans_of([], yes, []).                                          % [C] nil
+trans_of([a, b], no, [[[], b]-[a]]).                            % [C]
+trans_of(?(light(_) = on), no, [[]-[], []-[]]).                 % [C] phi?
+trans_of(ndet(a, b), no, [[]-[a], []-[b]]).                     % [C]
+trans_of(if(n = 0, ndet(a, b), c), no, [[]-[a], []-[b]]).       % [C]
+trans_of(if(n = 1, c, ndet(a, b)), no, [[]-[a], []-[b]]).
+trans_of(while(n < 2, ndet(up, a)), no,                         % [C]
+         [ [[], while(n < 2, ndet(up, a))]-[up],
+           [[], while(n < 2, ndet(up, a))]-[a] ]).
+trans_of(star(ndet(a, b)), yes,                                 % [C]
+         [[[], star(ndet(a, b))]-[a], [[], star(ndet(a, b))]-[b]]).
+trans_of(star(ndet(a, b), 2), yes,                              % [M]
+         [[[], star(ndet(a, b), 1)]-[a], [[], star(ndet(a, b), 1)]-[b]]).
+trans_of(pi(x, off(x)), no, [[]-[off(1)], []-[off(3)]]).        % [C]
+trans_of(pi(x, [4, 5], set_to(x)), no,                          % [M]
+         [[]-[set_to(4)], []-[set_to(5)]]).
+trans_of(conc(a, b), no, [conc([], b)-[a], conc(a, [])-[b]]).   % [C]
+trans_of(pconc(ndet(a, b), c), no, [pconc([], c)-[a], pconc([], c)-[b]]).
+trans_of(pconc(never, ndet(a, b)), no,                          % [C]
+         [pconc(never, [])-[a], pconc(never, [])-[b]]).
+trans_of(iconc(ndet(a, b)), yes,                                % [C]
+         [ conc([], iconc(ndet(a, b)))-[a],
+           conc([], iconc(ndet(a, b)))-[b] ]).
+trans_of(interrupt(n = 0, ndet(a, b)), yes,                     % [C]
+         [ [[], interrupt(n = 0, ndet(a, b))]-[a],
+           [[], interrupt(n = 0, ndet(a, b))]-[b] ]).
+trans_of(interrupt(n = 1, a), yes, []).
+trans_of(interrupt(x, lit(x), off(x)), yes,                     % [C]
+         [ [[], interrupt(x, lit(x), off(x))]-[off(1)],
+           [[], interrupt(x, lit(x), off(x))]-[off(3)] ]).
+trans_of(prioritized_interrupts([ interrupt(n = 1, a),          % [C]
+                                  interrupt(n = 0, ndet(b, c)),
+                                  interrupt(true, a) ]), no,
+         [ prioritized_interrupts([ interrupt(n = 1, a),
+                                    [[], interrupt(n = 0, ndet(b, c))],
+                                    interrupt(true, a) ])-[b],
+           prioritized_interrupts([ interrupt(n = 1, a),
+                                    [[], interrupt(n = 0, ndet(b, c))],
+                                    interrupt(true, a) ])-[c] ]).
+trans_of(prioritized_interrupts([interrupt(n = 1, a)]), no, [[]-[]]).
+trans_of(prioritized_interrupts_simple([interrupt(n = 0, a)]), no,  % [M]
+         [prioritized_interrupts([[[], interrupt(n = 0, a)]])-[a]]).
+trans_of(search(ndet([a, never], ndet([b, c], c))), no,         % [I]
+         [search([[], c])-[b], search([])-[c]]).
+trans_of(search(ndet(a, b), m), no, [search([])-[a], search([])-[b]]).
+trans_of(search(ndet(a, b), m, [depth(9)]), no,                 % [M], ours
+         [search([])-[a], search([])-[b]]).
+trans_of(searchn(ndet(a, b), []), no,                           % [M]
+         [search([])-[a], search([])-[b]]).
+trans_of(searchc([ndet(a, b), branch(ringing)]), no,            % [M]
+         [[a, if(ringing, [], [])]-[], [b, if(ringing, [], [])]-[]]).
+trans_of(searchc(ndet(a, b), m), no, [[a]-[], [b]-[]]).
+trans_of(gexec(n = 0, ndet(a, b)), no,                          % [M]
+         [gexec(n = 0, [])-[a], gexec(n = 0, [])-[b]]).
+trans_of(gexec(n = 1, a), yes, []).
+trans_of(gexec2(n = 0, ndet(a, b)), no,                         % [M]
+         [gexec2(n = 0, [])-[a], gexec2(n = 0, [])-[b]]).
+trans_of(gexec2(n = 1, a), yes, []).
+trans_of(goal(n = 1, ndet(a, b), false, c), no,                 % [M]
+         [goal(n = 1, [], false, c)-[a], goal(n = 1, [], false, c)-[b]]).
+trans_of(goal(n = 1, a, n = 0, ndet(b, c)), no, [[]-[b], []-[c]]).
+trans_of(goal(n = 0, a, false, b), yes, []).
+trans_of(wndet(ndet(a, b), c), no, [[]-[a], []-[b]]).           % [M]
+trans_of(wndet(never, ndet(a, b)), no, [[]-[a], []-[b]]).
+trans_of(wndet([], a), no, [[]-[a]]).
+trans_of(wndet([], []), yes, []).
+trans_of(rndet(a, b), no, [[]-[a], []-[b]]).                    % [M]
+trans_of(rpi((x, [4, 5]), set_to(x)), no,                       % [M]
+         [[]-[set_to(4)], []-[set_to(5)]]).
+trans_of(rpi(x, [4, 5], set_to(x)), no,
+         [[]-[set_to(4)], []-[set_to(5)]]).
+trans_of(rconc(a, b), no, [rconc([], b)-[a], rconc(a, [])-[b]]).    % [M]
+trans_of(rconc([a, b]), no, [rconc([[], a])-[b], rconc([[], b])-[a]]).
+trans_of(rrobin([a, b, c]), no,                                 % [M]
+         [ rrobin([b, c, []])-[a], rrobin([a, c, []])-[b],
+           rrobin([a, b, []])-[c] ]).
+trans_of(atomic([ndet(a, b), c]), no,                           % [M]
+         [atomic([[], c])-[a], atomic([[], c])-[b]]).
+trans_of(for(x, [4, 5], set_to(x)), no,                         % [M]
+         [[[], set_to(5)]-[set_to(4)]]).
+trans_of(??(light(_) = on), no,                                 % [M]
+         [[]-[test(light(1) = on)], []-[test(light(3) = on)]]).
+trans_of(??(n = 1), no, []).
+trans_of(exogint(ndet(a, b), true), no,                         % [M]
+         [exogint([], true)-[a], exogint([], true)-[b]]).
+trans_of(wait, no, [[]-[wait]]).                                % [L], [M]
+trans_of(wait_exog, no, [[]-[wait]]).                           % [M]
+trans_of(?(wait_exog_action), no, [[]-[wait]]).                 % [M]
+trans_of(sim(ring), no, [[]-[sim(ring)]]).                      % [M]
+trans_of(achieve(n = 2), no, [search(achieve(n = 2))-[up]]).    % ours
+trans_of(abort, no, [[]-[abort]]).                              % [M]
+trans_of(abort(ringing), no, [[]-[e(ringing, false)]]).         % [M]
+trans_of(commit, no, [[]-[commit]]).                            % [M]
+trans_of(branch(ringing), no, [[]-[branch(ringing)]]).          % [M]
+trans_of(set(ringing), no, [[]-[set(ringing)]]).                % [M]
+trans_of(unset(ringing), no, [[]-[unset(ringing)]]).            % [M]
+trans_of(e(light(n), n), no, [[]-[e(light(0), 0)]]).            % [I]
+trans_of(e(n, 2), no, [[]-[e(n, 2)]]).
+%   The first step that is found in time
+trans_of(time(ndet(a, b), 9), no, [[]-[a]]).                    % [M]
+trans_of(ttime([ndet(a, b), c], 9), no, [ttime([[], c], 9)-[a]]).   % [M]
+trans_of(sync([ndet(a, b), ndet(b, c)]), no, [sync([[], []])-[b]]). % [M]
+trans_of(either(a), no, [[]-[a], []-[c]]).                      % [C] procedures
+trans_of(off(_), no, [[]-[off(1)], []-[off(3)]]).               % [C] action
+
+:- begin_tests(golog_each).
+
+test(all_solutions_of_trans, [ forall(trans_of(Program, _, Steps)),
+                               true(Found =@= Wanted) ]) :-
+    steps(Program, Found0),
+    msort(Found0, Found),
+    msort(Steps, Wanted).
+test(final, [ forall(trans_of(Program, Final, _)), true(Found == Final) ]) :-
+    (   lab_final(Program)
+    ->  Found = yes
+    ;   Found = no
+    ).
+test(each_construct_is_there, Missing == []) :-
+    findall(Name/Arity,
+            ( ( ev3dev_golog_programs:construct(E)
+              ; ev3dev_golog_programs:weak_construct(E)
+              ),
+              E \== [],
+              functor(E, Name, Arity),
+              \+ sub_atom(Name, 0, _, _, $),
+              functor(Program, Name, Arity),
+              \+ trans_of(Program, _, _) ),
+            Missing).
+
+:- end_tests(golog_each).
+
 :- begin_tests(golog_search).
 
 test(search_takes_the_way_that_ends, H == [b]) :-       % [I] Sigma
@@ -310,6 +450,33 @@ test(a_conditional_plan, Plan == [up, if(ringing, [b], [c])]) :- % [I] searchc
     golog_lab:trans(searchc([up, branch(ringing), if(ringing, b, c)]),
                     [], Plan, []),
     !.
+test(a_conditional_plan_keeps_what_it_simulates,
+     Plan == [up, sim(ring), b]) :-
+    golog_lab:trans(searchc([up, sim(ring), if(ringing, b, c)]), [], Plan,
+                    []),
+    !.
+test(a_search_in_a_search_keeps_what_it_simulates,
+     Runs == [[up, sim(ring), b]]) :-
+    runs(search([search([up, sim(ring)]), if(ringing, b, c)]), Runs).
+test(a_conditional_plan_in_a_search_relies_on_what_it_simulates,
+     Runs == [[up, sim(ring), look, a]]) :-
+    % As in the delivery of full IndiGolog: search(searchc(..))
+    runs(search(searchc([ up, sim(ring), look, branch(at(lab)),
+                          if(ringing, a, never) ])), Runs).
+test(an_elevator_of_eight_floors_and_six_calls_is_searched_in_time,
+     [F-Length, Soon] == [8-16, true]) :-
+    % Less than a second on a PC, and no clock is asked.
+    elevator(Clauses),
+    with_domain(Clauses, M,
+                ( statistics(inferences, I0),
+                  once(do(M:search(from(0)), H)),
+                  statistics(inferences, I1),
+                  has_val(M:floor, F, H),
+                  length(H, Length) )),
+    (   I1-I0 < 6000000
+    ->  Soon = true
+    ;   Soon is I1-I0
+    ).
 test(achieve_plans_the_least_steps, Run == [all_off]) :-
     once(golog_lab:do(achieve(neg(some(x, light(x) = on))), H)),
     msort(H, Run).
@@ -408,6 +575,29 @@ test(an_effect_that_nothing_enumerates, [V, W, U] == [clean, red, blue]) :-
     golog_lab:has_val(color(door), V, [wipe, paint(door, red)]),
     golog_lab:has_val(color(wall), W, [wipe, paint(wall, red)]),
     golog_lab:has_val(color(door), U, [paint(door, blue), wipe]).
+test(an_effect_under_a_condition_that_changes, Colors == Wanted) :-
+    % The condition is that of the moment of the action.
+    with_domain([ prim_fluent(color(_)), prim_fluent(at),
+                  initially(color(_), white), initially(at, 1),
+                  causes_val(wipe, color(X), clean, neg(X = at)),
+                  causes_val(soil, color(X), dirty, or(X = 7, neg(X = at))),
+                  causes_val(move, at, V, V is at+1) ],
+                M,
+                findall(H-Cs,
+                        ( member(H, [ [wipe], [move, wipe], [wipe, move],
+                                      [wipe, move, wipe],
+                                      [soil, move, wipe], [wipe, soil],
+                                      [wipe, move, soil, wipe] ]),
+                          findall(C, ( member(X, [1, 2, 3]),
+                                       has_val(M:color(X), C, H) ), Cs) ),
+                        Colors)),
+    Wanted = [ [wipe]-[white, clean, clean],
+               [move, wipe]-[white, clean, clean],
+               [wipe, move]-[clean, white, clean],
+               [wipe, move, wipe]-[clean, clean, clean],
+               [soil, move, wipe]-[dirty, clean, dirty],
+               [wipe, soil]-[white, clean, clean],
+               [wipe, move, soil, wipe]-[clean, dirty, clean] ].
 test(sensing_of_a_fluent, V == rain) :-
     golog_lab:has_val(weather, V, [a, e(weather, rain), look]).
 test(sensing_by_the_action, V == rain) :-
@@ -438,12 +628,50 @@ test(random_sorts, Sorted == [left, right]) :-
 test(shuffle, Sorted == [1, 2, 3]) :-
     shuffle([3, 1, 2], Shuffled),
     sort(Shuffled, Sorted).
+test(pathfind, Moves == [right, right, up]) :-
+    with_domain([ (pathfind_move(X-Y, X1-Y, right) :- X < 3, X1 is X+1),
+                  (pathfind_move(X-Y, X-Y1, up) :- X >= 3, Y < 3,
+                                                   Y1 is Y+1),
+                  (pathfind_heuristic(X-Y, X1-Y1, H) :-
+                       H is abs(X1-X)+abs(Y1-Y)) ],
+                M, pathfind(M:(1-1), 3-2, Moves)).
+test(pathfind_fails_without_a_way, fail) :-
+    with_domain([ pathfind_move(1, 2, on), pathfind_heuristic(_, _, 0) ],
+                M, pathfind(M:2, 1, _)).
+test(pathfind_needs_its_predicates,
+     error(existence_error(golog_condition, pathfind_move/3))) :-
+    with_domain([], M, pathfind(M:1, 2, _)).
+test(get_integer, Ns == [1, 2, 3]) :-
+    findall(N, get_integer(1, N, 3), Ns).
 test(sensing_action, Fs == [weather, wind]) :-
     findall(F, golog_lab:sensing_action(look_twice, F), Fs).
 test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
     golog_lab:sensing_action(feel, F).
 
 :- end_tests(golog_domain).
+
+%   From floor 4 to calls on six of eight floors, by depth first search with a
+%   growing number of moves
+
+elevator([ prim_action(up), prim_action(down), prim_action(serve(_)),
+           poss(up, floor < 8), poss(down, floor > 1),
+           poss(serve(N), and(floor = N, called(N) = yes)),
+           prim_fluent(floor),
+           (prim_fluent(called(F)) :- between(1, 8, F)),
+           initially(floor, 4),
+           (initially(called(C), yes) :- member(C, [1, 2, 3, 5, 6, 8])),
+           initially(called(_), no),
+           causes_val(up, floor, A, A is floor+1),
+           causes_val(down, floor, B, B is floor-1),
+           causes_val(serve(D), called(D), no, true),
+           proc(go_to(G), while(neg(floor = G), if(floor < G, up, down))),
+           proc(within(Max),
+                ndet(?(neg(some(n, called(n) = yes))),
+                     pi([n, m], [ ?(called(n) = yes),
+                                  ?(m is Max-abs(floor-n)), ?(m >= 0),
+                                  go_to(n), serve(n), within(m) ]))),
+           proc(from(Least), ndet(within(Least),
+                                  pi(k, [?(k is Least+1), from(k)]))) ]).
 
                 /*******************************
                 *            ONLINE            *
@@ -543,6 +771,8 @@ test(conc_is_fair, Run == [a, b, a, b]) :-
     online(conc([a, a], [b, b]), [], Run).
 test(a_plan_is_followed, Run == [b, c]) :-
     online(search([ndet(a, b), ?(done(b)), c]), [], Run).
+test(a_plan_goes_on_without_what_it_simulated, Run == [up, b]) :-
+    online(search([search([up, sim(ring)]), if(ringing, b, c)]), [], Run).
 test(a_plan_with_sensing_is_made_again, Run == [look, e(weather, sun), b]) :-
     sensing(look, sun,
             search([look, if(weather = rain, a, b)]), Run).
@@ -583,6 +813,9 @@ said_of_all(Goal, Kinds) :-
     findall(Kind, retract(said_text(Kind)), Kinds).
 
 user:plunit_keep(golog(_), Lines) :-
+    keep_lines(Lines).
+
+user:keep_lines(Lines) :-
     with_output_to(atom(Text), print_message_lines(current_output, '', Lines)),
     assertz(said_text(Text)).
 
@@ -610,6 +843,14 @@ test(told_by_another_thread, H == [a, ring]) :-
     thread_create(golog_lab:golog_exog(ring), Id, []),
     golog_lab:golog([while(neg(ringing), wait), a], [history(H)]),
     thread_join(Id, true).
+test(they_are_asked_for_before_each_step_tests_included, Count == 4) :-
+    nb_setval(golog_seen, []),
+    with_domain([ exog_action(x), prim_action(a), poss(a, true),
+                  execute(a, _),
+                  (exog_occurs(_) :- user:seen_action(asked), fail) ],
+                M, golog(M:[?(true), ?(true), a], [])),
+    nb_getval(golog_seen, Seen),
+    length(Seen, Count).
 test(poss_is_not_asked, H == [a, call(2)]) :-
     exogenous([call(2)]),
     golog_lab:golog(a, [history(H)]).
@@ -654,6 +895,7 @@ test(ten_thousand_are_counted, [true(Sum-N == Expected-Expected)]) :-
                   length(Ticks, N) )).
 
 with_ring_after(A, Program, H) :-
+    nb_setval(golog_events, []),
     golog_lab:golog(Program,
                     [ history(H), trace(user:ring_after(A)) ]).
 
@@ -708,6 +950,23 @@ test(a_device_runs_the_code, [Seen, H] == [[wheels-go(1), eye-peep],
                 M, golog(M:[look, forward],
                          [device(user:device), history(H)])),
     nb_getval(golog_seen, Seen).
+test(an_action_without_code_is_for_the_simulator,
+     [Seen, H] == [[simulator-halt, wheels-go(1)], [halt, forward]]) :-
+    nb_setval(golog_seen, []),
+    with_domain([ prim_action(forward), prim_action(halt), poss(_, true),
+                  how_to_execute(forward, wheels, go(1)) ],
+                M, golog(M:[forward, halt],
+                         [device(user:any_device), history(H)])),
+    nb_getval(golog_seen, Seen).
+test(an_action_without_code_and_simulator_is_in_the_history,
+     H == [halt, forward]) :-
+    with_domain([ prim_action(forward), prim_action(halt), poss(_, true),
+                  how_to_execute(forward, wheels, true) ],
+                M, golog(M:[forward, halt], [history(H)])).
+test(nothing_to_read_is_no_sensing_result, H == [failed(look)]) :-
+    with_domain([ prim_action(look), poss(_, true), prim_fluent(f),
+                  senses(look, f) ], M,
+                with_input("", golog(M:look, [history(H)]))).
 test(codes_of_exogenous_actions_are_translated, H == [bell, horn, bell]) :-
     with_domain([ exog_action(bell), exog_action(horn),
                   actionNum(bell, 5),
@@ -790,6 +1049,18 @@ user:seen_action(A) :-
     nb_getval(golog_seen, As),
     nb_setval(golog_seen, [A|As]).
 
+user:any_device(Device, Code, _) :-
+    seen_action(Device-Code).
+
+user:with_input(Text, Goal) :-
+    setup_call_cleanup(
+        ( open_string(Text, Stream),
+          current_input(Old),
+          set_input(Stream) ),
+        call(Goal),
+        ( set_input(Old),
+          close(Stream) )).
+
 user:device(wheels, Code, _) :-
     seen_action(wheels-Code).
 user:device(eye, Code, raw(5)) :-
@@ -834,6 +1105,45 @@ test(the_message_names_clause_and_line, true(Found == true)) :-
     ->  Found = true
     ;   Found = Message
     ).
+
+test(each_message_begins_with_file_line_and_clause, Otherwise == []) :-
+    wrong_file(Text),
+    with_file(Text, File,
+              ( load_files(File, []),
+                findall(Message,
+                        ( wrong(Program, Line, Clause),
+                          message_of(Program, Message),
+                          \+ begins(Message, File, Line, Clause) ),
+                        Otherwise) )).
+
+message_of(Program, Message) :-
+    said(catch(ignore(do(golog_wrong_file:Program, _)), E, true), Said),
+    (   nonvar(E)
+    ->  E = error(_, context(_, Message))
+    ;   Said = [Message|_]
+    ).
+
+begins(Message, File, Line, Clause) :-
+    file_base_name(File, Base),
+    format(atom(Place), '~w:~w: ~w: ', [Base, Line, Clause]),
+    sub_atom(Message, _, _, _, Place).
+
+wrong_file(":- module(golog_wrong_file, []).
+:- use_module(library(ev3dev/golog)).
+prim_action(a(_)).
+prim_fluent(f).
+prim_action(b).
+poss(b, true).
+proc(round, ndet(?(false), [round, b])).
+proc(go_on, [b, fly(1)]).
+proc(wait_for_rain, [b, ?(wet(1))]).
+").
+
+wrong([b, a(1)], 3, 'prim_action(a/1)').
+wrong(?(f = 1), 4, 'prim_fluent(f)').
+wrong(round, 7, 'proc(round)').
+wrong(go_on, 8, 'proc(go_on)').
+wrong(wait_for_rain, 9, 'proc(wait_for_rain)').
 
 :- end_tests(golog_wrong).
 
@@ -922,6 +1232,38 @@ differences([B|Bs], A, [D|Ds]) :-
     D is A-B,
     differences(Bs, B, Ds).
 
+test(the_program_may_ask_about_a_long_history_itself, R == limit) :-
+    % now/1 has the newest thousand entries; what went before still counts.
+    with_domain([ prim_action(inc), poss(inc, true), execute(inc, _),
+                  prim_fluent(n), initially(n, 0),
+                  causes_val(inc, n, N, N is n+1) ],
+                M, ( assertz((M:said(N1) :- now(H), has_val(M:n, N1, H))),
+                     assertz((M:next(N2) :- now(H), has_val(M:n, V, [inc|H]),
+                                             V =:= N2)),
+                     golog(M:while(true, [inc, ?(said(n)), ?(next(n+1))]),
+                           [limit(4000), reason(R)]) )).
+
+test(effects_that_nothing_enumerates_take_no_more_memory,
+     true(Grown =< 100000)) :-
+    with_domain([ prim_action(paint), prim_action(wipe), prim_action(move),
+                  poss(_, true), prim_fluent(color(_)), prim_fluent(at),
+                  initially(color(_), white), initially(at, 0),
+                  causes_val(paint, color(door), red, true),
+                  causes_val(wipe, color(X), clean, neg(X = at)),
+                  causes_val(move, at, V, V is (at+1) mod 5),
+                  execute(_, _),
+                  proc(turn, [ wipe, move, paint, ?(color(door) = red),
+                               ?(color(4) \= red) ]) ],
+                M,
+                ( golog(M:while(true, turn), [limit(2000), reason(R1)]),
+                  garbage_collect,
+                  statistics(globalused, Used0),
+                  golog(M:while(true, turn), [limit(6000), reason(R2)]),
+                  garbage_collect,
+                  statistics(globalused, Used) )),
+    assertion([R1, R2] == [limit, limit]),
+    Grown is Used-Used0.
+
 :- end_tests(golog_long).
 
 %   Note the inferences used so far at every five hundredth action.
@@ -977,6 +1319,17 @@ with_rover(M, Goal) :-
              ( set_robot(5.6, 10.6, outB, outC),
                with_domain(Clauses, M, Goal) )).
 
+%   Some more exogenous actions, up to ten thousand, happen now.
+
+user:some_arrive(M) :-
+    M:arrive(K0),
+    random_between(0, 40, Some),
+    K is min(10000, K0+Some),
+    retract(M:arrive(K0)),
+    assertz(M:arrive(K)),
+    K1 is K0+1,
+    forall(between(K1, K, I), M:golog_exog(tick(I))).
+
 user:note_time(What) :-
     sim_time(T),
     nb_getval(golog_times, Times),
@@ -1003,6 +1356,44 @@ test(an_exogenous_action_is_seen_in_a_move, true(Late =< 0.02)) :-
     nb_getval(golog_times, [key-T]),
     Late is T-T0-0.5,
     assertion(Late >= 0).
+test(ten_thousand_at_random_times_are_counted_in_moves,
+     [Seen, Sum, Ordered] == [10000, 10000, true]) :-
+    with_rover(M, ( assertz(M:exog_action(tick(_))),
+                    assertz(M:prim_fluent(ticks)),
+                    assertz(M:initially(ticks, 0)),
+                    assertz(M:causes_val(tick(_), ticks, N, N is ticks+1)),
+                    assertz(M:prim_action(rest)),
+                    assertz(M:robot_action(rest, wait(0.2))),
+                    set_random(seed(3)),
+                    assertz(M:arrive(0)),
+                    % Between two of 15 ms: none, one, or many at once
+                    assertz((M:robot_exog(none, fail) :-
+                                 user:some_arrive(M))),
+                    golog(M:while(ticks < 10000, rest), [history(H)]),
+                    has_val(M:ticks, Sum, H) )),
+    findall(K, member(tick(K), H), Newest),
+    length(Newest, Seen),
+    reverse(Newest, Ks),
+    (   numlist(1, 10000, Ks)
+    ->  Ordered = true
+    ;   Ordered = false
+    ).
+test(what_was_seen_is_not_looked_at_again, true(Inferences < 6000000)) :-
+    % 300 of them at the beginning of an action of 20 s
+    with_rover(M, ( assertz(M:prim_action(rest)),
+                    assertz(M:robot_action(rest, wait(20))),
+                    sim_at(0.5, forall(between(1, 300, _),
+                                       M:golog_exog(far))),
+                    statistics(inferences, I0),
+                    golog(M:prioritized_interrupts(
+                                [ interrupt(beeps < keys, beep),
+                                  interrupt(neg(done(rest)), rest) ]),
+                          [history(H)]),
+                    statistics(inferences, I1) )),
+    once(append(Far, [rest], H)),
+    length(Far, Count),
+    assertion(Count == 300),
+    Inferences is I1-I0.
 test(a_higher_interrupt_ends_a_move,
      H == [ahead, beep, key, interrupted(ahead)]) :-
     with_rover(M, ( sim_press(enter, [after(0.5)]),
@@ -1083,13 +1474,81 @@ test(a_search_may_try_in_the_simulator, H-Y == [long]-true) :-
     ->  Y = true
     ;   Y = Y0
     ).
-test(the_journal_knows_the_action, true(Why == true)) :-
+test(the_journal_knows_step_and_action, Cause == golog(1, ahead, true)) :-
     with_rover(M, ( indigolog(M:ahead),
                     why(robot, why(_, _, Causes)) )),
-    (   memberchk(golog(ahead), Causes)
-    ->  Why = true
-    ;   Why = Causes
+    memberchk(golog(Step, Action, Condition), Causes),
+    Cause = golog(Step, Action, Condition).
+test(the_journal_knows_what_made_it_possible,
+     true(Told == [golog(3, drive(3), at(robot) = 2)])) :-
+    told_causes([?(true), halt, drive(3)], Told).
+test(the_journal_knows_the_interrupt,
+     true(Told == [golog(1, drive(3), at(robot) = 2), interrupt(keys = 0),
+                   interrupt(at(robot) < 5)])) :-
+    told_causes(prioritized_interrupts(
+                    [ interrupt(keys > 0, beep),
+                      interrupt(p, and(p = 5, at(robot) < p),
+                                [ prioritized_interrupts(
+                                      [interrupt(keys = 0, drive(3))]) ]) ]),
+                Told0),
+    maplist(without_choice, Told0, Told).
+test(the_journal_knows_a_step_of_a_plan,
+     true(Told == [golog(2, drive(3), at(robot) = 2)])) :-
+    told_causes(search([interrupt(keys > 0, beep), halt, drive(3)]), Told).
+test(why_says_it_in_words,
+     true(Text == "golog: step 2, drive(3): poss at(robot)=2")) :-
+    with_driver(M, ( indigolog(M:[halt, drive(3)]),
+                     said_why(robot, Line) )),
+    once(sub_string(Line, Before, _, _, "golog:")),
+    sub_string(Line, Before, _, 0, Text).
+test(the_journal_knows_what_execute_2_is_for,
+     true(memberchk(golog(2, run, f = 1), Causes))) :-
+    with_sim(room,
+             with_domain([ prim_action(run), prim_action(up),
+                           poss(up, true), poss(run, f = 1),
+                           prim_fluent(f), initially(f, 0),
+                           causes_val(up, f, 1, true),
+                           execute(up, _),
+                           (execute(run, _) :- motor_run(outB, 30)) ],
+                         M, ( indigolog(M:[up, run]),
+                              why(outB, why(_, _, Causes)) ))).
+
+without_choice(Cause0, Cause) :-
+    (   Cause0 = interrupt(and(5 = 5, Condition))
+    ->  Cause = interrupt(Condition)
+    ;   Cause = Cause0
     ).
+
+with_driver(M, Goal) :-
+    with_rover(M, ( forall(member(Clause,
+                                  [ prim_action(drive(_)), prim_fluent(at(_)),
+                                    initially(at(robot), 2),
+                                    causes_val(drive(N), at(robot), N, true),
+                                    robot_action(drive(_), go_cm(30, 10)) ]),
+                           assertz(M:Clause)),
+                    asserta((M:poss(drive(_), at(robot) = 2))),
+                    retractall(M:poss(_, true)),
+                    assertz((M:poss(A, true) :- A \= drive(_))),
+                    Goal )).
+
+told_causes(Program, Told) :-
+    with_driver(M, ( golog(M:Program, [limit(4), reason(_)]),
+                     journal(Journal) )),
+    once(( member(command(_, robot(_, _), course(_, _), Causes), Journal) )),
+    exclude(is_called, Causes, Told).
+
+is_called(called(_)).
+
+user:said_why(What, Line) :-
+    retractall(user:said_text(_)),
+    setup_call_cleanup(
+        asserta((user:thread_message_hook(_, help, Lines) :-
+                     user:keep_lines(Lines)), Ref),
+        why(What),
+        erase(Ref)),
+    retract(user:said_text(Text)),
+    once(split_string(Text, "\n", "", [Line|_])).
+
 test(the_same_seed_the_same_run, H1 == H2) :-
     runs_of_rover(H1),
     runs_of_rover(H2).

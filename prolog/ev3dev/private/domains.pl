@@ -70,6 +70,9 @@ allowed(font,               [tiny, small, medium, large]).
 allowed(frequency,          'a tone has from 100 to 10000 Hz').
 allowed(hull,
         [circle('Radius'), rectangle('Width', 'Length', 'Offset')]).
+allowed(i2c_count,
+        'from 1 to 32 bytes are expected, up to register 254').
+allowed(i2c_sensor,         'a sensor on the I2C bus is expected').
 allowed(ir_channel,         'a channel is a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
 allowed(key,

@@ -5,6 +5,9 @@
             entered/4,                  % +Kind, +Call, +Context0, -Context
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
+            recording/3,                % +Number, +Context0, -Context
+            triggered/3,                % +Condition, +Context0, -Context
+            recorded_step/3,            % +Context, -Number, -Triggers
             print_once/3,               % +Module, +Kind, +Message
             print_again/1,              % +Module
             blocked/2,                  % +Action, +Condition
@@ -16,30 +19,55 @@
 
 /** <module> What the interpreter carries along
 
-A context is `x(Module, Options, Calls)`. Module holds the domain. Options are
-words of this run: `online`, `assume` (what gexec/2 means), `simulate`. Calls
-are the procedures entered since the step began.
+A context is `x(Module, Options, Calls, Record)`. Module holds the domain.
+Options are words of this run: `online`, `assume` (what gexec/2 means),
+`simulate`. Calls are the procedures entered since the step began. Record is
+`none`, or record(Number, Triggers, Tail) of the step that an online run
+takes: Triggers is a partial list that ends in Tail, of the conditions of the
+interrupts in which the step is found, the outermost first.
 */
 
 %!  context(+Module, +Options, -Context) is det.
 %!  context_module(+Context, -Module) is det.
 %!  context_option(?Option, +Context) is semidet.
 
-context(Module, Options, x(Module, Options, [])).
+context(Module, Options, x(Module, Options, [], none)).
 
-context_module(x(Module, _, _), Module).
+context_module(x(Module, _, _, _), Module).
 
-context_option(Option, x(_, Options, _)) :-
+context_option(Option, x(_, Options, _, _)) :-
     memberchk(Option, Options).
 
 %!  stepping(+Context0, -Context) is det.
 %
-%   A new step begins: no procedure has been entered.
+%   A new step begins: no procedure has been entered, nothing is recorded.
 
-stepping(x(M, O, Calls), Context) :-
-    (   Calls == []
-    ->  Context = x(M, O, Calls)
-    ;   Context = x(M, O, [])
+stepping(x(M, O, _, _), x(M, O, [], none)).
+
+%!  recording(+Number, +Context0, -Context) is det.
+%!  triggered(+Condition, +Context0, -Context) is det.
+%!  recorded_step(+Context, -Number, -Triggers) is det.
+%
+%   For the explanation of an action: a step Number begins; it is found within
+%   an interrupt whose Condition holds; Triggers are these conditions, the
+%   innermost first. Backtracking undoes what was recorded.
+
+recording(Number, x(M, O, _, _), x(M, O, [], record(Number, Ts, Ts))).
+
+triggered(Condition, x(M, O, Calls, Record0), x(M, O, Calls, Record)) :-
+    (   Record0 = record(Number, Triggers, [Condition|Tail])
+    ->  Record = record(Number, Triggers, Tail)
+    ;   Record = Record0
+    ).
+
+recorded_step(x(_, _, _, record(Number, Partial, _)), Number, Triggers) :-
+    reversed(Partial, [], Triggers).
+
+reversed(Partial, Triggers0, Triggers) :-
+    (   var(Partial)
+    ->  Triggers = Triggers0
+    ;   Partial = [Trigger|Rest],
+        reversed(Rest, [Trigger|Triggers0], Triggers)
     ).
 
 %!  entered(+Kind, +Call, +Context0, -Context) is det.
@@ -49,7 +77,8 @@ stepping(x(M, O, Calls), Context) :-
 %   @error domain_error(golog_procedure, Call) if it has entered the same call
 %          already: there is nothing that would end this
 
-entered(Kind, Call, x(M, O, Calls), x(M, O, [c(Kind, Call)|Calls])) :-
+entered(Kind, Call, x(M, O, Calls, Record),
+        x(M, O, [c(Kind, Call)|Calls], Record)) :-
     (   again(Calls, Kind, Call, 0)
     ->  located(M, proc(Call), Where),
         format(atom(Text), '~wcyclic: ~q comes to itself again without a \c
@@ -74,7 +103,7 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %
 %   @error existence_error(golog_condition, Name/Arity)
 
-call_of(Condition, Goal, x(M, _, _)) :-
+call_of(Condition, Goal, x(M, _, _, _)) :-
     catch(goal_of_program(M:Goal),
           error(existence_error(procedure, PI), Where),
           no_predicate(PI, Where, Condition, Goal, M)).

@@ -6,6 +6,8 @@
             history_shortened/3,        % +Length, +Situation0, -Situation
             done/4,                     % +Entry, +Situation0, -Situation,
                                         % +Context
+            entries_done/4,             % +Entries, +Situation0, -Situation,
+                                        % +Context
             marked/3,                   % +Entry, +Situation0, -Situation
             fluent_value/4,             % ?Fluent, ?Value, +Situation,
                                         % +Context
@@ -31,10 +33,9 @@
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
 :- use_module(theory,
-              [ action_functor/2, domain_list/3, fluent_functor/2,
-                has_initial/2, initial_value/3, is_fluent/2, is_proc/2,
-                is_sensed/2, is_set_by_exogenous/2, located/3, proc_body/3,
-                relational_functor/2
+              [ domain_list/3, initial_value/3, is_fluent/2, is_kind/3,
+                is_sensing_action/2, is_set_by_exogenous/2, located/3,
+                proc_body/3
               ]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -53,7 +54,10 @@ entries.
 
 An effect on a fluent with a variable that neither its condition nor the
 declaration of the fluent enumerates is kept in Open, with the situation
-before it, and is decided by regression when a value is asked.
+before it, and is decided by regression when a value is asked. If its
+condition compares, and so depends on the situation by values only, these are
+put in, and it hides the older effects under the same condition: Open does not
+grow with each action.
 
 Sources: Levesque, Reiter, Lesperance, Lin, Scherl: GOLOG (1997); De Giacomo,
 Lesperance, Levesque: ConGolog (2000), De Giacomo, Levesque: An incremental
@@ -85,11 +89,6 @@ situation(History, Situation, Context) :-
     reverse(History, Entries),
     initial_situation(Situation0),
     entries_done(Entries, Situation0, Situation, Context).
-
-entries_done([], S, S, _).
-entries_done([Entry|Entries], S0, S, Context) :-
-    done(Entry, S0, S1, Context),
-    entries_done(Entries, S1, S, Context).
 
 %!  history_shortened(+Length, +Situation0, -Situation) is det.
 %
@@ -123,12 +122,21 @@ done(Entry, S0, S, Context) :-
     S0 = s(H, C0, Values0, Open0, Done0),
     C is C0+1,
     effects(Entry, S0, Context, Effects),
-    with_effects(Effects, C, S0, Values0, Values, Open0, Open),
+    with_effects(Effects, C, S0, Context, Values0, Values, Open0, Open),
     (   ground(Entry)
     ->  put_assoc(Entry, Done0, true, Done)
     ;   Done = Done0
     ),
     S = s([Entry|H], C, Values, Open, Done).
+
+%!  entries_done(+Entries, +Situation0, -Situation, +Context) is det.
+%
+%   As done/4 for each of Entries, the oldest first.
+
+entries_done([], S, S, _).
+entries_done([Entry|Entries], S0, S, Context) :-
+    done(Entry, S0, S1, Context),
+    entries_done(Entries, S1, S, Context).
 
 %   An effect keeps the variables of its action: a test later in the program
 %   may bind them.
@@ -146,33 +154,79 @@ of_same([Entry-Effect|Pairs], Entry, [Effect|Effects]) :-
 
 %   The first effect on a fluent counts.
 
-with_effects([], _, _, Values, Values, Open, Open).
-with_effects([Effect|Effects], C, S0, Values0, Values, Open0, Open) :-
+with_effects([], _, _, _, Values, Values, Open, Open).
+with_effects([Effect|Effects], C, S0, Context, Values0, Values, Open0,
+             Open) :-
     (   Effect = set(F, V)
     ->  Open1 = Open0,
         (   get_assoc(F, Values0, v(C, _))
         ->  Values1 = Values0
         ;   put_assoc(F, Values0, v(C, V), Values1)
         )
-    ;   Effect = open(F, V, Condition),
+    ;   Effect = open(F, V, Condition0),
         Values1 = Values0,
-        (   Condition == true
-        ->  without_subsumed(Open0, F, C, Open1a)
-        ;   Open1a = Open0
-        ),
-        after_same(Open1a, C, open(C, F, V, Condition, S0), Open1)
+        rigid(Condition0, S0, Context, Condition, Base),
+        without_hidden(Open0, F, Condition, Base, C, Open1a),
+        after_same(Open1a, C, open(C, F, V, Condition, Base), Open1)
     ),
-    with_effects(Effects, C, S0, Values1, Values, Open1, Open).
+    with_effects(Effects, C, S0, Context, Values1, Values, Open1, Open).
 
-without_subsumed([], _, _, []).
-without_subsumed([O|Os0], F, C, Os) :-
-    O = open(C1, F1, _, _, _),
+%   without_hidden(+Open0, +Fluent, +Condition, +Base, +Count, -Open): Open is
+%   Open0 without the older effects that one on Fluent hides: if its Condition
+%   is `true`, or if it is rigid and theirs is the same.
+
+without_hidden([], _, _, _, _, []).
+without_hidden([O|Os0], F, P, Base, C, Os) :-
+    O = open(C1, F1, _, P1, Base1),
     (   C1 < C,
-        subsumes_term(F, F1)
+        (   P == true
+        ->  subsumes_term(F, F1)
+        ;   Base == rigid,
+            Base1 == rigid,
+            F-P =@= F1-P1
+        )
     ->  Os = Os1
     ;   Os = [O|Os1]
     ),
-    without_subsumed(Os0, F, C, Os1).
+    without_hidden(Os0, F, P, Base, C, Os1).
+
+%   rigid(+Condition0, +Situation, +Context, -Condition, -Base): Condition0
+%   does not depend on Situation once its fluents have been replaced by their
+%   values: Base is `rigid`. Else it is Situation.
+
+rigid(P0, S, Context, P, Base) :-
+    context_module(Context, M),
+    (   comparisons(P0, S, Context, M, P1),
+        \+ names_fluent(P1, M)
+    ->  P = P1,
+        Base = rigid
+    ;   P = P0,
+        Base = S
+    ).
+
+comparisons(P0, S, Context, M, P) :-
+    nonvar(P0),
+    (   P0 == true
+    ->  P = true
+    ;   P0 = neg(Q0)
+    ->  P = neg(Q),
+        comparisons(Q0, S, Context, M, Q)
+    ;   ( P0 = and(Q0, R0), P = and(Q, R) ; P0 = or(Q0, R0), P = or(Q, R) )
+    ->  comparisons(Q0, S, Context, M, Q),
+        comparisons(R0, S, Context, M, R)
+    ;   ( P0 = (_ = _) ; P0 = (_ \= _) ; P0 = (_ == _) ; P0 = (_ \== _) )
+    ->  once(evaluated_arguments(P0, P, S, Context))
+    ).
+
+names_fluent(Term, M) :-
+    callable(Term),
+    (   is_kind(fluent, Term, M)
+    ->  true
+    ;   compound(Term),
+        arg(_, Term, Argument),
+        names_fluent(Argument, M)
+    ->  true
+    ).
 
 %   Newest first; those of one action in the order of the clauses.
 
@@ -187,7 +241,7 @@ after_same(Os, _, New, [New|Os]).
 
 effect(Entry, S0, Context, Effect) :-
     context_module(Context, M),
-    (   \+ action_functor(Entry, M),
+    (   \+ is_kind(action, Entry, M),
         is_internal(Entry)
     ->  internal_effect(Entry, S0, Context, M, Effect)
     ;   effect_in(Entry, S0, Context, M, Effect)
@@ -227,7 +281,7 @@ caused(A, F, false, C, M) :-
 
 sensed_effect(X, V, S0, Context, M, Effect) :-
     (   nonvar(X),
-        fluent_functor(X, M),
+        is_kind(fluent, X, M),
         \+ \+ is_fluent(X, M)
     ->  Effect = set(X, V)
     ;   M:senses(X, F),
@@ -235,16 +289,9 @@ sensed_effect(X, V, S0, Context, M, Effect) :-
     ;   M:senses(X, V, F, V2, Condition),
         effect_if(F, V2, Condition, S0, Context, M, Effect)
     ;   nonvar(X),
-        \+ is_sensing(X, M),
+        \+ is_sensing_action(X, M),
         Effect = set(X, V)
     ).
-
-is_sensing(X, M) :-
-    M:senses(X, _),
-    !.
-is_sensing(X, M) :-
-    M:senses(X, _, _, _, _),
-    !.
 
 effect_if(F, V, Condition, S0, Context, M, Effect) :-
     (   ground(F)
@@ -269,7 +316,7 @@ open_effect(F, V, Condition, S0, Context, M, Effect) :-
     ;   open_effect(F, V, and(Rest), S0, Context, M, Effect)
     ).
 open_effect(F, V, Condition, S0, Context, M, Effect) :-
-    (   fluent_functor(F, M)
+    (   is_kind(fluent, F, M)
     ->  findall(i(F, V, Condition), is_fluent(F, M), Instances0),
         sort(Instances0, Instances),
         member(i(F1, V1, Condition1), Instances)
@@ -432,7 +479,11 @@ value(F, V, s(_, _, Values, Open, _), Context, M) :-
 open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
     C1 > C,
     (   copy_term(F1-V1-Condition, F-V2-Condition2),
-        holds_once(Condition2, S1, Context)
+        (   S1 == rigid
+        ->  initial_situation(S2)
+        ;   S2 = S1
+        ),
+        holds_once(Condition2, S2, Context)
     ->  V = V2
     ;   open_value(Open, C, F, V, Context)
     ).
@@ -442,11 +493,11 @@ open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
 %   likely forgotten.
 
 no_initial_value(F, M) :-
-    (   has_initial(F, M)
+    (   is_kind(initial, F, M)
     ->  true
-    ;   is_sensed(F, M)
+    ;   is_kind(sensed, F, M)
     ->  true
-    ;   relational_functor(F, M)
+    ;   is_kind(relational, F, M)
     ->  located(M, fluent(F), Where),
         print_once(M, informational, no_initial_value(Where, F))
     ;   is_set_by_exogenous(F, M)
@@ -478,7 +529,7 @@ known_value(F, V, S, Context) :-
     S = s(_, _, Values, _, _),
     (   get_assoc(F, Values, _)
     ->  true
-    ;   has_initial(F, M)
+    ;   is_kind(initial, F, M)
     ),
     value(F, V, S, Context, M).
 
@@ -522,7 +573,7 @@ with_values(T0, T, S, Context, M) :-
     (   var(T0)
     ->  T = T0
     ;   atom(T0)
-    ->  (   fluent_functor(T0, M),
+    ->  (   is_kind(fluent, T0, M),
             is_fluent(T0, M)
         ->  value(T0, T, S, Context, M)
         ;   T = T0
@@ -531,7 +582,7 @@ with_values(T0, T, S, Context, M) :-
     ->  compound_name_arity(T0, Name, Arity),
         compound_name_arity(T1, Name, Arity),
         arguments_with_values(1, Arity, T0, T1, S, Context, M),
-        (   fluent_functor(T1, M),
+        (   is_kind(fluent, T1, M),
             known_or_declared(T1, S, M)
         ->  fluent_value(T1, T, S, Context)
         ;   T = T1
@@ -570,12 +621,12 @@ holds_(P, S, Context) :-
     ;   P = _:_
     ->  call_of(P, P, Context)
     ;   context_module(Context, M),
-        is_proc(P, M)
+        is_kind(proc, P, M)
     ->  condition_of(P, Body, Context),
         entered(condition, P, Context, Context1),
         holds(Body, S, Context1)
     ;   context_module(Context, M),
-        fluent_functor(P, M)
+        is_kind(fluent, P, M)
     ->  evaluated_arguments(P, F, S, Context),
         (   known_or_declared(F, S, M)
         ->  fluent_value(F, V, S, Context),
@@ -663,7 +714,7 @@ holds_construct(kwhether(F), S, X) :-
 is_known(F0, S, X) :-
     context_module(X, M),
     evaluated_arguments(F0, F, S, X),
-    (   fluent_functor(F, M)
+    (   is_kind(fluent, F, M)
     ->  ( ground(F) -> true ; is_fluent(F, M) ),
         known_value(F, _, S, X)
     ;   holds(F0, S, X)
@@ -693,7 +744,7 @@ domain_value(Value, Domain0, S, Context) :-
     (   is_list(Domain0)
     ->  Domain = Domain0
     ;   callable(Domain0),
-        fluent_functor(Domain0, M)
+        is_kind(fluent, Domain0, M)
     ->  fluent_value(Domain0, Domain, S, Context)
     ;   Domain = Domain0
     ),

@@ -31,6 +31,8 @@ words(no_exogenous(Action)) -->
       [Action] ].
 words(dry(Action)) -->
     [ 'Golog: nothing says how to execute ~p'-[Action] ].
+words(dry(Action, Device, Code)) -->
+    [ 'Golog: ~p: nothing runs ~p of the device ~p'-[Action, Code, Device] ].
 words(asked(Action)) -->
     [ 'Golog: what does ~p sense?'-[Action] ].
 words(executing(Action)) -->

@@ -2,12 +2,14 @@
           [ fresh/4,                    % +Variables, +Term0, -Term, -Choices
             substituted/4,              % +Variable, +Value, +Term0, -Term
             renamed/2,                  % +Term0, -Term
+            mapped/3,                   % :Closure, +Term0, -Term
             has_binder/1,               % +Term
             closed/1,                   % +Term
             construct/1,                % ?Program
             weak_construct/1,           % ?Program
             condition_construct/1       % ?Condition
           ]).
+:- use_module(library(lists), [append/3]).
 
 /** <module> Golog programs as terms
 
@@ -162,17 +164,13 @@ names(Vs, Names) :-
     ;   Vs = [V|Rest]
     ->  names(V, Names1),
         names(Rest, Names2),
-        joined(Names1, Names2, Names)
+        append(Names1, Names2, Names)
     ;   Vs = (V, D)
     ->  Names = [V-in(D)]
     ;   Vs = r(V)
     ->  Names = [V-any]
     ;   Names = [Vs-any]
     ).
-
-joined([], L, L).
-joined([X|Xs], L, [X|Ys]) :-
-    joined(Xs, L, Ys).
 
 %!  fresh(+Variables, +Term0, -Term, -Choices) is det.
 %
@@ -201,21 +199,10 @@ substituted(V, X, T0, T) :-
             names(Vs, Names),
             binds(Names, V)
         ->  outside_substituted(T0, V, X, T)
-        ;   compound_name_arity(T0, Name, Arity),
-            compound_name_arity(T, Name, Arity),
-            arguments_substituted(Arity, V, X, T0, T)
+        ;   mapped(substituted(V, X), T0, T)
         )
     ;   T = T0
     ).
-
-arguments_substituted(0, _, _, _, _) :-
-    !.
-arguments_substituted(I, V, X, T0, T) :-
-    arg(I, T0, A0),
-    substituted(V, X, A0, A),
-    arg(I, T, A),
-    I1 is I-1,
-    arguments_substituted(I1, V, X, T0, T).
 
 binds([Name-_|Names], V) :-
     (   Name == V
@@ -262,21 +249,10 @@ renamed(T0, T) :-
         all_renamed(Scope1, Scope),
         all_renamed(Outside0, Outside),
         functor(T0, Name, _),
-        joined(Outside, Scope, Arguments),
+        append(Outside, Scope, Arguments),
         T =.. [Name, Vs|Arguments]
-    ;   compound_name_arity(T0, Name, Arity),
-        compound_name_arity(T, Name, Arity),
-        arguments_renamed(Arity, T0, T)
+    ;   mapped(renamed, T0, T)
     ).
-
-arguments_renamed(0, _, _) :-
-    !.
-arguments_renamed(I, T0, T) :-
-    arg(I, T0, A0),
-    renamed(A0, A),
-    arg(I, T, A),
-    I1 is I-1,
-    arguments_renamed(I1, T0, T).
 
 all_renamed([], []).
 all_renamed([T0|Ts0], [T|Ts]) :-
@@ -309,6 +285,27 @@ replaced_name(Vs0, V, New, Vs) :-
         Vs = [First|Rest]
     ;   Vs = Vs0
     ).
+
+%!  mapped(:Closure, +Term0, -Term) is det.
+%
+%   Term is the compound Term0 with each argument A0 replaced by the A of
+%   call(Closure, A0, A).
+
+:- meta_predicate mapped(2, +, -).
+
+mapped(Closure, T0, T) :-
+    compound_name_arity(T0, Name, Arity),
+    compound_name_arity(T, Name, Arity),
+    arguments_mapped(Arity, Closure, T0, T).
+
+arguments_mapped(0, _, _, _) :-
+    !.
+arguments_mapped(I, Closure, T0, T) :-
+    arg(I, T0, A0),
+    call(Closure, A0, A),
+    arg(I, T, A),
+    I1 is I-1,
+    arguments_mapped(I1, Closure, T0, T).
 
 %!  has_binder(+Term) is semidet.
 %

@@ -1,31 +1,34 @@
 :- module(ev3dev_golog_run,
           [ run_online/4,               % :Program, +Settings, -Reason,
                                         % -History
-            recorded_history/1          % -History
+            recorded_history/1,         % -History
+            situation_of_run/4          % +History, +Module, -Situation,
+                                        % +Context
           ]).
-:- use_module(library(lists), [append/3, reverse/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
               [ context/3, context_module/2, print_again/1, stepping/2,
-                unblock/0, was_blocked/2
+                recorded_step/3, recording/3, unblock/0, was_blocked/2
               ]).
 :- use_module(domain,
-              [ done/4, history_shortened/3, situation/3,
+              [ done/4, entries_done/4, history_shortened/3, situation/3,
                 situation_count/2, situation_history/2
               ]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
-              [ action_functor/2, has_clauses/2, prepare/1,
-                refuse_epistemic/1
-              ]).
+              [has_clauses/2, is_kind/3, prepare/1, refuse_epistemic/1]).
 :- use_module(transitions,
-              [ is_final/3, is_preempted/4, program_shown/2, simplified/2,
-                step/5
+              [ is_final/3, is_preempted/4, made_possible/4, program_shown/2,
+                simplified/2, step/5
               ]).
-:- use_module(waiting, [clock/2, pause/4, robot_stopped/1]).
+:- use_module(waiting,
+              [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
+                robot_stopped/1
+              ]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
                 exogenous_noticed/3, message_seen/2, queue_of/2, robot_kind/2,
-                sensing_entries/4, watch_begins/1
+                sensing_entries/4, stops_run/1, watch_begins/1
               ]).
 
 /** <module> The online run of a program
@@ -55,13 +58,16 @@ run_online(M:E, Settings, Reason, History) :-
     situation(Initial, S, X),
     simplified(E, E1),
     Ended = ended(none),
+    situation_noted(Outer),
     setup_call_cleanup(
         begun(M, Initial, Keep),
-        ( initialized(M),
+        ( b_setval(ev3dev_golog_now, now(M, S)),
+          initialized(M),
           deadline(Timeout, Robot, Deadline),
           cycle(E1, S, quiet, 0, r(X, Agent, Settings, Deadline), Reason),
           nb_setarg(1, Ended, Reason) ),
         finished(M, Robot, Ended)),
+    b_setval(ev3dev_golog_now, Outer),
     recorded_history(History).
 
 begun(M, Initial, Keep) :-
@@ -135,6 +141,40 @@ recorded_history(History) :-
     findall(Entry, entry_record(_, Entry), Entries),
     reverse(Entries, History).
 
+%!  situation_of_run(+History, +Module, -Situation, +Context) is semidet.
+%
+%   While a program of Module runs: Situation is that after History, if this
+%   is what recorded_history/1 answers, or more after it. Nothing is computed
+%   again, and what the record has forgotten still counts.
+
+situation_of_run(History, Module, S, X) :-
+    nb_current(ev3dev_golog_now, now(Module, S0)),
+    situation_count(S0, C),
+    entry_record(C, Newest),
+    C1 is C+1,
+    \+ entry_record(C1, _),
+    append(More, [Entry|Before], History),
+    Entry == Newest,
+    recorded_history(Now),
+    [Entry|Before] == Now,
+    !,
+    reverse(More, Entries),
+    entries_done(Entries, S0, S, X).
+
+%   The situation of the cycle is linked, not copied, into one term for the
+%   whole run. A global variable that is set at each step would keep all
+%   situations.
+
+note_situation(S) :-
+    b_getval(ev3dev_golog_now, Now),
+    nb_linkarg(2, Now, S).
+
+situation_noted(Now) :-
+    (   nb_current(ev3dev_golog_now, Now0)
+    ->  Now = Now0
+    ;   Now = none
+    ).
+
                 /*******************************
                 *             CYCLE            *
                 *******************************/
@@ -148,6 +188,7 @@ cycle(E, S0, News0, Steps0, R, Reason) :-
     exogenous_seen(Agent, Actions),
     happened(Actions, S0, S1, News0, News1, R, Stop),
     Agent = agent(_, Robot, _, _),
+    note_situation(S1),
     arg(5, Settings, Limit),
     (   Stop == stop
     ->  Reason = stopped
@@ -160,7 +201,7 @@ cycle(E, S0, News0, Steps0, R, Reason) :-
     ->  Reason = timeout
     ;   Steps is Steps0+1,
         shortened(Steps, S1, S2),
-        taken(E, S2, News1, R, E3, S3, News3, Next),
+        taken(Steps, E, S2, News1, R, E3, S3, News3, Next),
         (   Next == on
         ->  cycle(E3, S3, News3, Steps, R, Reason)
         ;   Reason = Next
@@ -207,17 +248,22 @@ traced(Event, R) :-
     (   Trace = trace(Closure)
     ->  ignore(call(Closure, Event))
     ;   true
+    ),
+    (   Event = step(_)
+    ->  true
+    ;   followed(Event)
     ).
 
-%   taken(+Program0, +Situation0, +News0, +Run, -Program, -Situation, -News,
-%   -Next): the first step, `on` or the reason why the run ends.
+%   taken(+Number, +Program0, +Situation0, +News0, +Run, -Program, -Situation,
+%   -News, -Next): the first step, `on` or the reason why the run ends.
 
-taken(E0, S0, News0, R, E, S, News, Next) :-
-    R = r(X0, _, _, _),
-    stepping(X0, X),
+taken(Steps, E0, S0, News0, R, E, S, News, Next) :-
+    R = r(X0, Agent, Settings, Deadline),
+    recording(Steps, X0, X),
     unblock,
     (   step(E0, S0, E1, S1, X),
-        performed(E0, E1, S0, S1, News0, R, E2, S2, News2, Next2),
+        performed(E0, E1, S0, S1, News0, r(X, Agent, Settings, Deadline),
+                  E2, S2, News2, Next2),
         Next2 \== backtrack
     ->  simplified(E2, E),
         S = S2,
@@ -271,7 +317,7 @@ performed(E0, E1, S0, S1, News0, R, E, S, News, Next) :-
 is_mark(Entry, r(X, _, _, _)) :-
     internal(Entry),
     context_module(X, M),
-    \+ action_functor(Entry, M).
+    \+ is_kind(action, Entry, M).
 
 internal(wait).
 internal(commit).
@@ -304,14 +350,29 @@ performed_mark(Entry, _, E, _, S, News, R, E, S, News, on) :-
     recorded_since(S, Entry, R).
 
 performed_action(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
-    R = r(_, Agent, Settings, _),
+    R = r(X, Agent, Settings, _),
+    Agent = agent(_, Robot, _, _),
     situation_history(S0, History),
     traced(action(A), R),
-    executed(A, History, ev3dev_golog_run:is_to_end(E0, E1, S0, R), Agent,
-             Outcome, Value),
+    Goal = executed(A, History,
+                    ev3dev_golog_run:is_to_end(E0, E1, S0, R), Agent,
+                    Outcome, Value),
+    (   causes_wanted(Robot)
+    ->  causes(A, S0, X, Causes),
+        for_causes(Causes, Goal)
+    ;   call(Goal)
+    ),
     arg(3, Settings, OnFailed),
     after(Outcome, OnFailed, A, Value, E0, E1, S0, S1, News0, R,
           E, S, News, Next).
+
+%   What library(ev3dev/journal) tells about the commands of an action: its
+%   step, what made it possible, and the interrupts that it belongs to.
+
+causes(A, S, X, [golog(Number, A, Condition)|Causes]) :-
+    recorded_step(X, Number, Triggers),
+    made_possible(A, Condition, S, X),
+    findall(interrupt(Trigger), member(Trigger, Triggers), Causes).
 
 %   The newest entries of a situation, and the record of all but the last
 
@@ -364,9 +425,9 @@ after(failed, OnFailed, A, _, E0, E1, S0, _, News, R, E, S, News, Next) :-
         )
     ).
 
-%   True if the action that is being executed has to end: a part of the
-%   program with a higher priority can take a step after what has happened
-%   meanwhile, or the time is up.
+%   True if the action that is being executed has to end: something new has
+%   happened, and a part of the program with a higher priority can take a step
+%   after all that has happened meanwhile; or the time is up.
 
 :- public is_to_end/4.
 
@@ -379,25 +440,22 @@ is_to_end(E0, E1, S0, R) :-
     ->  true
     ;   is_to_stop(All)
     ->  true
-    ;   All = [_|_],
-        imagined(All, S0, S, X),
+    ;   New = [_|_],
+        entries_done(All, S0, S, X),
         stepping(X, X1),
         is_preempted(E0, E1, S, X1)
     ->  true
     ).
 
 is_to_stop(As) :-
-    ( memberchk(end_indi, As) -> true ; memberchk(halt_indi, As) ).
+    member(A, As),
+    stops_run(A),
+    !.
 
 traced_all([], _).
 traced_all([A|As], R) :-
     traced(exog(A), R),
     traced_all(As, R).
-
-imagined([], S, S, _).
-imagined([A|As], S0, S, X) :-
-    done(A, S0, S1, X),
-    imagined(As, S1, S, X).
 
 %   A wait returns at once if there is news, else it blocks. `over`: the time
 %   of the run was up before something came.

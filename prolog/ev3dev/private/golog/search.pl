@@ -1,5 +1,6 @@
 :- module(ev3dev_golog_search,
-          [ replanned_since/1           % -Program
+          [ replanned_since/1,          % -Program
+            found_path/4                % +Module, +Start, +End, -Moves
           ]).
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
 :- use_module(library(lists), [append/3]).
@@ -9,7 +10,7 @@
               [ done/4, fluents_now/3, holds/3, marked/3,
                 situation_count/2, situation_history/2
               ]).
-:- use_module(theory, [has_clauses/2, has_precondition/2]).
+:- use_module(theory, [is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [is_final/3, step/5]).
 :- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
@@ -91,7 +92,11 @@ offline(X0, Options, X) :-
     context(M, Words, X).
 
 path_begun(_, [p(E1, Entry)|Path], Options, S, E2, S1, X) :-
-    with_entry(Entry, S, S1, X),
+    (   dropped(Entry),
+        context_option(online, X)
+    ->  S1 = S
+    ;   with_entry(Entry, S, S1, X)
+    ),
     E2 = '$path'(E1, Path, At, Options),
     at(S1, At).
 
@@ -113,6 +118,7 @@ with_entry(Entry, S0, S, X) :-
 
 is_mark(wait).
 is_mark(abort).
+is_mark(branch(_)).
 is_mark(test(_)).
 
 %!  path_step(+E0, +Path, +AtOptions, +S0, -E, -S, +Context) is nondet.
@@ -210,8 +216,7 @@ deep(E, S, Path, Depth, Budget, X) :-
             ->  true
             ;   throw('$golog_committed')
             )
-        ;   path_entry(Entry, Kept),
-            Path = [p(E1, Kept)|Path1],
+        ;   Path = [p(E1, Entry)|Path1],
             deep(E1, S1, Path1, Depth1, Budget, X)
         )
     ).
@@ -249,17 +254,13 @@ entry_since(S0, S, Entry) :-
     ;   situation_history(S, [Entry|_])
     ).
 
-%   What an online run drops from the history
-
-path_entry(Entry, Kept) :-
-    (   dropped(Entry)
-    ->  Kept = none
-    ;   Kept = Entry
-    ).
+%   What an online run drops from the history. A search around this one keeps
+%   it: the rest of the plan relies on it.
 
 dropped(Entry) :-
     nonvar(Entry),
-    ( Entry = sim(_) ; Entry = branch(_) ).
+    ( Entry = sim(_) ; Entry = branch(_) ),
+    !.
 
 %   Iterative deepening; each limit is half as large again as the last.
 
@@ -290,8 +291,7 @@ within(E, S, Path, Depth, Cut, X) :-
             ->  fail
             ;   throw('$golog_committed')
             )
-        ;   path_entry(Entry, Kept),
-            Path = [p(E1, Kept)|Path1],
+        ;   Path = [p(E1, Entry)|Path1],
             within(E1, S1, Path1, Depth1, Cut, X)
         )
     ).
@@ -309,7 +309,8 @@ told(Options, What, _) :-
 %   conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
 %
 %   Plan is a program of actions and if/3 that runs Program to its end from
-%   Situation, whatever the conditions of its branch/1 turn out to be.
+%   Situation, whatever the conditions of its branch/1 turn out to be. It
+%   keeps each sim/1, so that a search around it can follow it.
 
 conditional_plan(E, S, Plan, X0) :-
     offline(X0, [], X),
@@ -339,9 +340,6 @@ planned_after(commit, E, S, _, Plan, X) :-
     ->  true
     ;   throw('$golog_committed')
     ).
-planned_after(sim(_), E, _, S, Plan, X) :-
-    !,
-    planned(E, S, Plan, X).
 planned_after(test(P), E, S, _, [?(P)|Plan], X) :-
     !,
     planned(E, S, Plan, X).
@@ -371,6 +369,26 @@ achieve_step(Goal, S, E1, S1, X0) :-
     Plan = [_|_],
     achieving(Plan, achieve(Goal), Path),
     path_begun(achieve(Goal), Path, achieve, S, E1, S1, X0).
+
+%!  found_path(+Module, +Start, +End, -Moves) is semidet.
+%
+%   Moves is a shortest list of moves from state Start to End, by A*.
+%   pathfind_move/3 (State, Next, Move) and pathfind_heuristic/3 (State, Goal,
+%   Estimate) of Module say what leads where, and how far it is at least.
+
+found_path(Module, Start, End, Moves) :-
+    planner_loaded,
+    ev3dev_search:plan(a_star,
+                       problem(Start, End,
+                               [ successor(ev3dev_golog_search:
+                                               move_of(Module)),
+                                 heuristic(Module:pathfind_heuristic) ]),
+                       Moves).
+
+:- public move_of/5.
+
+move_of(Module, State, Move, Next, 1) :-
+    call(Module:pathfind_move(State, Next, Move)).
 
 planner_loaded :-
     module_property(ev3dev_golog_search, file(Here)),
@@ -406,17 +424,8 @@ successor(Goal, X, State0, Action, State, 1) :-
     ;   context_module(X, M),
         call(M:prim_action(Action)),
         ground(Action),
-        has_precondition(Action, M),
-        \+ is_sensing(Action, M),
+        is_kind(precondition, Action, M),
+        \+ is_sensing_action(Action, M),
         step(Action, S0, [], S, X),
         state_of(S, X, State)
     ).
-
-is_sensing(Action, M) :-
-    has_clauses(M, senses(_, _)),
-    call(M:senses(Action, _)),
-    !.
-is_sensing(Action, M) :-
-    has_clauses(M, senses(_, _, _, _, _)),
-    call(M:senses(Action, _, _, _, _)),
-    !.

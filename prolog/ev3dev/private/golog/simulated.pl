@@ -4,7 +4,7 @@
             simulation_kept/1           % :Goal
           ]).
 :- use_module(context, [context_module/2]).
-:- use_module(domain, [done/4]).
+:- use_module(domain, [entries_done/4]).
 :- use_module(theory, [has_clauses/2]).
 :- use_module(world, [run_directly/4, sensing_entries/4]).
 
@@ -54,7 +54,7 @@ tried_in_simulator(A, _, S1, S, X) :-
         once(run_directly(A, M, Outcome, Value)),
         Outcome == done,
         sensing_entries(A, Value, M, Entries),
-        all_done(Entries, S1, S, X)
+        entries_done(Entries, S1, S, X)
     ;   S = S1
     ).
 
@@ -65,8 +65,3 @@ of_robot(A, M) :-
     ;   has_clauses(M, robot_sense(_, _, _)),
         \+ \+ M:robot_sense(A, _, _)
     ).
-
-all_done([], S, S, _).
-all_done([Entry|Entries], S0, S, X) :-
-    done(Entry, S0, S1, X),
-    all_done(Entries, S1, S, X).

@@ -4,16 +4,11 @@
             prepare/1,                  % +Module
             refuse_epistemic/1,         % +Module
             has_clauses/2,              % +Module, +Head
+            is_kind/3,                  % +Kind, +Term, +Module
             is_fluent/2,                % +Term, +Module
-            fluent_functor/2,           % +Term, +Module
-            relational_functor/2,       % +Term, +Module
-            has_initial/2,              % +Fluent, +Module
-            is_sensed/2,                % +Fluent, +Module
-            is_set_by_exogenous/2,      % +Fluent, +Module
-            action_functor/2,           % +Term, +Module
             is_exogenous/2,             % +Action, +Module
-            has_precondition/2,         % +Action, +Module
-            is_proc/2,                  % +Term, +Module
+            is_sensing_action/2,        % +Action, +Module
+            is_set_by_exogenous/2,      % +Fluent, +Module
             proc_body/3,                % +Call, -Body, +Module
             initial_value/3,            % +Fluent, -Value, +Module
             located/3,                  % +Module, +What, -Place
@@ -209,8 +204,12 @@ note_binders(Module) :-
     ;   true
     ).
 
-%   True if Term has the name and number of arguments of a Kind. A clause
-%   whose head is a variable is asked.
+%!  is_kind(+Kind, +Term, +Module) is semidet.
+%
+%   True if a clause of the domain is about a Kind with the name and number of
+%   arguments of Term. Kind is one of `fluent`, `relational`, `action`,
+%   `exogenous`, `precondition`, `initial`, `sensed`, `proc`. A clause whose
+%   head is a variable is asked.
 
 is_kind(Kind, Term, Module) :-
     functor(Term, Name, Arity),
@@ -225,37 +224,6 @@ is_kind(Kind, Term, Module) :-
 asked(Kind, Template, Module) :-
     kind(Kind, Head, Template),
     Module:Head.
-
-%!  fluent_functor(+Term, +Module) is semidet.
-%!  relational_functor(+Term, +Module) is semidet.
-%!  action_functor(+Term, +Module) is semidet.
-%!  has_precondition(+Action, +Module) is semidet.
-%!  has_initial(+Fluent, +Module) is semidet.
-%!  is_sensed(+Fluent, +Module) is semidet.
-%!  is_proc(+Term, +Module) is semidet.
-%
-%   True if a clause of the domain is about a term with this functor.
-
-fluent_functor(Term, Module) :-
-    is_kind(fluent, Term, Module).
-
-relational_functor(Term, Module) :-
-    is_kind(relational, Term, Module).
-
-action_functor(Term, Module) :-
-    is_kind(action, Term, Module).
-
-has_precondition(Action, Module) :-
-    is_kind(precondition, Action, Module).
-
-has_initial(Fluent, Module) :-
-    is_kind(initial, Fluent, Module).
-
-is_sensed(Fluent, Module) :-
-    is_kind(sensed, Fluent, Module).
-
-is_proc(Term, Module) :-
-    is_kind(proc, Term, Module).
 
 %!  is_fluent(?Term, +Module) is nondet.
 %
@@ -282,6 +250,16 @@ is_exogenous(Action, Module) :-
     nonvar(Action),
     is_kind(exogenous, Action, Module),
     \+ \+ Module:exog_action(Action).
+
+%!  is_sensing_action(+Action, +Module) is semidet.
+
+is_sensing_action(Action, Module) :-
+    has_clauses(Module, senses(_, _)),
+    \+ \+ Module:senses(Action, _),
+    !.
+is_sensing_action(Action, Module) :-
+    has_clauses(Module, senses(_, _, _, _, _)),
+    \+ \+ Module:senses(Action, _, _, _, _).
 
 %!  is_set_by_exogenous(+Fluent, +Module) is semidet.
 %

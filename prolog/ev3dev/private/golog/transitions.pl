@@ -4,6 +4,8 @@
             is_final/3,                 % +Program, +Situation, +Context
             run/5,                      % +Program, +Situation0, -Situation,
                                         % +Length, +Context
+            made_possible/4,            % +Action, -Condition, +Situation,
+                                        % +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
                                         % +Context
             simplified/2,               % +Program0, -Program
@@ -14,16 +16,17 @@
 :- use_module(library(random), [random_between/3]).
 :- use_module(context,
               [ blocked/2, context_module/2, context_option/2, entered/4,
-                stepping/2
+                stepping/2, triggered/3
               ]).
 :- use_module(domain,
               [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
                 holds/3, marked/3, situation_count/2, situation_history/2
               ]).
-:- use_module(programs, [construct/1, fresh/4, weak_construct/1]).
+:- use_module(programs,
+              [construct/1, fresh/4, mapped/3, weak_construct/1]).
 :- use_module(theory,
-              [ action_functor/2, has_clauses/2, has_precondition/2,
-                is_exogenous/2, is_proc/2, located/3, proc_body/3
+              [ has_clauses/2, is_exogenous/2, is_kind/3, located/3,
+                proc_body/3
               ]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -74,7 +77,7 @@ final(E, S, X) :-
     ).
 
 final_named(E, S, X, M) :-
-    is_proc(E, M),
+    is_kind(proc, E, M),
     proc_body(E, Body, M),
     entered(final, E, X, X1),
     final(Body, S, X1).
@@ -87,12 +90,10 @@ final_construct(ndet(A, B), S, X) :-
     either_final(A, B, S, X).
 final_construct(rndet(A, B), S, X) :-
     either_final(A, B, S, X).
+%   As in IndiGolog: either may take the steps, and both must agree to end.
 final_construct(wndet(A, B), S, X) :-
-    (   is_final(A, S, X)
-    ->  true
-    ;   \+ step(A, S, _, _, X),
-        is_final(B, S, X)
-    ).
+    is_final(A, S, X),
+    is_final(B, S, X).
 final_construct(if(P, A, B), S, X) :-
     (   holds(P, S, X)
     *-> is_final(A, S, X)
@@ -232,9 +233,9 @@ step(E, S, E1, S1, X) :-
 %   The domain has a procedure or an action with this functor.
 
 domain_names(E, M) :-
-    (   is_proc(E, M)
+    (   is_kind(proc, E, M)
     ->  true
-    ;   action_functor(E, M)
+    ;   is_kind(action, E, M)
     ).
 
 unbound_program :-
@@ -253,8 +254,8 @@ unknown_program(E, M) :-
     throw_error(existence_error(golog_program, What), _, Text).
 
 step_named(E, S, E1, S1, X, M) :-
-    is_proc(E, M),
-    (   action_functor(E, M)
+    is_kind(proc, E, M),
+    (   is_kind(action, E, M)
     ->  (   proc_step(E, S, E1, S1, X, M)
         ;   action_step(E, S, E1, S1, X, M)
         )
@@ -262,7 +263,7 @@ step_named(E, S, E1, S1, X, M) :-
         proc_step(E, S, E1, S1, X, M)
     ).
 step_named(E, S, E1, S1, X, M) :-
-    \+ is_proc(E, M),
+    \+ is_kind(proc, E, M),
     action_step(E, S, E1, S1, X, M).
 
 proc_step(E, S, E1, S1, X, M) :-
@@ -292,7 +293,7 @@ possible(A, S, X, M) :-
     ;   true
     ),
     M:prim_action(A),
-    (   has_precondition(A, M)
+    (   is_kind(precondition, A, M)
     ->  true
     ;   no_precondition(A, M)
     ),
@@ -305,6 +306,19 @@ possible(A, S, X, M) :-
     *-> true
     ;   blocked(A, poss(A)),
         fail
+    ).
+
+%!  made_possible(+Action, -Condition, +Situation, +Context) is det.
+%
+%   Condition is the one of poss/2 that holds for Action, else `true`.
+
+made_possible(A, Condition, S, X) :-
+    context_module(X, M),
+    (   is_kind(precondition, A, M),
+        M:poss(A, Condition0),
+        holds(Condition0, S, X)
+    ->  Condition = Condition0
+    ;   Condition = true
     ).
 
 no_precondition(A, M) :-
@@ -393,12 +407,14 @@ step_construct(iconc(E), S, E1, S1, X) :-
     turned(X, E2, iconc(E), E1).
 step_construct(interrupt(P, E), S, [E1, interrupt(P, E)], S1, X) :-
     holds(P, S, X),
-    step(E, S, E1, S1, X).
+    triggered(P, X, X1),
+    step(E, S, E1, S1, X1).
 step_construct(interrupt(Vs, P, E), S, [E1, interrupt(Vs, P, E)], S1, X) :-
     fresh(Vs, P-E, P1-E0, Choices),
     chosen(Choices, S, X),
     holds(P1, S, X),
-    step(E0, S, E1, S1, X).
+    triggered(P1, X, X1),
+    step(E0, S, E1, S1, X1).
 step_construct(prioritized_interrupts(Es), S, E1, S1, X) :-
     (   first_step(Es, S, Es1, S1, X)
     *-> E1 = prioritized_interrupts(Es1)
@@ -718,7 +734,7 @@ preempted(if(P, A0, B0), E, S, X) :-
 preempted(E0, E, S, X) :-
     callable(E0),
     context_module(X, M),
-    is_proc(E0, M),
+    is_kind(proc, E0, M),
     proc_body(E0, Body, M),
     entered(preempted, E0, X, X1),
     preempted_by(Body, E, S, X1).
@@ -758,9 +774,10 @@ step_weak(abort, S, [], S1, _) :-
     marked(abort, S, S1).
 step_weak(abort(P), S, [], S1, X) :-
     done(e(P, false), S, S1, X).
-step_weak(e(F, V), S, [], S1, X) :-
-    evaluated_arguments(e(F, V), Entry, S, X),
-    done(Entry, S, S1, X).
+step_weak(e(F0, V0), S, [], S1, X) :-
+    evaluated_arguments(F0, F, S, X),
+    evaluated_arguments(v(V0), v(V), S, X),
+    done(e(F, V), S, S1, X).
 step_weak(set(F0), S, [], S1, X) :-
     evaluated_arguments(F0, F, S, X),
     done(set(F), S, S1, X).
@@ -945,16 +962,5 @@ program_shown(E0, E) :-
     ;   E0 = '$path'(A0, _, _, _)
     ->  program_shown(A0, A),
         E = search(A)
-    ;   compound_name_arity(E0, Name, Arity),
-        compound_name_arity(E, Name, Arity),
-        arguments_shown(Arity, E0, E)
+    ;   mapped(program_shown, E0, E)
     ).
-
-arguments_shown(0, _, _) :-
-    !.
-arguments_shown(I, E0, E) :-
-    arg(I, E0, A0),
-    program_shown(A0, A),
-    arg(I, E, A),
-    I1 is I-1,
-    arguments_shown(I1, E0, E).

@@ -1,5 +1,8 @@
 :- module(ev3dev_golog_waiting,
-          [ run_watched/4,              % +Action, :Goal, :Watch, -Outcome
+          [ run_watched/3,              % :Goal, :Watch, -Outcome
+            causes_wanted/1,            % +Robot
+            followed/1,                 % +Event
+            for_causes/2,               % +Causes, :Goal
             guarded/2,                  % +Name, :Goal
             pause/4,                    % +Robot, +Queue, +Deadline,
                                         % -Message
@@ -15,34 +18,31 @@ the robot, else `none`; then the library of the robot is not even loaded.
 */
 
 :- meta_predicate
-    run_watched(+, 0, 0, -),
+    run_watched(0, 0, -),
+    for_causes(+, 0),
     guarded(+, 0).
 
-%!  run_watched(+Action, :Goal, :Watch, -Outcome) is det.
+%!  run_watched(:Goal, :Watch, -Outcome) is det.
 %
-%   Call Goal, which executes Action and may be a blocking move. Outcome is
-%   `done`, `failed`, or
+%   Call Goal, which may be a blocking move. Outcome is `done`, `failed`, or
 %   `interrupted` if Watch succeeded before Goal ended. Watch is called before
 %   Goal and whenever Goal waits for the robot, every 15 ms. An exception
 %   leaves Goal then, so that the motors of its move stop.
 
-run_watched(Action, Goal, Watch, Outcome) :-
+run_watched(Goal, Watch, Outcome) :-
     (   call(Watch)
     ->  Outcome = interrupted
     ;   loaded,
         Ball = golog_interrupted(Id),
         flag(ev3dev_golog_watch, Id, Id+1),
-        catch(watched(Action, Goal, Watch, Ball, Outcome), Ball,
+        catch(watched(Goal, Watch, Ball, Outcome), Ball,
               Outcome = interrupted)
     ).
 
-%   library(ev3dev/journal) tells that what Goal commands is for Action.
-
-watched(Action, Goal, Watch, Ball, Outcome) :-
+watched(Goal, Watch, Ball, Outcome) :-
     (   ev3dev_waits:listening(0.015,
                                ev3dev_golog_waiting:watch(Watch, Ball),
-                               ev3dev_causes:acting_for(Goal,
-                                                        golog(Action)))
+                               Goal)
     ->  Outcome = done
     ;   Outcome = failed
     ).
@@ -52,6 +52,33 @@ watched(Action, Goal, Watch, Ball, Outcome) :-
 watch(Watch, Ball, Listener) :-
     (   call(Watch)
     ->  ev3dev_waits:leave(Listener, Ball)
+    ;   true
+    ).
+
+%!  causes_wanted(+Robot) is semidet.
+%!  for_causes(+Causes, :Goal) is semidet.
+%
+%   Call Goal once. What it commands is done for Causes, the innermost first,
+%   as library(ev3dev/journal) tells. Not wanted if nothing can be commanded.
+
+causes_wanted(Robot) :-
+    (   Robot == robot
+    ->  loaded
+    ;   current_predicate(ev3dev_causes:acting_for/2)
+    ).
+
+for_causes([], Goal) :-
+    once(Goal).
+for_causes([Cause|Causes], Goal) :-
+    for_causes(Causes, ev3dev_causes:acting_for(Goal, Cause)).
+
+%!  followed(+Event) is det.
+%
+%   The history goes on: library(ev3dev/view) is told, if it is there.
+
+followed(Event) :-
+    (   current_predicate(ev3dev_causes:begins/1)
+    ->  ev3dev_causes:begins(golog(Event))
     ;   true
     ).
 

@@ -7,18 +7,19 @@
             watch_begins/1,             % +Module
             exogenous_noticed/3,        % +Agent, -New, -All
             exogenous_seen/2,           % +Agent, -Actions
+            stops_run/1,                % +Code
             message_seen/2,             % +Message, +Agent
             executed/6,                 % +Action, +History, :Watch, +Agent,
                                         % -Outcome, -Value
             sensing_entries/4,          % +Action, +Value, +Module, -Entries
-            is_sensing_action/2,        % +Action, +Module
             run_directly/4,             % +Action, +Module, -Outcome, -Value
             ask/2,                      % +Action, -Value
             code_of_number/3            % +Number, +Module, -Action
           ]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(theory, [has_clauses/2, is_exogenous/2]).
-:- use_module(waiting, [guarded/2, run_watched/4]).
+:- use_module(theory,
+              [has_clauses/2, is_exogenous/2, is_sensing_action/2]).
+:- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../errors', [goal_of_program/1]).
 
 /** <module> The world: how actions are executed, and what happens by itself
@@ -227,17 +228,19 @@ seen_code(Code, Module, Known) :-
 exogenous_of(Code, Module, Action) :-
     (   is_exogenous(Code, Module)
     ->  Action = Code
-    ;   is_system(Code)
+    ;   stops_run(Code)
     ->  Action = Code
     ;   translated(Code, Module, Action),
         is_exogenous(Action, Module)
     ).
 
-%   What IndiGolog takes for a message to itself
+%!  stops_run(+Code) is semidet.
+%
+%   True if IndiGolog takes Code for a message to itself: end the run.
 
-is_system(Code) :-
+stops_run(Code) :-
     nonvar(Code),
-    memberchk(Code, [end_indi, halt_indi]).
+    memberchk(Code, [end_indi, halt_indi, halt_exec, abort_exec]).
 
 translated(Code, Module, Action) :-
     has_clauses(Module, translate_exog(_, _)),
@@ -272,11 +275,11 @@ executed(A, H, Watch, Agent, Outcome, Value) :-
     Agent = agent(M, _, _, _),
     (   has_clauses(M, robot_sense(_, _, _)),
         M:robot_sense(A, Value0, Goal)
-    ->  run_watched(A, M:Goal, Watch, Outcome),
+    ->  run_watched(M:Goal, Watch, Outcome),
         Value = Value0
     ;   has_clauses(M, robot_action(_, _)),
         M:robot_action(A, Goal)
-    ->  run_watched(A, M:Goal, Watch, Outcome)
+    ->  run_watched(M:Goal, Watch, Outcome)
     ;   has_clauses(M, how_to_execute(_, _, _))
     ->  (   M:how_to_execute(A, Device, Code)
         ->  code_run(A, Device, Code, Agent, Outcome0, Value0),
@@ -285,7 +288,7 @@ executed(A, H, Watch, Agent, Outcome, Value) :-
             ;   Outcome = Outcome0,
                 value_translated(A, Value0, M, Value)
             )
-        ;   Outcome = failed
+        ;   unmapped_run(A, Agent, Outcome, Value)
         )
     ;   has_clauses(M, execute(_, _, _))
     ->  outcome(M:execute(A, H, Value0), Outcome),
@@ -309,10 +312,13 @@ outcome(Goal, Outcome) :-
 
 %   Nobody says how: the action happens in the history only.
 
-dry(A, M, done, Value) :-
+dry(A, M, Outcome, Value) :-
+    dry(A, dry(A), M, Outcome, Value).
+
+dry(A, Message, M, done, Value) :-
     (   is_sensing_action(A, M)
     ->  ask(A, Value)
-    ;   print_message(informational, golog(dry(A)))
+    ;   print_message(informational, golog(Message))
     ).
 
 %!  run_directly(+Action, +Module, -Outcome, -Value) is det.
@@ -331,11 +337,16 @@ run_directly(A, M, Outcome, Value) :-
 
 %!  ask(+Action, -Value) is det.
 %
-%   Ask the user what Action senses.
+%   Ask the user what Action senses. Value stays unbound at the end of the
+%   input.
 
 ask(A, Value) :-
     print_message(help, golog(asked(A))),
-    read(Value).
+    read(Value0),
+    (   Value0 == end_of_file
+    ->  true
+    ;   Value = Value0
+    ).
 
 code_run(A, Device, Code, agent(M, _, _, Closure), Outcome, Value) :-
     (   Closure = device(Goal)
@@ -349,6 +360,18 @@ code_run(A, Device, Code, agent(M, _, _, Closure), Outcome, Value) :-
     ;   callable(Code),
         is_defined(M:Code)
     ->  outcome(M:Code, Outcome)
+    ;   dry(A, dry(A, Device, Code), M, Outcome, Value)
+    ).
+
+%   An action without how_to_execute/3 is for the device `simulator`, as in
+%   full IndiGolog. It is not called as a goal: its name may be that of
+%   anything.
+
+unmapped_run(A, Agent, Outcome, Value) :-
+    Agent = agent(M, _, _, Closure),
+    (   Closure = device(_)
+    ->  code_run(A, simulator, A, Agent, Outcome, Value0),
+        value_translated(A, Value0, M, Value)
     ;   dry(A, M, Outcome, Value)
     ).
 
@@ -365,12 +388,8 @@ device_call(Module:Closure, Device, Code, Value, Module:Goal) :-
 
 extended(Goal0, More, Goal) :-
     Goal0 =.. List0,
-    joined(List0, More, List),
+    append(List0, More, List),
     Goal =.. List.
-
-joined([], L, L).
-joined([X|Xs], L, [X|Ys]) :-
-    joined(Xs, L, Ys).
 
 is_defined(Module:Goal) :-
     functor(Goal, Name, Arity),
@@ -392,16 +411,6 @@ value_translated(A, Value0, M, Value) :-
     ->  Value = Value1
     ;   Value = Value0
     ).
-
-%!  is_sensing_action(+Action, +Module) is semidet.
-
-is_sensing_action(A, M) :-
-    has_clauses(M, senses(_, _)),
-    \+ \+ M:senses(A, _),
-    !.
-is_sensing_action(A, M) :-
-    has_clauses(M, senses(_, _, _, _, _)),
-    \+ \+ M:senses(A, _, _, _, _).
 
 %!  sensing_entries(+Action, +Value, +Module, -Entries) is det.
 %
