@@ -1,4 +1,5 @@
 :- use_module('../support/child').
+:- use_module('../support/dev').
 :- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module('../support/web').
@@ -7,6 +8,8 @@
 :- use_module(library(ev3dev/view)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/rules),
+              [after/2, after/3, behave/2, op(1150, xfx, ~>), op(1160, xfx, ::)]).
 :- use_module(library(http/http_dispatch)).
 :- use_module(library(process)).
 :- use_module(library(readutil)).
@@ -98,6 +101,21 @@ test(a_port_that_is_busy, error(_, _)) :-
 test(stop_twice) :-
     view_stop,
     view_stop.
+test(no_thread_of_the_server_is_left) :-
+    findall(Thread, thread_property(Thread, status(running)), Before),
+    viewed(Port, get(Port, '/?t=test_token', [], _, _)),
+    until_threads(Before, 500).
+
+until_threads(Before, Left) :-
+    findall(Thread, thread_property(Thread, status(running)), Now),
+    (   subtract(Now, Before, [])
+    ->  true
+    ;   Left > 0,
+        sleep(0.02),
+        Left1 is Left - 1,
+        until_threads(Before, Left1)
+    ).
+
 test(library_loads_no_server) :-
     run_program("", [goal('use_module(library(ev3dev)), \c
                            \\+ current_module(thread_httpd)')], Status, _),
@@ -483,6 +501,31 @@ test(marks_and_values_and_warnings) :-
             frame(Page, Frame.have, Last),
             \+ get_dict(log, Last, _),
             \+ get_dict(values, Last, _) )).
+% In the order in which they were, and not only those that command something.
+test(rules_and_events_that_begin, true(Kinds == Expected)) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            set_robot(5.6, 10.6, outB, outC),
+            ev3_time(T0),
+            after(0.1, true, [id(tick)]),
+            behave([ ( drive :: ev3_time(T), T < T0 + 0.3 ~> go(20) ),
+                     ( look :: true ~> wait(0.1) ) ],
+                   [timeout(0.35)]),
+            frame(Page, First.have, Frame) )),
+    findall(Kind-Start,
+            ( member(Line, Frame.log),
+              Kind = Line.kind,
+              split_string(Line.text, " ", ",", [A, B|_]),
+              memberchk(A, ["rule", "event", "outB"]),
+              string_concat(A, " ", A1),
+              string_concat(A1, B, Start) ),
+            Kinds),
+    memberchk(Drive, Frame.log),
+    Drive.kind == "rule",
+    once(sub_string(Drive.text, _, _, _, "rule drive, ev3_time")),
+    Expected = [ "rule"-"rule drive", "command"-"outB run-forever",
+                 "rule"-"event tick", "rule"-"rule look",
+                 "command"-"outB stop" ].
 test(watches, true(Watches == Expected)) :-
     paged(Page,
           ( view_watch(left, outB),
@@ -528,7 +571,25 @@ test(the_grid_that_the_program_knows) :-
                  page_close(Page) ))),
     Frame.grid.cols =:= 4,
     Frame.grid.rows =:= 3,
-    Frame.grid.blocked == [[1, 2]].
+    Frame.grid.blocked == [[1, 2]],
+    Frame.grid.plan == [].
+test(the_plan_that_is_carried_out, true(Plan-After == [[0,0],[0,1],[0,2],[1,2]]-[])) :-
+    token(Token),
+    with_sim(grid,
+        viewed(Port,
+               ( set_robot(5.6, 10.6, outB, outC),
+                 set_grid([bounds(0, 0, 3, 2), origin(10, 10)]),
+                 page_open(Port, Token, Page),
+                 after(0.5, remember_plan(Page)),
+                 execute_plan([move, move, right, move]),
+                 nb_getval(plan, Plan),
+                 frame_with(Page, Last, Last.grid.plan == []),
+                 After = Last.grid.plan,
+                 page_close(Page) ))).
+remember_plan(Page) :-
+    page_ask(Page, "next", Frame),
+    nb_setval(plan, Frame.grid.plan).
+
 test(without_a_simulation_nothing_is_chosen) :-
     ignore(sim_stop),
     token(Token),
@@ -873,6 +934,25 @@ test(a_motor_and_a_sensor, [forall(( tree(Tree), of_a_brick(Tree) ))]) :-
     port_of(Frame, "in1", Sensor),
     Sensor.kind == "sensor",
     Sensor.values = [_].
+
+test(the_keys_and_the_screen,
+     [ forall(( tree(Tree), of_a_brick(Tree) )),
+       true(Keys-Empty-Drawn == ["enter"]-"AAA"-"wAA")
+     ]) :-
+    token(Token),
+    on_dev(Tree,
+        viewed(Port,
+               ( page_open(Port, Token, Page),
+                 screen_clear, screen_show,
+                 page_ask(Page, "next", First),
+                 press(Tree, enter),
+                 screen_point(0, 0), screen_point(1, 0), screen_show,
+                 frame_with(Page, Frame, Frame.brick.keys \== []),
+                 frame_with(Page, Last, get_dict(screen, Last, _)),
+                 page_close(Page) ))),
+    Keys = Frame.brick.keys,
+    sub_string(First.screen.bits, 0, 3, _, Empty),
+    sub_string(Last.screen.bits, 0, 3, _, Drawn).
 
 motor_shows(Frame) :-
     port_of(Frame, "outB", Motor),

@@ -10,6 +10,7 @@
             page_bytes/2,               % +Page, +Bytes
             page_close/1                % +Page
           ]).
+:- use_module(old_prolog).
 :- use_module(library(apply)).
 :- use_module(library(http/json)).
 :- use_module(library(lists)).

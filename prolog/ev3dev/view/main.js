@@ -140,6 +140,7 @@ function shown() {
   return {
     phase,
     frames: model.count,
+    age: model.age,
     source: now?.source ?? null,
     time: now?.clock?.time ?? null,
     clock: now?.clock ?? null,

@@ -73,7 +73,8 @@ export class World {
     const world = this.model?.world;
     if (world?.bounds) {
       const [x1, y1, x2, y2] = world.bounds;
-      const edge = 0.008 * Math.max(x2 - x1, y2 - y1);
+      // The wall around it is 1 cm thick.
+      const edge = Math.max(1.2, 0.008 * Math.max(x2 - x1, y2 - y1));
       return [x1 - edge, y1 - edge, x2 + edge, y2 + edge];
     }
     if (world?.view) return world.view;
@@ -203,7 +204,8 @@ export class World {
     this.model = model;
     if (came.has('world')) {
       this.selected = null;
-      this.measured = null;
+      // A box that moves leaves what is being measured; another world does not.
+      if (model.frame.new) this.measured = null;
       if (!this.camera.own || model.frame.new) this.fit();
     } else if (!this.camera.own && !model.world) this.fit();
     if (model.frame.new && this.following) this.following = true;

@@ -37,7 +37,8 @@ goal_line(goal, Rest, Out, Refused) :-
     ;   retractall(running(Page, _, _)),
         thread_create(ev3dev_view_goals:solve(Text, Number, Out), Thread,
                       [detached(true)]),
-        assertz(running(Page, Number, Thread))
+        assertz(running(Page, Number, Thread)),
+        thread_send_message(Thread, ev3dev_view_goal(begin))
     ).
 goal_line(Word, Rest, _, _) :-
     memberchk(Word, [more, enough]),
@@ -67,6 +68,7 @@ goals_end :-
     retractall(running(Page, _, _)).
 
 solve(Text, Number, Out) :-
+    thread_get_message(ev3dev_view_goal(begin)),
     catch(solve_(Text, Number, Out), Error, true),
     (   var(Error)
     ->  true

@@ -5,6 +5,7 @@
           ]).
 :- use_module('../native',
               [ view_json_/2, view_keep_/2, view_to_world_/5 ]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../brick', [brick/1]).
 
 /** <module> What seldom changes on a page
@@ -57,14 +58,12 @@ grid_json(Brick, Map, metric(Cm, X0, Y0, _, _), Json) :-
     Columns is X2 - X1 + 1,
     Rows is Y2 - Y1 + 1,
     findall(Text,
-            ( ev3dev_grid_knowledge:obstacle(Brick, Cell, State, _),
-              lasts(State),
+            ( ev3dev_grid_knowledge:obstructed(Cell),
               cell(Cell, X1, Y1, Text)
             ),
             Blocked0),
     findall(Text,
-            ( ev3dev_grid_knowledge:free(Brick, Cell, State),
-              lasts(State),
+            ( ev3dev_grid_knowledge:known_free(Cell),
               cell(Cell, X1, Y1, Text)
             ),
             Free0),
@@ -72,13 +71,24 @@ grid_json(Brick, Map, metric(Cm, X0, Y0, _, _), Json) :-
     sort(Free0, Free),
     atomic_list_concat(Blocked, ',', BlockedText),
     atomic_list_concat(Free, ',', FreeText),
+    findall(Text,
+            ( planned(Brick, Cell),
+              cell(Cell, X1, Y1, Text)
+            ),
+            Plan),
+    atomic_list_concat(Plan, ',', PlanText),
     format(string(Json),
            "{\"cell\":~w,\"origin\":[~2f,~2f],\"h\":~2f,\"cols\":~w,\c
-            \"rows\":~w,\"blocked\":[~w],\"free\":[~w]}",
-           [Cm, X, Y, Turn, Columns, Rows, BlockedText, FreeText]).
+            \"rows\":~w,\"blocked\":[~w],\"free\":[~w],\"plan\":[~w]}",
+           [ Cm, X, Y, Turn, Columns, Rows, BlockedText, FreeText,
+             PlanText ]).
 
-lasts(State) :-
-    ev3dev_grid_knowledge:lasts(State).
+%   The cells of the plan under way, in order.
+
+planned(Brick, Cell) :-
+    catch(ev3dev_grid_moves:planned(Brick, Cells), _, fail),
+    !,
+    member(Cell, Cells).
 
 cell([CX, CY], X1, Y1, Text) :-
     X is CX - X1,

@@ -5,12 +5,14 @@
             cause_texts/2,              % +Cause, -Texts
             error_text/2                % +Error, -Text
           ]).
-:- use_module('../causes', [causes/2]).
+:- use_module('../journal_words', [cause_words//1]).
+:- use_module('../causes', [causes/2, follow/1, follow_no_more/0]).
 :- use_module('../native', [view_log_/4, view_serves_/0]).
 
 /** <module> What the page's log is told
 
-Warnings and errors of the program, and its marks.
+Warnings and errors of the program, its marks, rules that become active,
+events that happen and Golog's history.
 */
 
 :- multifile user:message_hook/3.
@@ -20,7 +22,8 @@ Warnings and errors of the program, and its marks.
 %!  watch_messages is det.
 %!  leave_messages is det.
 %
-%   Note from now on what the program is warned of; and no more.
+%   Note from now on what the program is warned of, and which rule or action
+%   begins; and no more.
 
 watch_messages :-
     leave_messages,
@@ -28,9 +31,11 @@ watch_messages :-
                  ev3dev_view_log:seen(Kind, Lines),
                  fail),
             Hook),
-    assertz(hook(Hook)).
+    assertz(hook(Hook)),
+    follow(ev3dev_view_log:begun).
 
 leave_messages :-
+    follow_no_more,
     forall(retract(hook(Hook)),
            erase(Hook)).
 
@@ -41,6 +46,18 @@ seen(Kind, Lines) :-
         note(Kind, Text)
     ;   true
     ).
+
+:- public begun/1.
+
+begun(Cause) :-
+    functor(Cause, Kind0, _),
+    log_kind(Kind0, Kind),
+    texts_of([Cause], [Text]),
+    note(Kind, Text).
+
+log_kind(rule, rule).
+log_kind(event, rule).
+log_kind(golog, golog).
 
 lines_text(Lines, Text) :-
     with_output_to(string(Text0),
@@ -98,33 +115,9 @@ cause_texts(Cause, Texts) :-
 
 texts_of([], []).
 texts_of([Cause|Causes], [Text|Texts]) :-
-    \+ \+ ( numbervars(Cause, 0, _, [singletons(true)]),
-            cause_words(Cause, Text0),
-            nb_setval(ev3dev_view_mark, Text0)
-          ),
-    nb_getval(ev3dev_view_mark, Text),
+    phrase(cause_words(Cause), Lines),
+    lines_text(Lines, Text),
     texts_of(Causes, Texts).
-
-cause_words(rule(Name, Guard), Text) :-
-    !,
-    named_words(rule, Name, Guard, Text).
-cause_words(event(Id, Condition), Text) :-
-    !,
-    named_words(event, Id, Condition, Text).
-cause_words(Cause, Text) :-
-    term_words(Cause, Text).
-
-named_words(Kind, Name, Condition, Text) :-
-    term_words(Name, NameText),
-    (   Condition == true
-    ->  format(string(Text), "~w ~s", [Kind, NameText])
-    ;   term_words(Condition, ConditionText),
-        format(string(Text), "~w ~s: ~s", [Kind, NameText, ConditionText])
-    ).
-
-term_words(Term, Text) :-
-    format(string(Text), "~W",
-           [Term, [quoted(true), numbervars(true), max_depth(12)]]).
 
 %!  error_text(+Error, -Text) is det.
 %

@@ -11,6 +11,7 @@
 :- use_module('../native',
               [ view_latch_/0, view_lift_/0, view_stop_motors_/0,
                 view_thread_/1, view_users_/1 ]).
+:- use_module('../prompt', [reads_query/0]).
 
 /** <module> The program that is watched
 
@@ -18,12 +19,11 @@ Whether a program runs at the toplevel, and how it is stopped.
 */
 
 :- dynamic
-    state/1,                            % idle, running
     queries/1,                          % how many there were
     stopping/1,                         % the thread that does it
+    asked/1,                            % a thread that is to be interrupted
     hook/1.                             % a clause
 
-state(running).
 queries(0).
 
 %!  program_state(-State) is det.
@@ -31,17 +31,19 @@ queries(0).
 %   State is `idle` while the toplevel waits for a query, else `running`.
 
 program_state(State) :-
-    (   state(State0)
-    ->  State = State0
+    flag(ev3dev_view_idle, Idle, Idle),
+    (   Idle =:= 1
+    ->  State = idle
     ;   State = running
     ).
 
+%   A flag is set at once; two threads do this.
 set_state(State) :-
-    (   state(State)
-    ->  true
-    ;   retractall(state(_)),
-        assertz(state(State))
-    ).
+    (   State == idle
+    ->  Idle = 1
+    ;   Idle = 0
+    ),
+    flag(ev3dev_view_idle, _, Idle).
 
 %!  watch_program is det.
 %!  leave_program is det.
@@ -110,28 +112,6 @@ probed :-
     ;   set_state(running)
     ).
 
-%   True if the toplevel of this thread waits for a query. Then there are few
-%   frames above it; in a deep recursion there is no need to look at all.
-reads_query :-
-    prolog_current_frame(Frame),
-    reads_query(Frame, 100).
-
-reads_query(Frame, Left) :-
-    prolog_frame_attribute(Frame, predicate_indicator, Indicator),
-    (   reader(Indicator)
-    ->  true
-    ;   Left > 0,
-        prolog_frame_attribute(Frame, parent, Parent),
-        Left1 is Left - 1,
-        reads_query(Parent, Left1)
-    ).
-
-%   Prolog may have given up some of these frames for their last calls.
-reader('$toplevel':read_query_line/2).
-reader('$toplevel':read_query/3).
-reader('$toplevel':read_expanded_query/3).
-reader('$toplevel':read_term_as_atom/2).
-
 %!  stop_program is det.
 %
 %   Stop all motors, interrupt the program, and stop the motors once more when
@@ -162,15 +142,17 @@ interrupt :-
     thread_self(Me),
     view_users_(Users0),
     delete(Users0, 1, Users),
+    retractall(asked(_)),
+    forall(member(User, [main|Users]),
+           assertz(asked(User))),
+    % The latch may have ended one already.
     forall(member(User, Users),
-           send_signal(User, ev3dev_view_program:interrupted_thread(Me))),
-    (   send_signal(main, ev3dev_view_program:interrupted(Me))
-    ->  thread_get_message(answer(Answer)),
-        until_ended(Answer, Me)
-    ;   true
-    ),
+           ignore(send_signal(User, ev3dev_view_program:
+                                        interrupted_thread(User)))),
+    asked_main(interrupted(Me), 0.05, Me, Answer),
+    until_ended(Answer, Me),
     forall(member(User, Users),
-           until_over(User)),
+           until_over(User, 0.02)),
     stop_motors,
     with_mutex(ev3dev_view_stop,
                ( retractall(stopping(Me)),
@@ -179,9 +161,28 @@ interrupt :-
 send_signal(Thread, Goal) :-
     catch(thread_signal(Thread, Goal), _, fail).
 
+%   asked_main(+Question, +Seconds, +Me, -Answer): the main thread calls
+%   Question as a signal, which answers. A signal that comes just before a
+%   thread begins to read or to wait in the kernel is seen after that only, so
+%   it is sent again, ever more seldom. Only the first one of interrupted/1
+%   that is seen counts. Answer is `ended` if there is no such thread.
+asked_main(Question, Seconds, Me, Answer) :-
+    (   \+ send_signal(main, ev3dev_view_program:Question)
+    ->  Answer = ended
+    ;   thread_get_message(Me, answer(Answer0), [timeout(Seconds)])
+    ->  Answer = Answer0
+    ;   Question = ended_since(_, _),
+        program_state(idle)
+    ->  Answer = ended
+    ;   Longer is min(1, Seconds*2),
+        asked_main(Question, Longer, Me, Answer)
+    ).
+
 %   The signals run in the program's threads.
 interrupted(Stopper) :-
-    (   reads_query
+    (   \+ retract(asked(main))
+    ->  true
+    ;   reads_query
     ->  answer(Stopper, ended)
     ;   queries(Count),
         set_state(running),
@@ -189,8 +190,11 @@ interrupted(Stopper) :-
         abort
     ).
 
-interrupted_thread(_) :-
-    abort.
+interrupted_thread(Me) :-
+    (   retract(asked(Me))
+    ->  abort
+    ;   true
+    ).
 
 ended_since(Count0, Stopper) :-
     (   reads_query
@@ -213,28 +217,17 @@ until_ended(interrupted(Count), Me) :-
     sleep(0.02),
     (   program_state(idle)
     ->  true
-    ;   send_signal(main, ev3dev_view_program:ended_since(Count, Me))
-    ->  await_end(Count, Me)
-    ;   true
+    ;   asked_main(ended_since(Count, Me), 0.05, Me, Answer),
+        until_ended(Answer, Me)
     ).
 
-await_end(Count, Me) :-
-    (   thread_get_message(Me, answer(Answer), [timeout(0.05)])
-    ->  (   Answer == ended
-        ->  set_state(idle)
-        ;   until_ended(interrupted(Count), Me)
-        )
-    ;   program_state(idle)
-    ->  true
-    ;   catch(thread_property(main, status(running)), _, fail)
-    ->  await_end(Count, Me)
-    ;   true
-    ).
-
-until_over(Thread) :-
+until_over(Thread, Seconds) :-
     (   catch(thread_property(Thread, status(running)), _, fail)
-    ->  sleep(0.02),
-        until_over(Thread)
+    ->  sleep(Seconds),
+        ignore(send_signal(Thread,
+                           ev3dev_view_program:interrupted_thread(Thread))),
+        Longer is min(1, Seconds*2),
+        until_over(Thread, Longer)
     ;   true
     ).
 

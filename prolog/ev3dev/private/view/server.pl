@@ -4,7 +4,11 @@
           ]).
 :- use_module(library(lists), [append/3, member/2, subtract/3]).
 :- use_module(library(http/thread_httpd),
-              [http_server/2, http_spawn/2, http_stop_server/2]).
+              [ http_server/2, http_server_property/2, http_spawn/2,
+                http_stop_server/2
+              ]).
+:- use_module(library(socket),
+              [tcp_close_socket/1, tcp_connect/2, tcp_socket/1]).
 :- use_module(library(http/http_stream), []).
 :- use_module('../native',
               [ view_csv_/1, view_hang_up_/1, view_keep_sockets_/1,
@@ -91,7 +95,33 @@ server_stop(Port) :-
     retractall(served(_, _, _)),
     % A browser keeps connections open, and a worker waits for each.
     view_hang_up_(Port),
-    catch(http_stop_server(Port, []), _, true).
+    (   http_server_property(Port, start_time(_))
+    ->  Name = Port
+    ;   Name = localhost:Port
+    ),
+    catch(stop_named(Name, Port), _, true).
+
+%   Before version 8 a server of one host is known by both, and is then not
+%   told that it is to look up.
+stop_named(Port, Port) :-
+    !,
+    http_stop_server(Port, []).
+stop_named(Name, Port) :-
+    thread_create(wake(Name, Port), Waker, []),
+    http_stop_server(Name, []),
+    thread_join(Waker, _).
+
+wake(Name, Port) :-
+    http_server_property(Name, start_time(_)),
+    catch(setup_call_cleanup(
+              tcp_socket(Socket),
+              tcp_connect(Socket, localhost:Port),
+              tcp_close_socket(Socket)),
+          _, fail),
+    !,
+    sleep(0.02),
+    wake(Name, Port).
+wake(_, _).
 
 :- prolog_load_context(directory, Here),
    atom_concat(Here, '/../../view', Directory),
