@@ -2,6 +2,8 @@
 """Benches: how fast is the pack, and compared with what?
 
     benches/run.py [--rounds N] [--no-callgrind]
+    benches/run.py --part view
+    benches/run.py --part rules
     benches/run.py --table
     benches/run.py --smoke
 
@@ -18,7 +20,8 @@ Each is one process that lives through the run. In each round every job is
 measured once by everyone who does it, one after the other; what counts is the
 median over the rounds, and ratios of medians. Writes benches/results.json, and
 from that the tables of docs/performance.md; --table does the latter alone. What
-cannot take part ends the run: no column is left out in silence.
+cannot take part ends the run: no column is left out in silence. --part measures
+one part again, and keeps the others.
 
 --smoke measures nothing: in seconds it has each worker do each job a few times,
 and makes sure that docs/performance.md has the figures of benches/results.json,
@@ -38,12 +41,17 @@ import tempfile
 import time
 from pathlib import Path
 
+import view
+
 TOP = Path(__file__).resolve().parent.parent
 WORK = TOP / "target" / "bench"
 RESULTS = TOP / "benches" / "results.json"
 TABLES = TOP / "docs" / "performance.md"
 SWIPL = os.environ.get("SWIPL", "swipl")
 SWIPL_PACK = [SWIPL, "-p", f"library={TOP}/prolog"]
+
+# What can be measured alone, by its name in the results.
+PARTS = {"view": lambda: view.measure(10), "rules": lambda: rules()}
 
 # Job: how often it is done in a round by the slow ones and by the fast ones
 JOBS = {
@@ -114,6 +122,19 @@ def make_tree(root, motors):
         write(directory, "num_values", "1", 0o444)
         for index in range(8):
             write(directory, f"value{index}", value, 0o444)
+
+
+def choose_tree(tree):
+    """The one path that is compiled into the rust worker leads to this tree."""
+    root = WORK / "tree"
+    root.unlink(missing_ok=True)
+    root.symlink_to(tree)
+    return root
+
+
+def plain_tree():
+    make_tree(WORK / "disk", 4)
+    return choose_tree(WORK / "disk")
 
 
 class Worker:
@@ -271,6 +292,28 @@ def drive():
     return {"driving": driving, "running": running}
 
 
+def rules(is_smoke=False):
+    """Of rules, in real time, over a plain tree: median and worst seconds from a
+    sensor's change to the first write, by the number of rules; the share of a core
+    that a hundred rules take, and a wait; seconds to note a command in the journal."""
+    root = plain_tree()
+    prolog = Worker([*SWIPL_PACK, "benches/rules.pl"], root, "{}({}, {}).\n")
+    rust = rust_worker(root, is_smoke)
+    changes, seconds, notes = (3, 0.1, 10) if is_smoke else (400, 10, 1000000)
+    reaction = {}
+    for count in (1, 10, 100):
+        median, worst = prolog.ask_all("reaction", count, changes)
+        reaction[count] = {"median": median, "worst": worst}
+    result = {
+        "reaction_seconds": reaction,
+        "rules_cpu_share": prolog.ask("rules", 100, seconds),
+        "wait_cpu_share": prolog.ask("wait", "idle", seconds),
+        "journal_seconds": rust.ask("pack", "journal", notes)}
+    for worker in (prolog, rust):
+        worker.close()
+    return result
+
+
 def growth(rounds):
     """Median seconds of position/2 with ever more motors."""
     times = {}
@@ -399,6 +442,8 @@ def tables(results):
         row("simulator, a program that polls its sensors",
             f"{results['simulator']['seconds_per_second']} simulated seconds a "
             "second", "")]
+    written["rules"] = rules_table(results["rules"])
+    written["view"] = view_table(results["view"])
     if "instructions" in results:
         counts = results["instructions"]
         written["instructions"] = [
@@ -409,6 +454,34 @@ def tables(results):
             row("without", *(f"{count - counts['loop']:.0f}"
                              for count in counts.values()))]
     return written
+
+
+def rules_table(measured):
+    reaction = measured["reaction_seconds"]
+    return [
+        row("", *(f"{count} rules" if count != "1" else "1 rule" for count in reaction)),
+        "|---" * (len(reaction) + 1) + "|",
+        row("from a sensor's change to the first write of the new action: median",
+            *(f"{seconds['median'] * 1e3:.1f} ms" for seconds in reaction.values())),
+        row("at worst", *(f"{seconds['worst'] * 1e3:.1f} ms"
+                          for seconds in reaction.values())),
+        row("of a core", "", "", f"{measured['rules_cpu_share']:.1%}"),
+        row("of a core, `wait/1` without rules", f"{measured['wait_cpu_share']:.1%}",
+            "", ""),
+        row("a motor's command in the journal",
+            f"{us(measured['journal_seconds'])} us", "", "")]
+
+
+def view_table(measured):
+    return [
+        row("", ""), "|---|---|",
+        *(row(f"{count} page{'s' * (count != '1')}, {part['rate']:.0f} frames a second each"
+              if part["rate"] else "no page", f"{part['share']:.1%} of a core")
+          for count, part in measured["pages"].items()),
+        *(row(what, f"{measured[name]['median'] * 1e3:.1f} ms, at worst "
+                    f"{measured[name]['worst'] * 1e3:.1f} ms of ten")
+          for what, name in (("STOP to the motors' `stop`", "stop_seconds"),
+                             ("a motor's start until a page is told", "seen_seconds")))]
 
 
 def performance(results):
@@ -424,18 +497,14 @@ def performance(results):
 
 def smoke():
     """Each worker does each job; docs/performance.md is up to date."""
-    root = WORK / "tree"
-    make_tree(WORK / "disk", 4)
-    root.unlink(missing_ok=True)
-    root.symlink_to(WORK / "disk")
+    root = plain_tree()
     trees = ["disk"]
     measure(root, 1, is_smoke=True)
+    rules(is_smoke=True)
     if Path("/dev/fuse").exists():
         trees.append("FUSE")
         with Mounted() as tree:
-            root.unlink()
-            root.symlink_to(tree)
-            measure(root, 1, plain=False, is_smoke=True)
+            measure(choose_tree(tree), 1, plain=False, is_smoke=True)
     else:
         print("left out: the mount, there is no FUSE here")
     if RESULTS.exists() and performance(json.loads(RESULTS.read_text())) != TABLES.read_text():
@@ -448,13 +517,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--rounds", type=int, default=21)
     parser.add_argument("--no-callgrind", action="store_true")
+    parser.add_argument("--part", choices=PARTS)
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--smoke", action="store_true")
     options = parser.parse_args()
     WORK.mkdir(parents=True, exist_ok=True)
     if options.smoke:
         return smoke()
-    if not options.table:
+    if options.part:
+        results = json.loads(RESULTS.read_text())
+        results[options.part] = PARTS[options.part]()
+        RESULTS.write_text(json.dumps(results, indent=2) + "\n")
+    elif not options.table:
         run(options)
     results = json.loads(RESULTS.read_text())
     TABLES.write_text(performance(results))
@@ -471,26 +545,21 @@ def run(options):
     trees = {"disk": WORK / "disk"}
     if Path("/dev/shm").is_dir():
         trees["memory"] = Path("/dev/shm") / f"ev3dev-bench-{os.getpid()}"
-    # The one path that is compiled into the rust worker
-    root = WORK / "tree"
     results = {"machine": platform.processor() or platform.machine(),
                "rounds": options.rounds, "trees": {}}
     for name, tree in trees.items():
         make_tree(tree, 4)
-        root.unlink(missing_ok=True)
-        root.symlink_to(tree)
-        results["trees"][name] = measure(root, options.rounds)
+        results["trees"][name] = measure(choose_tree(tree), options.rounds)
     with Mounted() as tree:
-        root.unlink()
-        root.symlink_to(tree)
-        results["trees"]["FUSE"] = measure(root, options.rounds, False)
-    root.unlink()
-    root.symlink_to(trees["disk"])
+        results["trees"]["FUSE"] = measure(choose_tree(tree), options.rounds, False)
+    root = choose_tree(trees["disk"])
     results["latency_seconds"] = latency(root)
     results["simulator"] = simulator()
     results["growth_seconds"] = growth(options.rounds)
     results["loading"] = loading(options.rounds)
     results["drive_share"] = drive()
+    for name, part in PARTS.items():
+        results[name] = part()
     if not options.no_callgrind:
         results["instructions"] = instructions(root)
     for tree in trees.values():

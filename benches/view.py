@@ -5,8 +5,9 @@
 
 A toplevel with a simulated robot that drives in the room, at x1 of the virtual
 clock; and pages, as small as can be, that ask for 20 frames a second. Processor time
-is that of all threads but the program's, in percent of one core. Beside it the time
+is that of all threads but the program's, as a share of one core. Beside it the time
 from STOP to the motors' `stop`, and from a motor's start until a page is told.
+benches/run.py measures it, too.
 """
 import argparse
 import base64
@@ -54,12 +55,14 @@ class Page:
         self.socket.sendall(bytes([0x81, 0x80 | len(data), 0, 0, 0, 0]) + data)
 
     def hear(self):
-        _, length = self.take(2)
+        kind, length = self.take(2)
         if length == 126:
             length = struct.unpack(">H", self.take(2))[0]
         elif length == 127:
             length = struct.unpack(">Q", self.take(8))[0]
-        return json.loads(self.take(length))
+        data = self.take(length)
+        # The server asks now and then who is still there.
+        return self.hear() if kind == 0x89 else json.loads(data)
 
     def ask(self, line):
         self.say(line)
@@ -113,7 +116,7 @@ def watch(port, until, counts):
 
 
 def share(toplevel, pages, seconds):
-    """Percent of a core that so many pages take, and frames a second of each."""
+    """The share of a core that so many pages take, and frames a second of each."""
     counts, until = [], time.monotonic() + seconds + 1
     threads = [threading.Thread(target=watch, args=(toplevel.port, until, counts))
                for _ in range(pages)]
@@ -122,11 +125,11 @@ def share(toplevel, pages, seconds):
     time.sleep(1)
     before = toplevel.cpu()
     time.sleep(seconds - 0.5)
-    percent = (toplevel.cpu() - before) / (seconds - 0.5) * 100
+    taken = (toplevel.cpu() - before) / (seconds - 0.5)
     for thread in threads:
         thread.join()
     rate = statistics.mean(counts) / (seconds + 1) if counts else 0
-    return percent, rate
+    return taken, rate
 
 
 def runs(frame):
@@ -142,43 +145,54 @@ def until(page, is_it):
             return frame
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--seconds", type=float, default=10)
-    seconds = parser.parse_args().seconds
+def moments(seconds):
+    """The middle one and the longest."""
+    return {"median": round(statistics.median(seconds), 5), "worst": round(max(seconds), 5)}
+
+
+def measure(seconds):
+    """What the page costs: shares of a core, and delays in seconds."""
+    drive = "repeat, motors_run([run(outB, 20), run(outC, 10)]), wait(0.1), fail."
     toplevel = Toplevel()
     try:
-        page = Page(toplevel.port)
-        idle = share(toplevel, 1, seconds)[0]
-        print(f"one page, the robot stands: {idle:.2f} %")
+        page, shares = Page(toplevel.port), {}
         page.ask("pace x1")
-        toplevel.query("repeat, motors_run([run(outB, 20), run(outC, 10)]), wait(0.1), fail.")
+        toplevel.query(drive)
         for pages in (0, 1, 10):
-            percent, rate = share(toplevel, pages, seconds)
-            print(f"{pages} pages, the robot drives: {percent:.2f} %, {rate:.1f} frames a second")
-        delays = []
+            taken, rate = share(toplevel, pages, seconds)
+            shares[str(pages)] = {"share": round(taken, 4), "rate": round(rate, 1)}
+        stops = []
         for _ in range(10):
             begun = time.monotonic()
             page.say("stop")
             page.hear()
-            delays.append((time.monotonic() - begun) * 1000)
-            until(page, lambda frame: frame["program"] == {"state": "idle", "latched": False})
-            toplevel.query("repeat, motors_run([run(outB, 20), run(outC, 10)]), wait(0.1), fail.")
+            stops.append(time.monotonic() - begun)
+            until(page, is_idle)
+            toplevel.query(drive)
             until(page, runs)
-        print(f"STOP to stop: median {statistics.median(delays):.1f} ms, most {max(delays):.1f} ms")
         page.ask("stop")
-        until(page, lambda frame: frame["program"] == {"state": "idle", "latched": False})
-        delays = []
+        until(page, is_idle)
+        starts = []
         for _ in range(10):
             toplevel.query("get_time(T), motor_run(outA, 30), writeln(at(T)).")
             until(page, runs)
             seen = time.time()
-            delays.append((seen - toplevel.begun()) * 1000)
+            starts.append(seen - toplevel.begun())
             toplevel.query("motor_stop(outA).")
             until(page, lambda frame: not runs(frame))
-        print(f"start to seen: median {statistics.median(delays):.0f} ms, most {max(delays):.0f} ms")
     finally:
         toplevel.end()
+    return {"pages": shares, "stop_seconds": moments(stops), "seen_seconds": moments(starts)}
+
+
+def is_idle(frame):
+    return frame["program"] == {"state": "idle", "latched": False}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=10)
+    print(json.dumps(measure(parser.parse_args().seconds), indent=2))
 
 
 if __name__ == "__main__":

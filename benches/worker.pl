@@ -2,34 +2,22 @@
 % answers each with the seconds one call took.
 
 :- use_module(library(ev3dev)).
+:- use_module(answers).
 :- use_module(paper).
 
 :- initialization(main, main).
 
 main :-
-    repeat,
-    read(Term),
-    (   Term == end_of_file
-    ->  !
-    ;   answer(Term, Seconds),
-        format("~15g~n", [Seconds]),
-        flush_output,
-        fail
-    ).
+    answer_terms(answer).
 
-answer(measure(paper, gap, Count), Seconds) :-
+answer(measure(paper, gap, Count), [Seconds]) :-
     !,
     findall(Gap, ( between(1, Count, _), paper:gap(Gap) ), Gaps),
     median(Gaps, Seconds).
-answer(measure(Implementation, wait, Seconds), Share) :-
+answer(measure(Implementation, wait, Seconds), [Share]) :-
     !,
-    statistics(process_cputime, Cpu0),
-    get_time(Time0),
-    wait(Implementation, Seconds),
-    get_time(Time1),
-    statistics(process_cputime, Cpu1),
-    Share is (Cpu1 - Cpu0) / (Time1 - Time0).
-answer(measure(Implementation, Case, Count), Seconds) :-
+    cpu_share(wait(Implementation, Seconds), Share).
+answer(measure(Implementation, Case, Count), [Seconds]) :-
     goal(Implementation, Case, Goal),
     \+ \+ once(Goal),
     get_time(Time0),
@@ -45,12 +33,6 @@ repeat_goal(Count, Goal) :-
         fail
     ;   true
     ).
-
-median(Numbers, Median) :-
-    msort(Numbers, Sorted),
-    length(Sorted, Length),
-    Half is Length // 2,
-    nth0(Half, Sorted, Median).
 
 wait(pack, Seconds) :-
     motor_wait(outA, [timeout(Seconds)], timeout).

@@ -32,6 +32,7 @@ fn main() {
         let seconds = match case {
             "gap" => vec![gap(&root, count)],
             "latency" => latency(count).to_vec(),
+            "journal" => vec![journal(&root, count)],
             _ => vec![per_call(prepare(implementation, case, &root), count)],
         };
         println!("{}", seconds.iter().map(|s| format!("{s:e} ")).collect::<String>());
@@ -200,6 +201,18 @@ fn gap(root: &Path, count: u32) -> f64 {
         .collect();
     gaps.sort_by(f64::total_cmp);
     gaps[gaps.len() / 2]
+}
+
+/// Seconds that it takes to note the command of a motor in the journal, with its time.
+fn journal(root: &Path, count: u32) -> f64 {
+    let devices = Registry::new(Arc::new(SysfsDir::new(root)));
+    let run = Run { port: "outB", speed: Speed::Percent(20.0) };
+    assert!(run_forever(&devices, &[run], &mut || false).expect("a motor"));
+    let act = devices.journal().entries().pop().expect("an entry").act;
+    per_call(
+        Box::new(move || devices.journal().note(devices.tree().now(), act.clone())),
+        count,
+    )
 }
 
 /// Seconds from the moment a simulated motor stops to the return of the wait
