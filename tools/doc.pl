@@ -38,6 +38,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/plnxt)).
+:- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/rules)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
@@ -46,7 +47,8 @@ task('Drive a robot with two wheels',
 task('Let a robot react', [rules, events, plnxt]).
 task('Run motors',
      [motors, motor_settings, dc_motors, servo_motors]).
-task('Ask sensors', [ sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors ]).
+task('Ask sensors',
+     [sensors, sensor_wait, infrared, nxt_sensors, sensor_info, colors, raw]).
 task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).

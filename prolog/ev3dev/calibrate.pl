@@ -9,7 +9,8 @@
                 option/2, option/3, word/2
               ]).
 :- use_module(sensors, [gyro_ang/2]).
-:- use_module(private/drive_moves, [move_straight/3, move_turn/3]).
+:- use_module(private/drive_moves,
+              [move_straight/3, move_turn/3, speed_option/4]).
 :- use_module(private/sensor_type, [sensor_to_read/3]).
 :- use_module(private/robot_state, [robot_description/1]).
 :- use_module(time, [wait/1]).
@@ -54,8 +55,8 @@ floor is uncertain. calibrate/3 computes the sizes from moves of the robot.
 %       The length of the line that the robot drives. Default is 100.
 %     - turns(+Count)
 %       The number of full turns. Default is 5.
-%     - speed(+Percent)
-%       Default is 20.
+%     - speed(+Speed)
+%       In percent, or as `cm_per_s(20)`. Default is 20.
 %
 %   Fails if no robot is set, if the robot does not complete a move, or if
 %   there is neither a gyro nor the option `measured`.
@@ -83,7 +84,7 @@ calibrate(What0, Module:Options, SetRobot) :-
 wheels(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
     number_option(distance(Distance), positive_number, Options, 100),
-    number_option(speed(Speed), speed, Options, 20),
+    speed_option(Options, speed, 20, Speed),
     way(Distance, Speed, Axle, Module, Options, Length, Turn),
     % The true distance of each wheel, divided by the assumed distance.
     Half is Axle * Turn / 2,
@@ -130,7 +131,7 @@ axle(Robot, Module, Options, SetRobot) :-
     Robot = robot(Left, Right, DL, DR, IL, IR, Axle, Offset),
     option(turns(Turns), Options, 5),
     must_be(positive_integer, Turns),
-    number_option(speed(Speed), speed, Options, 20),
+    speed_option(Options, speed, 20, Speed),
     Angle is 360 * Turns,
     turned(Angle, Speed, Module, Options, Turned),
     Axle1 is Axle * Angle / Turned,

@@ -58,6 +58,7 @@ unit(sim, ['ev3dev/sim']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).
+unit(raw, ['ev3dev/raw']).
 unit(events, ['ev3dev/events']).
 unit(rules, ['ev3dev/rules']).
 unit(plnxt, ['ev3dev/plnxt']).

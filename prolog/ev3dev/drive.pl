@@ -22,15 +22,15 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [must_be/2, term_expansion/2]).
+              [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
-                number_value/3, option/3, take_options/4, timeout_option/2
+                number_value/3, take_options/4, timeout_option/2
               ]).
 :- use_module(private/places, [place/2, places/2]).
 :- use_module(private/drive_moves,
               [ backwards/2, move/3, move_straight/3, move_turn/3,
-                must_be_move_options/1, robot_speed/2
+                must_be_move_options/1, robot_speed/2, speed_option/4
               ]).
 :- reexport(odometry).
 :- reexport(calibrate).
@@ -146,8 +146,8 @@ arc_cm(Speed, Radius, Angle, Options) :-
     Signed is Degrees * sign(Percent),
     (   R =:= 0
     ->  move(Percent, legs([turn(Signed)], false), Options)
-    ;   Length is abs(R * Degrees) * pi / 180,
-        Curvature is sign(Signed) * sign(float(R)) / abs(R),
+    ;   evaluated(abs(R * Degrees) * pi / 180, Length),
+        evaluated(sign(Signed) * sign(float(R)) / abs(R), Curvature),
         move(Percent, legs([arc(Length, Curvature)], Backwards), Options)
     ).
 
@@ -266,8 +266,7 @@ travel(Legs, Options) :-
 speed_option(Options, Percent) :-
     must_be(list, Options),
     drive_option(speed, Default),
-    option(speed(Speed), Options, Default),
-    speed(Speed, Percent).
+    speed_option(Options, finite_number, Default, Percent).
 
 speed(Speed, Percent) :-
     robot_speed(Speed, Value),

@@ -5,7 +5,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors, [term_expansion/2]).
-:- use_module(private/arguments, [must_be_options/3, number_option/4]).
+:- use_module(private/arguments, [must_be_options/3]).
+:- use_module(private/drive_moves, [speed_option/4]).
 :- use_module(private/robot_state, [robot_set/4]).
 :- use_module(robot, [go/1, stop/0, turn/1]).
 
@@ -30,8 +31,8 @@ Loaded apart from library(ev3dev):
 %   connected. No simulated time passes on a `virtual` clock while this waits
 %   for a key. Options:
 %
-%     - speed(+Percent)
-%       Default is 30.
+%     - speed(+Speed)
+%       In percent, or as `cm_per_s(20)`. Default is 30.
 %
 %   @error domain_error(speed_ahead, Percent)
 %   @error domain_error(jog_option, Option) if Option is not an option of this
@@ -42,7 +43,7 @@ jog :-
 
 jog(Options) :-
     must_be_options(jog_option, [speed], Options),
-    number_option(speed(Speed), speed_ahead, Options, 30),
+    speed_option(Options, speed_ahead, 30, Speed),
     robot_set(_, _, _, _),
     print_message(informational, ev3dev(jog)),
     call_cleanup(jog_on(Speed), ignore(stop)).

@@ -60,7 +60,7 @@ motor that the program started, unless the flag `ev3dev_stop_at_halt` is
 ended. A crash stops motors, too; SIGKILL does not.
 
 To end a thread that waits here, throw into it with thread_signal/2. Do not
-signal thread_exit/1: it leaves native code by a jump, and the process aborts.
+signal thread_exit/1: no cleanup runs then, and the motors run on.
 
 All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an

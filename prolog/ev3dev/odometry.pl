@@ -10,7 +10,8 @@
               [domain_error/2, must_be/2, term_expansion/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).
-:- use_module(private/arguments, [number_value/2, number_value/3, word/2]).
+:- use_module(private/arguments,
+              [number_value/2, number_value/3, speed_unit/3, word/2]).
 :- use_module(private/robot_state,
               [drive_default/2, robot_description/1, store_drive_default/2]).
 :- use_module(private/native,
@@ -32,7 +33,7 @@ options. The pose counts from when a robot is set.
 %       it also teaches how much wheels and axle differ from what set_robot/4
 %       says, by slipping for one; with `false` that is forgotten.
 %     - speed: 40
-%       In percent, for moves that are not told one.
+%       In percent, or as `cm_per_s(20)`, for moves that are not told one.
 %     - acceleration: 50
 %       In cm/s^2, from 1 to 1000.
 %
@@ -51,10 +52,24 @@ drive_option(Name0, Value) :-
 
 valid_option(use_gyro, Value, Value) :-
     must_be(boolean, Value).
-valid_option(speed, Speed, Percent) :-
-    number_value(speed, Speed, Percent).
+valid_option(speed, Speed, Valid) :-
+    (   nonvar(Speed),
+        in_unit(Speed, Expression)
+    ->  number_value(Expression, Number),
+        (   Number =\= 0
+        ->  functor(Speed, Unit, 1),
+            Valid =.. [Unit, Number]
+        ;   domain_error(speed, Speed)
+        )
+    ;   number_value(speed, Speed, Valid)
+    ).
 valid_option(acceleration, Acceleration, Number) :-
     number_value(acceleration, Acceleration, Number).
+
+%   What moves take as a speed besides a percentage.
+in_unit(cm_per_s(Expression), Expression).
+in_unit(Speed, Expression) :-
+    speed_unit(Speed, Expression, _).
 
 %!  pose(-X, -Y, -Heading) is semidet.
 %

@@ -125,13 +125,20 @@ known(magnet,             ['ht-nxt-mag'], 'MAG', 0).
 known(motion,             ['ht-nxt-pir'], 'PROX', 0).
 known(flex,               ['di-dflex'], 'FLEX', 0).
 known(tof_dist_mm,        ['ms-tof'], 'DIST', 0).
+known(analog_voltage,     ['nxt-analog'], 'ANALOG-0', 0).
+known(analog_voltage,
+      [ 'ev3-analog-01', 'ev3-analog-03', 'ev3-analog-04', 'ev3-analog-05',
+        'ev3-analog-06', 'ev3-analog-07', 'ev3-analog-08', 'ev3-analog-09',
+        'ev3-analog-10', 'ev3-analog-11', 'ev3-analog-12', 'ev3-analog-13',
+        'ev3-analog-14' ], 'ANALOG', 0).
 
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
 %   True if the sensor at Port shows Value for a Reading of the table. Fails
 %   if the table has no such reading. Some readings have no predicate of their
 %   own: `force` and `magnet`, both from 0 to 1023, `motion` from -100 to 100,
-%   `flex` from 0 to 100, and `tof_dist_mm`.
+%   `flex` from 0 to 100, and `tof_dist_mm`. `analog_voltage` has one in
+%   library(ev3dev/raw).
 
 sensor_reading(Reading, Port, Value) :-
     (   var(Port)

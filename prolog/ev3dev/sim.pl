@@ -321,7 +321,8 @@ sim_stop :-
 %!  with_sim(+World, :Goal, +Options) is semidet.
 %
 %   Call Goal once in a simulation of its own, which ends with it, however it
-%   ends. So a test starts from the same state each time:
+%   ends. It ends a simulation that ran before, as sim_start/2 does. So a test
+%   starts from the same state each time:
 %
 %   ```
 %   :- use_module(library(ev3dev)).

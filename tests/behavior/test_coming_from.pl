@@ -8,6 +8,8 @@
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/colors)).
 :- use_module(library(ev3dev/console)).
+:- use_module(library(ev3dev/raw)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(readutil)).
 
 % The terms in the second column of a table of two columns, below a heading.
@@ -45,5 +47,27 @@ test(each_word_is_exported,
     findall(Goal,
             ( member(Goal, Goals), \+ predicate_property(user:Goal, visible) ),
             Missing).
+test(each_word_runs_in_the_simulator,
+     [ forall(member(Heading, ["## python-ev3dev2", "## Pybricks", "## leJOS"])),
+       true(Errors == []) ]) :-
+    findall(Goal-E,
+            ( said_here(Heading, Term), goal_of(Term, Goal),
+              predicate_property(user:Goal, visible),
+              \+ lacks(Goal),
+              with_sim(room,
+                       ( set_robot(5.6, 10.6, outB, outC),
+                         catch(( ignore(for_seconds(5, user:Goal)), fail ), E, true) )) ),
+            Errors).
+
+%   What the page leaves open, or the robot does not have.
+lacks(go_to(_, _)).
+lacks(navigate_to(_, _)).
+lacks(behave(_)).
+lacks(elapsed(_, _)).
+lacks(play(_)).
+lacks(screen_text(_, _, _)).
+lacks(sensor_values(_, _, _)).
+lacks(i2c_read(_, _, _, _)).
+lacks(i2c_write(_, _, _)).
 
 :- end_tests(coming_from).

@@ -10,6 +10,7 @@
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/plnxt)).
+:- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
@@ -40,6 +41,9 @@ bad(heading_wrapped(0, _), [a-1, _-1]).
 bad(drive_option(speed, 30), [color-1, _-1, 0-2]).
 bad(drive_wait([], _), [a-1, [wait(true)]-1, [timeout(-1)]-1]).
 bad(jog([]), [[sped(5)]-1, [speed(0)]-1, [speed(fast)]-1]).
+bad(i2c_read(in1, 0, 8, _), [7-1, _-1, a-2, _-2, 255-2, -1-2, 0-3, 33-3, a-3, _-3]).
+bad(i2c_write(in1, 0, [1]), [7-1, _-1, a-2, _-2, 255-2, []-3, a-3, _-3, [a]-3, [_]-3, [256]-3, [-1]-3]).
+bad(analog_voltage(in1, _), [7-1]).
 bad(because(true, why), [7-1, _-1, _-2]).
 bad(why(outB), [7-1, _-1]).
 bad(why(outB, _), [7-1, _-1]).
@@ -57,6 +61,8 @@ bad(final([], []), [_-1, a-2]).
 bad(holds(true, []), [_-1, wet(1)-1, a-2]).
 bad(has_val(f, _, []), [_-1, a-3]).
 bad(eval(true, [], _), [_-1, a-2]).
+bad(get_integer(1, _, 3), [a-1, _-1, a-3, _-3]).
+bad(pathfind(a, b, _), [_-1, _-2]).
 bad(domain(_, [1]), [_-2, 1-2]).
 bad(rdomain(_, [1]), [_-2, 1-2]).
 bad(getdomain([1], _), [_-1, 1-1]).
@@ -152,6 +158,10 @@ test(what_is_no_measure_is_the_same_error_everywhere,
        error(type_error(evaluable, a/0), context(_, 'a number is expected, not a')) ]) :-
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC), Goal )).
+test(an_overflow_is_of_what_was_called,
+     error(evaluation_error(_), context(arc_cm/3, _))) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC), arc_cm(30, 1.0e308, 90) )).
 test(list_what_is_allowed,
      [ forall(member(Goal-Words,
                      [ led(left, blu)-"off, on, red",
@@ -159,6 +169,13 @@ test(list_what_is_allowed,
                            -"coast, brake, hold",
                        motor_run(outB, 5, 5, [spot_action(hold)])
                            -"stop_action, ramp_up",
+                       command(outB, jump)-"; there are: run-forever, run-to-abs",
+                       mode(in1, jump)-"; there are: US-DIST-CM, US-DIST-IN",
+                       motor_attribute(outB, stop_action, jump)
+                           -"Invalid argument; there are: coast, brake, hold",
+                       sim_plug(outA, 'lego-ev3-x-motor')
+                           -"; there are: lego-ev3-l-motor, lego-ev3-m-motor",
+                       sim_plug(in1, us)-"; there are: lego-ev3-color, lego-ev3",
                        battery(volts, _)-"voltage, current",
                        button_wait(space, _)-"up, down, left",
                        motor_polarity(outB, upside)-"normal, inversed",

@@ -6,6 +6,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
 
@@ -33,6 +34,10 @@ a_robot :-
     set_robot(5.6, 10.6, outB, outC).
 
 %   absent(Goal, Start): Goal fails for want of a device; so the hint begins.
+absent(i2c_read(in9, 0, 8, _), 'there is no sensor at in9; there are: in1').
+absent(i2c_write(in9, 65, [1]), 'there is no sensor at in9; there are: in1').
+absent(analog_voltage(in1, _), 'in1 has lego-ev3-us, no sensor that is a voltage; there are: in1').
+absent(analog_voltage(_, _), 'no sensor that is a voltage is connected; there are: in1').
 absent(motor_run(outb, 50), 'there is no motor at outb; there are: outA').
 absent(motor_run("outb", 50), 'there is no motor at outb; there are: outA').
 absent(motor_run(in1, 50), 'in1 has lego-ev3-us, no motor; there are: outA').
@@ -122,7 +127,17 @@ impossible(go_cm(150, 90), 'the robot cannot run at 150 %').
 impossible(turn(150, 90), 'the robot cannot run at 150 %').
 impossible(go_cm(0, 90), 'the robot cannot move at a speed of 0').
 impossible(turn(0, 90), 'the robot cannot move at a speed of 0').
-impossible(drive_cm(5000, 0), 'the robot cannot do cruise(5000,0)').
+impossible(drive_cm(5000, 0),
+           'the robot cannot go at 5000 cm/s and turn by 0 degrees/s').
+impossible(turn(20, 1.0e308), 'the robot cannot make a move that is so long or so slow').
+impossible(go_to(1.0e308, 0), 'the robot cannot make a move that is so long or so slow').
+impossible(go_cm(0.001, 9), 'the robot cannot make a move that is so long or so slow').
+impossible(motor_run(outB, 50, 1.0e308), 'outB cannot turn by 1.0e+308 degrees').
+impossible(motor_run(outB, 0.001, 9), 'outB cannot turn by 9 degrees at 0.001 %').
+impossible(motor_run_to(outB, 50, 1.0e308), 'outB cannot turn to 1.0e+308 degrees').
+impossible(motor_run_timed(outB, 0.001, 2), 'outB cannot run for 2 s at 0.001 %').
+impossible(motors_turn([move(outB, 20, 9), move(outC, 20, 1.0e300)], []),
+           'outC cannot turn by 1.0e+300 degrees').
 impossible(led(left, blue), 'left cannot show blue').
 
 %   A call of the robot before set_robot/4.

@@ -1,6 +1,8 @@
 % Moves with ramps on the simulator, which is as treacherous as the kernel.
 
 :- use_module('../support/simulation').
+:- use_module('../support/cases').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(random)).
@@ -113,7 +115,8 @@ at_speed(N) :-
 :- begin_tests(motor_ramps_end).
 
 test(no_sequence_of_moves_turns_for_ever, true(Seeds == [])) :-
-    with_sim([], findall(Seed, ( between(1, 300, Seed), is_endless(Seed) ), Seeds)).
+    schedules(First, Last),
+    with_sim([], findall(Seed, ( between(First, Last, Seed), is_endless(Seed) ), Seeds)).
 
 test(a_move_back_at_the_speed_that_is_measured, [forall(member(Way, [by, to])), true(L == [])]) :-
     with_sim([],
@@ -145,6 +148,18 @@ test(a_timed_run_ends_before_its_ramp_is_done) :-
                sim_wait(1),
                rests,
                motor_ramps(outA, 0, 0) )).
+
+% It is not blocked, only slow for long.
+test(a_ramp_of_a_minute_is_no_stall, [forall(member(Up, [20000, 60000])), true(Ws == [])]) :-
+    with_sim(room,
+             warnings(( motor_run_timed(outB, 90, 3, [ramp_up(Up)]),
+                        motor_run(outB, 90, 20, [ramp_up(Up)])
+                      ), Ws)).
+test(a_motor_that_is_held_is_blocked_within_a_ramp, true(Seconds < 2)) :-
+    with_sim(room,
+             ( sim_jam(outB, true),
+               warnings(\+ motor_run(outB, 90, 360, [ramp_up(60000)]), [_]),
+               sim_time(Seconds) )).
 
 % The motor still turns when each begins.
 test(short_moves_in_a_row_are_all_over_soon, true(Late == [])) :-

@@ -4,6 +4,7 @@
 
 :- use_module('../support/simulation').
 :- use_module('../support/dev', [bytes_of/2]).
+:- use_module('../support/papers').
 % They run in another directory.
 :- working_directory(Home, Home),
    atom_concat(Home, prolog, Library),
@@ -122,10 +123,10 @@ succeeds(Query) :-
 %   Lines of the code blocks that ask something, less what follows them.
 
 queries(File, Queries) :-
-    read_file_to_string(File, Text, []),
-    split_string(Text, "\n", "", Lines),
+    code_blocks(File, Blocks),
     findall(Query,
-            ( member(Line, Lines),
+            ( member(block("prolog", Lines), Blocks),
+              member(Line, Lines),
               string_concat("?- ", Rest, Line),
               sub_string(Rest, Before, _, _, "."),
               End is Before + 1,
@@ -140,9 +141,11 @@ queries(File, Queries) :-
 
 load_programs('docs/reactive.md') :-
     !,
-    read_file_to_string('docs/reactive.md', Text, []),
-    split_string(Text, "\n", "", Lines),
-    phrase(programs(Programs), Lines),
+    code_blocks('docs/reactive.md', Blocks),
+    findall(Lines,
+            ( member(block("prolog", Lines), Blocks),
+              \+ ( member(Line, Lines), sub_string(Line, 0, _, _, "?- ") ) ),
+            Programs),
     forall(nth1(Index, Programs, Program),
            ( atomic_list_concat(Program, '\n', Code),
              format(atom(Name), 'reactive_~w', [Index]),
@@ -151,29 +154,6 @@ load_programs('docs/reactive.md') :-
                  load_files(user:Name, [stream(In)]),
                  close(In)) )).
 load_programs(_).
-
-programs(Programs) -->
-    ["```prolog"],
-    !,
-    block(Lines),
-    { (   member(Line, Lines), sub_string(Line, 0, _, _, "?- ")
-      ->  Programs = Rest
-      ;   Programs = [Lines|Rest]
-      ) },
-    programs(Rest).
-programs(Programs) -->
-    [_],
-    !,
-    programs(Programs).
-programs([]) -->
-    [].
-
-block([]) -->
-    ["```"],
-    !.
-block([Line|Lines]) -->
-    [Line],
-    block(Lines).
 
 picture(Bytes) :-
     tmp_file(picture, File),

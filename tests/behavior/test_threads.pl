@@ -78,6 +78,27 @@ replugs(sane) :-
 
 :- end_tests(threads).
 
+:- begin_tests(thread_ends).
+
+% Prolog leaves the thread without any cleanup, so its motor may run on.
+test(thread_exit_in_a_wait_ends_that_thread_only,
+     [ condition(( current_prolog_flag(arch, 'x86_64-linux'),
+                   current_prolog_flag(version, Version), Version >= 90000 )),
+       forall(member(Wait, [ "motor_run(outB, 10, 100000)", "wait(1000)",
+                             "button_wait(enter, pressed)" ])),
+       true(Status-Output == exit(0)-"exited") ]) :-
+    format(string(Program),
+           ":- use_module(library(ev3dev)).
+            :- use_module(library(ev3dev/sim)).
+            main :- sim_start(room, [clock(realtime)]), thread_self(Me),
+                    thread_create(( thread_send_message(Me, ready), ~s ), Id, []),
+                    thread_get_message(ready), thread_signal(Id, thread_exit(bye)),
+                    thread_join(Id, Status), us_dist_cm(_, _),
+                    ( Status = exited(bye) -> write(exited) ; print(Status) ).", [Wait]),
+    run_program(Program, [goal(main)], Status, Output).
+
+:- end_tests(thread_ends).
+
 :- begin_tests(same_runs).
 
 % Threads on the virtual clock: a process that runs the program prints all that

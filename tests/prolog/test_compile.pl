@@ -191,7 +191,7 @@ test(is_used_by_a_library_that_is_loaded_first,
                        planners-[core, planners_parts, comparison],
                        roadmap-[core, drive, facts, roadmap_parts],
                        sim-[core, facts, sim_parts],
-                       console-[core], jog-[core], colors-[core],
+                       console-[core], jog-[core], colors-[core], raw-[core],
                        events-[core], rules-[core, events],
                        plnxt-[core, drive_parts, drive, events] ])),
        true(Result == 0-Used) ]) :-

@@ -34,6 +34,8 @@ test(arrow_keys_drive_and_space_stops,
     driven(`\e[A\e[B\e[D \eOCq`, jog, Speeds).
 test(the_speed_may_be_another, true(Speeds == [105, 105])) :-
     driven(`\e[A`, jog([speed(5+5)]), Speeds).
+test(the_speed_may_have_a_unit, true(Speeds == [360, 360])) :-
+    driven(`\e[A`, jog([speed(rps(1))]), Speeds).
 test(other_keys_do_nothing, true(Speeds == [])) :-
     driven(`xy\e[Z\exq\e[A`, jog, Speeds).
 test(the_end_of_the_input_ends_it, true(Speeds == [])) :-

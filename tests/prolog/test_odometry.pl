@@ -150,5 +150,31 @@ test(options_are_remembered, true(S-G == 55-false)) :-
         ( drive_option(speed, 50+5), drive_option(use_gyro, false) ),
         ( drive_option(speed, S), drive_option(use_gyro, G) ),
         ( drive_option(speed, 40), drive_option(use_gyro, true) )).
+test(the_speed_may_have_a_unit,
+     [forall(member(Speed-Valid, [cm_per_s(4*5)-cm_per_s(20), dps(-100)-dps(-100), rpm(60)-rpm(60)])),
+      true(S == Valid)]) :-
+    setup_call_cleanup(
+        drive_option(speed, Speed),
+        drive_option(speed, S),
+        drive_option(speed, 40)).
+test(moves_take_the_speed_with_its_unit, true(Far == [])) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   set_pose(0, 0, 0),
+                   setup_call_cleanup(
+                       drive_option(speed, dps(180)),
+                       go_to(0, 10),
+                       drive_option(speed, 40)),
+                   sim_trace(Trace),
+                   findall(Max,
+                           ( member(Port, [motor1, motor2]),
+                             findall(V, ( member(_-written(File, V0), Trace),
+                                          sub_atom(File, _, _, _, Port),
+                                          sub_atom(File, _, _, 0, speed_sp),
+                                          atom_number(V0, V) ), Vs),
+                             max_list(Vs, Max),
+                             \+ near(Max, 180, 9) ),
+                           Far) )).
+test(a_speed_of_0_is_none, [forall(member(S, [cm_per_s(0), rpm(0), 0])), error(domain_error(speed, S), _)]) :-
+    drive_option(speed, S).
 
 :- end_tests(odometry).

@@ -234,7 +234,9 @@ test(each_wrong_robot_fact_is_explained,
                        "left_wheel(outB)"-'left_wheel has 2 or 3 arguments',
                        "hull(box(1))"-'circle(Radius), rectangle(Width',
                        "mass(x)"-'a number is expected, not x',
-                       "motor(outB, steam)"-'is of no known type' ])) ]) :-
+                       "motor(outB, steam)"-'is of no known type',
+                       "motor(outB, steam)"-'; there are: lego-ev3-l-motor, ',
+                       "sensor(in1, 'lego-ev3-uss', 0, 0, 0)"-': lego-ev3-us' ])) ]) :-
     atomics_to_string(["mass(1).\n\n", Fact, ".\n"], Text),
     robot_complaint(Text, _, Message),
     says(Message, 'FILE:3:0: '),

@@ -6,6 +6,7 @@
             number_value/2,             % +Expression, -Number
             number_value/3,             % +Domain, +Expression, -Number
             speed_value/2,              % +Speed, -Value
+            speed_unit/3,               % ?Speed, ?Expression, -Factor
             angle_value/2,              % +Angle, -Degrees
             number_option/4,            % ?Option, +Domain, +Options, +Default
             timeout_option/2,           % +Options, -Seconds
@@ -150,6 +151,10 @@ speed_value(Speed, Value) :-
         Value = dps(Degrees)
     ;   evaluated(Speed, Value)
     ).
+
+%!  speed_unit(?Speed, ?Expression, -Factor) is nondet.
+%
+%   Speed is Expression in a unit that is Factor degrees a second.
 
 speed_unit(dps(Expression), Expression, 1).
 speed_unit(rps(Expression), Expression, 360).

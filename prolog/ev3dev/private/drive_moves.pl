@@ -3,14 +3,16 @@
             move_straight/3,            % +Percent, +Distance, +Options
             move_turn/3,                % +Percent, +Angle, +Options
             robot_speed/2,              % +Speed, -Percent
+            speed_option/4,             % +Options, +Domain, +Default,
+                                        % -Percent
             must_be_move_options/1,     % +Options
             backwards/2                 % +Direction, -Backwards
           ]).
 :- use_module(errors, [evaluated/2, must_be/2, term_expansion/2]).
 :- use_module(explain).
 :- use_module(arguments,
-              [ must_be_options/3, number_option/4, option/2, option/3,
-                speed_value/2, timeout_option/2
+              [ must_be_options/3, number_option/4, number_value/3, option/2,
+                option/3, speed_value/2, timeout_option/2
               ]).
 :- use_module(robot_state,
               [drive_default/2, robot/4, robot_description/1, robot_set/4]).
@@ -149,6 +151,18 @@ wheel_speed(Speed, Value) :-
         Value = dps(Degrees)
     ;   speed_value(Speed, Value)
     ).
+
+%!  speed_option(+Options, +Domain, +Default, -Percent) is semidet.
+%
+%   Percent is the value of the option `speed` in Options, by default Default,
+%   as of robot_speed/2. It is in the range of Domain.
+%
+%   @error domain_error(Domain, Percent)
+
+speed_option(Options, Domain, Default, Percent) :-
+    option(speed(Speed), Options, Default),
+    robot_speed(Speed, Value),
+    number_value(Domain, Value, Percent).
 
 %!  must_be_move_options(+Options) is det.
 %

@@ -189,8 +189,11 @@ is_to_blame(Run) :-
     percent(Run, Percent),
     (   abs(Percent) > 100
     ->  true
-    ;   Percent =:= 0,
-        arg(3, Run, _)
+    ;   arg(3, Run, Way),
+        (   Percent =:= 0
+        ->  true
+        ;   abs(Way) > 1.0e9           % a motor counts to 2^31
+        )
     ).
 
 impossible(Who, Percent, What, Cause) :-
@@ -198,8 +201,29 @@ impossible(Who, Percent, What, Cause) :-
     ->  Cause = too_fast(Who, Percent)
     ;   Percent =:= 0
     ->  Cause = unable(Who, move, 'at a speed of 0')
+    ;   act(What, Verb, Words)
+    ->  Cause = unable(Who, Verb, Words)
     ;   Cause = unable(Who, do, What)
     ).
+
+%   In words what a motor or the robot was told.
+
+act(move(_, Percent, Angle), Verb, Words) :-
+    !,
+    turn(by, Angle, Percent, Verb, Words).
+act(to(_, Percent, Angle), Verb, Words) :-
+    !,
+    turn(to, Angle, Percent, Verb, Words).
+act(for(_, Percent, Seconds), run, Words) :-
+    !,
+    format(atom(Words), 'for ~w s at ~w %', [Seconds, Percent]).
+act(cruise(Speed, Turn), go, Words) :-
+    !,
+    format(atom(Words), 'at ~w cm/s and turn by ~w degrees/s', [Speed, Turn]).
+act(legs(_, _), make, 'a move that is so long or so slow').
+
+turn(Way, Angle, Percent, turn, Words) :-
+    format(atom(Words), '~w ~w degrees at ~w %', [Way, Angle, Percent]).
 
 %   because(+Cause, -Formal, -Text): the term of the error, and the words.
 
@@ -274,6 +298,7 @@ sensor('lego-ev3-us', 'ultrasonic sensor').
 sensor('lego-ev3-gyro', 'gyro').
 sensor('lego-ev3-touch', 'touch sensor').
 sensor('lego-ev3-ir', 'infrared sensor').
+sensor('nxt-analog', 'sensor that is a voltage').
 
 missing(_, Words, Port, Missing) :-
     var(Port),

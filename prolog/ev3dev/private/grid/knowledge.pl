@@ -6,7 +6,7 @@
             obstacles_fade/1,           % -Cells
             unblocked/1,                % +Cell
             saw_free/1,                 % +Cell
-            known_free/1                % +Cell
+            known_free/1                % ?Cell
           ]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/2]).
@@ -149,7 +149,7 @@ unblocked(Cell) :-
        ).
 
 %!  saw_free(+Cell) is det.
-%!  known_free(+Cell) is semidet.
+%!  known_free(?Cell) is nondet.
 %
 %   Note that there is nothing in Cell; true if that was noted and has not
 %   faded.
@@ -163,7 +163,13 @@ saw_free(Cell) :-
     assertz(free(Brick, Cell, State)).
 
 known_free(Cell) :-
+    ground(Cell),
+    !,
     brick(Brick),
     free(Brick, Cell, State),
     !,
+    lasts(State).
+known_free(Cell) :-
+    brick(Brick),
+    free(Brick, Cell, State),
     lasts(State).

@@ -1,8 +1,10 @@
 :- module(ev3dev_grid_moves,
-          [ carry_out/3                 % +Plan, :Tell_1, -Outcome
+          [ carry_out/3,                % +Plan, :Tell_1, -Outcome
+            planned/2                   % ?Brick, -Cells
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../drive', [face/2, go_to/4]).
+:- use_module('../brick', [brick/1]).
 :- use_module('../causes', [acting_for/2]).
 :- use_module(compass).
 :- use_module(knowledge).
@@ -16,6 +18,13 @@ How it moves on its grid, and how it looks before it does.
 */
 
 :- meta_predicate carry_out(+, 1, -).
+
+:- dynamic planned/2.                   % Brick, Cells
+
+%!  planned(?Brick, -Cells) is nondet.
+%
+%   While a plan is carried out: the cells of its way, the first one included.
+%   library(ev3dev/view) draws them.
 
 %!  carry_out(+Plan, :Tell_1, -Outcome) is det.
 %
@@ -33,9 +42,25 @@ How it moves on its grid, and how it looks before it does.
 
 carry_out(Plan, Tell, Outcome) :-
     (   grid(Map, Metric)
-    ->  carry_out(Plan, Map, Metric, Tell, Outcome)
+    ->  brick(Brick),
+        state_position(Cell, Direction),
+        way(Plan, Map, state(Cell, Direction), Cells),
+        setup_call_cleanup(
+            assertz(planned(Brick, [Cell|Cells])),
+            once(carry_out(Plan, Map, Metric, Tell, Outcome)),
+            retractall(planned(Brick, _)))
     ;   Outcome = ended(no_grid)
     ).
+
+way([], _, _, []).
+way([Action|Plan], Map, State, Cells) :-
+    grid_step(Map, Action, State, Next),
+    (   Action == move
+    ->  Next = state(Cell, _),
+        Cells = [Cell|Cells1]
+    ;   Cells = Cells1
+    ),
+    way(Plan, Map, Next, Cells1).
 
 carry_out([], _, _, _, done).
 carry_out([Action|Plan], Map, Metric, Tell, Outcome) :-

@@ -1,6 +1,7 @@
 :- module(ev3dev_grid_place,
           [ set_grid/1,                 % +Options
             grid/2,                     % -Map, -Metric
+            on_grid/3,                  % ?Brick, -Map, -Metric
             grid_place/2,               % +Cell, +Direction
             state_position/2,           % ?Cell, ?Direction
             set_state/2,                % +Cell, +Direction
@@ -26,6 +27,10 @@ Which grid it is on, and where on it the robot is.
 :- dynamic
     stands/3,                           % Brick, Cell, Direction
     on_grid/3.                          % Brick, Map, Metric
+
+%!  on_grid(?Brick, -Map, -Metric) is nondet.
+%
+%   As grid/2, which it serves, for any brick and without a hint.
 
 %!  set_grid(+Options) is semidet.
 %
