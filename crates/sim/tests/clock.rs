@@ -35,10 +35,15 @@ impl std::ops::Deref for Alone {
 }
 
 fn simulation(clock: Clock) -> Alone {
+    simulation_with(clock, || true)
+}
+
+/// One whose program says whether it has threads but the one that asks.
+fn simulation_with(clock: Clock, has_others: fn() -> bool) -> Alone {
     static ALONE: Mutex<()> = Mutex::new(());
     let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let machine = Machine::new(&WorldSpec::default(), &default_robot(), Options::default());
-    let simulation = Simulation::new(machine.unwrap(), clock, || true).unwrap();
+    let simulation = Simulation::new(machine.unwrap(), clock, has_others).unwrap();
     Alone { simulation: Arc::new(simulation), _alone: alone }
 }
 
@@ -224,6 +229,29 @@ fn time_waits_for_a_new_thread_however_late_it_comes() {
     };
     wait(&simulation, ms(1000));
     assert!(child.join().unwrap() < ms(1));
+}
+
+#[test]
+fn a_turn_that_was_kept_for_one_call_is_not_kept_for_later_ones() {
+    static HAS_OTHERS: AtomicBool = AtomicBool::new(false);
+    let simulation = simulation_with(Clock::Virtual, || HAS_OTHERS.load(Ordering::SeqCst));
+    // No thread of the program, but one that the clock waits for: the turn comes after a sleep.
+    let stranger = thread::spawn(|| compute(ms(50)));
+    call(&simulation, "");
+    stranger.join().unwrap();
+    HAS_OTHERS.store(true, Ordering::SeqCst);
+    let child = {
+        let simulation = Arc::clone(&simulation);
+        thread::spawn(move || {
+            compute(ms(50));
+            call(&simulation, "");
+            now(&simulation)
+        })
+    };
+    call(&simulation, "");
+    simulation.read(|_| ());
+    wait(&simulation, ms(1000));
+    assert_eq!(child.join().unwrap(), Duration::from_micros(10));
 }
 
 #[test]

@@ -301,6 +301,22 @@ fn is_passed_over(thread: i32) -> bool {
     bits >> (number % 32) & 1 == 1
 }
 
+/// Whether this is the thread that collects Prolog's garbage since version 7.7, by its alias.
+///
+/// # Safety
+/// The term must be valid.
+unsafe fn is_collector(id: term_t) -> bool {
+    const ALIAS: &[u8] = b"gc";
+    let mut length = 0;
+    // Safety: an atom has its bytes for as long as a term has it.
+    unsafe {
+        atom_in(id).is_some_and(|alias| {
+            let bytes = PL_blob_data(alias, &raw mut length, std::ptr::null_mut()).cast::<u8>();
+            !bytes.is_null() && std::slice::from_raw_parts(bytes, length) == ALIAS
+        })
+    }
+}
+
 /// The number of this thread of Prolog.
 #[must_use]
 pub fn this_thread() -> i32 {
@@ -308,11 +324,15 @@ pub fn this_thread() -> i32 {
     unsafe { PL_thread_self() }
 }
 
-/// Whether Prolog has threads besides the one that asks, which is one of Prolog's.
+/// Whether Prolog has threads besides the one that asks, which is one of Prolog's, and the one
+/// that collects its garbage.
 #[must_use]
 pub fn has_other_threads() -> bool {
-    /// The highest number of a thread so far. Prolog gives a new thread the lowest free one.
+    /// The highest number of a thread so far. Prolog gives a new thread a free one, or the next.
     static HIGHEST: AtomicI32 = AtomicI32::new(1);
+    /// So many numbers above the highest are asked for: a thread that has one, and is not a
+    /// thread of Prolog yet, hides those behind it. That which collects garbage begins so.
+    const AHEAD: i32 = 8;
     // Safety: the frame gives back the reference.
     unsafe {
         if PL_thread_self() != 1 {
@@ -320,9 +340,10 @@ pub fn has_other_threads() -> bool {
         }
         let frame = PL_open_foreign_frame();
         let (mut others, mut thread) = (false, 2);
-        while thread <= HIGHEST.load(Ordering::Relaxed).saturating_add(1) {
-            if PL_unify_thread_id(PL_new_term_ref(), thread) != -1 {
-                others |= !is_passed_over(thread);
+        while thread <= HIGHEST.load(Ordering::Relaxed).saturating_add(AHEAD) {
+            let id = PL_new_term_ref();
+            if PL_unify_thread_id(id, thread) != -1 {
+                others |= !is_passed_over(thread) && !is_collector(id);
                 HIGHEST.fetch_max(thread, Ordering::Relaxed);
             }
             thread += 1;

@@ -10,7 +10,7 @@
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
 
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
@@ -29,6 +29,8 @@ pub(super) struct Baton {
     holder: AtomicU32,
     /// How many threads are about to lock the line. They may sleep, but do not rest.
     arriving: AtomicUsize,
+    /// Whether a thread has the turn for a wish that it has to make again.
+    is_kept: AtomicBool,
     line: Mutex<Line>,
 }
 
@@ -85,13 +87,23 @@ pub(super) enum Wish {
 
 impl Baton {
     pub(super) fn new() -> Self {
-        let (holder, arriving) = (AtomicU32::new(0), AtomicUsize::new(0));
-        Self { holder, arriving, line: Mutex::default() }
+        Self {
+            holder: AtomicU32::new(0),
+            arriving: AtomicUsize::new(0),
+            is_kept: AtomicBool::new(false),
+            line: Mutex::default(),
+        }
     }
 
     /// Whether it is this thread's turn.
     pub(super) fn is_mine(&self) -> bool {
         self.holder.load(Ordering::SeqCst) == threads::me()
+    }
+
+    /// Whether it is this thread's turn, and not only for a wish that it has to make again. Then
+    /// the only thread need not stand in line.
+    pub(super) fn is_freely_mine(&self) -> bool {
+        self.is_mine() && !self.is_kept.load(Ordering::SeqCst)
     }
 
     /// Stands in line for the next turn; `false` if the caller has to handle signals, and to stand
@@ -111,7 +123,7 @@ impl Baton {
         let mut line = self.line();
         if self.is_mine() {
             if line.is_granted(me, wish) {
-                line.take(me);
+                self.take(&mut line);
                 return true;
             }
             self.holder.store(0, Ordering::SeqCst);
@@ -121,9 +133,9 @@ impl Baton {
         loop {
             self.pass(&mut line);
             if self.is_mine() {
-                line.take(me);
+                self.take(&mut line);
                 if has_slept {
-                    line.grant(me, wish);
+                    self.grant(&mut line, wish);
                 }
                 return !has_slept;
             }
@@ -145,7 +157,20 @@ impl Baton {
     /// Keeps the turn of this thread for its wish, which it makes again after it has handled
     /// signals.
     pub(super) fn keep(&self, wish: Wish) {
-        self.line().grant(threads::me(), wish);
+        self.grant(&mut self.line(), wish);
+    }
+
+    fn take(&self, line: &mut Line) {
+        line.take(threads::me());
+        self.is_kept.store(false, Ordering::SeqCst);
+    }
+
+    /// The turn of this thread is for this wish, once signals have been handled.
+    fn grant(&self, line: &mut Line, wish: Wish) {
+        if let Some(client) = line.client(threads::me()) {
+            client.granted = Some(wish);
+            self.is_kept.store(true, Ordering::SeqCst);
+        }
     }
 
     /// Whether another thread stands in line, now that it is this thread's turn.
@@ -238,13 +263,6 @@ impl Line {
             if matches!(client.place, Place::New(_)) {
                 client.place = Place::Since(turn);
             }
-        }
-    }
-
-    /// The turn is for this wish, once signals have been handled.
-    fn grant(&mut self, id: Id, wish: Wish) {
-        if let Some(client) = self.client(id) {
-            client.granted = Some(wish);
         }
     }
 

@@ -138,7 +138,7 @@ impl Simulation {
             return true;
         }
         let mut takes = Duration::ZERO;
-        if !baton.is_mine() || has_others() {
+        if !baton.is_freely_mine() || has_others() {
             let wish = Wish::Turn(self.machine().now());
             if !baton.stand(wish, about, SLICE) {
                 return false;
@@ -284,7 +284,7 @@ impl Simulation {
             Passing::Wall { .. } => self.pause_by_wall(end, is_done),
             Passing::Virtual { baton, has_others } => {
                 let wish = wall.map_or(Wish::Moment(end), |wall| Wish::NotBefore(end, wall));
-                let is_alone = baton.is_mine() && wall.is_none() && !has_others();
+                let is_alone = baton.is_freely_mine() && wall.is_none() && !has_others();
                 if !is_alone && !baton.stand(wish, &mut String::new, SLICE) {
                     return false;
                 }
