@@ -6,6 +6,10 @@ use crate::wait::{Look, Slices, Wait};
 use std::sync::Arc;
 use std::time::Duration;
 
+/// The longest sleep where nothing else ends it but a signal, which is sometimes sent just before
+/// it begins. Shorter ones cost more.
+const NAP: Duration = Duration::from_millis(100);
+
 /// Sleeping, by the clock of the tree.
 pub struct Sleep {
     registry: Arc<Registry>,
@@ -25,7 +29,9 @@ impl Wait for Sleep {
     type End = ();
 
     fn look(&mut self) -> Result<Look<()>> {
-        Ok(Look::again(self.registry.tree().now(), SLICE, Some(self.end), ()))
+        let tree = self.registry.tree();
+        let slice = if tree.goes_on() { NAP } else { SLICE };
+        Ok(Look::again(tree.now(), slice, Some(self.end), ()))
     }
 
     fn pause(&mut self, end: Duration) -> Result<bool> {
