@@ -70,6 +70,16 @@ group('a simulated robot', ROOM, '', (it) => {
     await shows(it.page, (s) => s.log.some((line) => line.kind === 'command' && /^out[BC] /.test(line.text)), 'a command');
   });
 
+  test('has one line for what two wheels do in turn, and times in order', async () => {
+    await it.session.ask('forall(between(1, 20, I), (motor_run(outB, I), motor_run(outC, I), wait(0.02)))');
+    await it.session.ask('wait(1), motor_run(outB, 1), wait(1), motor_stop(outB), motor_stop(outC)');
+    const { log } = await shows(it.page, (s) => s.log.filter((line) => /^outC .*stop/.test(line.text)).length > 0, 'the stop');
+    const rows = await it.page.$$eval('#log li', (all) => all.map((row) => [Number(row.querySelector('time').textContent), row.querySelector('.times').textContent]));
+    const times = rows.map(([time]) => time);
+    assert.ok(rows.some(([, count]) => count === '×20') && rows.length < log.length - 30, JSON.stringify(rows));
+    assert.deepEqual(times, [...times].sort((a, b) => a - b));
+  });
+
   test('is dragged by a hand', async () => {
     const { robot } = await state(it.page);
     await drag(it.page, robot.true, [250, 200]);

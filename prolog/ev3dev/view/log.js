@@ -5,8 +5,10 @@ import { $, clock, download, el, pressed, text } from './dom.js';
 
 const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
-/** Equal lines that come in turn, as those of two wheels, become one. */
+/** Equal lines that come in turn, as those of two wheels, become one: of so many lines, in so
+    many seconds. What is said again later has a line of its own, so that times are in order. */
 const LOOK_BACK = 4;
+const IN_TURN = 0.5;
 
 export class Log {
   constructor(send) {
@@ -71,7 +73,7 @@ export class Log {
       this.counts.set(kind, (this.counts.get(kind) ?? 0) + 1);
       const chip = this.chips.get(kind);
       if (chip?.hidden) chip.hidden = false;
-      const same = line.key && this.rows.slice(-LOOK_BACK).find((row) => row.key === line.key);
+      const same = this.same(line);
       if (same) {
         same.count += 1;
         this.fill(same, line);
@@ -79,6 +81,13 @@ export class Log {
     }
     for (const row of this.rows.splice(0, Math.max(0, this.rows.length - MOST))) row.box.remove();
     if (atEnd) list.scrollTop = list.scrollHeight;
+  }
+
+  /** The row that a line goes into, as it says the same. */
+  same({ key, time }) {
+    const last = this.rows[this.rows.length - 1];
+    const among = time - last?.at < IN_TURN ? LOOK_BACK : 1;
+    return key && this.rows.slice(-among).find((row) => row.key === key);
   }
 
   row(line) {
@@ -94,6 +103,7 @@ export class Log {
   }
 
   fill(row, line) {
+    row.at = line.time;
     text(row.time, Number.isFinite(line.time) ? clock(line.time) : '');
     text(row.words, line.text);
     row.line = line.text;
