@@ -90,9 +90,11 @@ export async function browse() {
   });
 }
 
-/** A page at an address; keeps what its console said and what it asked for. */
-export async function open(browser, url, { width = 1280, height = 800, scheme = 'light', phone = false, scale = 1 } = {}) {
+/** A page at an address; keeps what its console said and what it asked for. What the program
+    says comes `late`, by so many ms. */
+export async function open(browser, url, { width = 1280, height = 800, scheme = 'light', phone = false, scale = 1, late = 0 } = {}) {
   const page = await browser.newPage();
+  if (late) await page.evaluateOnNewDocument(comesLate, late);
   page.said = [];
   page.requests = [];
   page.on('console', (message) => page.said.push(`${message.type()}: ${message.text()}`));
@@ -103,6 +105,14 @@ export async function open(browser, url, { width = 1280, height = 800, scheme = 
   await page.goto(url);
   await shows(page, (state) => state.phase === 'live' && state.frames > 1, 'a live page');
   return page;
+}
+
+function comesLate(time) {
+  window.WebSocket = class extends WebSocket {
+    set onmessage(act) {
+      super.onmessage = (event) => setTimeout(act, time, event);
+    }
+  };
 }
 
 export const state = (page) => page.evaluate(() => window.ev3view.state());

@@ -88,8 +88,27 @@ group('a simulated robot', ROOM, '', (it) => {
     assert.ok(near(x, 250, 2) && near(y, 200, 2));
   });
 
+  test('stays where a hand has put it, though frames of before still come', async () => {
+    const page = await open(browser, it.url, { late: 100 });
+    await drag(page, [250, 200], [270, 60]);
+    const seen = await page.evaluate(async () => {
+      const places = [];
+      for (const end = performance.now() + 600; performance.now() < end;) {
+        places.push(window.ev3view.state().robot.true);
+        await new Promise((done) => { setTimeout(done, 2); });
+      }
+      return places;
+    });
+    assert.deepEqual(seen.filter(([x, y]) => !(near(x, 270, 2) && near(y, 60, 2))), []);
+    await drag(page, [270, 60], [250, 200]);
+    await page.close();
+    await it.page.bringToFront();
+    await until(async () => near((await it.session.pose())[1], 200, 2), 'the robot back');
+  });
+
   test('is not put into a box', async () => {
     const box = (await state(it.page)).world.items.find((item) => item.kind === 'box');
+    await shows(it.page, (s) => near(s.robot.true[0], 250, 2), 'the robot');
     await drag(it.page, [250, 200], [box.x, box.y]);
     await shows(it.page, (s) => /inside/.test(s.notice), 'why not');
     await shows(it.page, (s) => near(s.robot.true[0], 250, 2), 'the robot where it was');

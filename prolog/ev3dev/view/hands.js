@@ -251,6 +251,7 @@ export class Hands {
 
   /** What the program answered to a hand. */
   reply({ type, what, why, id }) {
+    if (what === 'place') this.world.answered();
     if (type === 'refused') notice(sentence(why ?? `It cannot ${what}.`), { seconds: 6 });
     else if (what === 'save') notice('The snapshot is taken.', { seconds: 3 });
     if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);

@@ -14,6 +14,12 @@ const GRAB = 14;
 /** The seconds of the trail that are drawn clearly. */
 const CLEAR = 30;
 
+/** How long the program may take to answer that it has put the robot somewhere, in ms. */
+const ANSWERED_WITHIN = 2000;
+
+/** A number as the program gets it. */
+const short = (n) => Number(n.toFixed(2));
+
 export const ahead = (h) => [Math.sin(h * TURN), Math.cos(h * TURN)];
 
 /** A pose between two, for smooth motion. */
@@ -33,6 +39,7 @@ export class World {
     this.following = false;
     this.measured = null;
     this.drag = null;
+    this.put = null;
     this.selected = null;
     this.pointers = new Map();
     this.trail = { age: -1 };
@@ -199,6 +206,7 @@ export class World {
   }
 
   take(model, came, interval) {
+    this.keepPut(model.frame);
     const first = this.model === null || came.has('world');
     const before = first ? null : this.still();
     this.model = model;
@@ -912,7 +920,6 @@ export class World {
     this.drag = null;
     toggle(this.canvas, 'grabbing', false);
     if (!drag || cancelled) return this.draw();
-    const short = (n) => Number(n.toFixed(2));
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];
@@ -920,9 +927,7 @@ export class World {
       if (w >= 0.5 && d >= 0.5) this.send(`add box ${short(at[0])} ${short(at[1])} ${short(w)} ${short(d)}`);
       this.use('move');
     } else if (drag.kind === 'robot' && this.moved) {
-      // Shown there until the next frame says so.
-      this.model.frame.robot.true = drag.at;
-      this.send(`place ${drag.at.map(short).join(' ')}`);
+      this.putRobot(drag.at);
     } else if (drag.kind === 'item' && this.moved) {
       [drag.item.x, drag.item.y] = [drag.at.x, drag.at.y];
       this.send(`move ${drag.item.id} ${short(drag.at.x)} ${short(drag.at.y)} ${short(drag.item.h ?? 0)}`);
@@ -933,7 +938,27 @@ export class World {
 
   turn(by) {
     const pose = this.model?.frame?.robot?.true;
-    if (pose) this.send(`place ${pose[0].toFixed(2)} ${pose[1].toFixed(2)} ${(Math.round(pose[2]) + by).toFixed(2)}`);
+    if (pose) this.putRobot([pose[0], pose[1], Math.round(pose[2]) + by]);
+  }
+
+  /** Puts the robot at a pose. */
+  putRobot(pose) {
+    if (!this.send(`place ${pose.map(short).join(' ')}`)) return;
+    this.put = { pose, answers: (this.put?.answers ?? 0) + 1, since: performance.now() };
+    this.keepPut(this.model.frame);
+  }
+
+  /** The robot is shown where it was put: a frame of before may still come. */
+  keepPut(frame) {
+    if (frame.new || performance.now() - this.put?.since > ANSWERED_WITHIN) this.put = null;
+    if (this.put && frame.robot?.true) frame.robot.true = this.put.pose;
+  }
+
+  /** The program has put the robot there, or has said why not: the next frame is of after. */
+  answered() {
+    if (!this.put) return;
+    this.put.answers -= 1;
+    if (this.put.answers === 0) this.put = null;
   }
 
   select(what) {
