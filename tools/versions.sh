@@ -11,7 +11,7 @@
 # Environment: ARCHIVE  the pack to try (default: the newest in dist/)
 #              SWIPL_723, SWIPL_101  swipl of a built 7.2.3 and 10.1, which come
 #                       in no package. They need the packages clib, plunit, sgml,
-#                       http and archive.
+#                       http and archive; pack_install of 7.2.3 ssl, too.
 #              SUITE    the test files (default: those in tests/prolog and tests/behavior)
 
 set -euo pipefail

@@ -54,8 +54,10 @@ pages(Threads) :-
 %   Say good-bye to all pages, and wait until they are closed.
 
 pages_close :-
-    forall(page(Thread),
-           catch(thread_signal(Thread, throw(ev3dev_view(stop))), _, true)),
+    with_mutex(ev3dev_view_pages,
+               forall(page(Thread),
+                      catch(thread_signal(Thread, throw(ev3dev_view(stop))),
+                            _, true))),
     wait_closed(200),
     retractall(page(_)).
 
@@ -76,14 +78,23 @@ wait_closed(Left) :-
 page_serve(In, Out) :-
     view_thread,
     thread_self(Me),
-    setup_call_cleanup(
-        assertz(page(Me)),
-        catch(conversation(In, Out), End, true),
-        ( retractall(page(Me)),
-          goals_end,
-          farewell(End, Out),
-          catch(close(In, [force(true)]), _, true),
-          catch(close(Out, [force(true)]), _, true) )).
+    %   pages_close/0 may throw when the conversation is over already.
+    catch(serve_to_end(Me, In, Out), ev3dev_view(stop),
+          end(ev3dev_view(stop), In, Out)).
+
+serve_to_end(Me, In, Out) :-
+    catch(setup_call_cleanup(
+              assertz(page(Me)),
+              conversation(In, Out),
+              with_mutex(ev3dev_view_pages, retractall(page(Me)))),
+          End, true),
+    end(End, In, Out).
+
+end(End, In, Out) :-
+    goals_end,
+    farewell(End, Out),
+    catch(close(In, [force(true)]), _, true),
+    catch(close(Out, [force(true)]), _, true).
 
 farewell(End, Out) :-
     (   nonvar(End),
