@@ -230,6 +230,15 @@ test(a_line_without_end_takes_no_memory, true(Code == 404)) :-
                                  request(Port, [Part], _, _) )),
                    own(Port, Fields),
                    get(Port, '/missing', Fields, Code, _) )).
+test(a_request_as_the_view_ends_keeps_no_connection, true(Code == 503)) :-
+    viewed(Port,
+           ( format(string(Host), "Host: localhost:~w", [Port]),
+             setup_call_cleanup(
+                 retract(ev3dev_view_server:served(Port, Address, Token)),
+                 request(Port, ["GET / HTTP/1.1", Host], Code, Answer),
+                 assertz(ev3dev_view_server:served(Port, Address, Token))) )),
+    string_lower(Answer, Lower),
+    has(Lower, "connection: close").
 test(other_names_of_this_computer,
      true(Codes == [200, 403, 403, 403])) :-
     token(Token),

@@ -525,6 +525,21 @@ group('many and none', ROOM, 'port(_), token(\'a-token-of-ours\')', (it) => {
     it.page.said.length = 0; // of connections that were refused meanwhile
   });
 
+  test('a page goes on though an answer never comes', async () => {
+    const { port } = new URL(it.url);
+    const swallow = (asked) => { if (!asked.url().endsWith('icon.svg')) asked.continue(); };
+    await it.page.setRequestInterception(true);
+    it.page.on('request', swallow);
+    const asked = it.page.requests.length;
+    await it.session.ask('view_stop');
+    await until(() => it.page.requests.slice(asked).some((url) => url.endsWith('icon.svg')), 'the question why');
+    await it.session.ask(`view([open(false), port(${port}), token('a-token-of-ours')])`);
+    await shows(it.page, (s) => s.phase === 'live', 'a page that lives');
+    it.page.off('request', swallow);
+    await it.page.setRequestInterception(false);
+    it.page.said.length = 0;
+  });
+
   test('a page says that there is another token now', async () => {
     const { port } = new URL(it.url);
     await it.session.ask('view_stop');

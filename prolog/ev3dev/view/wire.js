@@ -3,6 +3,8 @@
 
 const FIRST_PAUSE = 300;
 const LONGEST_PAUSE = 4000;
+// Who has not answered for so long is not there: a brick that left the network says nothing.
+const PATIENCE = 4000;
 
 export class Wire {
   /** `on` has: state(name, why), frame(object), reply(object). */
@@ -26,7 +28,9 @@ export class Wire {
     clearTimeout(this.retry);
     const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`);
     this.socket = socket;
+    const late = setTimeout(() => socket.close(), PATIENCE);
     socket.onopen = () => {
+      clearTimeout(late);
       this.pause = FIRST_PAUSE;
       this.ended = '';
       this.have = '';
@@ -37,6 +41,7 @@ export class Wire {
       if (socket === this.socket) this.take(JSON.parse(event.data));
     };
     socket.onclose = () => {
+      clearTimeout(late);
       if (socket === this.socket) this.lost();
     };
   }
@@ -71,7 +76,8 @@ export class Wire {
     this.socket = null;
     this.on.state('lost', this.ended);
     // A socket does not say why it was refused; a request does.
-    const answer = await fetch('icon.svg', { cache: 'no-store' }).catch(() => null);
+    const answer = await fetch('icon.svg', { cache: 'no-store', signal: AbortSignal.timeout(PATIENCE) }).catch(() => null);
+    if (this.socket !== null) return;
     if (answer && answer.status === 403) this.on.state('refused', this.ended);
     this.soon(this.pause);
     this.pause = Math.min(LONGEST_PAUSE, this.pause * 1.7);

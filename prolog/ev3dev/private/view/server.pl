@@ -99,7 +99,9 @@ server_stop(Port) :-
     ->  Name = Port
     ;   Name = localhost:Port
     ),
-    catch(stop_named(Name, Port), _, true).
+    catch(stop_named(Name, Port), _, true),
+    % Those that came meanwhile would wait for ever.
+    view_hang_up_(Port).
 
 %   Before version 8 a server of one host is known by both, and is then not
 %   told that it is to look up.
@@ -173,7 +175,9 @@ request(Request) :-
     (   served(Port, Address, Token)
     ->  view_keep_sockets_(Port),
         answer(Request, Port, Address, Token)
-    ;   refuse(503, 'Service Unavailable', 'The view has ended.')
+    ;   % No worker would read what follows on this connection.
+        refuse(503, 'Service Unavailable', 'The view has ended.',
+               ['Connection'-close])
     ).
 
 :- thread_local known/0.
@@ -312,7 +316,10 @@ differences([Code1|Codes1], [Code2|Codes2], Differences0, Differences) :-
     differences(Codes1, Codes2, Differences1, Differences).
 
 refuse(Code, Word, Why) :-
-    head(Code, Word, 'text/plain; charset=utf-8', []),
+    refuse(Code, Word, Why, []).
+
+refuse(Code, Word, Why, More) :-
+    head(Code, Word, 'text/plain; charset=utf-8', More),
     format('~w~n', [Why]).
 
 reply(page, Request, Port, Token) :-
