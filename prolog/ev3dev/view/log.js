@@ -5,8 +5,8 @@ import { $, clock, download, el, pressed, text } from './dom.js';
 
 const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
-/** Equal lines that come in turn, as those of two wheels, become one: of so many lines, in so
-    many seconds. What is said again later has a line of its own, so that times are in order. */
+/** Equal lines that come in turn, as those of two wheels, become one, at the time of the first:
+    each at most so many lines and so many seconds after the one before. */
 const LOOK_BACK = 4;
 const IN_TURN = 0.5;
 
@@ -85,14 +85,14 @@ export class Log {
 
   /** The row that a line goes into, as it says the same. */
   same({ key, time }) {
-    const last = this.rows[this.rows.length - 1];
-    const among = time - last?.at < IN_TURN ? LOOK_BACK : 1;
-    return key && this.rows.slice(-among).find((row) => row.key === key);
+    const recent = this.rows.slice(-LOOK_BACK);
+    const last = recent[recent.length - 1];
+    return key && recent.find((row) => row.key === key && (row === last || time - row.at < IN_TURN));
   }
 
   row(line) {
     const row = {
-      key: line.key, kind: line.kind, count: 1, time: el('time'), words: el('span'), times: el('span', { class: 'times', hidden: true }),
+      key: line.key, kind: line.kind, count: 1, time: el('time', {}, Number.isFinite(line.time) ? clock(line.time) : ''), words: el('span'), times: el('span', { class: 'times', hidden: true }),
       why: el('span', { class: 'why', hidden: true }),
     };
     row.box = el('li', { class: line.kind, hidden: this.hidden.has(group(line.kind)) },
@@ -104,12 +104,12 @@ export class Log {
 
   fill(row, line) {
     row.at = line.time;
-    text(row.time, Number.isFinite(line.time) ? clock(line.time) : '');
     text(row.words, line.text);
     row.line = line.text;
     if (row.count > 1) {
       row.times.hidden = false;
-      text(row.times, `×${row.count}`);
+      const until = Number.isFinite(line.time) ? clock(line.time) : '';
+      text(row.times, until === row.time.textContent ? `×${row.count}` : `×${row.count} until ${until}`);
     }
     const causes = line.causes ?? [];
     row.why.hidden = !causes.length;
