@@ -331,7 +331,8 @@ hot(catch(motor_run(_, 20), _, true)).
 hot(wait(0.001)).
 hot(sim_snapshot(_)).
 
-% More than 10 bytes a call are left behind, beyond 200 kB that Prolog takes for itself.
+% More than 10 bytes a call are left behind, beyond 200 kB that Prolog takes for itself. What
+% leaks does so each time; the collector of atoms may be late once.
 grows(Goal, Bytes) :-
     hot(Goal),
     cases(10000, Count),
@@ -339,10 +340,18 @@ grows(Goal, Bytes) :-
              ( set_robot(5.6, 10.6, outB, outC),
                repeated(Count, Goal),
                resident(Before),
-               repeated(Count, Goal),
-               resident(After) )),
-    Bytes is (After - Before - 200000) / Count,
-    Bytes > 10.
+               grows_each_time(3, Goal, Count, Before, Bytes) )).
+
+grows_each_time(Times, Goal, Count, Before, Bytes) :-
+    repeated(Count, Goal),
+    resident(After),
+    Bytes1 is (After - Before - 200000) / Count,
+    Bytes1 > 10,
+    (   Times > 1
+    ->  Times1 is Times - 1,
+        grows_each_time(Times1, Goal, Count, After, Bytes)
+    ;   Bytes = Bytes1
+    ).
 
 repeated(Count, Goal) :-
     forall(between(1, Count, _), ignore(Goal)).
