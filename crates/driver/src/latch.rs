@@ -2,6 +2,7 @@
 //!
 //! While it is set, no motor can be started, by no thread and in no tree: so a program whose
 //! motors were stopped cannot start them again before it has been interrupted.
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static IS_SET: AtomicBool = AtomicBool::new(false);
@@ -17,7 +18,7 @@ pub fn is_set() -> bool {
     IS_SET.load(Ordering::SeqCst)
 }
 
-/// Whether a text that is written to a file with this name starts a motor.
-pub(crate) fn refuses(name: Option<&std::ffi::OsStr>, text: &str) -> bool {
-    is_set() && name.is_some_and(|name| name == "command") && text.trim_start().starts_with("run")
+/// Whether a text may not be written to this file, because it starts a motor.
+pub(crate) fn refuses(path: &Path, text: &str) -> bool {
+    is_set() && path.ends_with("command") && text.trim_start().starts_with("run")
 }

@@ -21,6 +21,8 @@ pub struct Segment {
     direction: [f64; 2],
     length: f64,
     curvature: f64,
+    /// The radius with its sign, kept because a division is dear; `None` for a line.
+    radius: Option<f64>,
     to: Point,
 }
 
@@ -52,7 +54,8 @@ impl Segment {
 
     fn new(start: Pose, length: f64, curvature: f64, to: Point) -> Self {
         let (sin, cos) = libm::sincos(start.heading.to_radians());
-        Self { start, direction: [sin, cos], length, curvature, to }
+        let radius = (curvature.abs() >= STRAIGHT).then(|| 1.0 / curvature);
+        Self { start, direction: [sin, cos], length, curvature, radius, to }
     }
 
     /// The arc of a radius that touches both lines of a corner, the second of
@@ -117,7 +120,7 @@ impl Segment {
     /// `None` for a line.
     #[must_use]
     pub fn radius(&self) -> Option<f64> {
-        (self.curvature.abs() >= STRAIGHT).then(|| 1.0 / self.curvature)
+        self.radius
     }
 
     /// The middle of an arc's circle. `None` for a line.
@@ -157,17 +160,18 @@ impl Segment {
         let [sin, cos] = self.direction;
         let (dx, dy) = (x - self.start.x, y - self.start.y);
         let (ahead, right) = (dx * sin + dy * cos, dx * cos - dy * sin);
-        let Some(radius) = self.radius() else {
+        let Some(radius) = self.radius else {
             return Place { along: ahead, aside: right };
         };
         // The center is `radius` to the right of the start.
-        let side = radius.signum();
-        let angle = libm::atan2(ahead, (radius - right) * side);
-        let along = angle * radius.abs();
-        let turn = std::f64::consts::TAU * radius.abs();
-        let along = along + ((near - along) / turn).round() * turn;
-        let distance = libm::hypot(ahead, radius - right);
-        Place { along, aside: (radius.abs() - distance) * side }
+        let (side, radius, inward) = (radius.signum(), radius.abs(), radius - right);
+        let mut along = libm::atan2(ahead, inward * side) * radius;
+        let turn = std::f64::consts::TAU * radius;
+        if (near - along).abs() > turn * 0.5 {
+            along += ((near - along) / turn).round() * turn;
+        }
+        let distance = libm::sqrt(ahead * ahead + inward * inward);
+        Place { along, aside: (radius - distance) * side }
     }
 }
 

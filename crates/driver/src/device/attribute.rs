@@ -163,7 +163,7 @@ pub(super) fn open(
 
 /// Writes a text and a newline in one go: one write is one call of the driver.
 fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
-    if latch::refuses(path.file_name(), text) {
+    if latch::refuses(path, text) {
         return Err(Error::Latched { path: path.to_owned() });
     }
     let mut line = [b'\n'; SHORT];

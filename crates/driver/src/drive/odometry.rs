@@ -277,7 +277,7 @@ impl Estimate {
         let (way, by_wheels) = wheels.twist(stretched);
         let turn = by_wheels + by_wheels * self.state[AXLE];
         let half = turn * 0.5;
-        let (sin, cos) = (self.state[HEADING] + half).sin_cos();
+        let (sin, cos) = libm::sincos(self.state[HEADING] + half);
         let chord = way * sinc(half);
         let (x, y) = (chord * sin, chord * cos);
         self.state[X] += x;
@@ -421,7 +421,7 @@ impl Estimate {
         let late = if seconds > LAG { LAG * turn / seconds } else { turn };
         let error = short(GYRO_ERROR * GYRO_ERROR + late * late);
         let total = row[HEADING] + row[ZERO] + error;
-        let deviation = total.sqrt();
+        let deviation = libm::sqrtf(total);
         let (shift, narrowed) = within(short(off), deviation);
         let certainty = 1.0 / total;
         self.update(row, shift * certainty, (1.0 - narrowed) * certainty);
@@ -491,7 +491,8 @@ impl Estimate {
         }
         self.rest.off += off;
         self.rest.count += 1.0;
-        if self.rest.off.abs() > SUSPICIOUS * self.rest.count.sqrt().max(2.0) {
+        let Rest { off, count, .. } = self.rest;
+        if off * off > SUSPICIOUS * SUSPICIOUS * count.max(4.0) {
             self.doubt_drift();
             self.begin_rest();
         }
@@ -541,7 +542,7 @@ fn within(off: f32, deviation: f32) -> (f32, f32) {
 fn normal_at(x: f32) -> f32 {
     /// 1 / √(2π)
     const PEAK: f32 = std::f32::consts::FRAC_2_SQRT_PI * std::f32::consts::FRAC_1_SQRT_2 / 2.0;
-    PEAK * (-x * x * 0.5).exp()
+    PEAK * libm::expf(-x * x * 0.5)
 }
 
 /// The standard normal distribution, given its density; off by less than 1e-6

@@ -16,7 +16,7 @@
 //! loop around it has no overshoot worth mentioning.
 pub use crate::course::Leg;
 use crate::drive::odometry::Wheels;
-use ev3_motion::{Path, Pose, Segment, direction, rounded, wrapped};
+use ev3_motion::{Path, Pose, Segment, direction, distance, rounded, wrapped};
 use std::collections::VecDeque;
 
 /// Rate of turn for each radian off the heading, per second.
@@ -72,7 +72,7 @@ impl Leg {
     #[must_use]
     pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
         let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle / 2.0;
-        let way = |[x, y]: [f64; 2]| (x - from.x).hypot(y - from.y);
+        let way = |place| distance(from.point(), place);
         let roll = match self {
             Self::Turn(degrees) => turn(*degrees),
             Self::Heading(heading) => turn(heading - from.heading),
@@ -194,7 +194,7 @@ impl Steering {
         (pose, goal): (Pose, Option<Pose>),
     ) -> Self {
         let is_near = |goal: &Pose| {
-            (goal.x - pose.x).hypot(goal.y - pose.y) < GOAL_WITHIN
+            distance(goal.point(), pose.point()) < GOAL_WITHIN
                 && (goal.heading - pose.heading).abs() < GOAL_ALIGNED
         };
         let goal = goal.filter(is_near).unwrap_or(pose);
@@ -297,7 +297,7 @@ impl Steering {
                 self.turn_to(self.goal.heading + wrapped(heading - self.goal.heading))
             }
             Leg::Towards([x, y]) => {
-                if (x - pose.x).hypot(y - pose.y) < THERE {
+                if distance(pose.point(), [x, y]) < THERE {
                     return;
                 }
                 self.goal = pose;
@@ -400,7 +400,7 @@ impl Steering {
         let half_axle = self.wheels.axle / 2.0;
         let acceleration = self.limits.acceleration / half_axle;
         let left = (off.to_radians() - self.rate * LAG).abs();
-        let most = (2.0 * BRAKING * acceleration * left).sqrt();
+        let most = libm::sqrt(2.0 * BRAKING * acceleration * left);
         let wanted = off.signum() * most.min(self.limits.speed / half_axle);
         self.rate = approach(self.rate, wanted, 1.5 * acceleration * seconds);
         let back = (-PLACE_GAIN * strayed(pose, turn.place)).clamp(-5.0, 5.0);
@@ -458,7 +458,7 @@ impl Steering {
         let ahead = place.along.clamp(0.0, part.length());
         let (aim, bend) = ((speed * LOOKAHEAD).max(NEAREST_AIM), part.curvature().abs());
         let aim = if aim * bend > 1.0 { 1.0 / bend } else { aim };
-        let back = (place.aside / aim).clamp(-1.0, 1.0).asin().to_degrees();
+        let back = libm::asin((place.aside / aim).clamp(-1.0, 1.0)).to_degrees();
         let heading = self.travel(part.heading_at(ahead)) - back;
         let off = wrapped(heading - soon.heading).to_radians();
         self.speed = speed * sign;
@@ -503,7 +503,7 @@ impl Steering {
 
 /// How far ahead of a place the robot is.
 fn strayed(pose: Pose, [x, y]: [f64; 2]) -> f64 {
-    let (sin, cos) = pose.heading.to_radians().sin_cos();
+    let (sin, cos) = libm::sincos(pose.heading.to_radians());
     (pose.x - x) * sin + (pose.y - y) * cos
 }
 
@@ -514,7 +514,7 @@ fn rest(path: &[Segment], index: usize) -> f64 {
 
 /// A speed, or that of the given square if it is less.
 fn braked(speed: f64, square: f64) -> f64 {
-    if square < speed * speed { square.sqrt() } else { speed }
+    if square < speed * speed { libm::sqrt(square) } else { speed }
 }
 
 /// A value on its way to another one, by at most `step`.
