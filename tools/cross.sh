@@ -91,7 +91,10 @@ rust_flags() {
     for prefix in "${prefixes[@]}"; do
         flags+=("--remap-path-prefix=$prefix")
     done
-    [[ $1 != armel ]] || flags+=(-Cllvm-args=-enable-machine-outliner=always)
+    if [[ $1 == armel ]]; then
+        flags+=(-Cllvm-args=-enable-machine-outliner=always)
+        flags+=("${floats[@]/#/-Clink-arg=$toolchain/floats/}")
+    fi
     (IFS=$'\x1f' && printf '%s' "${flags[*]}")
 }
 

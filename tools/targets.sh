@@ -5,6 +5,10 @@
 # shellcheck disable=SC2034
 all_targets=(armel armhf arm64 amd64)
 
+# GCC's routines for the processor of the EV3: add, subtract, multiply, divide
+# shellcheck disable=SC2034
+floats=(_arm_addsubdf3.o _arm_addsubsf3.o _arm_muldivdf3.o _arm_muldivsf3.o)
+
 # The oldest C library: that of ev3dev-stretch
 glibc=2.24
 

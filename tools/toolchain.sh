@@ -2,7 +2,8 @@
 #
 # Fetches what the cross build needs into .toolchain/: a Rust compiler with the
 # standard library of every target, and zig as the linker that brings the C
-# library of every target, as old as the bricks' one.
+# library of every target, as old as the bricks' one; for the EV3 also GCC's
+# floating point.
 #
 # Usage: tools/toolchain.sh
 #
@@ -33,6 +34,7 @@ zig_version=0.15.2
 main() {
     locked toolchain
     fetch_zig
+    fetch_floats
     case ${EV3DEV_RUST:-auto} in
     rustup) rust_of_rustup || die "rustup cannot fetch Rust $rust_version (see $toolchain/rustup.log)" ;;
     debian) rust_of_debian ;;
@@ -53,6 +55,27 @@ fetch_zig() {
         -r "$root/tools/zig-requirements.txt" 2>"$toolchain/pip.log" ||
         die "pip cannot fetch ziglang $zig_version (see $toolchain/pip.log)"
     made "$dir" "$zig_version"
+}
+
+# The brick's processor does floating point in software. GCC's routines take two
+# thirds of the instructions that Rust's own take, with the same results.
+fetch_floats() {
+    local dir=$toolchain/floats apt=$toolchain/apt-floats package=libgcc-12-dev-armel-cross
+    local key="debian bookworm $package"
+    is_made "$dir" "$key" && return
+    have ar || die "ar is missing: install binutils"
+    say "fetching GCC's floating point for armel"
+    rm -rf "$dir" "$apt"
+    debian_apt_new "$apt" bookworm amd64
+    debian_download "$apt" "$package"
+    debian_unpack "$apt" "$dir/package"
+    debian_forget "$apt"
+    (
+        cd "$dir"
+        ar x package/usr/lib/gcc-cross/arm-linux-gnueabi/12/libgcc.a "${floats[@]}"
+    )
+    rm -rf "$dir/package"
+    made "$dir" "$key"
 }
 
 # The targets of rustup, added to a toolchain of the pinned version.
