@@ -52,8 +52,8 @@ unit(comparison, ['ev3dev/planners/comparison']).
 unit(planners, ['ev3dev/planners']).
 unit(roadmap_parts, ['ev3dev/navigation']).
 unit(roadmap, ['ev3dev/roadmap']).
-unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/sim_time',
-                 'ev3dev/sim_views']).
+unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
+                 'ev3dev/sim_time', 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).

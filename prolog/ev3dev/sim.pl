@@ -17,6 +17,7 @@
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(private/turn, []).
+:- use_module(private/world_name, [note_world/1]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- use_module(sim_time, [forget_plans/0]).
@@ -250,18 +251,6 @@ sim_start(World, Options) :-
     set_added_facts([]),
     forget_plans,
     note_world(World).
-
-%   What the view calls the world.
-:- dynamic sim_world/1.
-
-note_world(World) :-
-    retractall(sim_world(_)),
-    (   ( atom(World) ; string(World) )
-    ->  file_base_name(World, File),
-        file_name_extension(Name, _, File),
-        assertz(sim_world(Name))
-    ;   true
-    ).
 
 must_be_built :-
     (   predicate_property(sim_active_, foreign)

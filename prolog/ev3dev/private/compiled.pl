@@ -1,5 +1,7 @@
 :- module(ev3dev_compiled,
-          [ index_file/1,               % -File
+          [ indexed/1,                  % -Units
+            used/1,                     % ?Unit
+            index_file/1,               % -File
             pack_folder/1,              % -Folder
             this_prolog/1,              % -Prolog
             source_time/2,              % +File, -Milliseconds
@@ -24,9 +26,18 @@ private/units.pl, which is compiled, too, and is not loaded without an index.
 This file loads nothing else.
 */
 
+%!  indexed(-Units) is semidet.
+%
+%   The units of the index; private/units.pl takes it away when it looks at
+%   them.
+
+%!  used(?Unit) is nondet.
+%
+%   What has been loaded compiled; private/units.pl adds to it.
+
 :- dynamic
-    indexed/1,                          % Units
-    used/1.                             % Unit
+    indexed/1,
+    used/1.
 :- volatile
     indexed/1,
     used/1.

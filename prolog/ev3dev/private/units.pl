@@ -1,7 +1,8 @@
 :- module(ev3dev_units,
           [ use_sources/0
           ]).
-:- use_module(compiled, [contents/2, source_time/2]).
+:- use_module(compiled,
+              [contents/2, indexed/1, source_time/2, used/1]).
 
 /** <module> Loads the units of the index
 
@@ -16,7 +17,7 @@ private/compiled.pl loads this file, compiled, if there is an index.
 %   From now on load the units of the index, unless a source has changed.
 
 use_units :-
-    retract(ev3dev_compiled:indexed(Units)),
+    retract(indexed(Units)),
     catch(unchanged(Units), error(_, _), fail),
     !,
     offer(Units).
@@ -88,7 +89,7 @@ unit_with(Name, File, Unit) :-
 %   If another thread is loading it, load_files/2 waits for the end.
 
 load_unit(Unit) :-
-    ev3dev_compiled:used(Unit),
+    used(Unit),
     !.
 load_unit(Unit) :-
     \+ loading(Unit),
@@ -100,12 +101,12 @@ load_unit(Unit) :-
         ->  catch(load_files(user:Unit, [if(not_loaded), imports([])]),
                   error(Formal, Context),
                   print_message(warning, error(Formal, Context))),
-            assertz(ev3dev_compiled:used(Unit))
+            assertz(used(Unit))
         ;   true
         ),
         erase(Ref)),
     retractall(usable(Unit, _, _, _)),
-    ev3dev_compiled:used(Unit).
+    used(Unit).
 
 load_needed([]).
 load_needed([Needed|More]) :-

@@ -7,6 +7,7 @@
               [ view_json_/2, view_keep_/2, view_to_world_/5 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../brick', [brick/1]).
+:- use_module('../world_name', [world_name/1]).
 
 /** <module> What seldom changes on a page
 
@@ -36,7 +37,7 @@ renew_kept :-
     ).
 
 keep_name :-
-    (   catch(ev3dev_sim:sim_world(Name), _, fail)
+    (   world_name(Name)
     ->  view_json_(Name, Json)
     ;   Json = null
     ),
