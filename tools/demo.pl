@@ -11,6 +11,10 @@
 %   Run an example for at most Seconds by the wall: as fast as in reality with
 %   the view in a browser, if View is true; six times as fast without.
 
+show(Part, Seconds, View) :-
+    part_of(Part, Example),
+    !,
+    show(Example, Seconds, View).
 show(Example, Seconds, View) :-
     (   demo(Example, World, Goal)
     ->  true
@@ -39,8 +43,9 @@ show(Example, Seconds, View) :-
     thread_join(Teller, _),
     sim_collisions(Collisions),
     length(Collisions, Count),
-    format("It ran into something ~w times. Its way is in demo.svg.~n",
-           [Count]),
+    ( Count =:= 1 -> Plural = '' ; Plural = s ),
+    format("It ran into something ~D time~w. Its way is in demo.svg.~n",
+           [Count, Plural]),
     sim_svg('demo.svg'),
     halt(0).
 
@@ -78,6 +83,11 @@ demo(plnxt_program, [ bounds(0, 0, 150, 150), start(40, 40, 30),
 demo(rules_processes, [wall(-50, 150, 50, 150)], start).
 
 robot(rules_wander, touch).
+
+%   Files that do nothing by themselves, and a program that uses them.
+
+part_of(plnxt, plnxt_program).
+part_of(grid_planner, grid_navigation).
 
 %   What somebody has to do beside the robot.
 
@@ -124,8 +134,9 @@ prepare(_).
 tell :-
     sim_time(Time),
     sim_pose(X, Y, Heading),
-    format("~t~1f~6| s: x ~t~1f~16|, y ~t~1f~26| cm, heading ~t~0f~42|~n",
-           [Time, X, Y, Heading]),
+    Degrees is round(Heading),
+    format("~t~1f~6| s: x ~t~1f~16|, y ~t~1f~26| cm, heading ~t~d~42|~n",
+           [Time, X, Y, Degrees]),
     flush_output,
     thread_self(Me),
     (   thread_get_message(Me, stop, [timeout(1)])
