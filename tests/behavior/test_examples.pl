@@ -1,5 +1,5 @@
-% Each example loads without a word, each in a program of its own, and none of
-% its names is that of a library that may be loaded beside it.
+% Each example loads without a word, each in a program of its own; none of its
+% names is that of a library that may be loaded beside it; `make demo` starts it.
 
 :- use_module(library(plunit)).
 :- use_module(library(process)).
@@ -34,6 +34,25 @@ loads(File, Goal, Said, End) :-
     read_string(Out, _, Said),
     close(Out),
     process_wait(Id, End).
+
+test(make_demo_knows_its_start,
+     [ forall(example(File)),
+       setup(load_files(demo_script:'tools/demo.pl', [if(not_loaded)])),
+       true(Said-End == ""-exit(0))
+     ]) :-
+    file_base_name(File, Base),
+    file_name_extension(Name, _, Base),
+    (   demo_script:part_of(Name, Program)
+    ->  true
+    ;   Program = Name
+    ),
+    (   demo_script:demo(Program, _, Goal)
+    ->  true
+    ;   Goal = start
+    ),
+    strip_module(user:Goal, Module, Start),
+    atomic_list_concat(['examples/', Program, '.pl'], Example),
+    loads(Example, predicate_property(Module:Start, defined), Said, End).
 
 example(File) :-
     expand_file_name('examples/*.pl', Files),
