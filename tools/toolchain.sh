@@ -58,7 +58,8 @@ fetch_zig() {
 }
 
 # The brick's processor does floating point in software. GCC's routines take two
-# thirds of the instructions that Rust's own take, with the same results.
+# thirds of the instructions that Rust's own take, with the same results. Their
+# license has an exception for programs that they are linked into.
 fetch_floats() {
     local dir=$toolchain/floats apt=$toolchain/apt-floats package=libgcc-12-dev-armel-cross
     local key="debian bookworm $package"
