@@ -512,7 +512,8 @@ fn rest(path: &[Segment], index: usize) -> f64 {
     path.iter().skip(index + 1).map(Segment::length).sum()
 }
 
-/// A speed, or that of the given square if it is less.
+/// A speed, or that of the given square if it is less. The compiler would take the
+/// standard library's root in either case; the brick has to work it out.
 fn braked(speed: f64, square: f64) -> f64 {
     if square < speed * speed { libm::sqrt(square) } else { speed }
 }
