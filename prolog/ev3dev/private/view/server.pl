@@ -99,28 +99,48 @@ server_stop(Port) :-
     ->  Name = Port
     ;   Name = localhost:Port
     ),
-    catch(stop_named(Name, Port), _, true),
+    stop_named(Name, Port),
     % Those that came meanwhile would wait for ever.
     view_hang_up_(Port).
 
-%   Before version 8 a server of one host is known by both, and is then not
-%   told that it is to look up.
-stop_named(Port, Port) :-
-    !,
-    http_stop_server(Port, []).
+%   Who accepts connections ends by an exception. If it comes while that thread
+%   looks for workers, library(http) takes it for a fault of who offers them,
+%   prints it, and goes on: so it is told again. Before version 8 nothing wakes
+%   it, either. While Prolog halts, version 10 creates no thread.
 stop_named(Name, Port) :-
-    thread_create(wake(Name, Port), Waker, []),
-    http_stop_server(Name, []),
-    thread_join(Waker, _).
+    setup_call_cleanup(
+        asserta((user:message_hook(Message, error, _) :-
+                     ev3dev_view_server:passed_over(Message)),
+                Hook),
+        (   catch(thread_create(wake(Name, Port), Waker, []),
+                  error(permission_error(_, _, _), _), fail)
+        ->  stop_server(Name),
+            thread_join(Waker, _)
+        ;   stop_server(Name)
+        ),
+        erase(Hook)).
+
+stop_server(Name) :-
+    catch(ignore(http_stop_server(Name, [])), error(_, _), true).
+
+:- dynamic told/2.                      % Thread, Stop
+
+passed_over(Stop) :-
+    ( Stop = http_stop ; Stop = http_stop(_) ),
+    !,
+    thread_self(Me),
+    assertz(told(Me, Stop)).
 
 wake(Name, Port) :-
     http_server_property(Name, start_time(_)),
+    !,
+    forall(retract(told(Thread, Stop)),
+           catch(thread_signal(Thread, throw(Stop)), error(_, _), true)),
     catch(setup_call_cleanup(
               tcp_socket(Socket),
               tcp_connect(Socket, localhost:Port),
               tcp_close_socket(Socket)),
-          _, fail),
-    !,
+          error(_, _), true),
     sleep(0.02),
     wake(Name, Port).
 wake(_, _).
