@@ -103,10 +103,11 @@ server_stop(Port) :-
     % Those that came meanwhile would wait for ever.
     view_hang_up_(Port).
 
-%   Who accepts connections ends by an exception. If it comes while that thread
-%   looks for workers, library(http) takes it for a fault of who offers them,
-%   prints it, and goes on: so it is told again. Before version 8 nothing wakes
-%   it, either. While Prolog halts, version 10 creates no thread.
+%   The thread that accepts connections ends by an exception. If that comes
+%   while it looks for workers, library(http) takes it for a fault of those
+%   who offer them, prints it, and goes on: so it is told again. Before
+%   version 8 nothing wakes it, either. While Prolog halts, version 10
+%   creates no thread.
 stop_named(Name, Port) :-
     setup_call_cleanup(
         asserta((user:message_hook(Message, error, _) :-
