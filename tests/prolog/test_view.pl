@@ -895,6 +895,19 @@ test(program, [forall(program(Text))]) :-
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
           \+ runs(Frame2) )).
+test(a_program_that_begins_is_stopped) :-
+    with_toplevel(Top,
+        ( Top = top(_, _, Page),
+          query(Top, "assertz((endless :- repeat, sleep(0.1), fail))."),
+          query(Top, "asserta((user:expand_query(endless, _, _, _) :- \c
+                               writeln(expands), flush_output, sleep(1), \c
+                               fail))."),
+          query(Top, "endless."),
+          printed(Top, "expands"),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Frame, ended(Frame), 5000),
+          query(Top, "writeln(alive), flush_output."),
+          printed(Top, "alive") )).
 test(a_request_stops_the_program, true(Code == 200)) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),

@@ -13,8 +13,8 @@ reads the query.
 
 %!  reads_query is semidet.
 %
-%   True if the toplevel of this thread waits for a query, and no goal of
-%   acting_at_prompt/1 is under way.
+%   True if the toplevel of this thread waits for a query, does not expand one,
+%   and no goal of acting_at_prompt/1 is under way.
 
 %   There are few frames above the toplevel then; in a deep recursion there is
 %   no need to look at all.
@@ -39,7 +39,9 @@ reader('$toplevel':read_query/3).
 reader('$toplevel':read_expanded_query/3).
 reader('$toplevel':read_term_as_atom/2).
 
-%   A predicate of this module has no module there.
+%   The query has been read, and begins. A predicate of this module has no
+%   module there.
+actor('$toplevel':call_expand_query/4).
 actor(acting_at_prompt/1).
 actor(ev3dev_prompt:acting_at_prompt/1).
 
