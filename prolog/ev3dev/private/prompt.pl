@@ -13,8 +13,8 @@ reads the query.
 
 %!  reads_query is semidet.
 %
-%   True if the toplevel of this thread waits for a query, does not expand one,
-%   and no goal of acting_at_prompt/1 is under way.
+%   True if the toplevel of this thread waits for a query, does not expand
+%   one, and no goal of acting_at_prompt/1 is under way.
 
 %   There are few frames above the toplevel then; in a deep recursion there is
 %   no need to look at all.
