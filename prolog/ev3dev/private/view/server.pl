@@ -110,19 +110,22 @@ server_stop(Port) :-
 %   creates no thread.
 stop_named(Name, Port) :-
     setup_call_cleanup(
-        asserta((user:message_hook(Message, error, _) :-
-                     ev3dev_view_server:passed_over(Message)),
-                Hook),
-        (   catch(thread_create(wake(Name, Port), Waker, []),
-                  error(permission_error(_, _, _), _), fail)
-        ->  stop_server(Name),
-            thread_join(Waker, _)
-        ;   stop_server(Name)
-        ),
-        erase(Hook)).
+        ( retractall(told(_, _)),
+          asserta((user:message_hook(Message, error, _) :-
+                       ev3dev_view_server:passed_over(Message)),
+                  Hook),
+          waker(Port, Wakers) ),
+        catch(ignore(http_stop_server(Name, [])), error(_, _), true),
+        ( forall(member(Waker, Wakers),
+                 ( thread_send_message(Waker, stopped),
+                   thread_join(Waker, _) )),
+          erase(Hook) )).
 
-stop_server(Name) :-
-    catch(ignore(http_stop_server(Name, [])), error(_, _), true).
+waker(Port, [Waker]) :-
+    catch(thread_create(wake(Port), Waker, []),
+          error(permission_error(_, _, _), _), fail),
+    !.
+waker(_, []).
 
 :- dynamic told/2.                      % Thread, Stop
 
@@ -132,9 +135,7 @@ passed_over(Stop) :-
     thread_self(Me),
     assertz(told(Me, Stop)).
 
-wake(Name, Port) :-
-    http_server_property(Name, start_time(_)),
-    !,
+wake(Port) :-
     forall(retract(told(Thread, Stop)),
            catch(thread_signal(Thread, throw(Stop)), error(_, _), true)),
     catch(setup_call_cleanup(
@@ -142,9 +143,11 @@ wake(Name, Port) :-
               tcp_connect(Socket, localhost:Port),
               tcp_close_socket(Socket)),
           error(_, _), true),
-    sleep(0.02),
-    wake(Name, Port).
-wake(_, _).
+    thread_self(Me),
+    (   thread_get_message(Me, stopped, [timeout(0.02)])
+    ->  true
+    ;   wake(Port)
+    ).
 
 :- prolog_load_context(directory, Here),
    atom_concat(Here, '/../../view', Directory),
