@@ -126,15 +126,10 @@ fn robot_of<'a, C: QueryableContextType>(
 ) -> PrologResult<Robot> {
     let [left, right, left_diameter, right_diameter, left_inverted, right_inverted, axle, offset] =
         call.arguments(term)?;
-    Ok(Robot {
-        ports: [call.text(&left)?.into(), call.text(&right)?.into()],
-        wheels: Wheels {
-            diameters: [call.float(&left_diameter)?, call.float(&right_diameter)?],
-            inverted: [left_inverted.get_ex()?, right_inverted.get_ex()?],
-            axle: call.float(&axle)?,
-            offset: call.float(&offset)?,
-        },
-    })
+    let diameters = [call.float(&left_diameter)?, call.float(&right_diameter)?];
+    let inverted = [left_inverted.get_ex()?, right_inverted.get_ex()?];
+    let wheels = Wheels::new(diameters, inverted, call.float(&axle)?, call.float(&offset)?);
+    Ok(Robot { ports: [call.text(&left)?.into(), call.text(&right)?.into()], wheels })
 }
 
 fn drive_of<'a, C: QueryableContextType>(

@@ -31,6 +31,10 @@ const FOLLOWS: f64 = 0.25;
 /// restarted with another zero, or its 16 bits overflowed.
 const FASTEST: f64 = 600.0;
 
+/// How far it turns at most in a period, in degrees. Less is no leap, however much time
+/// has passed, and need not be compared with that.
+const SHORT_LEAP: f64 = FASTEST * PERIOD.as_secs_f64();
+
 /// A comparison of the gyro with the wheels over the latest part of a motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Agreement {
@@ -55,7 +59,8 @@ impl Agreement {
     /// by its wheels, and the gyro shows `angle`.
     pub(super) fn sample(&mut self, now: Duration, turned: f64, angle: f64) {
         let passed = now.saturating_sub(self.sampled).max(PERIOD);
-        let jumped = (angle - self.shown).abs() > FASTEST * seconds(passed);
+        let leap = (angle - self.shown).abs();
+        let jumped = leap > SHORT_LEAP && leap > FASTEST * seconds(passed);
         (self.sampled, self.shown) = (now, angle);
         let is_recent = |start: &Start| now.saturating_sub(start.at) <= WINDOW;
         let Some(start) = self.start.filter(|start| is_recent(start) && !jumped) else {

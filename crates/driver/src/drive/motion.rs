@@ -145,11 +145,13 @@ impl ActiveMotion {
         ways: [f64; 2],
         passed: Duration,
     ) -> Result<Option<Reason>> {
-        let wanted = devices.in_counts(ways);
+        let mut wanted = devices.in_counts(ways);
         // Too fast for one is too fast for both: the curve stays the same.
         let most = wanted[0].abs().max(wanted[1].abs());
-        let share = if most > devices.fastest { devices.fastest / most } else { 1.0 };
-        let speeds = wanted.map(|speed| least(speed * share));
+        if most > devices.fastest {
+            wanted = wanted.map(|speed| speed * (devices.fastest / most));
+        }
+        let speeds = wanted.map(least);
         if self.is_stuck(devices, speeds, passed) {
             return Ok(Some(Reason::Stalled));
         }
@@ -203,13 +205,12 @@ impl ActiveMotion {
     #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
     fn is_stuck(&mut self, devices: &DriveDevices, speeds: [i64; 2], passed: Duration) -> bool {
         let mut is_stuck = false;
-        let seconds = seconds(passed);
         for (side, wheel) in self.stuck.iter_mut().enumerate() {
             let (count, way) = (devices.counts[side], speeds[side].signum());
             let is_still = count.abs_diff(wheel.count) < STUCK_WITHIN && way == wheel.way;
             if is_still {
                 wheel.stood += passed;
-                wheel.owed += speeds[side].abs() as f64 * seconds;
+                wheel.owed += speeds[side].abs() as f64 * seconds(passed);
             } else {
                 *wheel = Stuck { way, ..Stuck::new(count) };
             }

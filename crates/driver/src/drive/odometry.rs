@@ -109,12 +109,26 @@ pub struct Wheels {
     /// Whether the left and the right motor are mounted the other way round.
     pub inverted: [bool; 2],
     /// Distance between the middles of their treads, in cm.
-    pub axle: f64,
+    axle: f64,
+    /// 1 / axle, kept because a division is dear.
+    per_axle: f64,
     /// The distance of the axle ahead of the robot's reference point, in cm.
     pub offset: f64,
 }
 
 impl Wheels {
+    /// Wheels, each value as its field has it.
+    #[must_use]
+    pub const fn new(diameters: [f64; 2], inverted: [bool; 2], axle: f64, offset: f64) -> Self {
+        Self { diameters, inverted, axle, per_axle: 1.0 / axle, offset }
+    }
+
+    /// Distance between the middles of their treads, in cm.
+    #[must_use]
+    pub fn axle(&self) -> f64 {
+        self.axle
+    }
+
     /// Cm that a wheel rolls for each count of its motor, with its sign.
     #[must_use]
     pub fn cm_per_count(&self, side: usize, counts_per_rotation: f64) -> f64 {
@@ -125,13 +139,13 @@ impl Wheels {
     /// Way in cm and turn in radians from the ways of both wheels.
     #[must_use]
     pub fn twist(&self, [left, right]: [f64; 2]) -> (f64, f64) {
-        (f64::midpoint(left, right), (left - right) / self.axle)
+        (f64::midpoint(left, right), (left - right) * self.per_axle)
     }
 
     /// The ways of both wheels from way in cm and turn in radians.
     #[must_use]
     pub fn ways(&self, way: f64, turn: f64) -> [f64; 2] {
-        let half = turn * self.axle / 2.0;
+        let half = turn * self.axle * 0.5;
         [way + half, way - half]
     }
 }
@@ -308,7 +322,7 @@ impl Estimate {
         }
         // How the turn, half of which shifts the place, and the way depend on the
         // errors of the wheels and the axle; and the place on the heading.
-        let per_axle = (1.0 + self.state[AXLE]) / wheels.axle;
+        let per_axle = (1.0 + self.state[AXLE]) * wheels.per_axle;
         let [left, right] = unsettled.ways;
         let of_turn = [left * per_axle, -right * per_axle, unsettled.by_wheels].map(short);
         let of_way = [left * 0.5, right * 0.5].map(short);
@@ -322,7 +336,7 @@ impl Estimate {
             HEADING_VARIANCE / 2.0 * unsettled.rolled + TURN_VARIANCE * unsettled.turned;
         if unsettled.starts {
             along += START * START / 2.0;
-            turning += 2.0 * START * START / (wheels.axle * wheels.axle);
+            turning += 2.0 * START * START * (wheels.per_axle * wheels.per_axle);
         }
         self.inflate(direction, place, short(along), short(turning));
         self.covariance[AXLE][AXLE] += short(AXLE_CHANGE * unsettled.turned);

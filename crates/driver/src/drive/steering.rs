@@ -18,6 +18,7 @@ pub use crate::course::Leg;
 use crate::drive::odometry::Wheels;
 use ev3_motion::{Path, Pose, Segment, direction, distance, rounded, wrapped};
 use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_2;
 
 /// Rate of turn for each radian off the heading, per second.
 const HEADING_GAIN: f64 = 6.0;
@@ -71,7 +72,7 @@ impl Leg {
     /// infinite if that is no number.
     #[must_use]
     pub fn wheels_roll(&self, wheels: &Wheels, from: Pose) -> f64 {
-        let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle / 2.0;
+        let turn = |degrees: f64| degrees.to_radians().abs() * wheels.axle() / 2.0;
         let way = |place| distance(from.point(), place);
         let roll = match self {
             Self::Turn(degrees) => turn(*degrees),
@@ -132,13 +133,7 @@ enum Phase {
     /// The next leg is to be begun.
     Next,
     Turning(Turn),
-    Following {
-        path: Vec<Segment>,
-        index: usize,
-        along: f64,
-        /// The length of what comes after that segment.
-        rest: f64,
-    },
+    Following(Way),
 }
 
 /// A turn on the spot to a heading.
@@ -150,6 +145,26 @@ struct Turn {
     /// On which side of the heading the robot is, and how often it came to the other.
     side: f64,
     swings: u32,
+}
+
+/// A way along a path.
+#[derive(Clone, Debug)]
+struct Way {
+    path: Vec<Segment>,
+    /// The segment on which the robot is, and how far along.
+    index: usize,
+    along: f64,
+    /// The length of what comes after that segment.
+    rest: f64,
+    /// How fast the robot may be on it, and on the next one, in cm/s.
+    fastest: f64,
+    fastest_next: Option<f64>,
+}
+
+impl Way {
+    fn part(&self) -> &Segment {
+        &self.path[self.index]
+    }
 }
 
 /// How far apart points of a course are, in cm.
@@ -169,7 +184,7 @@ impl Steering {
             points
         };
         let mut points = match phase {
-            Phase::Following { path, index, .. } => sampled(path.get(*index..).unwrap_or_default()),
+            Phase::Following(way) => sampled(&way.path[way.index..]),
             Phase::Next | Phase::Turning(_) => Vec::new(),
         };
         for leg in legs {
@@ -244,9 +259,7 @@ impl Steering {
                     None => return Order::Arrived,
                 },
                 Phase::Turning(turn) => return self.turn_on(pose, seconds, turn),
-                Phase::Following { path, index, along, rest } => {
-                    return self.follow_on(pose, seconds, path, (index, along, rest));
-                }
+                Phase::Following(way) => return self.follow_on(pose, seconds, way),
             }
         }
     }
@@ -383,8 +396,7 @@ impl Steering {
         if let Some(last) = path.last() {
             self.goal = Pose { heading, ..last.end() };
         }
-        let rest = rest(&path, 0);
-        Phase::Following { path, index: 0, along: 0.0, rest }
+        Phase::Following(self.way_from(path, 0))
     }
 
     fn turn_on(&mut self, pose: Pose, seconds: f64, mut turn: Turn) -> Order {
@@ -397,7 +409,7 @@ impl Steering {
         if off.abs() < LANDING_TURN && is_slow && self.rate.abs() < 2.0 || turn.swings > SWINGS {
             return self.land_turn(pose, turn);
         }
-        let half_axle = self.wheels.axle / 2.0;
+        let half_axle = self.wheels.axle() / 2.0;
         let acceleration = self.limits.acceleration / half_axle;
         let left = (off.to_radians() - self.rate * LAG).abs();
         let most = libm::sqrt(2.0 * BRAKING * acceleration * left);
@@ -415,56 +427,55 @@ impl Steering {
         Order::Land(self.wheels.ways(back, off))
     }
 
-    fn follow_on(
-        &mut self,
-        pose: Pose,
-        seconds: f64,
-        path: Vec<Segment>,
-        (mut index, mut along, mut after): (usize, f64, f64),
-    ) -> Order {
+    fn follow_on(&mut self, pose: Pose, seconds: f64, mut way: Way) -> Order {
         let sign = if self.is_backwards { -1.0 } else { 1.0 };
-        let mut place = path[index].locate([pose.x, pose.y], along);
-        while place.along > path[index].length() && index + 1 < path.len() {
-            along = place.along - path[index].length();
-            index += 1;
-            after = rest(&path, index);
-            place = path[index].locate([pose.x, pose.y], along);
+        // Where the robot is when the motors have followed. What they are told to do
+        // now counts from there.
+        let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
+        let mut place = way.part().locate(soon.point(), way.along);
+        while place.along > way.part().length() && way.index + 1 < way.path.len() {
+            let beyond = place.along - way.part().length();
+            way = self.way_from(way.path, way.index + 1);
+            place = way.part().locate(soon.point(), beyond);
         }
-        along = place.along;
-        let left = after + path[index].length() - along;
-        let speed = self.speed * sign;
-        if left - speed * LAG < LANDING && index + 1 == path.len() {
-            let end = self.goal.heading;
-            let turn = (end - pose.heading).to_radians();
-            self.set_phase(Phase::Following { path, index, along, rest: after });
+        way.along = place.along;
+        let part = *way.part();
+        let left = way.rest + part.length() - way.along;
+        if left < LANDING && way.index + 1 == way.path.len() {
+            let left = part.length() - part.locate(pose.point(), way.along).along;
+            let turn = (self.goal.heading - pose.heading).to_radians();
+            self.set_phase(Phase::Following(way));
             return Order::Land(self.wheels.ways(left * sign, turn));
         }
-        let part = path[index];
         let braking = 2.0 * BRAKING * self.limits.acceleration;
-        let most = self.fastest_on(&part);
-        let to_the_end = braked(most, braking * (left - speed * LAG).max(0.0));
-        let mut most = most.min(to_the_end.max(2.0));
-        if let Some(next) = path.get(index + 1) {
+        let to_the_end = braked(way.fastest, braking * left.max(0.0));
+        let mut most = way.fastest.min(to_the_end.max(2.0));
+        if let Some(limit) = way.fastest_next {
             // Slow down for a tighter part before it comes.
-            let limit = self.fastest_on(next);
-            let room = (part.length() - along).max(0.0);
+            let room = (part.length() - way.along).max(0.0);
             most = braked(most, limit * limit + braking * room);
         }
-        let speed = approach(speed, most, self.limits.acceleration * seconds)
-            .min(most.max(speed - 1.5 * self.limits.acceleration * seconds));
-        // Where the robot is when the motors have followed.
-        let soon = pose.along_arc(self.speed * LAG, (self.rate * LAG).to_degrees());
-        let place = part.locate([soon.x, soon.y], along);
+        let step = self.limits.acceleration * seconds;
+        let speed = self.speed * sign;
+        let speed = approach(speed, most, step).min(most.max(speed - 1.5 * step));
         let ahead = place.along.clamp(0.0, part.length());
-        let (aim, bend) = ((speed * LOOKAHEAD).max(NEAREST_AIM), part.curvature().abs());
-        let aim = if aim * bend > 1.0 { 1.0 / bend } else { aim };
-        let back = libm::asin((place.aside / aim).clamp(-1.0, 1.0)).to_degrees();
-        let heading = self.travel(part.heading_at(ahead)) - back;
-        let off = wrapped(heading - soon.heading).to_radians();
+        let radius = part.radius().map_or(f64::INFINITY, f64::abs);
+        let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(radius);
+        let back = (place.aside / aim).clamp(-FRAC_PI_2, FRAC_PI_2);
+        let tangent = self.travel(part.heading_at(ahead));
+        let off = wrapped(tangent - soon.heading).to_radians() - back;
         self.speed = speed * sign;
         self.rate = speed * part.curvature() + HEADING_GAIN * off;
-        self.set_phase(Phase::Following { path, index, along, rest: after });
+        self.set_phase(Phase::Following(way));
         Order::Roll(self.ways())
+    }
+
+    /// The way along a path from the start of one of its segments.
+    fn way_from(&self, path: Vec<Segment>, index: usize) -> Way {
+        let fastest = self.fastest_on(&path[index]);
+        let fastest_next = path.get(index + 1).map(|next| self.fastest_on(next));
+        let rest = path.iter().skip(index + 1).map(Segment::length).sum();
+        Way { path, index, along: 0.0, rest, fastest, fastest_next }
     }
 
     /// The speed on a segment, where the outer wheel is to be no faster than it may.
@@ -472,7 +483,7 @@ impl Steering {
         if part.curvature() == 0.0 {
             return self.limits.speed;
         }
-        self.limits.speed / (1.0 + part.curvature().abs() * self.wheels.axle / 2.0)
+        self.limits.speed / (1.0 + part.curvature().abs() * self.wheels.axle() / 2.0)
     }
 
     fn cruise_on(
@@ -482,7 +493,7 @@ impl Steering {
         (speed, rate): (f64, f64),
         held: Option<f64>,
     ) -> Order {
-        let half_axle = self.wheels.axle / 2.0;
+        let half_axle = self.wheels.axle() / 2.0;
         let acceleration = self.limits.acceleration;
         self.speed = approach(self.speed, speed, acceleration * seconds);
         self.rate = approach(self.rate, rate, 2.0 * acceleration / half_axle * seconds);
@@ -505,11 +516,6 @@ impl Steering {
 fn strayed(pose: Pose, [x, y]: [f64; 2]) -> f64 {
     let (sin, cos) = libm::sincos(pose.heading.to_radians());
     (pose.x - x) * sin + (pose.y - y) * cos
-}
-
-/// The length of a path behind one of its segments.
-fn rest(path: &[Segment], index: usize) -> f64 {
-    path.iter().skip(index + 1).map(Segment::length).sum()
 }
 
 /// A speed, or that of the given square if it is less. The compiler would take the

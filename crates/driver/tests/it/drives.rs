@@ -37,12 +37,7 @@ impl Driven {
         let registry = brick.devices();
         let robot = Robot {
             ports: ["outB".to_owned(), "outC".to_owned()],
-            wheels: Wheels {
-                diameters: [5.0, 5.0],
-                inverted: [false, false],
-                axle: 11.0,
-                offset: 0.0,
-            },
+            wheels: Wheels::new([5.0, 5.0], [false, false], 11.0, 0.0),
         };
         let drive = Drive::new(Arc::clone(&registry), &robot);
         Self { brick, registry, drive }

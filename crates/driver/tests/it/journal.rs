@@ -61,8 +61,7 @@ fn a_reset_motor_has_no_known_set_points() {
 fn a_course_is_noted_when_it_begins_and_ends_and_not_in_between() {
     let brick = Brick::new(&["outB", "outC"]);
     let registry = brick.devices();
-    let wheels =
-        Wheels { diameters: [5.0, 5.0], inverted: [false, false], axle: 11.0, offset: 0.0 };
+    let wheels = Wheels::new([5.0, 5.0], [false, false], 11.0, 0.0);
     let robot = Robot { ports: ["outB".to_owned(), "outC".to_owned()], wheels };
     let drive = Drive::new(Arc::clone(&registry), &robot);
     let options = DriveOptions {

@@ -3,8 +3,7 @@ use ev3_driver::drive::odometry::{Estimate, Wheels};
 use ev3_motion::{Pose, wrapped};
 use proptest::prelude::*;
 
-const WHEELS: Wheels =
-    Wheels { diameters: [5.6, 5.6], inverted: [false, false], axle: 10.6, offset: 0.0 };
+const WHEELS: Wheels = Wheels::new([5.6, 5.6], [false, false], 10.6, 0.0);
 
 fn near(a: Pose, b: Pose, within: f64) -> bool {
     (a.x - b.x).hypot(a.y - b.y) <= within && (a.heading - b.heading).abs() <= within
@@ -20,7 +19,7 @@ fn a_quarter_circle_to_the_right_ends_ahead_and_to_the_right() {
 
 #[test]
 fn a_wheel_whose_motor_is_inverted_rolls_the_other_way() {
-    let wheels = Wheels { inverted: [true, false], ..WHEELS };
+    let wheels = Wheels::new(WHEELS.diameters, [true, false], WHEELS.axle(), 0.0);
     assert!(wheels.cm_per_count(0, 360.0) < 0.0);
     assert!((wheels.cm_per_count(1, 360.0) * 360.0 - 17.593).abs() < 0.001);
 }
@@ -104,7 +103,8 @@ impl Ride {
         while self.seconds < end {
             let ways = WHEELS.ways(speed * Self::STEP, rate.to_radians() * Self::STEP);
             let [left, right, axle] = self.errors;
-            let really = Wheels { axle: WHEELS.axle / (1.0 + axle), ..WHEELS };
+            let axle = WHEELS.axle() / (1.0 + axle);
+            let really = Wheels::new(WHEELS.diameters, WHEELS.inverted, axle, 0.0);
             self.truth.predict(
                 &really,
                 [ways[0] * (1.0 + left), ways[1] * (1.0 + right)],
@@ -174,7 +174,7 @@ fn other_wheels_are_not_the_ones_that_were_learned() {
     let before = ride.estimate.pose();
     ride.estimate.forget_wheels();
     assert!(near(ride.estimate.pose(), before, 1e-9));
-    let half = std::f64::consts::PI * WHEELS.axle / 2.0;
+    let half = std::f64::consts::PI * WHEELS.axle() / 2.0;
     ride.estimate.predict(&WHEELS, [half, -half], 1.0);
     let turned = ride.estimate.pose().heading - before.heading;
     assert!((turned - 180.0).abs() < 1e-6, "{turned}");

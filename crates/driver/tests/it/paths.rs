@@ -4,8 +4,7 @@ use ev3_driver::drive::steering::{Leg, Limits, Order, Steering};
 use ev3_motion::Pose;
 use proptest::prelude::*;
 
-const WHEELS: Wheels =
-    Wheels { diameters: [5.6, 5.6], inverted: [false, false], axle: 10.6, offset: 0.0 };
+const WHEELS: Wheels = Wheels::new([5.6, 5.6], [false, false], 10.6, 0.0);
 const LIMITS: Limits = Limits { speed: 20.0, acceleration: 50.0 };
 
 /// Steers a robot whose motors follow with a lag of 30 ms, and whose wheels make
