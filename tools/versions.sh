@@ -50,6 +50,8 @@ try() {
     mkdir -p "$home" "$tree"
     tar -xzf "$archive" -C "$tree"
     cp -R "$root/tests" "$tree/ev3dev/"
+    # What the tests try beside the pack
+    install -D "$root/tools/demo.pl" "$tree/ev3dev/tools/demo.pl"
     built_swipl "$name" >/dev/null || "$root/tools/emulate.sh" "$name" >/dev/null
 
     cp "$archive" "$home/"
