@@ -4,6 +4,8 @@
 //! the one before, and rounds up: a timer fires in the jiffy after the one that was asked for, a
 //! long one up to an eighth of its length later.
 
+use std::cmp::Reverse;
+
 use crate::ticks::JIFFY_TICKS;
 
 const JIFFY_MS: u32 = 10;
@@ -43,10 +45,10 @@ impl Timer {
         self.due <= now
     }
 
-    /// Of two timers that are due in the same jiffy the coarser one fires first, then the one
-    /// that was set later.
-    pub(crate) fn is_before(self, other: Timer) -> bool {
-        (self.level, self.set) > (other.level, other.set)
+    /// Of timers that are due in the same jiffy the coarser one fires first, then the one that was
+    /// set later: the least of this.
+    pub(crate) fn turn(self) -> Reverse<(u32, u64)> {
+        Reverse((self.level, self.set))
     }
 
     /// The tick of the motor loop in which it fires.
@@ -83,7 +85,7 @@ mod tests {
     fn of_timers_that_fire_together_the_coarser_is_first_then_the_later() {
         let (coarse, fine) = (Timer::new(0, 71), Timer::new(68, 3));
         assert_eq!(coarse.due, fine.due);
-        assert!(coarse.is_before(fine) && !fine.is_before(coarse));
-        assert!(Timer::new(6, 4).is_before(Timer::new(0, 10)));
+        assert!(coarse.turn() < fine.turn());
+        assert!(Timer::new(6, 4).turn() < Timer::new(0, 10).turn());
     }
 }

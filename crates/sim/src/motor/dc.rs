@@ -114,11 +114,17 @@ impl DcMotor {
         }
     }
 
-    /// One step. A run with the duty that it has already does nothing at all.
+    /// A step, and the next one if it is due at once.
     fn step(&mut self) {
+        while self.step_once() {}
+    }
+
+    /// One step. A run with the duty that it has already does nothing at all. True if the next
+    /// one is due at once.
+    fn step_once(&mut self) -> bool {
         let runs = self.command != STOP;
         if runs && self.active.duty == self.duty {
-            return;
+            return false;
         }
         let now = jiffy(self.now);
         let left = self.ends.saturating_sub(now);
@@ -136,15 +142,14 @@ impl DcMotor {
         };
         self.output.drive(pins, self.duty);
         if !runs && !self.output.is_driving() {
-            return;
+            return false;
         }
         let passed = now - self.stepped;
         self.stepped = now;
         if passed < PERIOD {
             self.step_timer = Some(Timer::new(now, PERIOD - passed));
-        } else {
-            self.step();
         }
+        passed >= PERIOD
     }
 
     /// Every 2 ms; its timers live on the 10 ms grid.
@@ -153,13 +158,18 @@ impl DcMotor {
         if now % JIFFY_TICKS != 0 {
             return;
         }
-        if self.step_timer.is_some_and(|timer| timer.is_due(jiffy(now))) {
-            self.step_timer = None;
-            self.step();
-        }
-        if self.stop_timer.is_some_and(|timer| timer.is_due(jiffy(now))) {
-            self.stop_timer = None;
-            self.time_is_up();
+        let is_due = |timer: &mut Timer| timer.is_due(jiffy(now));
+        match (self.step_timer.take_if(is_due), self.stop_timer.take_if(is_due)) {
+            (Some(step), Some(end)) => {
+                // The step that would follow at once is the first one of the stop.
+                if step.turn() < end.turn() {
+                    self.step_once();
+                }
+                self.time_is_up();
+            }
+            (Some(_), None) => self.step(),
+            (None, Some(_)) => self.time_is_up(),
+            (None, None) => {}
         }
     }
 

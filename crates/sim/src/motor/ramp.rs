@@ -58,8 +58,11 @@ impl Tacho {
             self.ramping = false;
             self.ramp.end
         } else {
-            let left = i64::from(self.ramp.change) * left / i64::from(self.ramp.duration);
-            self.ramp.end.wrapping_sub(i32::try_from(left).unwrap_or(0))
+            // In the 32 bits of the kernel's int.
+            let left = i32::try_from(left).unwrap_or(i32::MAX);
+            let duration = i32::try_from(self.ramp.duration).unwrap_or(i32::MAX);
+            let off = self.ramp.change.wrapping_mul(left).wrapping_div(duration);
+            self.ramp.end.wrapping_sub(off)
         };
         if self.command.is_position_move() {
             self.run_to(self.active.position, self.ramp.last);

@@ -4,6 +4,9 @@ use super::{Drive, NOTIFY_JIFFIES, STALL_TICKS, Tacho};
 use crate::ticks::JIFFY_TICKS;
 use crate::wheel::{Timer, jiffy};
 
+/// What a timer does in a jiffy.
+type Work = fn(&mut Tacho, u64);
+
 impl Tacho {
     /// One turn of the driver's loop: position, speed, stall test, PID, target test; then, every
     /// 10 ms, the timers.
@@ -64,32 +67,34 @@ impl Tacho {
 
     fn run_timers(&mut self) {
         let now = jiffy(self.now);
-        let due = |timer: Option<Timer>| timer.filter(|timer| timer.is_due(now));
-        let both = due(self.stop_timer).zip(due(self.ramp_timer));
-        let ramp_first = both.is_some_and(|(stop, ramp)| ramp.is_before(stop));
-        if ramp_first {
-            self.run_ramp_timer(now);
+        let mut timers: [(Option<Timer>, Work); 3] = [
+            (self.stop_timer, Self::run_stop_timer),
+            (self.ramp_timer, Self::run_ramp_timer),
+            (Some(self.notify_timer), Self::run_notify_timer),
+        ];
+        timers.sort_by_key(|(timer, _)| timer.map(Timer::turn));
+        for (timer, run) in timers {
+            if timer.is_some_and(|timer| timer.is_due(now)) {
+                run(self, now);
+            }
         }
-        if due(self.stop_timer).is_some() {
-            self.stop_timer = None;
+    }
+
+    fn run_stop_timer(&mut self, now: u64) {
+        if self.stop_timer.take_if(|timer| timer.is_due(now)).is_some() {
             self.time_is_up();
-        }
-        self.run_ramp_timer(now);
-        if self.notify_timer.is_due(now) {
-            self.notify_timer = Timer::new(now, NOTIFY_JIFFIES);
-            self.notify();
         }
     }
 
     fn run_ramp_timer(&mut self, now: u64) {
-        if self.ramp_timer.is_some_and(|timer| timer.is_due(now)) {
-            self.ramp_timer = None;
+        if self.ramp_timer.take_if(|timer| timer.is_due(now)).is_some() {
             self.ramp_step();
         }
     }
 
     /// The class's look at the flags, which wakes those who poll `state`.
-    fn notify(&mut self) {
+    fn run_notify_timer(&mut self, now: u64) {
+        self.notify_timer = Timer::new(now, NOTIFY_JIFFIES);
         let flags = self.flags();
         if flags != self.seen_flags {
             self.seen_flags = flags;

@@ -49,16 +49,15 @@ impl Servo {
         })
     }
 
-    /// Microseconds from the middle to 100 %, on the side of a sign.
-    fn half(&self, low: bool) -> i32 {
-        let [min, mid, max] = self.pulses;
-        if low { mid - min } else { max - mid }
-    }
-
     /// Sends the position to the controller.
     fn send(&mut self) {
         let position = if self.inversed { -self.position } else { self.position };
-        self.pulse = self.pulses[1] + self.half(position < 0) * position / 100;
+        let [min, mid, max] = self.pulses;
+        self.pulse = if position > 0 {
+            scaled(position, [0, 100], [mid, max])
+        } else {
+            scaled(position, [-100, 0], [min, mid])
+        };
     }
 
     fn command(&mut self, running: bool) {
@@ -74,9 +73,12 @@ impl Servo {
 
     /// The pulse as a position.
     fn read_back(&self) -> i32 {
-        let off = self.pulse - self.pulses[1];
-        // Two pulses may be as long.
-        (off * 100).checked_div(self.half(off < 0)).unwrap_or(0)
+        let [min, mid, max] = self.pulses;
+        if self.pulse < mid {
+            scaled(self.pulse, [min, mid], [-100, 0])
+        } else {
+            scaled(self.pulse, [mid, max], [0, 100])
+        }
     }
 
     fn set_pulse(&mut self, index: usize, bytes: &[u8]) -> Result<Effect, Errno> {
@@ -84,6 +86,13 @@ impl Servo {
         self.pulses[index] = lenient_int_in(bytes, low, low + 1000)?;
         Ok(Effect::Done)
     }
+}
+
+/// A value of one range in another one, upwards from the lower end of both, as the driver has
+/// it: what a division leaves over is lost on the side of that end. Where a range is empty the
+/// processor's division gives 0.
+fn scaled(value: i32, [from, to]: [i32; 2], [low, high]: [i32; 2]) -> i32 {
+    ((value - from) * (high - low)).checked_div(to - from).unwrap_or(0) + low
 }
 
 impl Table for Servo {
@@ -101,9 +110,12 @@ impl Table for Servo {
             "polarity",
             |s| text(POLARITIES[usize::from(s.inversed)]),
             |s, bytes| {
-                s.inversed = word(bytes, POLARITIES.into_iter())? == 1;
-                if s.running {
-                    s.send();
+                let inversed = word(bytes, POLARITIES.into_iter())? == 1;
+                if s.inversed != inversed {
+                    s.inversed = inversed;
+                    if s.running {
+                        s.send();
+                    }
                 }
                 Ok(Effect::Done)
             },

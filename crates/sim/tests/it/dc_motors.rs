@@ -96,6 +96,23 @@ fn it_turns_the_motor_that_is_plugged_in() {
 }
 
 #[test]
+fn a_timed_run_that_ends_with_a_step_of_its_ramp_stops_in_that_step() {
+    for (ramp, time) in [(1000, 100), (2000, 210), (10_000, 320), (10_000, 540)] {
+        let mut desk = desk();
+        desk.put(&file("ramp_up_sp"), ramp);
+        desk.put(&file("duty_cycle_sp"), 100);
+        desk.put(&file("time_sp"), time);
+        desk.put(&file("command"), "run-timed");
+        let mut took = 0;
+        while !desk.get(&file("state")).is_empty() {
+            desk.step(2);
+            took += 2;
+        }
+        assert!((time..=time + 10).contains(&took), "{time} ms took {took}");
+    }
+}
+
+#[test]
 fn ramps_follow_the_signed_duty() {
     let mut desk = desk();
     desk.put(&file("ramp_down_sp"), 1000);

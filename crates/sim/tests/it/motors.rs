@@ -588,3 +588,47 @@ fn the_stamps_made_at_rest_make_a_start_look_slow_and_so_it_is_harder() {
         assert!((1110..1130).contains(&most), "{most}");
     }
 }
+
+/// The timers of a jiffy run in the order in which the wheel has them: the look at the flags,
+/// which was set later, comes before the end of a timed run, and sees it one look later.
+#[test]
+fn a_run_that_ends_in_a_jiffy_of_the_look_at_the_flags_wakes_60_ms_later() {
+    for (time, start, stops, wakes) in
+        [(110, 0, 120, 180), (133, 30, 180, 240), (500, 90, 600, 660)]
+    {
+        let mut desk = Desk::new();
+        desk.step(start);
+        desk.put(&format!("{B}speed_sp"), 300);
+        desk.put(&format!("{B}time_sp"), time);
+        desk.put(&format!("{B}command"), "run-timed");
+        let node = desk.0.open(&format!("{B}state"), Access::ReadOnly).unwrap();
+        let (mut stopped, mut woken) = (0, 0);
+        for now in (start + 2..1000).step_by(2) {
+            let before = desk.0.event_count(node).unwrap();
+            desk.step(2);
+            if desk.0.event_count(node).unwrap() != before {
+                woken = now;
+            }
+            if stopped == 0 && desk.get(&format!("{B}state")).is_empty() {
+                stopped = now;
+            }
+        }
+        assert_eq!((stopped, woken), (stops, wakes), "{time} ms from {start} ms on");
+    }
+}
+
+/// The kernel's numbers have 32 bits: one that is accepted and overflows in the arithmetic of a
+/// ramp makes the motor turn elsewhere.
+#[test]
+fn a_ramp_to_the_smallest_number_overflows() {
+    let mut desk = Desk::new();
+    desk.run(B, &[("speed_sp", -200)], "run-forever");
+    desk.step(1500);
+    assert_eq!(desk.speed(B), -200);
+    let set = [("ramp_up_sp", 10), ("ramp_down_sp", 10), ("speed_sp", i32::MIN)];
+    desk.run(B, &set, "run-forever");
+    desk.step(2);
+    assert_eq!(desk.state(B), "running ramping");
+    let duty = desk.number(&format!("{B}duty_cycle"));
+    assert!((80..=90).contains(&duty), "{duty}: ahead, not back");
+}

@@ -71,6 +71,29 @@ fn files_and_their_limits() {
 }
 
 #[test]
+fn what_a_division_leaves_over_is_lost_upwards_from_the_lower_end() {
+    let mut desk = desk();
+    desk.put(&file("min_pulse_sp"), 501);
+    desk.put(&file("command"), "run");
+    for (position, read) in [(-50, -51), (-33, -34), (-100, -100), (0, 0), (33, 33)] {
+        desk.put(&file("position_sp"), position);
+        assert_eq!(desk.number(&file("position_sp")), read, "{position}");
+    }
+}
+
+#[test]
+fn the_polarity_that_it_has_sends_nothing() {
+    let mut desk = desk();
+    desk.put(&file("command"), "run");
+    desk.put(&file("position_sp"), 100);
+    desk.put(&file("max_pulse_sp"), 2000);
+    desk.put(&file("polarity"), "normal");
+    assert_eq!(desk.number(&file("position_sp")), 200, "2500 us");
+    desk.put(&file("polarity"), "inversed");
+    assert_eq!(desk.number(&file("position_sp")), -100);
+}
+
+#[test]
 fn a_position_is_the_length_of_a_pulse() {
     let mut desk = desk();
     desk.put(&file("position_sp"), 40);
