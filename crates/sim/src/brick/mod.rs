@@ -84,16 +84,15 @@ impl Led {
     }
 
     fn set_trigger(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
-        let before = self.trigger;
-        self.trigger = word(bytes, TRIGGERS.into_iter())?;
+        let before = std::mem::replace(&mut self.trigger, word(bytes, TRIGGERS.into_iter())?);
+        // The end of a trigger switches the light off.
+        if before != NONE {
+            self.shine(0);
+        }
         match self.trigger {
-            NONE => self.shine(0),
             DEFAULT_ON => self.shine(self.full),
-            TIMER if before != TIMER => {
-                (self.delay_on, self.delay_off) = (500, 500);
-                if self.brightness() == 0 {
-                    self.shine(self.full);
-                }
+            TIMER => {
+                self.blink(0, 0);
                 return Ok(Effect::Appeared);
             }
             _ => {}
@@ -101,11 +100,25 @@ impl Led {
         Ok(Effect::Done)
     }
 
+    /// The light is on and off for these times, in ms; twice 0 is half a second each. While it
+    /// blinks the files show how bright it is when it is on.
+    fn blink(&mut self, delay_on: u32, delay_off: u32) {
+        let delays =
+            if delay_on == 0 && delay_off == 0 { (500, 500) } else { (delay_on, delay_off) };
+        (self.delay_on, self.delay_off) = delays;
+        if self.delay_on == 0 {
+            self.shine(0);
+        } else if self.brightness() == 0 {
+            self.shine(self.full);
+        }
+    }
+
+    /// Each name with a blank behind it.
     fn triggers(&self) -> String {
         let shown = TRIGGERS.iter().enumerate().map(|(index, name)| {
-            if index == self.trigger { format!("[{name}]") } else { (*name).to_owned() }
+            if index == self.trigger { format!("[{name}] ") } else { format!("{name} ") }
         });
-        shown.collect::<Vec<_>>().join(" ")
+        shown.collect()
     }
 }
 
@@ -116,7 +129,7 @@ impl Table for Led {
             "delay_off",
             |l: &Led| text(l.delay_off),
             |l, bytes| {
-                l.delay_off = strict_unsigned(bytes)?;
+                l.blink(l.delay_on, strict_unsigned(bytes)?);
                 Ok(Effect::Done)
             },
         )
@@ -126,7 +139,7 @@ impl Table for Led {
             "delay_on",
             |l: &Led| text(l.delay_on),
             |l, bytes| {
-                l.delay_on = strict_unsigned(bytes)?;
+                l.blink(strict_unsigned(bytes)?, l.delay_off);
                 Ok(Effect::Done)
             },
         )

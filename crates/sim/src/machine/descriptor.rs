@@ -11,6 +11,8 @@ use crate::machine::{Machine, Written};
 pub struct Descriptor {
     node: NodeId,
     text: Vec<u8>,
+    /// Where the last read ended.
+    at: usize,
     seen: Option<u32>,
 }
 
@@ -26,7 +28,7 @@ impl Descriptor {
     /// Wraps a node that was opened already.
     #[must_use]
     pub const fn new(node: NodeId) -> Descriptor {
-        Descriptor { node, text: Vec::new(), seen: None }
+        Descriptor { node, text: Vec::new(), at: 0, seen: None }
     }
 
     /// The node behind it.
@@ -35,8 +37,9 @@ impl Descriptor {
         self.node
     }
 
-    /// Reads from an offset. At offset 0 the driver makes a new text. Elsewhere this gives the
-    /// rest of the last one, 0 bytes at its end. A binary attribute is read again at each offset.
+    /// Reads from an offset. Where the last read ended this gives the rest of its text, 0 bytes
+    /// at its end. At any other offset, and at 0, the driver makes a new text. A binary attribute
+    /// is read again at each offset.
     ///
     /// # Errors
     /// ENODEV after an unplug; what the driver answers.
@@ -51,13 +54,14 @@ impl Descriptor {
             buffer[..bytes.len()].copy_from_slice(&bytes);
             return Ok(bytes.len());
         }
-        if offset == 0 || self.text.is_empty() {
+        if offset == 0 || offset != self.at {
             self.seen = Some(machine.event_count(self.node)?);
             self.text = machine.read(self.node)?;
         }
         let rest = self.text.get(offset..).unwrap_or(&[]);
         let length = rest.len().min(buffer.len());
         buffer[..length].copy_from_slice(&rest[..length]);
+        self.at = offset + length;
         Ok(length)
     }
 

@@ -199,7 +199,7 @@ enum Place<'a> {
 const FIRST_SERIAL: u64 = 16;
 const SERIAL_SHIFT: u32 = 8;
 const GROUP_BIT: u64 = 0x80;
-const PAGE: usize = 4096;
+pub(super) const PAGE: usize = 4096;
 /// The binary file of a sensor.
 const DIRECT: &str = "direct";
 
@@ -464,8 +464,7 @@ impl Tree {
         let device = self.device_mut(serial).ok_or(Errno::ENODEV)?;
         let room = device.room(row, offset);
         let Some(sensor) = device.direct_mut(row) else {
-            let text = &bytes[..bytes.len().min(PAGE)];
-            return device.hardware.files_mut().write(row, text).map(|effect| (effect, None));
+            return device.hardware.files_mut().write(row, bytes).map(|effect| (effect, None));
         };
         if room == 0 {
             return Err(Errno::EFBIG);

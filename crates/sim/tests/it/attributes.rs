@@ -88,7 +88,7 @@ const IN_PORT: &[Row] = &[
 const LED: &[Row] = &[
     ("brightness", 0o664, Ok("255")),
     ("max_brightness", 0o444, Ok("255")),
-    ("trigger", 0o664, Ok("[none] mmc0 timer heartbeat default-on transient rfkill0")),
+    ("trigger", 0o664, Ok("[none] mmc0 timer heartbeat default-on transient rfkill0 ")),
 ];
 
 const BATTERY: &[Row] = &[
@@ -278,7 +278,7 @@ fn the_tree_answers_as_a_file_system() {
 }
 
 #[test]
-fn a_descriptor_reads_anew_only_at_offset_0() {
+fn a_descriptor_reads_anew_but_where_it_stopped() {
     let mut desk = Desk::new();
     let mut file =
         Descriptor::open(&desk.0, "tacho-motor/motor1/driver_name", Access::ReadOnly).unwrap();
@@ -289,6 +289,24 @@ fn a_descriptor_reads_anew_only_at_offset_0() {
     assert_eq!(&buffer, b"ev3-l");
     assert_eq!(file.pread(&mut desk.0, 17, &mut buffer), Ok(0));
     assert_eq!(file.pread(&mut desk.0, 99, &mut buffer), Ok(0));
+    desk.put("tacho-motor/motor1/speed_sp", 123);
+    let mut file =
+        Descriptor::open(&desk.0, "tacho-motor/motor1/speed_sp", Access::ReadOnly).unwrap();
+    assert_eq!(file.pread(&mut desk.0, 0, &mut buffer[..2]), Ok(2));
+    desk.put("tacho-motor/motor1/speed_sp", 987);
+    assert_eq!(file.pread(&mut desk.0, 2, &mut buffer), Ok(2), "the rest of the text");
+    assert_eq!(&buffer[..2], b"3\n");
+    assert_eq!(file.pread(&mut desk.0, 1, &mut buffer), Ok(3), "a new one");
+    assert_eq!(&buffer[..3], b"87\n");
+}
+
+#[test]
+fn a_write_takes_a_page_at_a_time() {
+    let mut desk = Desk::new();
+    let mut file =
+        Descriptor::open(&desk.0, "tacho-motor/motor1/time_sp", Access::WriteOnly).unwrap();
+    let written = file.write(&mut desk.0, &[b'0'; 5000]).unwrap();
+    assert_eq!(written.outcome, Ok(4096));
 }
 
 #[test]
@@ -312,4 +330,36 @@ fn lights_blink_and_shine() {
     assert_eq!(desk.try_get(&file("delay_off")), Err(Errno::ENOENT));
     desk.put(&file("trigger"), "timer");
     assert_eq!(desk.get(&file("brightness")), "255", "a light that is off blinks at its brightest");
+}
+
+#[test]
+fn the_end_of_a_trigger_switches_a_light_off_and_no_trigger_has_no_end() {
+    let mut desk = Desk::new();
+    let file = |name: &str| format!("leds/led0:green:brick-status/{name}");
+    desk.put(&file("trigger"), "none");
+    assert_eq!(desk.get(&file("brightness")), "255");
+    for (trigger, brightness) in
+        [("default-on", "255"), ("transient", "0"), ("default-on", "255"), ("none", "0")]
+    {
+        desk.put(&file("trigger"), trigger);
+        assert_eq!(desk.get(&file("brightness")), brightness, "{trigger}");
+    }
+}
+
+#[test]
+fn a_light_that_blinks_anew_forgets_its_times() {
+    let mut desk = Desk::new();
+    let file = |name: &str| format!("leds/led0:green:brick-status/{name}");
+    let mut times = |on: &str, off: &str| {
+        desk.put(&file("trigger"), "timer");
+        desk.step(500);
+        desk.put(&file("delay_on"), on);
+        desk.put(&file("delay_off"), off);
+        ["delay_on", "delay_off", "brightness"].map(|name| desk.get(&file(name)))
+    };
+    assert_eq!(times("100", "200"), ["100", "200", "255"]);
+    assert_eq!(times("0", "0"), ["500", "500", "255"], "both at 0 are half a second each");
+    assert_eq!(times("0", "7"), ["0", "7", "0"], "never on");
+    desk.put(&file("trigger"), "timer");
+    assert_eq!(desk.get(&file("delay_off")), "500");
 }
