@@ -142,12 +142,18 @@ test(a_port_is_put_into_a_mode_for_it,
 test(a_bumper_is_a_switch_to_5_volts,
      [forall(behaving(Tree)), true(Free-Pressed == 0.0-5.0)]) :-
     with_sensor(Tree, 'lego-ev3-touch', [],
-                ( port_mode(in1, 'nxt-analog'),
+                ( port_mode(in1, 'ev3-analog'),
                   settle(Tree),
                   analog_voltage(in1, Free),
                   sim_press(in1),
                   settle(Tree),
                   analog_voltage(in1, Pressed) )).
+test(pin_1_has_the_resistor_by_which_the_port_knows_it,
+     [forall(behaving(Tree)), true(V == 0.417)]) :-
+    with_sensor(Tree, 'lego-ev3-touch', [],
+                ( port_mode(in1, 'nxt-analog'),
+                  settle(Tree),
+                  analog_voltage(in1, V) )).
 test(can_be_waited_for, true(Reason == reached)) :-
     with_tree(simulator, [in1-'nxt-analog'],
               ( sim_at(1, sim_show(in1, value0, 3000)),

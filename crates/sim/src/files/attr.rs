@@ -41,6 +41,8 @@ pub(crate) enum Effect {
     Done,
     /// The write call returns to its caller only after this time.
     Blocks(Duration),
+    /// A sensor is read once in a mode, and the write call returns after this time.
+    Reads(usize, Duration),
     /// The write call returns only after this time, with the error ETIMEDOUT.
     TimesOut(Duration),
     /// A port's mode was written (perhaps the same one): its device goes, another may come.

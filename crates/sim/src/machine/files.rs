@@ -6,11 +6,12 @@ use crate::brick::port::Port;
 use crate::files::attr::{Access, Effect};
 use crate::files::errno::Errno;
 use crate::machine::descriptor::Descriptor;
-use crate::machine::tree::{Entry, Hardware, NodeId, Stat, Tree};
+use crate::machine::socket::Plug;
+use crate::machine::tree::{Entry, Hardware, NodeId, PAGE, Stat, Tree};
 use crate::machine::{Machine, Written};
 use crate::noise::{Noise, Source};
 use crate::sense::View;
-use crate::sensor::{Reading, Sensor};
+use crate::sensor::{Link, Mode, Reading, SUPPLY_MV, Sensor};
 use crate::ticks::JIFFY_TICKS;
 use crate::trace::Action;
 use crate::world::geometry::Pose;
@@ -138,6 +139,8 @@ impl Machine {
         offset: usize,
         bytes: &[u8],
     ) -> Result<Written, Errno> {
+        // The kernel takes a page at a time (`kernfs_fop_write`).
+        let bytes = &bytes[..bytes.len().min(PAGE)];
         let mut written = Written { outcome: Ok(bytes.len()), blocks: Duration::ZERO };
         if bytes.is_empty() {
             return Ok(written);
@@ -154,6 +157,10 @@ impl Machine {
         let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
         match (effect, port) {
             (Effect::Blocks(time), _) => written.blocks = time,
+            (Effect::Reads(mode, time), _) => {
+                written.blocks = time;
+                self.read_in(Tree::owner(node), mode);
+            }
             (Effect::TimesOut(time), _) => {
                 (written.blocks, written.outcome) = (time, Err(Errno::ETIMEDOUT));
             }
@@ -221,8 +228,35 @@ impl Machine {
         }
     }
 
+    /// A sensor on the bus is read once, in a mode.
+    fn read_in(&mut self, serial: u64, mode: usize) {
+        let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
+            return;
+        };
+        let reading = self.measure_in(sensor, &sensor.kind.modes[mode]);
+        if let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) {
+            sensor.take_in(mode, reading);
+        }
+    }
+
+    /// The raw data that a sensor would send now.
     pub(crate) fn measure(&self, sensor: &Sensor) -> Reading {
-        self.view(sensor).measure(sensor.mode().sense)
+        self.measure_in(sensor, sensor.mode())
+    }
+
+    fn measure_in(&self, sensor: &Sensor, mode: &Mode) -> Reading {
+        let (link, plug) = (sensor.kind.link, self.sockets[sensor.port() as usize].plug);
+        let is_its = matches!(plug, Some(Plug::Sensor(kind)) if std::ptr::eq(kind, sensor.kind));
+        let raw = |mode: &Mode| mode.raw(self.view(sensor).measure(mode.sense));
+        let reading = match link {
+            Link::NxtAnalog { .. } if !is_its => {
+                [plug.map_or(SUPPLY_MV, |plug| plug.pin1(mode, raw)); 8]
+            }
+            _ => raw(mode),
+        };
+        // A voltage is one number.
+        let numbers = if link.is_analog() { 1 } else { reading.len() };
+        std::array::from_fn(|index| if index < numbers { reading[index] } else { 0 })
     }
 
     /// The world as a sensor sees it now.

@@ -64,6 +64,10 @@ impl Machine {
             self.held[port as usize] = is_press;
             let action = if is_press { Action::Pressed } else { Action::Released };
             self.trace.event(self.now, action, &[], port.name());
+            // A hand takes its time: the kernel has noticed when it is done.
+            if let Some(serial) = self.sockets[port as usize].device {
+                self.sample(serial);
+            }
         }
         is_touch
     }
@@ -77,7 +81,19 @@ impl Machine {
 
     fn change_plug(&mut self, port: Port, plug: Option<Plug>) {
         self.held[port as usize] = false;
-        self.sockets[port as usize].change(plug, self.tick);
+        let is_looked_for = self.lego_port(port).is_some_and(|port| port.mode_name() == "auto");
+        let socket = &mut self.sockets[port as usize];
+        socket.change(plug, self.tick);
+        let device = socket.device.and_then(|serial| self.tree.hardware_mut(serial));
+        if let (Some(Hardware::Sensor(sensor)), false) = (device, is_looked_for) {
+            let is_its =
+                matches!(plug, Some(Plug::Sensor(kind)) if std::ptr::eq(kind, sensor.kind));
+            sensor.connect(is_its);
+            // Another sensor on a serial line tells the driver what it is.
+            if is_its || plug.is_none() {
+                socket.due = None;
+            }
+        }
         self.if_instant(port);
     }
 
@@ -184,8 +200,11 @@ impl Machine {
         };
         let hardware = hardware.filter(|hardware| mode != "auto" || !self.is_unknown(hardware));
         let closed = if at_boot { 0 } else { self.tick + self.udev_ticks() };
-        self.sockets[port as usize].device =
-            hardware.map(|hardware| self.tree.add(hardware, closed));
+        let device = hardware.map(|hardware| self.tree.add(hardware, closed));
+        self.sockets[port as usize].device = device;
+        if let Some(serial) = device.filter(|_| at_boot || self.options.instant) {
+            self.sample(serial);
+        }
         if matches!(plug, Some(Plug::Sensor(kind)) if kind.driver_name == servo::DRIVER) {
             let add = |servo| self.tree.add(Hardware::Servo(servo), closed);
             self.sockets[port as usize].servos = Servo::all(port).map(add).collect();
@@ -199,7 +218,8 @@ impl Machine {
             return false;
         };
         let is_told = self.sockets[sensor.port() as usize].forced.is_some();
-        !is_told && sensor.kind.driver_name == NXT_TOUCH && self.measure(sensor)[0] != 0
+        let is_pressed = || sensor.mode().scale.shown(self.measure(sensor)[0]) != 0;
+        !is_told && sensor.kind.driver_name == NXT_TOUCH && is_pressed()
     }
 
     /// How long udev takes to open new files to the group.

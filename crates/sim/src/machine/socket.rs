@@ -9,7 +9,7 @@
 use crate::brick::output::Output;
 use crate::brick::port::Port;
 use crate::motor::MotorKind;
-use crate::sensor::{Link, SensorKind};
+use crate::sensor::{INTRODUCTION_MS, Link, Mode, Reading, SUPPLY_MV, SensorKind};
 use crate::ticks::ticks_from_ms;
 
 /// From the plug to a new `status`.
@@ -17,7 +17,6 @@ const NOTICE_SENSOR_MS: i32 = 360;
 const NOTICE_MOTOR_MS: i32 = 390;
 /// From the status to the device.
 const REGISTER_MOTOR_MS: i32 = 10;
-const INTRODUCTION_MS: i32 = 1000;
 const I2C_BOOT_MS: i32 = 1000;
 const REMOVE_MS: i32 = 100;
 /// A port whose detection starts again waits for its pins to settle first.
@@ -26,6 +25,26 @@ const SETTLE_MS: i32 = 20;
 const GENERIC: &str = "nxt-analog";
 /// Its driver exists, but the kernel's table of names lacks it.
 const UNLOADABLE: &str = "di-dflex";
+
+/// The sensors of the EV3 that are a voltage: the millivolts that their resistor leaves on pin 1.
+const RESISTORS: [(&str, i32); 14] = [
+    ("ev3-analog-01", 206),
+    ("lego-ev3-touch", 417),
+    ("ev3-analog-03", 575),
+    ("ev3-analog-04", 833),
+    ("ev3-analog-05", 1063),
+    ("ev3-analog-06", 1241),
+    ("ev3-analog-07", 1403),
+    ("ev3-analog-08", 1599),
+    ("ev3-analog-09", 1795),
+    ("ev3-analog-10", 2024),
+    ("ev3-analog-11", 2204),
+    ("ev3-analog-12", 2382),
+    ("ev3-analog-13", 2619),
+    ("ev3-analog-14", 2826),
+];
+/// The generic driver's mode in which pin 5, which switches lamps, is low.
+const DARK: &str = "ANALOG-0";
 
 /// A thing with a plug.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +89,27 @@ impl Plug {
                 Link::Analog | Link::NxtAnalog { .. } => 0,
             },
         })
+    }
+
+    /// What it makes of pin 1, in millivolts, while another driver than its own has the port in
+    /// a mode; `raw` measures in a mode of its own.
+    pub(crate) fn pin1(self, driver: &Mode, raw: impl Fn(&Mode) -> Reading) -> i32 {
+        let Plug::Sensor(kind) = self else {
+            return SUPPLY_MV;
+        };
+        match kind.link {
+            Link::NxtAnalog { .. } => {
+                // Of two modes the first one has the lamp on.
+                let dark = kind.modes.last().filter(|_| driver.name == DARK);
+                dark.or(kind.modes.first()).map_or(SUPPLY_MV, |mode| raw(mode)[0])
+            }
+            Link::Analog => {
+                let own = RESISTORS.iter().find(|(name, _)| *name == kind.driver_name);
+                own.map_or(SUPPLY_MV, |(_, millivolts)| *millivolts)
+            }
+            Link::Uart => 0,
+            Link::I2c(_) => SUPPLY_MV,
+        }
     }
 
     pub(crate) fn is_serial(self) -> bool {

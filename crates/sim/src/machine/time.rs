@@ -212,7 +212,7 @@ impl Machine {
         if wheel.inverted { -rate } else { rate }
     }
 
-    fn sample(&mut self, serial: u64) {
+    pub(super) fn sample(&mut self, serial: u64) {
         let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
             return;
         };

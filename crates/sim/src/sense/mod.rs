@@ -5,7 +5,7 @@ mod infrared;
 pub(crate) mod sight;
 
 use crate::noise::Source;
-use crate::sensor::{Axle, Reading, Sense};
+use crate::sensor::{Axle, Reading, SUPPLY_MV, SWITCHED_MV, Sense};
 use crate::world::geometry::{Pose, Vec2, direction, length};
 use crate::world::scene::Scene;
 
@@ -92,7 +92,8 @@ impl View<'_> {
             Sense::Remote => reading = self.remotes(),
             Sense::RemoteBits => reading[0] = self.scene.remotes[0].bits(),
             Sense::Touch => reading[0] = i32::from(self.pressed()),
-            Sense::Volts => reading[0] = if self.pressed() { 5000 } else { 0 },
+            Sense::Volts => reading[0] = if self.pressed() { SUPPLY_MV } else { 0 },
+            Sense::Pin => reading[0] = if self.pressed() { SWITCHED_MV } else { SUPPLY_MV },
             Sense::FineReflection => reading[0] = self.fine_percent(View::reflection),
             Sense::FineAmbient => reading[0] = self.fine_percent(View::light),
             Sense::Silence => reading[0] = 1000 - self.fine_percent(|view| view.scene.loudness),

@@ -3,7 +3,7 @@
 use super::Sensor;
 use crate::files::attr::{Attr, Table, text, uevent, write_uevent};
 use crate::files::errno::Errno;
-use crate::files::text::{lenient_unsigned, word};
+use crate::files::text::word;
 
 macro_rules! value {
     ($name:literal, $index:literal) => {
@@ -17,10 +17,7 @@ impl Table for Sensor {
         Attr::ro("bin_data", |s: &Sensor| Ok(s.bin_data())).size(32).measured(),
         Attr::ro("bin_data_format", |s| text(s.mode().format.name())),
         // A sensor that has none, as those of the EV3 sets, lists a lone newline.
-        Attr::wo(
-            "command",
-            |s, bytes| Ok(s.command(word(bytes, s.kind.commands.iter().copied())?)),
-        ),
+        Attr::wo("command", |s, bytes| s.command(word(bytes, s.kind.commands.iter().copied())?)),
         Attr::ro("commands", |s| text(s.kind.commands.join(" "))),
         Attr::ro("decimals", |s| text(s.mode().decimals)),
         Attr::rw("direct", |s: &Sensor| s.direct_read(0, 255), |s, bytes| s.direct_write(0, bytes))
@@ -30,14 +27,7 @@ impl Table for Sensor {
         Attr::rw("mode", |s| text(s.mode().name), |s, bytes| s.select(word(bytes, s.modes())?)),
         Attr::ro("modes", |s| text(s.modes().collect::<Vec<_>>().join(" "))),
         Attr::ro("num_values", |s| text(s.mode().values)),
-        Attr::rw(
-            "poll_ms",
-            |s| text(s.poll_ms()?),
-            |s, bytes| {
-                s.poll_ms()?;
-                s.set_poll_ms(lenient_unsigned(bytes)?)
-            },
-        ),
+        Attr::rw("poll_ms", |s| text(s.poll_ms()?), Sensor::set_poll_ms),
         Attr::ro("text_value", |_| Err(Errno::EOPNOTSUPP)),
         Attr::rw(
             "uevent",

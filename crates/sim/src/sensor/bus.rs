@@ -1,15 +1,16 @@
 //! Sensors on the I2C bus.
 //!
 //! The kernel polls them: between two polls their values stay what they
-//! are. A write of the mode makes it be read once more, a moment later; each mode keeps what it
-//! was last read as. Without polling that one reading is still that of the mode before.
+//! are. A write of the mode makes it be read at once, and from then on; each mode keeps what it
+//! was last read as. Without polling that one reading is done before the write returns, and it is
+//! still that of the mode before.
 
 use std::time::Duration;
 
-use super::{Link, Sensor};
+use super::{Link, Reading, Sensor};
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
-use crate::files::text::signed;
+use crate::files::text::{lenient_unsigned, signed};
 use crate::ticks::{TICK_MS, ticks_from_ms};
 
 /// The time of one message on the I2C bus, and the time until the next answer.
@@ -48,34 +49,54 @@ impl Sensor {
         if has_one { VERSION } else { "" }
     }
 
-    /// True at the times when the kernel polls it. What measures once is not polled.
+    /// True at the times when the kernel polls it. What measures once shows the same then.
     pub(super) fn is_polled_now(&self) -> bool {
+        let is_due = self.poll_ms > 0 && self.now >= self.poll_at.max(self.settled_at);
+        is_due && (self.wanted || !self.measures_once())
+    }
+
+    /// It has been read: the next time is a period later.
+    pub(super) fn polled(&mut self) {
         let period = u64::from(self.poll_ms).div_ceil(TICK_MS);
-        let is_due = period > 0 && (self.now - self.plugged_at) % period == 0;
-        is_due && self.now >= self.settled_at && !self.measures_once()
+        if period > 0 && self.poll_at <= self.now {
+            self.poll_at += ((self.now - self.poll_at) / period + 1) * period;
+        }
     }
 
     /// The mode of a sensor on the I2C bus: one message, and one more reading.
-    pub(super) fn select_on_bus(&mut self, mode: usize) -> Effect {
-        let is_new = mode != self.mode;
-        if is_new {
-            self.left_over[self.mode] = Some(self.reading);
-            self.reading = self.left_over[mode].unwrap_or_default();
-            self.mode = mode;
+    pub(super) fn select_on_bus(&mut self, mode: usize) -> Result<Effect, Errno> {
+        if self.is_silent() {
+            return Err(Errno::ENXIO);
         }
-        self.wanted = self.poll_ms > 0 || !is_new;
-        self.read_at = None;
-        if self.instant {
-            self.settled_at = self.now;
-            return Effect::Done;
+        let before = self.mode;
+        self.show(mode);
+        let messages = if self.poll_ms > 0 { 1 } else { 2 };
+        let blocks = if self.instant { 0 } else { messages * BUS_MS };
+        let time = Duration::from_millis(blocks.unsigned_abs().into());
+        if self.poll_ms == 0 {
+            return Ok(Effect::Reads(before, time));
         }
-        self.settled_at = self.now + ticks_from_ms(2 * BUS_MS);
-        Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into()))
+        self.wanted = true;
+        self.settled_at = self.now + ticks_from_ms(2 * blocks);
+        self.poll_at = self.settled_at;
+        Ok(Effect::Blocks(time))
+    }
+
+    /// Takes raw data over that were read in a mode.
+    pub(crate) fn take_in(&mut self, mode: usize, reading: Reading) {
+        if mode == self.mode {
+            self.take(reading);
+        } else {
+            self.left_over[mode] = Some(reading);
+        }
     }
 
     /// One of the kind's commands. Those that set zeros do; the others change nothing that could
     /// be measured here.
-    pub(super) fn command(&mut self, index: usize) -> Effect {
+    pub(super) fn command(&mut self, index: usize) -> Result<Effect, Errno> {
+        if self.is_silent() {
+            return Err(Errno::ENXIO);
+        }
         match self.kind.commands[index] {
             "RESET" => {
                 self.axle.reset();
@@ -86,7 +107,7 @@ impl Sensor {
             }
             _ => {}
         }
-        Effect::Done
+        Ok(Effect::Done)
     }
 
     /// A period that is negative as a number with a sign is taken for an error.
@@ -101,9 +122,16 @@ impl Sensor {
         }
     }
 
-    pub(super) fn set_poll_ms(&mut self, poll_ms: u32) -> Result<Effect, Errno> {
+    /// The first reading is done at once, as the period begins; another period begins with the
+    /// next reading.
+    pub(super) fn set_poll_ms(&mut self, bytes: &[u8]) -> Result<Effect, Errno> {
         if !self.is_on_bus() {
             return Err(Errno::EOPNOTSUPP);
+        }
+        let poll_ms = lenient_unsigned(bytes)?;
+        if self.poll_ms == 0 {
+            let message = if self.instant { 0 } else { BUS_MS };
+            self.poll_at = self.now + ticks_from_ms(message);
         }
         self.poll_ms = poll_ms;
         Ok(Effect::Done)
@@ -115,6 +143,9 @@ impl Sensor {
         if !self.is_on_bus() {
             return Err(Errno::EOPNOTSUPP);
         }
+        if self.is_silent() {
+            return Err(Errno::ENXIO);
+        }
         let mut bytes: Vec<u8> = self.registers().into_iter().skip(register).take(BLOCK).collect();
         bytes.resize(count, 0);
         Ok(bytes)
@@ -122,7 +153,14 @@ impl Sensor {
 
     /// Writes registers: what is beyond a message is dropped. What a sensor says of itself and
     /// what it measures stays; all else is kept, and does nothing.
-    pub(super) fn write_registers(&mut self, register: usize, bytes: &[u8]) -> Effect {
+    pub(super) fn write_registers(
+        &mut self,
+        register: usize,
+        bytes: &[u8],
+    ) -> Result<Effect, Errno> {
+        if self.is_silent() {
+            return Err(Errno::ENXIO);
+        }
         for (at, byte) in (register..REGISTERS).zip(bytes.iter().take(BLOCK)) {
             if (DATA_REGISTER..DATA_REGISTER + BLOCK).contains(&at) || at < SETTINGS_REGISTER {
                 continue;
@@ -131,9 +169,9 @@ impl Sensor {
             self.settings.push((at, *byte));
         }
         if self.instant {
-            return Effect::Done;
+            return Ok(Effect::Done);
         }
-        Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into()))
+        Ok(Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into())))
     }
 
     /// The registers of a sensor on the I2C bus, as far as there is something in them.

@@ -69,7 +69,22 @@ pub(crate) enum Scale {
     Linear { raw: [i32; 2], shown: [i32; 2] },
     /// The first byte counts double, the second single: an angle in `HiTechnic`'s registers.
     Halves,
+    /// 1 for more millivolts than this: a switch that gives a voltage.
+    Above(i32),
+    /// 1 for less millivolts than this: a switch that draws a voltage down.
+    Below(i32),
+    /// 1 from so many millivolts on, and below so many: one of several switches.
+    Within(i32, i32),
+    /// The root of twice the millivolts.
+    Root,
+    /// A tilt: degrees from 0 to 180, whose sine goes from 0 to 128 and back.
+    Tilt,
 }
+
+/// An input's supply, to which pin 1 is pulled up, in millivolts.
+pub(crate) const SUPPLY_MV: i32 = 5000;
+/// What a switch leaves of it.
+pub(crate) const SWITCHED_MV: i32 = 900;
 
 impl Scale {
     /// From raw data to what is shown.
@@ -81,6 +96,13 @@ impl Scale {
                 narrow(shown + i64::from(first))
             }
             Scale::Halves => (raw & 0xff) * 2 + (raw >> 8),
+            Scale::Above(limit) => i32::from(raw > limit),
+            Scale::Below(limit) => i32::from(raw < limit),
+            Scale::Within(low, high) => i32::from((low..high).contains(&raw)),
+            // A byte.
+            Scale::Root => (raw.max(0) * 2).isqrt() & 0xff,
+            Scale::Tilt if raw > 128 => 180 - Scale::Tilt.shown(256 - raw),
+            Scale::Tilt => whole(libm::asin(f64::from(raw) / 128.0).to_degrees()),
         }
     }
 
@@ -95,8 +117,20 @@ impl Scale {
                 narrow((up + away) / i64::from(span) + i64::from(low))
             }
             Scale::Halves => (shown / 2) | ((shown % 2) << 8),
+            Scale::Above(_) => shown * SUPPLY_MV,
+            Scale::Below(_) if shown != 0 => SWITCHED_MV,
+            Scale::Within(low, high) if shown != 0 => (low + high) / 2,
+            Scale::Below(_) | Scale::Within(..) => SUPPLY_MV,
+            Scale::Root => (shown * shown + 1) / 2,
+            Scale::Tilt if shown > 90 => 256 - Scale::Tilt.raw(180 - shown),
+            Scale::Tilt => whole(libm::sin(f64::from(shown).to_radians()) * 128.0),
         }
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a byte or an angle")]
+fn whole(value: f64) -> i32 {
+    libm::round(value) as i32
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "clamped")]
@@ -110,13 +144,18 @@ mod tests {
 
     #[test]
     fn what_is_scaled_is_shown_again() {
-        let scales: [(Scale, std::ops::RangeInclusive<i32>); 6] = [
+        let scales: [(Scale, std::ops::RangeInclusive<i32>); 11] = [
             (Scale::None, -5..=5),
             (Scale::Linear { raw: [4116, 543], shown: [0, 1000] }, 0..=1000),
             (Scale::Linear { raw: [0, 5000], shown: [0, 1000] }, 0..=1000),
             (Scale::Linear { raw: [-14080, 32767], shown: [-550, 1280] }, -550..=1280),
             (Scale::Linear { raw: [0, 4880], shown: [-540, 400] }, -540..=400),
             (Scale::Halves, 0..=359),
+            (Scale::Above(250), 0..=1),
+            (Scale::Below(4800), 0..=1),
+            (Scale::Within(3859, 4194), 0..=1),
+            (Scale::Root, 0..=100),
+            (Scale::Tilt, 0..=68),
         ];
         for (scale, shown) in scales {
             for value in shown {

@@ -1,6 +1,7 @@
 //! The types of sensors, as data: how each is connected, and what it shows in each of
 //! its modes. `kinds` has the tables.
 
+use super::Reading;
 use super::format::{Format, Scale};
 
 /// How a sensor talks to the brick.
@@ -61,8 +62,10 @@ pub(crate) enum Sense {
     Remote,
     RemoteBits,
     Touch,
-    /// The touch sensor's pin as millivolts.
+    /// Pin 6 in millivolts, to which a touch sensor of the EV3 gives the supply.
     Volts,
+    /// Pin 1 in millivolts, to which another thing than this driver's sensor may be connected.
+    Pin,
     /// In tenths of a per cent.
     FineReflection,
     FineAmbient,
@@ -175,9 +178,14 @@ impl Mode {
         self
     }
 
-    pub(super) const fn halves(mut self) -> Self {
-        self.scale = Scale::Halves;
+    pub(super) const fn shown_by(mut self, scale: Scale) -> Self {
+        self.scale = scale;
         self
+    }
+
+    /// The raw data for values.
+    pub(crate) fn raw(&self, values: Reading) -> Reading {
+        values.map(|value| self.format.fit(self.scale.raw(value)))
     }
 
     /// The word for what it measures, if there is a common one.

@@ -2,8 +2,10 @@
 //!
 //! A serial (UART) sensor takes a moment to change its mode. Until the first data of the new mode
 //! arrive, everything shows the old one; for the settling time after that the numbers are still
-//! those that the new mode showed last, if it was ever read. An analog sensor has none of this.
-//! This module does not measure: [`crate::sense`] samples the world and passes a [`Reading`].
+//! those that the new mode showed last, if it was ever read. An analog sensor has none of this:
+//! until the next sample it shows what the new mode showed last, at first the raw data 0.
+//! This module does not measure: [`crate::sense`] samples the world, and what comes here is a
+//! [`Reading`] of raw data.
 
 mod attrs;
 mod axle;
@@ -13,6 +15,7 @@ mod kind;
 mod kinds;
 
 pub(crate) use axle::Axle;
+pub(crate) use format::{SUPPLY_MV, SWITCHED_MV};
 pub use kind::{Link, SensorKind};
 pub(crate) use kind::{Mode, Parts, Sense};
 
@@ -34,11 +37,13 @@ const SINGLE_SHOT_MS: i32 = 250;
 const MUTE_MS: i32 = 700;
 /// Going back to 2400 baud and introducing oneself again.
 const RESYNC_MS: i32 = 500;
+/// The first introduction of a serial sensor, at 2400 baud.
+pub(crate) const INTRODUCTION_MS: i32 = 1000;
 /// How often the driver sends the message that selects a mode, and how many jiffies pass between.
 const SELECT_TRIES: u64 = 10;
 const SELECT_JIFFIES: u64 = 6;
 
-/// A measurement of a sensor, in whole numbers as the files show them.
+/// A measurement of a sensor in whole numbers: as the files show them, or the raw data.
 pub(crate) type Reading = [i32; 8];
 
 /// A sensor as the driver sees it.
@@ -52,7 +57,6 @@ pub(crate) struct Sensor {
     settled_at: u64,
     first_data_at: u64,
     mode_since: u64,
-    plugged_at: u64,
     /// The sensor sends nothing from one tick to before the other.
     silent: [u64; 2],
     /// It introduces itself again until this tick, if the driver gave it up.
@@ -63,8 +67,9 @@ pub(crate) struct Sensor {
     last_single_shot: Option<u64>,
     /// A measurement that a write of the mode asked for is still to be taken.
     wanted: bool,
-    /// How often it is polled; 0 is never.
+    /// How often it is polled, in ms, and the tick of the next time; 0 is never.
     poll_ms: u32,
+    poll_at: u64,
     /// The registers that a program has written, of a sensor on the I2C bus.
     settings: Vec<(usize, u8)>,
     /// The raw data, as they lie in `bin_data`.
@@ -102,7 +107,6 @@ impl Sensor {
             settled_at: first_data_at,
             first_data_at,
             mode_since: now,
-            plugged_at: now,
             silent: [0; 2],
             introduced_at: 0,
             selecting_until: 0,
@@ -110,6 +114,7 @@ impl Sensor {
             last_single_shot: None,
             wanted: matches!(kind.link, Link::I2c(_)),
             poll_ms: kind.poll_ms(),
+            poll_at: now,
             settings: Vec::new(),
             reading: [0; 8],
             left_over: vec![None; kind.modes.len()],
@@ -146,6 +151,28 @@ impl Sensor {
         (self.silent[0]..self.silent[1]).contains(&self.now)
     }
 
+    /// The wire was pulled, or put in again, and the port does not look for that: the sensor is
+    /// silent meanwhile. A voltage there is at any rate.
+    pub(crate) fn connect(&mut self, is_connected: bool) {
+        if self.kind.link.is_analog() {
+            return;
+        }
+        if is_connected {
+            self.silent[1] = self.now;
+            self.introduce(INTRODUCTION_MS);
+        } else {
+            self.fall_silent(u64::MAX / 2);
+        }
+    }
+
+    /// After its silence a sensor on a serial line has no mode and no values for a while.
+    fn introduce(&mut self, ms: i32) {
+        let takes = if self.kind.link == Link::Uart { ticks_from_ms(ms) } else { 0 };
+        self.introduced_at = self.silent[1] + takes;
+        self.settled_at = self.introduced_at;
+        self.mode_since = self.introduced_at;
+    }
+
     /// True once it was silent for so long that the driver awaits an introduction.
     fn is_given_up(&self) -> bool {
         self.is_silent() && self.now >= self.silent[0] + ticks_from_ms(MUTE_MS)
@@ -164,12 +191,7 @@ impl Sensor {
     pub(crate) fn fall_silent(&mut self, ticks: u64) {
         self.pending = None;
         self.silent = [self.now, self.now + ticks];
-        self.introduced_at = self.silent[1];
-        if ticks >= ticks_from_ms(MUTE_MS) {
-            self.introduced_at += ticks_from_ms(RESYNC_MS);
-        }
-        self.settled_at = self.introduced_at;
-        self.mode_since = self.introduced_at;
+        self.introduce(if ticks >= ticks_from_ms(MUTE_MS) { RESYNC_MS } else { 0 });
     }
 
     /// The next tick at which something happens by itself.
@@ -198,9 +220,7 @@ impl Sensor {
         if self.mode().mute && !self.is_silent() && now >= self.mode_since + ticks_from_ms(MUTE_MS)
         {
             self.silent = [now; 2];
-            self.introduced_at = now + ticks_from_ms(RESYNC_MS);
-            self.settled_at = self.introduced_at;
-            self.mode_since = self.introduced_at;
+            self.introduce(RESYNC_MS);
         }
     }
 
@@ -228,7 +248,8 @@ impl Sensor {
     /// not still left over from the last time in this mode.
     pub(crate) fn wants_reading(&self) -> bool {
         let stale = self.read_at != Some(self.now) && self.now >= self.settled_at;
-        let at_will = !self.is_on_bus() && !self.measures_once();
+        let is_sampled = self.is_on_bus() || self.kind.link.is_analog() && !self.instant;
+        let at_will = !is_sampled && !self.measures_once();
         stale && self.has_data() && !self.is_silent() && (at_will || self.wanted)
     }
 
@@ -236,16 +257,14 @@ impl Sensor {
         self.mode().is_single()
     }
 
-    /// Takes a measurement over. A changed touch sensor wakes those who poll `value0`.
+    /// Takes raw data over. A changed touch sensor wakes those who poll `value0`.
     pub(crate) fn take(&mut self, reading: Reading) {
-        let mode = self.mode();
-        let old = self.reading[0];
-        for (index, value) in reading.into_iter().enumerate() {
-            self.reading[index] = mode.format.fit(mode.scale.raw(value));
-        }
+        let old = std::mem::replace(&mut self.reading, reading);
         self.read_at = Some(self.now);
         self.wanted = false;
-        if self.notifies() && old != self.reading[0] {
+        self.polled();
+        let shown = |reading: Reading| self.mode().scale.shown(reading[0]);
+        if self.notifies() && shown(old) != shown(reading) {
             self.events = self.events.wrapping_add(1);
         }
     }
@@ -256,19 +275,15 @@ impl Sensor {
         if self.kind.link.is_analog() {
             return self.now % JIFFY_TICKS == 0;
         }
-        self.is_on_bus() && self.is_polled_now()
+        self.is_on_bus() && self.is_polled_now() && !self.is_silent()
     }
 
-    /// The values that the files show now, where a measurement is `fresh` if the sensor would
-    /// take one; `None` while it has no data.
+    /// The values that the files show now, where the raw data are `fresh` if the sensor would
+    /// take some; `None` while it has no data.
     pub(crate) fn shown(&self, fresh: Option<Reading>) -> Option<impl Iterator<Item = i32>> {
-        let mode = self.mode();
-        let raw = move |index: usize| match fresh {
-            Some(fresh) => mode.format.fit(mode.scale.raw(fresh[index])),
-            None => self.reading[index],
-        };
+        let (mode, raw) = (self.mode(), fresh.unwrap_or(self.reading));
         self.has_data()
-            .then(|| (0..mode.values.min(8)).map(move |index| mode.scale.shown(raw(index))))
+            .then(|| (0..mode.values.min(8)).map(move |index| mode.scale.shown(raw[index])))
     }
 
     fn value(&self, index: usize) -> Result<i32, Errno> {
@@ -293,12 +308,11 @@ impl Sensor {
     /// A write to `mode`, also of the present mode: a select message goes out.
     fn select(&mut self, mode: usize) -> Result<Effect, Errno> {
         if self.kind.link.is_analog() {
-            self.mode = mode;
-            self.read_at = None;
+            self.show(mode);
             return Ok(Effect::Done);
         }
         if self.is_on_bus() {
-            return Ok(self.select_on_bus(mode));
+            return self.select_on_bus(mode);
         }
         if self.is_given_up() {
             return Err(Errno::ENODEV);
@@ -322,6 +336,16 @@ impl Sensor {
         Ok(Effect::Blocks(Duration::from_millis(MODE_LATENCY_MS.unsigned_abs().into())))
     }
 
+    /// The files show a mode, with what it showed last.
+    fn show(&mut self, mode: usize) {
+        if mode != self.mode {
+            self.left_over[self.mode] = Some(self.reading);
+            self.reading = self.left_over[mode].unwrap_or_default();
+            self.mode = mode;
+        }
+        self.read_at = None;
+    }
+
     /// The driver sends its message again and again, and nothing comes.
     fn select_in_vain(&mut self) -> Effect {
         let jiffies = jiffy(self.now) + SELECT_TRIES * SELECT_JIFFIES;
@@ -337,7 +361,7 @@ impl Sensor {
             return Err(Errno::EOPNOTSUPP);
         }
         if self.is_on_bus() {
-            return Ok(self.write_registers(offset, bytes));
+            return self.write_registers(offset, bytes);
         }
         if offset > 0 || bytes.len() > 32 {
             return Err(Errno::EINVAL);

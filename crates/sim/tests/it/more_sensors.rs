@@ -3,7 +3,9 @@
 use crate::robots::{default_robot, touch_robot};
 use std::time::Duration;
 
-use ev3_sim::{Access, Descriptor, Errno, Item, Machine, Options, Pose, RemoteButton, WorldSpec};
+use ev3_sim::{
+    Access, Descriptor, Errno, Item, Machine, Options, Port, Pose, RemoteButton, WorldSpec,
+};
 
 use crate::desk::{B, C, Desk};
 
@@ -154,13 +156,41 @@ fn what_is_on_the_bus_is_polled() {
     desk.0.place(Pose::new(0.0, 0.0, 90.0)).unwrap();
     desk.step(5000);
     assert_eq!(values(&mut desk, "COMPASS"), [45], "never again");
-    desk.put(&format!("{path}mode"), "COMPASS");
-    assert_eq!(values(&mut desk, "COMPASS"), [45], "not yet");
-    desk.step(10);
+    let blocks = desk.try_put(&format!("{path}mode"), "COMPASS");
+    assert_eq!(blocks, Ok(Duration::from_millis(8)), "two messages");
     assert_eq!(values(&mut desk, "COMPASS"), [90], "but when the mode is written");
+    desk.0.place(Pose::new(0.0, 0.0, 120.0)).unwrap();
+    desk.put(&format!("{path}poll_ms"), "60000");
+    desk.step(10);
+    assert_eq!(values(&mut desk, "COMPASS"), [120], "polling begins at once");
+    desk.0.place(Pose::new(0.0, 0.0, 150.0)).unwrap();
+    desk.step(1000);
+    desk.put(&format!("{path}poll_ms"), "100");
+    desk.step(1000);
+    assert_eq!(values(&mut desk, "COMPASS"), [120], "the period under way lasts");
+    desk.step(58_000);
+    assert_eq!(values(&mut desk, "COMPASS"), [150]);
+    desk.0.place(Pose::new(0.0, 0.0, 180.0)).unwrap();
+    desk.step(50);
+    desk.put(&format!("{path}mode"), "COMPASS");
+    desk.step(10);
+    assert_eq!(values(&mut desk, "COMPASS"), [180], "a period begins as the mode is written");
+    desk.0.place(Pose::new(0.0, 0.0, 210.0)).unwrap();
+    desk.step(90);
+    assert_eq!(values(&mut desk, "COMPASS"), [180]);
+    desk.step(10);
+    assert_eq!(values(&mut desk, "COMPASS"), [210]);
     assert_eq!(desk.try_put(&format!("{path}poll_ms"), "soon"), Err(Errno::EINVAL));
     desk.put(&format!("{path}poll_ms"), "2147483648");
     assert_eq!(desk.try_get(&format!("{path}poll_ms")), Err(Errno::EINVAL), "stored as below 0");
+    desk.put(&format!("{path}poll_ms"), "4294967295");
+    assert_eq!(desk.try_get(&format!("{path}poll_ms")), Err(Errno::EPERM));
+    desk.put(&format!("{path}poll_ms"), "100");
+    assert_eq!(
+        get(&mut desk, "poll_ms"),
+        "100",
+        "a number that looks like an error can be written over"
+    );
     assert_eq!(get(&mut self::desk("ms-nxtmmx", vec![]), "poll_ms"), "1000");
     let mut serial = self::desk("lego-ev3-ir", vec![]);
     assert_eq!(serial.try_put(&format!("{SENSOR}poll_ms"), "50"), Err(Errno::EOPNOTSUPP));
@@ -535,4 +565,108 @@ fn sensors_of_the_nxt_have_errors_if_they_are_asked_for() {
         }
         assert!((3..12).contains(&seen.len()), "{driver}: {seen:?}");
     }
+}
+
+/// The voltage in `bin_data`.
+fn millivolts(desk: &mut Desk) -> i32 {
+    let data = bytes(desk);
+    assert!(data[4..].iter().all(|byte| *byte == 0), "one number");
+    i32::from_le_bytes([data[0], data[1], data[2], data[3]])
+}
+
+#[test]
+fn a_switch_is_a_voltage() {
+    for (driver, free, pressed) in [
+        ("lego-ev3-touch", 0, 5000),
+        ("lego-nxt-touch", 5000, 900),
+        ("ms-nxt-touch-mux", 5000, 4026),
+    ] {
+        let mut desk = desk(driver, vec![]);
+        assert_eq!((get(&mut desk, "value0").as_str(), millivolts(&mut desk)), ("0", free));
+        assert!(desk.0.press_touch(Port::In4, true), "{driver}");
+        assert_eq!((get(&mut desk, "value0").as_str(), millivolts(&mut desk)), ("1", pressed));
+    }
+}
+
+#[test]
+fn a_voltage_is_sampled_every_10_ms_and_a_new_mode_shows_the_sample_before() {
+    let mut desk = desk("lego-nxt-light", vec![]);
+    let path = sensor(&mut desk);
+    let (value, mode) = (format!("{path}value0"), format!("{path}mode"));
+    let reflected = desk.number(&value);
+    desk.put(&mode, "AMBIENT");
+    assert_eq!(desk.number(&value), 1227, "the raw data 0");
+    assert_eq!(millivolts(&mut desk), 0);
+    desk.step(10);
+    let ambient = desk.number(&value);
+    assert!((0..=1000).contains(&ambient), "{ambient}");
+    desk.put(&mode, "REFLECT");
+    assert_eq!(desk.number(&value), reflected);
+    desk.put(&mode, "AMBIENT");
+    assert_eq!(desk.number(&value), ambient);
+}
+
+#[test]
+fn pin_1_is_what_is_plugged_in() {
+    let pin1 = |driver: &str| {
+        let mut desk = desk("lego-nxt-light", vec![]);
+        let lit = millivolts(&mut desk);
+        desk.0.unplug(Port::In4);
+        if !driver.is_empty() {
+            desk.0.plug(Port::In4, driver).unwrap();
+        }
+        desk.put("lego-port/port3/mode", "nxt-analog");
+        desk.step(600);
+        let shown = |desk: &mut Desk, mode: &str| {
+            desk.put("lego-sensor/sensor4/mode", mode);
+            desk.step(20);
+            desk.number("lego-sensor/sensor4/value0")
+        };
+        let shown = ["ANALOG-0", "ANALOG-1"].map(|mode| shown(&mut desk, mode));
+        (desk, shown, lit)
+    };
+    assert_eq!(pin1("").1, [5000; 2], "nothing draws it down");
+    assert_eq!(pin1("lego-nxt-touch").1, [5000; 2]);
+    assert_eq!(pin1("lego-ev3-touch").1, [417; 2], "the resistor that tells its type");
+    assert_eq!(pin1("lego-ev3-us").1, [0; 2], "grounded");
+    let (_, [dark, bright], lit) = pin1("lego-nxt-light");
+    assert_eq!(bright, lit, "as its own driver has it with the lamp on");
+    assert!(dark > bright, "{dark} without, {bright} with the lamp");
+    let (mut desk, _, _) = pin1("");
+    desk.put("lego-port/port3/set_device", "lego-nxt-light");
+    desk.step(600);
+    assert_eq!(desk.number("lego-sensor/sensor5/value0"), -247, "5 V is darker than dark");
+}
+
+#[test]
+fn a_wire_that_is_pulled_in_a_forced_mode_is_not_noticed() {
+    let wall = Item::wall([-100.0, 80.7], [100.0, 80.7]);
+    let mut desk = desk("ht-nxt-compass", vec![]);
+    desk.put("lego-port/port3/mode", "nxt-i2c");
+    desk.step(600);
+    let path = "lego-sensor/sensor4/";
+    assert!(desk.0.unplug(Port::In4));
+    desk.0.place(Pose::new(0.0, 0.0, 90.0)).unwrap();
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0, "as it was");
+    for (file, text) in [("mode", "COMPASS"), ("command", "BEGIN-CAL"), ("direct", "x")] {
+        assert_eq!(desk.try_put(&format!("{path}{file}"), text), Err(Errno::ENXIO), "{file}");
+    }
+    desk.0.plug(Port::In4, "ht-nxt-compass").unwrap();
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 90, "the same device");
+
+    let mut desk = self::desk("lego-ev3-us", vec![wall]);
+    desk.put("lego-port/port3/mode", "ev3-uart");
+    desk.step(2000);
+    let before = desk.number(&format!("{path}value0"));
+    assert!(desk.0.unplug(Port::In4));
+    desk.0.place(Pose::new(0.0, 40.0, 0.0)).unwrap();
+    desk.step(5000);
+    assert_eq!(desk.number(&format!("{path}value0")), before, "silent");
+    desk.0.plug(Port::In4, "lego-ev3-us").unwrap();
+    desk.step(500);
+    assert_eq!(desk.try_get(&format!("{path}value0")), Err(Errno::ENXIO), "it introduces itself");
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), before - 400);
 }

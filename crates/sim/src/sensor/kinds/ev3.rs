@@ -1,6 +1,6 @@
 //! The sensors of the EV3 sets: `docs/ev3dev-sysfs.md`, 5.4.
 
-use crate::sensor::format::Format;
+use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Mode, Sense, SensorKind};
 
 const ANALOG: &[Mode] = &[Mode::new("ANALOG", 1, 3, "V", Format::S32, Sense::Volts)];
@@ -63,7 +63,7 @@ pub(super) static KINDS: &[SensorKind] = &[
     ),
     SensorKind::analog(
         "lego-ev3-touch",
-        &[Mode::new("TOUCH", 1, 0, "", Format::S32, Sense::Touch)],
+        &[Mode::new("TOUCH", 1, 0, "", Format::S32, Sense::Touch).shown_by(Scale::Above(250))],
     ),
     SensorKind::analog("ev3-analog-01", ANALOG),
     SensorKind::analog("ev3-analog-03", ANALOG),

@@ -2,7 +2,7 @@
 //! How each mode shows the raw data is from the kernel's `nxt_analog_sensor_defs.c` and
 //! `nxt_i2c_sensor_defs.c`.
 
-use crate::sensor::format::Format;
+use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Link, Mode, Sense, SensorKind};
 
 /// A mode of 32 bits, as the analog drivers have them.
@@ -44,14 +44,14 @@ const fn energy(name: &'static str, units: &'static str) -> Mode {
 pub(super) static KINDS: &[SensorKind] = &[
     SensorKind::nxt_analog(
         "nxt-analog",
-        &[analog("ANALOG-0", 1, 3, "V", Sense::Volts), analog("ANALOG-1", 1, 3, "V", Sense::Volts)],
+        &[analog("ANALOG-0", 1, 3, "V", Sense::Pin), analog("ANALOG-1", 1, 3, "V", Sense::Pin)],
     ),
     SensorKind {
         driver_name: "lego-nxt-touch",
         link: Link::NxtAnalog { recognized: true },
         settling_ms: 0,
         commands: &[],
-        modes: &[analog("TOUCH", 1, 0, "", Sense::Touch)],
+        modes: &[analog("TOUCH", 1, 0, "", Sense::Touch).shown_by(Scale::Below(4800))],
     },
     SensorKind {
         driver_name: "lego-nxt-light",
@@ -74,8 +74,8 @@ pub(super) static KINDS: &[SensorKind] = &[
     SensorKind::nxt_analog(
         "ht-nxt-eopd",
         &[
-            analog("LONG", 1, 0, "", Sense::Reflector { reach: 350 }),
-            analog("SHORT", 1, 0, "", Sense::Reflector { reach: 70 }),
+            analog("LONG", 1, 0, "", Sense::Reflector { reach: 350 }).shown_by(Scale::Root),
+            analog("SHORT", 1, 0, "", Sense::Reflector { reach: 70 }).shown_by(Scale::Root),
         ],
     ),
     SensorKind::nxt_analog(
@@ -92,7 +92,10 @@ pub(super) static KINDS: &[SensorKind] = &[
         &[analog("MAG", 1, 0, "", Sense::Fixed(&[512])).scaled([0, 5000], [0, 1023])],
     ),
     // The bumper is its first button; there are no others.
-    SensorKind::nxt_analog("ms-nxt-touch-mux", &[analog("TOUCH-MUX", 3, 0, "", Sense::Touch)]),
+    SensorKind::nxt_analog(
+        "ms-nxt-touch-mux",
+        &[analog("TOUCH-MUX", 3, 0, "", Sense::Touch).shown_by(Scale::Within(3859, 4194))],
+    ),
     SensorKind::i2c(
         "lego-nxt-us",
         1,

@@ -2,7 +2,7 @@
 //! Addresses, commands and how each mode shows the raw data are from the kernel's
 //! `nxt_i2c_sensor_defs.c`. A sensor of something that this world lacks always shows the same.
 
-use crate::sensor::format::Format;
+use crate::sensor::format::{Format, Scale};
 use crate::sensor::kind::{Mode, Parts, Sense, SensorKind};
 
 const fn byte(name: &'static str, values: usize, sense: Sense) -> Mode {
@@ -101,7 +101,7 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ht-nxt-angle",
         1,
         &[
-            Mode::new("ANGLE", 1, 0, "deg", Format::U16, Sense::AxleAngle).halves(),
+            Mode::new("ANGLE", 1, 0, "deg", Format::U16, Sense::AxleAngle).shown_by(Scale::Halves),
             Mode::new("ANGLE-ACC", 1, 0, "deg", Format::S32Be, Sense::AxleTurned { times: 1 }),
             Mode::new("SPEED", 1, 0, "RPM", Format::S16Be, Sense::AxleSpeed),
         ],
@@ -152,7 +152,8 @@ pub(super) static KINDS: &[SensorKind] = &[
         "ms-absolute-imu",
         17,
         &[
-            Mode::new("TILT", 3, 0, "deg", Format::U8, Sense::Fixed(&[0, 0, 90])),
+            Mode::new("TILT", 3, 0, "deg", Format::U8, Sense::Fixed(&[0, 0, 90]))
+                .shown_by(Scale::Tilt),
             Mode::new("ACCEL", 3, 3, "g", Format::S16, Sense::Gravity { per_g: 1000 }),
             Mode::new("COMPASS", 1, 0, "deg", Format::U16, Sense::Compass),
             Mode::new("MAG", 3, 0, "", Format::S16, Sense::Fixed(&[0, 300, -400])),
