@@ -1,6 +1,9 @@
 //! How values lie in `bin_data`, and how the class makes `value<N>` of them:
 //! `docs/ev3dev-sysfs.md`, 5.1.
 
+/// A measurement of a sensor in whole numbers: as the files show them, or the raw data.
+pub(crate) type Reading = [i32; 8];
+
 /// How one value lies in `bin_data`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {

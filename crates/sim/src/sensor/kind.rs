@@ -1,8 +1,7 @@
 //! The types of sensors, as data: how each is connected, and what it shows in each of
 //! its modes. `kinds` has the tables.
 
-use super::Reading;
-use super::format::{Format, Scale};
+use super::format::{Format, Reading, Scale};
 
 /// How a sensor talks to the brick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,7 +15,7 @@ mod kind;
 mod kinds;
 
 pub(crate) use axle::Axle;
-pub(crate) use format::{SUPPLY_MV, SWITCHED_MV};
+pub(crate) use format::{Reading, SUPPLY_MV, SWITCHED_MV};
 pub use kind::{Link, SensorKind};
 pub(crate) use kind::{Mode, Parts, Sense};
 
@@ -42,9 +42,6 @@ pub(crate) const INTRODUCTION_MS: i32 = 1000;
 /// How often the driver sends the message that selects a mode, and how many jiffies pass between.
 const SELECT_TRIES: u64 = 10;
 const SELECT_JIFFIES: u64 = 6;
-
-/// A measurement of a sensor in whole numbers: as the files show them, or the raw data.
-pub(crate) type Reading = [i32; 8];
 
 /// A sensor as the driver sees it.
 #[derive(Clone, Debug)]
