@@ -34,6 +34,8 @@ const FULL_ON_PORT: u32 = 100;
 pub(crate) struct Led {
     pub(crate) name: String,
     brightness: u32,
+    /// How bright it was when it blinked last.
+    blinked: u32,
     full: u32,
     trigger: usize,
     delay_on: u32,
@@ -48,6 +50,7 @@ impl Led {
         Led {
             name: name.to_owned(),
             brightness,
+            blinked: 0,
             full: FULL,
             trigger: NONE,
             delay_on: 500,
@@ -106,11 +109,12 @@ impl Led {
         let delays =
             if delay_on == 0 && delay_off == 0 { (500, 500) } else { (delay_on, delay_off) };
         (self.delay_on, self.delay_off) = delays;
-        if self.delay_on == 0 {
-            self.shine(0);
-        } else if self.brightness() == 0 {
-            self.shine(self.full);
+        match (self.brightness(), self.blinked) {
+            (0, 0) => self.blinked = self.full,
+            (0, _) => {}
+            (brightness, _) => self.blinked = brightness,
         }
+        self.shine(if self.delay_on == 0 { 0 } else { self.blinked });
     }
 
     /// Each name with a blank behind it.

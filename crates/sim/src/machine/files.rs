@@ -252,6 +252,8 @@ impl Machine {
             Link::NxtAnalog { .. } if !is_its => {
                 [plug.map_or(SUPPLY_MV, |plug| plug.pin1(mode, raw)); 8]
             }
+            // Pin 6 is pulled down.
+            Link::Analog if !plug.is_some_and(Plug::is_analog) => [0; 8],
             _ => raw(mode),
         };
         // A voltage is one number.

@@ -180,7 +180,22 @@ impl Machine {
         for port in [self.robot.left.port, self.robot.right.port] {
             self.shafts[port.slot()].omega = 0.0;
         }
+        self.hand_is_done();
         Ok(())
+    }
+
+    /// What a hand does takes its time: when it is done, the voltages have been sampled.
+    fn hand_is_done(&mut self) {
+        for index in 0..self.sockets.len() {
+            let device = self.sockets[index].device;
+            let serial = device.filter(|serial| match self.tree.hardware(*serial) {
+                Some(Hardware::Sensor(sensor)) => sensor.kind.link.is_analog(),
+                _ => false,
+            });
+            if let Some(serial) = serial {
+                self.sample(serial);
+            }
+        }
     }
 
     fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
@@ -217,13 +232,16 @@ impl Machine {
             return Err(SpecError::new(name, "is where the robot stands"));
         }
         self.body.world_changed();
+        self.hand_is_done();
         Ok(id)
     }
 
     /// Takes something out of the world; false if there is no such item.
     pub fn remove_item(&mut self, id: ItemId) -> bool {
         self.body.world_changed();
-        Arc::make_mut(&mut self.scene).remove(id)
+        let was_there = Arc::make_mut(&mut self.scene).remove(id);
+        self.hand_is_done();
+        was_there
     }
 
     /// Moves an item to another place, and turns it to a heading if one is given; `false` if there
@@ -251,6 +269,7 @@ impl Machine {
             return Err(SpecError::new(name, "is where the robot stands"));
         }
         self.body.world_changed();
+        self.hand_is_done();
         Ok(true)
     }
 

@@ -64,10 +64,7 @@ impl Machine {
             self.held[port as usize] = is_press;
             let action = if is_press { Action::Pressed } else { Action::Released };
             self.trace.event(self.now, action, &[], port.name());
-            // A hand takes its time: the kernel has noticed when it is done.
-            if let Some(serial) = self.sockets[port as usize].device {
-                self.sample(serial);
-            }
+            self.hand_is_done();
         }
         is_touch
     }
@@ -90,7 +87,7 @@ impl Machine {
                 matches!(plug, Some(Plug::Sensor(kind)) if std::ptr::eq(kind, sensor.kind));
             sensor.connect(is_its);
             // Another sensor on a serial line tells the driver what it is.
-            if is_its || plug.is_none() {
+            if is_its || !plug.is_some_and(Plug::is_serial) {
                 socket.due = None;
             }
         }
@@ -242,9 +239,9 @@ impl Machine {
         }
     }
 
-    /// Silences a serial sensor for a while. It stays registered and shows its old values. If the
+    /// Silences a sensor for a while, a serial one or one on the I2C bus. It stays registered and shows its old values. If the
     /// silence is long, the sensor then has to introduce itself again: meanwhile it has no mode
-    /// and no values (ENXIO). False if there is no such sensor.
+    /// and no values (ENXIO), if it is a serial one. False if there is no such sensor.
     pub fn lose_contact(&mut self, port: Port, time: Duration) -> bool {
         let Some(serial) = self.sockets[port as usize].device else {
             return false;
@@ -253,6 +250,9 @@ impl Machine {
         let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) else {
             return false;
         };
+        if sensor.kind.link.is_analog() {
+            return false;
+        }
         let ticks = time.as_micros().div_ceil(TICK_US.into());
         sensor.fall_silent(u64::try_from(ticks).unwrap_or(u64::MAX / 2));
         true

@@ -116,6 +116,11 @@ impl Plug {
         matches!(self, Plug::Sensor(SensorKind { link: Link::Uart, .. }))
     }
 
+    /// True if it is a sensor that is a voltage on pin 6.
+    pub(crate) fn is_analog(self) -> bool {
+        matches!(self, Plug::Sensor(SensorKind { link: Link::Analog, .. }))
+    }
+
     /// True if it is a sensor that is a voltage on pin 1.
     pub(crate) fn is_nxt_analog(self) -> bool {
         matches!(self, Plug::Sensor(SensorKind { link: Link::NxtAnalog { .. }, .. }))

@@ -49,10 +49,11 @@ impl Sensor {
         if has_one { VERSION } else { "" }
     }
 
-    /// True at the times when the kernel polls it. What measures once shows the same then.
+    /// True at the times when the kernel reads it. What measures once shows the same at the next
+    /// ones.
     pub(super) fn is_polled_now(&self) -> bool {
-        let is_due = self.poll_ms > 0 && self.now >= self.poll_at.max(self.settled_at);
-        is_due && (self.wanted || !self.measures_once())
+        let is_polled = self.poll_ms > 0 && self.now >= self.poll_at && !self.measures_once();
+        (is_polled || self.wanted) && self.now >= self.settled_at
     }
 
     /// It has been read: the next time is a period later.
@@ -63,23 +64,37 @@ impl Sensor {
         }
     }
 
-    /// The mode of a sensor on the I2C bus: one message, and one more reading.
+    /// The mode of a sensor on the I2C bus: a message where it has a register for that, and a
+    /// reading, for which the write waits if there will be no other. Where nobody answers the
+    /// message there is no reading, and polling has ended; a reading that fails is no error.
     pub(super) fn select_on_bus(&mut self, mode: usize) -> Result<Effect, Errno> {
-        if self.is_silent() {
-            return Err(Errno::ENXIO);
+        let message = if self.instant { 0 } else { BUS_MS };
+        let mut blocks = 0;
+        if self.kind.has_mode_register(mode) {
+            blocks += message;
+            if self.is_silent() {
+                self.poll_at = u64::MAX;
+                return Err(Errno::ENXIO);
+            }
         }
         let before = self.mode;
         self.show(mode);
-        let messages = if self.poll_ms > 0 { 1 } else { 2 };
-        let blocks = if self.instant { 0 } else { messages * BUS_MS };
-        let time = Duration::from_millis(blocks.unsigned_abs().into());
-        if self.poll_ms == 0 {
-            return Ok(Effect::Reads(before, time));
+        let read_at = self.now + ticks_from_ms(blocks + message);
+        let is_polled = self.poll_ms > 0;
+        if is_polled {
+            self.read_first(read_at);
+        } else {
+            blocks += message;
         }
+        let time = Duration::from_millis(blocks.unsigned_abs().into());
+        let is_read = !is_polled && !self.is_silent();
+        Ok(if is_read { Effect::Reads(before, time) } else { Effect::Blocks(time) })
+    }
+
+    /// Polling begins with a reading that is there at a tick.
+    fn read_first(&mut self, at: u64) {
         self.wanted = true;
-        self.settled_at = self.now + ticks_from_ms(2 * blocks);
-        self.poll_at = self.settled_at;
-        Ok(Effect::Blocks(time))
+        (self.settled_at, self.poll_at) = (at, at);
     }
 
     /// Takes raw data over that were read in a mode.
@@ -129,9 +144,9 @@ impl Sensor {
             return Err(Errno::EOPNOTSUPP);
         }
         let poll_ms = lenient_unsigned(bytes)?;
-        if self.poll_ms == 0 {
+        if self.poll_ms == 0 && poll_ms > 0 {
             let message = if self.instant { 0 } else { BUS_MS };
-            self.poll_at = self.now + ticks_from_ms(message);
+            self.read_first(self.now + ticks_from_ms(message));
         }
         self.poll_ms = poll_ms;
         Ok(Effect::Done)

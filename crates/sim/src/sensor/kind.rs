@@ -283,6 +283,16 @@ impl SensorKind {
         }
     }
 
+    /// Whether a mode of a sensor on the I2C bus is set by a register, and not only by what is
+    /// read, by the same table (`set_mode_reg`).
+    pub(super) fn has_mode_register(&self, mode: usize) -> bool {
+        match self.driver_name {
+            "lego-nxt-us" | "lego-nxt-temp" | "ht-nxt-color-v2" | "ht-nxt-smux" => true,
+            "ms-pps58-nx" => mode > 0,
+            _ => false,
+        }
+    }
+
     /// What a sensor on the I2C bus says of who made it and what it is, by the kernel's
     /// `nxt_i2c_sensor_defs.c`. LEGO's thermometer and energy meter say nothing, and the
     /// XG1300L neither.

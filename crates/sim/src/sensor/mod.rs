@@ -56,8 +56,8 @@ pub(crate) struct Sensor {
     mode_since: u64,
     /// The sensor sends nothing from one tick to before the other.
     silent: [u64; 2],
-    /// It introduces itself again until this tick, if the driver gave it up.
-    introduced_at: u64,
+    /// It introduces itself again from the one tick to before the other, if the driver gave it up.
+    introduction: [u64; 2],
     /// A write of the mode is waiting in vain.
     selecting_until: u64,
     locked: bool,
@@ -105,7 +105,7 @@ impl Sensor {
             first_data_at,
             mode_since: now,
             silent: [0; 2],
-            introduced_at: 0,
+            introduction: [0; 2],
             selecting_until: 0,
             locked: false,
             last_single_shot: None,
@@ -155,6 +155,10 @@ impl Sensor {
             return;
         }
         if is_connected {
+            // Without power it has forgotten what it was told.
+            (self.angle, self.axle) = (0.0, Axle::default());
+            (self.locked, self.last_single_shot, self.selecting_until) = (false, None, 0);
+            self.settings.clear();
             self.silent[1] = self.now;
             self.introduce(INTRODUCTION_MS);
         } else {
@@ -162,12 +166,15 @@ impl Sensor {
         }
     }
 
-    /// After its silence a sensor on a serial line has no mode and no values for a while.
+    /// After its silence a sensor on a serial line has no mode and no values for a while; before
+    /// that, too, if it was introducing itself when it fell silent.
     fn introduce(&mut self, ms: i32) {
-        let takes = if self.kind.link == Link::Uart { ticks_from_ms(ms) } else { 0 };
-        self.introduced_at = self.silent[1] + takes;
-        self.settled_at = self.introduced_at;
-        self.mode_since = self.introduced_at;
+        let is_at_once = self.instant || self.kind.link != Link::Uart;
+        let from = if self.is_introducing_itself() { self.introduction[0] } else { self.silent[1] };
+        let until = self.silent[1] + if is_at_once { 0 } else { ticks_from_ms(ms) };
+        self.introduction = [from, until];
+        self.settled_at = until;
+        self.mode_since = until;
     }
 
     /// True once it was silent for so long that the driver awaits an introduction.
@@ -176,7 +183,7 @@ impl Sensor {
     }
 
     fn is_introducing_itself(&self) -> bool {
-        (self.silent[1]..self.introduced_at).contains(&self.now)
+        (self.introduction[0]..self.introduction[1]).contains(&self.now)
     }
 
     fn has_data(&self) -> bool {
@@ -187,14 +194,16 @@ impl Sensor {
     /// introduce itself again if the driver gave it up meanwhile.
     pub(crate) fn fall_silent(&mut self, ticks: u64) {
         self.pending = None;
-        self.silent = [self.now, self.now + ticks];
-        self.introduce(if ticks >= ticks_from_ms(MUTE_MS) { RESYNC_MS } else { 0 });
+        let [from, until] = if self.is_silent() { self.silent } else { [self.now; 2] };
+        self.silent = [from, until.max(self.now + ticks)];
+        let is_given_up = self.silent[1] - from >= ticks_from_ms(MUTE_MS);
+        self.introduce(if is_given_up { RESYNC_MS } else { 0 });
     }
 
     /// The next tick at which something happens by itself.
     pub(crate) fn next_event(&self) -> Option<u64> {
         let pending = self.pending.map_or(0, |(_, due)| due);
-        let due = [pending, self.settled_at, self.silent[1], self.introduced_at];
+        let due = [pending, self.settled_at, self.silent[1], self.introduction[1]];
         due.into_iter().filter(|tick| *tick > self.now).min()
     }
 

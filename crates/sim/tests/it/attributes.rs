@@ -329,7 +329,14 @@ fn lights_blink_and_shine() {
     assert!(desk.get(&file("trigger")).starts_with("[none]"));
     assert_eq!(desk.try_get(&file("delay_off")), Err(Errno::ENOENT));
     desk.put(&file("trigger"), "timer");
-    assert_eq!(desk.get(&file("brightness")), "255", "a light that is off blinks at its brightest");
+    assert_eq!(desk.get(&file("brightness")), "200", "as bright as it blinked before");
+    let file = |name: &str| format!("leds/led1:red:brick-status/{name}");
+    desk.put(&file("trigger"), "timer");
+    assert_eq!(
+        desk.get(&file("brightness")),
+        "255",
+        "a light that was off blinks at its brightest"
+    );
 }
 
 #[test]

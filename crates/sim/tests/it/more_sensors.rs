@@ -157,7 +157,7 @@ fn what_is_on_the_bus_is_polled() {
     desk.step(5000);
     assert_eq!(values(&mut desk, "COMPASS"), [45], "never again");
     let blocks = desk.try_put(&format!("{path}mode"), "COMPASS");
-    assert_eq!(blocks, Ok(Duration::from_millis(8)), "two messages");
+    assert_eq!(blocks, Ok(Duration::from_millis(4)), "one message");
     assert_eq!(values(&mut desk, "COMPASS"), [90], "but when the mode is written");
     desk.0.place(Pose::new(0.0, 0.0, 120.0)).unwrap();
     desk.put(&format!("{path}poll_ms"), "60000");
@@ -649,9 +649,16 @@ fn a_wire_that_is_pulled_in_a_forced_mode_is_not_noticed() {
     desk.0.place(Pose::new(0.0, 0.0, 90.0)).unwrap();
     desk.step(2000);
     assert_eq!(desk.number(&format!("{path}value0")), 0, "as it was");
-    for (file, text) in [("mode", "COMPASS"), ("command", "BEGIN-CAL"), ("direct", "x")] {
+    for (file, text) in [("command", "BEGIN-CAL"), ("direct", "x")] {
         assert_eq!(desk.try_put(&format!("{path}{file}"), text), Err(Errno::ENXIO), "{file}");
     }
+    desk.put(&format!("{path}mode"), "COMPASS");
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0, "it has no register for its mode");
+    assert!(desk.0.plug(Port::In4, "lego-ev3-touch").is_ok());
+    assert!(desk.0.press_touch(Port::In4, true));
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0, "nothing that is on the bus");
     desk.0.plug(Port::In4, "ht-nxt-compass").unwrap();
     desk.step(2000);
     assert_eq!(desk.number(&format!("{path}value0")), 90, "the same device");
@@ -669,4 +676,85 @@ fn a_wire_that_is_pulled_in_a_forced_mode_is_not_noticed() {
     assert_eq!(desk.try_get(&format!("{path}value0")), Err(Errno::ENXIO), "it introduces itself");
     desk.step(2000);
     assert_eq!(desk.number(&format!("{path}value0")), before - 400);
+}
+
+#[test]
+fn a_mode_that_nobody_answers_ends_the_polling() {
+    let mut desk = desk("lego-nxt-us", vec![Item::wall([-100.0, 80.7], [100.0, 80.7])]);
+    desk.put("lego-port/port3/mode", "nxt-i2c");
+    desk.step(600);
+    let (mode, value) = ("lego-sensor/sensor4/mode", "lego-sensor/sensor4/value0");
+    assert_eq!(desk.number(value), 80);
+    assert!(desk.0.unplug(Port::In4));
+    assert_eq!(desk.try_put(mode, "US-DIST-CM"), Err(Errno::ENXIO));
+    desk.0.plug(Port::In4, "lego-nxt-us").unwrap();
+    desk.0.place(Pose::new(0.0, 40.0, 0.0)).unwrap();
+    desk.step(2000);
+    assert_eq!(desk.number(value), 80, "until the mode is written");
+    assert_eq!(desk.try_put(mode, "US-DIST-CM"), Ok(Duration::from_millis(4)));
+    desk.step(10);
+    assert_eq!(desk.number(value), 40);
+}
+
+#[test]
+fn a_reading_that_was_asked_for_comes_though_polling_ends() {
+    let mut desk = desk("ht-nxt-compass", vec![]);
+    let path = sensor(&mut desk);
+    desk.put(&format!("{path}mode"), "COMPASS");
+    desk.put(&format!("{path}poll_ms"), "0");
+    desk.step(100);
+    desk.0.place(Pose::new(0.0, 0.0, 90.0)).unwrap();
+    desk.step(3000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0, "and no other does");
+    let mut sonar = self::desk("lego-nxt-us", vec![Item::wall([-100.0, 80.7], [100.0, 80.7])]);
+    let path = sensor(&mut sonar);
+    sonar.put(&format!("{path}poll_ms"), "0");
+    sonar.put(&format!("{path}mode"), "US-SI-CM");
+    sonar.put(&format!("{path}poll_ms"), "100");
+    sonar.step(100);
+    assert_eq!(sonar.number(&format!("{path}value0")), 80);
+}
+
+#[test]
+fn a_sensor_without_power_forgets() {
+    let mut desk = desk("lego-ev3-gyro", vec![]);
+    desk.put("lego-port/port3/mode", "ev3-uart");
+    desk.step(2000);
+    assert!(desk.0.unplug(Port::In4));
+    desk.run(B, &[("speed_sp", 200)], "run-forever");
+    desk.step(1000);
+    desk.run(B, &[], "stop");
+    desk.step(1000);
+    desk.0.plug(Port::In4, "lego-ev3-gyro").unwrap();
+    desk.step(300);
+    let path = "lego-sensor/sensor4/";
+    assert_eq!(desk.get(&format!("{path}mode")), "", "it introduces itself");
+    assert!(desk.0.unplug(Port::In4));
+    desk.step(300);
+    assert_eq!(desk.get(&format!("{path}mode")), "", "still");
+    assert!(desk.0.lose_contact(Port::In4, Duration::from_millis(100)));
+    desk.step(300);
+    assert_eq!(desk.try_get(&format!("{path}value0")), Err(Errno::ENXIO), "there is no wire");
+    desk.0.plug(Port::In4, "lego-ev3-gyro").unwrap();
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0);
+    assert!(desk.0.unplug(Port::In4));
+    desk.0.plug(Port::In4, "lego-ev3-touch").unwrap();
+    desk.step(2000);
+    assert_eq!(desk.number(&format!("{path}value0")), 0, "no serial sensor");
+}
+
+#[test]
+fn pin_6_is_what_is_plugged_in() {
+    let mut desk = desk("lego-ev3-touch", vec![]);
+    desk.put("lego-port/port3/mode", "ev3-analog");
+    assert!(desk.0.press_touch(Port::In4, true));
+    desk.step(600);
+    let value = "lego-sensor/sensor4/value0";
+    assert_eq!(desk.number(value), 5000);
+    for driver in ["lego-ev3-us", "lego-nxt-touch"] {
+        desk.0.plug(Port::In4, driver).unwrap();
+        desk.step(20);
+        assert_eq!(desk.number(value), 0, "{driver}");
+    }
 }
