@@ -76,7 +76,7 @@ pub fn sinc(x: f64) -> f64 {
 const SHORT_ARC: f64 = 0.1;
 
 /// Up to here its last three terms are.
-const SHORTER_ARC: f64 = 0.01;
+const SHORTER_ARC: f64 = 0.005;
 
 /// The factors of the powers of x², highest first. They take a processor without
 /// floating point unit less time than a sine and a division.

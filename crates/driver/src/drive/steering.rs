@@ -463,7 +463,7 @@ impl Steering {
         let aim = (speed * LOOKAHEAD).max(NEAREST_AIM).min(radius);
         let back = (place.aside / aim).clamp(-FRAC_PI_2, FRAC_PI_2);
         let tangent = self.travel(part.heading_at(ahead));
-        let off = wrapped(tangent - soon.heading).to_radians() - back;
+        let off = wrapped(tangent - back.to_degrees() - soon.heading).to_radians();
         self.speed = speed * sign;
         self.rate = speed * part.curvature() + HEADING_GAIN * off;
         self.set_phase(Phase::Following(way));
