@@ -216,15 +216,9 @@ impl Machine {
 
     /// Lets a sensor sample the world, if its values are not fresh.
     pub(super) fn look(&mut self, serial: u64) {
-        let Some(Hardware::Sensor(sensor)) = self.tree.hardware(serial) else {
-            return;
-        };
-        if !sensor.wants_reading() {
-            return;
-        }
-        let reading = self.measure(sensor);
-        if let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) {
-            sensor.take(reading);
+        let hardware = self.tree.hardware(serial);
+        if matches!(hardware, Some(Hardware::Sensor(sensor)) if sensor.wants_reading()) {
+            self.sample(serial);
         }
     }
 
@@ -246,7 +240,7 @@ impl Machine {
 
     fn measure_in(&self, sensor: &Sensor, mode: &Mode) -> Reading {
         let (link, plug) = (sensor.kind.link, self.sockets[sensor.port() as usize].plug);
-        let is_its = matches!(plug, Some(Plug::Sensor(kind)) if std::ptr::eq(kind, sensor.kind));
+        let is_its = plug.is_some_and(|plug| plug.is_of(sensor.kind));
         let raw = |mode: &Mode| mode.raw(self.view(sensor).measure(mode.sense));
         let reading = match link {
             Link::NxtAnalog { .. } if !is_its => {

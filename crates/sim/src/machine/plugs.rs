@@ -83,8 +83,7 @@ impl Machine {
         socket.change(plug, self.tick);
         let device = socket.device.and_then(|serial| self.tree.hardware_mut(serial));
         if let (Some(Hardware::Sensor(sensor)), false) = (device, is_looked_for) {
-            let is_its =
-                matches!(plug, Some(Plug::Sensor(kind)) if std::ptr::eq(kind, sensor.kind));
+            let is_its = plug.is_some_and(|plug| plug.is_of(sensor.kind));
             sensor.connect(is_its);
             // Another sensor on a serial line tells the driver what it is.
             if is_its || !plug.is_some_and(Plug::is_serial) {
@@ -239,9 +238,9 @@ impl Machine {
         }
     }
 
-    /// Silences a sensor for a while, a serial one or one on the I2C bus. It stays registered and shows its old values. If the
-    /// silence is long, the sensor then has to introduce itself again: meanwhile it has no mode
-    /// and no values (ENXIO), if it is a serial one. False if there is no such sensor.
+    /// Silences a sensor for a while, a serial one or one on the I2C bus. It stays registered and
+    /// shows its old values. If the silence is long, a serial one then has to introduce itself
+    /// again: meanwhile it has no mode and no values (ENXIO). False if there is no such sensor.
     pub fn lose_contact(&mut self, port: Port, time: Duration) -> bool {
         let Some(serial) = self.sockets[port as usize].device else {
             return false;

@@ -112,6 +112,11 @@ impl Plug {
         }
     }
 
+    /// True if it is a sensor of this type.
+    pub(crate) fn is_of(self, kind: &SensorKind) -> bool {
+        matches!(self, Plug::Sensor(own) if std::ptr::eq(own, kind))
+    }
+
     pub(crate) fn is_serial(self) -> bool {
         matches!(self, Plug::Sensor(SensorKind { link: Link::Uart, .. }))
     }

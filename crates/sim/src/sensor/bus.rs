@@ -64,18 +64,25 @@ impl Sensor {
         }
     }
 
+    /// ENXIO while nobody answers messages on the bus.
+    fn answers(&self) -> Result<(), Errno> {
+        if self.is_silent() { Err(Errno::ENXIO) } else { Ok(()) }
+    }
+
+    /// How long a message takes, in ms.
+    fn message_ms(&self) -> i32 {
+        if self.instant { 0 } else { BUS_MS }
+    }
+
     /// The mode of a sensor on the I2C bus: a message where it has a register for that, and a
     /// reading, for which the write waits if there will be no other. Where nobody answers the
     /// message there is no reading, and polling has ended; a reading that fails is no error.
     pub(super) fn select_on_bus(&mut self, mode: usize) -> Result<Effect, Errno> {
-        let message = if self.instant { 0 } else { BUS_MS };
+        let message = self.message_ms();
         let mut blocks = 0;
         if self.kind.has_mode_register(mode) {
             blocks += message;
-            if self.is_silent() {
-                self.poll_at = u64::MAX;
-                return Err(Errno::ENXIO);
-            }
+            self.answers().inspect_err(|_| self.poll_at = u64::MAX)?;
         }
         let before = self.mode;
         self.show(mode);
@@ -86,7 +93,7 @@ impl Sensor {
         } else {
             blocks += message;
         }
-        let time = Duration::from_millis(blocks.unsigned_abs().into());
+        let time = milliseconds(blocks);
         let is_read = !is_polled && !self.is_silent();
         Ok(if is_read { Effect::Reads(before, time) } else { Effect::Blocks(time) })
     }
@@ -109,9 +116,7 @@ impl Sensor {
     /// One of the kind's commands. Those that set zeros do; the others change nothing that could
     /// be measured here.
     pub(super) fn command(&mut self, index: usize) -> Result<Effect, Errno> {
-        if self.is_silent() {
-            return Err(Errno::ENXIO);
-        }
+        self.answers()?;
         match self.kind.commands[index] {
             "RESET" => {
                 self.axle.reset();
@@ -145,8 +150,7 @@ impl Sensor {
         }
         let poll_ms = lenient_unsigned(bytes)?;
         if self.poll_ms == 0 && poll_ms > 0 {
-            let message = if self.instant { 0 } else { BUS_MS };
-            self.read_first(self.now + ticks_from_ms(message));
+            self.read_first(self.now + ticks_from_ms(self.message_ms()));
         }
         self.poll_ms = poll_ms;
         Ok(Effect::Done)
@@ -158,9 +162,7 @@ impl Sensor {
         if !self.is_on_bus() {
             return Err(Errno::EOPNOTSUPP);
         }
-        if self.is_silent() {
-            return Err(Errno::ENXIO);
-        }
+        self.answers()?;
         let mut bytes: Vec<u8> = self.registers().into_iter().skip(register).take(BLOCK).collect();
         bytes.resize(count, 0);
         Ok(bytes)
@@ -173,9 +175,7 @@ impl Sensor {
         register: usize,
         bytes: &[u8],
     ) -> Result<Effect, Errno> {
-        if self.is_silent() {
-            return Err(Errno::ENXIO);
-        }
+        self.answers()?;
         for (at, byte) in (register..REGISTERS).zip(bytes.iter().take(BLOCK)) {
             if (DATA_REGISTER..DATA_REGISTER + BLOCK).contains(&at) || at < SETTINGS_REGISTER {
                 continue;
@@ -183,10 +183,7 @@ impl Sensor {
             self.settings.retain(|(other, _)| *other != at);
             self.settings.push((at, *byte));
         }
-        if self.instant {
-            return Ok(Effect::Done);
-        }
-        Ok(Effect::Blocks(Duration::from_millis(BUS_MS.unsigned_abs().into())))
+        Ok(Effect::Blocks(milliseconds(self.message_ms())))
     }
 
     /// The registers of a sensor on the I2C bus, as far as there is something in them.
@@ -207,4 +204,8 @@ impl Sensor {
         }
         registers
     }
+}
+
+fn milliseconds(ms: i32) -> Duration {
+    Duration::from_millis(ms.unsigned_abs().into())
 }

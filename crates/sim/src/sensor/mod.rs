@@ -268,7 +268,9 @@ impl Sensor {
         let old = std::mem::replace(&mut self.reading, reading);
         self.read_at = Some(self.now);
         self.wanted = false;
-        self.polled();
+        if self.is_on_bus() {
+            self.polled();
+        }
         let shown = |reading: Reading| self.mode().scale.shown(reading[0]);
         if self.notifies() && shown(old) != shown(reading) {
             self.events = self.events.wrapping_add(1);
