@@ -5,7 +5,7 @@
 //! again, when it ends, or when it sleeps elsewhere, until another thread or a person wakes it.
 //! Then the first in line gets it.
 //!
-//! The baton is passed on only at a moment at which all threads rest that do not stand in line
+//! The baton is passed on only at a moment at which all other threads are asleep
 //! ([`Threads::rest`]). So a thread that was just created, or woken, comes to its place in line
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
@@ -208,13 +208,11 @@ impl Baton {
         }
     }
 
-    /// Whether all threads rest that do not stand in line.
+    /// Whether all other threads are asleep.
     fn is_rest(&self, line: &mut Line) -> bool {
         let Line { clients, threads, .. } = line;
         let stands = |id| clients.iter().any(|one| one.id == id && one.stands.is_some());
-        let count = clients.iter().filter(|client| client.stands.is_some()).count();
-        let is_rest = threads::count() <= count as u64 || threads.rest(stands);
-        is_rest && self.arriving.load(Ordering::SeqCst) == 0
+        threads.rest(stands) && self.arriving.load(Ordering::SeqCst) == 0
     }
 
     fn line(&self) -> MutexGuard<'_, Line> {

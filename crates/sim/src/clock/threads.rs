@@ -6,7 +6,6 @@
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io::Read;
-use std::os::unix::fs::MetadataExt;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -65,38 +64,36 @@ pub(super) fn stay_outside(is_outside: bool) {
     });
 }
 
-/// How many threads this process has that may be a part of the program. Where the kernel does not
-/// tell, one is assumed.
-pub(super) fn count() -> u64 {
-    // A directory has a link more for each directory in it, and two for itself.
-    let all = fs::metadata(TASKS).map_or(1, |tasks| tasks.nlink().saturating_sub(2));
-    all.saturating_sub(outside().len() as u64)
-}
-
-/// The threads of this process when they were last looked at.
+/// The threads of this process when they last rested.
 #[derive(Debug, Default)]
 pub(super) struct Threads {
     /// In the order of their creation, as the kernel lists them.
     seen: Vec<Seen>,
 }
 
-/// What was seen of a thread: its number, and how often it had fallen asleep, unless it was not
-/// to be looked at.
+/// What was seen of a thread: its number, and how often it had left its processor, unless it was
+/// not looked at.
 type Seen = (Id, Option<u64>);
 
 impl Threads {
-    /// Whether there was a moment at which all threads were asleep but those that need not be.
+    /// Whether there was a moment at which all threads but this one were asleep. Those that stand
+    /// in line may have been awake since.
     ///
-    /// Two looks tell: a thread that was asleep in both, and has fallen asleep equally often, did
-    /// not run in between. So the end of the first look is such a moment.
-    pub(super) fn rest(&mut self, need_not: impl Fn(Id) -> bool) -> bool {
-        let Some(seen) = look(&need_not) else {
+    /// Two looks tell: a thread that was asleep in both, and has left its processor equally often,
+    /// did not run in between. Who stands in line and is awake may hold a lock that a sleeper
+    /// waits for, so these have to be asleep between the looks. One look tells that nobody has run
+    /// since the last time, but those in line.
+    pub(super) fn rest(&mut self, stands: impl Fn(Id) -> bool) -> bool {
+        let elsewhere = |id| !stands(id);
+        let Some(seen) = look(elsewhere) else {
             return false;
         };
-        // Those that have slept since the last time were looked at then.
         let is_as_before = seen.iter().all(|one| one.1.is_none() || self.seen.contains(one));
-        let rest = is_as_before || look(&need_not).is_some_and(|again| again == seen);
-        self.seen = seen;
+        let rest = is_as_before
+            || look(&stands).is_some() && look(elsewhere).is_some_and(|again| again == seen);
+        if rest {
+            self.seen = seen;
+        }
         rest
     }
 
@@ -106,8 +103,8 @@ impl Threads {
     }
 }
 
-/// The threads; `None` if one is awake that should not be.
-fn look(need_not: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
+/// The threads; `None` if one of those that are looked at is awake. This one never is.
+fn look(is_looked_at: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
     let mut seen = Vec::new();
     let outside = outside().clone();
     for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
@@ -117,15 +114,15 @@ fn look(need_not: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
         if outside.contains(&id) {
             continue;
         }
-        let sleeps = if need_not(id) { None } else { Some(sleeps(id)?) };
-        seen.push((id, sleeps));
+        let is_looked_at = id != me() && is_looked_at(id);
+        seen.push((id, if is_looked_at { Some(switches(id)?) } else { None }));
     }
     Some(seen)
 }
 
-/// How often a thread has fallen asleep; `None` if it is awake. One that has ended is asleep for
-/// ever, and our own threads count as asleep.
-fn sleeps(thread: Id) -> Option<u64> {
+/// How often a thread has left its processor; `None` if it is awake. One that has ended is asleep
+/// for ever, and our own threads count as asleep.
+fn switches(thread: Id) -> Option<u64> {
     let mut buffer = [0; 4096];
     let file = File::open(format!("{TASKS}/{thread}/status"));
     let Ok(length) = file.and_then(|mut file| file.read(&mut buffer)) else {
@@ -133,11 +130,14 @@ fn sleeps(thread: Id) -> Option<u64> {
     };
     let text = String::from_utf8_lossy(&buffer[..length]);
     let value = |name| text.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
+    let count = |name| value(name)?.parse::<u64>().ok();
     if value("Name:")?.starts_with(OURS) {
         return Some(u64::MAX);
     }
     match value("State:")?.as_bytes().first()? {
-        b'S' => value("voluntary_ctxt_switches:")?.parse().ok(),
+        // One that is about to fall asleep is said to be asleep, and may lose its processor just
+        // then, before that sleep counts.
+        b'S' => Some(count("voluntary_ctxt_switches:")? + count("nonvoluntary_ctxt_switches:")?),
         b'X' | b'Z' => Some(u64::MAX),
         // It can run, waits for a disk or its memory, or was halted by a debugger.
         _ => None,
