@@ -112,9 +112,10 @@ test(an_exception_stops_it, [forall(behaving(Tree)), true(Ss == [])]) :-
                           time_limit_exceeded, true),
                     sim_step(0.15), dc_motor_states(outA, Ss) )).
 test(who_stops_it_makes_it_fail, [fail]) :-
-    plain(( put_attribute(outA, state, running),
+    plain(( runs(outA),
+            thread_self(Me),
             meanwhile(( eventually(get_attribute(outA, command, 'run-timed')),
-                        put_attribute(outA, state, '') ),
+                        rests(Me, outA) ),
                       dc_motor_run_timed(outA, 50, 30)) )).
 test(a_port_that_is_put_into_another_mode_throws,
      error(existence_error(motor, outA), _)) :-

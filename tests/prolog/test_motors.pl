@@ -299,9 +299,10 @@ test(moves_count_from_where_the_motor_is,
 test(a_stop_from_another_thread_ends_the_move_and_fails,
      [forall(tree(Tree)), true(Ended-Ws == fails-[])]) :-
     with_tree(Tree, ( runs(outB),
+                      thread_self(Me),
                       meanwhile(( eventually(get_attribute(outB, command, 'run-to-rel-pos')),
                                   motor_stop(outB),
-                                  stops(outB) ),
+                                  rests(Me, outB) ),
                                 warnings(( motor_run(outB, 5, 3600000)
                                          -> Ended = succeeds ; Ended = fails ), Ws)) )).
 test(a_blocked_motor_is_stopped_and_fails_with_a_warning,
@@ -609,9 +610,10 @@ test(a_time_limit_stops_it, [forall(behaving(Tree)), true(Ss == [])]) :-
                      time_limit_exceeded, true),
                motor_states(outA, Ss) )).
 test(who_stops_it_makes_it_fail, [fail]) :-
-    plain(( put_attribute(outB, state, running),
+    plain(( runs(outB),
+            thread_self(Me),
             meanwhile(( eventually(get_attribute(outB, command, 'run-timed')),
-                        put_attribute(outB, state, '') ),
+                        rests(Me, outB) ),
                       motor_run_timed(outB, 50, 30)) )).
 test(an_unplugged_motor_throws, error(existence_error(motor, outB), _)) :-
     plain(( put_attribute(outB, state, running),

@@ -29,6 +29,7 @@
             obeying/2,                  % +Ports, :Goal
             runs/1,                     % +Port
             stops/1,                    % +Port
+            rests/2,                    % +Thread, +Port
             block/1,                    % +Port
             warnings/2                  % :Goal, -Warnings
           ]).
@@ -681,6 +682,19 @@ stops(Port) :-
     put_attribute(Port, command, stop),
     (   current_tree(plain)
     ->  put_attribute(Port, state, '')
+    ;   true
+    ).
+
+%!  rests(+Thread, +Port)
+%
+%   Where motors do not move by themselves, the one at Port, which Thread has told
+%   to run and waits for, rests. Thread itself sees to that, between two looks at
+%   it: else it might come before the first, and the motor be taken for one that
+%   does not run at all.
+
+rests(Thread, Port) :-
+    (   current_tree(plain)
+    ->  thread_signal(Thread, put_attribute(Port, state, ''))
     ;   true
     ).
 
