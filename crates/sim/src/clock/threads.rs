@@ -103,7 +103,7 @@ impl Threads {
     }
 }
 
-/// The threads; `None` if one of those that are looked at is awake. This one never is.
+/// The threads; `None` if one of those that are looked at is awake. This one is not looked at.
 fn look(is_looked_at: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
     let mut seen = Vec::new();
     let outside = outside().clone();

@@ -5,13 +5,11 @@
 //! was last read as. Without polling that one reading is done before the write returns, and it is
 //! still that of the mode before.
 
-use std::time::Duration;
-
 use super::{Link, Reading, Sensor};
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
 use crate::files::text::{lenient_unsigned, signed};
-use crate::ticks::{TICK_MS, ticks_from_ms};
+use crate::ticks::{TICK_MS, milliseconds, ticks_from_ms};
 
 /// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;
@@ -204,8 +202,4 @@ impl Sensor {
         }
         registers
     }
-}
-
-fn milliseconds(ms: i32) -> Duration {
-    Duration::from_millis(ms.unsigned_abs().into())
 }

@@ -24,7 +24,7 @@ use std::time::Duration;
 use crate::brick::port::Port;
 use crate::files::attr::Effect;
 use crate::files::errno::Errno;
-use crate::ticks::{JIFFY_TICKS, TICK_MS, ticks_from_ms};
+use crate::ticks::{JIFFY_TICKS, TICK_MS, milliseconds, ticks_from_ms};
 use crate::wheel::jiffy;
 
 /// From a mode message to the first data of the new mode.
@@ -341,7 +341,7 @@ impl Sensor {
             return Ok(Effect::Done);
         }
         self.pending = Some((mode, self.now + ticks_from_ms(MODE_LATENCY_MS)));
-        Ok(Effect::Blocks(Duration::from_millis(MODE_LATENCY_MS.unsigned_abs().into())))
+        Ok(Effect::Blocks(milliseconds(MODE_LATENCY_MS)))
     }
 
     /// The files show a mode, with what it showed last.
