@@ -43,7 +43,7 @@ check: build check-rust
 check-all: lint check
 	$(MAKE) dist
 	$(MAKE) check-torture
-	$(MAKE) -j2 check-brick check-dist check-versions check-brick-prolog
+	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
 	@tools/checked.sh
 
 check-rust:
