@@ -333,18 +333,21 @@ pub fn has_other_threads() -> bool {
     /// So many numbers above the highest are asked for: a thread that has one, and is not a
     /// thread of Prolog yet, hides those behind it. That which collects garbage begins so.
     const AHEAD: i32 = 8;
-    // Safety: the frame gives back the reference.
+    // Safety: the frame gives back the references. Where there is no thread, `id` stays unbound.
     unsafe {
         if PL_thread_self() != 1 {
             return true;
         }
         let frame = PL_open_foreign_frame();
+        let mut id = PL_new_term_ref();
         let (mut others, mut thread) = (false, 2);
-        while thread <= HIGHEST.load(Ordering::Relaxed).saturating_add(AHEAD) {
-            let id = PL_new_term_ref();
+        let mut last = HIGHEST.load(Ordering::Relaxed).saturating_add(AHEAD);
+        while thread <= last {
             if PL_unify_thread_id(id, thread) != -1 {
                 others |= !is_passed_over(thread) && !is_collector(id);
                 HIGHEST.fetch_max(thread, Ordering::Relaxed);
+                last = last.max(thread.saturating_add(AHEAD));
+                id = PL_new_term_ref();
             }
             thread += 1;
         }
