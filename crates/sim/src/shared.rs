@@ -1,6 +1,6 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
 
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::clock::pace::Pace;
@@ -14,12 +14,12 @@ pub struct Shared {
     machine: Mutex<Machine>,
     changed: Condvar,
     /// Locked after the machine.
-    wall: Mutex<Option<Wall>>,
+    wall: OnceLock<Mutex<Wall>>,
     pace: Pace,
 }
 
 /// How the machine follows the wall clock.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Wall {
     factor: f64,
     /// Up to when it has.
@@ -39,7 +39,7 @@ impl Shared {
         Shared {
             machine: Mutex::new(machine),
             changed: Condvar::new(),
-            wall: Mutex::default(),
+            wall: OnceLock::new(),
             pace: Pace::default(),
         }
     }
@@ -51,31 +51,31 @@ impl Shared {
     /// up for it: so what a program does on a busy computer happens at its time.
     pub fn lock(&self) -> MutexGuard<'_, Machine> {
         let mut machine = self.lock_as_it_is();
-        let late = self.behind(BEHIND);
-        if !late.is_zero() {
-            machine.step(late);
+        if self.wall.get().is_some() {
+            machine.step(self.behind(BEHIND));
         }
         machine
     }
 
     /// The same, whatever the time.
     pub(crate) fn lock_as_it_is(&self) -> MutexGuard<'_, Machine> {
-        self.machine.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.machine)
     }
 
     /// Follows the wall clock from now on, faster by a factor.
     pub fn follow(&self, factor: f64) {
-        *self.wall() = Some(Wall { factor, last: Instant::now() });
+        let wall = Wall { factor, last: Instant::now() };
+        *locked(self.wall.get_or_init(|| Mutex::new(wall))) = wall;
     }
 
     /// How far the machine is behind the wall clock, in its own time, if that is more than
     /// `more_than` of wall time. The caller makes up for it. A machine that cannot keep up falls
     /// behind, but not without limit.
     pub(crate) fn behind(&self, more_than: Duration) -> Duration {
-        let mut wall = self.wall();
-        let Some(Wall { factor, last }) = &mut *wall else {
+        let Some(wall) = self.wall.get() else {
             return Duration::ZERO;
         };
+        let Wall { factor, last } = &mut *locked(wall);
         let now = Instant::now();
         let passed = now - *last;
         if passed <= more_than {
@@ -88,10 +88,6 @@ impl Shared {
     /// How fast time may pass.
     pub(crate) fn pace(&self) -> &Pace {
         &self.pace
-    }
-
-    fn wall(&self) -> MutexGuard<'_, Option<Wall>> {
-        self.wall.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Lets virtual time pass and wakes all waiting threads.
@@ -114,4 +110,8 @@ impl Shared {
         let woken = self.changed.wait_timeout(guard, at_most);
         woken.unwrap_or_else(PoisonError::into_inner).0
     }
+}
+
+fn locked<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
 }
