@@ -11,13 +11,13 @@ use fuser::{
     ReplyIoctl, ReplyOpen, ReplyPoll, ReplyWrite, Request, TimeOrNow, WriteFlags,
 };
 
-use super::open::{Open, locked, written};
+use super::open::{Open, written};
 use super::served::Served;
 use crate::files::attr::Access;
 use crate::files::errno::Errno;
 use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::machine::{Machine, Written};
-use crate::shared::Shared;
+use crate::shared::{Shared, locked};
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;

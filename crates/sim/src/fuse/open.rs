@@ -5,8 +5,8 @@
 //! some time even if on the machine's clock, which may stand still, it is not yet.
 
 use std::collections::HashMap;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
@@ -14,7 +14,7 @@ use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 use super::served::Served;
 use crate::files::errno::Errno;
 use crate::machine::Machine;
-use crate::shared::Shared;
+use crate::shared::{Shared, locked};
 
 /// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);
@@ -158,11 +158,6 @@ pub(super) fn written(outcome: Result<usize, Errno>, reply: ReplyWrite) {
         Ok(length) => reply.written(u32::try_from(length).unwrap_or(u32::MAX)),
         Err(errno) => reply.error(errno.into()),
     }
-}
-
-/// Locks a mutex. A thread that panicked while it held the lock has left the value in order.
-pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Answers waiting calls whenever time has passed.
