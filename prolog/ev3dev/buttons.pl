@@ -5,7 +5,7 @@
             button_events/1             % -Events
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(files, []).
 :- use_module(private/arguments,
               [must_be_options/3, timeout_option/2, word/2]).

@@ -2,7 +2,7 @@
           [ calibrate/3                 % +What, :Options, -SetRobot
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,

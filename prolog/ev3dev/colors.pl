@@ -6,7 +6,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
-:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/errors, [term_expansion/4]).
 :- use_module(private/brick).
 :- use_module(sensors, [col_rgb_raw/4]).
 

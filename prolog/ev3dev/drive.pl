@@ -22,7 +22,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [evaluated/2, must_be/2, term_expansion/2]).
+              [evaluated/2, must_be/2, term_expansion/4]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, take_options/4, timeout_option/2

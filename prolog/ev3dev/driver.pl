@@ -35,7 +35,7 @@
             decimals_file/2             % ?Port, -File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(private/attributes,
               [ attribute/4, attribute_words/4, device_at/3,
                 value_attribute/2

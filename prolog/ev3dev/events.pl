@@ -16,7 +16,7 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
-                term_expansion/2
+                term_expansion/4
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).

@@ -6,7 +6,7 @@
             ev3_dev/1                   % ?Directory
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/errors, [term_expansion/4]).
 :- use_module(private/directory, [directory_path/2, environment_directory/2]).
 :- use_module(private/native,
               [ dev_/1, dev_use_/1, file_read_/2, file_write_/2,

@@ -40,7 +40,7 @@
               ]).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, must_be/2,
-                term_expansion/2
+                term_expansion/4
               ]).
 :- use_module(private/golog/context, [context/3]).
 :- use_module(private/golog/domain, [fluent_value/4, situation/3,

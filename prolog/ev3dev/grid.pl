@@ -5,7 +5,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
-:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/2]).
+:- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(private/explain).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [meta_options/3, option/2, option/3]).

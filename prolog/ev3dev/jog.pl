@@ -4,7 +4,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
-:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/errors, [term_expansion/4]).
 :- use_module(private/arguments, [must_be_options/3]).
 :- use_module(private/drive_moves, [speed_option/4]).
 :- use_module(private/robot_state, [robot_set/4]).

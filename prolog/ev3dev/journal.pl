@@ -9,7 +9,7 @@
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(private/errors,
               [ existence_error/2, goal_of_program/1, in_own_name/1,
-                must_be/2, term_expansion/2
+                must_be/2, term_expansion/4
               ]).
 :- use_module(private/explain, [fail_because/1]).
 :- use_module(private/arguments, [word/2]).

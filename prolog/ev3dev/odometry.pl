@@ -7,7 +7,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [domain_error/2, must_be/2, term_expansion/2]).
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(private/explain).
 :- use_module(driver, []).
 :- use_module(private/arguments,

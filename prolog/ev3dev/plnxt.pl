@@ -33,7 +33,7 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
-                instantiation_error/1, must_be/2, term_expansion/2
+                instantiation_error/1, must_be/2, term_expansion/4
               ]).
 :- use_module(private/arguments, [number_value/2, number_value/3]).
 :- use_module(private/one_of, [one_of/2]).

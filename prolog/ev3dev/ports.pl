@@ -6,7 +6,7 @@
             port_device/2               % ?Port, ?Device
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/errors, [term_expansion/4]).
 :- use_module(private/arguments, [word/2]).
 :- use_module(private/explain).
 :- use_module(driver, []).

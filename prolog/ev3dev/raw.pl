@@ -6,7 +6,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [domain_error/2, must_be/2, term_expansion/2]).
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(private/arguments, [must_be_within/4]).
 :- use_module(private/native, [i2c_read_/4, i2c_write_/3]).
 :- use_module(private/one_of).

@@ -14,7 +14,7 @@
 :- use_module(private/errors,
               [ domain_error/2, error_within/3, existence_error/2,
                 goal_of_program/1, instantiation_error/1, must_be/2,
-                term_expansion/2, throw_error/3, type_error/2
+                term_expansion/4, throw_error/3, type_error/2
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).

@@ -6,7 +6,7 @@
             sensor_command/2            % +Port, +Command
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(driver, [lego_sensor/2, mode/2, sensor_attribute/3]).
 :- use_module(sensors, [sensor_values/3]).
 :- use_module(private/attributes, [attribute_words/4, device_at/3]).

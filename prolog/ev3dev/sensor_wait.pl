@@ -5,7 +5,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, must_be/2,
-                term_expansion/2, throw_error/3
+                term_expansion/4, throw_error/3
               ]).
 :- use_module(private/explain).
 :- use_module(sensors, [reading_of/4]).

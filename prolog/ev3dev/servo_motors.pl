@@ -8,7 +8,7 @@
             servo_motor_attribute/3     % ?Port, +Attribute, ?Value
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [evaluated/2, term_expansion/2]).
+:- use_module(private/errors, [evaluated/2, term_expansion/4]).
 :- use_module(private/explain).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [servo_motor/1]).

@@ -9,7 +9,7 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
-                must_be/2, term_expansion/2
+                must_be/2, term_expansion/4
               ]).
 :- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).

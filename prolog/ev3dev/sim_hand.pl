@@ -16,7 +16,7 @@
             set_added_facts/1           % +Added
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [must_be/2, term_expansion/2]).
+:- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,

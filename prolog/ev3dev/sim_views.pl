@@ -8,7 +8,7 @@
             sim_unmount/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/2]).
+:- use_module(private/errors, [term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/directory, [directory_path/2]).
 :- use_module(private/native,

@@ -6,6 +6,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(scripts, []).
 :- use_module(help, []).
+:- use_module(uncaught, []).
 :- reexport('../driver').
 :- reexport('../device_table').
 :- reexport('../motors').

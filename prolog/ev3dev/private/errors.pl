@@ -9,7 +9,10 @@
             instantiation_error/1,      % +Term
             throw_error/3,              % +Formal, +Called, +Message
             error_within/3,             % +Error0, +Where, -Error
-            term_expansion/2            % +Clause0, -Clause
+            in_pack/3,                  % +Predicate, -Module, -Indicator
+            is_of_system/1,             % +Predicate
+            is_public/2,                % ?Module, +Indicator
+            term_expansion/4            % +Clause0, ?Layout0, -Clause, -Layout
           ]).
 :- use_module(domains, [allowed/2]).
 
@@ -26,7 +29,7 @@ throw_error/3 finds the called predicate when it throws, so a call that
 succeeds costs nothing. It walks from the frame of the error outward to the
 program's own code and takes the last exported predicate of the pack. Prolog
 drops a frame before the last call of a clause. So a module with public
-predicates imports term_expansion/2 from here, which adds `true` after the
+predicates imports term_expansion/4 from here, which adds `true` after the
 last call of each clause of an exported predicate. (`swipl -O` removes this
 `true`; then an error names an inner predicate.)
 */
@@ -330,12 +333,29 @@ note_exports([Name/Arity|Exports], Module) :-
     assertz(exported(Name, Arity, Module)),
     note_exports(Exports, Module).
 
-%!  term_expansion(+Clause0, -Clause) is semidet.
+%!  term_expansion(+Clause0, ?Layout0, -Clause, -Layout) is semidet.
 %
-%   Keep the frames of exported predicates by `true` after the last call.
+%   Keep the frames of exported predicates by `true` after the last call. A
+%   clause without its layout would break the backtraces of library(prolog_stack)
+%   up to SWI-Prolog 9.2.
 
-term_expansion((Head :- Body), (Head :- Body, true)) :-
+term_expansion((Head :- Body), Layout0, (Head :- Body, true), Layout) :-
     prolog_load_context(module, Module),
     callable(Head),
     functor(Head, Name, Arity),
-    is_exported(Name, Arity, Module).
+    is_exported(Name, Arity, Module),
+    layout(Layout0, Layout).
+
+layout(Layout0, Layout) :-
+    (   nonvar(Layout0),
+        Layout0 = term_position(From, To, NeckFrom, NeckTo, [Head, Body]),
+        compound(Body)
+    ->  arg(1, Body, Begin),
+        arg(2, Body, End),
+        Layout = term_position(From, To, NeckFrom, NeckTo,
+                               [ Head,
+                                 term_position(Begin, End, End, End,
+                                               [Body, End-End])
+                               ])
+    ;   Layout = Layout0
+    ).

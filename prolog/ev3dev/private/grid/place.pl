@@ -8,7 +8,7 @@
             cell_place/4                % +Metric, +Cell, -X, -Y
           ]).
 :- use_module('../brick', [brick/1]).
-:- use_module('../errors', [term_expansion/2]).
+:- use_module('../errors', [term_expansion/4]).
 :- use_module('../explain', [fail_because/1]).
 :- use_module('../../drive', [set_pose/3]).
 :- use_module(compass).

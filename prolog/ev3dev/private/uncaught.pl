@@ -1,0 +1,157 @@
+:- module(ev3dev_uncaught, []).
+:- use_module(errors, [in_pack/3, is_of_system/1, is_public/2]).
+
+/** <module> What a person reads of an error
+
+The message of an error of the pack is one line: what was called, and what is
+wrong with it. If nobody catches an error of the pack, or one that passes
+through it, the lines after that show where in the program it happened:
+
+```
+ERROR: led/2: purple is not one of: off, on, red, green, ...
+ERROR:   in start/0 at square.pl:12
+```
+
+They are in the place of a backtrace, whose frames would be those of the pack,
+and which up to SWI-Prolog 9.2 cannot be printed for clauses whose layout an
+expansion has not kept. Prolog gives up frames of the program for their last
+calls; a line that is missing is such a call.
+
+`set_prolog_flag(access_level, system)` shows Prolog's own backtrace.
+*/
+
+:- multifile prolog:message//1.
+
+prolog:message(error(Formal, context(Called, ev3dev_at(Text, Places)))) -->
+    '$messages':translate_message(error(Formal, context(Called, Text))),
+    places(Places).
+prolog:message(error(_, context(Called, Text))) -->
+    { atom(Text),
+      is_ours(Called)
+    },
+    [ '~q: ~w'-[Called, Text] ].
+
+places([]) -->
+    [].
+places([place(Predicate, File, Line)|Places]) -->
+    [ nl, '  in ~q at ~w:~w'-[Predicate, File, Line] ],
+    places(Places).
+
+is_ours(Called) :-
+    nonvar(Called),
+    Called = Name/Arity,
+    atom(Name),
+    integer(Arity),
+    is_public(_, Called).
+
+                /*******************************
+                *        THE EXCEPTION         *
+                *******************************/
+
+%   The hook changes the context of an error that nobody catches, as
+%   library(prolog_stack) does, whose clause comes after this one.
+
+located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
+    uncaught(Catcher),
+    \+ current_prolog_flag(access_level, system),
+    words(Context, Called, Text),
+    prolog_frame_attribute(Frame, pc, PC),
+    walk(Frame, PC, 200, 3, Passed, Places),
+    Passed == true,
+    Located = context(Called, ev3dev_at(Text, Places)).
+
+uncaught(none).
+uncaught(Catcher) :-
+    integer(Catcher),
+    prolog_frame_attribute(Catcher, predicate_indicator,
+                           system:catch_with_backtrace/3).
+
+words(Context, Called, Text) :-
+    (   var(Context)
+    ->  true
+    ;   Context = context(Called, Text),
+        \+ ( nonvar(Called), Called = prolog_stack(_) ),
+        \+ ( nonvar(Text), Text = ev3dev_at(_, _) )
+    ).
+
+%   Passed is true if a frame is the pack's; Places are the innermost ones of
+%   the program, at most Most, in the Deep frames from Frame outwards. PC is
+%   where the clause of Frame's parent goes on.
+
+walk(Frame, PC, Deep, Most, Passed, Places) :-
+    (   Deep > 0,
+        Most > 0,
+        prolog_frame_attribute(Frame, parent, Parent)
+    ->  prolog_frame_attribute(Parent, predicate_indicator, Predicate),
+        (   in_pack(Predicate, _, _)
+        ->  Passed = true,
+            Places = Places1,
+            Most1 = Most
+        ;   \+ is_of_system(Predicate),
+            place(Parent, PC, Predicate, Place)
+        ->  Places = [Place|Places1],
+            Most1 is Most - 1
+        ;   Places = Places1,
+            Most1 = Most
+        ),
+        Deep1 is Deep - 1,
+        (   prolog_frame_attribute(Parent, pc, PC1)
+        ->  true
+        ;   PC1 = none
+        ),
+        walk(Parent, PC1, Deep1, Most1, Passed, Places1)
+    ;   Places = []
+    ).
+
+place(Frame, PC, Predicate, place(Shown, File, Line)) :-
+    prolog_frame_attribute(Frame, clause, Clause),
+    clause_property(Clause, file(Path)),
+    line(Clause, PC, Line),
+    (   Predicate = user:Shown
+    ->  true
+    ;   Shown = Predicate
+    ),
+    short(Path, File).
+
+%   Of the call, if Prolog can say so; else of the clause.
+
+line(Clause, PC, Line) :-
+    integer(PC),
+    current_module(prolog_stack),
+    catch(prolog_stack:subgoal_position(Clause, PC, File, Begin, _),
+          error(_, _), fail),
+    atom(File),
+    catch(prolog_stack:lineno(File, Begin, Line), error(_, _), fail),
+    !.
+line(Clause, _, Line) :-
+    clause_property(Clause, line_count(Line)).
+
+short(Path, File) :-
+    working_directory(Directory, Directory),
+    (   atom_concat(Directory, File, Path)
+    ->  true
+    ;   File = Path
+    ).
+
+%   It stands before that of library(prolog_stack), which may be loaded already.
+
+:- if((current_prolog_flag(version, Version), Version >= 90107)).
+
+:- multifile prolog:prolog_exception_hook/5.
+:- dynamic prolog:prolog_exception_hook/5.
+:- initialization(
+       asserta((prolog:prolog_exception_hook(Error0, Error, Frame, Catcher,
+                                             _) :-
+                    ev3dev_uncaught:located(Error0, Error, Frame, Catcher))),
+       now).
+
+:- else.
+
+:- multifile user:prolog_exception_hook/4.
+:- dynamic user:prolog_exception_hook/4.
+:- initialization(
+       asserta((user:prolog_exception_hook(Error0, Error, Frame, Catcher) :-
+                    ev3dev_uncaught:located(Error0, Error, Frame, Catcher))),
+       now).
+
+:- endif.

@@ -1,0 +1,396 @@
+#!/usr/bin/env python3
+"""Plays sessions: what a person types at a terminal, and what it answers.
+
+    tests/sessions/play.py [--show] [FILE...]    default: tests/sessions/*.txt
+
+A session is a text as one sees it on the screen:
+
+    # A comment.
+    --- square.pl                 a file, up to the next line ---
+    start :- go_cm(30, 20).
+    ---
+    $ swipl square.pl             a command of the shell, in a folder of its own
+    ?- start.                     is typed when the prompt ?- has come
+    true.
+
+    ?- between(1, 2, X).
+    X = 1 <;>                     <...>: these keys, when what is before has come
+    X = 2.
+
+    ?- writeln(going), wait(100).
+    going
+    ^C                            ^C ^D ^Z: a key, when what is before has come
+    Action (h for help) ? <a>
+    ...
+    ?- ^D
+    $ ev3dev run nothing.pl
+    ...
+    [exit 2]                      its status, if it is not 0
+
+`...` stands for any text in a line, and alone for any lines. `{<9}`, `{>=9.1}`
+before a line: only in these versions of Prolog; `# only: >=9` says it of a whole
+session. Blank lines do not count. What was typed is not looked for in the answer:
+the terminal echoes it. `swipl` is that of the variable SWIPL, in a home that has
+nothing but this pack. `ev3dev` is the shell command of the pack: `swipl ev3dev`
+where Prolog has apps.
+
+Python's own pty does for this what pexpect would: there is nothing to install, on
+a machine without network, too.
+"""
+
+import argparse
+import fcntl
+import os
+import pty
+import re
+import select
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+PATIENCE = float(os.environ.get("EV3DEV_SESSION_SECONDS", "60"))
+PROMPT = re.compile(r"(?:^|\n)(?:\|: )?(?:\d+ )?\?- $")
+PROMPT_START = re.compile(r"^(?:\d+ )?\?- ")
+ESCAPES = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|\x1b[=>()][0-9A-B]?|[\r\a]")
+KEYS = {"^C": "\x03", "^D": "\x04", "^Z": "\x1a", "^\\": "\x1c"}
+
+
+class Wrong(Exception):
+    """The answer is not the expected one."""
+
+
+class Terminal:
+    """A command on a terminal of its own."""
+
+    def __init__(self, command, folder, environment):
+        self.text = ""
+        self.taken = 0
+        self.ended = False
+        self.pid, self.fd = pty.fork()
+        if self.pid == 0:
+            os.chdir(folder)
+            os.execve("/bin/sh", ["sh", "-c", command], environment)
+        # Wide, so that nothing is wrapped; high, so that no pager waits
+        fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 500, 400, 0, 0))
+
+    def send(self, text):
+        """Types; what has been printed up to now is done with."""
+        self.taken = len(self.text)
+        os.write(self.fd, text.encode())
+
+    def news(self):
+        """What has come since the last keys, as one sees it, without their echo."""
+        text = ESCAPES.sub("", self.text[self.taken :])
+        while "\b" in text:
+            text = re.sub(r"[^\b\n]?\b", "", text, count=1)
+        return text
+
+    def read(self, seconds):
+        """Reads what comes within some seconds; true if anything came."""
+        ready, _, _ = select.select([self.fd], [], [], seconds)
+        if not ready:
+            return False
+        try:
+            data = os.read(self.fd, 65536)
+        except OSError:  # the last one closed the terminal
+            data = b""
+        if not data:
+            self.ended = True
+        self.text += data.decode(errors="replace")
+        return bool(data)
+
+    def until(self, condition, what):
+        """Reads until condition(news) holds; what says what is waited for."""
+        deadline = time.monotonic() + PATIENCE
+        while not condition(self.news()):
+            left = deadline - time.monotonic()
+            if left <= 0:
+                raise Wrong(f"waited {PATIENCE:.0f} s for {what}")
+            if not self.ended:
+                self.read(left)
+            elif not condition(self.news()):
+                raise Wrong(f"ended before {what}")
+        return self.news()
+
+    def until_edited(self):
+        """A line editor, if there is one, takes over the terminal after the prompt; a key
+        before that would be the terminal's."""
+        deadline = time.monotonic() + 1
+        while termios.tcgetattr(self.fd)[3] & termios.ICANON and time.monotonic() < deadline:
+            self.read(0.02)
+
+    def wait(self):
+        """Waits for the end; the status as a shell has it."""
+        self.until(lambda _: self.ended, "its end")
+        _, status = os.waitpid(self.pid, 0)
+        os.close(self.fd)
+        code = os.waitstatus_to_exitcode(status)
+        return 128 - code if code < 0 else code
+
+    def kill(self):
+        """Ends it, whatever it does."""
+        try:
+            os.killpg(self.pid, signal.SIGKILL)
+            os.waitpid(self.pid, 0)
+            os.close(self.fd)
+        except (OSError, ChildProcessError):
+            pass
+
+
+def pattern(line):
+    """The regular expression of an expected line."""
+    return ".*?".join(re.escape(part.rstrip() if part.endswith(" ") else part) for part in line.split("..."))
+
+
+def matches(expected, text, partial=False):
+    """Is text what is expected? partial: its last line is not over."""
+    lines = [line.rstrip() for line in text.split("\n")]
+    if not partial:
+        lines = [line for line in lines if line]
+    else:
+        lines = [line for line in lines[:-1] if line] + lines[-1:]
+    return fits([line.rstrip() for line in expected if line.strip()], lines)
+
+
+def fits(expected, lines):
+    if not expected:
+        return not lines
+    if expected[0] == "...":
+        return any(fits(expected[1:], lines[n:]) for n in range(len(lines) + 1))
+    return bool(lines) and re.fullmatch(pattern(expected[0]), lines[0]) is not None and fits(expected[1:], lines[1:])
+
+
+class Version(tuple):
+    """As (9, 0, 4)."""
+
+    @classmethod
+    def of(cls, text):
+        return cls(int(part) for part in text.split("."))
+
+    def meets(self, condition):
+        """condition: as ">=9.1", "<9", "7.2"."""
+        for part in condition.split(","):
+            operator, text = re.fullmatch(r"(<|>=|)([0-9.]+)", part.strip()).groups()
+            other = Version.of(text)
+            mine = tuple(self[: len(other)])
+            if not {"<": mine < other, ">=": mine >= other, "": mine == other}[operator]:
+                return False
+        return True
+
+
+class Home:
+    """The machine of a person: a home with the pack, and what the shell finds."""
+
+    def __init__(self, swipl):
+        self.top = Path(tempfile.mkdtemp(prefix="ev3dev-sessions-"))
+        self.swipl = swipl
+        asked = subprocess.run([swipl, "--version"], capture_output=True, text=True, check=True)
+        self.version = Version.of(re.search(r"(\d+\.\d+\.\d+)", asked.stdout)[1])
+        home = Path(os.environ.get("EV3DEV_SESSION_HOME", self.top / "home"))
+        programs = self.top / "bin"
+        programs.mkdir()
+        if "EV3DEV_SESSION_HOME" not in os.environ:
+            packs = home / (".local/share/swi-prolog/pack" if self.version >= (8,) else "lib/swipl/pack")
+            packs.mkdir(parents=True)
+            (packs / "ev3dev").symlink_to(ROOT)
+        # An app is found in what is installed
+        apps = self.version >= (9, 1, 18)
+        self.program(programs / "swipl", f'exec "{swipl}" "$@"')
+        self.program(programs / "ev3dev", f'exec "{swipl}" ' + ("ev3dev" if apps else f'"{ROOT}/app/ev3dev.pl"') + ' "$@"')
+        kept = {name: value for name, value in os.environ.items() if not name.startswith(("EV3DEV_", "XDG_", "TREES"))}
+        self.environment = kept | {
+            "HOME": str(home),
+            "EMULATED_HOME": str(home),
+            "PATH": f"{programs}:{os.environ['PATH']}",
+            "TERM": "xterm",
+            "LANG": "C.UTF-8",
+        }
+
+    @staticmethod
+    def program(path, text):
+        path.write_text(f"#!/bin/sh\n{text}\n")
+        path.chmod(0o755)
+
+    def remove(self):
+        shutil.rmtree(self.top)
+
+
+class Player:
+    """Plays one session."""
+
+    def __init__(self, home, show):
+        self.home = home
+        self.show = show
+        self.folder = Path(tempfile.mkdtemp(dir=home.top))
+        self.terminal = None
+        self.expected = []
+        self.echo = False
+        self.typed = ""
+        self.status = 0
+
+    def play(self, text):
+        """Plays the lines; raises Wrong at the first that is not as it should be."""
+        lines = iter(enumerate(text.split("\n"), 1))
+        try:
+            for self.number, line in lines:
+                if line.startswith("--- "):
+                    self.file(line[4:].strip(), lines)
+                else:
+                    self.line(line)
+            self.end()
+        finally:
+            if self.terminal:
+                self.terminal.kill()
+
+    def file(self, name, lines):
+        content = []
+        for self.number, line in lines:
+            if line == "---":
+                break
+            content.append(line + "\n")
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("".join(content))
+
+    def line(self, line):
+        condition = re.match(r"\{([^}]*)\}\s?", line)
+        if condition:
+            if not self.home.version.meets(condition[1]):
+                return
+            line = line[condition.end() :]
+        if line.startswith("#"):
+            return
+        keys = re.fullmatch(r"(.*?)<([^<> ]+)>", line)
+        if line.startswith("$ "):
+            self.end()
+            self.terminal = Terminal(line[2:], self.folder, self.home.environment)
+        elif line.startswith("?- "):
+            self.answer(PROMPT, "the prompt")
+            typed = line[3:]
+            if typed in KEYS:
+                self.terminal.until_edited()
+            self.type(KEYS[typed] if typed in KEYS else typed + "\n", echo=typed not in KEYS)
+        elif line.startswith("|    "):
+            self.answer(re.compile(r"(?:^|\n)\|\s+$"), "the prompt of a goal that goes on")
+            self.type(line[5:] + "\n")
+        elif line.strip() in KEYS:
+            self.seen()
+            self.type(KEYS[line.strip()], echo=False)
+        elif keys:
+            self.expected.append(keys[1])
+            self.seen()
+            self.type(keys[2])
+        elif line.startswith("[exit "):
+            self.status = int(line[6:].rstrip("]"))
+        else:
+            self.expected.append(line)
+
+    def type(self, text, echo=True):
+        self.terminal.send(text)
+        self.expected = []
+        self.echo = echo
+        self.typed = text
+
+    def without_echo(self, text):
+        """What was typed ends with the first line. It may stand there twice: what comes
+        before the line editor listens is echoed by the terminal, too."""
+        if not self.echo:
+            return text
+        _, newline, rest = text.partition("\n")
+        first, more, after = rest.partition("\n")
+        if more and self.typed.strip() and PROMPT_START.sub("", first).strip() == self.typed.strip():
+            rest = after
+        return rest if newline else ""
+
+    def answer(self, prompt, what):
+        """The whole answer has come when the prompt comes."""
+        text = self.terminal.until(lambda text: prompt.search(self.without_echo(text) if self.echo else text), what)
+        text = self.without_echo(text)
+        self.check(text[: prompt.search(text).start()])
+
+    def check(self, text):
+        if self.show:
+            print(text)
+        if not matches(self.expected, text):
+            raise Wrong("another answer")
+
+    def seen(self):
+        """What is expected has come, and no more."""
+        if not self.terminal:
+            raise Wrong("there is no command yet")
+        self.terminal.until(
+            lambda text: matches(self.expected, self.without_echo(text), partial=True), "what is expected"
+        )
+
+    def end(self):
+        """The command before ends, by itself or by the end of its input."""
+        if not self.terminal:
+            return
+        terminal = self.terminal
+        terminal.until(
+            lambda text: terminal.ended or PROMPT.search(self.without_echo(text)), "its end, or a prompt"
+        )
+        if not terminal.ended:
+            self.answer(PROMPT, "the prompt")
+            self.type("halt.\n")
+            self.expected = ["..."]
+        status = terminal.wait()
+        self.check(self.without_echo(terminal.news()))
+        self.terminal = None
+        self.expected = []
+        self.echo = False
+        if status != self.status:
+            raise Wrong(f"status {status}, not {self.status}")
+        self.status = 0
+
+
+def play(path, home, show):
+    """Plays a file; None, or in words what was wrong."""
+    text = path.read_text()
+    only = re.search(r"^# only: (.*)$", text, re.M)
+    if only and not home.version.meets(only[1]):
+        return None
+    player = Player(home, show)
+    try:
+        player.play(text)
+    except Wrong as wrong:
+        came = player.without_echo(player.terminal.news()) if player.terminal else ""
+        return f"{path}:{player.number}: {wrong}\n  expected:\n" + indented("\n".join(player.expected)) + "\n  came:\n" + indented(came)
+    return None
+
+
+def indented(text):
+    return "\n".join("    " + line for line in text.split("\n"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Plays sessions.")
+    parser.add_argument("--show", action="store_true", help="print what comes")
+    parser.add_argument("file", nargs="*", type=Path)
+    arguments = parser.parse_args()
+    swipl = shutil.which(os.environ.get("SWIPL", "swipl"))
+    if not swipl:
+        sys.exit("play.py: there is no swipl")
+    home = Home(swipl)
+    failed = 0
+    files = arguments.file or sorted(HERE.glob("*.txt"))
+    try:
+        for path in files:
+            wrong = play(path, home, arguments.show)
+            failed += wrong is not None
+            print(f"FAILED {wrong}" if wrong else f"ok     {path.name}", flush=True)
+    finally:
+        home.remove()
+    print(f"{len(files) - failed} passed, {failed} failed")
+    sys.exit(failed > 0)
+
+
+main()
