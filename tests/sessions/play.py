@@ -90,7 +90,7 @@ class Terminal:
         """What has come since the last keys, as one sees it, without their echo."""
         text = ESCAPES.sub("", self.text[self.taken :])
         while "\b" in text:
-            text = re.sub(r"[^\b\n]?\b", "", text, count=1)
+            text = re.sub(r"[^\x08\n]?\x08", "", text, count=1)
         return text
 
     def read(self, seconds):

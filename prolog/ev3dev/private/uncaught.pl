@@ -1,5 +1,6 @@
 :- module(ev3dev_uncaught, []).
 :- use_module(errors, [in_pack/3, is_of_system/1, is_public/2]).
+:- use_module(forgotten, [library_of/2]).
 
 /** <module> What a person reads of an error
 
@@ -17,11 +18,21 @@ and which up to SWI-Prolog 9.2 cannot be printed for clauses whose layout an
 expansion has not kept. Prolog gives up frames of the program for their last
 calls; a line that is missing is such a call.
 
-`set_prolog_flag(access_level, system)` shows Prolog's own backtrace.
+No tracer opens, as Prolog's own would after an error in a goal with choice points
+or clean-ups. After `debug.`, or with the flag `access_level` set to `system`,
+all is as Prolog has it.
 */
 
 :- multifile prolog:message//1.
 
+prolog:message(unhandled_exception(Error)) -->
+    { Error = error(_, Context),
+      nonvar(Context),
+      Context = context(_, At),
+      nonvar(At),
+      At = ev3dev_at(_, _)
+    },
+    prolog:message(Error).
 prolog:message(error(Formal, context(Called, ev3dev_at(Text, Places)))) -->
     '$messages':translate_message(error(Formal, context(Called, Text))),
     places(Places).
@@ -52,26 +63,102 @@ is_ours(Called) :-
 %   library(prolog_stack) does, whose clause comes after this one.
 
 located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
-    uncaught(Catcher),
+    tracer_may_open,
+    uncaught(Catcher, Frame),
     \+ current_prolog_flag(access_level, system),
+    \+ current_prolog_flag(debug, true),
     words(Context, Called, Text),
-    prolog_frame_attribute(Frame, pc, PC),
+    (   prolog_frame_attribute(Frame, pc, PC)
+    ->  true
+    ;   PC = none
+    ),
     walk(Frame, PC, 200, 3, Passed, Places),
-    Passed == true,
-    Located = context(Called, ev3dev_at(Text, Places)).
+    (   Passed == true
+    ->  true
+    ;   is_forgotten(Formal)
+    ),
+    Located = context(Called, ev3dev_at(Text, Places)),
+    no_tracer_opens(Catcher).
 
-uncaught(none).
-uncaught(Catcher) :-
+is_forgotten(existence_error(procedure, Predicate0)) :-
+    (   Predicate0 = _:Predicate
+    ->  true
+    ;   Predicate = Predicate0
+    ),
+    ground(Predicate),
+    library_of(Predicate, _).
+
+%   The flag is looked at when this hook has succeeded or failed, and is set
+%   back when the next error comes. Each thread has its own.
+
+:- thread_local quiet/0.
+
+no_tracer_opens(Catcher) :-
+    (   Catcher == none,
+        current_prolog_flag(debug_on_error, true)
+    ->  set_prolog_flag(debug_on_error, false),
+        assertz(quiet)
+    ;   true
+    ).
+
+tracer_may_open :-
+    (   retract(quiet)
+    ->  set_prolog_flag(debug_on_error, true)
+    ;   true
+    ).
+
+uncaught(none, Frame) :-
+    \+ caught_outside(Frame).
+uncaught(Catcher, _) :-
     integer(Catcher),
     prolog_frame_attribute(Catcher, predicate_indicator,
                            system:catch_with_backtrace/3).
 
+%   Before 7.6 the hook does not know of a catch/3 around native code that calls
+%   Prolog.
+
+:- if((current_prolog_flag(version, Version), Version < 70600)).
+
+caught_outside(Frame) :-
+    outside(Frame, Outside),
+    caught(Outside).
+
+outside(Frame, Outside) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    (   prolog_frame_attribute(Frame, top, true)
+    ->  Outside = Parent
+    ;   outside(Parent, Outside)
+    ).
+
+caught(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Predicate),
+    memberchk(Predicate, [system:catch/3, catch/3]),
+    !.
+caught(Frame) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    caught(Parent).
+
+:- else.
+
+caught_outside(_) :-
+    fail.
+
+:- endif.
+
+%   An inner predicate of the pack means nothing to a person.
+
 words(Context, Called, Text) :-
     (   var(Context)
     ->  true
-    ;   Context = context(Called, Text),
-        \+ ( nonvar(Called), Called = prolog_stack(_) ),
-        \+ ( nonvar(Text), Text = ev3dev_at(_, _) )
+    ;   Context = context(Called0, Text),
+        \+ ( nonvar(Called0), Called0 = prolog_stack(_) ),
+        \+ ( nonvar(Text), Text = ev3dev_at(_, _) ),
+        (   ground(Called0),
+            in_pack(Called0, Module, Predicate),
+            \+ is_public(Module, Predicate)
+        ->  true
+        ;   Called = Called0
+        )
     ).
 
 %   Passed is true if a frame is the pack's; Places are the innermost ones of
