@@ -38,9 +38,10 @@ impossible. A call throws if an argument makes no sense.
 ## When a call fails {#hints}
 
 If no device can answer a call, or no motor carry it out, a warning says why
-and what is connected, once a session for each cause. The flag `ev3dev_hints`
-is `once`, `off`, or `error`: then such a call throws an error with the same
-text, as existence_error(motor, Port), existence_error(sensor, Port) or
+and what is connected: at the prompt in each query, in a program the first
+time that a predicate fails for this cause. The flag `ev3dev_hints` is `once`,
+`off`, or `error`: then such a call throws an error with the same text, as
+existence_error(motor, Port), existence_error(sensor, Port) or
 domain_error(speed, Percent). `debug(ev3dev)` prints the cause each time, and
 how moves ended. Predicates that ask whether a device is there, as
 tacho_motor/1, print nothing, nor does a sensor whose value is another one

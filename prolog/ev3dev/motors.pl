@@ -64,7 +64,7 @@ signal thread_exit/1: no cleanup runs then, and the motors run on.
 
 All predicates fail if there is no motor at a port, or if a move is
 impossible: a speed beyond 100 percent, or a speed of 0 for a move by an
-angle. Nothing moves then, and a warning says why, once a session: see the
+angle. Nothing moves then, and a warning says why: see the
 flag `ev3dev_hints` of library(ev3dev). A move by an angle of 0 is done at
 once.
 */

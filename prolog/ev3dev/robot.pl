@@ -44,7 +44,7 @@ is positive.
 
 All predicates fail if no robot is set, if a motor is not connected, and if a
 move is impossible: a speed beyond 100 percent, or a speed of 0 for a move
-that has an end. Nothing moves then, and a warning says why, once a session:
+that has an end. Nothing moves then, and a warning says why:
 see the flag `ev3dev_hints` of library(ev3dev). A distance or an angle of 0 is
 done at once.
 

@@ -1,4 +1,4 @@
-% No call fails in silence for want of a device: once a session and cause there
+% No call fails in silence for want of a device: once a predicate and cause there
 % is a warning with what is connected, and a cure.
 
 :- use_module('../support/child').
@@ -181,11 +181,12 @@ test(a_robot_is_to_be_set_first,
      [ forall(early(Goal)), setup(no_robot),
        true(Texts == ['no robot is set: see set_robot/4']) ]) :-
     on(simulator, hints(Goal, Texts)).
-test(a_robot_that_has_lost_a_motor, true(Texts = [_])) :-
+test(each_predicate_is_told_once, true(Texts = [Text, Text])) :-
     on(simulator,
        ( a_robot, sim_unplug(outC), sim_step(1),
-         hints(( go_cm(20, 10) ; go(10) ; pose(_, _, _) ; turn(20, 0) ; stop ), Texts) )),
-    Texts = [Text],
+         hints(( go_cm(20, 10) ; go_cm(30, 9) ; turn(9, 9) ; go_cm(20, 0) ; turn(20, 0) ),
+               Texts) )),
+    Texts = [Text|_],
     assertion(begins(Text, 'there is no motor at outC; there are: outA')).
 test(each_call_of_a_robot_that_has_lost_a_motor,
      [ forall(member(Goal, [ go(20), go(20, 9), go_cm(20, 0), turn(20, 0), stop,

@@ -8,6 +8,7 @@
             existence_error/2,          % +Kind, +Name
             instantiation_error/1,      % +Term
             throw_error/3,              % +Formal, +Called, +Message
+            called_by_program/1,        % -Called
             error_within/3,             % +Error0, +Where, -Error
             in_pack/3,                  % +Predicate, -Module, -Indicator
             is_of_system/1,             % +Predicate
@@ -165,9 +166,7 @@ throw_formal(Formal) :-
 %   is not one of Values. The foreign library also throws by this predicate.
 
 throw_error(Formal, Called0, Message) :-
-    prolog_current_frame(Frame),
-    (   called(Frame, none, Called),
-        Called \== none
+    (   called_by_program(Called)
     ->  true
     ;   Called = Called0
     ),
@@ -180,6 +179,15 @@ throw_error(Formal, Called0, Message) :-
     ;   true
     ),
     throw(error(Formal, context(Called, Text))).
+
+%!  called_by_program(-Called) is semidet.
+%
+%   Called is the exported predicate, Name/Arity, that the program has called.
+
+called_by_program(Called) :-
+    prolog_current_frame(Frame),
+    called(Frame, none, Called),
+    Called \== none.
 
 %!  error_within(+Error0, +Where, -Error) is det.
 %

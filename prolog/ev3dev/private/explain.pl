@@ -2,7 +2,7 @@
           [ fail_because/1,             % +Cause
             explain/2                   % +Format, +Arguments
           ]).
-:- use_module(errors, [throw_error/3]).
+:- use_module(errors, [called_by_program/1, throw_error/3]).
 :- use_module(native,
               [ attribute_/4, device_/3, led_/3, sim_active_/0,
                 sim_detecting_/1, sysfs_/1
@@ -20,7 +20,8 @@ impossible, gives its cause to fail_because/1. The foreign library does so,
 too. The flag `ev3dev_hints` says what follows:
 
   - once
-    A warning, the first time that the session meets this cause.
+    A warning, the first time that a predicate fails for this cause; at the
+    prompt, the first time in each query.
   - off
     Nothing.
   - error
@@ -92,7 +93,12 @@ prolog:message(ev3dev(hint(Text))) -->
 %   that a program that runs for days does not fill the memory.
 
 is_new(Cause) :-
-    key(Cause, Key),
+    (   called_by_program(Called)
+    ->  true
+    ;   Called = none
+    ),
+    key(Cause, Key0),
+    Key = Called-Key0,
     \+ told(Key),
     with_mutex(ev3dev_hints, \+ \+ note(Key)).
 
@@ -115,6 +121,16 @@ key(Cause, Key) :-
 key(Cause, Key) :-
     copy_term(Cause, Key),
     numbervars(Key, 0, _).
+
+%   Each query of the toplevel is told again.
+
+:- multifile user:expand_query/4.
+:- dynamic user:expand_query/4.
+:- initialization(
+       asserta((user:expand_query(_, _, _, _) :-
+                    retractall(ev3dev_explain:told(_)),
+                    fail)),
+       now).
 
 %!  explain(+Format, +Arguments) is det.
 %
