@@ -18,7 +18,7 @@ predicates! {
     semidet fn dc_motor_run(context, port, percent) {
         let call = Call::of(context, "dc_motor_run", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
         into_prolog_result(call.or_throw(dc::run_forever(&devices, &port, percent, interrupted))?)
     }
 
@@ -31,7 +31,7 @@ predicates! {
             let call = Call::of(context, "dc_motor_run_timed", 4);
             let (port, percent) = (call.text(port)?, call.float(percent)?);
             let (time, options) = (call.time(seconds)?, move_options(&call, options)?);
-            let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+            let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
             let begun = dc::begin_timed(&devices, &port, percent, time, &options, interrupted);
             call.or_fail(begun).map(Some)
         },

@@ -88,6 +88,7 @@ predicates! {
         setup => {
             let call = Call::of(context, "go_to", 4);
             let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
+            call.may_move()?;
             // The course tells more than the name of one of its predicates.
             journal::forget_called();
             let (options, wait, timeout) = options_of(&call, options)?;

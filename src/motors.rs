@@ -40,7 +40,7 @@ predicates! {
     semidet fn motor_run(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
         let (port, speed) = (call.text(port)?, speed_of(&call, percent)?);
-        let (run, devices) = (Run { port: &port, speed }, call.devices_to_command()?);
+        let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
@@ -51,7 +51,7 @@ predicates! {
     semidet fn run_forever(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
-        let (run, devices) = (Run { port: &port, speed }, call.devices_to_command()?);
+        let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
@@ -67,7 +67,7 @@ predicates! {
         };
         let runs = call.list(runs)?.iter().map(run).collect::<PrologResult<Vec<_>>>()?;
         let runs = runs.iter().map(|(port, speed)| Run { port, speed: *speed });
-        let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices_to_command()?);
+        let (runs, devices) = (runs.collect::<Vec<_>>(), call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &runs, interrupted))?)
     }
@@ -90,7 +90,7 @@ predicates! {
             let moves = call.list(moves)?.iter().map(turn).collect::<PrologResult<Vec<_>>>()?;
             let moves = moves.iter().map(|(port, speed, way)| Move { port, speed: *speed, extent: *way });
             let (moves, options) = (moves.collect::<Vec<_>>(), move_options(&call, options)?);
-            let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+            let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
             call.or_fail(motor::begin(&devices, &moves, &options, interrupted)).map(Some)
         },
         call(moving) => {
@@ -198,7 +198,7 @@ predicates! {
         let call = Call::of(context, "motor_run_direct", 2);
         let class = class_of(context, class)?;
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
         let runs = motor::run_direct(&devices, class, &port, percent, interrupted);
         into_prolog_result(call.or_throw(runs)?)
     }

@@ -42,7 +42,7 @@ predicates! {
     semidet fn servo_set_position(context, port, percent) {
         let call = Call::of(context, "servo_motor_position", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
-        let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
+        let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
         let set = |servo: &Arc<Device>| servo::set_position(servo, percent);
         let set = retry::with(&devices, Class::ServoMotor, &port, interrupted, set);
         into_prolog_result(call.or_fail(set)?)

@@ -1,5 +1,6 @@
 //! `prolog/ev3dev/time.pl`: the clock of the tree in use.
 use crate::glue::call::Call;
+use crate::glue::due::note_guards;
 use crate::glue::terms::unify_atom;
 use crate::glue::waiting::{self, Round};
 use ev3_driver::device::sleep::Sleep;
@@ -14,6 +15,7 @@ const BRANCHES_LOOK: Duration = Duration::from_millis(20);
 pub(crate) fn register() {
     register_now();
     register_wait();
+    register_guards();
     register_tick_after();
     register_serve_at_prompt();
     register_slices();
@@ -47,6 +49,14 @@ predicates! {
             let call = Call::of(context, "wait", 1);
             call.slice(sleep, reason, |()| unify_atom(reason, "over"))
         }
+    }
+
+    /// guards_: the program may have guards from now on.
+    #[module("ev3dev_native")]
+    #[name("guards_")]
+    semidet fn guards(_context) {
+        note_guards();
+        Ok(())
     }
 
     /// tick_after_(+Seconds): this thread serves its events after some time, or, if that

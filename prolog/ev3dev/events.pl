@@ -30,10 +30,12 @@
 :- use_module(private/native,
               [ branches_begin_/0, branches_end_/0, branches_leave_/0,
                 branches_look_/1, cause_now_/1, cause_set_/1, commands_/1,
-                motors_stop_/2, now_/1, serve_at_prompt_/0, slices_/1,
+                guards_/0, motors_stop_/2, now_/1, serve_at_prompt_/0, slices_/1,
                 tick_after_/1
               ]).
 :- use_module(time, [wait/1]).
+
+:- initialization(guards_, now).
 
 :- meta_predicate
     on(0, 0),
@@ -99,7 +101,8 @@ look_every(0.02).
 %       threshold can have two sides:
 %       `on(( light(L), L < 20 ), stop, [rearm(( light(M), M > 30 ))])`.
 %
-%   @error permission_error(wait, guard, Id) if Condition waits
+%   @error permission_error(wait, guard, Id) if Condition waits or
+%          starts a motor
 %   @error domain_error(event_option, Option)
 
 on(Condition, Action) :-
@@ -399,7 +402,8 @@ prolog:message(ev3dev(event_failed(Id, Name))) -->
 %
 %   Condition is looked at every 20 ms while Goal waits or reads sensors.
 %
-%   @error permission_error(wait, guard, until) if Condition waits
+%   @error permission_error(wait, guard, until) if Condition waits or
+%          starts a motor
 
 until(Condition, Goal) :-
     until(Condition, Goal, _).

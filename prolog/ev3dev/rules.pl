@@ -68,7 +68,7 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
      has been false once, unless the guard is `true`. An action that fails
      prints a warning the first time, and counts as ended. If no rule is
      active, the robot rests.
-  6. Guards must not wait: that throws permission_error(wait, guard, Name).
+  6. Guards must not wait or start a motor: that throws permission_error(wait, guard, Name).
 
 Options of a rule:
 
@@ -219,7 +219,7 @@ shared([V|Vs], Others, Shared) :-
 %
 %   @error existence_error(rule, Name)
 %   @error type_error(rule, Term)
-%   @error permission_error(wait, guard, Name) if a guard waits
+%   @error permission_error(wait, guard, Name) if a guard waits or starts a motor
 %   @error domain_error(behave_option, Option)
 
 behave(Rules) :-

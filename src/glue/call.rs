@@ -1,5 +1,5 @@
 //! One call of a native predicate: its arguments, its answers.
-use crate::glue::due::{has_rung, is_any_due};
+use crate::glue::due::{has_guards, has_rung, is_any_due};
 use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::state;
@@ -59,6 +59,20 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         let devices = self.devices()?;
         journal::set_called(self.name, u8::try_from(self.arity).unwrap_or(u8::MAX));
         Ok(devices)
+    }
+
+    /// The devices, for a call that starts a motor.
+    pub(crate) fn devices_to_move(&self) -> PrologResult<Arc<Registry>> {
+        self.may_move()?;
+        self.devices_to_command()
+    }
+
+    /// Throws in a guard, which must not start a motor.
+    pub(crate) fn may_move(&self) -> PrologResult<()> {
+        if has_guards() {
+            self.context.call_once(pred!("ev3dev_waits:no_guard/0"), [])?;
+        }
+        Ok(())
     }
 
     /// Notes a sound in the journal.

@@ -1,4 +1,5 @@
-//! Goals that are planned for a simulated time, and run in the thread that planned them.
+//! Goals that are planned for a simulated time, and run in the thread that planned them;
+//! guards, which may not do what others may.
 use std::cell::{Cell, OnceCell};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,6 +30,19 @@ impl Bell {
         self.0.store(true, Ordering::Release);
         ANY.store(true, Ordering::Release);
     }
+}
+
+/// Whether the program has guards. One that has none pays for one load.
+static GUARDS: AtomicBool = AtomicBool::new(false);
+
+/// From now on the program may have guards, which must not move anything.
+pub(crate) fn note_guards() {
+    GUARDS.store(true, Ordering::Relaxed);
+}
+
+/// Whether this may be called by a guard.
+pub(crate) fn has_guards() -> bool {
+    GUARDS.load(Ordering::Relaxed)
 }
 
 /// Whether a goal may be due, of any thread.

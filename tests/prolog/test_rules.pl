@@ -322,6 +322,18 @@ test(errors_can_be_printed, true(Changes == Expected)) :-
     Expected = [rule(worse), thrown(worse)].
 test(an_exception_that_is_no_error_goes_through, [throws(over), cleanup(forget)]) :-
     with_sim([], behave([(r :: true ~> throw(over))])).
+test(a_guard_must_not_move,
+     [ forall(member(Guard, [ go(30), motor_run(outB, 20), motors_run([run(outB, 20)]),
+                              motor_run_direct(outB, 20), motor_run_timed(outB, 20, 1) ])),
+       true(Caught-States == permission_error(wait, guard, r)-[]) ]) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   catch(behave([(r :: Guard ~> true)], [timeout(1)]),
+                         error(Caught, _), true),
+                   motor_states(outB, States) )).
+test(a_guard_may_stop_or_light, true(Reason == timeout)) :-
+    with_sim([], ( set_robot(5.6, 10.6, outB, outC),
+                   behave([(r :: ( stop, led(left, red) ) ~> go(20))],
+                          [timeout(0.2), reason(Reason)]) )).
 test(a_guard_must_not_wait,
      [ forall(member(Guard, [ wait(1), go_cm(20, 5), button_wait(_, _) ])),
        error(permission_error(wait, guard, r), context(_, _)) ]) :-

@@ -17,6 +17,7 @@
             branches_leave_/0,
             branches_look_/1,
             branches_end_/0,
+            guards_/0,
             commands_/1,
             motors_leave_/2,
             motors_stop_/2,
@@ -196,6 +197,7 @@ missing.
 %!  branches_leave_ is semidet.
 %!  branches_look_(-Seconds) is semidet.
 %!  branches_end_ is semidet.
+%!  guards_ is semidet.
 %!  commands_(-Count) is semidet.
 %!  motors_leave_(+From, +Before) is semidet.
 %!  motors_stop_(+From, +Before) is semidet.

@@ -59,18 +59,21 @@ waited(Reason) :-
     ;   true
     ).
 
+%   The native code asks it before it starts a motor, too.
+:- public no_guard/0.
+
 no_guard :-
     (   nb_current(ev3dev_guard, Name),
         Name \== []
     ->  throw_error(permission_error(wait, guard, Name), _,
-                    'a guard must not wait')
+                    'a guard must not wait or move')
     ;   true
     ).
 
 %!  in_guard(+Name, :Goal) is semidet.
 %
 %   Call Goal once, which is the guard of Name, or its condition. It must not
-%   wait, and serves no events.
+%   wait or start a motor, and serves no events.
 
 in_guard(Name, Goal) :-
     b_setval(ev3dev_guard, Name),
