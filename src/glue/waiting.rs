@@ -15,9 +15,22 @@ use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use swipl::fli::{Act, act_without_input, this_thread};
 use swipl::prelude::*;
+
+/// Whether a signal has stopped the motors, and Prolog has not got it yet. A move does not end
+/// by that stop: the program would go on.
+static IS_ENDING: AtomicBool = AtomicBool::new(false);
+
+/// How often Prolog looks for that signal.
+const SIGNAL: Duration = Duration::from_millis(10);
+
+/// Says whether the program is about to get a signal that ends it.
+pub(crate) fn set_ending(is_ending: bool) {
+    IS_ENDING.store(is_ending, Ordering::SeqCst);
+}
 
 /// The number of Prolog's main thread.
 const MAIN_THREAD: i32 = 1;
@@ -247,6 +260,14 @@ impl<C: QueryableContextType> Call<'_, C> {
         wait: &mut Slices<W>,
         reason: &Term,
     ) -> PrologResult<bool> {
-        self.slice(wait, reason, |ended| unify_atom(reason, ended.word()))
+        let mut is_ending = false;
+        let goes_on = self.slice(wait, reason, |ended| {
+            is_ending = IS_ENDING.load(Ordering::SeqCst);
+            unify_atom(reason, if is_ending { "pause" } else { ended.word() })
+        })?;
+        if is_ending {
+            std::thread::sleep(SIGNAL);
+        }
+        Ok(goes_on || is_ending)
     }
 }

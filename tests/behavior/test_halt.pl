@@ -135,6 +135,30 @@ test(a_program_that_is_told_to_end_stops_its_motors,
                 left(outB, command, Output, B),
                 left(outC, command, Output, C) )).
 
+test(a_move_that_a_signal_stops_does_not_end,
+     [ forall(( tree(Tree), Tree \== simulator, member(Round, [1, 2, 3, 4, 5, 6]) )),
+       true(Status-Went == Expected-no) ]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( runs(outB),
+                runs(outC),
+                program_in_tree("main :- set_robot(5.6, 10.6, outB, outC),
+                                     writeln(started), flush_output,
+                                     ( go_cm(20, 100) -> writeln(on) ; writeln(on) ),
+                                     halt(5).",
+                                Program, Options),
+                start_program(Program, [goal(main)|Options], Child),
+                Child = child(Pid, Out, _),
+                repeat,
+                read_line_to_string(Out, Line),
+                Line == "started",
+                !,
+                PauseS is 0.05 * Round,
+                sleep(PauseS),
+                process_kill(Pid, term),
+                end_program(Child, Status, Output) )),
+    Expected = exit(143),
+    ( sub_string(Output, _, _, _, "on") -> Went = on ; Went = no ).
+
 is_over(Pid) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.

@@ -74,6 +74,9 @@ class Terminal:
         self.text = ""
         self.taken = 0
         self.ended = False
+        # A shell that waits gets Ctrl-C, too
+        if not re.search(r"[|;&<>]", command):
+            command = f"exec {command}"
         self.pid, self.fd = pty.fork()
         if self.pid == 0:
             os.chdir(folder)
@@ -150,14 +153,10 @@ def pattern(line):
     return ".*?".join(re.escape(part.rstrip() if part.endswith(" ") else part) for part in line.split("..."))
 
 
-def matches(expected, text, partial=False):
-    """Is text what is expected? partial: its last line is not over."""
+def matches(expected, text):
+    """Is text what is expected?"""
     lines = [line.rstrip() for line in text.split("\n")]
-    if not partial:
-        lines = [line for line in lines if line]
-    else:
-        lines = [line for line in lines[:-1] if line] + lines[-1:]
-    return fits([line.rstrip() for line in expected if line.strip()], lines)
+    return fits([line.rstrip() for line in expected if line.strip()], [line for line in lines if line])
 
 
 def fits(expected, lines):
@@ -303,7 +302,7 @@ class Player:
         """What was typed ends with the first line. It may stand there twice: what comes
         before the line editor listens is echoed by the terminal, too."""
         if not self.echo:
-            return text
+            return re.sub(r"^\^[CDZ]\n?", "", text)
         _, newline, rest = text.partition("\n")
         first, more, after = rest.partition("\n")
         if more and self.typed.strip() and PROMPT_START.sub("", first).strip() == self.typed.strip():
@@ -327,7 +326,7 @@ class Player:
         if not self.terminal:
             raise Wrong("there is no command yet")
         self.terminal.until(
-            lambda text: matches(self.expected, self.without_echo(text), partial=True), "what is expected"
+            lambda text: matches(self.expected, self.without_echo(text)), "what is expected"
         )
 
     def end(self):

@@ -1,5 +1,5 @@
 :- module(ev3dev_halt, []).
-:- use_module(native, [stop_started_/0]).
+:- use_module(native, [ending_/1, stop_started_/0]).
 
 :- initialization(
        create_prolog_flag(ev3dev_stop_at_halt, true,
@@ -54,6 +54,7 @@ ends_at_once(int, debug) :-
 ends_at_once(term, '$foreign_function'(_)).
 
 halt_by(Signal) :-
+    ending_(false),
     status(Signal, Status),
     halt(Status).
 
@@ -77,15 +78,23 @@ ours(ev3dev_halt:halt_by).
 %   True if Signal ends this program, whose motors are stopped before. The
 %   native library asks in a thread of its own: Prolog handles no signal while
 %   it loads a file, as in main/0 of `:- initialization(main).`, nor in
-%   shell/1.
+%   shell/1. From then on until Prolog has the signal no move ends, so that
+%   the program does not go on by a move that has been stopped.
 told_to_end(Signal) :-
     handler(Signal, Handler),
-    ends(Handler),
-    stop_at_halt.
+    ends(Signal, Handler),
+    (   current_prolog_flag(ev3dev_stop_at_halt, true)
+    ->  ending_(true),
+        stop_started_
+    ;   true
+    ).
 
-ends('$foreign_function'(_)).
-ends(Handler) :-
+%   At a terminal SIGINT opens the debugger in all versions, see above.
+ends(_, Handler) :-
     ours(Handler).
+ends(Signal, '$foreign_function'(_)) :-
+    \+ ( Signal == int,
+         stream_property(user_input, tty(true)) ).
 
 status(int, 130).
 status(term, 143).

@@ -127,6 +127,8 @@
             sim_unplug_/1,
             sim_unshow_/2,
             sim_wait_/2,
+            ending_/1,
+            running_/1,
             stop_started_/0,
             view_close_/0,
             view_csv_/1,
@@ -426,6 +428,8 @@ missing.
 
 % The end of the program
 
+%!  ending_(+Ending) is semidet.
+%!  running_(-Ports) is semidet.
 %!  stop_started_ is semidet.
 %
 %   `src/halt.rs`

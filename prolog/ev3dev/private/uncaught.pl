@@ -1,6 +1,7 @@
 :- module(ev3dev_uncaught, []).
 :- use_module(errors, [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(forgotten, [library_of/2]).
+:- use_module(native, [running_/1]).
 
 /** <module> What a person reads of an error
 
@@ -26,18 +27,16 @@ all is as Prolog has it.
 :- multifile prolog:message//1.
 
 prolog:message(unhandled_exception(Error)) -->
-    { Error = error(_, Context),
-      nonvar(Context),
-      Context = context(_, At),
-      nonvar(At),
-      At = ev3dev_at(_, _)
-    },
+    { is_located(Error, _, _) },
     prolog:message(Error).
-prolog:message(error(Formal, context(Called, ev3dev_at(Text, Places)))) -->
-    '$messages':translate_message(error(Formal, context(Called, Text))),
+prolog:message(Error) -->
+    { is_located(Error, Plain, Places) },
+    '$messages':translate_message(Plain),
     places(Places).
-prolog:message(error(_, context(Called, Text))) -->
-    { atom(Text),
+prolog:message(error(_, Context)) -->
+    { nonvar(Context),
+      Context = context(Called, Text),
+      atom(Text),
       is_ours(Called)
     },
     [ '~q: ~w'-[Called, Text] ].
@@ -48,12 +47,59 @@ places([place(Predicate, File, Line)|Places]) -->
     [ nl, '  in ~q at ~w:~w'-[Predicate, File, Line] ],
     places(Places).
 
+is_located(Error, error(Formal, context(Called, Text)), Places) :-
+    nonvar(Error),
+    Error = error(Formal, Context),
+    nonvar(Context),
+    Context = context(Called, At),
+    nonvar(At),
+    At = ev3dev_at(Text, Places).
+
 is_ours(Called) :-
     nonvar(Called),
     Called = Name/Arity,
     atom(Name),
     integer(Arity),
     is_public(_, Called).
+
+                /*******************************
+                *       MOTORS THAT RUN        *
+                *******************************/
+
+%   After an abort or an error at the toplevel motors run on that the program
+%   has started and has not stopped: that is said then. A page, another thread
+%   or a program that ends says nothing.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(Message, Kind, Lines) :-
+    ev3dev_uncaught:ends_query(Message, Kind),
+    ev3dev_uncaught:running(Ports),
+    (   Kind == informational,
+        current_prolog_flag(verbose, silent)
+    ->  true
+    ;   print_message_lines(user_error, kind(Kind), Lines)
+    ),
+    print_message(warning, ev3dev(still_run(Ports))).
+
+ends_query('$aborted', _).
+ends_query(unwind(abort), _).
+ends_query(unhandled_exception(_), _).
+ends_query(error(_, _), error).
+
+running(Ports) :-
+    current_prolog_flag(break_level, _),
+    thread_self(main),
+    running_(Ports),
+    Ports \== [].
+
+prolog:message(ev3dev(still_run([Port]))) -->
+    !,
+    [ '~w still runs: stop.'-[Port] ].
+prolog:message(ev3dev(still_run(Ports))) -->
+    { atomic_list_concat(Ports, ', ', Listed) },
+    [ '~w still run: stop.'-[Listed] ].
 
                 /*******************************
                 *        THE EXCEPTION         *

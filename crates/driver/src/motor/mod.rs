@@ -31,7 +31,7 @@ pub(crate) use plan::{duty, milliseconds};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
-use wait::{Reason, UntilDone};
+use wait::{Reason, UntilDone, has};
 
 /// A motor and the speed at which to run.
 #[derive(Clone, Debug)]
@@ -88,6 +88,17 @@ pub fn stop_started(registry: &Registry) -> Result<()> {
         }
     }
     result
+}
+
+/// The motors that were started and still turn. One that cannot be read does not.
+#[must_use]
+pub fn running(registry: &Registry) -> Vec<Arc<Device>> {
+    let turns = |motor: &Arc<Device>| {
+        let is_running = |state: &str| has(state, "running") && !has(state, "holding");
+        motor.run().is_some() && motor.with_word("state", is_running).unwrap_or(false)
+    };
+    let known = [Class::TachoMotor, Class::DcMotor].map(|class| registry.known(class));
+    known.iter().flat_map(|motors| motors.iter().filter(|motor| turns(motor))).cloned().collect()
 }
 
 /// How many commands the program has given to motors so far.
