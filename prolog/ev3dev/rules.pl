@@ -100,6 +100,14 @@ user:term_expansion((Head :: Guard ~> Action), Clauses) :-
     prolog_load_context(module, Module),
     predicate_property(Module:behave(_), imported_from(ev3dev_rules)),
     ev3dev_rules:rule_clauses(Head, Guard, Action, Clauses).
+user:term_expansion((Head :: Guard -> Action), _) :-
+    prolog_load_context(module, Module),
+    predicate_property(Module:behave(_), imported_from(ev3dev_rules)),
+    ev3dev_rules:wrong_arrow((Head :: Guard -> Action)).
+
+wrong_arrow(Rule) :-
+    throw_error(existence_error(rule, Rule), _,
+                'between a guard and an action stands ~>, not ->').
 
 %   A multifile predicate, so that rules may stand in several files.
 rule_clauses(Head, Guard, Action,
@@ -107,7 +115,31 @@ rule_clauses(Head, Guard, Action,
                (:- discontiguous '$ev3dev rule'/4),
                '$ev3dev rule'(Name, Options, Guard, Action)
              ]) :-
-    head(Head, Name, Options).
+    head(Head, Name, Options),
+    must_be_action(Action).
+
+%   A list is a whole action. As a part of one it would load files.
+
+must_be_action(Action) :-
+    must_be(callable, Action),
+    (   has_list(Action, List)
+    ->  throw_error(type_error(callable, List), _,
+                    'a list of steps cannot be a part of an action')
+    ;   true
+    ).
+
+has_list((A, B), List) :-
+    (   part_list(A, List)
+    ->  true
+    ;   part_list(B, List)
+    ).
+
+part_list(Part, List) :-
+    (   is_list(Part)
+    ->  List = Part
+    ;   nonvar(Part),
+        has_list(Part, List)
+    ).
 
 head(Head, _, _) :-
     var(Head),
@@ -168,7 +200,11 @@ rule((Head :: Guard ~> Action), _, Name, Options, Guard, Action) :-
     !,
     head(Head, Name, Options),
     must_be(callable, Guard),
-    must_be(callable, Action).
+    must_be_action(Action).
+rule(Rule, _, _, _, _, _) :-
+    Rule = (_ :: _ -> _),
+    !,
+    wrong_arrow(Rule).
 rule(Name, Module, Name, Options, Guard, Action) :-
     (   \+ callable(Name)
     ->  type_error(rule, Name)

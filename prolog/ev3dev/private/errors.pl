@@ -267,6 +267,11 @@ in_words(type_error(evaluable, Function), Text) :-
     !,
     format(atom(Text), 'there is no arithmetic function ~q', [Function]).
 in_words(type_error(Type, Term), Text) :-
+    string(Term),
+    memberchk(Type, [[], character]),   % of is/2
+    !,
+    in_words(type_error(number, Term), Text).
+in_words(type_error(Type, Term), Text) :-
     kind(Type, Wanted),
     format(atom(Text), '~w is expected, not ~p', [Wanted, Term]).
 in_words(domain_error(Domain, Term), Text) :-

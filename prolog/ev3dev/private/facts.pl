@@ -3,7 +3,7 @@
             source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
-:- use_module(errors, [existence_error/2, must_be/2, throw_error/3]).
+:- use_module(errors, [must_be/2, throw_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(native, [sim_check_/2]).
 
@@ -59,16 +59,31 @@ source_file(Kind, Source, File) :-
                            ]),
         exists_file(File)
     ->  true
-    ;   existence_error(Kind, Source)
+    ;   findall(Name, shipped(Kind, Name), Names),
+        atomic_list_concat(Names, ', ', Listed),
+        format(atom(Text), 'there is no ~w ~p; there are: ~w, or a file',
+               [Kind, Source, Listed]),
+        throw_error(existence_error(Kind, Source), _, Text)
     ).
 
 shipped(Kind, Name, File) :-
     atomic(Name),
-    module_property(ev3dev_facts, file(Here)),
-    file_directory_name(Here, Private),
-    atomic_list_concat([Private, '/../', Kind, 's/', Name, '.pl'], Path),
+    shipped_path(Kind, Name, Path),
     absolute_file_name(Path, File),
     exists_file(File).
+
+shipped(Kind, Name) :-
+    shipped_path(Kind, *, Pattern),
+    expand_file_name(Pattern, Files),
+    member(File, Files),
+    file_base_name(File, Base),
+    file_name_extension(Name, _, Base).
+
+shipped_path(Kind, Name, Path) :-
+    module_property(ev3dev_facts, file(Here)),
+    file_directory_name(Here, Private),
+    file_directory_name(Private, Ev3dev),
+    atomic_list_concat([Ev3dev, /, Kind, 's/', Name, '.pl'], Path).
 
 read_facts(Stream, Kind, File, Located) :-
     read_term(Stream, Fact,

@@ -60,6 +60,43 @@ prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
       '  use_module(library(ev3dev/~w)).'-[Library]
     ].
 
+prolog:message(error(syntax_error(operator_expected), Where)) -->
+    { nonvar(Where),
+      text_of(Where, Text, Place),
+      \+ current_op(_, xfx, user:(~>)),
+      sub_string(Text, _, _, _, "~>")
+    },
+    [ '~wOperator expected: ~~> is one of library(ev3dev/rules), '-[Place],
+      'which is not loaded: first'-[], nl,
+      '  use_module(library(ev3dev/rules)).'-[]
+    ].
+
+text_of(string(Text, _), Text, '').
+text_of(file(File, Line, Column, _), Text, Place) :-
+    catch(setup_call_cleanup(open(File, read, In),
+                             nth_line(Line, In, Text),
+                             close(In)),
+          error(_, _), fail),
+    format(atom(Place), '~w:~w:~w: ', [File, Line, Column]).
+
+%   The term that is wrong may go on for some lines.
+
+nth_line(Line, In, Text) :-
+    forall(between(2, Line, _), skip(In, 0'\n)),
+    read_pending(10, In, Lines),
+    atomic_list_concat(Lines, '\n', Text).
+
+read_pending(Count, In, Lines) :-
+    (   Count > 0,
+        \+ at_end_of_stream(In)
+    ->  read_line_to_codes(In, Codes),
+        atom_codes(Line, Codes),
+        Lines = [Line|Lines1],
+        Count1 is Count - 1,
+        read_pending(Count1, In, Lines1)
+    ;   Lines = []
+    ).
+
 is_plain(Context) :-
     (   var(Context)
     ->  true
