@@ -80,8 +80,7 @@ fetch() {
     locked brick-prolog
     say "fetching the C library's locale and busybox"
     rm -rf "$extra" "$apt"
-    debian_apt_new "$apt" bookworm armel
-    debian_download "$apt" libc-bin busybox-static
+    debian_download "$apt" bookworm armel libc-bin busybox-static
     debian_unpack "$apt" "$extra"
     debian_forget "$apt"
     made "$extra" "$key"

@@ -5,14 +5,21 @@
 # read nor written, and nothing here needs root. One private apt lives in one
 # folder:
 #
-#   debian_apt_new DIR SUITE ARCH...    make it, or take the one that is there;
-#                                       the first ARCH is the native one
+#   debian_apt_new DIR SUITE ARCH       make it, or take the one that is there
 #   debian_apt DIR COMMAND ARG...       run an apt command in it
-#   debian_download DIR PACKAGE...      fetch exactly these (NAME[:ARCH][=VERSION])
+#   debian_pinned DIR SUITE ARCH PACKAGE...
+#                                       fetch what debian-packages.txt has under
+#                                       this heading; fails if any is not there
+#   debian_download DIR SUITE ARCH PACKAGE...
+#                                       fetch exactly these: so, or as the index
+#                                       of SUITE for ARCH has them
 #   debian_pretend DIR ARCH PACKAGE...  take these as installed: we do without
 #   debian_closure DIR PACKAGE...       fetch these and all they depend on
 #   debian_unpack DIR DEST              unpack all that was fetched into DEST
 #   debian_forget DIR                   drop the packages and indexes
+#
+# A mirror may have an index that does not match its release, for days. The
+# packages are in its pool all the same, so debian_pinned asks for no index.
 #
 # Environment:
 #   EV3DEV_DEBIAN_MIRROR   where Debian is, e.g. for a machine that is not a
@@ -43,9 +50,7 @@ debian_mirror() {
 }
 
 debian_apt_new() {
-    local dir=$1 suite=$2 native=$3
-    shift 2
-    local mirror keyring arch
+    local dir=$1 suite=$2 arch=$3 mirror keyring lacks=
     have apt-get dpkg ||
         die "Debian's packages are needed but apt-get or dpkg is missing"
     mirror=$(debian_mirror) ||
@@ -73,17 +78,17 @@ debian_apt_new() {
         echo 'Acquire::GzipIndexes "true";'
         echo 'APT::Sandbox::User "root";'
         echo 'APT::Install-Recommends "false";'
-        echo "APT::Architecture \"$native\";"
-        for arch; do
-            echo "APT::Architectures:: \"$arch\";"
-        done
+        echo "APT::Architecture \"$arch\";"
+        echo "APT::Architectures:: \"$arch\";"
     } >"$dir/apt.conf"
     echo "deb [signed-by=$keyring] $mirror $suite main" >"$dir/sources.list"
 
     if [[ ! -e $dir/updated ]]; then
+        [[ ! -e $dir/lacks ]] || lacks="cannot have $(<"$dir/lacks"), and "
         debian_apt "$dir" apt-get update -q -o APT::Update::Error-Mode=any \
             >"$dir/update.log" 2>&1 ||
-            die "the mirror does not serve Debian $suite for $* (see $dir/update.log)"
+            die "${lacks}the mirror's index of $suite for $arch" \
+                "$(debian_why "$dir/update.log" release) (see $dir/update.log)"
         touch "$dir/updated"
     fi
 }
@@ -91,16 +96,53 @@ debian_apt_new() {
 debian_apt() {
     local dir=$1
     shift
-    APT_CONFIG="$dir/apt.conf" "$@"
+    APT_CONFIG="$dir/apt.conf" LC_ALL=C "$@"
+}
+
+debian_pinned() {
+    local dir=$1 mirror sha path file files=()
+    shift
+    have apt-get dpkg || return
+    mirror=$(debian_mirror) || return
+    while read -r sha path; do
+        file=$dir/cache/archives/${path##*/}
+        files+=("$mirror/$path" "$file" "SHA256:$sha")
+    done < <(awk -v heading="[$*]" '/^\[/ { here = $0 == heading; next } here && NF' \
+        "${BASH_SOURCE[0]%/*}/debian-packages.txt")
+    [[ ${#files[@]} -gt 0 ]] || return
+    mkdir -p "$dir/cache/archives"
+    ! LC_ALL=C /usr/lib/apt/apt-helper -o APT::Sandbox::User=root download-file \
+        "${files[@]}" >"$dir/pool.log" 2>&1 || return 0
+    file=$(sed -nE '/^E: Failed/{s|^[^/]*/[^ ]*/([^ ]+) .*|\1|; s/%2b/+/g; s/%7e/~/g; p; q}' \
+        "$dir/pool.log")
+    echo "${*:3} for $2: ${file:-a package} of the pool" \
+        "$(debian_why "$dir/pool.log" pin)" >"$dir/lacks"
+    rm -r "$dir/cache"
+    return 1
 }
 
 debian_download() {
-    local dir=$1
-    shift
+    local dir=$1 suite=$2 arch=$3
+    ! debian_pinned "$@" || return 0
+    shift 3
+    debian_apt_new "$dir" "$suite" "$arch"
     (
         cd "$dir/cache/archives"
         debian_apt "$dir" apt-get download -q "$@" >"$dir/download.log" 2>&1
     ) || die "cannot download $* (see $dir/download.log)"
+}
+
+# debian_why LOG SUM: apt's first error, as what is said of a file; SUM is where its
+# checksum is
+debian_why() {
+    local error
+    error=$(sed -nE '/^E: /{s/^E: (Failed to fetch [^ ]+ +)?//p; q}' "$1")
+    case $error in
+    404*) echo "is not there (404)" ;;
+    *"unexpected size"* | *"Hash Sum mismatch"*) echo "does not match its $2" ;;
+    *onnect* | *resolv*) echo "cannot be reached" ;;
+    *) echo "cannot be had: ${error:-no error from apt}" ;;
+    esac
 }
 
 debian_pretend() {
@@ -123,6 +165,7 @@ debian_closure() {
 
 debian_unpack() {
     local dir=$1 dest=$2 deb
+    [[ ! -e $dir/lacks ]] || say "asked the index for $(<"$dir/lacks")"
     mkdir -p "$dest"
     for deb in "$dir"/cache/archives/*.deb; do
         dpkg -x "$deb" "$dest"

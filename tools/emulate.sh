@@ -93,8 +93,7 @@ fetch_qemu() {
     locked emulate
     say "fetching qemu"
     rm -rf "$dir" "$apt"
-    debian_apt_new "$apt" bookworm amd64
-    debian_download "$apt" qemu-user-static
+    debian_download "$apt" bookworm amd64 qemu-user-static
     debian_unpack "$apt" "$dir"
     debian_forget "$apt"
     find "$dir" -type f ! -name qemu-arm-static ! -name qemu-aarch64-static -delete

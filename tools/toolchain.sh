@@ -67,8 +67,7 @@ fetch_floats() {
     have ar || die "ar is missing: install binutils"
     say "fetching GCC's floating point for armel"
     rm -rf "$dir" "$apt"
-    debian_apt_new "$apt" bookworm amd64
-    debian_download "$apt" "$package"
+    debian_download "$apt" bookworm amd64 "$package"
     debian_unpack "$apt" "$dir/package"
     debian_forget "$apt"
     (
@@ -100,21 +99,22 @@ debian_key() {
 # Debian's compiler and standard libraries. The compiler may need a newer C
 # library than this machine has, so it is started through its own loader.
 rust_of_debian() {
-    local dir=$toolchain/rust apt=$toolchain/apt name foreign=()
+    local dir=$toolchain/rust apt=$toolchain/apt name
     is_made "$dir" "$(debian_key)" && return
     [[ $(uname -sm) == "Linux x86_64" ]] ||
         die "the Debian toolchain runs on x86_64 Linux only; use rustup elsewhere"
     say "fetching Rust $rust_version of Debian $debian_suite"
-    for name in "${all_targets[@]}"; do
-        [[ $name == amd64 ]] || foreign+=("$name")
-    done
-
     rm -rf "$dir" "$apt"
-    debian_apt_new "$apt" "$debian_suite" amd64 "${foreign[@]}"
+    for name in "${all_targets[@]}"; do
+        [[ $name != amd64 ]] || continue
+        debian_download "$apt" "$debian_suite" "$name" libstd-rust-dev
+        debian_unpack "$apt" "$dir"
+        debian_forget "$apt"
+    done
+    debian_apt_new "$apt" "$debian_suite" amd64
     # zig does the linking
     debian_pretend "$apt" amd64 gcc binutils libc-dev
     debian_closure "$apt" "rustc=$rust_version*" "cargo=$rust_version*"
-    debian_download "$apt" "${foreign[@]/#/libstd-rust-dev:}"
     debian_unpack "$apt" "$dir"
     debian_forget "$apt"
 
