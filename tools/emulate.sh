@@ -66,10 +66,12 @@ fetch() {
     is_made "$dir" "$key" && return
     say "fetching SWI-Prolog of Debian $suite for $arch"
     rm -rf "$dir" "$apt"
-    debian_apt_new "$apt" "$suite" "$arch"
-    # wanted by maintainer scripts only, which nobody runs here
-    debian_pretend "$apt" "$arch" debconf
-    debian_closure "$apt" swi-prolog-nox
+    debian_pinned "$apt" "$suite" "$arch" swi-prolog-nox || {
+        debian_apt_new "$apt" "$suite" "$arch"
+        # wanted by maintainer scripts only, which nobody runs here
+        debian_pretend "$apt" "$arch" debconf
+        debian_closure "$apt" swi-prolog-nox
+    }
     debian_unpack "$apt" "$dir"
     debian_forget "$apt"
     # since trixie /lib is /usr/lib
