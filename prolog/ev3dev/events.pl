@@ -100,6 +100,11 @@ look_every(0.02).
 %       When it may happen again. Default: when Condition is false. So a
 %       threshold can have two sides:
 %       `on(( light(L), L < 20 ), stop, [rearm(( light(M), M > 30 ))])`.
+%     - armed(+Boolean)
+%       If `false`, it has to be rearmed first: a Condition that is true from
+%       the start has not become true. So a key that nobody pressed is not
+%       released: `on(\+ touch(_, 1), stop, [armed(false)])`. Default is
+%       `true`.
 %
 %   @error permission_error(wait, guard, Id) if Condition waits or
 %          starts a motor
@@ -111,7 +116,8 @@ on(Condition, Action) :-
 on(Condition, Action, Options) :-
     must_be_goal(Condition),
     must_be_goal(Action),
-    must_be_options(event_option, [id, count, stable, rearm], Options),
+    must_be_options(event_option, [id, count, stable, rearm, armed],
+                    Options),
     option(stable(Stable0), Options, 0),
     number_value(seconds, Stable0, Stable),
     Condition = Module:_,
@@ -120,8 +126,14 @@ on(Condition, Action, Options) :-
         Rearm = rearm(Module:Rearm0)
     ;   Rearm = rearm
     ),
+    option(armed(Armed), Options, true),
+    must_be(boolean, Armed),
     count_option(Options, Count),
-    add_event(on(Condition, Stable, Rearm), Action, armed(Count), Options).
+    (   Armed == true
+    ->  State = armed(Count)
+    ;   State = happened(Count)
+    ),
+    add_event(on(Condition, Stable, Rearm), Action, State, Options).
 
 %!  every(+Seconds, :Action) is det.
 %!  every(+Seconds, :Action, +Options) is det.

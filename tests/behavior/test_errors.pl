@@ -104,7 +104,7 @@ bad(send_message(hello), [_-1, hello-1]).
 bad(received(_), [hello-1]).
 bad(on(true, true), [7-1, _-1, 7-2, _-2]).
 bad(on(true, true, []), [7-1, _-2, a-3, [sped(5)]-3, [id(_)]-3, [count(0)]-3, [count(a)]-3]).
-bad(on(true, true, []), [[stable(-1)]-3, [stable(a)]-3, [rearm(7)]-3]).
+bad(on(true, true, []), [[stable(-1)]-3, [stable(a)]-3, [rearm(7)]-3, [armed(maybe)]-3]).
 bad(every(1, true), [a-1, _-1, -1-1, 7-2, _-2]).
 bad(every(1, true, []), [a-1, 7-2, [stable(1)]-3, [count(0)]-3]).
 bad(after(1, true), [a-1, _-1, -1-1, 7-2, _-2]).

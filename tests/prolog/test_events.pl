@@ -94,6 +94,26 @@ test(rearm_is_another_condition) :-
     times(Notes, up, [First, Second]),
     near(First, 1, 0.03),
     near(Second, 3.02, 0.05).
+test(one_that_is_not_armed_does_not_count_what_is_true_from_the_start) :-
+    noted([ 1-lower(a), 2-raise(a) ],
+          ( raise(a), on(up(a), note(up), [armed(false)]), wait(3) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [2]).
+test(one_that_is_armed_does) :-
+    noted([ 1-lower(a), 2-raise(a) ],
+          ( raise(a), on(up(a), note(up)), wait(3) ), Notes),
+    times(Notes, up, Times),
+    near_all(Times, [0.02, 2]).
+% Two keys run one motor, as of R3PTAR. The release of the other key, which was never
+% pressed, stopped it.
+test(a_key_that_is_held_from_the_start_runs_the_motor, true(Whats == [run])) :-
+    noted([],
+          ( raise(forward),
+            forall(member(Key, [forward, back]),
+                   ( on(up(Key), note(run)), on(\+ up(Key), note(stop), [armed(false)]) )),
+            wait(1) ),
+          Notes),
+    findall(W, member(_-W, Notes), Whats).
 test(an_id_replaces, true(Whats == [second])) :-
     noted([1-raise(a)],
           ( on(up(a), note(first), [id(x)]), on(up(a), note(second), [id(x)]), wait(2) ),
