@@ -18,11 +18,14 @@
             motor_run_timed/4,          % +Port, +Speed, +Seconds, +Options
             motor_run_to/3,             % +Port, +Speed, +Angle
             motor_run_to/4,             % +Port, +Speed, +Angle, +Options
-            motor_run_direct/2          % +Port, +Percent
+            motor_run_direct/2,         % +Port, +Percent
+            motor_run_until_stalled/2,  % +Port, +Speed
+            motor_run_until_stalled/3   % +Port, +Speed, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4
+              [ domain_error/2, evaluated/2, existence_error/2, must_be/2,
+                term_expansion/4
               ]).
 :- use_module(private/explain).
 :- use_module(driver,
@@ -30,7 +33,8 @@
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
               [ angle_value/2, motor_moves/2, motor_options/5, motor_runs/2,
-                must_be_options/3, speed_value/2, timeout_option/2, word/2
+                must_be_options/3, number_option/4, option/2, option/3,
+                speed_value/2, stop_action/3, timeout_option/2, word/2
               ]).
 :- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
@@ -375,4 +379,68 @@ motor_run_direct(Port, Percent0) :-
     (   motor_run_direct_('tacho-motor', Port, Percent)
     ->  true
     ;   fail_because(cannot([run(Port, Percent)]))
+    ).
+
+%!  motor_run_until_stalled(+Port, +Speed) is semidet.
+%!  motor_run_until_stalled(+Port, +Speed, +Options) is semidet.
+%
+%   Run a motor at Speed percent until something blocks it, as an arm against
+%   its end stop, and stop it there. Waits. Fails, and stops the motor, if
+%   somebody else stops it; fails if Speed is 0. Options:
+%
+%     - duty_limit(+Percent)
+%       Push with so much of the battery's voltage, above 0 to 100, as
+%       motor_run_direct/2 does: nothing regulates the speed, and the sign of
+%       Speed is the direction. Without it the motor pushes harder and harder.
+%     - stop_action(+Action)
+%       `brake` (default), `hold` or `coast`.
+%     - timeout(+Seconds)
+%       Stop the motor and fail if nothing blocks it so long. A BrickPi3 never
+%       reports that a motor is blocked.
+%
+%   If an exception ends the call, the motor is stopped first.
+%
+%   @error domain_error(duty_limit, Percent)
+%   @error domain_error(stop_action, Action)
+%   @error existence_error(motor, Port) if the motor is unplugged meanwhile
+
+motor_run_until_stalled(Port, Speed) :-
+    motor_run_until_stalled(Port, Speed, []).
+
+motor_run_until_stalled(Port, Speed, Options) :-
+    must_be_options(motor_option, [duty_limit, stop_action, timeout],
+                    Options),
+    speed_value(Speed, Value),
+    option(stop_action(Action0), Options, brake),
+    stop_action([coast, brake, hold], Action0, Action),
+    timeout_option(Options, Timeout),
+    number_option(duty_limit(Limit), duty_limit, Options, 100),
+    setup_call_cleanup(
+        push(Options, Port, Value, Limit),
+        motor_wait(Port, [timeout(Timeout)], Reason),
+        pushed(Reason, Port, Action)),
+    (   Reason == stalled
+    ->  true
+    ;   Reason == unplugged
+    ->  existence_error(motor, Port)
+    ;   explain("~w was not blocked: ~w", [Port, Reason]),
+        fail
+    ).
+
+push(Options, Port, Value, Limit) :-
+    (   Value = dps(Number)
+    ->  true
+    ;   Number = Value
+    ),
+    (   Number =:= 0
+    ->  fail_because(cannot([run(Port, Value)]))
+    ;   option(duty_limit(_), Options)
+    ->  motor_run_direct(Port, sign(Number) * Limit)
+    ;   motor_run(Port, Value)
+    ).
+
+pushed(Reason, Port, Action) :-
+    (   Reason == unplugged
+    ->  true
+    ;   motor_stop(Port, Action)
     ).

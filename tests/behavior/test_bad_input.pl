@@ -304,9 +304,11 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
             Missing).
 
 % These wait for as long as one likes, or write files of any name: see
-% test_buttons.pl, test_sound.pl, test_screen.pl, test_time.pl and
-% test_sensor_wait.pl.
+% test_buttons.pl, test_sound.pl, test_screen.pl, test_time.pl, test_motors.pl
+% and test_sensor_wait.pl.
 called_elsewhere(button_wait/2).
+called_elsewhere(motor_run_until_stalled/2).
+called_elsewhere(motor_run_until_stalled/3).
 called_elsewhere(tone/2).
 called_elsewhere(tone/3).
 called_elsewhere(say/2).

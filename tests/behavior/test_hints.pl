@@ -45,6 +45,7 @@ absent(motor_run(outE, 50, 90), 'there is no motor at outE').
 absent(motors_run([run(outB, 9), run(outE, 9)]), 'there is no motor at outE').
 absent(motor_run_timed(outE, 50, 1), 'there is no motor at outE').
 absent(motor_run_direct(outE, 50), 'there is no motor at outE').
+absent(motor_run_until_stalled(outE, 50), 'there is no motor at outE').
 absent(motor_start(outE), 'there is no motor at outE').
 absent(motor_stop(outE), 'there is no motor at outE').
 absent(motor_reset(outE), 'there is no motor at outE').

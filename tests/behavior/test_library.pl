@@ -50,7 +50,8 @@ exported(motors,
            stop_all_motors/0, motor_reset/1, run_forever/2, speed_adjust/3,
            motor_wait_while/2, motor_wait_until/2, motor_wait/3,
            motor_run_timed/3, motor_run_timed/4, motor_run_to/3,
-           motor_run_to/4, motor_run_direct/2 ]).
+           motor_run_to/4, motor_run_direct/2, motor_run_until_stalled/2,
+           motor_run_until_stalled/3 ]).
 exported(motor_settings,
          [ linear_actuator/1, motor_position/2, motor_duty/2,
            motor_polarity/2, motor_ramps/3, motor_speed_pid/2,

@@ -2,6 +2,7 @@
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/events), [every/2, event_cancel/1]).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
 :- use_module(library(time)).
@@ -712,6 +713,62 @@ test(what_is_no_number_throws,
     plain(Goal).
 
 :- end_tests(motor_run_direct).
+
+:- begin_tests(motor_run_until_stalled).
+
+% outA is held fast a second later.
+arm(Goal) :-
+    with_sim([], ( sim_at(1, sim_jam(outA, true)), Goal )).
+
+test(stops_where_it_is_blocked, [true(Ss-D == []-0)]) :-
+    arm(( motor_run_until_stalled(outA, dps(90)), ev3_time(T), near(T, 1.5, 0.3),
+          position(outA, P), near(P, 90, 10), motor_states(outA, Ss), motor_duty(outA, D) )).
+test(the_sign_of_the_speed_is_the_direction,
+     [ forall(member(Options, [[], [duty_limit(20)]])) ]) :-
+    arm(( motor_run_until_stalled(outA, -20, Options), position(outA, P), P < -90 )).
+test(pushes_no_harder_than_its_limit,
+     [ forall(member(Options-Hardest, [[duty_limit(30)]-30, []-100])), true(D == Hardest) ]) :-
+    arm(( nb_setval(duty, 0),
+          every(0.02, ( motor_duty(outA, D0), nb_getval(duty, D1), D2 is max(D0, D1),
+                        nb_setval(duty, D2) )),
+          motor_run_until_stalled(outA, dps(300), Options), event_cancel(_),
+          nb_getval(duty, D) )).
+test(the_stop_action_can_be_chosen, [true(Ss == [holding])]) :-
+    arm(( motor_run_until_stalled(outA, 20, [stop_action(hold)]), motor_states(outA, Ss) )).
+test(one_that_nothing_blocks_fails_after_its_timeout, [true(Ss == [])]) :-
+    with_sim([], ( \+ motor_run_until_stalled(outA, 20, [timeout(2)]),
+                   motor_states(outA, Ss), ev3_time(T), near(T, 2, 0.1) )).
+test(who_leaves_it_stops_the_motor, [true(Ss == [])]) :-
+    with_sim([], ( for_seconds(1, motor_run_until_stalled(outA, 20)),
+                   motor_states(outA, Ss) )).
+test(who_stops_the_motor_makes_it_fail, [fail]) :-
+    with_sim([], ( sim_at(1, motor_stop(outA)), motor_run_until_stalled(outA, 20) )).
+test(an_unplugged_motor_throws, error(existence_error(motor, outA), _)) :-
+    with_sim([], ( sim_at(1, sim_unplug(outA)), motor_run_until_stalled(outA, 20) )).
+test(an_impossible_run_fails_and_writes_nothing,
+     [ forall(member(Port-Speed-Options,
+                     [ outB-0-[], outB-dps(0)-[duty_limit(30)], outB-101-[], outC-5-[],
+                       outC-5-[duty_limit(30)] ])),
+       true(W == []) ]) :-
+    plain(( \+ motor_run_until_stalled(Port, Speed, Options), written(W) )).
+test(a_wrong_argument_throws_and_writes_nothing,
+     [ forall(member(Goal-Error,
+                     [ motor_run_until_stalled(_, 5)-instantiation_error,
+                       motor_run_until_stalled(outB, _)-instantiation_error,
+                       motor_run_until_stalled(outB, x)-type_error(evaluable, _),
+                       motor_run_until_stalled(outB, 5, [duty_limit(0)])-domain_error(duty_limit, 0),
+                       motor_run_until_stalled(outB, 5, [duty_limit(101)])
+                       -domain_error(duty_limit, 101),
+                       motor_run_until_stalled(outB, 5, [duty_limit(x)])-type_error(evaluable, _),
+                       motor_run_until_stalled(outB, 5, [stop_action(jump)])
+                       -domain_error(stop_action, jump),
+                       motor_run_until_stalled(outB, 5, [timeout(-1)])-domain_error(timeout, -1),
+                       motor_run_until_stalled(outB, 5, [ramp_up(9)])
+                       -domain_error(motor_option, ramp_up(9)) ])),
+       true(E-W == caught-[]) ]) :-
+    plain(( catch(Goal, error(Error, _), E = caught), written(W) )).
+
+:- end_tests(motor_run_until_stalled).
 
 :- begin_tests(named_twice).
 

@@ -13,6 +13,7 @@
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
             word/2,                     % +Text, -Atom
             motor_options/5,            % +Options, +Stop, +Stops, +Ramp, -O
+            stop_action/3,              % +Stops, +Word, -Action
             motor_runs/2,               % +Runs, -Evaluated
             motor_moves/2               % +Moves, -Evaluated
           ]).
@@ -249,6 +250,12 @@ motor_options(Options, Stop, Stops, Ramp,
     must_be(boolean, Wait),
     must_be_ramp(ramp_up_sp, Ramp, RampUp),
     must_be_ramp(ramp_down_sp, Ramp, RampDown).
+
+%!  stop_action(+Stops, +Word, -Action) is det.
+%
+%   Action is the one of Stops that Word names, an atom or a string.
+%
+%   @error domain_error(stop_action, Action)
 
 stop_action(Stops, Action0, Action) :-
     word(Action0, Action),

@@ -31,6 +31,8 @@ range(acceleration, Number) :-
     Number =< 1000.
 range(direction, Number) :-
     abs(Number) =< 100.
+range(duty_limit, Number) :-
+    range(speed_ahead, Number).
 range(seconds, Number) :-
     Number >= 0.
 range(speed, Number) :-
@@ -64,6 +66,8 @@ allowed(color,
 allowed(direction,          'a direction is a number from -100 to 100').
 allowed(distinct_ports,     'two different ports are expected').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
+allowed(duty_limit,
+        'a share of the voltage in percent above 0, at most 100').
 allowed(eopd_range,         [long, short]).
 allowed(finite_number,      'a finite number is expected').
 allowed(font,               [tiny, small, medium, large]).
