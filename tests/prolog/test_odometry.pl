@@ -69,7 +69,8 @@ test(nothing_looks_meanwhile_and_it_is_right_all_the_same) :-
                    sim_step(4), stop, sim_step(100), pose_is_right )).
 test(a_motor_that_is_reset_has_not_turned,
      [forall(member(Goal, [ motor_reset(outB), position(outB, 5000),
-                            position(outB, -3), command(outC, reset) ]))]) :-
+                            position(outB, -3), command(outC, reset),
+                            ( position(outB, P), motor_position(outB, P + 30) ) ]))]) :-
     quiet(false, ( go_cm(30, 50), Goal, sim_step(0.5), pose_is_right(0.3, 1),
                    go_cm(30, 20), turn(30, 30), Goal, go_cm(30, 20),
                    pose_is_right(0.3, 1) )).

@@ -200,7 +200,10 @@ pub fn position(motor: &Device) -> Result<Value> {
 /// The kernel's.
 pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
     match counts(motor, position)? {
-        Some(counts) => motor.write_number("position", counts).map(|()| true),
+        Some(counts) => {
+            let write = &mut || motor.write_number("position", counts);
+            motor.without_counting(write).map(|()| true)
+        }
         None => Ok(false),
     }
 }
