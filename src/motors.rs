@@ -30,6 +30,9 @@ pub(crate) fn register() {
     register_motor_wait_flag();
     register_motor_run_direct();
     register_motor_position();
+    register_motor_speed();
+    register_motor_gear();
+    register_motor_set_gear();
     register_motor_set_position();
 }
 
@@ -212,14 +215,49 @@ predicates! {
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
         },
         call(motors) => {
-            let call = Call::of(context, "motor_position", 2);
-            let devices = &call.devices()?;
-            let read = |motor: &Arc<Device>| call.or_fail(devices.read(motor, motor::position));
-            call.next(motors, read, |motor, read| {
-                unify_value(position, read)?;
+            next_measured(&Call::of(context, "motor_position", 2), motors, "position", port, position)
+        }
+    }
+
+    /// motor_speed_(?Port, -Speed)
+    #[module("ev3dev_native")]
+    #[name("motor_speed_")]
+    nondet fn motor_speed<ListedDevices>(context, port, speed) {
+        setup => {
+            let call = Call::of(context, "motor_speed", 2);
+            call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
+        },
+        call(motors) => {
+            next_measured(&Call::of(context, "motor_speed", 2), motors, "speed", port, speed)
+        }
+    }
+
+    /// motor_gear_(?Port, -Ratio)
+    #[module("ev3dev_native")]
+    #[name("motor_gear_")]
+    nondet fn motor_gear<ListedDevices>(context, port, ratio) {
+        setup => {
+            let call = Call::of(context, "motor_gear", 2);
+            call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
+        },
+        call(motors) => {
+            let call = Call::of(context, "motor_gear", 2);
+            call.next(motors, |motor| Ok(motor.gear()), |motor, gear| {
+                ratio.unify(gear)?;
                 unify_port(port, motor.port())
             })
         }
+    }
+
+    /// motor_set_gear_(+Port, +Ratio)
+    #[module("ev3dev_native")]
+    #[name("motor_set_gear_")]
+    semidet fn motor_set_gear(context, port, ratio) {
+        let call = Call::of(context, "motor_gear", 2);
+        let (name, ratio) = (call.text(port)?, call.float(ratio)?);
+        let devices = call.devices()?;
+        let set = |motor: &Arc<Device>| motor::set_gear(motor, ratio);
+        call.or_absent(Class::TachoMotor, port, devices.with(Class::TachoMotor, &name, set))
     }
 
     /// motor_set_position_(+Port, +Position)
@@ -233,6 +271,23 @@ predicates! {
         let set = retry::with(&devices, Class::TachoMotor, &name, interrupted, set);
         into_prolog_result(call.or_absent(Class::TachoMotor, port, set)?)
     }
+}
+
+/// The next motor's port, and an attribute of it in degrees or millimeters.
+fn next_measured<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    motors: &mut ListedDevices,
+    attribute: &str,
+    port: &Term<'a>,
+    value: &Term<'a>,
+) -> PrologResult<bool> {
+    let devices = &call.devices()?;
+    let measured = |motor: &Device| motor::measured(motor, attribute);
+    let read = |motor: &Arc<Device>| call.or_fail(devices.read(motor, measured));
+    call.next(motors, read, |motor, read| {
+        unify_value(value, read)?;
+        unify_port(port, motor.port())
+    })
 }
 
 /// A percentage, or `dps(DegreesPerSecond)`.

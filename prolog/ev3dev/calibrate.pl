@@ -8,6 +8,7 @@
               [ must_be_options/3, number_option/4, number_value/2,
                 option/2, option/3, word/2
               ]).
+:- use_module(motor_settings, [motor_gear/2]).
 :- use_module(sensors, [gyro_ang/2]).
 :- use_module(private/drive_moves,
               [move_straight/3, move_turn/3, speed_option/4]).
@@ -205,7 +206,12 @@ call_of(robot(Left, Right, DL0, DR0, IL, IR, Axle0, Offset), SetRobot) :-
     ->  Aside = []
     ;   Aside = [axle_offset(Offset)]
     ),
-    append(Inverted, Aside, More),
+    (   motor_gear(Left, Gear),
+        Gear =\= 1
+    ->  Geared = [gear(Gear)|Aside]
+    ;   Geared = Aside
+    ),
+    append(Inverted, Geared, More),
     append(Unequal, More, Options),
     (   Options == []
     ->  SetRobot = set_robot(Diameter, Axle, Left, Right)

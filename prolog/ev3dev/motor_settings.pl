@@ -1,6 +1,8 @@
 :- module(ev3dev_motor_settings,
           [ linear_actuator/1,          % ?Port
             motor_position/2,           % ?Port, ?Position
+            motor_speed/2,              % ?Port, -Speed
+            motor_gear/2,               % ?Port, ?Ratio
             motor_duty/2,               % ?Port, -Percent
             motor_polarity/2,           % ?Port, ?Polarity
             motor_ramps/3,              % ?Port, ?Up, ?Down
@@ -13,10 +15,11 @@
               ]).
 :- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/2]).
-:- use_module(private/arguments, [must_be_within/4]).
+:- use_module(private/arguments, [must_be_within/4, number_value/3]).
 :- use_module(private/attributes, [device_at/3]).
 :- use_module(private/native,
-              [ attribute_/4, motor_position_/2, motor_set_position_/2 ]).
+              [ attribute_/4, motor_gear_/2, motor_position_/2,
+                motor_set_gear_/2, motor_set_position_/2, motor_speed_/2 ]).
 :- use_module(private/one_of).
 
 /** <module> Settings of motors
@@ -24,7 +27,7 @@
 As with the attributes of library(ev3dev/driver), a predicate reads an unbound
 value and writes a bound one. An unbound port enumerates; writing needs a
 bound one. All predicates fail if there is no motor at a port. motor_reset/1
-puts all settings back to their values after plugging in.
+puts all settings but motor_gear/2 back to their values after plugging in.
 */
 
 %!  linear_actuator(?Port) is nondet.
@@ -55,6 +58,35 @@ motor_position(Port, Position) :-
 motor_position(Port, Position0) :-
     evaluated(Position0, Position),
     motor_set_position_(Port, Position).
+
+%!  motor_speed(?Port, -Speed) is nondet.
+%
+%   True if the motor now turns at Speed degrees a second, or millimeters of a
+%   linear actuator: an integer or a float as in motor_position/2.
+
+motor_speed(Port, Speed) :-
+    motor_speed_(Port, Speed).
+
+%!  motor_gear(?Port, ?Ratio) is nondet.
+%
+%   Read or set the gear between a motor and what it drives. Ratio is how many
+%   times the motor turns while that turns once, the teeth of the driven gear
+%   by those of the motor's, as in `motor_gear(outB, 36/12)`: a float, 1.0 at
+%   first. From then on the angles, positions, `dps(N)`, `rps(N)` and `rpm(N)`
+%   of this motor, in all predicates, are those of what it drives, and so are
+%   those of a robot with this motor; percentages and tacho counts remain the
+%   motor's. It belongs to the port, so it stays when the motor is reset or
+%   plugged in again. Gears that reverse the direction: motor_polarity/2.
+%
+%   @error domain_error(positive_number, Ratio)
+
+motor_gear(Port, Ratio) :-
+    var(Ratio),
+    !,
+    motor_gear_(Port, Ratio).
+motor_gear(Port, Ratio0) :-
+    number_value(positive_number, Ratio0, Ratio),
+    motor_set_gear_(Port, Ratio).
 
 %!  motor_duty(?Port, -Percent) is nondet.
 %

@@ -48,11 +48,11 @@
 /** <module> Motors
 
 Speeds are in percent of the motor's highest speed, angles in degrees of its
-shaft. Both may be arithmetic expressions. A speed may also be `dps(N)`,
-`rps(N)` or `rpm(N)`: degrees or rotations a second, or rotations a minute. An
-angle may also be `rotations(N)`. If a move has an angle, the signs
-of angle and speed together give the direction. For a linear actuator an angle
-is a length in millimeters.
+shaft, or of what a gear of motor_gear/2 drives. Both may be arithmetic
+expressions. A speed may also be `dps(N)`, `rps(N)` or `rpm(N)`: degrees or
+rotations a second, or rotations a minute. An angle may also be
+`rotations(N)`. If a move has an angle, the signs of angle and speed together
+give the direction. For a linear actuator an angle is a length in millimeters.
 
 library(ev3dev/motor_settings) has the settings of motors,
 library(ev3dev/dc_motors) the motors without rotation sensor, and

@@ -15,9 +15,10 @@
 :- use_module(private/explain).
 :- use_module(driver, [tacho_motor/3]).
 :- use_module(motors, [motor_stop/1, motors_run/1, stop_all_motors/0]).
+:- use_module(motor_settings, [motor_gear/2]).
 :- use_module(private/arguments,
               [ angle_value/2, must_be_options/3, number_option/4,
-                number_value/3, word/2
+                number_value/3, option/2, option/3, word/2
               ]).
 :- use_module(private/domains, [finite/1]).
 :- use_module(private/drive_moves,
@@ -76,6 +77,9 @@ robot stands, if they end early:
 %     - inverted(+Sides)
 %       A list of `left` and `right`: the wheels whose motor is mounted the
 %       other way round, so that it drives backwards.
+%     - gear(+Ratio)
+%       The gear between the motors and the wheels: motor_gear/2 of both
+%       motors. By default they keep theirs, which is 1 at first.
 %     - axle_offset(+Cm)
 %       How far the axle is ahead of the point that pose/3 of
 %       library(ev3dev/drive) tells, and turns around it. Default is 0.
@@ -94,12 +98,17 @@ set_robot(WheelDiameter0, AxleLength0, Left0, Right0, Options) :-
     number_value(positive_number, AxleLength0, AxleLength),
     word(Left0, Left),
     word(Right0, Right),
-    build(WheelDiameter, Options, Diameters, Inverted, Offset),
+    build(WheelDiameter, Options, Diameters, Inverted, Offset, Gear),
     (   tacho_motor(Left, Type, LeftPath),
         tacho_motor(Right, Type, RightPath),
         LeftPath \== RightPath
     ->  true
     ;   fail_because(unlike(Left, Right))
+    ),
+    (   nonvar(Gear)
+    ->  motor_gear(Left, Gear),
+        motor_gear(Right, Gear)
+    ;   true
     ),
     store_robot(robot(WheelDiameter, AxleLength, Left, Right),
                 built(Diameters, Inverted, Offset)),
@@ -107,10 +116,17 @@ set_robot(WheelDiameter0, AxleLength0, Left0, Right0, Options) :-
     % From now on it is known how far the wheels have rolled.
     ignore(odometry_(Robot)).
 
-build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset) :-
+build(WheelDiameter, Options, LeftDiameter-RightDiameter, Inverted, Offset,
+      Gear) :-
     must_be_options(robot_option,
-                    [left_diameter, right_diameter, inverted, axle_offset],
+                    [ left_diameter, right_diameter, inverted, gear,
+                      axle_offset
+                    ],
                     Options),
+    (   option(gear(_), Options)
+    ->  number_option(gear(Gear), positive_number, Options, 1)
+    ;   true
+    ),
     option(inverted(Sides), Options, []),
     number_option(left_diameter(LeftDiameter), positive_number, Options,
                   WheelDiameter),

@@ -3,7 +3,7 @@ use super::believed::{believed, report_believed};
 use super::notes::notes;
 use crate::glue::state::{dev, devices};
 use ev3_driver::brick::{buttons, screen};
-use ev3_driver::{Class, Device, Registry};
+use ev3_driver::{Class, Device, Registry, motor};
 use ev3_json::Json;
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
@@ -192,16 +192,12 @@ fn report_port(json: &mut Json, devices: &Registry, port: &str, values: &mut Val
 
 fn report_motor(json: &mut Json, motor: &Device, values: &mut Values) {
     named(json, "motor", motor.driver());
-    // Counts are degrees, but for linear actuators.
-    let per_turn = motor.constant("count_per_rot").ok().filter(|count| *count > 0);
-    #[expect(clippy::cast_precision_loss, reason = "some hundreds")]
-    let unit = match per_turn {
-        Some(count) => 360.0 / count as f64,
-        None => 1000.0 / motor.constant("count_per_m").unwrap_or(1000).max(1) as f64,
-    };
+    let per_unit = motor::counts_per_unit(motor).ok().filter(|counts| *counts > 0.0);
+    let unit = per_unit.map_or(1.0, f64::recip);
     let names =
         [("position", "position", unit), ("speed", "speed", unit), ("duty", "duty_cycle", 1.0)];
-    let units = if per_turn.is_some() { ["deg", "deg/s", "%"] } else { ["mm", "mm/s", "%"] };
+    let turns = motor.constant("count_per_rot").is_ok();
+    let units = if turns { ["deg", "deg/s", "%"] } else { ["mm", "mm/s", "%"] };
     for ((name, attribute, unit), words) in names.into_iter().zip(units) {
         let value = number(motor, attribute).map(|value| value * unit);
         if let Some(value) = value {

@@ -165,6 +165,8 @@ call_of(motor_run_to(port, number, number, quick)).
 call_of(motor_run_direct(port, number)).
 call_of(linear_actuator(port)).
 call_of(motor_position(port, number)).
+call_of(motor_speed(port, out)).
+call_of(motor_gear(port, number)).
 call_of(motor_duty(port, out)).
 call_of(motor_polarity(port, polarity)).
 call_of(motor_ramps(port, number, number)).

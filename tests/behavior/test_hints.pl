@@ -55,6 +55,9 @@ absent(motor_wait([outB, outE], [], _), 'there is no motor at outE').
 absent(motor_wait_while(outE, running), 'there is no motor at outE').
 absent(motor_position(outE, _), 'there is no motor at outE').
 absent(motor_position(outE, 0), 'there is no motor at outE').
+absent(motor_speed(outE, _), 'there is no motor at outE').
+absent(motor_gear(outE, _), 'there is no motor at outE').
+absent(motor_gear(outE, 3), 'there is no motor at outE').
 absent(motor_ramps(outE, _, _), 'there is no motor at outE').
 absent(motor_speed_pid(outE, _), 'there is no motor at outE').
 absent(motor_hold_pid(outE, pid(1, 2, 3)), 'there is no motor at outE').
@@ -139,6 +142,8 @@ impossible(motor_run_to(outB, 50, 1.0e308), 'outB cannot turn to 1.0e+308 degree
 impossible(motor_run_timed(outB, 0.001, 2), 'outB cannot run for 2 s at 0.001 %').
 impossible(motors_turn([move(outB, 20, 9), move(outC, 20, 1.0e300)], []),
            'outC cannot turn by 1.0e+300 degrees').
+impossible(( motor_gear(outB, 3), motor_run(outB, dps(400)) ),
+           'outB cannot run at 114 %').
 impossible(led(left, blue), 'left cannot show blue').
 
 %   A call of the robot before set_robot/4.

@@ -53,7 +53,8 @@ exported(motors,
            motor_run_to/4, motor_run_direct/2, motor_run_until_stalled/2,
            motor_run_until_stalled/3 ]).
 exported(motor_settings,
-         [ linear_actuator/1, motor_position/2, motor_duty/2,
+         [ linear_actuator/1, motor_position/2, motor_speed/2,
+           motor_gear/2, motor_duty/2,
            motor_polarity/2, motor_ramps/3, motor_speed_pid/2,
            motor_hold_pid/2 ]).
 exported(dc_motors,

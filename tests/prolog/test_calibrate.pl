@@ -93,6 +93,12 @@ test(tells_all_there_is_to_write_down, true(Right-Left == 5.6-[left])) :-
                        calibrate(axle, [], set_robot(_, _, outB, outC, All)) )),
     memberchk(left_diameter(Right), All),
     memberchk(inverted(Left), All).
+test(tells_the_gear, true(G == 3.0)) :-
+    D is 5.6 / 3,
+    robot_of(D, D, 10.6, true, none, Robot),
+    drives(1, Robot, ( set_robot(5.6, 10.6, outB, outC, [gear(3)]),
+                       calibrate(axle, [], set_robot(5.6, Axle, outB, outC, [gear(G)])) )),
+    near(Axle, 10.6, 0.02).
 test(measures_the_wheels_and_not_what_the_gyro_has_taught) :-
     robot_of(5.74, 5.46, 10.9, true, none, Robot),
     drives(1, Robot, ( forall(between(1, 5, _),

@@ -212,6 +212,8 @@ sentence(motor_run(outB, 30), outB,
 sentence(true, outB, "outB: no command is recorded").
 sentence(because(motor_run(outB, 50, 360), event(e1, touch(in4, 1))), outB,
          "outB was turned by 360 degrees at 50 % at 2.01 s: event e1, touch in4 1").
+sentence(( motor_gear(outB, 3), motor_run(outB, 50, 120) ), outB,
+         "outB was turned by 120 degrees at 50 % at 2.02 s: motor_run/4 was called").
 sentence(because(arc(30, 20), golog(go(kitchen))), robot,
          "the robot runs its wheels at 30 % and 17 % since 2.02 s: golog: go(kitchen)").
 sentence(because(motor_run(outB, 30), golog(12, drive(3), at(robot) = 2)),

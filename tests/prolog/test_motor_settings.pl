@@ -2,6 +2,7 @@
 :- use_module('../support/simulation').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
 
 plain(Goal) :-
     with_tree(plain, [outB-'lego-ev3-l-motor'], once(Goal)).
@@ -27,10 +28,72 @@ test(what_is_none_throws,
 
 :- end_tests(motor_position).
 
+:- begin_tests(motor_gear).
+
+test(is_none_at_first, [forall(tree(Tree)), true(Gs == [outA-1.0, outB-1.0, outC-1.0])]) :-
+    on(Tree, findall(P-G, motor_gear(P, G), Gs)).
+test(is_of_its_port_alone_in_either_spelling,
+     [forall(tree(Tree)), true([B, L, C] == [3.0, 3.0, 1.0])]) :-
+    on(Tree, ( motor_gear('ev3-ports:outB', 36/12), motor_gear(outB, B),
+               motor_gear('ev3-ports:outB', L), motor_gear(outC, C) )).
+test(writes_no_file, true(W == [])) :-
+    plain(( motor_gear(outB, 3), written(W) )).
+test(angles_and_speeds_are_those_of_what_is_driven,
+     [ forall(member(Goal-Attribute-Text,
+                     [ motor_run(outB, 50, 90, [wait(false)])-position_sp-'270',
+                       motor_run(outB, 50, rotations(1), [wait(false)])-position_sp-'1080',
+                       motor_run_to(outB, 50, -90, [wait(false)])-position_sp-'-270',
+                       motor_run(outB, dps(100))-speed_sp-'300',
+                       motor_run(outB, 50)-speed_sp-'525',
+                       run_forever(outB, 100)-speed_sp-'100',
+                       motor_position(outB, 30)-position-'90' ])),
+       true(T == Text) ]) :-
+    plain(( motor_gear(outB, 3), Goal, get_attribute(outB, Attribute, T) )).
+test(readings_agree_with_it, true([P, S, Counts] == [30.0, 20.0, 90])) :-
+    plain(( motor_gear(outB, 3), put_attribute(outB, position, 90),
+            put_attribute(outB, speed, 60), motor_position(outB, P), motor_speed(outB, S),
+            position(outB, Counts) )).
+test(a_motor_turns_as_far_and_as_fast_as_it_is_told, [forall(behaving(Tree))]) :-
+    on(Tree, ( motor_gear(outA, 2), motor_run(outA, dps(200), 90), settle(Tree),
+               motor_position(outA, P), near(P, 90, 1), position(outA, C), near(C, 180, 2),
+               motor_run(outA, dps(200)), wait(0.5), motor_speed(outA, S), near(S, 200, 10) )).
+test(a_speed_that_only_a_motor_without_it_has_fails, [forall(tree(Tree)), fail]) :-
+    on(Tree, ( motor_gear(outB, 3), motor_run(outB, dps(400)) )).
+test(stays_after_a_reset_and_with_another_motor, true(G1-G2 == 3.0-3.0)) :-
+    with_sim([], ( motor_gear(outB, 3), motor_reset(outB), motor_gear(outB, G1),
+                   sim_unplug(outB), sim_wait(1), sim_plug(outB, 'lego-ev3-m-motor'), sim_wait(2),
+                   motor_gear(outB, G2) )).
+test(another_simulation_has_none, true(G == 1.0)) :-
+    with_sim([], motor_gear(outB, 3)),
+    with_sim([], motor_gear(outB, G)).
+test(a_wrong_ratio_throws_and_changes_nothing,
+     [ forall(member(Goal-Error, [ motor_gear(outB, 0)-domain_error(positive_number, 0),
+                                   motor_gear(outB, -3)-domain_error(positive_number, -3),
+                                   motor_gear(outB, [12, 36])-type_error(_, _),
+                                   motor_gear(outB, far)-type_error(evaluable, _),
+                                   motor_gear(_, 3)-instantiation_error,
+                                   motor_gear(7, _)-type_error(_, 7) ])),
+       true(E-G == caught-1.0) ]) :-
+    plain(( catch(Goal, error(Error, _), E = caught), motor_gear(outB, G) )).
+
+:- end_tests(motor_gear).
+
+:- begin_tests(motor_speed).
+
+test(is_read_in_degrees_a_second, [forall(tree(Tree)), true(Ss == [outA-0, outB-0, outC-0])]) :-
+    on(Tree, findall(P-S, motor_speed(P, S), Ss)).
+test(counts_that_are_no_degrees, true(S == 45.0)) :-
+    plain(( put_attribute(outB, count_per_rot, 720), put_attribute(outB, speed, 90),
+            motor_speed(outB, S) )).
+
+:- end_tests(motor_speed).
+
 :- begin_tests(motor_settings).
 
 test(absent, [ forall(( tree(Tree),
                         member(Goal, [ motor_position(outD, _), motor_position(outD, 0),
+                                       motor_speed(outD, _), motor_gear(outD, _),
+                                       motor_gear(outD, 3),
                                        motor_duty(outD, _), motor_polarity(outD, _),
                                        motor_polarity(outD, normal),
                                        motor_ramps(outD, _, _), motor_ramps(outD, 1, 1),

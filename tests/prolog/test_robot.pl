@@ -4,6 +4,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/odometry), [pose/3]).
 :- use_module(library(lists)).
 :- use_module(library(time)).
 
@@ -378,6 +379,7 @@ moved(Library, Output) :-
     format(string(Program),
            ":- use_module(library(~w)).
             :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/odometry), [pose/3]).
             :- use_module(library(ev3dev/sim)).
             main :-
                 sim_start([], [clock(virtual)]),
@@ -400,6 +402,7 @@ test(go_and_turn_do_the_same_whatever_else_is_loaded,
     once(sub_string(A, _, _, _, "[")).
 test(what_was_driven_before_the_library_was_loaded_counts) :-
     run_program(":- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/odometry), [pose/3]).
                  :- use_module(library(ev3dev/sim)).
                  main :-
                      sim_start([], [clock(virtual)]),
@@ -440,3 +443,42 @@ test(what_is_no_number_throws,
     with_sim([], ( set_robot(5.6, 10.6, outB, outC), Goal )).
 
 :- end_tests(units).
+
+:- begin_tests(gear).
+
+% Its motors turn three times as fast as its wheels.
+geared(Goal) :-
+    D is 5.6 / 3,
+    with_sim([], Goal,
+             [ robot([ left_wheel(outB, D), right_wheel(outC, D), axle(10.6), hull(circle(8)),
+                       mass(0.75), motor(outB, 'lego-ev3-l-motor'),
+                       motor(outC, 'lego-ev3-l-motor') ]) ]).
+
+built(Options) :-
+    set_robot(5.6, 10.6, outB, outC, Options).
+
+test(distances_angles_and_speeds_are_those_of_the_wheels) :-
+    geared(( built([gear(36/12)]), go_cm(30, 20), turn(30, 90), go(rpm(40), rotations(1)),
+             sim_pose(X, Y, H), near(X, pi * 5.6, 0.5), near(Y, 20, 0.5), near(H, 90, 2),
+             go(cm_per_s(6)), wait(1), sim_pose(X1, _, _), wait(2), sim_pose(X2, _, _), stop,
+             near(X2 - X1, 12, 0.3) )).
+test(the_robot_knows_where_it_is) :-
+    geared(( built([gear(3)]), go_cm(30, 20), pose(X, Y, H),
+             sim_pose(X1, Y1, H1), near(X, X1, 0.3), near(Y, Y1, 0.3), near(H, H1, 1) )).
+test(it_is_that_of_the_motors, true(B-C == 3.0-3.0)) :-
+    geared(( built([gear(3)]), motor_gear(outB, B), motor_gear(outC, C) )).
+test(without_the_option_the_motors_keep_theirs) :-
+    geared(( motor_gear(outB, 3), motor_gear(outC, 3), built([]), go_cm(30, 20),
+             sim_pose(_, Y, _), near(Y, 20, 0.5) )).
+test(a_change_counts_from_now_on_and_moves_nothing) :-
+    geared(( built([]), go_cm(30, 60), motor_gear(outB, 3), motor_gear(outC, 3),
+             pose(_, Y0, _), near(Y0, 60, 0.5), go_cm(30, 20),
+             pose(_, Y, _), near(Y, 80, 0.5),
+             sim_pose(_, Y1, _), near(Y1, 40, 0.5) )).
+test(a_wrong_one_throws_and_changes_nothing, true(E-G == caught-1.0)) :-
+    geared(( catch(built([gear(0)]), error(domain_error(positive_number, 0), _), E = caught),
+             motor_gear(outB, G) )).
+test(a_robot_that_cannot_be_set_changes_nothing, true(G == 1.0)) :-
+    geared(( \+ set_robot(5.6, 10.6, outB, outD, [gear(3)]), motor_gear(outB, G) )).
+
+:- end_tests(gear).

@@ -17,7 +17,7 @@
 :- use_module(robot_state,
               [drive_default/2, robot/4, robot_description/1, robot_set/4]).
 :- use_module(waits, [waited/1]).
-:- use_module(native, [attribute_/4, drive_/4]).
+:- use_module(native, [attribute_/4, drive_/4, motor_gear_/2]).
 
 /** <module> How a move is carried out
 
@@ -138,7 +138,8 @@ robot_speed(Speed, Percent) :-
     ->  robot_set(_, _, Left, _),
         attribute_('tacho-motor', Left, max_speed, Max),
         attribute_('tacho-motor', Left, count_per_rot, Counts),
-        Percent is Degrees * Counts / 3.6 / Max
+        motor_gear_(Left, Gear),
+        Percent is Degrees * Gear * Counts / 3.6 / Max
     ;   Percent = Value
     ).
 

@@ -4,8 +4,8 @@
           ]).
 :- use_module(errors, [called_by_program/1, throw_error/3]).
 :- use_module(native,
-              [ attribute_/4, device_/3, led_/3, sim_active_/0,
-                sim_detecting_/1, sysfs_/1
+              [ attribute_/4, device_/3, led_/3, motor_gear_/2,
+                sim_active_/0, sim_detecting_/1, sysfs_/1
               ]).
 :- use_module(one_of).
 
@@ -197,7 +197,8 @@ percent(Run, Percent) :-
     ->  arg(1, Run, Port),
         attribute_('tacho-motor', Port, max_speed, Max),
         attribute_('tacho-motor', Port, count_per_rot, Counts),
-        Percent is round(Degrees * Counts / 3.6 / Max)
+        motor_gear_(Port, Gear),
+        Percent is round(Degrees * Gear * Counts / 3.6 / Max)
     ;   Percent = Speed
     ).
 

@@ -3,7 +3,7 @@
             cause_words//1              % +Cause
           ]).
 :- use_module(library(lists), [append/3]).
-:- use_module(native, [attribute_/4, device_/3]).
+:- use_module(native, [attribute_/4, device_/3, motor_gear_/2]).
 
 /** <module> Commands and their causes in words
 */
@@ -183,9 +183,10 @@ time(SetPoints) -->
 angle(SetPoints, Port) -->
     (   { memberchk(position_sp(Position), SetPoints) }
     ->  (   { constant(Port, count_per_rot, Counts),
-              Counts > 0
+              Counts > 0,
+              motor_gear_(Port, Gear)
             }
-        ->  { Degrees is round(Position * 360 / Counts) },
+        ->  { Degrees is round(Position * 360 / (Counts * Gear)) },
             [ '~d degrees'-[Degrees] ]
         ;   [ '~d counts'-[Position] ]
         )

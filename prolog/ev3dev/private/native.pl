@@ -26,11 +26,14 @@
             serve_if_due_/0,
             slices_/1,
             tick_after_/1,
+            motor_gear_/2,
             motor_position_/2,
             motor_reset_/1,
             motor_run_/2,
             motor_run_direct_/3,
+            motor_set_gear_/2,
             motor_set_position_/2,
+            motor_speed_/2,
             motor_stop_/3,
             motor_turn_/3,
             motor_wait_/3,
@@ -213,11 +216,14 @@ missing.
 
 % Motors
 
+%!  motor_gear_(?Port, -Ratio) is nondet.
 %!  motor_position_(?Port, -Position) is nondet.
 %!  motor_reset_(+Port) is semidet.
 %!  motor_run_(+Port, +Speed) is semidet.
 %!  motor_run_direct_(+Class, +Port, +Percent) is semidet.
+%!  motor_set_gear_(+Port, +Ratio) is semidet.
 %!  motor_set_position_(+Port, +Position) is semidet.
+%!  motor_speed_(?Port, -Speed) is nondet.
 %!  motor_stop_(+Class, +Port, +StopAction) is semidet.
 %!  motor_turn_(+Moves, +Options, -Reason) is nondet.
 %!  motor_wait_(+Ports, +Timeout, -Reason) is nondet.

@@ -1,5 +1,6 @@
 //! One device: its attributes as kept descriptors, and its constants.
 mod attribute;
+mod gears;
 mod list;
 pub(crate) mod motion;
 mod observer;
@@ -10,6 +11,7 @@ pub mod sleep;
 use crate::class::{Class, Detected};
 use crate::device::attribute::{Attribute, LINE, PAGE, SHORT, malformed, open, read_node, text_of};
 pub use crate::device::attribute::{read_file, read_value, write_file};
+pub(crate) use crate::device::gears::Gears;
 use crate::device::list::List;
 use crate::device::motion::MotorRun;
 pub(crate) use crate::device::observer::{MotionObserver, Observer};
@@ -56,6 +58,8 @@ pub struct Device {
     observer: Arc<Observer>,
     /// Where commands are noted.
     journal: Arc<Journal>,
+    /// The gears of all motors.
+    gears: Arc<Gears>,
     /// The thread that is putting a sensor into a mode and reading it there.
     user: Mutex<Option<ThreadId>>,
     /// When its values will have settled in that mode; zero once they have.
@@ -87,6 +91,7 @@ impl Device {
         tree: &Arc<dyn Sysfs>,
         observer: &Arc<Observer>,
         journal: &Arc<Journal>,
+        gears: &Arc<Gears>,
         class: Class,
         entry: Entry,
     ) -> Result<Self> {
@@ -118,6 +123,7 @@ impl Device {
             is_prepared: AtomicBool::default(),
             observer: Arc::clone(observer),
             journal: Arc::clone(journal),
+            gears: Arc::clone(gears),
             user: Mutex::default(),
             settled_at: Mutex::default(),
             turned: Mutex::default(),
@@ -449,6 +455,17 @@ impl Device {
         self.attribute(attribute).write(self.tree(), buffer.format(number))?;
         self.written.note_number(attribute, number);
         Ok(())
+    }
+
+    /// How many times a motor turns while what it drives turns once.
+    #[must_use]
+    pub fn gear(&self) -> f64 {
+        self.gears.of(&self.port)
+    }
+
+    /// Sets that for the motor's port.
+    pub(crate) fn set_gear(&self, ratio: f64) {
+        self.gears.set(&self.port, ratio);
     }
 
     /// Whether it is a linear actuator: it counts in lengths, not in turns.

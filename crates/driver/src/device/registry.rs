@@ -6,7 +6,7 @@
 //! port is asked for that it does not have, and when a device answers as an
 //! unplugged one does. Devices that are still there keep their descriptors.
 use crate::class::{Class, Detected};
-use crate::device::{Device, MotionObserver, Observer, identity};
+use crate::device::{Device, Gears, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
 use crate::journal::Journal;
 use crate::port_name;
@@ -27,6 +27,7 @@ pub struct Registry {
     listings: [Mutex<Listing>; Class::ALL.len()],
     observer: Arc<Observer>,
     journal: Arc<Journal>,
+    gears: Arc<Gears>,
 }
 
 /// The devices in a class directory when it was last listed.
@@ -69,6 +70,7 @@ impl Registry {
             listings: Default::default(),
             observer: Arc::default(),
             journal: Arc::default(),
+            gears: Arc::default(),
         }
     }
 
@@ -246,7 +248,7 @@ impl Registry {
     }
 
     fn detected(&self, class: Class, entry: Entry) -> Result<Device> {
-        Device::detect(&self.tree, &self.observer, &self.journal, class, entry)
+        Device::detect(&self.tree, &self.observer, &self.journal, &self.gears, class, entry)
     }
 
     fn is_fresh(&self, listing: &Listing) -> bool {

@@ -55,20 +55,28 @@ impl DriveDevices {
         let [left, right] = &*motors else {
             return Ok(None);
         };
-        let way = |side, motor: &Device| -> Result<f64> {
-            #[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
-            let counts = motor.constant("count_per_rot")? as f64;
-            Ok(robot.wheels.cm_per_count(side, counts))
-        };
-        let cm_per_count = [way(0, left)?, way(1, right)?];
-        let counts_per_cm = cm_per_count.map(|way| 1.0 / way);
         let fastest = left.constant("max_speed")?.min(right.constant("max_speed")?);
         let counts = counts(&motors)?;
         let sensors = registry.all(Class::Sensor)?;
         let gyro = sensors.iter().find(|sensor| sensor.driver() == gyro::DRIVER).cloned();
         #[expect(clippy::cast_precision_loss, reason = "a motor's speed is small")]
         let fastest = fastest as f64;
-        Ok(Some(Self { motors, gyro, counts, cm_per_count, counts_per_cm, fastest }))
+        let (cm_per_count, counts_per_cm) = ([0.0; 2], [0.0; 2]);
+        let mut found = Self { motors, gyro, counts, cm_per_count, counts_per_cm, fastest };
+        found.measure(&robot.wheels)?;
+        Ok(Some(found))
+    }
+
+    /// How far the wheels roll for a count, with the gears as they are now.
+    pub(super) fn measure(&mut self, wheels: &Wheels) -> Result<()> {
+        for (side, motor) in self.motors.iter().enumerate() {
+            #[expect(clippy::cast_precision_loss, reason = "a rotation has a few hundred counts")]
+            let counts = motor.constant("count_per_rot")? as f64 * motor.gear();
+            let way = wheels.cm_per_count(side, counts);
+            self.cm_per_count[side] = way;
+            self.counts_per_cm[side] = 1.0 / way;
+        }
+        Ok(())
     }
 
     /// Whether the motors are still plugged in.

@@ -377,7 +377,10 @@ impl MotionObserver for Drive {
         // An error shows again at the next reading.
         let _ = inner.integrate(&self.registry);
         let written = write();
-        if let Some(devices) = &mut inner.devices {
+        let Inner { devices, robot, .. } = &mut *inner;
+        if let Some(devices) = devices {
+            // The gear may be what was written.
+            let _ = devices.measure(&robot.wheels);
             if let Ok(counts) = counts(&devices.motors) {
                 devices.counts = counts;
             }

@@ -17,7 +17,7 @@ pub struct Move<'a> {
     pub extent: Extent,
 }
 
-/// How far a move goes. Angles are in degrees of the output shaft, or, of a
+/// How far a move goes. Angles are in degrees of what the motor drives, or, of a
 /// linear actuator, in millimeters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
@@ -35,7 +35,7 @@ pub enum Extent {
 pub enum Speed {
     /// In percent of `max_speed`.
     Percent(f64),
-    /// In degrees of the output shaft per second.
+    /// In degrees per second of what the motor drives.
     DegreesPerSecond(f64),
     /// In tacho counts per second.
     CountsPerSecond(i64),
@@ -146,14 +146,19 @@ fn counts(motor: &Device, angle: f64) -> Result<Option<i64>> {
     Ok((counts.abs() <= f64::from(i32::MAX)).then_some(counts as i64))
 }
 
-/// Tacho counts for a degree of the shaft, or a millimeter of a linear actuator.
+/// Tacho counts for a degree of what the motor drives, or a millimeter of a linear
+/// actuator.
+///
+/// # Errors
+/// The kernel's.
 #[expect(clippy::cast_precision_loss, reason = "counts are few")]
-fn counts_per_unit(motor: &Device) -> Result<f64> {
-    Ok(if motor.is_linear() {
+pub fn counts_per_unit(motor: &Device) -> Result<f64> {
+    let counts = if motor.is_linear() {
         motor.constant("count_per_m")? as f64 / 1000.0
     } else {
         motor.constant("count_per_rot")? as f64 / 360.0
-    })
+    };
+    Ok(counts * motor.gear())
 }
 
 /// A time as the kernel takes it; `None` if it is longer than that.
@@ -181,19 +186,19 @@ pub(crate) fn duty(percent: f64) -> Option<i64> {
     (whole.abs() <= 100.0).then_some(whole as i64)
 }
 
-/// The position of a motor in degrees, or millimeters of a linear actuator: an integer
-/// if a tacho count is one of these, else a float.
+/// The `position` or `speed` of a motor in degrees, or millimeters of a linear actuator:
+/// an integer if a tacho count is one of these, else a float.
 ///
 /// # Errors
 /// The kernel's.
-#[expect(clippy::cast_precision_loss, reason = "positions have 32 bits")]
-pub fn position(motor: &Device) -> Result<Value> {
-    let (counts, per_unit) = (motor.number("position")?, counts_per_unit(motor)?);
+#[expect(clippy::cast_precision_loss, reason = "these have 32 bits")]
+pub fn measured(motor: &Device, attribute: &str) -> Result<Value> {
+    let (counts, per_unit) = (motor.number(attribute)?, counts_per_unit(motor)?);
     let is_unit = (per_unit - 1.0).abs() < f64::EPSILON;
     Ok(if is_unit { Value::Integer(counts) } else { Value::Float(counts as f64 / per_unit) })
 }
 
-/// Sets the position of a motor, in the units of [`position`], without turning it.
+/// Sets the position of a motor, in the units of [`measured`], without turning it.
 /// `false` if that is beyond what the kernel counts.
 ///
 /// # Errors
@@ -206,4 +211,16 @@ pub fn set_position(motor: &Device, position: f64) -> Result<bool> {
         }
         None => Ok(false),
     }
+}
+
+/// Sets how many times a motor turns while what it drives turns once. What the motor has
+/// turned so far, it has turned with the gear before.
+///
+/// # Errors
+/// None.
+pub fn set_gear(motor: &Device, ratio: f64) -> Result<()> {
+    motor.without_counting(&mut || {
+        motor.set_gear(ratio);
+        Ok(())
+    })
 }

@@ -3,7 +3,8 @@ use crate::brick::{Brick, ms};
 use crate::files::PlainTree;
 use ev3_driver::motor::wait::Reason;
 use ev3_driver::motor::{
-    Extent, Move, MoveOptions, Run, Speed, position, run_direct, run_forever, run_to, set_position,
+    Extent, Move, MoveOptions, Run, Speed, measured, run_direct, run_forever, run_to, set_gear,
+    set_position,
 };
 use ev3_driver::motor::{dc, servo};
 use ev3_driver::{Class, Errno, Error, Value};
@@ -93,7 +94,7 @@ fn a_position_is_in_degrees_of_the_shaft() {
     let devices = brick.devices();
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     assert!(set_position(&motor, 90.4).unwrap());
-    assert_eq!(position(&motor).unwrap(), Value::Integer(90));
+    assert_eq!(measured(&motor, "position").unwrap(), Value::Integer(90));
     assert!(!set_position(&motor, 1e12).unwrap());
     let brick = Brick::new(&["outA"]);
     brick.world().motor("outA").count_per_rot = 180;
@@ -101,7 +102,9 @@ fn a_position_is_in_degrees_of_the_shaft() {
     let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
     assert!(set_position(&motor, 90.0).unwrap());
     assert_eq!(brick.world().motor("outA").counts(), 45);
-    assert_eq!(position(&motor).unwrap(), Value::Float(90.0));
+    assert_eq!(measured(&motor, "position").unwrap(), Value::Float(90.0));
+    set_gear(&motor, 3.0).unwrap();
+    assert_eq!(measured(&motor, "position").unwrap(), Value::Float(30.0));
 }
 
 fn run(port: &str) -> Run<'_> {
