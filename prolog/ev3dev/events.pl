@@ -71,10 +71,10 @@ Conditions are looked at each time, so they should be quick, and must not
 wait. One that reads a sensor in another mode than the last one takes 10 ms.
 */
 
-%   event(Id, Kind, Action, State): Kind is on(Condition, Options),
-%   every(Seconds) or after(Seconds). State changes only when something
-%   happens.
-:- thread_local event_/4.
+%   event_(Id, Kind, Action): Kind is on(Condition, Options), every(Seconds)
+%   or after(Seconds), in the order in which they were added.
+%   state_(Id, State): State changes only when something happens.
+:- thread_local event_/3, state_/2.
 
 %   Seconds between two looks.
 look_every(0.02).
@@ -86,7 +86,8 @@ look_every(0.02).
 %   wait. The bindings of Condition reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
 %   and wait; it interrupts the program for so long, and its event happens
-%   only once at a time. If Action fails or throws, a message is printed and
+%   only once at a time. Those that happen at one look do so in the order in
+%   which they were added. If Action fails or throws, a message is printed and
 %   the event stays; if Condition throws, a message is printed and the event
 %   ends. Options:
 %
@@ -185,10 +186,11 @@ count_option(Options, Count) :-
 add_event(Kind, Action, State, Options) :-
     (   option(id(Id), Options)
     ->  must_be(ground, Id),
-        retractall(event_(Id, _, _, _))
+        forget(Id)
     ;   flag(ev3dev_event, Id, Id + 1)
     ),
-    assertz(event_(Id, Kind, Action, State)),
+    assertz(event_(Id, Kind, Action)),
+    assertz(state_(Id, State)),
     look_every(Seconds),
     listen_for_events(Seconds),
     serve_at_prompt_.
@@ -199,15 +201,19 @@ add_event(Kind, Action, State, Options) :-
 %   thread has no such event.
 
 event_cancel(Id) :-
-    \+ \+ event_(Id, _, _, _),
-    retractall(event_(Id, _, _, _)).
+    \+ \+ event_(Id, _, _),
+    forget(Id).
+
+forget(Id) :-
+    retractall(event_(Id, _, _)),
+    retractall(state_(Id, _)).
 
 %!  event(?Id, ?Kind) is nondet.
 %
 %   True if this thread has an event Id; Kind is `on`, `every` or `after`.
 
 event(Id, Kind) :-
-    event_(Id, Term, _, _),
+    event_(Id, Term, _),
     functor(Term, Kind, _).
 
                  /*******************************
@@ -221,10 +227,11 @@ ev3dev_waits:serve_events :-
 
 %   Which there are at the beginning: an action may add and cancel events.
 serve :-
-    (   event_(_, _, _, _)
+    (   event_(_, _, _)
     ->  now_(Now),
-        findall(Id, event_(Id, _, _, _), Ids),
-        forall(( one_of(Ids, Id), event_(Id, Kind, Action, State) ),
+        findall(Id, event_(Id, _, _), Ids),
+        forall(( one_of(Ids, Id), event_(Id, Kind, Action),
+                 state_(Id, State) ),
                serve(State, Kind, Id, Now, Action))
     ;   true
     ).
@@ -328,7 +335,8 @@ is_stable(armed(Count), Stable, Id, Now, Count) :-
 
 %   A time that was missed meanwhile is not made up for.
 happened(Id) :-
-    (   event_(Id, Kind, _, running(State0))
+    (   event_(Id, Kind, _),
+        state_(Id, running(State0))
     ->  now_(Now),
         (   State0 = due(Next0, Count),
             Next0 < Now,
@@ -343,11 +351,10 @@ happened(Id) :-
     ).
 
 change(Id, State) :-
-    (   retract(event_(Id, Kind, Action, _))
-    ->  (   State == over
-        ->  true
-        ;   assertz(event_(Id, Kind, Action, State))
-        )
+    (   State == over
+    ->  forget(Id)
+    ;   retract(state_(Id, _))
+    ->  assertz(state_(Id, State))
     ;   true
     ).
 

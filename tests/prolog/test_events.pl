@@ -78,6 +78,13 @@ test(it_is_served_in_every_kind_of_wait_and_read,
     near_all(Times, [0.5]).
 test(nothing_is_served_without_a_wait, true(Notes == [])) :-
     noted([], ( on(true, note(now)), numlist(1, 1000, Ns), sum_list(Ns, _) ), Notes).
+% Each has happened and been rearmed another number of times before.
+test(those_of_one_moment_happen_in_the_order_in_which_they_were_added,
+     true(Whats == [b, c, b, a, b, c])) :-
+    noted([ 1-raise(b), 1.5-raise(c), 2-lower(b), 3-raise(b), 4-lower(c), 5-lower(b),
+            6-( raise(a), raise(b), raise(c) ) ],
+          ( forall(member(Up, [a, b, c]), on(up(Up), note(Up))), wait(7) ), Notes),
+    findall(W, member(_-W, Notes), Whats).
 test(it_ends_after_its_count) :-
     noted([ 1-raise(a), 2-lower(a), 3-raise(a), 4-lower(a), 5-raise(a) ],
           ( on(up(a), note(up), [count(2), id(x)]), wait(6), \+ event(x, _) ), Notes),
