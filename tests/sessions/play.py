@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plays sessions: what a person types at a terminal, and what it answers.
 
-    tests/sessions/play.py [--show] [FILE...]    default: tests/sessions/*.txt
+    tests/sessions/play.py [--show] [FILE...]    default: tests/sessions/*.txt and the papers
 
 A session is a text as one sees it on the screen:
 
@@ -34,6 +34,14 @@ the terminal echoes it. `swipl` is that of the variable SWIPL, in a home that ha
 nothing but this pack. `ev3dev` is the shell command of the pack: `swipl ev3dev`
 where Prolog has apps.
 
+A file that ends in .md is a paper. Its queries are typed at one prompt, in their order;
+its programs, the blocks of code without a query, are loaded first. `$ ` begins a shell
+and what is typed in it. What stands below a query has to come, numbers with a point
+within 3 %; where nothing stands, anything but an error, a warning or `false`. The
+commands of the shell follow. `tests/sessions/elsewhere.txt` names those that are run
+elsewhere, or nowhere, and why; each of its lines has to stand in a paper. A comment
+`<!-- file: square.pl -->` before a block says what the file of the block is called.
+
 Python's own pty does for this what pexpect would: there is nothing to install, on
 a machine without network, too.
 """
@@ -60,6 +68,7 @@ PATIENCE = float(os.environ.get("EV3DEV_SESSION_SECONDS", "60"))
 PROMPT = re.compile(r"(?:^|\n)(?:\|: )?(?:\d+ )?\?- $")
 PROMPT_START = re.compile(r"^(?:\d+ )?\?- ")
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|\x1b[=>()][0-9A-B]?|[\r\a]")
+OPEN = re.compile(r"[^\s|:?-] $")
 KEYS = {"^C": "\x03", "^D": "\x04", "^Z": "\x1a", "^\\": "\x1c"}
 
 
@@ -84,9 +93,10 @@ class Terminal:
         # Wide, so that nothing is wrapped; high, so that no pager waits
         fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 500, 400, 0, 0))
 
-    def send(self, text):
-        """Types; what has been printed up to now is done with."""
-        self.taken = len(self.text)
+    def send(self, text, keep=False):
+        """Types; what has been printed up to now is done with, unless it is to be kept."""
+        if not keep:
+            self.taken = len(self.text)
         os.write(self.fd, text.encode())
 
     def news(self):
@@ -148,23 +158,118 @@ class Terminal:
             pass
 
 
+NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
+
+
+def agrees(expected, line, near):
+    """Is the line the expected one? near: its numbers with a point may differ a little."""
+    if re.fullmatch(pattern(expected), line):
+        return True
+    if not near:
+        return False
+    numbers = [[float(n) for n in NUMBER.findall(text)] for text in (expected, line)]
+    around = [NUMBER.sub("#", text) for text in (expected, line)]
+    close = all(abs(a - b) <= max(0.5, 0.03 * abs(a)) for a, b in zip(*numbers))
+    return around[0] == around[1] and close
+
+
 def pattern(line):
     """The regular expression of an expected line."""
     return ".*?".join(re.escape(part.rstrip() if part.endswith(" ") else part) for part in line.split("..."))
 
 
-def matches(expected, text):
+def matches(expected, text, near=False):
     """Is text what is expected?"""
     lines = [line.rstrip() for line in text.split("\n")]
-    return fits([line.rstrip() for line in expected if line.strip()], [line for line in lines if line])
+    return fits([line.rstrip() for line in expected if line.strip()], [line for line in lines if line], near)
 
 
-def fits(expected, lines):
+def fits(expected, lines, near=False):
     if not expected:
         return not lines
     if expected[0] == "...":
-        return any(fits(expected[1:], lines[n:]) for n in range(len(lines) + 1))
-    return bool(lines) and re.fullmatch(pattern(expected[0]), lines[0]) is not None and fits(expected[1:], lines[1:])
+        return any(fits(expected[1:], lines[n:], near) for n in range(len(lines) + 1))
+    return bool(lines) and agrees(expected[0], lines[0], near) and fits(expected[1:], lines[1:], near)
+
+
+WRONG = re.compile(r"^(?:ERROR|Warning|false\.)", re.M)
+COMMANDS = ("make ", "swipl ", "swipl", "scp ", "ssh ", "sudo ", "tar ", "./", "brick-prolog/")
+
+
+class Paper:
+    """The sessions of a paper."""
+
+    def __init__(self, path):
+        self.path = path
+        self.program = []  # its program
+        self.files = {}  # other files, by their names
+        self.queries = []  # lines of the prompt
+        self.sessions = []  # commands with what is typed then
+        self.commands = []  # commands alone
+        self.read()
+
+    def read(self):
+        """Sorts the lines."""
+        lines = self.path.read_text().split("\n")
+        name = None
+        number = 0
+        while number < len(lines):
+            line = lines[number]
+            named = re.fullmatch(r"<!-- file: (\S+) -->", line)
+            if named:
+                name = named[1]
+            elif line.startswith("```"):
+                end = lines.index("```", number + 1)
+                self.block(line[3:], lines[number + 1 : end], name)
+                number, name = end, None
+            elif line.startswith("    ") and name:
+                end = next(n for n in range(number, len(lines)) if lines[n] and not lines[n].startswith("    "))
+                self.files[name] = "".join(text[4:] + "\n" for text in lines[number:end]).rstrip("\n") + "\n"
+                number, name = end - 1, None
+            elif re.match(r"    \S", line) and line[4:].startswith(COMMANDS):
+                self.commands.append(re.sub(r"\s+#.*", "", line[4:]))
+            number += 1
+
+    def block(self, language, lines, name):
+        """Sorts the lines of a block of code."""
+        if language not in ("", "prolog"):
+            return
+        if name:
+            self.files[name] = "\n".join(lines) + "\n"
+        elif lines[0].startswith("$ "):
+            self.sessions.append(lines)
+        elif language == "prolog":
+            asks = any(line.startswith("?- ") for line in lines)
+            is_query = False
+            for line in lines:
+                # Below a query stands its answer, up to a line that is empty
+                is_query = line.startswith("?- ") or (is_query and line != "")
+                (self.queries if asks and is_query else self.program).append(line)
+
+    def plays(self, elsewhere):
+        """The sessions, each a list of lines."""
+        files = []
+        for name, text in self.files.items():
+            files += [f"--- {name}", *text.rstrip("\n").split("\n"), "---"]
+        if self.queries:
+            program = ["--- paper.pl", *self.program, "---"]
+            yield [*files, *program, "$ swipl -q paper.pl", *continued(self.queries)]
+        for lines in self.sessions:
+            yield [*files, lines[0].replace("swipl", "swipl -q", 1), *continued(lines[1:])]
+        for command in self.commands:
+            if command not in elsewhere:
+                yield [*files, f"$ {command}", "..."]
+
+
+def continued(lines):
+    """A query of several lines has the mark of that."""
+    is_open = False
+    for line in lines:
+        if is_open and line.startswith(" "):
+            line = "|    " + line.strip()
+        if line.startswith(("?- ", "|    ")):
+            is_open = not re.search(r"\.(?:\s*%.*|\s*)$", line)
+        yield line
 
 
 class Version(tuple):
@@ -225,19 +330,22 @@ class Home:
 class Player:
     """Plays one session."""
 
-    def __init__(self, home, show):
+    def __init__(self, home, show, near=False):
         self.home = home
         self.show = show
+        self.near = near
         self.folder = Path(tempfile.mkdtemp(dir=home.top))
+        for name in ("app", "examples"):
+            (self.folder / name).symlink_to(ROOT / name)
         self.terminal = None
         self.expected = []
         self.echo = False
         self.typed = ""
         self.status = 0
 
-    def play(self, text):
+    def play(self, lines):
         """Plays the lines; raises Wrong at the first that is not as it should be."""
-        lines = iter(enumerate(text.split("\n"), 1))
+        lines = iter(enumerate(lines, 1))
         try:
             for self.number, line in lines:
                 if line.startswith("--- "):
@@ -311,14 +419,28 @@ class Player:
 
     def answer(self, prompt, what):
         """The whole answer has come when the prompt comes."""
-        text = self.terminal.until(lambda text: prompt.search(self.without_echo(text) if self.echo else text), what)
-        text = self.without_echo(text)
+        def has_come(text):
+            text = self.without_echo(text)
+            if self.near and OPEN.search(text):
+                # There are more answers: the first is enough
+                self.terminal.send("\n", keep=True)
+            return prompt.search(text)
+
+        text = self.without_echo(self.terminal.until(has_come, what))
         self.check(text[: prompt.search(text).start()])
 
     def check(self, text):
         if self.show:
             print(text)
-        if not matches(self.expected, text):
+        if self.near:
+            text = re.sub(r" ([.;])$", r"\1", text, flags=re.M)
+            if "true." not in self.expected:
+                text = re.sub(r"(?:^|\n)true\.\s*$", "\n", text)
+            if not any(line.strip() for line in self.expected):
+                if WRONG.search(text):
+                    raise Wrong("no, or an error")
+                return
+        if not matches(self.expected, text, self.near):
             raise Wrong("another answer")
 
     def seen(self):
@@ -353,21 +475,38 @@ class Player:
 
 def play(path, home, show):
     """Plays a file; None, or in words what was wrong."""
-    text = path.read_text()
-    only = re.search(r"^# only: (.*)$", text, re.M)
-    if only and not home.version.meets(only[1]):
-        return None
-    player = Player(home, show)
-    try:
-        player.play(text)
-    except Wrong as wrong:
-        came = player.without_echo(player.terminal.news()) if player.terminal else ""
-        return f"{path}:{player.number}: {wrong}\n  expected:\n" + indented("\n".join(player.expected)) + "\n  came:\n" + indented(came)
+    if path.suffix == ".md":
+        elsewhere = {line.split("  #")[0].strip() for line in (HERE / "elsewhere.txt").read_text().split("\n")}
+        sessions = list(Paper(path).plays(elsewhere))
+    else:
+        text = path.read_text()
+        only = re.search(r"^# only: (.*)$", text, re.M)
+        if only and not home.version.meets(only[1]):
+            return None
+        sessions = [text.split("\n")]
+    for lines in sessions:
+        player = Player(home, show, near=path.suffix == ".md")
+        try:
+            player.play(lines)
+        except Wrong as wrong:
+            came = player.without_echo(player.terminal.news()) if player.terminal else ""
+            last = lines[player.number - 1]
+            return (
+                f"{path}:{player.number}: {wrong}, before or at {last}\n  typed: {player.typed.strip()}\n  expected:\n"
+                + indented("\n".join(player.expected))
+                + "\n  came:\n"
+                + indented(came)
+            )
     return None
 
 
 def indented(text):
     return "\n".join("    " + line for line in text.split("\n"))
+
+
+def papers():
+    """README.md and those in docs."""
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def main():
@@ -380,7 +519,7 @@ def main():
         sys.exit("play.py: there is no swipl")
     home = Home(swipl)
     failed = 0
-    files = arguments.file or sorted(HERE.glob("*.txt"))
+    files = arguments.file or sorted({*HERE.glob("*.txt")} - {HERE / "elsewhere.txt"}) + papers()
     try:
         for path in files:
             wrong = play(path, home, arguments.show)
