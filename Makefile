@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-rust check-prolog check-clients check-view check-bench check-torture check-all check-old check-dist \
+.PHONY: all setup build check check-rust check-prolog check-sessions check-clients check-view check-bench check-torture check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -36,7 +36,7 @@ place:
 
 # In minutes: a browser is waited for most of the time, so Prolog runs beside it
 check: build check-rust
-	$(MAKE) -j2 check-prolog check-clients check-view check-bench
+	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
 
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
@@ -51,6 +51,10 @@ check-rust:
 
 check-prolog:
 	@tests/run.sh $(TESTS)
+
+# What a person types at a terminal, and what the papers show
+check-sessions: build
+	@tests/sessions/play.py
 
 # Programs in other languages on the simulator's mount
 check-clients: build

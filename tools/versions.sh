@@ -79,6 +79,14 @@ try() {
             -g 'set_prolog_flag(ev3dev_hints,off),(run_tests->halt;halt(1))' "$file"
     done
     cd "$root"
+    # Emulated, a terminal is slow, and its keys are not those of a brick
+    [[ $name == *arm* ]] || step "$name: sessions" sessions
+}
+
+# What a person types and the papers show, at a terminal of this Prolog
+sessions() {
+    EV3DEV_SESSION_HOME=$home EV3DEV_SESSION_SECONDS=120 SWIPL=$home/swipl \
+        "$root/tests/sessions/play.py"
 }
 
 # built_swipl NAME: the swipl that the environment names for it

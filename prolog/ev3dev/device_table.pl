@@ -53,7 +53,8 @@ unreadable(error(Formal, _), Reads) :-
 motor_reading(Port, Reads) :-
     position(Port, Position),
     state(Port, State),
-    format(atom(Reads), "position ~w ~w", [Position, State]).
+    format(atom(Text), "position ~w ~w", [Position, State]),
+    normalize_space(atom(Reads), Text).
 
 dc_motor_reading(Port, Reads) :-
     attribute_('dc-motor', Port, duty_cycle, Duty),

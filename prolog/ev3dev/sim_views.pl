@@ -1,5 +1,6 @@
 :- module(ev3dev_sim_views,
           [ sim_pose/3,                 % -X, -Y, -Heading
+            sim_where/0,
             sim_collisions/1,           % -Collisions
             sim_trace/1,                % -Trace
             sim_svg/1,                  % +File
@@ -30,6 +31,15 @@ runs.
 
 sim_pose(X, Y, Heading) :-
     sim_pose_(X, Y, Heading).
+
+%!  sim_where is semidet.
+%
+%   Print the robot's true position in cm and its heading in degrees, rounded.
+
+sim_where :-
+    sim_pose_(X, Y, Heading),
+    format("The robot is at ~1f, ~1f cm; its heading is ~1f degrees.~n",
+           [X, Y, Heading]).
 
 %!  sim_collisions(-Collisions) is semidet.
 %

@@ -1,7 +1,6 @@
-% The program of docs/cognitive-robotics.md loads, its queries have the answers
-% that stand below them, and its examples do what it says.
+% The examples of docs/cognitive-robotics.md do what it says. Its queries are played
+% by tests/sessions/play.py.
 
-:- use_module('../support/papers').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog)).
@@ -11,63 +10,7 @@
 :- initialization(load_files(chapter_post:example(golog_delivery), [])).
 :- initialization(load_files(chapter_rescue:example(golog_rescue), [])).
 
-%   The lines in code blocks of the chapter.
-
-code_lines(Lines) :-
-    code_blocks('docs/cognitive-robotics.md', Blocks),
-    findall(Line,
-            ( member(block("prolog", Block), Blocks),
-              ( member(Line, Block) ; Line = "" ) ),
-            Lines).
-
-%   Program text, and queries with the answer below each.
-
-sorted_lines([], [], []).
-sorted_lines([Line|Lines], Program, Queries) :-
-    (   string_concat("?- ", Query0, Line)
-    ->  answer(Lines, Answer, Rest),
-        without_stop(Query0, Query),
-        Queries = [Query-Answer|Queries1],
-        sorted_lines(Rest, Program, Queries1)
-    ;   Program = [Line|Program1],
-        sorted_lines(Lines, Program1, Queries)
-    ).
-
-answer([Line|Lines], Answer, Rest) :-
-    Line \== "",
-    \+ string_concat("?- ", _, Line),
-    !,
-    without_stop(Line, Answer),
-    Rest = Lines.
-answer(Lines, "true", Lines).
-
-without_stop(Text0, Text) :-
-    string_concat(Text, ".", Text0).
-
-answered(Query, Answer) :-
-    (   Answer == "false"
-    ->  term_string(Goal, Query),
-        \+ golog_chapter:Goal
-    ;   format(string(Both), "(~s), (~s)", [Query, Answer]),
-        term_string(Goal, Both),
-        once(golog_chapter:Goal)
-    ).
-
 :- begin_tests(cognitive_robotics).
-
-test(the_queries_have_their_answers, true(Wrong == [])) :-
-    code_lines(Lines),
-    sorted_lines(Lines, Program, Queries),
-    length(Queries, Count),
-    assertion(Count > 12),
-    atomic_list_concat([":- module(golog_chapter, [])."|Program], "\n", Text),
-    with_file(Text, File, load_files(File, [])),
-    with_sim(room,
-             findall(Query,
-                     ( member(Query-Answer, Queries),
-                       \+ with_output_to(string(_),
-                                         answered(Query, Answer)) ),
-                     Wrong)).
 
 test(the_elevator_serves_all_calls,
      [forall(member(How, [simple, smart])), true(Opened-Left == 4-[])]) :-

@@ -1,10 +1,8 @@
-% Every query in README.md and docs/*.md succeeds, in the order in which they
-% stand in each; docs/predicates.md has all predicates, and files that the papers
-% name are there.
+% docs/predicates.md has all predicates, and files that the papers name are there.
+% What they show of the prompt and the shell is played by tests/sessions/play.py.
 
 :- use_module('../support/simulation').
 :- use_module('../support/dev', [bytes_of/2]).
-:- use_module('../support/papers').
 % They run in another directory.
 :- working_directory(Home, Home),
    atom_concat(Home, prolog, Library),
@@ -15,24 +13,6 @@
 
 :- begin_tests(readme).
 
-test(their_queries_succeed, [forall(paper(File)), true(Failed == [])]) :-
-    queries(File, Queries),
-    load_programs(File),
-    with_sim(room,
-             in_temporary_directory(
-                 findall(Query,
-                         ( member(Query, Queries),
-                           \+ succeeds(Query)
-                         ),
-                         Failed))).
-test(they_have_queries, true(Without == [])) :-
-    findall(File,
-            ( member(File, ['README.md', 'docs/predicates.md',
-                            'docs/worlds.md']),
-              queries(File, Queries),
-              length(Queries, Count),
-              Count < 5 ),
-            Without).
 test(the_face_is_the_picture_beside_it, true(Drawn == Kept)) :-
     read_file_to_string('docs/predicates.md', Text, []),
     sub_string(Text, Start, _, _, "face :-"),
@@ -50,6 +30,14 @@ test(the_readme_is_short) :-
     split_string(Text, "\n", "", Lines),
     length(Lines, Count),
     assertion(Count =< 151).
+test(each_example_of_rules_is_played, true(Without == [])) :-
+    read_file_to_string('docs/reactive.md', Text, []),
+    expand_file_name('examples/rules_*.pl', Files),
+    findall(Example,
+            ( member(Example, ['examples/plnxt_program.pl'|Files]),
+              atom_concat('$ swipl ', Example, Command),
+              \+ sub_string(Text, _, _, _, Command) ),
+            Without).
 test(each_example_it_names_is_there, [forall(named_example(File))]) :-
     exists_file(File).
 test(each_file_they_link_to_is_there, [forall(linked(File))]) :-
@@ -103,57 +91,6 @@ linked(Target) :-
     \+ sub_string(Link, 0, _, _, "http"),
     file_directory_name(Paper, Directory),
     atomic_list_concat([Directory, /, Link], Target).
-
-:- meta_predicate in_temporary_directory(0).
-
-in_temporary_directory(Goal) :-
-    working_directory(Here, Here),
-    tmp_file(readme, Directory),
-    make_directory(Directory),
-    setup_call_cleanup(
-        working_directory(_, Directory),
-        once(Goal),
-        ( working_directory(_, Here),
-          delete_directory_and_contents(Directory) )).
-
-succeeds(Query) :-
-    term_string(Goal, Query),
-    with_output_to(string(_), user:Goal).
-
-%   Lines of the code blocks that ask something, less what follows them.
-
-queries(File, Queries) :-
-    code_blocks(File, Blocks),
-    findall(Query,
-            ( member(block("prolog", Lines), Blocks),
-              member(Line, Lines),
-              string_concat("?- ", Rest, Line),
-              sub_string(Rest, Before, _, _, "."),
-              End is Before + 1,
-              sub_string(Rest, End, _, 0, After),
-              normalize_space(string(Comment), After),
-              ( Comment == "" ; sub_string(Comment, 0, _, _, "%") ),
-              sub_string(Rest, 0, Before, _, Query)
-            ),
-            Queries).
-
-%   The queries of this paper call its programs: its other code blocks.
-
-load_programs('docs/reactive.md') :-
-    !,
-    code_blocks('docs/reactive.md', Blocks),
-    findall(Lines,
-            ( member(block("prolog", Lines), Blocks),
-              \+ ( member(Line, Lines), sub_string(Line, 0, _, _, "?- ") ) ),
-            Programs),
-    forall(nth1(Index, Programs, Program),
-           ( atomic_list_concat(Program, '\n', Code),
-             format(atom(Name), 'reactive_~w', [Index]),
-             setup_call_cleanup(
-                 open_string(Code, In),
-                 load_files(user:Name, [stream(In)]),
-                 close(In)) )).
-load_programs(_).
 
 picture(Bytes) :-
     tmp_file(picture, File),

@@ -1,8 +1,6 @@
-% The examples of library(ev3dev/rules) do in the simulator what they say, and
-% docs/reactive.md shows what why/1 answers there.
+% The examples of library(ev3dev/rules) do in the simulator what they say;
+% tests/sessions/play.py plays what docs/reactive.md shows of them.
 
-:- use_module('../support/child').
-:- use_module('../support/papers').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/events), [event/2]).
@@ -245,51 +243,3 @@ test(stays_on_white_and_away_from_walls_for_its_time) :-
     West < 40.
 
 :- end_tests(plnxt_program).
-
-:- begin_tests(why).
-
-%   A block that begins with `$ swipl FILE`, or `$ swipl`, then has queries and
-%   what each of them prints.
-
-session(File, Lines) :-
-    code_blocks('docs/reactive.md', Blocks),
-    member(block("", [First|Lines]), Blocks),
-    string_concat("$ swipl", File0, First),
-    normalize_space(string(File), File0).
-
-%   A Prolog of its own loads the file, and shows each query before it calls it.
-
-played(File, Lines, Status, Output) :-
-    findall(Query, ( member(Line, Lines), string_concat("?- ", Query, Line) ),
-            Queries),
-    format(string(Program),
-           "session :- ( ~q == \"\" -> true ; load_files(~q) ),
-                    forall(lists:member(Query, ~q), shown(Query)).
-            shown(Query) :-
-                format(\"?- ~~s~~n\", [Query]),
-                flush_output,
-                term_to_atom(Goal, Query),
-                call(Goal),
-                !.~n",
-           [File, File, Queries]),
-    run_program(Program, [goal(session)], Status, Output).
-
-test(each_session_prints_what_stands_there,
-     [ forall(session(File, Lines)),
-       true(Status-Output == exit(0)-Text) ]) :-
-    played(File, Lines, Status, Output),
-    atomic_list_concat(Lines, '\n', Text0),
-    format(string(Text), "~w~n", [Text0]).
-test(each_example_has_a_session, true(Without == [])) :-
-    findall(Name,
-            ( ( expand_file_name('examples/rules_*.pl', Files),
-                member(Name, Files)
-              ; Name = 'examples/plnxt_program.pl'
-              ),
-              \+ ( session(File, Lines),
-                   atom_string(Name, File),
-                   member(Line, Lines),
-                   sub_string(Line, _, _, _, "why(") ) ),
-            Without).
-
-:- end_tests(why).

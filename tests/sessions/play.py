@@ -23,7 +23,7 @@ A session is a text as one sees it on the screen:
     Action (h for help) ? <a>
     ...
     ?- ^D
-    $ ev3dev run nothing.pl
+    $ swipl ev3dev run nothing.pl
     ...
     [exit 2]                      its status, if it is not 0
 
@@ -31,8 +31,8 @@ A session is a text as one sees it on the screen:
 before a line: only in these versions of Prolog; `# only: >=9` says it of a whole
 session. Blank lines do not count. What was typed is not looked for in the answer:
 the terminal echoes it. `swipl` is that of the variable SWIPL, in a home that has
-nothing but this pack. `ev3dev` is the shell command of the pack: `swipl ev3dev`
-where Prolog has apps.
+nothing but this pack. Before 9.1.18, where Prolog has no apps, `swipl ev3dev` runs
+app/ev3dev.pl.
 
 A file that ends in .md is a paper. Its queries are typed at one prompt, in their order;
 its programs, the blocks of code without a query, are loaded first. `$ ` begins a shell
@@ -68,7 +68,7 @@ PATIENCE = float(os.environ.get("EV3DEV_SESSION_SECONDS", "60"))
 PROMPT = re.compile(r"(?:^|\n)(?:\|: )?(?:\d+ )?\?- $")
 PROMPT_START = re.compile(r"^(?:\d+ )?\?- ")
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|\x1b[=>()][0-9A-B]?|[\r\a]")
-OPEN = re.compile(r"[^\s|:?-] $")
+OPEN = re.compile(r"(?:^|\n)(?:true|[A-Z_]\w* = .*\S) $")
 KEYS = {"^C": "\x03", "^D": "\x04", "^Z": "\x1a", "^\\": "\x1c"}
 
 
@@ -256,9 +256,9 @@ class Paper:
             yield [*files, *program, "$ swipl -q paper.pl", *continued(self.queries)]
         for lines in self.sessions:
             yield [*files, lines[0].replace("swipl", "swipl -q", 1), *continued(lines[1:])]
-        for command in self.commands:
-            if command not in elsewhere:
-                yield [*files, f"$ {command}", "..."]
+        commands = [command for command in self.commands if command not in elsewhere]
+        if commands:
+            yield [*files, *(line for command in commands for line in (f"$ {command}", "..."))]
 
 
 def continued(lines):
@@ -307,8 +307,8 @@ class Home:
             (packs / "ev3dev").symlink_to(ROOT)
         # An app is found in what is installed
         apps = self.version >= (9, 1, 18)
-        self.program(programs / "swipl", f'exec "{swipl}" "$@"')
-        self.program(programs / "ev3dev", f'exec "{swipl}" ' + ("ev3dev" if apps else f'"{ROOT}/app/ev3dev.pl"') + ' "$@"')
+        app = "" if apps else f'[ "$1" != ev3dev ] || {{ shift; set -- "{ROOT}/app/ev3dev.pl" "$@"; }}\n'
+        self.program(programs / "swipl", f'{app}exec "{swipl}" "$@"')
         kept = {name: value for name, value in os.environ.items() if not name.startswith(("EV3DEV_", "XDG_", "TREES"))}
         self.environment = kept | {
             "HOME": str(home),
@@ -341,7 +341,9 @@ class Player:
         self.expected = []
         self.echo = False
         self.typed = ""
+        self.enough = False
         self.status = 0
+        self.count = 0
 
     def play(self, lines):
         """Plays the lines; raises Wrong at the first that is not as it should be."""
@@ -379,6 +381,7 @@ class Player:
         if line.startswith("$ "):
             self.end()
             self.terminal = Terminal(line[2:], self.folder, self.home.environment)
+            self.count += 1
         elif line.startswith("?- "):
             self.answer(PROMPT, "the prompt")
             typed = line[3:]
@@ -405,6 +408,8 @@ class Player:
         self.expected = []
         self.echo = echo
         self.typed = text
+        self.enough = False
+        self.count += 1
 
     def without_echo(self, text):
         """What was typed ends with the first line. It may stand there twice: what comes
@@ -419,21 +424,23 @@ class Player:
 
     def answer(self, prompt, what):
         """The whole answer has come when the prompt comes."""
-        def has_come(text):
-            text = self.without_echo(text)
-            if self.near and OPEN.search(text):
-                # There are more answers: the first is enough
-                self.terminal.send("\n", keep=True)
-            return prompt.search(text)
-
-        text = self.without_echo(self.terminal.until(has_come, what))
+        self.terminal.until(lambda text: self.has_come(prompt, text), what)
+        text = self.without_echo(self.terminal.news())
         self.check(text[: prompt.search(text).start()])
+
+    def has_come(self, prompt, text):
+        """Has the prompt come? Of a query in a paper the first answer is enough."""
+        text = self.without_echo(text)
+        if self.near and OPEN.search(text) and not self.enough:
+            self.enough = True
+            self.terminal.send("\n", keep=True)
+        return prompt.search(text)
 
     def check(self, text):
         if self.show:
             print(text)
         if self.near:
-            text = re.sub(r" ([.;])$", r"\1", text, flags=re.M)
+            text = re.sub(r" \n?([.;])$", r"\1", text, flags=re.M)
             if "true." not in self.expected:
                 text = re.sub(r"(?:^|\n)true\.\s*$", "\n", text)
             if not any(line.strip() for line in self.expected):
@@ -456,9 +463,7 @@ class Player:
         if not self.terminal:
             return
         terminal = self.terminal
-        terminal.until(
-            lambda text: terminal.ended or PROMPT.search(self.without_echo(text)), "its end, or a prompt"
-        )
+        terminal.until(lambda text: terminal.ended or self.has_come(PROMPT, text), "its end, or a prompt")
         if not terminal.ended:
             self.answer(PROMPT, "the prompt")
             self.type("halt.\n")
@@ -474,30 +479,44 @@ class Player:
 
 
 def play(path, home, show):
-    """Plays a file; None, or in words what was wrong."""
+    """Plays a file: how often something was typed, and in words what was wrong, or None."""
     if path.suffix == ".md":
-        elsewhere = {line.split("  #")[0].strip() for line in (HERE / "elsewhere.txt").read_text().split("\n")}
-        sessions = list(Paper(path).plays(elsewhere))
+        sessions = list(Paper(path).plays(elsewhere()))
     else:
         text = path.read_text()
         only = re.search(r"^# only: (.*)$", text, re.M)
-        if only and not home.version.meets(only[1]):
-            return None
-        sessions = [text.split("\n")]
+        sessions = [text.split("\n")] if not only or home.version.meets(only[1]) else []
+    count = 0
     for lines in sessions:
         player = Player(home, show, near=path.suffix == ".md")
         try:
             player.play(lines)
         except Wrong as wrong:
             came = player.without_echo(player.terminal.news()) if player.terminal else ""
-            last = lines[player.number - 1]
-            return (
-                f"{path}:{player.number}: {wrong}, before or at {last}\n  typed: {player.typed.strip()}\n  expected:\n"
+            typed = player.typed.strip() or next((line for line in lines if line.startswith("$ ")), "")
+            return count, (
+                f"{path}:{player.number}: {wrong}\n  after {typed}\n  expected:\n"
                 + indented("\n".join(player.expected))
                 + "\n  came:\n"
                 + indented(came)
             )
-    return None
+        count += player.count
+    return count, None
+
+
+def elsewhere():
+    """The commands of papers that are run elsewhere."""
+    lines = (HERE / "elsewhere.txt").read_text().split("\n")
+    return {line.split("  #")[0].strip() for line in lines if line}
+
+
+def stale():
+    """How many of these stand in no paper."""
+    known = {command for path in papers() for command in Paper(path).commands}
+    gone = sorted(elsewhere() - known)
+    for command in gone:
+        print(f"FAILED elsewhere.txt: in no paper: {command}")
+    return len(gone)
 
 
 def indented(text):
@@ -518,16 +537,21 @@ def main():
     if not swipl:
         sys.exit("play.py: there is no swipl")
     home = Home(swipl)
-    failed = 0
+    failed = stale()
+    passed = typed = 0
     files = arguments.file or sorted({*HERE.glob("*.txt")} - {HERE / "elsewhere.txt"}) + papers()
     try:
         for path in files:
-            wrong = play(path, home, arguments.show)
+            count, wrong = play(path, home, arguments.show)
+            if count or wrong:
+                print(f"FAILED {wrong}" if wrong else f"ok     {path.name}: {count} times typed", flush=True)
             failed += wrong is not None
-            print(f"FAILED {wrong}" if wrong else f"ok     {path.name}", flush=True)
+            passed += count > 0 and wrong is None
+            typed += count
     finally:
         home.remove()
-    print(f"{len(files) - failed} passed, {failed} failed")
+    print(f"{typed} lines and keys typed in SWI-Prolog {'.'.join(map(str, home.version))}")
+    print(f"{passed} passed, {failed} failed")
     sys.exit(failed > 0)
 
 
