@@ -309,7 +309,12 @@ class Home:
         apps = self.version >= (9, 1, 18)
         app = "" if apps else f'[ "$1" != ev3dev ] || {{ shift; set -- "{ROOT}/app/ev3dev.pl" "$@"; }}\n'
         self.program(programs / "swipl", f'{app}exec "{swipl}" "$@"')
-        kept = {name: value for name, value in os.environ.items() if not name.startswith(("EV3DEV_", "XDG_", "TREES"))}
+        # As on a machine of one's own, with this folder for what emulated Prologs need
+        kept = {
+            name: value
+            for name, value in os.environ.items()
+            if not name.startswith(("XDG_", "TREES", "EV3DEV_")) or name == "EV3DEV_TOOLCHAIN"
+        }
         self.environment = kept | {
             "HOME": str(home),
             "EMULATED_HOME": str(home),
