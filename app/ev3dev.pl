@@ -2,7 +2,7 @@
 % pack is installed:
 %
 %   swipl ev3dev view
-%   swipl ev3dev run examples/obstacle_avoidance.pl --world room --for 60
+%   swipl ev3dev run obstacle_avoidance --world room --for 60
 %
 % In older versions, and from a clone of the repository:
 %
@@ -11,7 +11,8 @@
 % It ends with status 0; 1 if the answer is no or the program failed; 2 if
 % the command line makes no sense.
 
-:- module(ev3dev_app, [main/1]).
+% No exports: what a module of the pack exports is blamed for errors.
+:- module(ev3dev_app, []).
 :- prolog_load_context(directory, Here),
    file_directory_name(Here, Pack),
    atom_concat(Pack, '/prolog', Library),
@@ -22,221 +23,106 @@
    assertz(user:file_search_path(ev3dev_pack, Pack)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(lists)).
-:- use_module(library(main), [main/0]).
-:- use_module(library(readutil)).
+:- use_module(library(ev3dev/private/command_line)).
+:- use_module(library(ev3dev/private/last_goal)).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(time)).
 
 :- initialization(main, main).
 
-main(Arguments) :-
-    run_command(Arguments, Status),
-    halt(Status).
+%   Not main/0 of library(main), which ends the toplevel at Ctrl-C, too.
 
-%!  run_command(+Arguments, -Status) is det.
+main :-
+    current_prolog_flag(argv, Arguments),
+    catch(status(Arguments, Status), usage(Format, Values),
+          ( complain(Arguments, Format, Values),
+            Status = 2 )),
+    (   Status == toplevel
+    ->  toplevel
+    ;   halt(Status)
+    ).
 
-run_command(Arguments, Status) :-
-    catch(command_line(Arguments, Command, Files, Options),
-          usage(Format, Values), true),
-    (   nonvar(Format)
-    ->  complain(Format, Values),
-        Status = 2
-    ;   Command == help
-    ->  help,
+%!  status(+Arguments, -Status) is det.
+%
+%   Status may also be `toplevel`. Throws usage(Format, Values) if Arguments
+%   make no sense.
+
+status(Arguments, Status) :-
+    (   is_help(Arguments, Command)
+    ->  help(Command),
         Status = 0
-    ;   catch(call_command(Command, Files, Options), Error,
-              (   print_message(error, Error), fail ))
-    ->  Status = 0
+    ;   Arguments = ['--version'|_]
+    ->  version,
+        Status = 0
+    ;   command_line(Arguments, Command, Files, Options),
+        (   memberchk(Command, [view, sim])
+        ->  End = toplevel
+        ;   End = 0,
+            on_signal(int, _, interrupt)
+        ),
+        succeeds(call_command(Command, Files, Options))
+    ->  Status = End
     ;   Status = 1
     ).
 
-complain(Format, Values) :-
-    format(user_error, "ev3dev: ", []),
-    format(user_error, Format, Values),
-    format(user_error, "~nSee: swipl ev3dev --help~n", []).
+interrupt(_) :-
+    halt(1).
 
-help :-
-    forall(help_line(Line), format("~s~n", [Line])).
+%   The toplevel of Prolog itself comes after main/0, but in 7.2.3.
 
-help_line(`swipl ev3dev COMMAND [ARGUMENT] [OPTION ...]`).
-help_line(``).
-help_line(`  view [FILE]   show the robot in a browser, and the toplevel`).
-help_line(`  sim WORLD     the same with a simulated robot in a world:`).
-help_line(`                room, lights, line, grid, maze, or a file`).
-help_line(`  run FILE      load a program, call start/0 or main/0 or --goal`).
-help_line(`  devices       what is connected`).
-help_line(`  check         try each motor and sensor; lift the robot first`).
-help_line(`  jog           drive with the arrow keys of the terminal`).
-help_line(``).
-help_line(`  --world W     simulate: run, devices, check, jog`).
-help_line(`  --robot R     the simulated robot: default, touch, or a file`).
-help_line(`  --noise       errors as of real devices; --seed N, other ones`).
-help_line(`  --clock C     virtual (for run), realtime, or a factor`).
-help_line(`  --for S       run: end after S seconds of the robot's time`).
-help_line(`  --goal G      run: the goal`).
-help_line(`  --view        run, jog: with the view`).
-help_line(`  --port P      of the view's address`).
-help_line(`  --address any other machines can open the view, too`).
-help_line(`  --no-open     open no browser`).
-help_line(`  --speed P     jog: percent of full speed`).
-help_line(`  --wheel D --axle L --left PORT --right PORT`).
-help_line(`                jog: the robot; 5.6, 10.6, outB and outC`).
-help_line(``).
-help_line(`Status: 0; 1 if the answer is no, or the program failed;`).
-help_line(`2 if the command line makes no sense.`).
-
-                /*******************************
-                *         COMMAND LINE         *
-                *******************************/
-
-%   What a command takes besides options: at least and at most how many files.
-command(view, 0, 1).
-command(sim, 1, 1).
-command(run, 1, 1).
-command(devices, 0, 0).
-command(check, 0, 0).
-command(jog, 0, 0).
-
-option_type(world, text).
-option_type(robot, text).
-option_type(seed, integer).
-option_type(noise, flag).
-option_type(clock, text).
-option_type(for, number).
-option_type(goal, text).
-option_type(view, flag).
-option_type(port, integer).
-option_type(address, text).
-option_type('no-open', flag).
-option_type(speed, number).
-option_type(wheel, number).
-option_type(axle, number).
-option_type(left, text).
-option_type(right, text).
-
-for_command(view, [port, address, 'no-open']).
-for_command(sim, [robot, seed, noise, clock, port, address, 'no-open']).
-for_command(run, [world, robot, seed, noise, clock, for, goal, view, port,
-                  address, 'no-open']).
-for_command(devices, [world, robot]).
-for_command(check, [world, robot]).
-for_command(jog, [world, robot, seed, noise, clock, speed, wheel, axle, left,
-                  right, view, port, address, 'no-open']).
-
-command_line(Arguments, Command, Files, Options) :-
-    (   ( Arguments == [] ; member(Help, [help, '--help', '-h']),
-          memberchk(Help, Arguments) )
-    ->  Command = help, Files = [], Options = []
-    ;   Arguments = [Command|Rest],
-        (   command(Command, Least, Most)
-        ->  true
-        ;   throw(usage("there is no command ~w", [Command]))
-        ),
-        split(Rest, Files, Options),
-        length(Files, Count),
-        (   Count < Least
-        ->  throw(usage("~w needs a world or a file", [Command]))
-        ;   Count > Most
-        ->  nth0(Most, Files, Extra),
-            throw(usage("~w does not take ~w", [Command, Extra]))
-        ;   true
-        ),
-        for_command(Command, Known),
-        (   member(Option, Options), functor(Option, Name, 1),
-            \+ memberchk(Name, Known)
-        ->  throw(usage("~w has no option --~w", [Command, Name]))
-        ;   true
-        )
+toplevel :-
+    (   current_prolog_flag(toplevel_goal, _)
+    ->  set_prolog_flag(toplevel_goal, prolog)
+    ;   prolog
     ).
 
-split([], [], []).
-split([Argument|Arguments], Files, Options) :-
-    (   atom_concat(--, Option, Argument)
-    ->  (   sub_atom(Option, Before, _, After, =)
-        ->  sub_atom(Option, 0, Before, _, Name),
-            sub_atom(Option, _, After, 0, Value),
-            Rest0 = [Value|Arguments],
-            Given = true
-        ;   Name = Option,
-            Rest0 = Arguments,
-            Given = false
-        ),
-        option_value(Name, Given, Rest0, Rest, Term),
-        Options = [Term|Options1],
-        split(Rest, Files, Options1)
-    ;   Files = [Argument|Files1],
-        split(Arguments, Files1, Options)
-    ).
+%   An error is a failure, once it is printed.
 
-option_value(Name, Given, Rest0, Rest, Term) :-
-    (   option_type(Name, Type)
-    ->  true
-    ;   throw(usage("there is no option --~w", [Name]))
-    ),
-    (   Type == flag
-    ->  (   Given == true
-        ->  throw(usage("--~w takes no value", [Name]))
-        ;   Rest = Rest0, Value = true
-        )
-    ;   Rest0 = [Text|Rest]
-    ->  value(Type, Name, Text, Value)
-    ;   throw(usage("--~w needs a value", [Name]))
-    ),
-    Term =.. [Name, Value].
+succeeds(Goal) :-
+    catch(Goal, error(Formal, Context),
+          ( print_message(error, error(Formal, Context)), fail )),
+    !.
 
-value(text, _, Text, Text).
-value(number, Name, Text, Number) :-
-    (   atom_number(Text, Number), Number >= 0
-    ->  true
-    ;   throw(usage("--~w needs a number, not ~w", [Name, Text]))
-    ).
-value(integer, Name, Text, Number) :-
-    (   atom_number(Text, Number), integer(Number), Number >= 0
-    ->  true
-    ;   throw(usage("--~w needs a whole number, not ~w", [Name, Text]))
-    ).
-
-setting(Name, Options, Value, Default) :-
-    Option =.. [Name, Given],
-    (   memberchk(Option, Options)
-    ->  Value = Given
-    ;   Value = Default
-    ).
+version :-
+    read_file_to_terms(ev3dev_pack('pack.pl'), Facts, []),
+    memberchk(version(Version), Facts),
+    current_prolog_flag(version, Prolog),
+    Major is Prolog//10000,
+    Minor is Prolog//100 mod 100,
+    Patch is Prolog mod 100,
+    format("ev3dev ~w, SWI-Prolog ~d.~d.~d~n", [Version, Major, Minor, Patch]).
 
                 /*******************************
                 *           COMMANDS           *
                 *******************************/
 
 call_command(view, Files, Options) :-
+    maplist(program_file, Files, Paths),
     start_view(Options),
-    load_programs(Files),
-    session.
+    load_files(user:Paths, []),
+    load_libraries.
 call_command(sim, [World], Options) :-
     start_world(World, realtime, Options),
     start_view(Options),
-    session.
+    load_libraries.
 call_command(run, [File], Options) :-
-    (   memberchk(view(true), Options)
+    program_file(File, Path),
+    (   setting(view, Options, true)
     ->  Clock = realtime
     ;   Clock = virtual
     ),
     start_world_if_any(Clock, Options),
-    (   memberchk(view(true), Options)
-    ->  start_view(Options)
-    ;   true
-    ),
-    load_program(File),
-    goal_of(Options, Goal),
+    start_view_if_any(Options),
+    load_noting(user:Path),
+    goal_of(File, Options, Goal),
     setup_call_cleanup(
         true,
-        ( run_goal(Goal, Options) -> Outcome = true ; Outcome = false ),
+        outcome(run_goal(Goal, Options), Outcome),
         stop_all_motors),
     summary,
-    (   Outcome == true
-    ->  true
-    ;   format(user_error, "ev3dev: ~q failed~n", [Goal]),
-        fail
-    ).
+    report(Outcome, Goal).
 call_command(devices, [], Options) :-
     start_world_if_any(virtual, Options),
     ev3_devices,
@@ -245,15 +131,12 @@ call_command(check, [], Options) :-
     start_world_if_any(virtual, Options),
     absolute_file_name(ev3dev_pack(examples/brick_check), File,
                        [file_type(prolog), access(read)]),
-    use_module(File),
+    use_module(File, []),
     Report = brick_check:report,
     call_cleanup(Report, stop_all_motors).
 call_command(jog, [], Options) :-
     start_world_if_any(realtime, Options),
-    (   memberchk(view(true), Options)
-    ->  start_view(Options)
-    ;   true
-    ),
+    start_view_if_any(Options),
     setting(wheel, Options, Wheel, 5.6),
     setting(axle, Options, Axle, 10.6),
     setting(left, Options, Left, outB),
@@ -264,37 +147,37 @@ call_command(jog, [], Options) :-
     Jog = ev3dev_jog:jog([speed(Speed)]),
     call(Jog).
 
-load_programs([]).
-load_programs([File|Files]) :-
-    load_program(File),
-    load_programs(Files).
+%   A file, or an example of the pack.
 
-load_program(File) :-
-    (   exists_source(File)
+program_file(File, Path) :-
+    (   member(Where, [File, ev3dev_pack(examples/File)]),
+        absolute_file_name(Where, Path, [ file_type(prolog), access(read),
+                                          file_errors(fail) ]),
+        exists_file(Path)
     ->  true
-    ;   throw(error(existence_error(file, File), _))
-    ),
-    user:load_files(File, []).
-
-exists_source(File) :-
-    absolute_file_name(File, _, [ file_type(prolog), access(read),
-                                  file_errors(fail) ]).
+    ;   no_such(program, File)
+    ).
 
 %   The goal is read after the program is loaded, whose operators it may use.
 
-goal_of(Options, Goal) :-
-    memberchk(goal(Text), Options),
+goal_of(_, Options, Goal) :-
+    setting(goal, Options, Text),
     !,
-    term_to_atom(Goal, Text).
-goal_of(_, Goal) :-
+    (   catch(term_to_atom(Goal, Text), error(syntax_error(_), _), fail),
+        callable(Goal)
+    ->  true
+    ;   throw(usage("--goal needs a goal, not ~w", [Text]))
+    ).
+goal_of(_, _, Goal) :-
     member(Goal, [start, main]),
     current_predicate(user:Goal/0),
     !.
-goal_of(_, _) :-
-    throw(error(existence_error(procedure, start/0), _)).
+goal_of(File, _, _) :-
+    throw(usage("~w has neither start/0 nor main/0: name a goal by --goal",
+                [File])).
 
 run_goal(Goal, Options) :-
-    memberchk(for(Seconds), Options),
+    setting(for, Options, Seconds),
     !,
     ev3_sysfs(_),
     (   sim_time(_)
@@ -312,32 +195,42 @@ summary :-
     ->  sim_pose(X, Y, Heading),
         sim_collisions(Collisions),
         length(Collisions, Count),
+        times(Count, Times),
         format("~2f s simulated; the robot is at ~1f, ~1f cm, heading ~0f; \c
-                it ran into something ~d times.~n",
-               [Time, X, Y, Heading, Count])
+                it ran into ~w.~n",
+               [Time, X, Y, Heading, Times])
     ;   true
     ).
 
+times(0, nothing) :- !.
+times(1, 'something once') :- !.
+times(Count, Times) :-
+    format(atom(Times), "something ~d times", [Count]).
+
 start_world_if_any(Clock, Options) :-
-    (   memberchk(world(World), Options)
+    (   setting(world, Options, World)
     ->  start_world(World, Clock, Options)
     ;   true
     ).
 
 start_world(World, Clock0, Options) :-
     setting(clock, Options, Clock1, Clock0),
-    clock(Clock1, Clock),
+    ( number(Clock1) -> Clock = scaled(Clock1) ; Clock = Clock1 ),
     setting(robot, Options, Robot, default),
     setting(noise, Options, Noise, false),
     setting(seed, Options, Seed, 1),
-    sim_start(World, [clock(Clock), robot(Robot), noise(Noise), seed(Seed)]).
+    catch(sim_start(World, [ clock(Clock), robot(Robot), noise(Noise),
+                             seed(Seed) ]),
+          error(existence_error(Kind, Name), Context),
+          (   memberchk(Kind, [world, robot])
+          ->  no_such(Kind, Name)
+          ;   throw(error(existence_error(Kind, Name), Context))
+          )).
 
-clock(Text, Clock) :-
-    (   memberchk(Text, [virtual, realtime])
-    ->  Clock = Text
-    ;   atom_number(Text, Factor)
-    ->  Clock = scaled(Factor)
-    ;   throw(error(domain_error(clock, Text), _))
+start_view_if_any(Options) :-
+    (   setting(view, Options, true)
+    ->  start_view(Options)
+    ;   true
     ).
 
 start_view(Options) :-
@@ -347,14 +240,21 @@ start_view(Options) :-
     call(View).
 
 view_option(Options, port(Port)) :-
-    memberchk(port(Port), Options).
+    setting(port, Options, Port).
 view_option(Options, address(any)) :-
-    memberchk(address(any), Options).
+    setting(address, Options, any).
 view_option(Options, open(false)) :-
-    memberchk('no-open'(true), Options).
+    setting('no-open', Options, true).
 
-%   The toplevel, in which Ctrl-C interrupts a goal and does not end all.
+%   For the toplevel, except names that a loaded program uses for its own.
 
-session :-
-    catch(on_signal(int, _, debug), _, true),
-    prolog.
+load_libraries :-
+    forall(member(Library-Module,
+                  [ ev3dev-ev3dev, ev3dev/sim-ev3dev_sim,
+                    ev3dev/drive-ev3dev_drive, ev3dev/view-ev3dev_view ]),
+           ( use_module(library(Library), []),
+             module_property(Module, exports(Exports)),
+             findall(PI,
+                     ( member(PI, Exports), current_predicate(user:PI) ),
+                     Taken),
+             use_module(user:library(Library), except(Taken)) )).

@@ -121,12 +121,12 @@ motor(Port) :-
 turn_by(Port, Angle) :-
     motor_attribute(Port, count_per_rot, Rotation),
     position(Port, From),
-    get_time(Start),
+    ev3_time(Start),
     (   motor_run(Port, 20, Angle, [timeout(3)])
     ->  Ended = ended
     ;   Ended = failed
     ),
-    get_time(End),
+    ev3_time(End),
     position(Port, To),
     Expected is Angle*Rotation//360,
     Counts is To-From,
@@ -172,9 +172,9 @@ left_out(Mode) :-
     atom_concat('US-SI-', _, Mode).
 
 reading_time(Kind, Port) :-
-    get_time(Start),
+    ev3_time(Start),
     forall(between(1, 1000, _), read_once(Kind, Port)),
-    get_time(End),
+    ev3_time(End),
     Milliseconds is (End-Start)*1000,
     format("    1000 reads: ~0f ms~n", [Milliseconds]).
 

@@ -3,6 +3,7 @@
             start_program/3,            % +Text, +Options, -Child
             run_state/4,                % +File, +Options, -Status, -Output
             run_script/4,               % +File, +Arguments, -Status, -Output
+            run_script/5,               % +File, +Arguments, +Typed, -Status, -Output
             can_open_terminal/0,
             at_toplevel/3,              % +Kind, +Text, :Closure
             type/2,                     % +Toplevel, +Text
@@ -76,9 +77,10 @@ start(Arguments, Options, Pid, Out) :-
     ->  format(atom(Assignment), "~w=~w", [Variable, Value])
     ;   Assignment = 'EV3DEV_TEST=1'
     ),
+    option(stdin(In), Options, null),
     swipl(Swipl),
     process_create(path(env), [Assignment, Swipl | Arguments],
-                   [ process(Pid), cwd(Directory), stdin(null),
+                   [ process(Pid), cwd(Directory), stdin(In),
                      stdout(pipe(Out)), stderr(pipe(Out)) ]).
 
 %!  run_state(+File, +Options, -Status, -Output)
@@ -91,11 +93,18 @@ run_state(File, Options, Status, Output) :-
     process_wait(Pid, Status).
 
 %!  run_script(+File, +Arguments, -Status, -Output)
+%!  run_script(+File, +Arguments, +Typed, -Status, -Output)
 %
-%   As run_program/4, but of a file, which gets Arguments.
+%   As run_program/4, but of a file, which gets Arguments, and the text Typed
+%   as its input.
 
 run_script(File, Arguments, Status, Output) :-
-    start(['-q', '-f', none, File | Arguments], [], Pid, Out),
+    run_script(File, Arguments, "", Status, Output).
+
+run_script(File, Arguments, Typed, Status, Output) :-
+    start(['-q', '-f', none, File | Arguments], [stdin(pipe(In))], Pid, Out),
+    write(In, Typed),
+    close(In),
     read_to_end(Out, Output),
     process_wait(Pid, Status).
 
