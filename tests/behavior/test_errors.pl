@@ -162,6 +162,15 @@ test(an_overflow_is_of_what_was_called,
      error(evaluation_error(_), context(arc_cm/3, _))) :-
     with_sim(room,
              ( set_robot(5.6, 10.6, outB, outC), arc_cm(30, 1.0e308, 90) )).
+% What a program prints itself.
+test(an_error_of_prolog_prints_as_ever, true(Printed == true)) :-
+    catch(atom_length(_, _), Error, true),
+    message_to_codes(Error, Codes),
+    atom_codes(Text, Codes),
+    (   sub_atom(Text, _, _, _, 'not sufficiently instantiated')
+    ->  Printed = true
+    ;   Printed = Text
+    ).
 test(list_what_is_allowed,
      [ forall(member(Goal-Words,
                      [ led(left, blu)-"off, on, red",
@@ -244,6 +253,11 @@ measure(X, sim_press(up, [for(X)])).
 
 none(_, _) :-
     fail.
+
+message_to_codes(Error, Codes) :-
+    '$messages':translate_message(Error, Lines, []),
+    with_output_to(codes(Codes),
+                   print_message_lines(current_output, '', Lines)).
 
 bad_call(Goal) :-
     bad(Call, Wrongs),
