@@ -64,36 +64,13 @@ report(false, Goal) :-
     print_message(error, ev3dev(failed(Goal))),
     fail.
 report(thrown(Ball), _) :-
-    (   Ball = error(Formal, Context0)
-    ->  (   last_goal(Called, _, Place)
-        ->  blamed(Context0, Called, Name, Text),
-            Context = called(Place, Name, Text)
-        ;   Context = Context0
-        ),
-        print_message(error, error(Formal, Context))
-    ;   ( Ball == '$aborted' ; Ball = unwind(_) )
+    (   ( Ball == '$aborted' ; Ball = unwind(_) )
     ->  throw(Ball)
     ;   print_message(error, ev3dev(thrown(Ball)))
     ),
     fail.
 
-%   A context with a text names what was called. Others name what calls it, in
-%   some versions.
-
-blamed(Context, Called, Name, Text) :-
-    (   nonvar(Context),
-        Context = context(Named, Text0),
-        nonvar(Text0),
-        strip_module(Named, _, Name)
-    ->  Text = Text0
-    ;   Name = Called,
-        Text = ''
-    ).
-
-:- multifile
-    prolog:message//1,
-    prolog:message_location//1,
-    prolog:message_context//1.
+:- multifile prolog:message//1.
 
 prolog:message(ev3dev(failed(Goal))) -->
     (   { last_goal(Name/Arity, Clause, Place) }
@@ -103,20 +80,23 @@ prolog:message(ev3dev(failed(Goal))) -->
     ;   [ '~q failed'-[Goal] ]
     ).
 prolog:message(ev3dev(thrown(Ball))) -->
-    (   { last_goal(_, Clause, Place) }
+    (   { last_goal(Called, _, Place) }
     ->  place(Place),
-        [ '~p was thrown, in ~w'-[Ball, Clause] ]
-    ;   [ '~p was thrown'-[Ball] ]
+        { blamed(Ball, Called, Blamed) }
+    ;   { Blamed = Ball }
+    ),
+    (   { Blamed = error(_, _) }
+    ->  '$messages':translate_message(Blamed)
+    ;   [ '~p was thrown'-[Blamed] ]
     ).
 
-prolog:message_location(called(Place, Name/Arity, _)) -->
-    place(Place),
-    [ '~w/~w: '-[Name, Arity] ].
+%   A context with a text names what was called. Others may name what calls it.
 
-prolog:message_context(called(_, _, Text)) -->
-    (   { Text == '' }
-    ->  []
-    ;   [ ' (~w)'-[Text] ]
+blamed(Ball, Called, Blamed) :-
+    (   Ball = error(Formal, Context),
+        \+ ( nonvar(Context), Context = context(_, Text), nonvar(Text) )
+    ->  Blamed = error(Formal, context(Called, _))
+    ;   Blamed = Ball
     ).
 
 place(Path:Line) -->
