@@ -60,7 +60,8 @@ status(Arguments, Status) :-
         (   memberchk(Command, [view, sim])
         ->  End = toplevel
         ;   End = 0,
-            on_signal(int, _, interrupt)
+            on_signal(int, _, interrupt),
+            hide_thread
         ),
         succeeds(call_command(Command, Files, Options))
     ->  Status = End
@@ -69,6 +70,14 @@ status(Arguments, Status) :-
 
 interrupt(_) :-
     halt(1).
+
+%   10.1 begins each message with `[Thread main]` otherwise.
+
+hide_thread :-
+    (   current_prolog_flag(message_context, _)
+    ->  set_prolog_flag(message_context, [])
+    ;   true
+    ).
 
 %   The toplevel of Prolog itself comes after main/0, but in 7.2.3.
 
