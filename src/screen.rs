@@ -1,7 +1,7 @@
 //! `prolog/ev3dev/screen.pl`: the screen.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
-use crate::glue::state::{devices, frame};
+use crate::glue::state::{self, devices, frame};
 use ev3_driver::brick::screen::frame::{Align, Font, Letters, Shade, Shape, Style};
 use ev3_driver::brick::screen::picture::Picture;
 use ev3_driver::brick::screen::{self, frame, picture};
@@ -16,6 +16,8 @@ pub(crate) fn register() {
     register_screen_image();
     register_screen_show();
     register_screen_png();
+    register_screen_set_aside();
+    register_screen_give_back();
 }
 
 predicates! {
@@ -72,6 +74,22 @@ predicates! {
         let call = Call::of(context, "screen_show", 0);
         let dev = call.dev()?;
         call.or_fail(screen::show(devices().tree(), &*dev, &frame()))
+    }
+
+    /// screen_set_aside_: the sheet is blank from now on, until it is given back.
+    #[module("ev3dev_native")]
+    #[name("screen_set_aside_")]
+    semidet fn screen_set_aside(_context) {
+        state::set_frame_aside();
+        into_prolog_result(true)
+    }
+
+    /// screen_give_back_: what was set aside last.
+    #[module("ev3dev_native")]
+    #[name("screen_give_back_")]
+    semidet fn screen_give_back(_context) {
+        state::give_frame_back();
+        into_prolog_result(true)
     }
 
     /// screen_png_(+File)

@@ -17,6 +17,7 @@ pub(crate) fn register() {
     register_wait();
     register_guards();
     register_tick_after();
+    register_tick_at_once();
     register_serve_at_prompt();
     register_slices();
     register_branches_begin();
@@ -70,6 +71,14 @@ predicates! {
             None => None,
         });
         Ok(())
+    }
+
+    /// tick_at_once_: this thread serves its events when it waits next, by any clock.
+    #[module("ev3dev_native")]
+    #[name("tick_at_once_")]
+    semidet fn tick_at_once(_context) {
+        waiting::tick_at(Some(Duration::ZERO));
+        into_prolog_result(true)
     }
 
     /// branches_begin_: from now on the waits of this thread let no time pass.

@@ -46,6 +46,10 @@ color(6, white).
 color(7, brown).
 
 :- dynamic white/5.                     % Brick, Port, Red, Green, Blue
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(white(Brick, _, _, _, _)).
 
 %!  col_white(?Port) is semidet.
 %

@@ -20,6 +20,7 @@
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
+:- use_module(private/brick, [brick/1]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/causes, [acting_for/2, begins/1]).
 :- use_module(private/prompt, [acting_at_prompt/1, reads_query/0]).
@@ -71,10 +72,21 @@ Conditions are looked at each time, so they should be quick, and must not
 wait. One that reads a sensor in another mode than the last one takes 10 ms.
 */
 
-%   event_(Id, Kind, Action): Kind is on(Condition, Options), every(Seconds)
-%   or after(Seconds), in the order in which they were added.
-%   state_(Id, State): State changes only when something happens.
-:- thread_local event_/3, state_/2.
+%   event_(Brick, Id, Kind, Action): Kind is on(Condition, Options),
+%   every(Seconds) or after(Seconds), in the order in which they were added.
+%   state_(Brick, Id, State): State changes only when something happens. Next
+%   is the number of the next event that gets no name.
+:- thread_local
+    event_/4,
+    state_/3,
+    next/2.                             % Brick, Next
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(event_(Brick, _, _, _)),
+    retractall(state_(Brick, _, _)),
+    retractall(next(Brick, _)).
 
 %   Seconds between two looks.
 look_every(0.02).
@@ -184,16 +196,26 @@ count_option(Options, Count) :-
     ).
 
 add_event(Kind, Action, State, Options) :-
+    brick(Brick),
     (   option(id(Id), Options)
     ->  must_be(ground, Id),
-        forget(Id)
-    ;   flag(ev3dev_event, Id, Id + 1)
+        forget(Brick, Id)
+    ;   next_id(Brick, Id)
     ),
-    assertz(event_(Id, Kind, Action)),
-    assertz(state_(Id, State)),
+    assertz(event_(Brick, Id, Kind, Action)),
+    assertz(state_(Brick, Id, State)),
     look_every(Seconds),
     listen_for_events(Seconds),
     serve_at_prompt_.
+
+next_id(Brick, Id) :-
+    (   retract(next(Brick, Id0))
+    ->  true
+    ;   Id0 = 0
+    ),
+    Next is Id0 + 1,
+    assertz(next(Brick, Next)),
+    Id = Id0.
 
 %!  event_cancel(?Id) is semidet.
 %
@@ -201,19 +223,21 @@ add_event(Kind, Action, State, Options) :-
 %   thread has no such event.
 
 event_cancel(Id) :-
-    \+ \+ event_(Id, _, _),
-    forget(Id).
+    brick(Brick),
+    \+ \+ event_(Brick, Id, _, _),
+    forget(Brick, Id).
 
-forget(Id) :-
-    retractall(event_(Id, _, _)),
-    retractall(state_(Id, _)).
+forget(Brick, Id) :-
+    retractall(event_(Brick, Id, _, _)),
+    retractall(state_(Brick, Id, _)).
 
 %!  event(?Id, ?Kind) is nondet.
 %
 %   True if this thread has an event Id; Kind is `on`, `every` or `after`.
 
 event(Id, Kind) :-
-    event_(Id, Term, _),
+    brick(Brick),
+    event_(Brick, Id, Term, _),
     functor(Term, Kind, _).
 
                  /*******************************
@@ -227,11 +251,12 @@ ev3dev_waits:serve_events :-
 
 %   Which there are at the beginning: an action may add and cancel events.
 serve :-
-    (   event_(_, _, _)
+    brick(Brick),
+    (   event_(Brick, _, _, _)
     ->  now_(Now),
-        findall(Id, event_(Id, _, _), Ids),
-        forall(( one_of(Ids, Id), event_(Id, Kind, Action),
-                 state_(Id, State) ),
+        findall(Id, event_(Brick, Id, _, _), Ids),
+        forall(( one_of(Ids, Id), event_(Brick, Id, Kind, Action),
+                 state_(Brick, Id, State) ),
                serve(State, Kind, Id, Now, Action))
     ;   true
     ).
@@ -335,8 +360,9 @@ is_stable(armed(Count), Stable, Id, Now, Count) :-
 
 %   A time that was missed meanwhile is not made up for.
 happened(Id) :-
-    (   event_(Id, Kind, _),
-        state_(Id, running(State0))
+    brick(Brick),
+    (   event_(Brick, Id, Kind, _),
+        state_(Brick, Id, running(State0))
     ->  now_(Now),
         (   State0 = due(Next0, Count),
             Next0 < Now,
@@ -351,10 +377,11 @@ happened(Id) :-
     ).
 
 change(Id, State) :-
+    brick(Brick),
     (   State == over
-    ->  forget(Id)
-    ;   retract(state_(Id, _))
-    ->  assertz(state_(Id, State))
+    ->  forget(Brick, Id)
+    ;   retract(state_(Brick, Id, _))
+    ->  assertz(state_(Brick, Id, State))
     ;   true
     ).
 

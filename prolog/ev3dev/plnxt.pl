@@ -36,6 +36,7 @@
                 instantiation_error/1, must_be/2, term_expansion/4
               ]).
 :- use_module(private/arguments, [number_value/2, number_value/3]).
+:- use_module(private/brick, [brick/1]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/robot_state, [robot/4]).
 :- use_module(private/sensor_type, [sensor_of/3, sensor_to_read/3]).
@@ -106,9 +107,16 @@ exception stops it.
                  *******************************/
 
 :- dynamic
-    opened/2,                           % Alias, Ports
-    lamp_is_off/0,
-    read_last/2.                        % Kind, Value
+    opened/3,                           % Brick, Alias, Ports
+    lamp_is_off/1,                      % Brick
+    read_last/3.                        % Brick, Kind, Value
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(opened(Brick, _, _)),
+    retractall(lamp_is_off(Brick)),
+    retractall(read_last(Brick, _, _)).
 
 %!  nxt_open is semidet.
 %
@@ -145,10 +153,11 @@ opened_by(Module) :-
         ;   set_robot(5.6, 10.6, outB, outC, [])
         )
     ),
-    retractall(opened(_, _)),
-    retractall(read_last(_, _)),
-    retractall(lamp_is_off),
-    assertz(opened(Alias, Ports)).
+    brick(Brick),
+    retractall(opened(Brick, _, _)),
+    retractall(read_last(Brick, _, _)),
+    retractall(lamp_is_off(Brick)),
+    assertz(opened(Brick, Alias, Ports)).
 
 definition(Module0, Alias, Robot) :-
     one_of([Module0, user], Module),
@@ -208,7 +217,8 @@ nxt_close :-
     trigger_killall,
     timer_killall,
     stop_all_motors,
-    retractall(opened(_, _)).
+    brick(Brick),
+    retractall(opened(Brick, _, _)).
 
 %!  nxt_robot(+Alias, :Goal) is semidet.
 %!  nxt_goal(+Alias, :Goal) is semidet.
@@ -233,7 +243,8 @@ nxt_goal(Alias, Goal, _) :-
 
 must_be_robot(Alias) :-
     must_be(nonvar, Alias),
-    (   opened(Alias, _)
+    (   brick(Brick),
+        opened(Brick, Alias, _)
     ->  true
     ;   existence_error(nxt_robot, Alias)
     ).
@@ -374,14 +385,16 @@ must_be_force(Force) :-
     ).
 
 last_value(Kind, Value) :-
-    (   read_last(Kind, Value0)
+    (   brick(Brick),
+        read_last(Brick, Kind, Value0)
     ->  Value = Value0
     ;   new_value(Kind, Value)
     ).
 
 new_value(Kind, Value) :-
     types(Kind, Types),
-    (   opened(_, Ports),
+    brick(Brick),
+    (   opened(Brick, _, Ports),
         one_of(Ports, Kind-Port),
         sensor_of(Port, Types, Type)
     ->  true
@@ -390,8 +403,8 @@ new_value(Kind, Value) :-
     ),
     reading_now(Type, Port, Value0),
     !,
-    retractall(read_last(Kind, _)),
-    assertz(read_last(Kind, Value0)),
+    retractall(read_last(Brick, Kind, _)),
+    assertz(read_last(Brick, Kind, Value0)),
     Value = Value0.
 
 types(touch,      ['lego-ev3-touch', 'lego-nxt-touch']).
@@ -404,7 +417,8 @@ reading_now('lego-nxt-sound', Port, Value) :-
     nxt_sound(Port, Value).
 reading_now(Type, Port, Value) :-
     reading_of(Type, On, Off),
-    (   lamp_is_off
+    (   brick(Brick),
+        lamp_is_off(Brick)
     ->  Reading = Off
     ;   Reading = On
     ),
@@ -438,11 +452,12 @@ nxt_light_LED(Action, Force) :-
 
 switch_lamp(Action) :-
     must_be(nonvar, Action),
+    brick(Brick),
     (   Action == activate
-    ->  retractall(lamp_is_off)
+    ->  retractall(lamp_is_off(Brick))
     ;   Action == deactivate
-    ->  retractall(lamp_is_off),
-        assertz(lamp_is_off)
+    ->  retractall(lamp_is_off(Brick)),
+        assertz(lamp_is_off(Brick))
     ;   domain_error(nxt_lamp, Action)
     ),
     new_value(light, _).

@@ -14,16 +14,20 @@
 :- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/3]).
+:- use_module(private/brick, [end_brick/1, new_brick/1]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(private/turn, []).
+:- use_module(private/waits, [event_period/2]).
 :- use_module(private/world_name, [note_world/1]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- use_module(sim_time, [forget_plans/0]).
 :- reexport(sim_time, except([forget_plans/0, run_due_goals/0])).
 :- reexport(sim_views).
-:- use_module(private/native, [sim_active_/0, sim_start_/4, sim_stop_/0]).
+:- use_module(private/native,
+              [ screen_give_back_/0, screen_set_aside_/0, sim_active_/0,
+                sim_start_/4, sim_stop_/0 ]).
 
 :- meta_predicate
     with_sim(+, 0),
@@ -311,7 +315,12 @@ sim_stop :-
 %
 %   Call Goal once in a simulation of its own, which ends with it, however it
 %   ends. It ends a simulation that ran before, as sim_start/2 does. So a test
-%   starts from the same state each time:
+%   starts from the same state each time. What the program knows of its robot
+%   it does not know in Goal: set_robot/4 and drive_option/2, the grid with
+%   its obstacles, the events of this thread, what was drawn on the screen,
+%   the white of col_white/1, exogenous actions that wait. After Goal it knows
+%   that again, and nothing of what Goal did. Only rules and other clauses of
+%   the program are the same in Goal.
 %
 %   ```
 %   :- use_module(library(ev3dev)).
@@ -339,6 +348,22 @@ with_sim(World, Goal, Options) :-
     must_be(list, Options),
     append(Options, [clock(virtual)], WithClock),
     setup_call_cleanup(
-        sim_start(World, WithClock),
-        once(goal_of_program(Goal)),
-        ignore(sim_stop)).
+        know_nothing(Before),
+        setup_call_cleanup(
+            sim_start(World, WithClock),
+            once(goal_of_program(Goal)),
+            ignore(sim_stop)),
+        know_again(Before)).
+
+%   A brick has what is known of the robot. The screen's sheet and the ticks
+%   of this thread are with the native code.
+
+know_nothing(before(Brick, Period)) :-
+    event_period(Period, []),
+    screen_set_aside_,
+    new_brick(Brick).
+
+know_again(before(Brick, Period)) :-
+    end_brick(Brick),
+    screen_give_back_,
+    event_period(_, Period).

@@ -19,6 +19,8 @@ struct Brick {
     sound: Sound,
     /// The picture that this program has drawn.
     frame: Mutex<Frame>,
+    /// The pictures that it had drawn before, and sees again.
+    frames_aside: Mutex<Vec<Frame>>,
 }
 
 /// The files in use.
@@ -70,6 +72,7 @@ static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
     }),
     sound: Sound::default(),
     frame: Mutex::default(),
+    frames_aside: Mutex::default(),
 });
 
 /// The devices of the tree in use.
@@ -202,4 +205,16 @@ pub(crate) fn sound() -> &'static Sound {
 /// The picture that this program has drawn.
 pub(crate) fn frame() -> MutexGuard<'static, Frame> {
     BRICK.frame.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Sets aside what this program has drawn, and begins a blank picture.
+pub(crate) fn set_frame_aside() {
+    let before = std::mem::take(&mut *frame());
+    BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).push(before);
+}
+
+/// Has what was set aside last in the place of what was drawn since.
+pub(crate) fn give_frame_back() {
+    let before = BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    *frame() = before.unwrap_or_default();
 }

@@ -5,6 +5,7 @@ use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
 use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
+use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
 use ev3_sim::{Clock, Machine, Simulation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -70,6 +71,7 @@ pub(super) fn start<C: QueryableContextType>(
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     watch::set_simulated(true);
+    tick_at_once();
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
 
@@ -80,6 +82,7 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
     }
     mount::end();
     let ended = running().take();
+    tick_at_once();
     match ended {
         Some(ended) => call.or_throw(select(ended.before)),
         None => none(call),

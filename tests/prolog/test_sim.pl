@@ -2,6 +2,14 @@
 :- use_module('../support/trees', [with_tree/3]).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/colors)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events)).
+:- use_module(library(ev3dev/golog), []).
+:- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/plnxt), [nxt_goal/2, nxt_light/1, nxt_open/0]).
+:- use_module(library(ev3dev/screen)).
+:- use_module(library(readutil)).
 :- use_module(library(filesex)).
 
 stopped(Goal) :-
@@ -278,6 +286,92 @@ test(two_sensors_at_a_port) :-
     says(Message, 'FILE:2:0: ').
 
 :- end_tests(sim_files).
+
+:- begin_tests(with_sim_starts_from_nothing).
+
+%   What a program leaves behind, and what shows it.
+left(set_robot(5.6, 10.6, outB, outC), robot(_, _, _, _)).
+left(drive_option(speed, 70), ( drive_option(speed, Speed), Speed =:= 70 )).
+left(( robot, set_grid([cell_cm(30)]) ), state_position(_, _)).
+left(( robot, set_grid([]), obstacle_add([1,1]) ), obstructed(_)).
+left(ev3dev_grid_knowledge:saw_free([1,1]), ev3dev_grid_knowledge:known_free(_)).
+left(every(1, true), event(_, _)).
+left(every(1, true), ( every(1, true), event(1, every) )).
+left(( gray, col_white(in2) ), ( gray, col_rgb(in2, rgb(100, 100, 100)) )).
+left(screen_rectangle(0, 0, 178, 128, [fill(true)]),
+     ( screen_show, screen_file(Black), screen_clear, screen_show, screen_file(White),
+       Black \== White )).
+left(( nxt_open, nxt_light(V, force) ), ( sim_show(in2, value0, 55), nxt_light(V) )).
+left(nxt_open, catch(nxt_goal(nxt, true), error(existence_error(_, _), _), fail)).
+left(ev3dev_golog_world:send_exogenous(user, 1),
+     ( ev3dev_golog_world:queue_of(user, Queue), message_queue_property(Queue, size(1)) )).
+
+robot :-
+    set_robot(5.6, 10.6, outB, outC).
+
+gray :-
+    forall(member(Value, [value0, value1, value2]), sim_show(in2, Value, 200)).
+
+screen_file(Bytes) :-
+    tmp_file(screen, File),
+    setup_call_cleanup(
+        screen_png(File),
+        setup_call_cleanup(open(File, read, In, [type(binary)]),
+                           read_stream_to_codes(In, Bytes),
+                           close(In)),
+        delete_file(File)).
+
+test(what_it_knows_is_known, forall(left(Leave, Shows))) :-
+    with_sim(room, ( Leave, once(Shows) )).
+test(what_a_test_knew_is_not_known_to_the_next, [forall(left(Leave, Shows)), fail]) :-
+    with_sim(room, Leave),
+    with_sim(room, Shows).
+test(what_was_known_before_is_known_again,
+     [ forall(left(Leave, Shows)), true(In-After == false-true) ]) :-
+    with_sim(room,
+             ( Leave,
+               with_sim(room, holds(Shows, In)),
+               sim_start(room, [clock(virtual)]),
+               holds(Shows, After) )).
+test(also_after_an_error, true(Robot == 5.6)) :-
+    with_sim(room,
+             ( robot,
+               catch(with_sim(room, ( set_robot(3, 9, outB, outC), throw(oops) )),
+                     oops, true),
+               catch(with_sim([wal(1)], true), error(_, _), true),
+               robot(Robot, _, _, _) )).
+test(an_event_of_before_does_not_happen, true(Count-Again == 0-true)) :-
+    nb_setval(happened, 0),
+    with_sim(room,
+             ( every(1, ( nb_getval(happened, N0), N is N0 + 1, nb_setval(happened, N) ),
+                     [id(old)]),
+               with_sim(room, wait(5)),
+               nb_getval(happened, Count),
+               sim_start(room, [clock(virtual)]),
+               wait(5),
+               nb_getval(happened, After),
+               holds(After > 0, Again),
+               event_cancel(old) )).
+% Ticks let a wait look more often, and each look takes time.
+test(takes_as_long_as_without_an_event_of_before, true(Time == Time0)) :-
+    with_sim(room, drive_time(Time0)),
+    with_sim(room,
+             ( every(1, true, [id(old)]),
+               with_sim(room, drive_time(Time)),
+               event_cancel(old) )).
+
+drive_time(Time) :-
+    robot,
+    go_cm(30, 20),
+    sim_time(Time).
+
+holds(Goal, Holds) :-
+    (   \+ \+ Goal
+    ->  Holds = true
+    ;   Holds = false
+    ).
+
+:- end_tests(with_sim_starts_from_nothing).
 
 :- begin_tests(sim_chance).
 

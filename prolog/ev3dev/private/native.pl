@@ -26,6 +26,7 @@
             serve_if_due_/0,
             slices_/1,
             tick_after_/1,
+            tick_at_once_/0,
             motor_gear_/2,
             motor_position_/2,
             motor_reset_/1,
@@ -73,8 +74,10 @@
             volume_set_/1,
             screen_clear_/0,
             screen_draw_/2,
+            screen_give_back_/0,
             screen_image_/3,
             screen_png_/1,
+            screen_set_aside_/0,
             screen_show_/0,
             screen_write_/4,
             battery_/2,
@@ -211,6 +214,7 @@ missing.
 %!  serve_if_due_ is semidet.
 %!  slices_(-Count) is semidet.
 %!  tick_after_(+Seconds) is semidet.
+%!  tick_at_once_ is semidet.
 %
 %   `src/time.rs`
 
@@ -298,8 +302,10 @@ missing.
 
 %!  screen_clear_ is semidet.
 %!  screen_draw_(+Shape, +Style) is semidet.
+%!  screen_give_back_ is det.
 %!  screen_image_(+X, +Y, +File) is semidet.
 %!  screen_png_(+File) is semidet.
+%!  screen_set_aside_ is det.
 %!  screen_show_ is semidet.
 %!  screen_write_(+X, +Y, +Text, +Letters) is semidet.
 %

@@ -16,6 +16,12 @@
     described/3,                        % Brick, Robot, Built
     default/3.                          % Brick, Name, Value
 
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(described(Brick, _, _)),
+    retractall(default(Brick, _, _)).
+
 %!  drive_default(?Name, ?Value) is nondet.
 %
 %   True if moves that are not given the option Name have this Value of it.

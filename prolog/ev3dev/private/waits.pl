@@ -3,12 +3,15 @@
             listening/3,                % +Seconds, :Closure, :Goal
             leave/2,                    % +Listener, +Ball
             listen_for_events/1,        % +Seconds
+            event_period/2,             % -Before, +Period
             in_guard/2,                 % +Name, :Goal
             serve_at_read/0,
             let_others_go_on/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(native, [read_on_/0, serve_if_due_/0, tick_after_/1]).
+:- use_module(native,
+              [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
+              ]).
 :- use_module(one_of, [one_of/2]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
@@ -110,7 +113,8 @@ append_listener([First|Rest0], Listener, [First|Rest]) :-
 
 %   The period of the innermost is the shortest.
 period([], Period) :-
-    (   nb_current(ev3dev_event_period, Seconds)
+    (   nb_current(ev3dev_event_period, Seconds),
+        Seconds \== []
     ->  Period = Seconds
     ;   Period = 1.0
     ).
@@ -137,6 +141,23 @@ listen_for_events(Seconds) :-
     listeners(Listeners),
     period(Listeners, Period),
     tick_after_(Period).
+
+%!  event_period(-Before, +Period) is det.
+%
+%   The period of this thread's events was Before, and is Period from now on,
+%   at the next tick: seconds, or `[]` if it has none.
+
+event_period(Before, Period) :-
+    (   nb_current(ev3dev_event_period, Before0)
+    ->  true
+    ;   Before0 = []
+    ),
+    nb_setval(ev3dev_event_period, Period),
+    (   Period == []
+    ->  true
+    ;   tick_at_once_
+    ),
+    Before = Before0.
 
 %!  serve_at_read is det.
 %
@@ -225,7 +246,7 @@ serve_own :-
 
 serve(Listeners) :-
     Listeners == [],
-    \+ nb_current(ev3dev_event_period, _),
+    \+ ( nb_current(ev3dev_event_period, Period), Period \== [] ),
     !,
     % They were left by an exception.
     tick_after_(infinite).

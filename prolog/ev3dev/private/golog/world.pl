@@ -20,6 +20,7 @@
 :- use_module(theory,
               [has_clauses/2, is_exogenous/2, is_sensing_action/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
+:- use_module('../brick', [brick/1]).
 :- use_module('../errors', [goal_of_program/1]).
 
 /** <module> The world: how actions are executed, and what happens by itself
@@ -34,8 +35,14 @@ closure of the option `device`.
                 *******************************/
 
 :- dynamic
-    queue/2,                            % Module, Queue
+    queue/3,                            % Brick, Module, Queue
     running/1.                          % Module
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    forall(retract(queue(Brick, _, Queue)),
+           catch(message_queue_destroy(Queue), error(_, _), true)).
 
 %!  robot_kind(+Module, -Robot) is det.
 %
@@ -55,11 +62,12 @@ robot_kind(Module, Robot) :-
 %!  queue_of(+Module, -Queue) is det.
 
 queue_of(Module, Queue) :-
+    brick(Brick),
     with_mutex(ev3dev_golog,
-               (   queue(Module, Queue0)
+               (   queue(Brick, Module, Queue0)
                ->  true
                ;   message_queue_create(Queue0),
-                   assertz(queue(Module, Queue0))
+                   assertz(queue(Brick, Module, Queue0))
                )),
     Queue = Queue0.
 

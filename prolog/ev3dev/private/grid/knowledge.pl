@@ -29,6 +29,13 @@ takes, and a robot does not go to and fro between two obstacles without end.
     free/3,                             % Brick, Cell, State
     fading/2.                           % Brick, Seconds or `never`
 
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(obstacle(Brick, _, _, _)),
+    retractall(free(Brick, _, _)),
+    retractall(fading(Brick, _)).
+
 %   State is `until(Time)`, `ever`, or `faded`, after which it is only known
 %   how long the obstacle was remembered.
 

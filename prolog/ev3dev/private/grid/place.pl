@@ -28,6 +28,12 @@ Which grid it is on, and where on it the robot is.
     stands/3,                           % Brick, Cell, Direction
     on_grid/3.                          % Brick, Map, Metric
 
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(stands(Brick, _, _)),
+    retractall(on_grid(Brick, _, _)).
+
 %!  on_grid(?Brick, -Map, -Metric) is nondet.
 %
 %   As grid/2, which it serves, for any brick and without a hint.
