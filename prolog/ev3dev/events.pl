@@ -21,6 +21,7 @@
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/brick, [brick/1]).
+:- use_module(private/chance, [branch_seed/1, seed_branch/1]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/causes, [acting_for/2, begins/1]).
 :- use_module(private/prompt, [acting_at_prompt/1, reads_query/0]).
@@ -551,12 +552,14 @@ branches(Goals, Which, Winner) :-
 created([], _, []).
 created([Goal|Goals], Number,
         [branch(Number, Engine, Goal, false, [], [])|Branches]) :-
-    engine_create(Goal, ev3dev_events:in_branch(Goal), Engine),
+    branch_seed(Seed),
+    engine_create(Goal, ev3dev_events:in_branch(Goal, Seed), Engine),
     Next is Number + 1,
     created(Goals, Next, Branches).
 
-in_branch(Goal) :-
+in_branch(Goal, Seed) :-
     b_setval(ev3dev_branch, true),
+    seed_branch(Seed),
     goal_of_program(Goal),
     !.
 

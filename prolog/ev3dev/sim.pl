@@ -13,8 +13,9 @@
               ]).
 :- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(private/arguments, [must_be_options/3, option/3]).
+:- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
 :- use_module(private/brick, [end_brick/1, new_brick/1]).
+:- use_module(private/chance, [begin_chance/1, end_chance/0]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(private/turn, []).
@@ -204,7 +205,11 @@ time (sleep/1, timeouts) or waits for a person.
 %       If `true`, sensors and motors have errors like real ones, and encoders
 %       an error of half a degree. Default is `false`.
 %     - seed(+Integer)
-%       The seed of the random numbers. Default is 1.
+%       The seed of the random numbers: of noise, and of what this thread
+%       draws by random/1, random_between/3 and so on, also in race/2, until
+%       the simulation ends. Then it goes on with the numbers of before.
+%       Default is 1; but without the option only the virtual clock seeds the
+%       numbers of the thread. Another thread calls set_random/1 itself.
 %     - screen(+Bits)
 %       The bits per pixel of the screen: 32 (default) or 1, as with older
 %       versions of ev3dev.
@@ -236,7 +241,14 @@ sim_start(World, Options) :-
     must_be_built,
     must_be_options(sim_option, [clock, robot, noise, screen, seed], Options),
     option(clock(Clock), Options, realtime),
-    option(seed(Seed), Options, 1),
+    (   option(seed(Seed), Options)
+    ->  Chance = Seed
+    ;   Seed = 1,
+        (   Clock == virtual
+        ->  Chance = Seed
+        ;   Chance = none
+        )
+    ),
     option(noise(Noise), Options, false),
     option(robot(Robot), Options, default),
     option(screen(Bits), Options, 32),
@@ -254,6 +266,10 @@ sim_start(World, Options) :-
                       robot(Robot, LocatedRobot)),
     set_added_facts([]),
     forget_plans,
+    (   Chance == none
+    ->  end_chance
+    ;   begin_chance(Chance)
+    ),
     note_world(World).
 
 must_be_built :-
@@ -308,6 +324,7 @@ throw_fault(Kind, Source, _, _, Why) :-
 sim_stop :-
     sim_stop_,
     set_added_facts([]),
+    end_chance,
     forget_plans.
 
 %!  with_sim(+World, :Goal) is semidet.
@@ -365,5 +382,6 @@ know_nothing(before(Brick, Period)) :-
 
 know_again(before(Brick, Period)) :-
     end_brick(Brick),
+    end_chance,                         % the program may have ended it
     screen_give_back_,
     event_period(_, Period).

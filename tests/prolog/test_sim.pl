@@ -9,6 +9,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/plnxt), [nxt_goal/2, nxt_light/1, nxt_open/0]).
 :- use_module(library(ev3dev/screen)).
+:- use_module(library(random)).
 :- use_module(library(readutil)).
 :- use_module(library(filesex)).
 
@@ -415,6 +416,55 @@ positions(Errors, Positions) :-
                          position(outA, Position) ),
                        Positions) ),
              [robot(Robot)]).
+
+%   What the program itself draws.
+drawn(Options, Numbers) :-
+    with_sim([], numbers(Numbers), Options).
+
+numbers([X, Y, Z]) :-
+    random(X),
+    random_between(1, 1000000, Y),
+    Z is random(1000000).
+
+test(the_same_seed_draws_the_same_numbers, true(A == B)) :-
+    drawn([seed(7)], A),
+    drawn([seed(7)], B).
+test(another_seed_draws_other_numbers, true(A \== B)) :-
+    drawn([seed(7)], A),
+    drawn([seed(8)], B).
+test(a_negative_seed_is_one_too, true(A == B)) :-
+    drawn([seed(-7)], A),
+    drawn([seed(-7)], B).
+test(without_a_seed_it_is_1, true(A == B)) :-
+    drawn([], A),
+    drawn([seed(1)], B).
+test(afterwards_numbers_go_on_as_before, true(After == Numbers)) :-
+    set_random(seed(5)),
+    numbers(Numbers),
+    set_random(seed(5)),
+    with_sim([], ( numbers(_), with_sim([], numbers(_), [seed(9)]) )),
+    numbers(After).
+test(also_if_the_program_has_left_the_simulation, true(After == Numbers)) :-
+    set_random(seed(5)),
+    numbers(Numbers),
+    set_random(seed(5)),
+    with_sim([], with_tree(plain, [], numbers(_))),
+    numbers(After).
+test(a_wall_clock_leaves_them_alone, true(After == Numbers)) :-
+    set_random(seed(5)),
+    numbers(Numbers),
+    set_random(seed(5)),
+    with_sim([], numbers(After), [clock(realtime)]).
+test(a_wall_clock_with_a_seed_does_not, true(A == B)) :-
+    drawn([clock(realtime), seed(7)], A),
+    drawn([seed(7)], B).
+test(goals_side_by_side_draw_the_same_numbers,
+     [ condition(current_predicate(engine_create/3)), true(A == B) ]) :-
+    side_by_side(A),
+    side_by_side(B).
+
+side_by_side([A, B]) :-
+    with_sim([], both(( wait(0.1), numbers(A) ), numbers(B)), [seed(7)]).
 
 :- end_tests(sim_chance).
 

@@ -1,0 +1,61 @@
+:- module(ev3dev_chance,
+          [ begin_chance/1,             % +Seed
+            end_chance/0,
+            branch_seed/1,              % -Seed
+            seed_branch/1               % +Seed
+          ]).
+
+/** <module> The random numbers of a program that is simulated
+
+Prolog has a generator for each thread, and for each engine; library(random)
+draws from it, too, and need not be loaded here. So what was before is a
+global variable, which each of them has for itself.
+*/
+
+%!  begin_chance(+Seed) is det.
+%!  end_chance is det.
+%
+%   From now on this thread draws the numbers of Seed, an integer; it goes on
+%   with those that it would have drawn without begin_chance/1.
+
+begin_chance(Seed) :-
+    (   seeded(_)
+    ->  true
+    ;   random_property(state(State))
+    ->  nb_setval(ev3dev_chance, before(State))
+    ;   nb_setval(ev3dev_chance, before(none))
+    ),
+    set_random(seed(Seed)).
+
+end_chance :-
+    (   seeded(State)
+    ->  nb_setval(ev3dev_chance, []),
+        (   State == none
+        ->  set_random(seed(random))
+        ;   set_random(state(State))
+        )
+    ;   true
+    ).
+
+seeded(State) :-
+    nb_current(ev3dev_chance, before(State)).
+
+%!  branch_seed(-Seed) is det.
+%!  seed_branch(+Seed) is det.
+%
+%   A goal that runs beside others, in an engine, draws the numbers of Seed.
+%   This thread draws Seed for it, if its own numbers have a seed; else Seed
+%   is `none`.
+
+branch_seed(Seed) :-
+    (   seeded(_)
+    ->  Seed is random(4294967296)
+    ;   Seed = none
+    ).
+
+seed_branch(Seed) :-
+    (   Seed == none
+    ->  true
+    ;   nb_setval(ev3dev_chance, before(none)),
+        set_random(seed(Seed))
+    ).
