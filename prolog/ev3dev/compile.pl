@@ -52,6 +52,7 @@ unit(comparison, ['ev3dev/planners/comparison']).
 unit(planners, ['ev3dev/planners']).
 unit(roadmap_parts, ['ev3dev/navigation']).
 unit(roadmap, ['ev3dev/roadmap']).
+unit(chance, ['ev3dev/private/chance']).
 unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
                  'ev3dev/sim_time', 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).

@@ -18,13 +18,14 @@
 :- use_module(private/chance, [begin_chance/1, end_chance/0]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
+:- use_module(private/limits, [clock_changes/1, forget_plans/0]).
+:- use_module(private/plans, [run_due_goals/0]).
 :- use_module(private/turn, []).
 :- use_module(private/waits, [event_period/2]).
 :- use_module(private/world_name, [note_world/1]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
-:- use_module(sim_time, [forget_plans/0]).
-:- reexport(sim_time, except([forget_plans/0, run_due_goals/0])).
+:- reexport(sim_time).
 :- reexport(sim_views).
 :- use_module(private/native,
               [ screen_give_back_/0, screen_set_aside_/0, sim_active_/0,
@@ -260,17 +261,24 @@ sim_start(World, Options) :-
     located_facts(robot, Robot, LocatedRobot),
     pairs_keys(LocatedWorld, WorldFacts),
     pairs_keys(LocatedRobot, RobotFacts),
-    sim_start_(WorldFacts, RobotFacts, options(Clock, Seed, Noise, Bits),
-               Fault),
+    clock_changes(( sim_start_(WorldFacts, RobotFacts,
+                               options(Clock, Seed, Noise, Bits), Fault),
+                    forget_plans_if(Fault)
+                  )),
     must_be_faultless(Fault, world(World, LocatedWorld),
                       robot(Robot, LocatedRobot)),
     set_added_facts([]),
-    forget_plans,
     (   Chance == none
     ->  end_chance
     ;   begin_chance(Chance)
     ),
     note_world(World).
+
+forget_plans_if(Fault) :-
+    (   Fault == none
+    ->  forget_plans
+    ;   true
+    ).
 
 must_be_built :-
     (   predicate_property(sim_active_, foreign)
@@ -322,10 +330,9 @@ throw_fault(Kind, Source, _, _, Why) :-
 %   machine that is no EV3 it starts a new simulation of the world `room`.
 
 sim_stop :-
-    sim_stop_,
+    clock_changes(( sim_stop_, forget_plans )),
     set_added_facts([]),
-    end_chance,
-    forget_plans.
+    end_chance.
 
 %!  with_sim(+World, :Goal) is semidet.
 %!  with_sim(+World, :Goal, +Options) is semidet.

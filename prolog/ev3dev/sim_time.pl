@@ -5,21 +5,19 @@
             sim_snapshot/1,             % -Snapshot
             sim_restore/1,              % +Snapshot
             sim_at/2,                   % +Seconds, :Goal
-            for_seconds/2,              % +Seconds, :Goal
-            forget_plans/0,
-            run_due_goals/0
+            for_seconds/2               % +Seconds, :Goal
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, goal_of_program/1, must_be/2,
-                term_expansion/4
-              ]).
+              [domain_error/2, evaluated/2, must_be/2, term_expansion/4]).
 :- use_module(private/arguments, [number_value/3]).
+:- use_module(private/limits, [clock_changes/1, within_seconds/2]).
+:- use_module(private/plans, [plan/3]).
 :- use_module(private/waits, [waited/1]).
 :- use_module(sim_hand, [added_facts/1, set_added_facts/1]).
 :- use_module(private/native,
-              [ sim_plan_/1, sim_restore_/1, sim_snapshot_/1,
-                sim_snapshots_/1, sim_step_/1, sim_time_/1, sim_wait_/2 ]).
+              [ sim_restore_/1, sim_snapshot_/1, sim_snapshots_/1,
+                sim_step_/1, sim_time_/1, sim_wait_/2 ]).
 
 :- meta_predicate
     sim_at(+, 0),
@@ -84,7 +82,7 @@ sim_restore(Snapshot) :-
     ->  true
     ;   domain_error(simulator_snapshot, Snapshot)
     ),
-    sim_restore_(State),
+    clock_changes(sim_restore_(State)),
     set_added_facts(Added).
 
 %   Prolog counts the atoms that may be garbage and collects after 10000. It
@@ -129,70 +127,8 @@ collect_snapshots.
 sim_at(Seconds0, Goal) :-
     number_value(seconds, Seconds0, Seconds),
     must_be_goal(Goal),
+    sim_time_(_),
     plan(Seconds, Goal, _).
-
-:- dynamic planned/4.                   % Seconds, Id, Thread, Goal
-
-plan(Seconds, Goal, Id) :-
-    sim_time_(Now),
-    thread_self(Me),
-    flag(ev3dev_sim_plan, Id, Id + 1),
-    assertz(planned(Seconds, Id, Me, Goal)),
-    After is max(0, Seconds - Now),
-    sim_plan_(After).
-
-%!  run_due_goals is det.
-%
-%   Call the goals that this thread has planned and whose time has come. The
-%   native code calls this when a plan of this thread is due.
-
-run_due_goals :-
-    thread_self(Me),
-    sim_time_(Now),
-    findall(Seconds-Id, planned(Seconds, Id, Me, _), Planned0),
-    msort(Planned0, Planned),
-    run_due(Planned, Now, Me),
-    !.
-run_due_goals.
-
-:- multifile ev3dev_waits:serve_planned/0.
-
-ev3dev_waits:serve_planned :-
-    planned(_, _, _, _),
-    !,
-    run_due_goals.
-
-%   The clock counts nanoseconds.
-run_due([Seconds-Id|Planned], Now, Me) :-
-    Seconds =< Now + 1.0e-6,
-    !,
-    (   retract(planned(Seconds, Id, Me, Goal))
-    ->  run_planned(Goal)
-    ;   true
-    ),
-    run_due(Planned, Now, Me).
-run_due([Seconds-_|_], Now, _) :-
-    % An earlier one was due, or sim_restore/1 went back in time.
-    After is Seconds - Now,
-    sim_plan_(After).
-
-run_planned(Goal) :-
-    (   goal_of_program(Goal)
-    ->  true
-    ;   print_message(warning, ev3dev(planned_goal_failed(Goal)))
-    ).
-
-:- multifile prolog:message//1.
-
-prolog:message(ev3dev(planned_goal_failed(Goal))) -->
-    [ 'A goal planned by sim_at/2 failed: ~p'-[Goal] ].
-
-%!  forget_plans is det.
-%
-%   Forget what sim_at/2 has planned: the simulation ends.
-
-forget_plans :-
-    retractall(planned(_, _, _, _)).
 
 must_be_goal(Goal) :-
     strip_module(Goal, _, Plain),
@@ -200,8 +136,9 @@ must_be_goal(Goal) :-
 
 %!  for_seconds(+Seconds, :Goal) is semidet.
 %
-%   Call Goal once, and leave it when Seconds of simulated time have passed:
-%   so a test runs a program that does not end by itself. Succeeds when the
+%   Call Goal once, and leave it when Seconds of simulated time have passed,
+%   also if Goal starts a simulation of its own, or goes back in time: so a
+%   test runs a program that does not end by itself. Succeeds when the
 %   time is over, or earlier if Goal succeeds; fails if Goal fails before. A
 %   move that Goal is making is stopped; motors that run without end go on.
 %   As for sim_at/2, Goal must wait or use devices. It is left by an exception
@@ -212,14 +149,5 @@ must_be_goal(Goal) :-
 for_seconds(Seconds0, Goal) :-
     number_value(seconds, Seconds0, Seconds),
     must_be_goal(Goal),
-    sim_time_(Now),
-    End is Now + Seconds,
-    catch(setup_call_cleanup(
-              plan(End, ev3dev_sim_time:time_is_up(Id), Id),
-              once(goal_of_program(Goal)),
-              retractall(planned(_, Id, _, _))),
-          ev3dev_time_is_up(Id),
-          true).
-
-time_is_up(Id) :-
-    throw(ev3dev_time_is_up(Id)).
+    sim_time_(_),
+    within_seconds(Seconds, Goal).

@@ -330,7 +330,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 /// Runs the goals that this thread has planned and that are due.
 fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
     if has_rung() {
-        context.call_once(pred!("ev3dev_sim_time:run_due_goals/0"), [])?;
+        context.call_once(pred!("ev3dev_plans:run_due_goals/0"), [])?;
     }
     Ok(())
 }

@@ -54,6 +54,7 @@ pub(crate) fn register() {
     register_sim_remote();
     register_sim_step();
     register_sim_time();
+    register_sim_clock();
     register_sim_snapshot();
     register_sim_snapshots();
     register_sim_restore();
@@ -314,6 +315,14 @@ predicates! {
     #[name("sim_time_")]
     semidet fn sim_time(context, seconds) {
         seconds.unify(simulation(context)?.machine().now().as_secs_f64())
+    }
+
+    /// sim_clock_(-Seconds): the same, without a turn, nor a reason to fail.
+    #[module("ev3dev_native")]
+    #[name("sim_clock_")]
+    semidet fn sim_clock(_context, seconds) {
+        let simulation = running_simulation().ok_or(PrologError::Failure)?;
+        seconds.unify(simulation.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)

@@ -293,6 +293,47 @@ test(one_may_contain_another, true(Outer-Inner == over-over)) :-
                    nb_getval(inner, T1), near(T1, 2, 0.05),
                    sim_time(T), near(T, 4, 0.05) )),
     Inner = over.
+test(counts_on_in_a_simulation_that_the_program_starts) :-
+    with_sim([], ( for_seconds(5, ( sim_wait(2), sim_start([], [clock(virtual)]), ever )),
+                   sim_time(T) )),
+    near(T, 3, 0.05).
+test(counts_on_after_two_more) :-
+    with_sim([], ( for_seconds(5, ( sim_wait(1), sim_start([], [clock(virtual)]),
+                                    sim_wait(1), sim_start([], [clock(virtual)]), ever )),
+                   sim_time(T) )),
+    near(T, 3, 0.05).
+test(counts_on_after_a_simulation_has_ended) :-
+    with_sim([], ( for_seconds(5, ( sim_wait(2), sim_stop,
+                                    sim_start([], [clock(virtual)]), ever )),
+                   sim_time(T) )),
+    near(T, 3, 0.05).
+test(counts_on_after_a_world_that_is_none) :-
+    with_sim([], ( for_seconds(5, ( sim_wait(2), catch(sim_start(rome), _, true), ever )),
+                   sim_time(T) )),
+    near(T, 5, 0.05).
+test(counts_on_after_a_restore) :-
+    with_sim([], ( for_seconds(5, ( sim_snapshot(S), sim_wait(2), sim_restore(S), ever )),
+                   sim_time(T) )),
+    near(T, 3, 0.05).
+test(a_way_to_try_moves_for_ever_ends) :-
+    with_sim([], ( for_seconds(5, ( sim_snapshot(S), repeat, sim_wait(1), sim_restore(S), fail )),
+                   sim_time(T) )),
+    near(T, 0.5, 0.55).
+test(each_of_two_counts_on) :-
+    with_sim([], ( for_seconds(4, ( for_seconds(2, ( sim_wait(1), sim_start([], [clock(virtual)]),
+                                                     ever )),
+                                    sim_time(T0), nb_setval(inner, T0), ever )),
+                   sim_time(T) )),
+    nb_getval(inner, T1),
+    near(T1, 1, 0.05),
+    near(T, 3, 0.05).
+test(what_has_ended_does_not_count_on) :-
+    with_sim([], ( for_seconds(5, sim_wait(1)), sim_start([], [clock(virtual)]), sim_wait(20),
+                   sim_time(T) )),
+    near(T, 20, 0.05).
+test(leaves_a_long_step) :-
+    with_sim([], ( for_seconds(2, sim_step(1000)), sim_time(T) )),
+    near(T, 2, 0.15).
 test(works_on_a_clock_that_follows_the_wall) :-
     with_sim([], ( for_seconds(0.2, ever), sim_time(T), T >= 0.2 ),
              [clock(scaled(4))]).

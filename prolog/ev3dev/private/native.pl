@@ -109,6 +109,7 @@
             sim_active_/0,
             sim_add_/2,
             sim_check_/2,
+            sim_clock_/1,
             sim_collisions_/1,
             sim_detecting_/1,
             sim_jam_/2,
@@ -377,6 +378,7 @@ missing.
 %!  sim_active_ is semidet.
 %!  sim_add_(+Fact, -Id) is semidet.
 %!  sim_check_(+Subject, +Fact) is semidet.
+%!  sim_clock_(-Seconds) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
 %!  sim_detecting_(+Port) is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
