@@ -141,10 +141,21 @@ must_be_goal(Goal) :-
 %   test runs a program that does not end by itself. Succeeds when the
 %   time is over, or earlier if Goal succeeds; fails if Goal fails before. A
 %   move that Goal is making is stopped; motors that run without end go on.
-%   As for sim_at/2, Goal must wait or use devices. It is left by an exception
-%   that it must not catch.
+%
+%   Goal is left by an abort, so it may catch all exceptions. Its clean-ups
+%   have another second of simulated time; what goes on then, as `main :-
+%   catch(run, _, main)`, is left all the same, wherever it is.
+%
+%   On the virtual clock no time passes while Goal computes. It may use 100
+%   million inferences for each second of simulated time, and as many while
+%   time stands, which takes some seconds; then it is left, and for_seconds/2
+%   throws an error. So it does after 120 s by the wall clock in which Goal
+%   sleeps, or reads from the terminal, and no time passes; but not while it
+%   is debugged. (A goal of race/2 or both/2 that only computes is not left.)
 %
 %   @error domain_error(seconds, Seconds)
+%   @error resource_error(inferences) if Goal is left because it computes
+%   @error resource_error(seconds) if Goal is left because it sleeps
 
 for_seconds(Seconds0, Goal) :-
     number_value(seconds, Seconds0, Seconds),

@@ -91,6 +91,20 @@ pub(crate) fn begin_branches(round: Round) {
     note_serving();
 }
 
+/// How many branches, within each other, this thread runs.
+#[cfg(feature = "sim")]
+pub(crate) fn rounds() -> usize {
+    BRANCHES.with_borrow(Vec::len)
+}
+
+/// Those that were added since are over: what ran them was left without a clean-up.
+#[cfg(feature = "sim")]
+pub(crate) fn back_to_rounds(count: usize) {
+    while rounds() > count {
+        end_branches();
+    }
+}
+
 fn round() -> Option<Round> {
     BRANCHES.with_borrow(|rounds| rounds.last().copied())
 }

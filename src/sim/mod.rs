@@ -2,6 +2,7 @@
 mod buttons;
 mod dev;
 mod files;
+mod limit;
 #[cfg(feature = "fuse")]
 mod mount;
 #[cfg(not(feature = "fuse"))]
@@ -35,6 +36,7 @@ use swipl::prelude::*;
 /// Registers the predicates below.
 pub(crate) fn register() {
     buttons::register();
+    limit::register();
     register_sim_check();
     register_sim_start();
     register_sim_stop();

@@ -2,6 +2,7 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/events), [race/2]).
 :- use_module(library(time)).
 
 :- begin_tests(sim_time).
@@ -341,6 +342,95 @@ test(is_refused_if_the_time_is_none,
      [ forall(member(S-E, [ -1-domain_error(seconds, -1), _-instantiation_error ])),
        error(E, context(for_seconds/2, _)) ]) :-
     with_sim([], for_seconds(S, true)).
+
+test(leaves_a_goal_that_catches_everything,
+     [ forall(member(Goal-Late, [ catches_all(us_dist_cm(_, _))-0, catches_all(wait(0.1))-0,
+                                  catches_all(sim_time(_))-none,
+                                  retries(us_dist_cm(_, _))-1, retries(wait(0.1))-1,
+                                  retries(true)-none, cleans_up_for_ever-1 ])) ]) :-
+    with_most(300000, 100,
+              with_sim([], ( catch(for_seconds(2, Goal), error(Formal, _), true), sim_time(T) ))),
+    (   Late == none
+    ->  Formal == resource_error(inferences),
+        T < 0.1
+    ;   var(Formal),
+        near(T, 2 + Late, 0.05)
+    ).
+test(leaves_a_goal_that_computes,
+     [ forall(member(Goal, [ ( repeat, fail ), ( repeat, sim_pose(_, _, _), fail ),
+                             ( sim_stop, repeat, fail ) ])),
+       error(resource_error(inferences), context(for_seconds/2, _)) ]) :-
+    with_most(300000, 100, with_sim([], for_seconds(5, Goal))).
+test(leaves_a_goal_that_sleeps, error(resource_error(seconds), context(for_seconds/2, _))) :-
+    with_most(100000000, 0.3, with_sim([], for_seconds(5, ( repeat, sleep(0.05), fail )))).
+test(computing_is_allowed_while_time_passes) :-
+    with_most(1000000, 100,
+              with_sim([], ( for_seconds(20, ( repeat, computes(500000), wait(1), fail )),
+                             sim_time(T) ))),
+    near(T, 20, 0.1).
+test(leaves_a_goal_that_computes_on_a_clock_that_follows_the_wall) :-
+    with_sim([], ( for_seconds(0.5, ( repeat, fail )), sim_time(T) ), [clock(realtime)]),
+    T >= 0.5.
+test(clean_ups_run_and_may_wait, true(Cleaned == yes)) :-
+    nb_setval(cleaned, no),
+    with_sim([], ( for_seconds(2, setup_call_cleanup(true, ever,
+                                                     ( wait(0.5), nb_setval(cleaned, yes) ))),
+                   sim_time(T) )),
+    near(T, 2.5, 0.05),
+    nb_getval(cleaned, Cleaned).
+test(a_move_is_stopped_whatever_catches) :-
+    with_sim([], ( for_seconds(1, catches_all(motor_run(outA, 20, 3600))), at_rest )).
+test(what_was_written_stays, true(Text == "hello")) :-
+    with_output_to(string(Text), with_sim([], for_seconds(1, ( write(hello), ever )))).
+test(an_outer_one_leaves_the_inner_one_too, [forall(member(Inner, [5, 1]))]) :-
+    with_sim([], ( for_seconds(1, ( repeat, for_seconds(Inner, catches_all(wait(0.1))), fail )),
+                   sim_time(T) )),
+    near(T, 1, 1.05).
+test(an_abort_of_others_goes_through, true(Status == Aborted)) :-
+    thread_create(abort, Id0, []),
+    thread_join(Id0, Aborted),
+    thread_create(with_sim([], for_seconds(5, ( wait(1), abort ))), Id, []),
+    thread_join(Id, Status).
+test(goals_side_by_side_are_left,
+     [ condition(current_predicate(engine_create/3)),
+       forall(member(Goal, [ catches_all(us_dist_cm(_, _)), ever ])) ]) :-
+    with_sim([], ( for_seconds(1, race([Goal, wait(5)], _)), sim_time(T),
+                   motor_run(outA, 20, 360), sim_time(T1), T1 > T + 1 )),
+    near(T, 1, 0.1).
+test(one_of_goals_side_by_side_is_left,
+     [ condition(current_predicate(engine_create/3)), true(Winner == 1) ]) :-
+    with_sim([], ( race([for_seconds(1, ever), wait(3)], Winner), sim_time(T) )),
+    near(T, 1, 0.05).
+test(binds_what_its_goal_binds, true(D == 255.0)) :-
+    with_sim([], for_seconds(1, us_dist_cm(in1, D))).
+test(an_error_names_what_was_called, error(_, context(motor_run/2, _))) :-
+    with_sim([], for_seconds(1, motor_run(outA, fast))).
+
+catches_all(Goal) :-
+    catch(( repeat, Goal, fail ), _, true),
+    catches_all(Goal).
+
+retries(Goal) :-
+    catch(( repeat, Goal, fail ), _, retries(Goal)).
+
+cleans_up_for_ever :-
+    setup_call_cleanup(true, ever, ever).
+
+computes(N) :-
+    (   between(1, N, _),
+        fail
+    ;   true
+    ).
+
+%   With other bounds for what computes or sleeps.
+:- meta_predicate with_most(+, +, 0).
+
+with_most(Inferences, Seconds, Goal) :-
+    setup_call_cleanup(
+        ( retract(ev3dev_limits:most(I0, S0)),
+          assertz(ev3dev_limits:most(Inferences, Seconds)) ),
+        Goal,
+        ( retractall(ev3dev_limits:most(_, _)), assertz(ev3dev_limits:most(I0, S0)) )).
 
 ever :-
     repeat,

@@ -3,7 +3,8 @@
             clock_changes/1,            % :Goal
             forget_plans/0
           ]).
-:- use_module(errors, [goal_of_program/1]).
+:- use_module(errors, [goal_of_program/1, throw_error/3]).
+:- use_module(native, [limit_call_/2, limit_insist_/4]).
 :- use_module(plans,
               [clock/1, plan/3, plan/4, planned/4, unplan/1]).
 :- use_module(one_of, [one_of/2]).
@@ -16,30 +17,261 @@
 
 The end of for_seconds/2 is a plan, which is made again whenever another clock
 is in use. So it counts on also in a simulation that Goal starts itself.
+
+A goal is left by an abort, which catch/3 throws again when it has caught it,
+until it comes to limit_call_/2. A goal that goes on all the same, in the
+recovery or in a clean-up, has a grace; from then on it is aborted again
+before each goal that it calls.
+
+While a program computes, no time passes on the virtual clock, and the plan
+does not come. An alarm looks at the goal five times a second by the wall
+clock. What it looks at are inferences, which do not depend on the machine.
 */
 
-:- dynamic held/3.                      % Id, Thread, Seconds that are left
+:- dynamic
+    limit/3,                            % Id, Thread, Way
+    held/3,                             % Id, Thread, Seconds that are left
+    left/3,                             % Id, Thread, Why
+    used/5,                             % Id, Inferences, all Inferences so
+                                        % far, Time, Wall
+    alarm_of/2,                         % Id, Alarm
+    aborts/1,                           % Ball
+    most/2.                             % Inferences, Seconds
+
+:- volatile
+    aborts/1.
+
+%   For each second of simulated time, and as long as none passes; by the wall
+%   clock while none passes. A brick has less than a million in a second.
+most(100000000, 120).
+
+%   How long a clean-up may take: seconds of simulated time, inferences,
+%   seconds by the wall clock.
+grace(1, 10000000, 10).
+
+look_every(0.2).
 
 %!  within_seconds(+Seconds, :Goal) is semidet.
 %
 %   Call Goal once, and leave it when Seconds of simulated time have passed.
+%
+%   @error resource_error(inferences) if Goal computes for too long, and no
+%          time passes
+%   @error resource_error(seconds) if it sleeps for too long
 
 within_seconds(Seconds, Goal) :-
     clock(Now),
     End is Now + Seconds,
-    catch(setup_call_cleanup(
-              plan(End, ev3dev_limits:time_is_up(Id), Id),
-              once(goal_of_program(Goal)),
-              end_limit(Id)),
-          ev3dev_time_is_up(Id),
-          true).
+    setup_call_cleanup(
+        begin_limit(End, Id),
+        within_limit(Id, Goal),
+        end_limit(Id)).
+
+begin_limit(End, Id) :-
+    plan(End, ev3dev_limits:time_is_up(Id), Id),
+    thread_self(Me),
+    (   nb_current(ev3dev_branch, Branch),
+        Branch \== []
+    ->  Way = branch
+    ;   Way = thread
+    ),
+    assertz(limit(Id, Me, Way)),
+    begin_use(Id),
+    set_alarm(Id).
 
 end_limit(Id) :-
+    retractall(limit(Id, _, _)),
+    forall(retract(alarm_of(Id, Alarm)),
+           remove_alarm(Alarm)),
     unplan(Id),
-    retractall(held(Id, _, _)).
+    retractall(held(Id, _, _)),
+    retractall(used(Id, _, _, _, _)),
+    retractall(left(Id, _, _)).
+
+%   The engine of a branch could not yield to others from native code.
+within_limit(Id, Goal) :-
+    (   limit(Id, _, thread)
+    ->  limit_call_(Id, Goal)
+    ;   catch(once(goal_of_program(Goal)), ev3dev_time_is_up(Id), true)
+    ),
+    (   left(Id, _, Why),
+        Why \== over
+    ->  too_much(Why, Text),
+        throw_error(resource_error(Why), for_seconds/2, Text)
+    ;   true
+    ).
+
+too_much(inferences, Text) :-
+    most(Most, _),
+    format(atom(Text),
+           'the program computed for ~D inferences, and lets no simulated \c
+            time pass; a loop needs wait/1, or reads a sensor', [Most]).
+too_much(seconds, Text) :-
+    most(_, Most),
+    format(atom(Text),
+           'the program slept for ~w s, or read, and lets no simulated time \c
+            pass; wait/1 does', [Most]).
 
 time_is_up(Id) :-
-    throw(ev3dev_time_is_up(Id)).
+    leave(Id, over).
+
+leave(Id, Why) :-
+    (   left(Id, _, _)
+    ->  insist(Id)
+    ;   thread_self(Me),
+        assertz(left(Id, Me, Why)),
+        begin_use(Id),
+        grace(Seconds, _, _),
+        unplan(Id),
+        (   clock(Now)
+        ->  Again is Now + Seconds,
+            plan(Again, ev3dev_limits:time_is_up(Id), Id, Me)
+        ;   true
+        ),
+        ball(Id, Ball),
+        throw(Ball)
+    ).
+
+:- public insist/1.
+
+insist(Id) :-
+    ball(Id, Ball),
+    (   limit(Id, Thread, thread)
+    ->  limit_insist_(Id, Thread, ev3dev_limits:insist(Id), Ball)
+    ;   limit(Id, _, branch)
+    ->  throw(Ball)
+    ;   true
+    ).
+
+ball(Id, Ball) :-
+    (   limit(Id, _, branch)
+    ->  Ball = ev3dev_time_is_up(Id)
+    ;   abort_ball(Ball)
+    ).
+
+%   What abort/0 throws, without what else it does: it drops what was written
+%   and is not flushed yet. Newer versions have another term.
+abort_ball(Ball) :-
+    (   aborts(_)
+    ->  true
+    ;   limit_call_(-1, catch(throw('$aborted'), _, true)),
+        (   aborts(_)
+        ->  true
+        ;   assertz(aborts(unwind(abort)))
+        )
+    ),
+    aborts(Ball),
+    !.
+
+%!  is_left_by(+Id, +Ball) is semidet.
+%
+%   True if Ball leaves the goal of the limit Id, and not that of one around
+%   it. limit_call_/2 calls this when Ball has come to it.
+
+:- public is_left_by/2.
+
+is_left_by(-1, Ball) :-
+    !,
+    assertz(aborts(Ball)).
+is_left_by(Id, Ball) :-
+    left(Id, Me, _),
+    abort_ball(Ball),
+    \+ ( left(Outer, Me, _),
+         Outer < Id
+       ).
+
+                /*******************************
+                *            ALARM             *
+                *******************************/
+
+%   In a Prolog without library(time) nothing looks.
+set_alarm(Id) :-
+    look_every(Seconds),
+    Alarm = time:alarm(Seconds, ev3dev_limits:look(Id), New, [remove(true)]),
+    (   catch(use_module(library(time), []), error(_, _), fail),
+        catch(Alarm, error(_, _), fail)
+    ->  assertz(alarm_of(Id, New))
+    ;   true
+    ).
+
+remove_alarm(Alarm) :-
+    Remove = time:remove_alarm(Alarm),
+    catch(Remove, error(_, _), true).
+
+:- public look/1.
+
+look(Id) :-
+    retractall(alarm_of(Id, _)),
+    (   limit(Id, _, _)
+    ->  set_alarm(Id),
+        use(Id, Inferences, Wall),
+        allowed(Id, MostInferences, MostWall),
+        (   Inferences > MostInferences
+        ->  leave(Id, inferences)
+        ;   Wall > MostWall
+        ->  leave(Id, seconds)
+        ;   is_overdue(Id)
+        ->  leave(Id, over)
+        ;   true
+        )
+    ;   true
+    ).
+
+allowed(Id, Inferences, Seconds) :-
+    (   left(Id, _, _)
+    ->  grace(_, Inferences, Seconds)
+    ;   most(Inferences, Seconds)
+    ),
+    !.
+
+%   By a clock that follows the wall, a goal that computes is left here.
+is_overdue(Id) :-
+    planned(End, Id, _, _),
+    clock(Now),
+    Now > End + 0.5.
+
+%   What was used since: inferences, less those for which there was time, and
+%   seconds by the wall clock since time has passed. In the debugger a person
+%   thinks, not the program.
+
+begin_use(Id) :-
+    used_so_far(All, Now, Wall),
+    retractall(used(Id, _, _, _, _)),
+    assertz(used(Id, 0, All, Now, Wall)).
+
+use(Id, Inferences, Seconds) :-
+    used_so_far(All, Now, Wall),
+    retract(used(Id, Inferences0, All0, Before, Since0)),
+    !,
+    passed(Before, Now, Passed),
+    most(Most, _),
+    Inferences is max(0, Inferences0 + All - All0 - truncate(Passed*Most)),
+    (   Now == Before,
+        \+ current_prolog_flag(debug, true)
+    ->  Since = Since0
+    ;   Since = Wall
+    ),
+    Seconds is Wall - Since,
+    assertz(used(Id, Inferences, All, Now, Since)).
+
+passed(Before, Now, Passed) :-
+    (   number(Before),
+        number(Now)
+    ->  Passed is max(0, Now - Before)
+    ;   Passed = 0
+    ).
+
+used_so_far(All, Now, Wall) :-
+    statistics(inferences, All),
+    get_time(Wall),
+    (   clock(Now0)
+    ->  Now = Now0
+    ;   Now = none
+    ).
+
+                /*******************************
+                *        OTHER CLOCKS          *
+                *******************************/
 
 %!  clock_changes(:Goal) is semidet.
 %
@@ -71,7 +303,8 @@ is_limit(Id) :-
     ).
 
 count_on(Id, Thread, Left) :-
-    end_limit(Id),
+    unplan(Id),
+    retractall(held(Id, _, _)),
     (   clock(Now)
     ->  End is Now + Left,
         plan(End, ev3dev_limits:time_is_up(Id), Id, Thread)

@@ -106,6 +106,8 @@
             cause_now_/1,
             cause_set_/1,
             journal_entry_/4,
+            limit_call_/2,
+            limit_insist_/4,
             sim_active_/0,
             sim_add_/2,
             sim_check_/2,
@@ -375,6 +377,8 @@ missing.
 
 % Simulator
 
+%!  limit_call_(+Id, :Goal) is semidet.
+%!  limit_insist_(+Id, +Thread, :Goal, +Ball) is semidet.
 %!  sim_active_ is semidet.
 %!  sim_add_(+Fact, -Id) is semidet.
 %!  sim_check_(+Subject, +Fact) is semidet.
