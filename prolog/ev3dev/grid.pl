@@ -79,6 +79,8 @@ move, unless it knows already that they are free.
 %           A move ended so, as with the moves of library(ev3dev/drive). Where
 %           the robot is stalled by what its sensor did not see, it takes that
 %           for an obstacle and goes back; only if it cannot this is told.
+%           Where it may be in the middle of the cell by then, as far as
+%           pose_uncertainty/1 tells, it has reached the cell.
 %
 %     - tell(:Closure)
 %       call(Closure, Event) is called when something happens:

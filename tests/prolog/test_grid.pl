@@ -124,7 +124,48 @@ wrong(Noise, Seed, Why) :-
     ->  Why = askew(Askew)
     ).
 
+%   A world with a way to the opposite corner, whose walls are the edges of the
+%   outer cells: the robot sees those behind its goal, and must not take them
+%   for something in it.
+
+narrow(Seed, Cells, World) :-
+    Chance is 1000*Seed,
+    narrow_from(Chance, Cells, World).
+
+narrow_from(Chance, Cells, World) :-
+    set_random(seed(Chance)),
+    findall([X, Y],
+            ( between(0, 7, X), between(0, 7, Y),
+              \+ memberchk([X, Y], [[0, 0], [7, 7]]),
+              maybe(0.25)
+            ),
+            Cells0),
+    (   expected(4, Cells0, [7, 7], reached)
+    ->  Cells = Cells0,
+        boxes(Cells, Boxes),
+        World = [bounds(-10, -10, 150, 150), start(0, 0, 0)|Boxes]
+    ;   Next is Chance + 1,
+        narrow_from(Next, Cells, World)
+    ).
+
+wrong_in_narrow(Seed, Reason-Wrong) :-
+    narrow(Seed, Cells, World),
+    with_sim(World,
+             ( robot,
+               set_grid([]),
+               plan_and_go_to([7, 7], _, [reason(Reason)]),
+               findall(Cell, obstructed(Cell), Obstructed)
+             ),
+             [noise(true), seed(Seed)]),
+    subtract(Obstructed, Cells, Wrong),
+    Reason-Wrong \== reached-[].
+
 :- begin_tests(worlds).
+
+test(the_walls_behind_a_cell_are_not_in_it, true(Wrong == [])) :-
+    findall(Seed-Why,
+            ( case(100, Seed), wrong_in_narrow(Seed, Why) ),
+            Wrong).
 
 test(reaches_what_can_be_reached_in_200_worlds, true(Wrong == [])) :-
     findall(Seed-Why,

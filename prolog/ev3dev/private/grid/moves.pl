@@ -10,6 +10,7 @@
 :- use_module(knowledge).
 :- use_module(map).
 :- use_module(place).
+:- use_module('../../odometry', [pose/3, pose_uncertainty/1]).
 :- use_module('../../sensors', [us_dist_cm/2]).
 
 /** <module> A robot that goes from cell to cell
@@ -159,13 +160,12 @@ look_into([Beside|Rest], Cell, Metric, Outcome) :-
     ;   Outcome = Seen
     ).
 
-%   Look into the Cell ahead. What is farther away stands in another one: a
-%   diagonal look comes past the corner of the cell at 1.7 widths.
+%   Look into the Cell ahead. What is farther away stands in another one.
 
 look(Cell, Direction, metric(Cm, _, _, Eye, _), Outcome) :-
     (   us_dist_cm(_, Distance)
-    ->  (   reach(Direction, Widths),
-            Eye + Distance =< Widths * Cm
+    ->  (   reach(Direction, Cm, Reach),
+            Eye + Distance =< Reach
         ->  obstacle_add(Cell),
             Outcome = found([Cell])
         ;   saw_free(Cell),
@@ -174,18 +174,40 @@ look(Cell, Direction, metric(Cm, _, _, Eye, _), Outcome) :-
     ;   Outcome = ended(no_sensor)
     ).
 
-reach([DX, DY], Widths) :-
+%   How far ahead of the robot something surely is in the next cell. That ends
+%   after 1.5 widths; a diagonal look comes past its corner at 1.7. The robot
+%   may be farther on than it knows, rarely by more than two standard
+%   deviations. But what is about as near as the middle of the cell is in it.
+
+reach(Direction, Cm, Reach) :-
+    Direction = [DX, DY],
     (   DX * DY =:= 0
-    ->  Widths = 1.35
-    ;   Widths = 1.6
+    ->  End = 1.5, Most = 1.35, Least = 1.1
+    ;   End = 1.7, Most = 1.6, Least = 1.3
+    ),
+    uncertainty(Direction, Deviation),
+    Reach is max(Least * Cm, min(Most * Cm, End * Cm - 2 * Deviation)).
+
+%   The standard deviation of the robot's place in that direction, in cm.
+uncertainty([DX, DY], Deviation) :-
+    (   pose_uncertainty([[XX, XY, _], [_, YY, _], _])
+    ->  Deviation is sqrt(max(0, DX*DX*XX + 2*DX*DY*XY + DY*DY*YY)
+                          / (DX*DX + DY*DY))
+    ;   Deviation = 0
     ).
 
-%   What stops the robot and was not seen is an obstacle, too: then back.
+%   What stops the robot and was not seen is an obstacle, too: then back. But
+%   where it may be in the middle of the cell already, it ran into what is
+%   behind.
 
 go(Cell, Next, Direction, Metric, Outcome) :-
     Metric = metric(_, _, _, _, Speed),
     go_to_cell(Next, Direction, Metric, Speed, Reason),
     (   Reason == reached
+    ->  set_state(Next, Direction),
+        Outcome = done
+    ;   Reason == stalled,
+        may_be_in(Next, Direction, Metric)
     ->  set_state(Next, Direction),
         Outcome = done
     ;   Reason == stalled
@@ -198,6 +220,15 @@ go(Cell, Next, Direction, Metric, Outcome) :-
         )
     ;   Outcome = ended(Reason)
     ).
+
+may_be_in(Cell, Direction, Metric) :-
+    Metric = metric(Cm, _, _, _, _),
+    Direction = [DX, DY],
+    cell_place(Metric, Cell, X, Y),
+    pose(AtX, AtY, _),
+    uncertainty(Direction, Deviation),
+    Left is ((X - AtX)*DX + (Y - AtY)*DY) / sqrt(DX*DX + DY*DY),
+    Left =< min(Cm / 4, 2 * Deviation).
 
 go_to_cell(Cell, Direction, Metric, Speed, Reason) :-
     cell_place(Metric, Cell, X, Y),
