@@ -70,11 +70,12 @@ calibrate(What0, Module:Options, SetRobot) :-
     word(What0, What),
     must_be_options(calibration_option,
                     [measured, length, distance, turns, speed], Options),
-    robot_description(Robot),
     (   What == wheels
-    ->  wheels(Robot, Module, Options, SetRobot)
+    ->  robot_description(Robot),
+        wheels(Robot, Module, Options, SetRobot)
     ;   What == axle
-    ->  axle(Robot, Module, Options, SetRobot)
+    ->  robot_description(Robot),
+        axle(Robot, Module, Options, SetRobot)
     ;   domain_error(calibration, What)
     ).
 
