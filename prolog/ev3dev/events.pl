@@ -22,6 +22,7 @@
               [must_be_options/3, number_value/3, option/3]).
 :- use_module(private/brick, [brick/1]).
 :- use_module(private/chance, [branch_seed/1, seed_branch/1]).
+:- use_module(private/conditions, [condition_goal/2]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/causes, [acting_for/2, begins/1]).
 :- use_module(private/prompt, [acting_at_prompt/1, reads_query/0]).
@@ -96,7 +97,8 @@ look_every(0.02).
 %!  on(:Condition, :Action, +Options) is det.
 %
 %   From now on, call Action each time that Condition becomes true. Does not
-%   wait. The bindings of Condition reach Action, as in
+%   wait. Condition is a goal, or compares sensors as for sensor_wait/1:
+%   `us_dist_cm(in1) < 20`. Its bindings reach Action, as in
 %   `on(( light(L), L < 20 ), format("~w~n", [L]))`. Action may move the robot
 %   and wait; it interrupts the program for so long, and its event happens
 %   only once at a time. Those that happen at one look do so in the order in
@@ -127,8 +129,9 @@ look_every(0.02).
 on(Condition, Action) :-
     on(Condition, Action, []).
 
-on(Condition, Action, Options) :-
-    must_be_goal(Condition),
+on(Condition0, Action, Options) :-
+    must_be_goal(Condition0),
+    condition_goal(Condition0, Condition),
     must_be_goal(Action),
     must_be_options(event_option, [id, count, stable, rearm, armed],
                     Options),
@@ -137,7 +140,8 @@ on(Condition, Action, Options) :-
     Condition = Module:_,
     (   option(rearm(Rearm0), Options)
     ->  must_be(callable, Rearm0),
-        Rearm = rearm(Module:Rearm0)
+        condition_goal(Module:Rearm0, Rearm1),
+        Rearm = rearm(Rearm1)
     ;   Rearm = rearm
     ),
     option(armed(Armed), Options, true),
@@ -444,6 +448,7 @@ prolog:message(ev3dev(event_failed(Id, Name))) -->
 %
 %   ```
 %   ?- until(touch(_, 1), go(30)).
+%   ?- until(us_dist_cm(in1) < 20, go(30)).
 %   ?- until(( us_dist_cm(_, D), D < 20 ), forever_zigzag).
 %   ```
 %
@@ -455,9 +460,11 @@ prolog:message(ev3dev(event_failed(Id, Name))) -->
 until(Condition, Goal) :-
     until(Condition, Goal, _).
 
-until(Condition, Goal, Which) :-
-    must_be_goal(Condition),
+until(Condition0, Goal, Which) :-
+    must_be_goal(Condition0),
+    condition_goal(Condition0, Condition),
     must_be_goal(Goal),
+    must_be_which(Which),
     (   \+ \+ in_guard(until, Condition)
     ->  Which0 = condition
     ;   flag(ev3dev_until, Id, Id + 1),
@@ -475,6 +482,15 @@ until(Condition, Goal, Which) :-
         )
     ),
     Which = Which0.
+
+must_be_which(Which) :-
+    (   ( var(Which) ; memberchk(Which, [condition, goal]) )
+    ->  true
+    ;   format(atom(Text),
+               '~p is not one of: condition, goal; a condition of several \c
+                goals stands in parentheses', [Which]),
+        throw_error(domain_error(until_which, Which), _, Text)
+    ).
 
 until_tick(Id, Condition, Listener) :-
     (   in_guard(until, Condition)

@@ -20,6 +20,7 @@
               [must_be_options/3, number_value/3, option/2, option/3]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/causes, [acting_for/2, begins/1]).
+:- use_module(private/conditions, [condition_goal/2]).
 :- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
 :- use_module(private/native,
               [ commands_/1, motors_leave_/2, motors_stop_/2, now_/1,
@@ -110,12 +111,14 @@ wrong_arrow(Rule) :-
                 'between a guard and an action stands ~>, not ->').
 
 %   A multifile predicate, so that rules may stand in several files.
-rule_clauses(Head, Guard, Action,
+rule_clauses(Head, Guard0, Action,
              [ (:- multifile '$ev3dev rule'/4),
                (:- discontiguous '$ev3dev rule'/4),
                '$ev3dev rule'(Name, Options, Guard, Action)
              ]) :-
     head(Head, Name, Options),
+    must_be(callable, Guard0),
+    condition_goal(Guard0, _:Guard),
     must_be_action(Action).
 
 %   A list is a whole action. As a part of one it would load files.
@@ -196,10 +199,11 @@ rule(Term, _, _, _, _, _) :-
     var(Term),
     !,
     instantiation_error(Term).
-rule((Head :: Guard ~> Action), _, Name, Options, Guard, Action) :-
+rule((Head :: Guard0 ~> Action), _, Name, Options, Guard, Action) :-
     !,
     head(Head, Name, Options),
-    must_be(callable, Guard),
+    must_be(callable, Guard0),
+    condition_goal(Guard0, _:Guard),
     must_be_action(Action).
 rule(Rule, _, _, _, _, _) :-
     Rule = (_ :: _ -> _),

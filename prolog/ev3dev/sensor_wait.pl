@@ -1,20 +1,24 @@
 :- module(ev3dev_sensor_wait,
-          [ sensor_wait/1,              % +Condition
-            sensor_wait/2               % +Condition, +Options
+          [ sensor_wait/1,              % :Condition
+            sensor_wait/2               % :Condition, +Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, must_be/2,
-                term_expansion/4, throw_error/3
+              [ domain_error/2, existence_error/2, must_be/2, term_expansion/4
               ]).
 :- use_module(private/explain).
 :- use_module(sensors, [reading_of/4]).
 :- use_module(private/arguments,
-              [ must_be_options/3, number_value/2, option/2,
-                timeout_option/2
-              ]).
-:- use_module(private/waits, [waited/1]).
-:- use_module(private/native, [sensor_wait_/5]).
+              [must_be_options/3, option/2, timeout_option/2]).
+:- use_module(private/conditions,
+              [comparison/3, condition_goal/2, sensor_named/3]).
+:- use_module(private/waits, [in_guard/2, waited/1]).
+:- use_module(private/native, [guards_/0, now_/1, sensor_wait_/5]).
+:- use_module(time, [wait/1]).
+
+:- meta_predicate
+    sensor_wait(:),
+    sensor_wait(:, +).
 
 /** <module> Waiting for a sensor
 
@@ -28,8 +32,8 @@ hundred times a second, by the clock of the brick or of the simulation, and
 takes little of the processor's time. Motors go on meanwhile.
 */
 
-%!  sensor_wait(+Condition) is semidet.
-%!  sensor_wait(+Condition, +Options) is semidet.
+%!  sensor_wait(:Condition) is semidet.
+%!  sensor_wait(:Condition, +Options) is semidet.
 %
 %   Wait until Condition holds; not at all if it holds already. Fails if there
 %   is no such sensor at the port, or if the time is up. Condition compares a
@@ -49,6 +53,10 @@ takes little of the processor's time. Motors go on meanwhile.
 %     - touch(Port) = bumped
 %       `bumped` is pressed and released again.
 %
+%   or is a goal, as for until/2 of library(ev3dev/events): `(us_dist_cm(_, D),
+%   D < 20)`, or comparisons joined by `,` and `;`. It is looked at every 20 ms
+%   and must not wait or start a motor.
+%
 %   Options:
 %
 %     - timeout(+Seconds)
@@ -67,15 +75,51 @@ takes little of the processor's time. Motors go on meanwhile.
 sensor_wait(Condition) :-
     sensor_wait(Condition, []).
 
-sensor_wait(Condition, Options) :-
+sensor_wait(Module:Condition, Options) :-
     must_be(nonvar, Condition),
-    (   condition(Condition, Sensor, Test)
-    ->  true
-    ;   domain_error(sensor_condition, Condition)
-    ),
     must_be_options(sensor_option, [timeout, reason], Options),
     timeout_option(Options, Timeout),
-    port(Sensor, Reading, Port),
+    (   comparison(Condition, Sensor, Test)
+    ->  wait_for(Sensor, Test, Timeout, Options)
+    ;   is_goal(Condition, Module)
+    ->  condition_goal(Module:Condition, Goal),
+        holding(Goal, Timeout, Ended),
+        (   option(reason(Reason), Options)
+        ->  Reason = Ended
+        ;   ended(Ended, _)
+        )
+    ;   domain_error(sensor_condition, Condition)
+    ).
+
+%   What compares a sensor and is no comparison/3 is a mistake, not a goal.
+
+is_goal((_, _), _).
+is_goal((_ ; _), _).
+is_goal(\+ _, _).
+is_goal(Condition, Module) :-
+    callable(Condition),
+    \+ functor(Condition, =, 2),
+    \+ ( Condition =.. [Operator, _, _],
+         memberchk(Operator, [<, =<, >, >=, =:=, =\=]) ),
+    predicate_property(Module:Condition, visible).
+
+holding(Goal, Timeout, Ended) :-
+    guards_,
+    now_(Start),
+    repeat,
+    (   in_guard(sensor_wait, Goal)
+    ->  Ended = reached
+    ;   number(Timeout),
+        now_(Now),
+        Now - Start >= Timeout
+    ->  Ended = timeout
+    ;   wait(0.02),
+        fail
+    ),
+    !.
+
+wait_for(Sensor, Test, Timeout, Options) :-
+    sensor_named(Sensor, Reading, Port),
     (   reading_of(Reading, Types, Mode, Index),
         sensor_wait_(Port, reading(Types, Mode, Index), Test, Timeout,
                      Ended),
@@ -85,33 +129,6 @@ sensor_wait(Condition, Options) :-
         ;   ended(Ended, Port)
         )
     ;   fail_because(absent(reading(Reading), Port))
-    ).
-
-condition(Sensor = Word, Sensor, Test) :-
-    nonvar(Sensor),
-    Sensor = touch(_),
-    nonvar(Word),
-    touch_test(Word, Test).
-condition(Comparison, Sensor, test(Operator, Number)) :-
-    compound(Comparison),
-    Comparison =.. [Operator, Sensor, Expression],
-    memberchk(Operator, [<, =<, >, >=, =:=, =\=]),
-    compound(Sensor),
-    functor(Sensor, _, 1),
-    number_value(Expression, Number).
-
-touch_test(pressed, test(=:=, 1)).
-touch_test(released, test(=:=, 0)).
-touch_test(bumped, bumped).
-
-port(Sensor, Reading, Port) :-
-    Sensor =.. [Reading, Port],
-    (   reading_of(Reading, _, _, _)
-    ->  must_be(text, Port)
-    ;   findall(Known, reading_of(Known, _, _, _), Names0),
-        sort(Names0, Names),
-        throw_error(domain_error(sensor_reading, Reading), _,
-                    one_of(Reading, Names))
     ).
 
 ended(reached, _).

@@ -225,6 +225,17 @@ test(the_inner_one_may_end_first, true(Which == goal)) :-
 test(motors_that_ran_before_go_on, true(States == [running])) :-
     noted([1-raise(a)],
           ( motor_run(outA, 20), until(up(a), go(20)), motor_states(outA, States) ), _).
+test(a_condition_may_compare_a_sensor, true(near(D, 60, 3))) :-
+    with_sim([bounds(0, 0, 200, 200), start(100, 50, 0)],
+             ( set_robot(5.6, 10.6, outB, outC),
+               until(( us_dist_cm(in1) < 60, \+ touch(_) = pressed ), go(30)),
+               us_dist_cm(in1, D) )).
+test(a_condition_is_of_one_language, error(domain_error(sensor_condition, _), _)) :-
+    noted([], until(us_dist_cm(in1, _) < 60, go(20)), _).
+test(bumped_takes_time, error(domain_error(sensor_condition, _), _)) :-
+    noted([], until(touch(in4) = bumped, go(20)), _).
+test(which_is_not_a_goal, error(domain_error(until_which, go(20)), _)) :-
+    noted([], until(us_dist_cm(_, D), D < 60, go(20)), _).
 test(a_condition_must_not_wait, error(permission_error(wait, guard, until), _)) :-
     noted([], until(wait(1), go(20)), _).
 test(an_error_of_the_goal_goes_through, error(type_error(_, _), _)) :-

@@ -65,6 +65,20 @@ test(what_is_no_condition_throws,
                          (us_dist_cm(in1) < _)-instantiation_error ]) )),
        error(Error, context(sensor_wait/1, _)) ]) :-
     with_tree(Tree, sensor_wait(Condition)).
+test(a_goal_is_waited_for_too,
+     [ forall(member(Condition, [ ( us_dist_cm(_, D), D < 25 ),
+                                  ( us_dist_cm(in1) < 25 ; touch(_) = pressed ),
+                                  \+ us_dist_cm(in1) >= 25 ])),
+       true(near(Distance, 24, 2)) ]) :-
+    with_sim([bounds(0, 0, 200, 200), start(100, 50, 0)],
+             ( set_robot(5.6, 10.6, outB, outC), go(30),
+               sensor_wait(Condition), stop, us_dist_cm(in1, Distance) )).
+test(a_goal_has_a_time_limit, true(Reason-Time == timeout-2)) :-
+    with_sim([], ( sensor_wait(( us_dist_cm(_, D), D < 5 ),
+                               [timeout(2), reason(Reason)]),
+                   sim_time(Time0), Time is round(Time0) )).
+test(a_goal_must_not_move, error(permission_error(wait, guard, sensor_wait), _)) :-
+    with_sim([], sensor_wait(( motor_run(outB, 20), fail ))).
 test(options_are_checked,
      [ forall(member(Option-Error, [ timeout(-1)-domain_error(timeout, -1),
                                      patience(1)-domain_error(sensor_option, _) ])),
