@@ -136,11 +136,12 @@ fn read<'a, C: QueryableContextType>(
         ("axle", [length]) => Fact::Axle(number(length)?),
         ("hull", [hull]) => Fact::Hull(self::hull(call, hull)?),
         ("mass", [mass]) => Fact::Mass(number(mass)?),
-        ("motor", [port, driver]) => Fact::Motor(MotorMount {
+        ("motor", [port, driver, options @ ..]) => Fact::Motor(MotorMount {
             port: named(call, "port", port)?,
             driver: call.text(driver)?.into(),
             noise: Noise::NONE,
             encoder_noise: 0.0,
+            stops: stops(call, options)?,
         }),
         ("sensor", [port, driver, x, y, heading]) => Fact::Sensor(SensorMount {
             port: named(call, "port", port)?,
@@ -254,6 +255,25 @@ fn wheel<'a, C: QueryableContextType>(
         }
     }
     Ok(wheel)
+}
+
+/// What an optional list of `stops(Min, Max)` says, in degrees.
+fn stops<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &[Term<'a>],
+) -> PrologResult<Option<[f64; 2]>> {
+    let mut stops = None;
+    for options in options {
+        for option in call.list(options)? {
+            match call.compound(&option)? {
+                Some((name, ends)) if name == "stops" && ends.len() == 2 => {
+                    stops = Some([call.float(&ends[0])?, call.float(&ends[1])?]);
+                }
+                _ => return wrong_because(call, "mounting_option", &option, ""),
+            }
+        }
+    }
+    Ok(stops)
 }
 
 fn boolean<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<bool> {

@@ -37,8 +37,8 @@
 
 /** <module> A simulated robot in a simulated world
 
-An ev3dev brick with motors and sensors, on two wheels, in a flat world. It
-behaves like a real brick: while a simulation runs, all predicates of
+An ev3dev brick with motors and sensors, and wheels or not, in a flat world.
+It behaves like a real brick: while a simulation runs, all predicates of
 library(ev3dev) work on it.
 
 ```
@@ -125,11 +125,17 @@ A robot is a file of facts, too:
     The outline, around the middle of the axle; the middle of a rectangle is
     Offset ahead of it.
   - mass(Kilograms)
-    The mass. Every robot needs two wheels, an axle, a hull and a mass.
+    The mass. A robot that drives needs two wheels, an axle, a hull and a
+    mass. One without wheels and axle needs a motor or a sensor, and stays at
+    its start; its hull is by default that of a brick.
   - motor(Port, Type)
+  - motor(Port, Type, Options)
     A motor: `'lego-ev3-l-motor'`, `'lego-ev3-m-motor'`, `'lego-nxt-motor'`,
     or one of the linear actuators `'act-l12-ev3-50'` and `'act-l12-ev3-100'`.
-    The robot must have a motor at the port of each wheel.
+    The robot must have a motor at the port of each wheel. The option
+    `stops(Min, Max)` is for motors that turn no wheel: the angles in degrees,
+    from where the shaft is at the start, at which it stalls, and from which
+    it only turns back.
   - sensor(Port, Type, X, Y, Heading)
     A sensor, X to the right and Y ahead of the middle of the axle, of any
     type that ev3dev knows, see [below](#sim-sensors).

@@ -193,7 +193,9 @@ test(list_what_is_allowed,
                        behave([], [sped(5)])-"until, timeout",
                        on(true, true, [sped(5)])-"id, count",
                        sim_start(room, [clock(slow)])-"realtime" ])) ]) :-
-    with_sim(room, catch(Goal, error(_, context(_, Message)), true)),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(Goal, error(_, context(_, Message)), true) )),
     assertion(sub_atom(Message, _, _, _, Words)).
 
 :- end_tests(errors).

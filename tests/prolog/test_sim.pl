@@ -288,6 +288,100 @@ test(two_sensors_at_a_port) :-
 
 :- end_tests(sim_files).
 
+:- begin_tests(stationary).
+
+%   A gripper on an arm, with a color sensor, in a place of the world.
+arm([ motor(outA, 'lego-ev3-m-motor', [stops(-30, 90)]),
+      motor(outB, 'lego-ev3-l-motor', [stops(0, 720.5)]),
+      motor(outD, 'lego-ev3-l-motor'),
+      sensor(in1, 'lego-ev3-us', 0, 7, 0),
+      sensor(in2, 'lego-ev3-color', 0, 0, 0),
+      sensor(in3, 'ht-nxt-angle', 0, 0, 0),
+      sensor(in4, 'lego-ev3-gyro', 0, 0, 0)
+    ]).
+
+:- meta_predicate with_arm(0).
+
+with_arm(Goal) :-
+    arm(Arm),
+    with_sim([ start(30, 20, 90), floor(red), circle(60, 20, 3) ], Goal, [robot(Arm)]).
+
+test(a_robot_without_wheels_has_its_devices, true(Ports == Expected)) :-
+    Expected = [outA, outB, outD, in1, in2, 'in3:i2c1', in4],
+    with_arm(findall(P, ( tacho_motor(P) ; lego_sensor(P) ), Ports)).
+test(it_stands_at_its_start_whatever_turns) :-
+    with_arm(( motor_run(outD, 50, 720), sim_pose(X, Y, H), sim_collisions(Hits),
+               gyro_ang(in4, Angle) )),
+    X-Y-H =:= 30-20-90,
+    Hits == [],
+    Angle =:= 0.
+test(sensors_measure_from_there, true(Color-Distance == 5-20.0)) :-
+    with_arm(( col_color(in2, Color), us_dist_cm(in1, Distance) )).
+test(a_hand_can_move_it) :-
+    with_arm(( sim_place(0, 0, 0), sim_pose(X, Y, H), motor_run(outD, 50, 90) )),
+    X-Y-H =:= 0-0-0.
+test(it_can_be_drawn) :-
+    with_arm(( tmp_file(arm, File), sim_svg(File), exists_file(File), delete_file(File) )).
+test(it_can_be_saved_and_restored) :-
+    with_arm(( sim_snapshot(S), motor_run(outD, 50, 90), sim_restore(S), position(outD, P) )),
+    P =:= 0.
+test(a_motor_stalls_at_its_stop_in_that_direction_only, true(Reason == stalled)) :-
+    with_arm(( motor_run(outA, 30, 200, [wait(false)]),
+               motor_wait([outA], [timeout(10)], Reason), position(outA, Max),
+               motor_stop(outA),
+               motor_run(outA, 30, -60), position(outA, Less),
+               motor_run(outA, -30), motor_wait(outA, [timeout(10)], _),
+               position(outA, Min) )),
+    near(Max, 90, 1),
+    near(Less, 30, 3),
+    near(Min, -30, 1).
+test(a_stop_at_the_start_blocks_at_once, true(Reason == stalled)) :-
+    with_arm(( motor_run(outB, -20), motor_wait(outB, [timeout(10)], Reason), position(outB, P) )),
+    near(P, 0, 1).
+test(a_move_that_ends_before_a_stop_is_as_without, true(A-B == C-D)) :-
+    with_arm(( motor_run(outB, 40, 360), position(outB, A), sim_time(B) )),
+    with_arm(( motor_run(outD, 40, 360), position(outD, C), sim_time(D) )).
+test(a_robot_that_drives_may_have_an_arm, true(Reason == stalled)) :-
+    with_sim([], ( motor_run(outA, 30), motor_wait(outA, [timeout(10)], Reason),
+                   set_robot(5.6, 10.6, outB, outC), go_cm(30, 20), sim_pose(_, Y, _) ),
+             [robot([ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
+                      hull(circle(8)), mass(0.75),
+                      motor(outA, 'lego-ev3-m-motor', [stops(-5, 90)]),
+                      motor(outB, 'lego-ev3-l-motor'), motor(outC, 'lego-ev3-l-motor', []) ])]),
+    near(Y, 20, 1).
+test(its_hull_is_one_it_is_given, error(domain_error(possible_geometry, _), _)) :-
+    with_sim([start(0, 0, 0), circle(0, 30, 3)], true,
+             [robot([motor(outA, 'lego-ev3-l-motor'), hull(circle(40))])]).
+test(what_is_no_stop_is_explained,
+     [ forall(member(Options-Words,
+                     [ [stops(10, 90)]-'stops(Min, Max) with Min =< 0 =< Max',
+                       [stops(0, 0)]-'stops(Min, Max) with Min =< 0 =< Max',
+                       [stops(a, 90)]-'a number is expected, not a',
+                       [stop(0, 90)]-'is not one of: stops(Min,Max)',
+                       [stops(0, _)]-'unbound',
+                       x-'a list is expected' ])) ]) :-
+    catch(sim_start([], [robot([motor(outA, 'lego-ev3-l-motor', Options)])]),
+          error(Formal, Context), true),
+    message_to_lines(error(Formal, Context), Lines),
+    with_output_to(string(Message), print_message_lines(current_output, '', Lines)),
+    once(sub_string(Message, _, _, _, Words)).
+test(no_stops_for, [ forall(member(Robot,
+                            [ [motor(outA, 'act-l12-ev3-50', [stops(0, 90)])],
+                              [ left_wheel(outB, 5.6), right_wheel(outC, 5.6), axle(10.6),
+                                hull(circle(8)), mass(0.75),
+                                motor(outB, 'lego-ev3-l-motor', [stops(0, 90)]),
+                                motor(outC, 'lego-ev3-l-motor') ] ])),
+                     error(domain_error(possible_geometry, motor(_, _, _)), _) ]) :-
+    sim_start([], [robot(Robot)]).
+test(half_a_chassis_is_none, true(Words == 'robot has no right_wheel, no axle, no hull, no mass')) :-
+    catch(sim_start([], [robot([ left_wheel(outB, 5.6), motor(outB, 'lego-ev3-l-motor') ])]),
+          error(_, context(_, Words)), true).
+
+message_to_lines(Term, Lines) :-
+    phrase('$messages':translate_message(Term), Lines).
+
+:- end_tests(stationary).
+
 :- begin_tests(with_sim_starts_from_nothing).
 
 %   What a program leaves behind, and what shows it.

@@ -506,6 +506,15 @@ test(the_first_frame_has_everything) :-
             Frame.spec.axle =:= 10.6,
             Frame.screen.w =:= 178,
             Frame.robot.true = [_, _, _] )).
+test(a_robot_without_wheels_has_none_on_the_page) :-
+    paged(Page,
+          ( sim_start([start(5, 6, 90)],
+                      [clock(virtual), robot([motor(outA, 'lego-ev3-l-motor', [stops(0, 90)])])]),
+            page_ask(Page, "next", Frame),
+            Frame.spec.hull.kind == "rectangle",
+            \+ get_dict(left, Frame.spec, _),
+            \+ get_dict(axle, Frame.spec, _),
+            Frame.robot.true = [5, 6, 90] )).
 test(the_next_frame_has_what_is_new) :-
     paged(Page,
           ( page_ask(Page, "next", First),

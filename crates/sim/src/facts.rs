@@ -43,7 +43,7 @@ impl Subject {
                 ("axle", &[1]),
                 ("hull", &[1]),
                 ("mass", &[1]),
-                ("motor", &[2]),
+                ("motor", &[2, 3]),
                 ("sensor", &[5]),
                 ("noise", &[3]),
                 ("encoder_noise", &[2]),

@@ -19,6 +19,7 @@
 //!     driver: "lego-ev3-l-motor".to_owned(),
 //!     noise: Noise::NONE,
 //!     encoder_noise: 0.0,
+//!     stops: None,
 //! };
 //! let robot = RobotSpec::from_facts(&[
 //!     Fact::LeftWheel(wheel(Port::OutB)),
@@ -128,7 +129,7 @@ pub use machine::tree::{Entry, FileKind, NodeId, Stat};
 pub use machine::{Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
 pub use noise::Noise;
-pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel};
+pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel, Wheels};
 pub use sensor::{Link, SensorKind};
 pub use shared::Shared;
 pub use trace::{Action, Collision, Event, Trace};

@@ -12,6 +12,11 @@ use crate::world::{Hull, Part, SpecError};
 /// Lengths of a robot, in cm, and its mass, in kg.
 const LENGTHS: RangeInclusive<f64> = 0.01..=1000.0;
 const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
+/// The farthest stop, in degrees.
+const MOST_TURN: f64 = 1e6;
+/// A brick without a chassis: its outline in cm, and its mass with batteries in kg.
+const BRICK: Hull = Hull::Rectangle { width: 7.2, length: 11.2, offset: 0.0 };
+const BRICK_MASS: f64 = 0.28;
 const DIAMETER: &str = "needs a diameter from 0.01 to 1000 cm";
 
 /// A driven wheel.
@@ -27,6 +32,25 @@ pub struct Wheel {
     pub slip: f64,
 }
 
+/// What the robot drives on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wheels {
+    /// Left wheel.
+    pub left: Wheel,
+    /// Right wheel.
+    pub right: Wheel,
+    /// Distance between them in cm.
+    pub axle: f64,
+}
+
+impl Wheels {
+    /// The ports of their motors, the left one first.
+    #[must_use]
+    pub fn ports(&self) -> [Port; 2] {
+        [self.left.port, self.right.port]
+    }
+}
+
 /// A motor on an output port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotorMount {
@@ -39,6 +63,9 @@ pub struct MotorMount {
     /// Standard deviation of the errors of its encoder's teeth, in degrees. They add to
     /// `position`, are the same at every turn, and depend on the seed.
     pub encoder_noise: f64,
+    /// Between which angles its shaft can turn, in degrees from where it is at the start; `None`
+    /// without end.
+    pub stops: Option<[f64; 2]>,
 }
 
 /// A sensor on an input port.
@@ -56,15 +83,11 @@ pub struct SensorMount {
     pub noise: Noise,
 }
 
-/// A robot with two driven wheels.
+/// A robot: with two driven wheels, or one that stays where it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotSpec {
-    /// Left wheel.
-    pub left: Wheel,
-    /// Right wheel.
-    pub right: Wheel,
-    /// Distance between the wheels in cm.
-    pub axle: f64,
+    /// Its wheels, if it drives.
+    pub wheels: Option<Wheels>,
     /// Its outline.
     pub hull: Hull,
     /// Mass in kg.
@@ -94,16 +117,16 @@ impl RobotSpec {
     /// # Errors
     /// Names the first offending part.
     pub fn validate(&self) -> Result<(), SpecError> {
-        let RobotSpec { left, right, axle, hull, mass, .. } = *self;
+        let RobotSpec { wheels, hull, mass, .. } = *self;
         let parts = Chassis {
-            left: Some(left),
-            right: Some(right),
-            axle: Some(axle),
+            left: wheels.map(|wheels| wheels.left),
+            right: wheels.map(|wheels| wheels.right),
+            axle: wheels.map(|wheels| wheels.axle),
             hull: Some(hull),
             mass: Some(mass),
         };
         parts.validate()?;
-        validate_devices(&self.motors, &self.sensors)
+        validate_devices(&self.motors, &self.sensors, wheels)
     }
 }
 
@@ -164,14 +187,23 @@ impl Chassis {
         sensors: Vec<SensorMount>,
     ) -> Result<RobotSpec, SpecError> {
         self.validate()?;
-        validate_devices(&motors, &sensors)?;
-        let Chassis { left: Some(left), right: Some(right), axle: Some(axle), .. } = self else {
+        let wheels = match self {
+            Chassis { left: Some(left), right: Some(right), axle: Some(axle), .. } => {
+                Some(Wheels { left, right, axle })
+            }
+            _ => None,
+        };
+        validate_devices(&motors, &sensors, wheels)?;
+        let stays = self.left.is_none() && self.right.is_none() && self.axle.is_none();
+        if stays && !(motors.is_empty() && sensors.is_empty()) {
+            let hull = self.hull.unwrap_or(BRICK);
+            let mass = self.mass.unwrap_or(BRICK_MASS);
+            return Ok(RobotSpec { wheels, hull, mass, motors, sensors });
+        }
+        let (Some(_), Some(hull), Some(mass)) = (wheels, self.hull, self.mass) else {
             return Err(self.missing());
         };
-        let (Some(hull), Some(mass)) = (self.hull, self.mass) else {
-            return Err(self.missing());
-        };
-        Ok(RobotSpec { left, right, axle, hull, mass, motors, sensors })
+        Ok(RobotSpec { wheels, hull, mass, motors, sensors })
     }
 
     fn missing(&self) -> SpecError {
@@ -188,16 +220,21 @@ impl Chassis {
     }
 }
 
-fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<(), SpecError> {
+fn validate_devices(
+    motors: &[MotorMount],
+    sensors: &[SensorMount],
+    wheels: Option<Wheels>,
+) -> Result<(), SpecError> {
     let mut used = Vec::new();
-    for (index, MotorMount { port, driver, encoder_noise, .. }) in motors.iter().enumerate() {
+    for (index, mount) in motors.iter().enumerate() {
+        let MotorMount { port, driver, encoder_noise, stops, .. } = mount;
         let fault = |reason: &str| {
             Err(SpecError::new(format!("motor {driver} on {port}"), reason)
                 .in_part(Part::Motor(index)))
         };
-        if MotorKind::named(driver).is_none() {
+        let Some(kind) = MotorKind::named(driver) else {
             return fault(&format!("is of no known type; there are: {}", motors_alike(driver)));
-        }
+        };
         if !port.is_output() || used.contains(port) {
             return fault("needs an output port of its own");
         }
@@ -205,6 +242,22 @@ fn validate_devices(motors: &[MotorMount], sensors: &[SensorMount]) -> Result<()
             let item = format!("encoder noise on {port}");
             let error = SpecError::new(item, "must not be below 0");
             return Err(error.in_part(Part::EncoderNoise(*port)).in_part(Part::Motor(index)));
+        }
+        if let Some([low, high]) = stops {
+            let is_around_start =
+                (-MOST_TURN..=0.0).contains(low) && (0.0..=MOST_TURN).contains(high);
+            if !is_around_start || low >= high {
+                return fault(
+                    "needs stops(Min, Max) with Min =< 0 =< Max, Min < Max, in degrees, \
+                     at most 1000000",
+                );
+            }
+            if kind.travel.is_some() {
+                return fault("has the stops of its stroke");
+            }
+            if wheels.is_some_and(|wheels| wheels.ports().contains(port)) {
+                return fault("turns a wheel, which has no stops");
+            }
         }
         used.push(*port);
     }

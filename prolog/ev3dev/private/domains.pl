@@ -122,4 +122,5 @@ allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
 allowed(volume,             'a volume is a number from 0 to 100').
+allowed(mounting_option,    [stops('Min', 'Max')]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).

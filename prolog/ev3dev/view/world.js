@@ -669,7 +669,7 @@ export class World {
     const ink = '#1c1e22';
     const axle = spec?.axle ?? reach * 1.3;
     const wheels = new Path2D();
-    for (const [side, wheel] of [[-1, spec?.left], [1, spec?.right]]) {
+    for (const [side, wheel] of spec && !spec.left ? [] : [[-1, spec?.left], [1, spec?.right]]) {
       const d = wheel?.d ?? reach * 0.7;
       wheels.roundRect((side * axle) / 2 - 1.2, -d / 2, 2.4, d, 0.8);
     }

@@ -31,7 +31,7 @@ use crate::machine::tree::{Hardware, Tree};
 use crate::mechanics::Body;
 use crate::mechanics::shaft::Shaft;
 use crate::noise::Teeth;
-use crate::robot::RobotSpec;
+use crate::robot::{RobotSpec, Wheels};
 use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
@@ -123,7 +123,8 @@ impl Machine {
         let shafts = std::array::from_fn(|slot| {
             let mount = robot.motors.iter().find(|mount| mount.port.slot() == slot);
             let sigma = mount.map_or(0.0, |mount| mount.encoder_noise);
-            Shaft::new(Teeth::new(sigma, options.seed, slot))
+            let stops = mount.and_then(|mount| mount.stops);
+            Shaft::new(Teeth::new(sigma, options.seed, slot), stops)
         });
         let mut machine = Machine {
             options,
@@ -177,7 +178,7 @@ impl Machine {
         }
         self.check_free(&pose)?;
         self.body.place(pose);
-        for port in [self.robot.left.port, self.robot.right.port] {
+        for port in self.robot.wheels.iter().flat_map(Wheels::ports) {
             self.shafts[port.slot()].omega = 0.0;
         }
         self.hand_is_done();

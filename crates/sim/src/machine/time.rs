@@ -9,6 +9,7 @@ use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::mechanics::Load;
 use crate::noise::{Noise, Source};
+use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
 use crate::world::geometry::Pose;
 
@@ -141,20 +142,22 @@ impl Machine {
         }
         let (loads, amperes) = self.loads();
         self.set_current(amperes);
-        self.turn_wheels(&loads);
-        let wheels = [self.robot.left.port, self.robot.right.port];
+        let wheels = self.robot.wheels.map(|wheels| wheels.ports());
+        if let Some(wheels) = wheels {
+            self.turn_wheels(&loads, wheels);
+        }
         for port in OUTPUTS {
             let wired = self.wired(port);
             let shaft = &mut self.shafts[port.slot()];
-            if !wheels.contains(&port) {
+            if !wheels.is_some_and(|wheels| wheels.contains(&port)) {
                 shaft.omega = loads[port.slot()].turn_free(shaft.omega);
             }
             shaft.turn(wired, start_us);
         }
     }
 
-    fn turn_wheels(&mut self, loads: &[Load; 4]) {
-        let [left, right] = [self.robot.left.port.slot(), self.robot.right.port.slot()];
+    fn turn_wheels(&mut self, loads: &[Load; 4], wheels: [Port; 2]) {
+        let [left, right] = wheels.map(Port::slot);
         let mut omega = [self.shafts[left].omega, self.shafts[right].omega];
         let mut hits = Vec::new();
         let wheel_loads = [loads[left], loads[right]];
@@ -205,9 +208,12 @@ impl Machine {
         }
     }
 
-    /// How fast the left wheel's axle turns, in degrees per second, positive where it drives ahead.
+    /// How fast the left wheel's axle turns, in degrees per second, positive where it drives ahead;
+    /// 0 without wheels.
     fn axle_rate(&self) -> f64 {
-        let wheel = self.robot.left;
+        let Some(Wheels { left: wheel, .. }) = self.robot.wheels else {
+            return 0.0;
+        };
         let rate = self.shafts[wheel.port.slot()].omega.to_degrees();
         if wheel.inverted { -rate } else { rate }
     }
@@ -234,10 +240,12 @@ impl Machine {
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let (loads, _) = self.loads();
-        let [left, right] = [self.robot.left.port.slot(), self.robot.right.port.slot()];
-        let omega = [self.shafts[left].omega, self.shafts[right].omega];
-        let driving = self.body.energy(omega, &[loads[left], loads[right]]);
-        let free = (0..4).filter(|slot| ![left, right].contains(slot));
+        let wheels = self.robot.wheels.map(|wheels| wheels.ports().map(Port::slot));
+        let driving = wheels.map_or(0.0, |[left, right]| {
+            let omega = [self.shafts[left].omega, self.shafts[right].omega];
+            self.body.energy(omega, &[loads[left], loads[right]])
+        });
+        let free = (0..4).filter(|slot| !wheels.is_some_and(|wheels| wheels.contains(slot)));
         driving
             + free
                 .map(|slot| loads[slot].inertia * self.shafts[slot].omega.powi(2) / 2.0)

@@ -165,7 +165,7 @@ impl Limits {
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) pose: Pose,
-    /// Way of a wheel's contact point per rad of its motor, in cm.
+    /// Way of a wheel's contact point per rad of its motor, in cm; 0 without wheels.
     roll: [f64; 2],
     axle: f64,
     mass: f64,
@@ -189,10 +189,11 @@ fn roll(wheel: Wheel) -> f64 {
 impl Body {
     pub(crate) fn new(robot: &RobotSpec, pose: Pose) -> Body {
         let reach_m = robot.hull.reach() / 100.0;
+        let wheels = robot.wheels;
         Body {
             pose,
-            roll: [roll(robot.left), roll(robot.right)],
-            axle: robot.axle,
+            roll: wheels.map_or([0.0; 2], |wheels| [roll(wheels.left), roll(wheels.right)]),
+            axle: wheels.map_or(1.0, |wheels| wheels.axle),
             mass: robot.mass,
             moment: robot.mass * reach_m * reach_m / 2.0,
             turn_rate: 0.0,

@@ -15,17 +15,20 @@ pub(crate) struct Shaft {
     /// Radians per second.
     pub(crate) omega: f64,
     pub(crate) jammed: bool,
+    /// The angles that it cannot turn beyond.
+    stops: Option<[f64; 2]>,
     /// The brick's counter for this port.
     pub(crate) encoder: Encoder,
 }
 
 impl Shaft {
-    pub(crate) fn new(teeth: Teeth) -> Shaft {
+    pub(crate) fn new(teeth: Teeth, stops: Option<[f64; 2]>) -> Shaft {
         Shaft {
             kind: &MOTOR_KINDS[0],
             angle: 0.0,
             omega: 0.0,
             jammed: false,
+            stops,
             encoder: Encoder::new(teeth),
         }
     }
@@ -72,9 +75,12 @@ impl Shaft {
     /// Turns for one tick at its present speed. The counter follows while the wire is in.
     pub(crate) fn turn(&mut self, wired: bool, tick_start_us: u64) {
         let mut next = self.angle + self.omega.to_degrees() * TICK_SECONDS;
-        if let Some(travel) = self.kind.travel.filter(|t| !(0.0..=f64::from(*t)).contains(&next)) {
-            next = next.clamp(0.0, f64::from(travel));
-            self.omega = 0.0;
+        let travel = self.kind.travel.map(|travel| [0.0, f64::from(travel)]);
+        if let Some([low, high]) = travel.or(self.stops) {
+            if !(low..=high).contains(&next) {
+                next = next.clamp(low, high);
+                self.omega = 0.0;
+            }
         }
         if wired {
             self.encoder.turn(self.angle, next, tick_start_us);

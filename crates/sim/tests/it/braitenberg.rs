@@ -1,7 +1,7 @@
 //! Vehicles that are drawn to a lamp, or flee it: the paper's first programs.
 
-use crate::robots::default_robot;
-use ev3_sim::{Bounds, Item, Pose, RobotSpec, WorldSpec};
+use crate::robots::{default_robot, wheels};
+use ev3_sim::{Bounds, Item, Pose, RobotSpec, Wheels, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
@@ -44,7 +44,8 @@ fn vehicle_2_flees_the_lamp_and_its_crossed_twin_reaches_it() {
         let (nearest, _) = vehicle_2(&default_robot(), start);
         assert!(nearest > 30.0, "shy: {nearest} from {begin}");
         let mut crossed = default_robot();
-        std::mem::swap(&mut crossed.left.port, &mut crossed.right.port);
+        let Wheels { left, right, .. } = wheels(&mut crossed);
+        std::mem::swap(&mut left.port, &mut right.port);
         let (nearest, _) = vehicle_2(&crossed, start);
         assert!(nearest < 10.0, "crossed: {nearest} from {begin}");
     }

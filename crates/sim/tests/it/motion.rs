@@ -1,7 +1,7 @@
 //! The robot drives: distances, turns, walls.
 
-use crate::robots::default_robot;
-use ev3_sim::{Bounds, Hull, Item, Pose, RobotSpec, WorldSpec};
+use crate::robots::{default_robot, wheels};
+use ev3_sim::{Bounds, Hull, Item, Pose, RobotSpec, Wheels, WorldSpec};
 
 use crate::desk::{B, C, Desk};
 
@@ -67,16 +67,17 @@ fn mounting_and_wheels_make_a_difference() {
         desk.0.pose()
     };
     let mut robot = default_robot();
-    robot.left.inverted = true;
-    robot.right.inverted = true;
+    wheels(&mut robot).left.inverted = true;
+    wheels(&mut robot).right.inverted = true;
     assert_near(forward(&robot), Pose::new(0.0, -720.0 / PER_CM, 0.0), 0.3, 0.1);
     let mut robot = default_robot();
-    std::mem::swap(&mut robot.left.port, &mut robot.right.port);
-    robot.left.diameter = 5.5;
+    let Wheels { left, right, .. } = wheels(&mut robot);
+    std::mem::swap(&mut left.port, &mut right.port);
+    left.diameter = 5.5;
     let pose = forward(&robot);
     assert!(pose.heading < -3.0 && pose.x < -0.5, "pulls to the smaller, left wheel: {pose:?}");
     let mut robot = default_robot();
-    robot.right.slip = 0.05;
+    wheels(&mut robot).right.slip = 0.05;
     assert!(forward(&robot).heading > 5.0, "pulls to the slipping, right wheel");
 }
 

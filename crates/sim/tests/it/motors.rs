@@ -1,6 +1,8 @@
 //! The state machine of a tacho motor, transition by transition (`docs/ev3dev-sysfs.md`, 3).
 
+use ev3_sim::facts::Fact;
 use ev3_sim::{Access, Descriptor, Errno, Port};
+use ev3_sim::{MotorMount, Noise, Pose, RobotSpec, WorldSpec};
 
 use crate::desk::{A, B, C, Desk};
 
@@ -631,4 +633,25 @@ fn a_ramp_to_the_smallest_number_overflows() {
     assert_eq!(desk.state(B), "running ramping");
     let duty = desk.number(&format!("{B}duty_cycle"));
     assert!((80..=90).contains(&duty), "{duty}: ahead, not back");
+}
+
+#[test]
+fn an_end_stop_stalls_in_its_direction_only_also_without_wheels() {
+    let motor = Fact::Motor(MotorMount {
+        port: Port::OutA,
+        driver: "lego-ev3-m-motor".into(),
+        noise: Noise::NONE,
+        encoder_noise: 0.0,
+        stops: Some([-30.0, 90.0]),
+    });
+    let robot = RobotSpec::from_facts(&[motor]).unwrap();
+    let mut desk = Desk::with(&WorldSpec::default(), &robot);
+    for (duty, end) in [(50, 90.0), (-50, -30.0), (50, 90.0)] {
+        desk.run(A, &[("duty_cycle_sp", duty)], "run-direct");
+        desk.step(1000);
+        assert_eq!(desk.0.shaft_angle(Port::OutA).to_bits(), f64::to_bits(end), "{duty}");
+        assert!(desk.0.kinetic_energy() <= 0.0);
+        assert_eq!(desk.state(A), "running stalled");
+    }
+    assert_eq!(desk.0.pose(), Pose::default(), "nothing drives");
 }

@@ -3,7 +3,7 @@
 
 use ev3_sim::facts::Fact;
 use ev3_sim::{Hull, Machine, MotorMount, Noise, Options, Pose, RobotSpec, SensorMount};
-use ev3_sim::{Wheel, WorldSpec};
+use ev3_sim::{Wheel, Wheels, WorldSpec};
 
 /// The robot of the paper.
 pub(crate) fn default_robot() -> RobotSpec {
@@ -13,6 +13,18 @@ pub(crate) fn default_robot() -> RobotSpec {
 /// The same with a bumper on in4 in the place of the gyro.
 pub(crate) fn touch_robot() -> RobotSpec {
     read(include_str!("../../../../prolog/ev3dev/robots/touch.pl"))
+}
+
+/// The wheels of a robot that has some.
+pub(crate) fn wheels(robot: &mut RobotSpec) -> &mut Wheels {
+    robot.wheels.as_mut().unwrap()
+}
+
+/// The robot of the paper with another axle.
+pub(crate) fn with_axle(axle: f64) -> RobotSpec {
+    let mut robot = default_robot();
+    wheels(&mut robot).axle = axle;
+    robot
 }
 
 /// The default robot on an endless floor, without noise.
@@ -48,6 +60,7 @@ fn fact(line: &str) -> Fact {
             driver: words[1].into(),
             noise,
             encoder_noise: 0.0,
+            stops: None,
         }),
         "sensor" => {
             let pose = Pose::new(number(2), number(3), number(4));

@@ -1,7 +1,7 @@
 //! The robot at walls: it slides along them, never enters one, and comes off again.
 
-use crate::robots::default_robot;
-use ev3_sim::{Bounds, Hull, Item, Machine, Pose, RobotSpec, Wheel, WorldSpec};
+use crate::robots::{default_robot, wheels};
+use ev3_sim::{Bounds, Hull, Item, Machine, Pose, RobotSpec, Wheels, WorldSpec};
 use proptest::prelude::*;
 
 use crate::desk::{B, C, Desk};
@@ -130,10 +130,10 @@ fn rooms(largest: f64) -> impl Strategy<Value = Room> {
 
 impl Room {
     fn desk(&self) -> Desk {
-        let robot = default_robot();
-        let larger = |wheel: Wheel| Wheel { diameter: wheel.diameter * self.size, ..wheel };
-        let (left, right) = (larger(robot.left), larger(robot.right));
-        let robot = RobotSpec { left, right, hull: self.hull, ..robot };
+        let mut robot = RobotSpec { hull: self.hull, ..default_robot() };
+        let Wheels { left, right, .. } = wheels(&mut robot);
+        left.diameter *= self.size;
+        right.diameter *= self.size;
         let bounds = Some(Bounds { low: [-70.0, -70.0], high: [70.0, 70.0] });
         let mut desk = Desk::with(&WorldSpec { bounds, ..WorldSpec::default() }, &robot);
         for item in &self.items {

@@ -1,6 +1,6 @@
 //! Ground truth: items, collisions, snapshots, trace, picture.
 
-use crate::robots::default_robot;
+use crate::robots::{default_robot, wheels, with_axle};
 use ev3_sim::facts::{Fact, culprit};
 use ev3_sim::{
     Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
@@ -35,10 +35,9 @@ fn impossible_worlds_and_robots_are_named() {
     "lego-ev3-radar".clone_into(&mut robot.sensors[2].driver);
     assert!(build(&world, &robot).contains("lego-ev3-radar"));
     let mut robot = default_robot();
-    robot.left.port = robot.right.port;
+    wheels(&mut robot).left.port = wheels(&mut robot).right.port;
     assert!(build(&world, &robot).contains("wheel"));
-    let robot = RobotSpec { axle: -1.0, ..default_robot() };
-    assert!(build(&world, &robot).contains("axle"));
+    assert!(build(&world, &with_axle(-1.0)).contains("axle"));
 }
 
 #[test]
@@ -66,7 +65,7 @@ fn numbers_are_within_10_km() {
             assert!(build(world, &robot).is_err(), "{world:?}");
         }
         let robots = [
-            RobotSpec { axle: number, ..default_robot() },
+            with_axle(number),
             RobotSpec { mass: number, ..default_robot() },
             RobotSpec { hull: Hull::Circle { radius: number }, ..default_robot() },
         ];
@@ -77,7 +76,7 @@ fn numbers_are_within_10_km() {
     }
     let start = Pose::new(1e6, -1e6, 1e6);
     assert!(build(&WorldSpec { start, ..WorldSpec::default() }, &robot).is_ok());
-    assert!(build(&WorldSpec::default(), &RobotSpec { axle: 1e-300, ..robot }).is_err());
+    assert!(build(&WorldSpec::default(), &with_axle(1e-300)).is_err());
 }
 
 #[test]
@@ -107,7 +106,13 @@ fn errors_are_put_to_the_fact_that_is_to_blame() {
 
     let motor = |port| {
         let driver = "lego-ev3-l-motor".to_owned();
-        Fact::Motor(MotorMount { port, driver, noise: Noise::NONE, encoder_noise: 0.0 })
+        Fact::Motor(MotorMount {
+            port,
+            driver,
+            noise: Noise::NONE,
+            encoder_noise: 0.0,
+            stops: None,
+        })
     };
     let facts = [Fact::Axle(9.0), motor(Port::OutB), motor(Port::OutB)];
     let error = RobotSpec::from_facts(&facts).unwrap_err();

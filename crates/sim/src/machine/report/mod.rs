@@ -16,7 +16,7 @@ use crate::brick::panel::Button;
 use crate::brick::screen::{Depth, HEIGHT, WIDTH};
 use crate::machine::Machine;
 use crate::machine::tree::Hardware;
-use crate::robot::Wheel;
+use crate::robot::{Wheel, Wheels};
 use crate::sense::sight::Sight;
 use crate::world::Hull;
 use crate::world::geometry::{Pose, Vec2};
@@ -50,15 +50,15 @@ impl Machine {
         json.object(|json| {
             json.key("hull");
             report_hull(json, robot.hull);
-            for (name, Wheel { port, diameter, .. }) in
-                [("left", robot.left), ("right", robot.right)]
-            {
-                json.key(name).object(|json| {
-                    json.key("port").text(port.name());
-                    json.key("d").number(diameter, FINE);
-                });
+            if let Some(Wheels { left, right, axle }) = robot.wheels {
+                for (name, Wheel { port, diameter, .. }) in [("left", left), ("right", right)] {
+                    json.key(name).object(|json| {
+                        json.key("port").text(port.name());
+                        json.key("d").number(diameter, FINE);
+                    });
+                }
+                json.key("axle").number(axle, FINE);
             }
-            json.key("axle").number(robot.axle, FINE);
             json.key("sensors").array(|json| {
                 for mount in &robot.sensors {
                     json.object(|json| {
