@@ -168,6 +168,9 @@ beacons, too; an angle sensor sits on the axle of the left wheel, an
 accelerometer lies flat and measures gravity alone, and a proximity detector
 sees things within 25 cm.
 
+The world is flat: no robot falls over, and a gyro measures only turns around
+the upright axis. So a program that balances cannot be tested here.
+
 The other types of sensor_mode/6 have nothing to measure in this world. They
 exist, with all their modes, and always show the same: the air has 1013 mbar,
 boxes for motors and servos have 6 V, a camera sees nothing.
