@@ -43,11 +43,12 @@ tell(obstacle(Cell)) :-
     format("obstacle in ~w~n", [Cell]).
 
 tell(reached, Goal) :-
+    !,
     format("arrived at ~w~n", [Goal]).
 tell(no_way, Goal) :-
+    !,
     format("there is no way to ~w~n", [Goal]).
 tell(Reason, Goal) :-
-    \+ memberchk(Reason, [reached, no_way]),
     format("cannot go on to ~w: ~w~n", [Goal, Reason]).
 
 %   True if the robot may enter a cell, as far as it knows. The planner of

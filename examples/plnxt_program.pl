@@ -30,18 +30,18 @@ start :-
 :- dynamic time_is_up/0.
 
 look_at_the_floor :-
-    time_is_up.
-look_at_the_floor :-
-    \+ time_is_up,
-    nxt_light(Light, force),
-    react(Light),
-    sleep(0.1),
-    look_at_the_floor.
+    (   time_is_up
+    ->  true
+    ;   nxt_light(Light, force),
+        react(Light),
+        sleep(0.1),
+        look_at_the_floor
+    ).
 
 react(Light) :-
-    Light < 30,
-    nxt_go_cm(-400, 15),
-    nxt_rotate(300, 130),
-    nxt_go(400).
-react(Light) :-
-    Light >= 30.
+    (   Light < 30
+    ->  nxt_go_cm(-400, 15),
+        nxt_rotate(300, 130),
+        nxt_go(400)
+    ;   true
+    ).

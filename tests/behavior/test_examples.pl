@@ -1,6 +1,7 @@
 % Each example loads without a word, each in a program of its own; none of its
 % names is that of a library that may be loaded beside it; `make demo` starts it.
 
+:- use_module('../support/child').
 :- use_module(library(plunit)).
 :- use_module(library(process)).
 :- use_module(library(readutil)).
@@ -53,6 +54,48 @@ test(make_demo_knows_its_start,
     strip_module(user:Goal, Module, Start),
     atomic_list_concat(['examples/', Program, '.pl'], Example),
     loads(Example, predicate_property(Module:Start, defined), Said, End).
+
+%   At the toplevel it would wait for a key, and to the view a program would
+%   run. An example that does not end by itself is left.
+
+test(leaves_no_choice_point,
+     [ forall(( example(File), program(File, Name) )),
+       true(Status-Found == exit(0)-"") ]) :-
+    format(string(Goal), "find(~q, ~q)", [Name, File]),
+    run_program(
+        ":- use_module(library(ev3dev)).
+         :- use_module(library(ev3dev/sim)).
+         :- load_files(demo:'tools/demo.pl', []).
+         find(Name, File) :-
+             user:load_files(File, []),
+             (   demo:demo(Name, World, Goal)
+             ->  true
+             ;   World = room,
+                 Goal = start
+             ),
+             (   demo:robot(Name, Robot)
+             ->  true
+             ;   Robot = default
+             ),
+             sim_start(World, [clock(virtual), robot(Robot)]),
+             demo:prepare(Name),
+             with_output_to(string(_), for_seconds(100, called(Goal, Left))),
+             (   Left == true
+             ->  write(Goal)
+             ;   true
+             ).
+         called(Goal, Left) :-
+             call_cleanup(Goal, Ended = true),
+             (   Ended == true
+             ->  true
+             ;   Left = true
+             ).",
+        [goal(Goal)], Status, Found).
+
+program(File, Name) :-
+    file_base_name(File, Base),
+    file_name_extension(Name, _, Base),
+    \+ memberchk(Name, [grid_planner, plnxt]). % which are a part of one
 
 example(File) :-
     expand_file_name('examples/*.pl', Files),
