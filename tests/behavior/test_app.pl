@@ -1,7 +1,9 @@
 % The pack from a shell: app/ev3dev.pl, its answers and its exit status.
 
 :- use_module('../support/child').
+:- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(process)).
 :- use_module(library(readutil)).
 
 app(Line, Status, Output) :-
@@ -296,3 +298,30 @@ without_view(Typed, Line) :-
     ).
 
 :- end_tests(app_in_papers).
+
+%   An installed pack has no Makefile.
+
+:- begin_tests(install, [condition(exists_file('Makefile'))]).
+
+%   What `make check` would do, in the environment of pack_install or not.
+
+checks(Environment, Output) :-
+    append([Environment, ['MAKEFLAGS=', make, '-n', check]], Arguments),
+    process_create(path(env), Arguments,
+                   [stdout(pipe(Out)), stderr(null), process(Pid)]),
+    read_string(Out, _, Output),
+    close(Out),
+    process_wait(Pid, exit(0)).
+
+test(a_shell_checks_all) :-
+    checks([], Output),
+    said(Output, ["cargo test", "tests/run.sh"]).
+test(pack_install_checks_the_least,
+     [forall(member(Name, ['SWIHOME', 'SWIPL_HOME_DIR']))]) :-
+    atom_concat(Name, '=/usr/lib/swi-prolog', Assignment),
+    checks([Assignment], Output),
+    said(Output, ["tests/brick/smoke.pl", "tests/brick/example.pl"]),
+    assertion(\+ has(Output, "tests/run.sh")),
+    assertion(\+ has(Output, "cargo test")).
+
+:- end_tests(install).
