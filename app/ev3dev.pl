@@ -101,7 +101,8 @@ version :-
     Major is Prolog//10000,
     Minor is Prolog//100 mod 100,
     Patch is Prolog mod 100,
-    format("ev3dev ~w, SWI-Prolog ~d.~d.~d~n", [Version, Major, Minor, Patch]).
+    format("ev3dev ~w, SWI-Prolog ~d.~d.~d~n",
+           [Version, Major, Minor, Patch]).
 
                 /*******************************
                 *           COMMANDS           *

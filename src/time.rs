@@ -57,7 +57,7 @@ predicates! {
     #[name("guards_")]
     semidet fn guards(_context) {
         note_guards();
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// tick_after_(+Seconds): this thread serves its events after some time, or, if that

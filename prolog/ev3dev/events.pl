@@ -33,8 +33,8 @@
 :- use_module(private/native,
               [ branches_begin_/0, branches_end_/0, branches_leave_/0,
                 branches_look_/1, cause_now_/1, cause_set_/1, commands_/1,
-                guards_/0, motors_stop_/2, now_/1, serve_at_prompt_/0, slices_/1,
-                tick_after_/1
+                guards_/0, motors_stop_/2, now_/1, serve_at_prompt_/0,
+                slices_/1, tick_after_/1
               ]).
 :- use_module(time, [wait/1]).
 

@@ -69,7 +69,8 @@ while(hungry), cooldown(2) :: light(L), L > 60 ~> S is L/2, go(S)`.
      has been false once, unless the guard is `true`. An action that fails
      prints a warning the first time, and counts as ended. If no rule is
      active, the robot rests.
-  6. Guards must not wait or start a motor: that throws permission_error(wait, guard, Name).
+  6. Guards must not wait or start a motor: that throws
+     permission_error(wait, guard, Name).
 
 Options of a rule:
 
@@ -118,7 +119,8 @@ rule_clauses(Head, Guard0, Action,
              ]) :-
     head(Head, Name, Options),
     must_be(callable, Guard0),
-    condition_goal(Guard0, _:Guard),
+    prolog_load_context(module, Module),
+    condition_goal(Module:Guard0, _:Guard),
     must_be_action(Action).
 
 %   A list is a whole action. As a part of one it would load files.
@@ -199,11 +201,11 @@ rule(Term, _, _, _, _, _) :-
     var(Term),
     !,
     instantiation_error(Term).
-rule((Head :: Guard0 ~> Action), _, Name, Options, Guard, Action) :-
+rule((Head :: Guard0 ~> Action), Module, Name, Options, Guard, Action) :-
     !,
     head(Head, Name, Options),
     must_be(callable, Guard0),
-    condition_goal(Guard0, _:Guard),
+    condition_goal(Module:Guard0, _:Guard),
     must_be_action(Action).
 rule(Rule, _, _, _, _, _) :-
     Rule = (_ :: _ -> _),
@@ -259,7 +261,8 @@ shared([V|Vs], Others, Shared) :-
 %
 %   @error existence_error(rule, Name)
 %   @error type_error(rule, Term)
-%   @error permission_error(wait, guard, Name) if a guard waits or starts a motor
+%   @error permission_error(wait, guard, Name) if a guard waits or starts a
+%          motor
 %   @error domain_error(behave_option, Option)
 
 behave(Rules) :-

@@ -53,9 +53,9 @@ takes little of the processor's time. Motors go on meanwhile.
 %     - touch(Port) = bumped
 %       `bumped` is pressed and released again.
 %
-%   or is a goal, as for until/2 of library(ev3dev/events): `(us_dist_cm(_, D),
-%   D < 20)`, or comparisons joined by `,` and `;`. It is looked at every 20 ms
-%   and must not wait or start a motor.
+%   or is a goal, as for until/2 of library(ev3dev/events):
+%   `(us_dist_cm(_, D), D < 20)`, or comparisons joined by `,` and `;`. It is
+%   looked at every 20 ms and must not wait or start a motor.
 %
 %   Options:
 %

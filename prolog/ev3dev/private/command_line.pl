@@ -1,5 +1,5 @@
 :- module(ev3dev_command_line,
-          [ command_line/4,             % +Arguments, -Command, -Files, -Options
+          [ command_line/4,             % +Arguments, -Command, -Files, -O
             setting/3,                  % +Name, +Options, -Value
             setting/4,                  % +Name, +Options, -Value, +Default
             is_help/2,                  % +Arguments, -Command

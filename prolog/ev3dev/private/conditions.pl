@@ -68,23 +68,23 @@ sensor_named(Sensor, Reading, Port) :-
 %          `bumped`, which takes time
 
 condition_goal(Module:Condition, Module:Goal) :-
-    goal_of(Condition, Goal).
+    goal_of(Condition, Module, Goal).
 
-goal_of(Condition, Goal) :-
+goal_of(Condition, Module, Goal) :-
     (   var(Condition)
     ->  Goal = Condition
     ;   part(Condition, A0, B0, A, B, Goal)
-    ->  goal_of(A0, A),
-        goal_of(B0, B)
+    ->  goal_of(A0, Module, A),
+        goal_of(B0, Module, B)
     ;   Condition = (\+ A0)
-    ->  goal_of(A0, A),
+    ->  goal_of(A0, Module, A),
         Goal = (\+ A)
     ;   Condition = (Sensor = Word),
         nonvar(Sensor),
         Sensor = touch(Port),
         nonvar(Word)
     ->  (   memberchk(Word-Value, [pressed-1, released-0])
-        ->  Goal = ev3dev:touch(Port, Value)
+        ->  Goal = ev3dev_sensors:touch(Port, Value)
         ;   throw_error(domain_error(sensor_condition, Condition), _,
                         'here touch(Port) is pressed or released')
         )
@@ -93,7 +93,7 @@ goal_of(Condition, Goal) :-
         reading_of(Reading, _, _, _)
     ->  (   Arity =:= 1
         ->  arg(1, Sensor, Port),
-            compares(Reading, Port, Operator, Number, Goal)
+            compares(Reading, Port, Operator, Number, Module, Goal)
         ;   two_dialects(Condition, Reading, Operator, Number)
         )
     ;   Goal = Condition
@@ -110,10 +110,10 @@ two_dialects(Condition, Reading, Operator, Number) :-
 
 %   As a program would write it, so that library(ev3dev/journal) can tell.
 
-compares(Reading, Port, Operator, Number, (Read, Comparison)) :-
+compares(Reading, Port, Operator, Number, Module, (Read, Comparison)) :-
     Read0 =.. [Reading, Port, Value],
-    (   predicate_property(ev3dev:Read0, visible)
-    ->  Read = ev3dev:Read0
-    ;   Read = ev3dev:sensor_reading(Reading, Port, Value)
+    (   predicate_property(Module:Read0, visible)
+    ->  Read = Read0
+    ;   Read = ev3dev_sensors:sensor_reading(Reading, Port, Value)
     ),
     Comparison =.. [Operator, Value, Number].

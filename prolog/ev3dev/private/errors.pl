@@ -229,11 +229,17 @@ outwards(Frame, Called0, Called) :-
     ;   Called = Called0
     ).
 
+%!  in_pack(+Indicator, -Module, -Predicate) is semidet.
+%
+%   True if Indicator, that of a frame, is Module:Predicate of the pack.
+
 in_pack(Module:Predicate, Module, Predicate) :-
     sub_atom(Module, 0, _, _, ev3dev).
 
-%   True if a public library exports the predicate. It may import it from a
-%   private module.
+%!  is_public(?Module, +Predicate) is semidet.
+%
+%   True if a public library exports the Predicate of Module, Name/Arity. The
+%   library may import it from a private module.
 
 is_public(Module, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -249,6 +255,10 @@ is_public(Module, Name/Arity) :-
     ;   predicate_property(Library:Head, imported_from(Module))
     ),
     !.
+
+%!  is_of_system(+Indicator) is semidet.
+%
+%   True if Indicator, that of a frame, is one of Prolog's own predicates.
 
 is_of_system(_/_).
 is_of_system(Module:_) :-
@@ -348,9 +358,9 @@ note_exports([Name/Arity|Exports], Module) :-
 
 %!  term_expansion(+Clause0, ?Layout0, -Clause, -Layout) is semidet.
 %
-%   Keep the frames of exported predicates by `true` after the last call. A
-%   clause without its layout would break the backtraces of library(prolog_stack)
-%   up to SWI-Prolog 9.2.
+%   Keep the frames of exported predicates by `true` after the last call.
+%   Without its layout, a clause would break the backtraces of
+%   library(prolog_stack) up to SWI-Prolog 9.2.
 
 term_expansion((Head :- Body), Layout0, (Head :- Body, true), Layout) :-
     prolog_load_context(module, Module),

@@ -68,7 +68,7 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
     },
     [ '~wOperator expected: ~~> is one of library(ev3dev/rules), '-[Place],
       'which is not loaded: first'-[], nl,
-      '  use_module(library(ev3dev/rules)).'-[]
+      '  use_module(library(ev3dev/~w)).'-[rules]
     ].
 
 text_of(string(Text, _), Text, '').
@@ -115,8 +115,8 @@ unqualified(Predicate0, Predicate) :-
 
 %!  library_of(+Predicate, -Library) is semidet.
 %
-%   True if library(ev3dev/Library) is the one to load for Predicate. The table
-%   is loaded when it is needed for the first time.
+%   True if library(ev3dev/Library) is the one to load for Predicate. The
+%   table is loaded when it is needed for the first time.
 
 library_of(Predicate, Library) :-
     (   module_property(ev3dev_libraries, file(_))
@@ -126,6 +126,7 @@ library_of(Predicate, Library) :-
         atom_concat(Private, '/libraries', File),
         use_module(File, [])
     ),
-    ev3dev_libraries:in_library(Library, Predicates),
+    Table = ev3dev_libraries:in_library(Library, Predicates),
+    call(Table),
     memberchk(Predicate, Predicates),
     !.

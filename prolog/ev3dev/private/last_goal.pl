@@ -90,7 +90,8 @@ prolog:message(ev3dev(thrown(Ball))) -->
     ;   [ '~p was thrown'-[Blamed] ]
     ).
 
-%   A context with a text names what was called. Others may name what calls it.
+%   A context with a text names what was called. Others may name what calls
+%   it.
 
 blamed(Ball, Called, Blamed) :-
     (   Ball = error(Formal, Context),

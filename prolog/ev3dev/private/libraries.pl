@@ -20,7 +20,8 @@ in_library(sim,
       sim_pose/3, sim_press/1, sim_press/2, sim_release/1, sim_remote/2,
       sim_remove/1, sim_restore/1, sim_show/3, sim_snapshot/1, sim_start/1,
       sim_start/2, sim_step/1, sim_stop/0, sim_svg/1, sim_time/1,
-      sim_trace/1, sim_unmount/0, sim_unplug/1, sim_where/0, sim_unshow/2, sim_wait/1,
+      sim_trace/1, sim_unmount/0, sim_unplug/1, sim_unshow/2,
+      sim_wait/1, sim_where/0,
       with_sim/2, with_sim/3
     ]).
 in_library(drive,

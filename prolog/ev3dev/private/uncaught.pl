@@ -19,9 +19,9 @@ and which up to SWI-Prolog 9.2 cannot be printed for clauses whose layout an
 expansion has not kept. Prolog gives up frames of the program for their last
 calls; a line that is missing is such a call.
 
-No tracer opens, as Prolog's own would after an error in a goal with choice points
-or clean-ups. After `debug.`, or with the flag `access_level` set to `system`,
-all is as Prolog has it.
+No tracer opens, as Prolog's own would after an error in a goal with choice
+points or clean-ups. After `debug.`, or with the flag `access_level` set to
+`system`, all is as Prolog has it.
 */
 
 :- multifile prolog:message//1.
@@ -160,8 +160,8 @@ uncaught(Catcher, _) :-
     prolog_frame_attribute(Catcher, predicate_indicator,
                            system:catch_with_backtrace/3).
 
-%   Before 7.6 the hook does not know of a catch/3 around native code that calls
-%   Prolog.
+%   Before 7.6 the hook does not know of a catch/3 around native code that
+%   calls Prolog.
 
 :- if((current_prolog_flag(version, Version), Version < 70600)).
 
@@ -251,10 +251,10 @@ place(Frame, PC, Predicate, place(Shown, File, Line)) :-
 line(Clause, PC, Line) :-
     integer(PC),
     current_module(prolog_stack),
-    catch(prolog_stack:subgoal_position(Clause, PC, File, Begin, _),
-          error(_, _), fail),
-    atom(File),
-    catch(prolog_stack:lineno(File, Begin, Line), error(_, _), fail),
+    Where = prolog_stack:prolog_stack_frame_property(
+                             frame(0, clause(Clause, PC), 0),
+                             location(_:Line)),
+    catch(Where, error(_, _), fail),
     !.
 line(Clause, _, Line) :-
     clause_property(Clause, line_count(Line)).
@@ -266,7 +266,8 @@ short(Path, File) :-
     ;   File = Path
     ).
 
-%   It stands before that of library(prolog_stack), which may be loaded already.
+%   It stands before that of library(prolog_stack), which may be loaded
+%   already.
 
 :- if((current_prolog_flag(version, Version), Version >= 90107)).
 

@@ -1,6 +1,6 @@
-% A sumo ring: black, 77 cm in radius, with a white floor around it. The other
-% robot is a round thing that stands still, behind our robot and to the left. It
-% cannot be pushed, see docs/worlds.md.
+% A sumo ring: black, 77 cm in radius, with a white floor around it. The
+% other robot is a round thing that stands still, behind our robot and to the
+% left. It cannot be pushed, see docs/worlds.md.
 
 bounds(-150, -150, 150, 150).
 patch(black,
