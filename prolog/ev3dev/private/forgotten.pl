@@ -126,7 +126,7 @@ library_of(Predicate, Library) :-
         atom_concat(Private, '/libraries', File),
         use_module(File, [])
     ),
-    Table = ev3dev_libraries:in_library(Library, Predicates),
-    call(Table),
+    Table =.. [in_library, Library, Predicates],
+    call(ev3dev_libraries:Table),
     memberchk(Predicate, Predicates),
     !.

@@ -5,6 +5,7 @@
             keeping/1                   % :Goal
           ]).
 :- use_module(library(lists), [same_length/2]).
+:- use_module(uncaught, [in_words//1]).
 
 /** <module> The goal of a program that was called last
 
@@ -86,7 +87,7 @@ prolog:message(ev3dev(thrown(Ball))) -->
     ;   { Blamed = Ball }
     ),
     (   { Blamed = error(_, _) }
-    ->  '$messages':translate_message(Blamed)
+    ->  in_words(Blamed)
     ;   [ '~p was thrown'-[Blamed] ]
     ).
 

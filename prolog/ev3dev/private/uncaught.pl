@@ -1,4 +1,6 @@
-:- module(ev3dev_uncaught, []).
+:- module(ev3dev_uncaught,
+          [ in_words//1                 % +Message
+          ]).
 :- use_module(errors, [in_pack/3, is_of_system/1, is_public/2]).
 :- use_module(forgotten, [library_of/2]).
 :- use_module(native, [running_/1]).
@@ -31,7 +33,7 @@ prolog:message(unhandled_exception(Error)) -->
     prolog:message(Error).
 prolog:message(Error) -->
     { is_located(Error, Plain, Places) },
-    '$messages':translate_message(Plain),
+    in_words(Plain),
     places(Places).
 prolog:message(error(_, Context)) -->
     { nonvar(Context),
@@ -40,6 +42,15 @@ prolog:message(error(_, Context)) -->
       is_ours(Called)
     },
     [ '~q: ~w'-[Called, Text] ].
+
+%!  in_words(+Message, -Lines, ?Rest) is det.
+%
+%   Lines, up to Rest, are those of a Message, as print_message/2 words it. All
+%   versions have this, though none documents it.
+
+in_words(Message, Lines, Rest) :-
+    Translation =.. [translate_message, Message, Lines, Rest],
+    call('$messages':Translation).
 
 places([]) -->
     [].

@@ -8,6 +8,7 @@
 :- use_module('../journal_words', [cause_words//1]).
 :- use_module('../causes', [causes/2, follow/1, follow_no_more/0]).
 :- use_module('../native', [view_log_/4, view_serves_/0]).
+:- use_module('../uncaught', [in_words//1]).
 
 /** <module> What the page's log is told
 
@@ -134,14 +135,9 @@ error_text(error(Formal, context(_, Message)), Text) :-
     ;   format(string(Text), "~w", [Message])
     ).
 error_text(Error, Text) :-
-    catch(( message_lines(Error, Lines),
+    catch(( in_words(Error, Lines, []),
             lines_text(Lines, Text) ),
           _, fail),
     !.
 error_text(Error, Text) :-
     format(string(Text), "~q", [Error]).
-
-%   As print_message/2 words it. All versions have this, though none tells.
-message_lines(Error, Lines) :-
-    Translation =.. [translate_message, Error, Lines, []],
-    call('$messages':Translation).
