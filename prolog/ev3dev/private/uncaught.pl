@@ -45,8 +45,8 @@ prolog:message(error(_, Context)) -->
 
 %!  in_words(+Message, -Lines, ?Rest) is det.
 %
-%   Lines, up to Rest, are those of a Message, as print_message/2 words it. All
-%   versions have this, though none documents it.
+%   Lines, up to Rest, are those of a Message, as print_message/2 words it.
+%   All versions have this, though none documents it.
 
 in_words(Message, Lines, Rest) :-
     Translation =.. [translate_message, Message, Lines, Rest],
