@@ -34,7 +34,7 @@ show(Example, Seconds, View) :-
         Pace = 'six times as fast as real'
     ),
     format("~w of ~w, ~w:~n", [Goal, Example, Pace]),
-    thread_create(tell, Teller),
+    thread_create(tell, Teller, []),
     prepare(Example),
     catch(call_with_time_limit(Seconds, ignore(user:Goal)),
           time_limit_exceeded,

@@ -40,11 +40,18 @@ load_pack :-
 source(File) :-
     pack_file(File).
 source(File) :-
-    expand_file_name('examples/*.pl', Files),
-    member(File, Files).
-source('app/ev3dev.pl').
+    member(Pattern, ['examples/*.pl', 'app/*.pl', 'tools/*.pl']),
+    expand_file_name(Pattern, Files),
+    member(File, Files),
+    \+ for_new(File).
 source('tests/brick/smoke.pl').
 source('tests/brick/example.pl').
+
+%   The site of pages needs pldoc of version 9, and the other one tries that
+%   version on the brick.
+
+for_new('tools/doc.pl').
+for_new('tools/check-brick-prolog.pl').
 
 pack_file(File) :-
     member(Pattern,

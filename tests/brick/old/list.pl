@@ -30,6 +30,9 @@ fact(flag, Flag) :-
     current_prolog_flag(Flag, _).
 fact(operator, op(Priority, Type, Name)) :-
     current_op(Priority, Type, Name).
+fact(module(Module), Predicate) :-      % not for all, but used
+    member(Module-Predicate, ['$messages'-translate_message/3]),
+    current_predicate(Module:Predicate).
 fact(library(Library), Export) :-
     member(Part, ['', 'clp/', 'dcg/', 'http/']),
     atomic_list_concat([Part, '*.pl'], Pattern),

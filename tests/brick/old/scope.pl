@@ -220,6 +220,11 @@ elsewhere(Module, Goal) :-
     ),
     \+ predicate_property(system:Goal, built_in),
     !.
+elsewhere(Module, Goal) :-
+    atom(Module),
+    indicator(Goal, Predicate),
+    old(module(Module), Predicate),
+    !.
 
 %!  meta_head(+Goal, -Meta) is semidet.
 %
