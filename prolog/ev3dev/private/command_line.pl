@@ -197,12 +197,13 @@ named('ROBOT', robot, library(ev3dev/robots)).
 complain(Arguments, Format, Values) :-
     (   Arguments = [Command|_],
         command(Command, _, _)
-    ->  true
-    ;   Command = ''
+    ->  Words = [swipl, ev3dev, Command, '--help']
+    ;   Words = [swipl, ev3dev, '--help']
     ),
+    atomic_list_concat(Words, ' ', Help),
     format(user_error, "ev3dev: ", []),
     format(user_error, Format, Values),
-    format(user_error, "~nSee: swipl ev3dev ~w --help~n", [Command]).
+    format(user_error, "~nSee: ~w~n", [Help]).
 
                 /*******************************
                 *             HELP             *
