@@ -2,6 +2,7 @@
 """Plays sessions: what a person types at a terminal, and what it answers.
 
     tests/sessions/play.py [--show] [FILE...]    default: tests/sessions/*.txt and the papers
+    tests/sessions/play.py --renew FILE...       writes into the sessions what came
 
 A session is a text as one sees it on the screen:
 
@@ -41,6 +42,10 @@ within 3 %; where nothing stands, anything but an error, a warning or `false`. T
 commands of the shell follow. `tests/sessions/elsewhere.txt` names those that are run
 elsewhere, or nowhere, and why; each of its lines has to stand in a paper. A comment
 `<!-- file: square.pl -->` before a block says what the file of the block is called.
+
+`--renew` writes an answer that differs in the place of the one in the file. It does not do
+so for an answer up to a key. A line of the file that agrees stays, as one with `...`. A query
+without an answer gets one: `git diff` then shows what a change does to the answers.
 
 Python's own pty does for this what pexpect would: there is nothing to install, on
 a machine without network, too.
@@ -335,10 +340,13 @@ class Home:
 class Player:
     """Plays one session."""
 
-    def __init__(self, home, show, near=False):
+    def __init__(self, home, show, near=False, renew=None):
         self.home = home
         self.show = show
         self.near = near
+        self.renew = renew  # what to call for an answer that differs
+        self.number = 0
+        self.places = []  # the lines of what is expected, and of what was typed
         self.folder = Path(tempfile.mkdtemp(dir=home.top))
         for name in ("app", "examples"):
             (self.folder / name).symlink_to(ROOT / name)
@@ -375,6 +383,7 @@ class Player:
         path.write_text("".join(content))
 
     def line(self, line):
+        number = self.number
         condition = re.match(r"\{([^}]*)\}\s?", line)
         if condition:
             if not self.home.version.meets(condition[1]):
@@ -393,9 +402,11 @@ class Player:
             if typed in KEYS:
                 self.terminal.until_edited()
             self.type(KEYS[typed] if typed in KEYS else typed + "\n", echo=typed not in KEYS)
+            self.places = [number]
         elif line.startswith("|    "):
             self.answer(re.compile(r"(?:^|\n)\|\s+$"), "the prompt of a goal that goes on")
             self.type(line[5:] + "\n")
+            self.places = [number]
         elif line.strip() in KEYS:
             self.seen()
             self.type(KEYS[line.strip()], echo=False)
@@ -403,14 +414,18 @@ class Player:
             self.expected.append(keys[1])
             self.seen()
             self.type(keys[2])
+            self.places = [number]
         elif line.startswith("[exit "):
             self.status = int(line[6:].rstrip("]"))
         else:
             self.expected.append(line)
+            if line.strip():
+                self.places.append(number)
 
     def type(self, text, echo=True):
         self.terminal.send(text)
         self.expected = []
+        self.places = []
         self.echo = echo
         self.typed = text
         self.enough = False
@@ -453,7 +468,9 @@ class Player:
                     raise Wrong("no, or an error")
                 return
         if not matches(self.expected, text, self.near):
-            raise Wrong("another answer")
+            if not (self.renew and self.places):
+                raise Wrong("another answer")
+            self.renew(self.places, text)
 
     def seen(self):
         """What is expected has come, and no more."""
@@ -483,7 +500,36 @@ class Player:
         self.status = 0
 
 
-def play(path, home, show):
+class Renewed:
+    """A session with other answers."""
+
+    def __init__(self, lines):
+        self.lines = list(lines)
+        self.renewed = [[line] for line in lines]
+
+    def answer(self, places, text):
+        """The answer text comes in the place of lines, whose numbers follow that of the query."""
+        query, *numbers = places
+        before = [re.fullmatch(r"(\{[^}]*\}\s?)?(.*)", self.lines[number - 1]).groups("") for number in places]
+        asked, *before = before
+        condition = before[0][0] if before and all(part[0] for part in before) else asked[0]
+        came = [line.rstrip() for line in text.split("\n") if line.strip()]
+        after = []
+        for line in came:
+            same = [old for old in before if old[1].strip() != "..." and agrees(old[1].rstrip(), line, False)]
+            after.append("".join(same[0]) if same else condition + line)
+        for number in numbers:
+            self.renewed[number - 1] = []
+        if numbers:
+            self.renewed[numbers[0] - 1] = after
+        else:
+            self.renewed[query - 1] += after
+
+    def text(self):
+        return "\n".join(line for lines in self.renewed for line in lines)
+
+
+def play(path, home, show, renew=False):
     """Plays a file: how often something was typed, and in words what was wrong, or None."""
     if path.suffix == ".md":
         sessions = list(Paper(path).plays(elsewhere()))
@@ -493,9 +539,12 @@ def play(path, home, show):
         sessions = [text.split("\n")] if not only or home.version.meets(only[1]) else []
     count = 0
     for lines in sessions:
-        player = Player(home, show, near=path.suffix == ".md")
+        renewed = Renewed(lines)
+        player = Player(home, show, near=path.suffix == ".md", renew=renewed.answer if renew else None)
         try:
             player.play(lines)
+            if renew:
+                path.write_text(renewed.text())
         except Wrong as wrong:
             came = player.without_echo(player.terminal.news()) if player.terminal else ""
             typed = player.typed.strip() or next((line for line in lines if line.startswith("$ ")), "")
@@ -536,18 +585,21 @@ def papers():
 def main():
     parser = argparse.ArgumentParser(description="Plays sessions.")
     parser.add_argument("--show", action="store_true", help="print what comes")
+    parser.add_argument("--renew", action="store_true", help="write what comes into the sessions")
     parser.add_argument("file", nargs="*", type=Path)
     arguments = parser.parse_args()
     swipl = shutil.which(os.environ.get("SWIPL", "swipl"))
     if not swipl:
         sys.exit("play.py: there is no swipl")
+    if arguments.renew and any(path.suffix == ".md" for path in arguments.file or [ROOT / "README.md"]):
+        sys.exit("play.py: --renew is for sessions that are named, and not for papers")
     home = Home(swipl)
     failed = stale()
     passed = typed = 0
     files = arguments.file or sorted({*HERE.glob("*.txt")} - {HERE / "elsewhere.txt"}) + papers()
     try:
         for path in files:
-            count, wrong = play(path, home, arguments.show)
+            count, wrong = play(path, home, arguments.show, arguments.renew)
             if count or wrong:
                 print(f"FAILED {wrong}" if wrong else f"ok     {path.name}: {count} times typed", flush=True)
             failed += wrong is not None
