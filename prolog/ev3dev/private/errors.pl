@@ -13,6 +13,7 @@
             in_pack/3,                  % +Predicate, -Module, -Indicator
             is_of_system/1,             % +Predicate
             is_public/2,                % ?Module, +Indicator
+            is_word/1,                  % +Atom
             term_expansion/4            % +Clause0, ?Layout0, -Clause, -Layout
           ]).
 :- use_module(domains, [allowed/2]).
@@ -152,8 +153,8 @@ domain_error(Domain, Term) :-
 existence_error(Kind, Name) :-
     throw_formal(existence_error(Kind, Name)).
 
-instantiation_error(_) :-
-    throw_formal(instantiation_error).
+instantiation_error(Term) :-
+    throw_error(instantiation_error, _, unbound(Term)).
 
 throw_formal(Formal) :-
     throw_error(Formal, _, '').
@@ -163,17 +164,23 @@ throw_formal(Formal) :-
 %   Throw error(Formal, context(Name/Arity, Text)). Name/Arity is Called if no
 %   frame has an exported predicate. Text is Message. If Message is empty,
 %   Text explains Formal; if it is one_of(Term, Values), Text says that Term
-%   is not one of Values. The foreign library also throws by this predicate.
+%   is not one of Values; if it is unbound(Term), which variable has no value.
+%   The foreign library also throws by this predicate.
 
 throw_error(Formal, Called0, Message) :-
-    (   called_by_program(Called)
+    (   called_by_program(Frame, Called)
     ->  true
-    ;   Called = Called0
+    ;   Frame = none,
+        Called = Called0
     ),
     (   Message = one_of(Term, Values)
     ->  not_one_of(Term, Values, Text)
+    ;   Message = unbound(Term)
+    ->  no_value(Term, Frame, Text)
     ;   Message \== ''
     ->  Text = Message
+    ;   Formal == instantiation_error
+    ->  no_value(_, Frame, Text)
     ;   in_words(Formal, Text)
     ->  true
     ;   true
@@ -185,9 +192,12 @@ throw_error(Formal, Called0, Message) :-
 %   Called is the exported predicate, Name/Arity, that the program has called.
 
 called_by_program(Called) :-
-    prolog_current_frame(Frame),
-    called(Frame, none, Called),
-    Called \== none.
+    called_by_program(_, Called).
+
+called_by_program(Frame, Called) :-
+    prolog_current_frame(Current),
+    called(Current, none, Found),
+    Found = Frame-Called.
 
 %!  error_within(+Error0, +Where, -Error) is det.
 %
@@ -214,7 +224,7 @@ called(Frame, Called0, Called) :-
     ->  Called = Called0
     ;   in_pack(Indicator, Module, Predicate)
     ->  (   is_public(Module, Predicate)
-        ->  Called1 = Predicate
+        ->  Called1 = Frame-Predicate
         ;   Called1 = Called0
         ),
         outwards(Frame, Called1, Called)
@@ -269,7 +279,6 @@ is_of_system(Module:_) :-
                 *            WORDS             *
                 *******************************/
 
-in_words(instantiation_error, 'an argument is an unbound variable').
 in_words(type_error(evaluable, Name/0), Text) :-
     !,
     format(atom(Text), 'a number is expected, not ~q', [Name]).
@@ -277,26 +286,36 @@ in_words(type_error(evaluable, Function), Text) :-
     !,
     format(atom(Text), 'there is no arithmetic function ~q', [Function]).
 in_words(type_error(Type, Term), Text) :-
-    string(Term),
-    memberchk(Type, [[], character]),   % of is/2
+    memberchk(Type, [[], character]),   % of is/2, for a string or a list
     !,
     in_words(type_error(number, Term), Text).
+in_words(type_error(list, Term), Text) :-
+    callable(Term),
+    Term \= [_|_],
+    !,
+    shown(Term, Shown),
+    format(atom(Text), 'a list is expected, not ~w. Did you mean [~w]?',
+           [Shown, Shown]).
 in_words(type_error(Type, Term), Text) :-
     kind(Type, Wanted),
-    format(atom(Text), '~w is expected, not ~p', [Wanted, Term]).
+    shown(Term, Shown),
+    format(atom(Text), '~w is expected, not ~w', [Wanted, Shown]).
 in_words(domain_error(Domain, Term), Text) :-
     allowed(Domain, What),
     !,
     (   is_list(What)
     ->  not_one_of(Term, What, Text)
-    ;   format(atom(Text), '~w, not ~p', [What, Term])
+    ;   shown(Term, Shown),
+        format(atom(Text), '~w, not ~w', [What, Shown])
     ).
 in_words(domain_error(Domain, Term), Text) :-
     words_of(Domain, Words),
-    format(atom(Text), '~p cannot be a ~w', [Term, Words]).
+    shown(Term, Shown),
+    format(atom(Text), '~w cannot be a ~w', [Shown, Words]).
 in_words(existence_error(Kind, Name), Text) :-
     words_of(Kind, Words),
-    format(atom(Text), 'there is no ~w ~p', [Words, Name]).
+    shown(Name, Shown),
+    format(atom(Text), 'there is no ~w ~w', [Words, Shown]).
 in_words(evaluation_error(What), Text) :-
     words_of(What, Text).
 in_words(representation_error(int64_t), Text) :-
@@ -307,6 +326,7 @@ in_words(representation_error(What), Text) :-
     format(atom(Text), 'beyond the ~w', [Words]).
 
 kind(atom, 'an atom or a string') :- !.
+kind(callable, 'a goal') :- !.
 kind(bool, 'true or false') :- !.
 kind(list, 'a list') :- !.
 kind(integer, 'an integer') :- !.
@@ -326,12 +346,152 @@ words_of(Name, Words) :-
 not_one_of(Term, Values, Text) :-
     quoted(Values, Atoms),
     atomic_list_concat(Atoms, ', ', Listed),
-    format(atom(Text), '~p is not one of: ~w', [Term, Listed]).
+    shown(Term, Shown),
+    format(atom(Text), '~w is not one of: ~w', [Shown, Listed]).
 
 quoted([], []).
 quoted([Value|Values], [Atom|Atoms]) :-
     format(atom(Atom), '~w', [Value]),
     quoted(Values, Atoms).
+
+%   A Term as a program has it, with `_` for each variable.
+
+shown(Term, Shown) :-
+    (   ground(Term)
+    ->  format(atom(Shown), '~p', [Term])
+    ;   copy_term(Term, Copy, _),
+        term_variables(Copy, Variables),
+        all_same(Variables, '$VAR'('_')),
+        format(atom(Shown), '~W',
+               [ Copy, [quoted(true), numbervars(true), portray(true)] ])
+    ).
+
+all_same([], _).
+all_same([Term|Terms], Term) :-
+    all_same(Terms, Term).
+
+                /*******************************
+                *     VARIABLES, NO VALUES     *
+                *******************************/
+
+%   Text says which variable has no value in the call of Frame: Variable, or
+%   the first argument that is a variable, or the first one in an argument. In
+%   a query of the toplevel it has a name. (The garbage collector forgets the
+%   arguments of a frame that are not used any more. Then it is the first
+%   variable of the query.)
+
+no_value(Variable, Frame, Text) :-
+    (   Frame \== none,
+        arguments(Frame, Arguments)
+    ->  (   missing(Arguments, Variable, Missing)
+        ->  (   names_in_query(Frame, Names),
+                name_of(Names, Missing, Name)
+            ->  named(Name, Text)
+            ;   place(Arguments, Missing, 1, Place)
+            ->  nth(Place, Nth),
+                format(atom(Text),
+                       'the ~w argument is a variable without a value',
+                       [Nth])
+            ;   Text = 'a part of an argument is a variable without a value'
+            )
+        ;   names_in_query(Frame, Names),
+            first_variable(Names, Name)
+        ->  named(Name, Text)
+        ;   Text = 'an argument is a variable without a value'
+        )
+    ;   Text = 'an argument is a variable without a value'
+    ).
+
+arguments(Frame, Arguments) :-
+    prolog_frame_attribute(Frame, goal, Goal0),
+    (   Goal0 = _:Goal
+    ->  true
+    ;   Goal = Goal0
+    ),
+    Goal =.. [_|Arguments].
+
+missing(Arguments, Variable, Missing) :-
+    term_variables(Arguments, Variables),
+    (   var(Variable),
+        place(Variables, Variable, 1, _)
+    ->  Missing = Variable
+    ;   first_of(Arguments, Missing)
+    ->  true
+    ;   Variables = [Missing|_]
+    ).
+
+first_of([Argument|Arguments], Variable) :-
+    (   var(Argument)
+    ->  Variable = Argument
+    ;   first_of(Arguments, Variable)
+    ).
+
+place([Term|Terms], Wanted, Place0, Place) :-
+    (   Term == Wanted
+    ->  Place = Place0
+    ;   Place1 is Place0 + 1,
+        place(Terms, Wanted, Place1, Place)
+    ).
+
+nth(Place, Nth) :-
+    (   arg(Place, nth(first, second, third, fourth), Nth)
+    ->  true
+    ;   format(atom(Nth), '~dth', [Place])
+    ).
+
+%   The toplevel keeps the names of a query as a list of Name=Value.
+
+names_in_query(Frame, Names) :-
+    prolog_frame_attribute(Frame, parent, Parent),
+    (   prolog_frame_attribute(Parent, predicate_indicator, Indicator),
+        (   Indicator = _:'$execute_goal2'/_
+        ;   Indicator = '$execute_goal2'/_
+        )
+    ->  prolog_frame_attribute(Parent, argument(2), Names)
+    ;   names_in_query(Parent, Names)
+    ).
+
+name_of([Name0=Value|Names], Variable, Name) :-
+    (   Value == Variable
+    ->  Name = Name0
+    ;   name_of(Names, Variable, Name)
+    ).
+
+first_variable([Name0=Value|Names], Name) :-
+    (   var(Value)
+    ->  Name = Name0
+    ;   first_variable(Names, Name)
+    ).
+
+%   A port or another word of the pack was meant, as by `OutB`.
+
+named(Name, Text) :-
+    (   sub_atom(Name, 0, 1, _, Upper),
+        sub_atom(Name, 1, _, 0, Rest),
+        downcase_atom(Upper, Lower),
+        atom_concat(Lower, Rest, Word),
+        is_word(Word)
+    ->  format(atom(Text),
+               '~w begins with an upper-case letter, so it is a variable, \c
+                and has no value. Did you mean ~w?', [Name, Word])
+    ;   format(atom(Text), '~w is a variable without a value', [Name])
+    ).
+
+%!  is_word(+Atom) is semidet.
+%
+%   True if Atom is a port, or an allowed value of a domain.
+
+is_word(Word) :-
+    (   atom_concat(out, Letter, Word),
+        memberchk(Letter, ['A', 'B', 'C', 'D'])
+    ;   atom_concat(in, Digit, Word),
+        memberchk(Digit, ['1', '2', '3', '4'])
+    ;   allowed(Domain, Words),
+        \+ sub_atom(Domain, _, _, 0, option),
+        is_list(Words),
+        memberchk(Word, Words)
+    ),
+    !.
 
                 /*******************************
                 *      FRAMES ARE KEPT         *

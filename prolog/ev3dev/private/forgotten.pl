@@ -1,13 +1,19 @@
 :- module(ev3dev_forgotten,
-          [ library_of/2                % +Predicate, -Library
+          [ known_mistake/1,            % +Predicate
+            form_of/2                   % +Predicate, -Form
           ]).
+:- use_module(errors, [in_pack/3, is_public/2]).
 
-/** <module> A predicate whose library is not loaded
+/** <module> A predicate that there is not
 
 A query that calls a predicate of a library of the pack that is not loaded
-says which one to load. So does an error in a program. Prolog would offer
-`ev3dev_sim:sim_start(room)` as a correction if the library is in memory, or
-say that the procedure is unknown.
+says which one to load. One that calls a predicate of the pack with another
+number of arguments says what the arguments are. One that calls a predicate
+that is called otherwise in the pack says so. An error in a program does the
+same. Prolog would offer `ev3dev_sim:sim_start(room)` or another predicate as
+a correction, or say that the procedure is unknown, and list modules.
+
+Prolog's own offer to correct a name that is misspelt stays.
 */
 
 :- multifile
@@ -29,8 +35,49 @@ forgotten(Query, Predicate) :-
     unknown_goal(Query, Goal),
     functor(Goal, Name, Arity),
     Predicate = Name/Arity,
+    (   known_mistake(Predicate)
+    ->  true
+    ;   \+ is_corrected(Goal),
+        meant(Predicate, _)
+    ),
+    !.
+
+%   True if Prolog offers another predicate that the user sees.
+
+is_corrected(Goal) :-
+    dwim_predicate(user:Goal, Other0),
+    strip_module(Other0, Module, Other),
+    \+ ( in_pack(Module:x/0, _, _),
+         functor(Other, Name, Arity),
+         \+ is_public(Module, Name/Arity) ),
+    functor(Goal, _, Arity1),
+    functor(Other, _, Arity1),
+    !.
+
+%!  known_mistake(+Predicate) is semidet.
+%
+%   True if Predicate is one of a library that is not loaded, or is one of the
+%   pack but for the number of its arguments.
+
+known_mistake(Predicate) :-
     library_of(Predicate, _),
     !.
+known_mistake(Name/_) :-
+    forms_loaded,
+    ev3dev_forms:arities(Name, _).
+
+%!  form_of(+Predicate, -Form) is semidet.
+%
+%   Form is Predicate with the names of its arguments, as in
+%   `motor_run(Port, Speed)`.
+
+form_of(Predicate, Form) :-
+    forms_loaded,
+    ev3dev_forms:form(Predicate, Form).
+
+meant(Predicate, Predicates) :-
+    forms_loaded,
+    ev3dev_forms:meant(Predicate, Predicates).
 
 %   Goal is a call in Query of what the user has not defined or imported.
 
@@ -59,6 +106,14 @@ prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
       [Predicate, Library], nl,
       '  use_module(library(ev3dev/~w)).'-[Library]
     ].
+prolog:message(error(existence_error(procedure, Predicate0), Context)) -->
+    { is_plain(Context),
+      unqualified(Predicate0, Predicate),
+      instead(Predicate, Said, Predicates),
+      where(Context, Where)
+    },
+    [ 'there is no ~q~w. ~w:'-[Predicate, Where, Said] ],
+    forms(Predicates).
 
 prolog:message(error(syntax_error(operator_expected), Where)) -->
     { nonvar(Where),
@@ -70,6 +125,43 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
       'which is not loaded: first'-[], nl,
       '  use_module(library(ev3dev/~w)).'-[rules]
     ].
+
+%   Those of the same name, else those that may be meant.
+
+instead(Name/Arity, Said, Predicates) :-
+    forms_loaded,
+    (   ev3dev_forms:arities(Name, Predicates)
+    ->  (   Predicates = [_]
+        ->  Said = 'There is'
+        ;   Said = 'There are'
+        )
+    ;   functor(Goal, Name, Arity),
+        \+ is_corrected(Goal),
+        ev3dev_forms:meant(Name/Arity, Predicates)
+    ->  Said = 'Did you mean'
+    ).
+
+where(Context, Where) :-
+    (   nonvar(Context),
+        Context = context(_, Text),
+        atom(Text)
+    ->  format(atom(Where), ', ~w', [Text])
+    ;   Where = ''
+    ).
+
+forms([]) -->
+    [].
+forms([Predicate0|Predicates]) -->
+    { (   Predicate0 = Library-Predicate
+      ->  format(atom(Shown), '~q of library(ev3dev/~w)',
+                 [Predicate, Library])
+      ;   form_of(Predicate0, Shown)
+      ->  true
+      ;   format(atom(Shown), '~q', [Predicate0])
+      )
+    },
+    [ nl, '  ~w'-[Shown] ],
+    forms(Predicates).
 
 text_of(string(Text, _), Text, '').
 text_of(file(File, Line, Column, _), Text, Place) :-
@@ -113,20 +205,26 @@ unqualified(Predicate0, Predicate) :-
     ground(Predicate),
     Predicate = _/_.
 
-%!  library_of(+Predicate, -Library) is semidet.
-%
 %   True if library(ev3dev/Library) is the one to load for Predicate. The
 %   table is loaded when it is needed for the first time.
 
 library_of(Predicate, Library) :-
-    (   module_property(ev3dev_libraries, file(_))
-    ->  true
-    ;   module_property(ev3dev_forgotten, file(This)),
-        file_directory_name(This, Private),
-        atom_concat(Private, '/libraries', File),
-        use_module(File, [])
-    ),
+    loaded(libraries),
     Table =.. [in_library, Library, Predicates],
     call(ev3dev_libraries:Table),
     memberchk(Predicate, Predicates),
     !.
+
+forms_loaded :-
+    loaded(forms).
+
+loaded(Name) :-
+    atom_concat(ev3dev_, Name, Module),
+    (   module_property(Module, file(_))
+    ->  true
+    ;   module_property(ev3dev_forgotten, file(This)),
+        file_directory_name(This, Private),
+        atomic_list_concat([Private, /, Name], File),
+        % In a saved program there may be no file.
+        catch(use_module(File, []), error(_, _), fail)
+    ).

@@ -1,8 +1,8 @@
 :- module(ev3dev_uncaught,
           [ in_words//1                 % +Message
           ]).
-:- use_module(errors, [in_pack/3, is_of_system/1, is_public/2]).
-:- use_module(forgotten, [library_of/2]).
+:- use_module(errors, [in_pack/3, is_of_system/1, is_public/2, is_word/1]).
+:- use_module(forgotten, [form_of/2, known_mistake/1]).
 :- use_module(native, [running_/1]).
 
 /** <module> What a person reads of an error
@@ -35,13 +35,49 @@ prolog:message(Error) -->
     { is_located(Error, Plain, Places) },
     in_words(Plain),
     places(Places).
-prolog:message(error(_, Context)) -->
+prolog:message(error(Formal, Context)) -->
     { nonvar(Context),
       Context = context(Called, Text),
       atom(Text),
       is_ours(Called)
     },
-    [ '~q: ~w'-[Called, Text] ].
+    [ '~q: '-[Called] ],
+    about(Formal),
+    [ '~w'-[Text] ],
+    form(Formal, Called, Text).
+
+%   What is said of an item of the simulation begins with its verb.
+
+about(Formal) -->
+    { nonvar(Formal),
+      Formal = domain_error(possible_geometry, Item)
+    },
+    !,
+    [ '~p '-[Item] ].
+about(_) -->
+    [].
+
+%   The arguments may be in another order than a student believes.
+
+form(Formal, Called, Text) -->
+    { nonvar(Formal),
+      is_of_order(Formal, Text),
+      Called = _/Arity,
+      Arity > 1,
+      form_of(Called, Form)
+    },
+    !,
+    [ '; its form is ~w'-[Form] ].
+form(_, _, _) -->
+    [].
+
+is_of_order(type_error(Type, _), _) :-
+    memberchk(Type, [evaluable, number, integer, atom, text, [], character]).
+is_of_order(domain_error(_, Term), _) :-
+    atom(Term),
+    is_word(Term).
+is_of_order(instantiation_error, Text) :-
+    sub_atom(Text, 0, _, _, 'the ').
 
 %!  in_words(+Message, -Lines, ?Rest) is det.
 %
@@ -143,7 +179,7 @@ is_forgotten(existence_error(procedure, Predicate0)) :-
     ;   Predicate = Predicate0
     ),
     ground(Predicate),
-    library_of(Predicate, _).
+    known_mistake(Predicate).
 
 %   The flag is looked at when this hook has succeeded or failed, and is set
 %   back when the next error comes. Each thread has its own.
