@@ -165,6 +165,11 @@ led_blink(Light, On, Off) :-
     (   led_set_delays_(Light, On, Off)
     ->  true
     ;   fail_because(absent(light, Light))
+    ),
+    (   On < 10,
+        Off < 10
+    ->  advise(not_milliseconds(led_blink/3, On))
+    ;   true
     ).
 
 must_be_milliseconds(Time) :-

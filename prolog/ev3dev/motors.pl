@@ -177,6 +177,12 @@ turn_ended(stalled, Moves) :-
     fail.
 turn_ended(Reason, Moves) :-
     explain("~p ended early: ~w", [Moves, Reason]),
+    (   Reason == stopped
+    ->  findall(Port, ( one_of(Moves, Move), arg(1, Move, Port) ), Ports),
+        atomic_list_concat(Ports, ', ', Listed),
+        advise(interrupted(Listed))
+    ;   true
+    ),
     fail.
 
 %!  motor_start(+Port) is semidet.
@@ -340,12 +346,15 @@ motor_run_timed(Port, Speed, Seconds0, Options0) :-
     speed_value(Speed, Value),
     evaluated(Seconds0, Seconds),
     must_be(list, Options0),
-    or_brake(Options0, Options),
+    (   option(stop_action(_), Options0)
+    ->  Options = Options0
+    ;   Options = [stop_action(brake)|Options0]
+    ),
+    (   Seconds >= 500
+    ->  advise(not_seconds(motor_run_timed/3, Seconds))
+    ;   true
+    ),
     motors_turn([for(Port, Value, Seconds)], Options).
-
-or_brake([], [stop_action(brake)]).
-or_brake([Option|Options0], [Option|Options]) :-
-    or_brake(Options0, Options).
 
 %!  motor_run_to(+Port, +Speed, +Angle) is semidet.
 %!  motor_run_to(+Port, +Speed, +Angle, +Options) is semidet.
@@ -415,6 +424,7 @@ motor_run_until_stalled(Port, Speed, Options) :-
     stop_action([coast, brake, hold], Action0, Action),
     timeout_option(Options, Timeout),
     number_option(duty_limit(Limit), duty_limit, Options, 100),
+    word(Port, _),
     setup_call_cleanup(
         push(Options, Port, Value, Limit),
         motor_wait(Port, [timeout(Timeout)], Reason),

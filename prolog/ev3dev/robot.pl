@@ -105,6 +105,11 @@ set_robot(WheelDiameter0, AxleLength0, Left0, Right0, Options) :-
     ->  true
     ;   fail_because(unlike(Left, Right))
     ),
+    (   ( WheelDiameter >= 20 ; WheelDiameter < 1 ; AxleLength >= 60
+        ; WheelDiameter > 1.5 * AxleLength )
+    ->  advise(not_cm(WheelDiameter, AxleLength))
+    ;   true
+    ),
     (   nonvar(Gear)
     ->  motor_gear(Left, Gear),
         motor_gear(Right, Gear)

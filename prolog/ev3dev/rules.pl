@@ -217,7 +217,11 @@ rule(Name, Module, Name, Options, Guard, Action) :-
     ;   catch(Module:'$ev3dev rule'(Name, Options, Guard, Action),
               error(existence_error(procedure, _), _), fail)
     ->  true
-    ;   existence_error(rule, Name)
+    ;   atom(Name)
+    ->  existence_error(rule, Name)
+    ;   format(atom(Text),
+               'a rule is written Name :: Guard ~~> Action, not ~p', [Name]),
+        throw_error(existence_error(rule, Name), _, Text)
     ).
 
 shared([], _, []).
@@ -303,7 +307,7 @@ inner(Behavior, Outer) :-
 end_options(Options, Module, Until, Trace, OnError) :-
     (   option(until(Until0), Options)
     ->  must_be(callable, Until0),
-        Until = Module:Until0
+        condition_goal(Module:Until0, Until)
     ;   Until = none
     ),
     (   option(trace(Trace0), Options)

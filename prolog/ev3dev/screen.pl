@@ -18,7 +18,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4
+              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4,
+                throw_error/3
               ]).
 :- use_module(private/explain).
 :- use_module(files, []).
@@ -175,7 +176,9 @@ size(Expression, Pixels) :-
     place(Expression, Pixels),
     (   Pixels >= 0
     ->  true
-    ;   domain_error(pixels, Expression)
+    ;   format(atom(Text), 'a number from 0 to 10000 is expected, not ~w',
+               [Pixels]),
+        throw_error(domain_error(pixels, Expression), _, Text)
     ).
 
 degrees(Expression, Degrees) :-

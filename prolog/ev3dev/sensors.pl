@@ -176,13 +176,26 @@ goal_expansion(sensor_reading(Reading, Port, Value), Goal) :-
             [Types-Mode-Index]),
     Goal = (   nonvar(Port)
            ->  (   sensor_value_(Port, Types, Mode, Index, Read)
-               ->  Value = Read
+               ->  (   Value = Read
+                   ->  true
+                   ;   other_value(Reading, Value)
+                   )
                ;   table_reading(Reading, Port, Value)
                )
            ;   reading(Reading, _, _, _)
            ->  table_reading(Reading, Port, Value)
+           ;   nonvar(Value),
+               \+ number(Value)
+           ->  other_value(Reading, Value)
            ;   sensor_value_or_why_(Port, Types, Mode, Index, Value)
            ).
+
+%   A sensor has another value, which is no news; or the program compares it
+%   with what is no number.
+
+other_value(Reading, Value) :-
+    \+ number(Value),
+    fail_because(no_number(Reading, Value)).
 
 table_reading(Reading, Port, Value) :-
     sensor_reading(Reading, Port, Value).

@@ -11,7 +11,7 @@
               [ domain_error/2, existence_error/2, goal_of_program/1,
                 must_be/2, term_expansion/4
               ]).
-:- use_module(library(lists), [append/3, nth1/3]).
+:- use_module(library(lists), [nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
 :- use_module(private/brick, [end_brick/1, new_brick/1]).
@@ -379,7 +379,10 @@ with_sim(World, Goal, Options) :-
     strip_module(Goal, _, Plain),
     must_be(callable, Plain),
     must_be(list, Options),
-    append(Options, [clock(virtual)], WithClock),
+    (   option(clock(_), Options)
+    ->  WithClock = Options
+    ;   WithClock = [clock(virtual)|Options]
+    ),
     setup_call_cleanup(
         know_nothing(Before),
         setup_call_cleanup(

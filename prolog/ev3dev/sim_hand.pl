@@ -17,13 +17,14 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/explain, [fail_because/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, number_value/2,
                 number_value/3, option/3
               ]).
 :- use_module(private/native,
-              [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
+              [ sim_active_/0, sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
                 sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,
                 sim_show_/3, sim_unplug_/1, sim_unshow_/2 ]).
 
@@ -65,6 +66,7 @@ sim_add(Fact) :-
     sim_add(Fact, _).
 
 sim_add(Fact, Id) :-
+    must_be(nonvar, Fact),
     sim_add_(Fact, Id),
     retractall(added(_, Id)),
     asserta(added(Fact, Id)).
@@ -103,7 +105,11 @@ sim_plug(Port, Type) :-
 %   Pull the wire out of a port. Fails if nothing is plugged in.
 
 sim_unplug(Port) :-
-    sim_unplug_(Port).
+    (   sim_unplug_(Port)
+    ->  true
+    ;   sim_active_,
+        fail_because(nothing_at(Port))
+    ).
 
 %!  sim_jam(+Port, +Boolean) is semidet.
 %
@@ -168,10 +174,20 @@ sim_remote(Channel, Buttons) :-
 %   @error domain_error(key, Key)
 
 sim_press(Key) :-
-    sim_key_(Key, true).
+    (   sim_key_(Key, true)
+    ->  true
+    ;   no_key(Key)
+    ).
 
 sim_release(Key) :-
-    sim_key_(Key, false).
+    (   sim_key_(Key, false)
+    ->  true
+    ;   no_key(Key)
+    ).
+
+no_key(Port) :-
+    sim_active_,
+    fail_because(absent(['lego-ev3-touch'], Port)).
 
 %!  sim_press(+Key, +Options) is semidet.
 %
@@ -203,7 +219,10 @@ sim_press(Key, Options) :-
     ->  For = infinite
     ;   number_value(seconds, For0, For)
     ),
-    sim_plan_key_(Key, After, For).
+    (   sim_plan_key_(Key, After, For)
+    ->  true
+    ;   no_key(Key)
+    ).
 
 %!  added_facts(-Added) is det.
 %!  set_added_facts(+Added) is det.

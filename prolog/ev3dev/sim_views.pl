@@ -9,7 +9,7 @@
             sim_unmount/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/4]).
+:- use_module(private/errors, [in_own_name/1, must_be/2, term_expansion/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(private/directory, [directory_path/2]).
 :- use_module(private/native,
@@ -82,9 +82,11 @@ sim_trace(Trace) :-
 %   Write a picture of the world, the robot and its path to an SVG file.
 
 sim_svg(File) :-
+    must_be(text, File),
     sim_svg_(Text),
+    in_own_name(open(File, write, Stream, [encoding(utf8)])),
     setup_call_cleanup(
-        open(File, write, Stream, [encoding(utf8)]),
+        true,
         write(Stream, Text),
         close(Stream)).
 

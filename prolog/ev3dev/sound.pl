@@ -64,6 +64,12 @@ tone(Hertz, Milliseconds) :-
 tone(Hertz, Milliseconds, Options) :-
     wait_option([], Options, Wait),
     native_tones([tone(Hertz, Milliseconds)], 500, Native),
+    Native = [tone(_, Time)],
+    (   Time > 0,
+        Time < 10
+    ->  advise(not_milliseconds(tone/2, Time))
+    ;   true
+    ),
     tones_or_explain(Native, Wait).
 
 %   Wait is the value of the option `wait`, which has company in Names.

@@ -39,7 +39,8 @@ expression, as an argument and as an option. A count is an integer.
 
 must_be_options(Domain, Names, Options) :-
     must_be(list, Options),
-    must_each_be_option(Options, Domain, Names).
+    must_each_be_option(Options, Domain, Names),
+    each_once(Options).
 
 must_each_be_option([], _, _).
 must_each_be_option([Option|Options], Domain, Names) :-
@@ -51,6 +52,39 @@ must_be_option(Domain, Names, Option) :-
     (   is_option(Option, Names)
     ->  true
     ;   throw_error(domain_error(Domain, Option), _, one_of(Option, Names))
+    ).
+
+%   The first of a name counts; a student may believe the last one does.
+
+each_once([]).
+each_once([Option|Options]) :-
+    (   Options \== [],
+        name(Option, Name),
+        is_given(Options, Name)
+    ->  twice(Name)
+    ;   true
+    ),
+    each_once(Options).
+
+name(Option, Name) :-
+    (   Option = (Name0=_)
+    ->  Name = Name0
+    ;   functor(Option, Name, 1)
+    ).
+
+is_given([Option|Options], Name) :-
+    (   name(Option, Name)
+    ->  true
+    ;   is_given(Options, Name)
+    ).
+
+twice(Name) :-
+    (   current_prolog_flag(ev3dev_hints, Hints),
+        memberchk(Hints, [off, false])
+    ->  true
+    ;   format(atom(Text),
+               'the option ~w is given twice: the first one counts', [Name]),
+        print_message(warning, ev3dev(hint(Text)))
     ).
 
 is_option(Name=_, Names) :-
@@ -210,8 +244,8 @@ must_be_within(Lowest, Highest, Domain, Integer) :-
     must_be(integer, Integer),
     (   between(Lowest, Highest, Integer)
     ->  true
-    ;   format(atom(Message), 'an integer from ~d to ~d is expected',
-               [Lowest, Highest]),
+    ;   format(atom(Message), 'an integer from ~d to ~d is expected, not ~d',
+               [Lowest, Highest, Integer]),
         throw_error(domain_error(Domain, Integer), _, Message)
     ).
 

@@ -67,7 +67,7 @@ allowed(direction,          'a direction is a number from -100 to 100').
 allowed(distinct_ports,     'two different ports are expected').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
 allowed(duty_limit,
-        'a share of the voltage in percent above 0, at most 100').
+        'a share of the voltage from above 0 to 100 percent is expected').
 allowed(eopd_range,         [long, short]).
 allowed(finite_number,      'a finite number is expected').
 allowed(font,               [tiny, small, medium, large]).
@@ -77,6 +77,7 @@ allowed(hull,
 allowed(i2c_count,
         'from 1 to 32 bytes are expected, up to register 254').
 allowed(i2c_sensor,         'a sensor on the I2C bus is expected').
+allowed(ir_button,          [ red_up, red_down, blue_up, blue_down, beacon ]).
 allowed(ir_channel,         'a channel is a number from 1 to 4').
 allowed(ir_light,           [pulsed, steady]).
 allowed(key,
@@ -86,6 +87,10 @@ allowed(led_color,
         [ off, on, red, green, blue, amber, orange, yellow, 'Percent',
           levels('Red', 'Green'), levels('Red', 'Green', 'Blue') ]).
 allowed(milliseconds,       'a time in milliseconds is a number from 0 on').
+allowed(motor_move,
+        [ move('Port', 'Speed', 'Angle'), to('Port', 'Speed', 'Angle'),
+          for('Port', 'Speed', 'Seconds') ]).
+allowed(motor_run,          'run(Port, Speed) is expected').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).
 allowed(neighbors,         [4, 8]).
@@ -101,6 +106,7 @@ allowed(pid,                'a term pid(P, I, D) is expected').
 allowed(pixels,             'a number from -10000 to 10000 is expected').
 allowed(place,              'a place X-Y is expected').
 allowed(polarity,           [normal, inversed]).
+allowed(port,               'a port is one of in1 to in4 and outA to outD').
 allowed(positive_number,    'a number above 0 is expected').
 allowed(roadmap_method,     [visibility, prm, rrt_star]).
 allowed(screen_bits,        [1, 32]).
@@ -111,16 +117,25 @@ allowed(sensor_condition,
           'touch(Port) = pressed', released, bumped ]).
 allowed(sensor_value_index, 'the index of a value is an integer from 0 to 7').
 allowed(side,               [left, right]).
+allowed(simulator_snapshot, 'what sim_snapshot/1 gave is expected').
 allowed(stopwatch,          'a stopwatch of stopwatch/1 is expected').
-allowed(speed,              'a speed in percent from -100 to 100, not 0').
-allowed(speed_ahead,        'a speed in percent above 0, at most 100').
+allowed(speed,
+        'a speed from -100 to 100 percent other than 0 is expected').
+allowed(speed_ahead,
+        'a speed from above 0 to 100 percent is expected').
 allowed(stop_action,        [coast, brake, hold]).
 allowed(tempo,              'a tempo, in quarters a minute, is above 0').
 allowed(text_align,         [left, center, right]).
-allowed(timeout,            'a number of seconds from 0 on, or infinite').
+allowed(timeout,
+        'a number of seconds from 0 on, or infinite, is expected').
 allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
 allowed(volume,             'a volume is a number from 0 to 100').
 allowed(mounting_option,    [stops('Min', 'Max')]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
+allowed(world_item,         Items) :-
+    allowed(world_or_robot_fact, Items).
+allowed(world_or_robot_fact,
+        [ wall('X1', 'Y1', 'X2', 'Y2'), box('X', 'Y', 'Width', 'Length'),
+          circle('X', 'Y', 'Radius'), patch, line, lamp, beacon ]).

@@ -115,6 +115,10 @@ ended(astray, _) :-
     fail.
 ended(Reason, Course) :-
     explain("~p ended early: ~w", [Course, Reason]),
+    (   Reason == stopped
+    ->  advise(interrupted('the robot'))
+    ;   true
+    ),
     fail.
 
 :- multifile prolog:message//1.

@@ -117,8 +117,16 @@ partial_list(Term) :-
 evaluated(Expression, Number) :-
     (   number(Expression)
     ->  Number = Expression
-    ;   in_own_name(Number is Expression)
+    ;   catch(Number is Expression, error(Formal, _),
+              not_evaluated(Formal, Expression))
     ).
+
+not_evaluated(instantiation_error, Expression) :-
+    term_variables(Expression, [Variable|_]),
+    !,
+    instantiation_error(Variable).
+not_evaluated(Formal, _) :-
+    throw_formal(Formal).
 
 %!  in_own_name(:Goal) is nondet.
 %
@@ -312,6 +320,9 @@ in_words(domain_error(Domain, Term), Text) :-
     words_of(Domain, Words),
     shown(Term, Shown),
     format(atom(Text), '~w cannot be a ~w', [Shown, Words]).
+in_words(existence_error(source_sink, File), Text) :-
+    !,
+    format(atom(Text), 'there is no file ~p, or no folder for it', [File]).
 in_words(existence_error(Kind, Name), Text) :-
     words_of(Kind, Words),
     shown(Name, Shown),
@@ -382,6 +393,11 @@ all_same([Term|Terms], Term) :-
 
 no_value(Variable, Frame, Text) :-
     (   Frame \== none,
+        var(Variable),
+        names_in_query(Frame, Names),
+        name_of(Names, Variable, Name)
+    ->  named(Name, Text)
+    ;   Frame \== none,
         arguments(Frame, Arguments)
     ->  (   missing(Arguments, Variable, Missing)
         ->  (   names_in_query(Frame, Names),

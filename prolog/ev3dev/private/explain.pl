@@ -1,5 +1,6 @@
 :- module(ev3dev_explain,
           [ fail_because/1,             % +Cause
+            advise/1,                   % +Cause
             explain/2                   % +Format, +Arguments
           ]).
 :- use_module(errors, [called_by_program/1, throw_error/3]).
@@ -56,6 +57,10 @@ itself. A program that asks for messages has loaded it.
 %       A device, or the robot, cannot do this.
 %     - unlike(Left, Right)
 %       The motors of a robot have different types, or are the same.
+%     - no_number(Reading, Value)
+%       A sensor gives a number, and the program compares it with Value.
+%     - nothing_at(Port)
+%       Nothing is plugged in there.
 %     - nothing_came(Port, What)
 %       No device appeared after a port was set.
 %     - lacking(What)
@@ -71,7 +76,33 @@ fail_because(Cause0) :-
     ->  cause(Cause0, Cause),
         because(Cause, Formal, Text),
         throw_error(Formal, _, Text)
-    ;   is_explained
+    ;   told(Hints, Cause0)
+    ),
+    fail.
+
+%!  advise(+Cause) is det.
+%
+%   Explain what a call that succeeds, or fails for another reason, may have
+%   been meant for. It is told as fail_because/1 tells it, but no error. Cause
+%   is one of those, or one of
+%
+%     - not_cm(Wheel, Axle)
+%       The lengths of a robot are such as nobody has in cm.
+%     - not_milliseconds(Predicate, Time)
+%     - not_seconds(Predicate, Time)
+%       A time so short, or so long, that it has another unit.
+%     - interrupted(Who)
+%       A move ended early, as another command came.
+
+advise(Cause) :-
+    current_prolog_flag(ev3dev_hints, Hints),
+    (   told(Hints, Cause)
+    ->  true
+    ;   true
+    ).
+
+told(Hints, Cause0) :-
+    (   is_explained
     ->  cause(Cause0, Cause),
         because(Cause, _, Text),
         prolog_debug:debug(ev3dev, '~w', [Text])
@@ -81,8 +112,7 @@ fail_because(Cause0) :-
         is_new(Cause)
     ->  because(Cause, _, Text),
         print_message(warning, ev3dev(hint(Text)))
-    ),
-    fail.
+    ).
 
 :- multifile prolog:message//1.
 
@@ -254,13 +284,58 @@ because(absent(Kind, Port), existence_error(Class, Name), Text) :-
     suggested(Class, Port, Devices, Suggestion),
     atomic_list_concat([Missing, '; ', Listed, Suggestion], Text).
 because(too_fast(Who, Percent), domain_error(speed, Percent), Text) :-
+    (   abs(Percent) < 1.0e9,
+        abs(Percent) >= 101
+    ->  Shown is round(Percent)
+    ;   Shown = Percent
+    ),
     format(atom(Text), '~w cannot run at ~w %: its highest speed is 100 %',
-           [Who, Percent]).
+           [Who, Shown]).
 because(unable(Who, Verb, What), domain_error(possible_act, What), Text) :-
     format(atom(Text), '~w cannot ~w ~w', [Who, Verb, What]).
 because(unlike(Left, Right), domain_error(robot, Left-Right), Text) :-
-    format(atom(Text), '~w and ~w are not two motors of one type',
-           [Left, Right]).
+    device_('tacho-motor', Left, LeftType),
+    device_('tacho-motor', Right, RightType),
+    (   LeftType == RightType
+    ->  format(atom(Text),
+               '~w is one motor, and a robot needs two: left and right',
+               [Left])
+    ;   format(atom(Text),
+               '~w (~w) and ~w (~w) are not two motors of one type',
+               [Left, LeftType, Right, RightType])
+    ),
+    !.
+because(no_number(Reading, Value), type_error(number, Value), Text) :-
+    instead(Reading, Value, Instead),
+    format(atom(Text), '~w/2 gives a number, not ~q~w',
+           [Reading, Value, Instead]).
+because(nothing_at(Port), existence_error(device, Port), Text) :-
+    format(atom(Text), 'nothing is plugged into ~w', [Port]).
+because(not_cm(Wheel, Axle), domain_error(robot, Wheel-Axle), Text) :-
+    (   Wheel > Axle,
+        Wheel < 20,
+        Wheel >= 1
+    ->  format(atom(Text),
+               'the wheels, ~w cm, are larger than the axle, ~w cm: the form \c
+                is set_robot(WheelDiameter, AxleLength, Left, Right)',
+               [Wheel, Axle])
+    ;   format(atom(Text),
+               'these are wheels of ~w cm and an axle of ~w cm: set_robot/4 \c
+                expects cm, as 5.6 and 10.6', [Wheel, Axle])
+    ).
+because(not_milliseconds(Predicate, Time), domain_error(milliseconds, Time),
+        Text) :-
+    format(atom(Text),
+           'that is ~w ms: ~q expects milliseconds, as 500 for half a second',
+           [Time, Predicate]).
+because(not_seconds(Predicate, Time), domain_error(seconds, Time), Text) :-
+    Minutes is round(Time / 60),
+    format(atom(Text), 'that takes ~d minutes: ~q expects seconds',
+           [Minutes, Predicate]).
+because(interrupted(Who), permission_error(move, robot, Who), Text) :-
+    format(atom(Text),
+           '~w did not arrive: another command, or a stop, came meanwhile',
+           [Who]).
 because(nothing_came(Port, What), existence_error(device, Port), Text) :-
     format(atom(Text), 'nothing came of ~w at ~w', [What, Port]).
 because(lacking(What), existence_error(What, brick), Text) :-
@@ -274,6 +349,40 @@ because(no_reading(Reading), existence_error(reading, Reading), Text) :-
     format(atom(Text), 'no sensor has a reading ~w', [Reading]).
 because(no_simulation, existence_error(simulation, any),
         'no simulation runs: see sim_start/1').
+
+%   What the program may mean by a Value that is no number.
+
+instead(Reading, Value, Instead) :-
+    (   memberchk(Reading, [col_color, ht_color]),
+        text(Value, Name),
+        nth_color(Name, Number)
+    ->  format(atom(Instead), ': ~w is ~d', [Name, Number])
+    ;   Reading == touch
+    ->  Instead = ': 1 while it is pressed, else 0'
+    ;   compound(Value),
+        functor(Value, Operator, 2),
+        memberchk(Operator, [<, >, =<, >=, =:=, =\=])
+    ->  format(atom(Instead),
+               ': compare it after the call, as ~w(Port, X), X ~w 20',
+               [Reading, Operator])
+    ;   text(Value, Port),
+        device_('lego-port', Port, _)
+    ->  Instead = ': the port is the first argument'
+    ;   Instead = ''
+    ).
+
+text(Value, Atom) :-
+    (   atom(Value)
+    ->  Atom = Value
+    ;   string(Value),
+        atom_string(Atom, Value)
+    ).
+
+nth_color(Name, Number) :-
+    arg(Place, color(none, black, blue, green, yellow, red, white, brown),
+        Name),
+    !,
+    Number is Place - 1.
 
                 /*******************************
                 *       ABSENT DEVICES         *
@@ -387,8 +496,9 @@ listed(Class, Devices, Listed) :-
     atomic_list_concat(Texts, ', ', All),
     atom_concat('there are: ', All, Listed).
 
-%   A name that differs in the case of letters, or the only one that differs
-%   by a letter. A port of the brick was meant as it is written.
+%   A name that differs in the case of letters, or whose last letter it is, as
+%   `b`, or `motor_b`, or the only one that differs by a letter. A port of the
+%   brick was meant as it is written.
 
 suggested(Class, Port, Devices, Suggestion) :-
     nonvar(Port),
@@ -403,9 +513,21 @@ suggested(_, _, _, '').
 meant(Port, Names, Name) :-
     downcase_atom(Port, Low),
     (   one_of(Names, Name),
-        downcase_atom(Name, Low)
+        downcase_atom(Name, LowName),
+        (   LowName == Low
+        ;   is_end(Low, LowName)
+        )
     ->  true
     ;   findall(Near,
                 ( one_of(Names, Near), dwim_match(Low, Near) ),
                 [Name])
+    ).
+
+is_end(Text, Name) :-
+    sub_atom(Name, _, 1, 0, End),
+    (   Text == End
+    ->  true
+    ;   one_of([motor, port, s, sensor, m], Start),
+        one_of(['', '_', ' '], Gap),
+        atomic_list_concat([Start, Gap, End], Text)
     ).

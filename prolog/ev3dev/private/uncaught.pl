@@ -53,7 +53,7 @@ about(Formal) -->
       Formal = domain_error(possible_geometry, Item)
     },
     !,
-    [ '~p '-[Item] ].
+    [ '~w '-[Item] ].
 about(_) -->
     [].
 
