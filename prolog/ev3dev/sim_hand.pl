@@ -219,10 +219,7 @@ sim_press(Key, Options) :-
     ->  For = infinite
     ;   number_value(seconds, For0, For)
     ),
-    (   sim_plan_key_(Key, After, For)
-    ->  true
-    ;   no_key(Key)
-    ).
+    sim_plan_key_(Key, After, For).
 
 %!  added_facts(-Added) is det.
 %!  set_added_facts(+Added) is det.

@@ -171,6 +171,72 @@ test(an_error_of_prolog_prints_as_ever, true(Printed == true)) :-
     ->  Printed = true
     ;   Printed = Text
     ).
+test(say_which_variable_has_no_value,
+     [ forall(member(Goal-Words,
+                     [ motor_run(_, 50)-'the first argument is a variable without a value',
+                       motor_run(outB, _)-'the second argument is a variable without a value',
+                       motor_run(outB, 50+_)-'a part of an argument is a variable',
+                       motor_wait(_, [], _)-'the first argument is',
+                       set_robot(5.6, 10.6, outB, _)-'the fourth argument is',
+                       until(_, true)-'an argument is',
+                       sim_svg(_)-'the first argument is' ])) ]) :-
+    with_sim(room, catch(Goal, error(instantiation_error, context(_, Message)), true)),
+    assertion(sub_atom(Message, _, _, _, Words)).
+test(say_what_is_meant,
+     [ forall(member(Goal-Words,
+                     [ motors_run([outB])-"run(Port, Speed) is expected, not outB",
+                       motors_run(run(outB, 50))-"Did you mean [run(outB,50)]?",
+                       motors_turn([move(outB, 5)], [])-": move(Port,Speed,Angle), to(",
+                       motor_ramps(outB, 1, -1)-"an integer from 0 to 60000 is expected, not -1",
+                       drive_option(speed, 200)-"other than 0 is expected, not 200",
+                       go_to([1, 2], 3)-"a number is expected, not [1,2]",
+                       go_to(1-2, [speed(3)])-"a number is expected, not ",
+                       sensor_wait(us_dist_cm(in1, _))-"us_dist_cm(in1,_) is not one of",
+                       sim_unplug(in9)-"in1 to in4 and outA to outD, not in9",
+                       sim_remote(1, [up])-"red_up, red_down",
+                       sim_restore(x)-"sim_snapshot/1",
+                       sim_add(box)-"box(X,Y,Width,Length)",
+                       sim_svg('no/such/folder.svg')-"there is no file 'no/such/folder.svg'",
+                       screen_circle(50, 50, -3)-"from 0 to 10000 is expected, not -3",
+                       on(us_dist_cm(in1, D) < 20, D)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
+                       until(us_dist_cm(in1, D) < 20, true)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
+                       until(20 > us_dist_cm(_, 5), true)-"us_dist_cm(Port) < 20, or us_dist_cm(Port, X), X < 20",
+                       until(true, true, go(30))-"stands in parentheses",
+                       behave([(a :: us_dist_cm(_, D) < 9 ~> true)])-"us_dist_cm(Port) < 9, or us_dist_cm(Port, X), X < 9",
+                       behave([(a : true ~> true)])-"a rule is written Name :: Guard ~> Action",
+                       behave(avoid)-"Did you mean [avoid]?" ])) ]) :-
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(Goal, error(_, context(_, Message)), true) )),
+    assertion(sub_atom(Message, _, _, _, Words)).
+test(say_what_the_arguments_are,
+     [ forall(member(Goal-Words,
+                     [ motor_run(50, outB)-"; its form is motor_run(Port, Speed)",
+                       motor_run(1, 50)-"; its form is motor_run(Port, Speed)",
+                       led(red, left)-"; its form is led(Light, Color)",
+                       set_robot(outB, outC, 5.6, 10.6)
+                           -"set_robot(WheelDiameter, AxleLength, Left, Right)",
+                       for_seconds(go(20), 3)-"; its form is for_seconds(Seconds, Goal)",
+                       sim_place(0, 0, 0)-"sim_place/3: robot at 0, 0 is inside" ])) ]) :-
+    with_sim(room, catch(( Goal, E = none ), E, true)),
+    text_of(E, Text),
+    assertion(sub_string(Text, _, _, _, Words)).
+test(there_is_no_such_predicate,
+     [ forall(member(Predicate-Words,
+                     [ (motor_run/1)-"there is no motor_run/1. There are:",
+                       (motor_run/1)-"motor_run(Port, Speed, Angle, Options)",
+                       (stop/1)-"There is:",
+                       (user:set_robot/6)-"set_robot(WheelDiameter, AxleLength, Left, Right)",
+                       (until/1)-"until(Condition, Goal)",
+                       (gyro/2)-"Did you mean:",
+                       (forward/1)-"go_cm(Speed, Distance)",
+                       (us_distance/2)-"us_dist_cm(Port, Centimeters)" ])) ]) :-
+    text_of(error(existence_error(procedure, Predicate), _), Text),
+    assertion(sub_string(Text, _, _, _, Words)).
+test(what_prolog_does_not_know_is_said_by_prolog,
+     [ forall(member(Predicate, [foo/1, x/0, atom_length/9])) ]) :-
+    text_of(error(existence_error(procedure, Predicate), _), Text),
+    assertion(\+ sub_string(Text, _, _, _, "there is no")).
 test(list_what_is_allowed,
      [ forall(member(Goal-Words,
                      [ led(left, blu)-"off, on, red",
@@ -199,6 +265,11 @@ test(list_what_is_allowed,
     assertion(sub_atom(Message, _, _, _, Words)).
 
 :- end_tests(errors).
+
+text_of(Error, Text) :-
+    Translation =.. [translate_message, Error, Lines, []],
+    call('$messages':Translation),
+    with_output_to(string(Text), print_message_lines(current_output, '', Lines)).
 
 %   Goal has X for a length, an angle, a speed or a time.
 

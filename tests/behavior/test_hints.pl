@@ -5,6 +5,7 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events), [every/3]).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/sim)).
@@ -17,6 +18,12 @@ hints(Goal, Texts) :-
 
 hints_of(Flag, Goal, Texts) :-
     with_flag(Flag, warnings(\+ Goal, Warnings)),
+    findall(Text, member(ev3dev(hint(Text)), Warnings), Texts).
+
+%   The same of a Goal that succeeds.
+
+advice(Flag, Goal, Texts) :-
+    with_flag(Flag, warnings(once(Goal), Warnings)),
     findall(Text, member(ev3dev(hint(Text)), Warnings), Texts).
 
 with_flag(Flag, Goal) :-
@@ -103,8 +110,14 @@ absent(mode(in9, 'TOUCH'), 'there is no sensor at in9').
 absent(adjust_val(in9, 1, _), 'there is no sensor at in9').
 absent(sensor_reading(foo, _, _), 'no sensor has a reading foo').
 absent(set_robot(5, 9, outB, outE), 'there is no motor at outE').
-absent(set_robot(5, 9, outA, outB), 'outA and outB are not two motors').
-absent(set_robot(5, 9, outB, outB), 'outB and outB are not two motors').
+absent(set_robot(5, 9, outA, outB),
+       'outA (lego-ev3-m-motor) and outB (lego-ev3-l-motor) are not two motors of').
+absent(set_robot(5, 9, outB, outB), 'outB is one motor, and a robot needs two').
+absent(us_dist_cm(in1, white), 'us_dist_cm/2 gives a number, not white').
+absent(us_dist_cm(_, in1), 'us_dist_cm/2 gives a number, not in1: the port is the first').
+absent(us_dist_cm(in1, _ < 20), 'us_dist_cm/2 gives a number, not ').
+absent(col_color(in2, white), 'col_color/2 gives a number, not white: white is 6').
+absent(col_color(_, "red"), 'col_color/2 gives a number, not "red": red is 5').
 absent(led(nowhere, red), 'there is no light nowhere').
 absent(led(nowhere, _), 'there is no light nowhere').
 absent(led_trigger(nowhere, none), 'there is no light nowhere').
@@ -144,7 +157,41 @@ impossible(motors_turn([move(outB, 20, 9), move(outC, 20, 1.0e300)], []),
            'outC cannot turn by 1.0e+300 degrees').
 impossible(( motor_gear(outB, 3), motor_run(outB, dps(400)) ),
            'outB cannot run at 114 %').
+impossible(go(cm_per_s(500)), 'outB cannot run at 974 %').
 impossible(led(left, blue), 'left cannot show blue').
+impossible(sim_press(in4), 'in4 has lego-ev3-gyro, no touch sensor').
+impossible(sim_release(in4), 'in4 has lego-ev3-gyro, no touch sensor').
+impossible(sim_unplug(outD), 'nothing is plugged into outD').
+impossible(( every(0.1, stop, [count(1)]), go_cm(20, 50) ),
+           'the robot did not arrive: another command').
+impossible(( every(0.1, stop, [count(1)]), motor_run(outB, 20, 900) ),
+           'outB did not arrive: another command').
+
+%   strange(Goal, Start): Goal succeeds, but nobody means its units or options.
+strange(set_robot(56, 106, outB, outC),
+        'these are wheels of 56 cm and an axle of 106 cm: set_robot/4 expects cm').
+strange(set_robot(0.056, 0.106, outB, outC), 'these are wheels of 0.056 cm').
+strange(set_robot(10.6, 5.6, outB, outC), 'the wheels, 10.6 cm, are larger than the axle').
+strange(tone(440, 0.5), 'that is 0.5 ms: tone/2 expects milliseconds').
+strange(led_blink(left, 1, 1), 'that is 1 ms: led_blink/3 expects milliseconds').
+strange(motor_run_timed(outB, 50, 2000), 'that takes 33 minutes: motor_run_timed/3 expects').
+strange(motor_run(outB, 50, 9, [stop_action(brake), stop_action(coast)]),
+        'the option stop_action is given twice').
+strange(go_cm(20, 5, [timeout(9), timeout=3]), 'the option timeout is given twice').
+
+%   What is as it should be.
+usual(set_robot(5.6, 10.6, outB, outC)).
+usual(set_robot(3, 6, outB, outC)).
+usual(set_robot(8.2, 20, outB, outC)).
+usual(tone(440, 100)).
+usual(tone(440, 0)).
+usual(led_blink(left, 10, 990)).
+usual(motor_run_timed(outB, 50, 20)).
+usual(motor_run_timed(outB, 50, 1, [stop_action(hold)])).
+usual(motor_run_timed(outB, 50, 1, [ramp_up(100)])).
+usual(with_sim(room, true, [clock(virtual)])).
+usual(col_color(in2, _)).
+usual(( every(0.1, stop, [count(1)]), ignore(go_cm(20, 0)) )).
 
 %   A call of the robot before set_robot/4.
 early(go(20)).
@@ -183,6 +230,17 @@ test(what_is_impossible_is_told_once,
     on(Tree, ( a_robot, hints(( Goal ; Goal ), Texts) )),
     Texts = [Text],
     assertion(begins(Text, Start)).
+test(what_nobody_means_is_told_once,
+     [forall(strange(Goal, Start)), true(Texts = [_])]) :-
+    on(simulator, advice(once, Goal, Texts)),
+    Texts = [Text],
+    assertion(begins(Text, Start)).
+test(advice_is_no_error, [forall(strange(Goal, _))]) :-
+    on(simulator, advice(error, Goal, _)).
+test(advice_can_be_off, [forall(strange(Goal, _)), true(Texts == [])]) :-
+    on(simulator, advice(off, Goal, Texts)).
+test(nothing_is_told_of_what_is_usual, [forall(usual(Goal)), true(Texts == [])]) :-
+    on(simulator, advice(once, Goal, Texts)).
 test(a_robot_is_to_be_set_first,
      [ forall(early(Goal)), setup(no_robot),
        true(Texts == ['no robot is set: see set_robot/4']) ]) :-
@@ -231,7 +289,11 @@ test(a_name_that_was_nearly_right_is_suggested,
      [ forall(member(Goal-End,
                      [ motor_run(outb, 50)-'. Did you mean outB?',
                        motor_run('OUTB', 50)-'. Did you mean outB?',
+                       motor_run(b, 50)-'. Did you mean outB?',
+                       motor_run('B', 50)-'. Did you mean outB?',
+                       motor_run(motor_b, 50)-'. Did you mean outB?',
                        us_dist_cm('IN1', _)-'. Did you mean in1?',
+                       us_dist_cm(s1, _)-'. Did you mean in1?',
                        led(lef, red)-'. Did you mean left?',
                        motor_run(outD, 50)-'outC (lego-ev3-l-motor)',
                        motor_run(outE, 50)-'outC (lego-ev3-l-motor)' ])),

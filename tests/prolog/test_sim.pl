@@ -238,7 +238,7 @@ test(axle_without_length) :-
 test(each_wrong_robot_fact_is_explained,
      [ forall(member(Fact-Words,
                      [ "left_wheel(outB, 5, [inverted(maybe)])"-'true or false',
-                       "left_wheel(outB, 5, [inverted(_)])"-'unbound',
+                       "left_wheel(outB, 5, [inverted(_)])"-'a variable without a value',
                        "left_wheel(outB, 5, [grip(1)])"-'inverted(Boolean), slip(Share)',
                        "left_wheel(outB)"-'left_wheel has 2 or 3 arguments',
                        "hull(box(1))"-'circle(Radius), rectangle(Width',

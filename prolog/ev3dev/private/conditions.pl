@@ -96,8 +96,22 @@ goal_of(Condition, Module, Goal) :-
             compares(Reading, Port, Operator, Number, Module, Goal)
         ;   two_dialects(Condition, Reading, Operator, Number)
         )
+    ;   turned(Condition, Turned),
+        compared(Turned, Operator, Sensor, Number),
+        functor(Sensor, Reading, _),
+        reading_of(Reading, _, _, _)
+    ->  two_dialects(Condition, Reading, Operator, Number)
     ;   Goal = Condition
     ).
+
+%   With the sensor on the other side
+
+turned(A < B, B > A).
+turned(A > B, B < A).
+turned(A =< B, B >= A).
+turned(A >= B, B =< A).
+turned(A =:= B, B =:= A).
+turned(A =\= B, B =\= A).
 
 part((A0, B0), A0, B0, A, B, (A, B)).
 part((A0 ; B0), A0, B0, A, B, (A ; B)).

@@ -366,7 +366,8 @@ instead(Reading, Value, Instead) :-
                ': compare it after the call, as ~w(Port, X), X ~w 20',
                [Reading, Operator])
     ;   text(Value, Port),
-        device_('lego-port', Port, _)
+        one_of([motor, sensor], Class),
+        there_is(Class, Port, _)
     ->  Instead = ': the port is the first argument'
     ;   Instead = ''
     ).
