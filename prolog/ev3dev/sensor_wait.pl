@@ -4,7 +4,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, existence_error/2, must_be/2, term_expansion/4
+              [ domain_error/2, existence_error/2, must_be/2,
+                term_expansion/4, throw_error/3
               ]).
 :- use_module(private/explain).
 :- use_module(sensors, [reading_of/4]).
@@ -77,6 +78,7 @@ sensor_wait(Condition) :-
 
 sensor_wait(Module:Condition, Options) :-
     must_be(nonvar, Condition),
+    must_not_be_goal(Options),
     must_be_options(sensor_option, [timeout, reason], Options),
     timeout_option(Options, Timeout),
     (   comparison(Condition, Sensor, Test)
@@ -89,6 +91,15 @@ sensor_wait(Module:Condition, Options) :-
         ;   ended(Ended, _)
         )
     ;   domain_error(sensor_condition, Condition)
+    ).
+
+must_not_be_goal(Options) :-
+    (   compound(Options),
+        Options \= [_|_]
+    ->  throw_error(type_error(list, Options), _,
+                    'a condition of several goals stands in parentheses, \c
+                     as in sensor_wait((Goal1, Goal2))')
+    ;   true
     ).
 
 %   What compares a sensor and is no comparison/3 is a mistake, not a goal.

@@ -232,15 +232,15 @@ test(what_is_impossible_is_told_once,
     assertion(begins(Text, Start)).
 test(what_nobody_means_is_told_once,
      [forall(strange(Goal, Start)), true(Texts = [_])]) :-
-    on(simulator, advice(once, Goal, Texts)),
+    on(simulator, ( a_robot, advice(once, Goal, Texts) )),
     Texts = [Text],
     assertion(begins(Text, Start)).
 test(advice_is_no_error, [forall(strange(Goal, _))]) :-
-    on(simulator, advice(error, Goal, _)).
+    on(simulator, ( a_robot, advice(error, Goal, _) )).
 test(advice_can_be_off, [forall(strange(Goal, _)), true(Texts == [])]) :-
-    on(simulator, advice(off, Goal, Texts)).
+    on(simulator, ( a_robot, advice(off, Goal, Texts) )).
 test(nothing_is_told_of_what_is_usual, [forall(usual(Goal)), true(Texts == [])]) :-
-    on(simulator, advice(once, Goal, Texts)).
+    on(simulator, ( a_robot, advice(once, Goal, Texts) )).
 test(a_robot_is_to_be_set_first,
      [ forall(early(Goal)), setup(no_robot),
        true(Texts == ['no robot is set: see set_robot/4']) ]) :-

@@ -358,7 +358,7 @@ test(what_is_no_stop_is_explained,
                        [stops(0, 0)]-'stops(Min, Max) with Min =< 0 =< Max',
                        [stops(a, 90)]-'a number is expected, not a',
                        [stop(0, 90)]-'is not one of: stops(Min,Max)',
-                       [stops(0, _)]-'unbound',
+                       [stops(0, _)]-'variable',
                        x-'a list is expected' ])) ]) :-
     catch(sim_start([], [robot([motor(outA, 'lego-ev3-l-motor', Options)])]),
           error(Formal, Context), true),
