@@ -1,14 +1,14 @@
 :- module(ev3dev_help, []).
 
-/** <module> apropos/1 finds the pack's predicates
+/** <module> help/1 and apropos/1 know the pack
 
-help/1 finds the comments of loaded libraries. apropos/1 reads only the index
-of the manual. Prolog loads that index at the first call of help/1 or
-apropos/1; then this module adds the pack's predicates (see `help_index.pl`).
-So loading the pack costs no more than this file.
+Prolog loads library(help) at the first call of help/1 or apropos/1. Then
+`help_index.pl` is loaded, too, and puts the pack's answers before those of
+Prolog. So loading the pack costs no more than this file.
 
-In versions before 9, help/1 finds only the manual. Versions before 8.2, such
-as the brick's 7.2.3, have another apropos/1.
+Versions before 8.2, such as the brick's 7.2.3, call a hook if their manual is
+installed. Where Prolog comes without library(help), `forgotten.pl` makes both
+predicates known to the prompt.
 */
 
 :- if((current_prolog_flag(version, Version), Version >= 80200)).
@@ -17,33 +17,35 @@ as the brick's 7.2.3, have another apropos/1.
 :- dynamic user:prolog_load_file/2.
 
 user:prolog_load_file(Module:File, Options) :-
-    ev3dev_help:is_index(File),
-    ev3dev_help:is_first_load,
-    load_files(Module:File, Options),
-    ev3dev_help:extend_index.
+    ev3dev_help:is_library_help(File),
+    ev3dev_help:index(load_help, [Module:File, Options]).
 
-is_index(pldoc(man_index)).
-is_index(library(pldoc/man_index)).
-is_index(File) :-
-    atom(File),
-    sub_atom(File, _, _, _, 'pldoc/man_index').
+is_library_help(File) :-
+    (   atom(File)
+    ->  sub_atom(File, _, _, 0, '/library/help')
+    ;   File == library(help)
+    ).
 
-:- dynamic started/0.
+:- initialization((   current_module(prolog_help)
+                  ->  index(answer_first, [])
+                  ;   true
+                  )).
 
-%   Loading the index calls the hook again.
+:- else.
 
-is_first_load :-
-    \+ started,
-    assertz(started).
+:- multifile prolog:help_hook/1.
 
-extend_index :-
+prolog:help_hook(Question) :-
+    ev3dev_help:index(asked, [Question]).
+
+:- endif.
+
+%   Call a predicate of `help_index.pl`.
+
+index(Name, Arguments) :-
     module_property(ev3dev_help, file(This)),
-    file_directory_name(This, Directory),
-    atom_concat(Directory, '/help_index', File),
-    use_module(File, []).
-
-:- if(current_module(prolog_manual_index)).
-:- initialization(extend_index).
-:- endif.
-
-:- endif.
+    file_directory_name(This, Private),
+    atom_concat(Private, '/help_index', File),
+    use_module(File, []),
+    Goal =.. [Name|Arguments],
+    ev3dev_help_index:Goal.
