@@ -35,7 +35,12 @@ forgotten(Query, Predicate) :-
     unknown_goal(Query, Goal),
     functor(Goal, Name, Arity),
     Predicate = Name/Arity,
-    (   known_mistake(Predicate)
+    % Some Prologs come without library(help): the user gets the pack's.
+    (   memberchk(Predicate, [help/1, apropos/1])
+    ->  private_file(own_help, File),
+        user:use_module(File),
+        fail
+    ;   known_mistake(Predicate)
     ->  true
     ;   \+ is_corrected(Goal),
         meant(Predicate, _)
@@ -222,9 +227,12 @@ loaded(Name) :-
     atom_concat(ev3dev_, Name, Module),
     (   module_property(Module, file(_))
     ->  true
-    ;   module_property(ev3dev_forgotten, file(This)),
-        file_directory_name(This, Private),
-        atomic_list_concat([Private, /, Name], File),
+    ;   private_file(Name, File),
         % In a saved program there may be no file.
         catch(use_module(File, []), error(_, _), fail)
     ).
+
+private_file(Name, File) :-
+    module_property(ev3dev_forgotten, file(This)),
+    file_directory_name(This, Private),
+    atomic_list_concat([Private, /, Name], File).
