@@ -486,10 +486,9 @@ until(Condition0, Goal, Which) :-
 must_be_which(Which) :-
     (   ( var(Which) ; memberchk(Which, [condition, goal]) )
     ->  true
-    ;   format(atom(Text),
-               '~p is not one of: condition, goal; a condition of several \c
-                goals stands in parentheses', [Which]),
-        throw_error(domain_error(until_which, Which), _, Text)
+    ;   throw_error(domain_error(until_which, Which), _,
+                    'a condition of several goals stands in parentheses, \c
+                     as in until((Goal1, Goal2), Goal)')
     ).
 
 until_tick(Id, Condition, Listener) :-

@@ -102,7 +102,8 @@ must_not_be_goal(Options) :-
     ;   true
     ).
 
-%   What compares a sensor and is no comparison/3 is a mistake, not a goal.
+%   What compares a sensor and is no comparison/3, or only reads it, is a
+%   mistake, not a goal.
 
 is_goal((_, _), _).
 is_goal((_ ; _), _).
@@ -110,6 +111,8 @@ is_goal(\+ _, _).
 is_goal(Condition, Module) :-
     callable(Condition),
     \+ functor(Condition, =, 2),
+    functor(Condition, Name, _),
+    \+ reading_of(Name, _, _, _),
     \+ ( Condition =.. [Operator, _, _],
          memberchk(Operator, [<, =<, >, >=, =:=, =\=]) ),
     predicate_property(Module:Condition, visible).

@@ -385,11 +385,17 @@ with_sim(World, Goal, Options) :-
     ),
     setup_call_cleanup(
         know_nothing(Before),
-        setup_call_cleanup(
-            sim_start(World, WithClock),
-            once(goal_of_program(Goal)),
-            ignore(sim_stop)),
+        in_sim(World, WithClock, Goal),
         know_again(Before)).
+
+%   An error of sim_start/2 in a setup would be printed twice at the prompt.
+
+in_sim(World, Options, Goal) :-
+    sim_start(World, Options),
+    setup_call_cleanup(
+        true,
+        once(goal_of_program(Goal)),
+        ignore(sim_stop)).
 
 %   A brick has what is known of the robot. The screen's sheet and the ticks
 %   of this thread are with the native code.

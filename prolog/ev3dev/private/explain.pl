@@ -316,8 +316,8 @@ because(not_cm(Wheel, Axle), domain_error(robot, Wheel-Axle), Text) :-
         Wheel < 20,
         Wheel >= 1
     ->  format(atom(Text),
-               'the wheels, ~w cm, are larger than the axle, ~w cm: the form \c
-                is set_robot(WheelDiameter, AxleLength, Left, Right)',
+               'the wheels, ~w cm, are larger than the axle, ~w cm: the \c
+                form is set_robot(WheelDiameter, AxleLength, Left, Right)',
                [Wheel, Axle])
     ;   format(atom(Text),
                'these are wheels of ~w cm and an axle of ~w cm: set_robot/4 \c

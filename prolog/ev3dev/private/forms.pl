@@ -4,6 +4,7 @@
             meant/2                     % +Predicate, -Predicates
           ]).
 :- use_module(errors, [is_public/2]).
+:- use_module(help_words, [words_for/2]).
 :- use_module(libraries, [in_library/2]).
 
 /** <module> What a predicate looks like, and which was meant
@@ -141,7 +142,7 @@ meant(Name/_, Predicates) :-
               arities(Public, All),
               member_of(All, Public/Arity) ),
             Predicates0),
-    first(6, Predicates0, Predicates),
+    first(4, Predicates0, Predicates),
     Predicates \== [].
 
 first(Count, Terms, First) :-
@@ -166,26 +167,12 @@ alike(Name, Public) :-
     functor(Head, Public, Arity),
     is_visible(Head).
 
-%   What other languages and people call it.
+%   What other languages and people call it: the word, or a part of it, as in
+%   `turn_left`.
 
 called(Word, Names) :-
-    words(Words, Names),
-    memberchk(Word, Words),
+    atomic_list_concat(Parts, '_', Word),
+    member_of([Word|Parts], Part),
+    words_for(Words, Names),
+    memberchk(Part, Words),
     !.
-
-words([ forward, forwards, ahead, straight, drive, move, go_forward,
-        drive_cm, backward, backwards, back, fahre, vor
-      ], [go, go_cm]).
-words([left, right, rotate, spin, turn_left, turn_right, drehe], [turn]).
-words([distance, dist, ultrasonic, us, abstand], [us_dist_cm]).
-words([color, colour, farbe, get_color], [col_color]).
-words([light, reflection, brightness], [col_reflect]).
-words([angle, gyro, heading_of], [gyro_ang, gyro_rate]).
-words([pressed, is_pressed, bumper, touched], [touch]).
-words([beep, sound, play_tone, ton], [tone]).
-words([speak, tts], [say]).
-words([delay, pause, wait_seconds, warte], [wait]).
-words([halt_motors, stop_motors, brake], [stop, stop_all_motors]).
-words([run, motor, start_motor, motor_on, large_motor], [motor_run]).
-words([robot_set, setrobot, make_robot], [set_robot]).
-words([print_screen, display, text], [screen_text]).
