@@ -25,8 +25,9 @@
               ]).
 :- use_module(private/native,
               [ sim_active_/0, sim_add_/2, sim_jam_/2, sim_key_/2,
-                sim_place_/3, sim_plan_key_/3, sim_plug_/2, sim_remote_/2, sim_remove_/1,
-                sim_show_/3, sim_unplug_/1, sim_unshow_/2 ]).
+                sim_place_/3, sim_plan_key_/3, sim_plug_/2, sim_remote_/2,
+                sim_remove_/1, sim_show_/3, sim_unplug_/1, sim_unshow_/2
+              ]).
 
 /** <module> A hand in the simulated world
 
