@@ -15,9 +15,10 @@ LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
 all: build
 
-# What is missing on a fresh machine
+# What is missing on a fresh machine. pack_install of 7.2.3 copies a folder without the
+# right to execute its files.
 setup:
-	@tools/setup.sh
+	@bash tools/setup.sh
 
 build: setup
 	@command -v $(CARGO) >/dev/null || { \
