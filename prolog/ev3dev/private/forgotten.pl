@@ -68,8 +68,7 @@ known_mistake(Predicate) :-
     library_of(Predicate, _),
     !.
 known_mistake(Name/_) :-
-    forms_loaded,
-    ev3dev_forms:arities(Name, _).
+    ask(forms, arities(Name, _)).
 
 %!  form_of(+Predicate, -Form) is semidet.
 %
@@ -77,12 +76,10 @@ known_mistake(Name/_) :-
 %   `motor_run(Port, Speed)`.
 
 form_of(Predicate, Form) :-
-    forms_loaded,
-    ev3dev_forms:form(Predicate, Form).
+    ask(forms, form(Predicate, Form)).
 
 meant(Predicate, Predicates) :-
-    forms_loaded,
-    ev3dev_forms:meant(Predicate, Predicates).
+    ask(forms, meant(Predicate, Predicates)).
 
 %   Goal is a call in Query of what the user has not defined or imported.
 
@@ -134,15 +131,14 @@ prolog:message(error(syntax_error(operator_expected), Where)) -->
 %   Those of the same name, else those that may be meant.
 
 instead(Name/Arity, Said, Predicates) :-
-    forms_loaded,
-    (   ev3dev_forms:arities(Name, Predicates)
+    (   ask(forms, arities(Name, Predicates))
     ->  (   Predicates = [_]
         ->  Said = 'There is'
         ;   Said = 'There are'
         )
     ;   functor(Goal, Name, Arity),
         \+ is_corrected(Goal),
-        ev3dev_forms:meant(Name/Arity, Predicates)
+        ask(forms, meant(Name/Arity, Predicates))
     ->  Said = 'Did you mean'
     ).
 
@@ -214,23 +210,21 @@ unqualified(Predicate0, Predicate) :-
 %   table is loaded when it is needed for the first time.
 
 library_of(Predicate, Library) :-
-    loaded(libraries),
-    Table =.. [in_library, Library, Predicates],
-    call(ev3dev_libraries:Table),
+    ask(libraries, in_library(Library, Predicates)),
     memberchk(Predicate, Predicates),
     !.
 
-forms_loaded :-
-    loaded(forms).
+%   Call Goal of a file that is loaded when it is needed for the first time.
 
-loaded(Name) :-
+ask(Name, Goal) :-
     atom_concat(ev3dev_, Name, Module),
     (   module_property(Module, file(_))
     ->  true
     ;   private_file(Name, File),
         % In a saved program there may be no file.
         catch(use_module(File, []), error(_, _), fail)
-    ).
+    ),
+    call(Module:Goal).
 
 private_file(Name, File) :-
     module_property(ev3dev_forgotten, file(This)),
