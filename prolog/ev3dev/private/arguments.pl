@@ -59,21 +59,21 @@ must_be_option(Domain, Names, Option) :-
 each_once([]).
 each_once([Option|Options]) :-
     (   Options \== [],
-        name(Option, Name),
+        option_name(Option, Name),
         is_given(Options, Name)
     ->  twice(Name)
     ;   true
     ),
     each_once(Options).
 
-name(Option, Name) :-
+option_name(Option, Name) :-
     (   Option = (Name0=_)
     ->  Name = Name0
     ;   functor(Option, Name, 1)
     ).
 
 is_given([Option|Options], Name) :-
-    (   name(Option, Name)
+    (   option_name(Option, Name)
     ->  true
     ;   is_given(Options, Name)
     ).
