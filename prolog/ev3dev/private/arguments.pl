@@ -51,6 +51,10 @@ must_be_option(Domain, Names, Option) :-
     must_be(nonvar, Option),
     (   is_option(Option, Names)
     ->  true
+    ;   memberchk(Option, Names)
+    ->  format(atom(Text), '~w is an option with a value: ~w(Value)',
+               [Option, Option]),
+        throw_error(domain_error(Domain, Option), _, Text)
     ;   throw_error(domain_error(Domain, Option), _, one_of(Option, Names))
     ).
 

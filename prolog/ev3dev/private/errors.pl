@@ -17,6 +17,7 @@
             term_expansion/4            % +Clause0, ?Layout0, -Clause, -Layout
           ]).
 :- use_module(domains, [allowed/2]).
+:- use_module(one_of, [one_of/2]).
 
 /** <module> Errors that name what was called
 
@@ -358,7 +359,45 @@ not_one_of(Term, Values, Text) :-
     quoted(Values, Atoms),
     atomic_list_concat(Atoms, ', ', Listed),
     shown(Term, Shown),
-    format(atom(Text), '~w is not one of: ~w', [Shown, Listed]).
+    (   nearly(Term, Values, Value)
+    ->  format(atom(Text), '~w is not one of: ~w. Did you mean ~w?',
+               [Shown, Listed, Value])
+    ;   format(atom(Text), '~w is not one of: ~w', [Shown, Listed])
+    ).
+
+%   The only one of Values that is spelt nearly as Term, or begins so. Of an
+%   option the name counts.
+
+nearly(Term, Values, Value) :-
+    (   atom(Term)
+    ->  Name = Term
+    ;   compound(Term),
+        functor(Term, Name, 1)
+    ),
+    downcase_atom(Name, Low),
+    (   findall(Near, ( one_of(Values, Near), spelt(Low, Near) ), [Value])
+    ->  true
+    ;   atom_length(Low, Length),
+        Length > 2,
+        findall(Longer, ( one_of(Values, Longer), starts(Low, Longer) ),
+                [Value])
+    ).
+
+spelt(Low, Value) :-
+    atom(Value),
+    (   Value == Low
+    ->  true
+    ;   dwim_match(Low, Value)
+    ).
+
+starts(Low, Value) :-
+    atom(Value),
+    (   atom_concat(Low, _, Value)
+    ->  true
+    ;   atom_concat(Value, _, Low),
+        atom_length(Value, Length),
+        Length > 2
+    ).
 
 quoted([], []).
 quoted([Value|Values], [Atom|Atoms]) :-
