@@ -506,7 +506,10 @@ fn cannot_show<T, C: QueryableContextType>(
 ) -> PrologResult<T> {
     match errno {
         Errno::ENODEV => Err(PrologError::Failure),
-        Errno::ENOENT => no_such(call, "attribute", &call.text(attribute)?, "not of that device"),
+        Errno::ENOENT => {
+            let name = call.text(attribute)?;
+            no_such(call, "attribute", &name, &format!("that device has no attribute {name}"))
+        }
         Errno::EACCES => wrong_because(call, "readable_attribute", attribute, "is only written"),
         _ => wrong_because(call, "attribute_text", text, "is longer than a page"),
     }

@@ -425,10 +425,9 @@ all_same([Term|Terms], Term) :-
                 *******************************/
 
 %   Text says which variable has no value in the call of Frame: Variable, or
-%   the first argument that is a variable, or the first one in an argument. In
-%   a query of the toplevel it has a name. (The garbage collector forgets the
-%   arguments of a frame that are not used any more. Then it is the first
-%   variable of the query.)
+%   the first one in its arguments. In a query of the toplevel it has a name.
+%   (The garbage collector forgets the arguments of a frame that are not used
+%   any more. Then it is the first variable of the query.)
 
 no_value(Variable, Frame, Text) :-
     (   Frame \== none,
@@ -470,15 +469,7 @@ missing(Arguments, Variable, Missing) :-
     (   var(Variable),
         place(Variables, Variable, 1, _)
     ->  Missing = Variable
-    ;   first_of(Arguments, Missing)
-    ->  true
-    ;   Variables = [Missing|_]
-    ).
-
-first_of([Argument|Arguments], Variable) :-
-    (   var(Argument)
-    ->  Variable = Argument
-    ;   first_of(Arguments, Variable)
+    ;   Variables = [Missing|_]         % outputs are the last arguments
     ).
 
 place([Term|Terms], Wanted, Place0, Place) :-
