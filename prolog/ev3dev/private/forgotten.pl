@@ -32,6 +32,7 @@ Prolog's own offer to correct a name that is misspelt stays.
 
 forgotten(Query, Predicate) :-
     callable(Query),
+    Query \== end_of_file,             % Ctrl-D
     unknown_goal(Query, Goal),
     functor(Goal, Name, Arity),
     Predicate = Name/Arity,
