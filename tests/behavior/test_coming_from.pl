@@ -58,7 +58,9 @@ test(each_word_runs_in_the_simulator,
               \+ lacks(Goal),
               with_sim(room,
                        ( set_robot(5.6, 10.6, outB, outC),
-                         catch(( ignore(for_seconds(5, user:Goal)), fail ), E, true) )) ),
+                         catch(( ignore(for_seconds(5, user:Goal)), fail ), E, true) )),
+              % Old versions have no engines, for both/2 and race/2
+              E \= error(existence_error(feature, engines), _) ),
             Errors),
     ignore(event_cancel(_)).
 

@@ -61,11 +61,13 @@ test(make_demo_knows_its_start,
 test(leaves_no_choice_point,
      [ forall(( example(File), program(File, Name) )),
        true(Status-Found == exit(0)-"") ]) :-
-    format(string(Goal), "find(~q, ~q)", [Name, File]),
+    absolute_file_name(File, Path),
+    format(string(Goal), "find(~q, ~q)", [Name, Path]),
     run_program(
         ":- use_module(library(ev3dev)).
          :- use_module(library(ev3dev/sim)).
-         :- load_files(demo:'tools/demo.pl', []).
+         :- absolute_file_name('tools/demo.pl', File),
+            load_files(demo:File, []).
          find(Name, File) :-
              user:load_files(File, []),
              (   demo:demo(Name, World, Goal)

@@ -78,13 +78,16 @@ ours(ev3dev_halt:halt_by).
 %   True if Signal ends this program, whose motors are stopped before. The
 %   native library asks in a thread of its own: Prolog handles no signal while
 %   it loads a file, as in main/0 of `:- initialization(main).`, nor in
-%   shell/1. From then on until Prolog has the signal no move ends, so that
-%   the program does not go on by a move that has been stopped.
+%   shell/1. From then on until halt_by/1 no move ends, so that the program
+%   does not go on by a move that has been stopped.
 told_to_end(Signal) :-
     handler(Signal, Handler),
     ends(Signal, Handler),
     (   current_prolog_flag(ev3dev_stop_at_halt, true)
-    ->  ending_(true),
+    ->  (   ours(Handler)
+        ->  ending_(true)
+        ;   true
+        ),
         stop_started_
     ;   true
     ).
