@@ -38,7 +38,13 @@ main() {
     case ${EV3DEV_RUST:-auto} in
     rustup) rust_of_rustup || die "rustup cannot fetch Rust $rust_version (see $toolchain/rustup.log)" ;;
     debian) rust_of_debian ;;
-    auto) is_made "$toolchain/rust" "$(debian_key)" || rust_of_rustup || rust_of_debian ;;
+    auto)
+        if is_made "$toolchain/rust" "$(debian_key)"; then
+            rust_of_debian
+        else
+            rust_of_rustup || rust_of_debian
+        fi
+        ;;
     *) die "EV3DEV_RUST is none of rustup, debian, auto: $EV3DEV_RUST" ;;
     esac
 }
@@ -99,8 +105,19 @@ debian_key() {
 # Debian's compiler and standard libraries. The compiler may need a newer C
 # library than this machine has, so it is started through its own loader.
 rust_of_debian() {
+    local run
+    is_made "$toolchain/rust" "$(debian_key)" || fetch_rust_of_debian
+    # These may be rustup's, of a run for other targets.
+    # shellcheck disable=SC2016
+    run='rust=$(dirname "$0")/../rust/usr
+exec "$rust/lib64/ld-linux-x86-64.so.2" \
+    --library-path "$rust/lib/x86_64-linux-gnu" "$rust/bin/'
+    write_wrapper cargo "${run}cargo\" \"\$@\""
+    write_wrapper rustc "${run}rustc\" --sysroot \"\$rust\" \"\$@\""
+}
+
+fetch_rust_of_debian() {
     local dir=$toolchain/rust apt=$toolchain/apt name
-    is_made "$dir" "$(debian_key)" && return
     [[ $(uname -sm) == "Linux x86_64" ]] ||
         die "the Debian toolchain runs on x86_64 Linux only; use rustup elsewhere"
     say "fetching Rust $rust_version of Debian $debian_suite"
@@ -117,14 +134,6 @@ rust_of_debian() {
     debian_closure "$apt" "rustc=$rust_version*" "cargo=$rust_version*"
     debian_unpack "$apt" "$dir"
     debian_forget "$apt"
-
-    local run
-    # shellcheck disable=SC2016
-    run='rust=$(dirname "$0")/../rust/usr
-exec "$rust/lib64/ld-linux-x86-64.so.2" \
-    --library-path "$rust/lib/x86_64-linux-gnu" "$rust/bin/'
-    write_wrapper cargo "${run}cargo\" \"\$@\""
-    write_wrapper rustc "${run}rustc\" --sysroot \"\$rust\" \"\$@\""
     made "$dir" "$(debian_key)"
 }
 
