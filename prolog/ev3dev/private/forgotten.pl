@@ -1,6 +1,7 @@
 :- module(ev3dev_forgotten,
           [ known_mistake/1,            % +Predicate
-            form_of/2                   % +Predicate, -Form
+            form_of/2,                  % +Predicate, -Form
+            unqualified/2               % ?Predicate0, -Predicate
           ]).
 :- use_module(errors, [in_pack/3, is_public/2]).
 
@@ -197,6 +198,10 @@ is_plain(Context) :-
     ;   Context = context(Where, _),
         \+ ( nonvar(Where), Where = prolog_stack(_) )
     ).
+
+%!  unqualified(?Predicate0, -Predicate) is semidet.
+%
+%   Predicate is Name/Arity; Predicate0 is that, or has a module before it.
 
 unqualified(Predicate0, Predicate) :-
     (   nonvar(Predicate0),

@@ -2,7 +2,7 @@
           [ in_words//1                 % +Message
           ]).
 :- use_module(errors, [in_pack/3, is_of_system/1, is_public/2, is_word/1]).
-:- use_module(forgotten, [form_of/2, known_mistake/1]).
+:- use_module(forgotten, [form_of/2, known_mistake/1, unqualified/2]).
 :- use_module(native, [running_/1]).
 
 /** <module> What a person reads of an error
@@ -174,11 +174,7 @@ located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
     no_tracer_opens(Catcher).
 
 is_forgotten(existence_error(procedure, Predicate0)) :-
-    (   Predicate0 = _:Predicate
-    ->  true
-    ;   Predicate = Predicate0
-    ),
-    ground(Predicate),
+    unqualified(Predicate0, Predicate),
     known_mistake(Predicate).
 
 %   The flag is looked at when this hook has succeeded or failed, and is set
