@@ -1,15 +1,35 @@
-//! `prolog/ev3dev/halt.pl`: stops motors when a program ends.
+//! `prolog/ev3dev/private/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
+use crate::glue::signals;
 use crate::glue::state::{chosen_devices, devices};
-use crate::glue::waiting;
 use ev3_driver::motor;
+use ev3_signals::latch::Reason;
+use std::sync::atomic::{AtomicBool, Ordering};
+use swipl::fli::act_at_halt;
 use swipl::prelude::*;
+
+/// Whether the motors are stopped when Prolog halts.
+static STOPS: AtomicBool = AtomicBool::new(true);
 
 /// Registers the predicates below.
 pub(crate) fn register() {
     register_running();
-    register_ending();
+    register_at_halt();
+    register_told_to_end();
     register_stop_started();
+    register_halts_by();
+    act_at_halt(halts);
+}
+
+/// Prolog halts for good. Its threads may go on for a while, and start motors.
+fn halts() {
+    if STOPS.load(Ordering::Relaxed) {
+        ev3_signals::stop_for(Reason::Halting);
+        // What fails was to be stopped before, and said so.
+        let _ = motor::stop_started(&devices());
+    } else {
+        ev3_signals::leave();
+    }
 }
 
 predicates! {
@@ -22,12 +42,20 @@ predicates! {
         ports.unify(names.as_slice())
     }
 
-    /// ending_(+Ending): whether the program is told to end, and Prolog has not got the
-    /// signal yet.
+    /// at_halt_(+Stops): Prolog is about to halt, and is to stop the motors, or to leave them,
+    /// if that is not cancelled.
     #[module("ev3dev_native")]
-    #[name("ending_")]
-    semidet fn ending(_context, ending) {
-        waiting::set_ending(ending.get_ex()?);
+    #[name("at_halt_")]
+    semidet fn at_halt(_context, stops) {
+        STOPS.store(stops.get_ex()?, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// told_to_end_: a signal ends the program. From now on no motor starts.
+    #[module("ev3dev_native")]
+    #[name("told_to_end_")]
+    semidet fn told_to_end(_context) {
+        ev3_signals::stop_for(Reason::Ending);
         Ok(())
     }
 
@@ -36,5 +64,14 @@ predicates! {
     #[name("stop_started_")]
     semidet fn stop_started(context) {
         Call::of(context, "halt", 0).or_throw(motor::stop_started(&devices()))
+    }
+
+    /// halts_by_(+Signal): Prolog halts because of a signal, `term`, `hup` or `int`.
+    #[module("ev3dev_native")]
+    #[name("halts_by_")]
+    semidet fn halts_by(context, signal) {
+        let signal = Call::of(context, "halt", 0).text(signal)?;
+        signals::halts_by(&signal);
+        Ok(())
     }
 }

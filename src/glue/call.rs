@@ -2,6 +2,7 @@
 use crate::glue::due::{has_guards, has_rung, is_any_due};
 use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
+use crate::glue::signals;
 use crate::glue::state;
 use crate::glue::terms::unify_value;
 use crate::glue::watch;
@@ -64,6 +65,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices, for a call that starts a motor.
     pub(crate) fn devices_to_move(&self) -> PrologResult<Arc<Registry>> {
         self.may_move()?;
+        signals::before_motors(self.context)?;
         self.devices_to_command()
     }
 

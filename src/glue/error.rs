@@ -20,8 +20,10 @@ use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::device::read_value;
 use ev3_driver::error::{Access, Error};
 use ev3_driver::{Class, Errno, Registry, Value};
+use ev3_signals::latch::{self, Reason};
 use std::error::Error as _;
 use std::path::Path;
+use std::time::{Duration, Instant};
 use swipl::prelude::*;
 
 /// The origin of errors: the public predicate that was called, by name and arity.
@@ -41,8 +43,27 @@ pub(crate) fn raise<T, C: QueryableContextType>(
         // The signal handler has raised an exception already.
         return Err(PrologError::Exception);
     }
+    if matches!(error, Error::Latched { .. }) {
+        end_of_program(call)?;
+    }
     let formal = formal(call.context, error, devices)?;
     throw(call, &formal, &message(error, devices))
+}
+
+/// Where no motor may start because the program ends, so does this call: by the signal that
+/// Prolog is about to get, or as Prolog ends this thread, or, in a clean-up, by an abort.
+fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()> {
+    /// Prolog ends its threads sooner than that.
+    const MOST: Duration = Duration::from_millis(100);
+    let since = Instant::now();
+    while latch::is_ending() {
+        call.context.handle_signals()?;
+        if latch::is_set_as(Reason::Halting) && since.elapsed() > MOST {
+            return call.context.call_once(pred!("system:abort/0"), []);
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    Ok(())
 }
 
 /// `throw(Formal, Called, Message)`, for `private/waits.pl` to throw.

@@ -13,24 +13,15 @@ use crate::glue::terms::unify_atom;
 use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
+use ev3_signals::latch;
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use swipl::fli::{Act, act_without_input, this_thread};
 use swipl::prelude::*;
 
-/// Whether a signal has stopped the motors, and Prolog has not got it yet. A move does not end
-/// by that stop: the program would go on.
-static IS_ENDING: AtomicBool = AtomicBool::new(false);
-
-/// How often Prolog looks for that signal.
+/// How often Prolog looks for a signal that ends the program, once the motors are stopped.
 const SIGNAL: Duration = Duration::from_millis(10);
-
-/// Says whether the program is about to get a signal that ends it.
-pub(crate) fn set_ending(is_ending: bool) {
-    IS_ENDING.store(is_ending, Ordering::SeqCst);
-}
 
 /// The number of Prolog's main thread.
 const MAIN_THREAD: i32 = 1;
@@ -284,7 +275,8 @@ impl<C: QueryableContextType> Call<'_, C> {
     ) -> PrologResult<bool> {
         let mut is_ending = false;
         let goes_on = self.slice(wait, reason, |ended| {
-            is_ending = IS_ENDING.load(Ordering::SeqCst);
+            // It ends because the motors were stopped: the program would go on by that.
+            is_ending = latch::is_ending();
             unify_atom(reason, if is_ending { "pause" } else { ended.word() })
         })?;
         if is_ending {

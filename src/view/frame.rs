@@ -6,7 +6,7 @@ use super::notes::notes;
 use super::reach::running_simulation;
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
-use ev3_driver::latch;
+use ev3_signals::latch;
 use ev3_json::Json;
 use ev3_sim::{Beside, Clock, MOTOR_KINDS, Machine, Pose, SensorKind, Simulation};
 use std::fmt;

@@ -19,7 +19,8 @@ use crate::glue::call::{Call, Text};
 use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
-use ev3_driver::{Error, latch, motor};
+use ev3_driver::{Error, motor};
+use ev3_signals::latch::{self, Reason};
 use ev3_json::Json;
 use swipl::prelude::*;
 
@@ -80,7 +81,7 @@ predicates! {
             simulation.set_pace(None);
             simulation.set_paused(false);
         }
-        latch::set(false);
+        latch::lift(Reason::Stopped);
         into_prolog_result(true)
     }
 
@@ -175,7 +176,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("view_latch_")]
     semidet fn view_latch(_context) {
-        latch::set(true);
+        latch::set(Reason::Stopped);
         into_prolog_result(true)
     }
 
@@ -183,7 +184,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("view_lift_")]
     semidet fn view_lift(_context) {
-        latch::set(false);
+        latch::lift(Reason::Stopped);
         into_prolog_result(true)
     }
 

@@ -38,7 +38,6 @@ pub mod device;
 pub mod drive;
 pub mod error;
 pub mod journal;
-pub mod latch;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;

@@ -239,11 +239,11 @@ impl Sysfs for SysfsDir {
             .open(path)?;
         // Devices and pipes are no stores of bytes either.
         let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
-        let takes_stop = access == Access::Write
-            && path.ends_with("command")
-            && !path.starts_with(self.root.join(Class::ServoMotor.directory()));
-        let kept = takes_stop.then(|| Kept::new(file.as_raw_fd())).flatten();
-        Ok(Box::new(OpenFile { _kept: kept, file, is_plain }))
+        let is_motors = access == Access::Write && path.ends_with("command");
+        let is_servos = path.starts_with(self.root.join(Class::ServoMotor.directory()));
+        let word = if is_servos { "float" } else { "stop" };
+        let kept = is_motors.then(|| Kept::new(file.as_raw_fd(), path, word)).flatten();
+        Ok(Box::new(OpenFile { kept, file, is_plain }))
     }
 
     fn matching(&self, pattern: &str) -> Result<Vec<PathBuf>> {
@@ -293,17 +293,13 @@ pub(crate) fn is_generated(file: &File) -> io::Result<bool> {
 /// An attribute as an open file, read and written at offset 0.
 struct OpenFile {
     /// For a motor's commands. It goes before the file.
-    _kept: Option<Kept>,
+    kept: Option<Kept>,
     file: File,
     is_plain: bool,
 }
 
-impl AttributeFile for OpenFile {
-    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.file.read_at(buffer, 0)
-    }
-
-    fn write(&self, text: &[u8]) -> io::Result<()> {
+impl OpenFile {
+    fn write_text(&self, text: &[u8]) -> io::Result<()> {
         // By seeking: a stat before each write makes the write twice as dear,
         // as file systems then give it a time-stamp of its own.
         let length = if self.is_plain { (&self.file).seek(SeekFrom::End(0))? } else { 0 };
@@ -317,6 +313,19 @@ impl AttributeFile for OpenFile {
             self.file.set_len(text.len() as u64)?;
         }
         Ok(())
+    }
+}
+
+impl AttributeFile for OpenFile {
+    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.file.read_at(buffer, 0)
+    }
+
+    fn write(&self, text: &[u8]) -> io::Result<()> {
+        match &self.kept {
+            Some(kept) => kept.tell(text, || self.write_text(text)),
+            None => self.write_text(text),
+        }
     }
 
     fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {

@@ -19,7 +19,8 @@
 //!   of the register, or, on 32 bit, the same word.
 //! * **One end.** Old versions end a predicate that throws twice; here the second
 //!   time is left out ([`pruned`]).
-//! * **The prompt.** What is to be done while Prolog waits for input ([`prompt`]).
+//! * **The prompt, and the end.** What is to be done while Prolog waits for input
+//!   ([`prompt`]), and when it halts ([`halt`]).
 //!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
@@ -35,6 +36,7 @@
 )]
 
 pub mod functions;
+pub mod halt;
 pub mod late;
 pub mod prompt;
 pub mod pruned;
@@ -42,6 +44,7 @@ pub mod types;
 mod version;
 
 pub use functions::*;
+pub use halt::act_at_halt;
 pub use late::*;
 pub use prompt::{Act, act_without_input};
 pub use pruned::_PL_retry_address;

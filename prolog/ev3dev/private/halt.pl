@@ -1,9 +1,12 @@
 :- module(ev3dev_halt, []).
-:- use_module(native, [ending_/1, stop_started_/0]).
+:- use_module(native,
+              [at_halt_/1, halts_by_/1, stop_started_/0, told_to_end_/0]).
 
 :- initialization(
-       create_prolog_flag(ev3dev_stop_at_halt, true,
-                          [keep(true), type(boolean)]),
+       ( create_prolog_flag(ev3dev_stop_at_halt, true,
+                            [keep(true), type(boolean)]),
+         create_prolog_flag(ev3dev_stop_at_kill, true,
+                            [keep(true), type(boolean)]) ),
        now).
 
 /** <module> Stops the motors when the program ends
@@ -11,26 +14,36 @@
 The kernel keeps a motor running after its program has ended. So when Prolog
 halts, or SIGINT, SIGTERM or SIGHUP ends it, this module stops every motor, of
 any class, that the program started, unless the flag `ev3dev_stop_at_halt` is
-`false`. It lets servos float.
+`false`. It lets servos float. From then on no motor starts: a thread that
+tries to is aborted.
 
 If Prolog does not end within two seconds of such a signal, the process is
-ended without its at_halt/1 goals. A crash, or SIGQUIT, stops motors of files,
-but no servo, and whatever the flag says. SIGKILL stops nothing.
+ended without its at_halt/1 goals. Whatever the flag says, any other signal that
+ends the process stops the motors, and one that makes it stand, as Ctrl-Z does.
+If the process is killed, another one stops its motors, which begins with the
+first motor that runs, unless the flag `ev3dev_stop_at_kill` is `false` then.
+`docs/safety.md` tells all of it.
 */
 
 :- initialization(at_halt(stop_at_halt), now).
 
 stop_at_halt :-
-    (   current_prolog_flag(ev3dev_stop_at_halt, true)
+    current_prolog_flag(ev3dev_stop_at_halt, Stops),
+    at_halt_(Stops),
+    (   Stops == true
     ->  stop_started_
     ;   true
     ).
 
+%   The foreign library asks at the first motor that runs.
+stops_at_kill :-
+    \+ current_prolog_flag(ev3dev_stop_at_kill, false).
+
 % SIGTERM, and SIGINT without a debugger, end Prolog at once and without its
 % at_halt/1 goals. This does not replace handlers of the program.
-halt_on(Signal) :-
+halt_on(Signal, Terminal) :-
     handler(Signal, Handler),
-    (   ends_at_once(Signal, Handler)
+    (   ends_at_once(Signal, Handler, Terminal)
     ->  ours(Ours),
         on_signal(Signal, _:_, Ours)
     ;   true
@@ -48,13 +61,12 @@ handler(Signal, Handler) :-
 % Before version 9 SIGINT starts the debugger even if there is no terminal.
 % Version 7.2.3 shows the debugger's handler as a C function. It reads the end
 % of its input then and halts as it should, so this leaves that handler.
-ends_at_once(_, default).
-ends_at_once(int, debug) :-
-    \+ stream_property(user_input, tty(true)).
-ends_at_once(term, '$foreign_function'(_)).
+ends_at_once(_, default, _).
+ends_at_once(int, debug, false).
+ends_at_once(term, '$foreign_function'(_), _).
 
 halt_by(Signal) :-
-    ending_(false),
+    halts_by_(Signal),
     status(Signal, Status),
     halt(Status).
 
@@ -75,34 +87,44 @@ ours(ev3dev_halt:halt_by).
 
 :- endif.
 
-%   True if Signal ends this program, whose motors are stopped before. The
-%   native library asks in a thread of its own: Prolog handles no signal while
-%   it loads a file, as in main/0 of `:- initialization(main).`, nor in
-%   shell/1. From then on until halt_by/1 no move ends, so that the program
-%   does not go on by a move that has been stopped.
-told_to_end(Signal) :-
+%   True if Signal ends this program, whose motors are stopped before.
+%   Terminal is whether somebody can type there. The native library asks in a
+%   thread of its own: Prolog handles no signal while it loads a file, as in
+%   main/0 of `:- initialization(main).`, nor in shell/1. This takes no lock
+%   that a thread may hold that reads from a stream.
+told_to_end(Signal, Terminal) :-
+    (   Signal == int
+    ->  % The toplevel has set its own since.
+        halt_on(int, Terminal)
+    ;   true
+    ),
     handler(Signal, Handler),
-    ends(Signal, Handler),
+    ends(Signal, Handler, Terminal),
     (   current_prolog_flag(ev3dev_stop_at_halt, true)
-    ->  (   ours(Handler)
-        ->  ending_(true)
-        ;   true
-        ),
+    ->  told_to_end_,
         stop_started_
     ;   true
     ).
 
 %   At a terminal SIGINT opens the debugger in all versions, see above.
-ends(_, Handler) :-
+ends(_, Handler, _) :-
     ours(Handler).
-ends(Signal, '$foreign_function'(_)) :-
+ends(Signal, '$foreign_function'(_), Terminal) :-
     \+ ( Signal == int,
-         stream_property(user_input, tty(true)) ).
+         Terminal == true ).
 
 status(int, 130).
 status(term, 143).
 
-:- initialization(( halt_on(term), halt_on(int) ), now).
+halt_on_signals :-
+    (   stream_property(user_input, tty(true))
+    ->  Terminal = true
+    ;   Terminal = false
+    ),
+    halt_on(term, Terminal),
+    halt_on(int, Terminal).
+
+:- initialization(halt_on_signals, now).
 
 % The thread that collects garbage sometimes receives such a signal, and then
 % the signal is lost. A brick has one core and does not need that thread.

@@ -136,9 +136,11 @@
             sim_unplug_/1,
             sim_unshow_/2,
             sim_wait_/2,
-            ending_/1,
+            at_halt_/1,
+            halts_by_/1,
             running_/1,
             stop_started_/0,
+            told_to_end_/0,
             view_close_/0,
             view_csv_/1,
             view_frame_/4,
@@ -446,8 +448,10 @@ missing.
 
 % The end of the program
 
-%!  ending_(+Ending) is semidet.
+%!  at_halt_(+Stops) is semidet.
+%!  halts_by_(+Signal) is semidet.
 %!  running_(-Ports) is semidet.
 %!  stop_started_ is semidet.
+%!  told_to_end_ is semidet.
 %
 %   `src/halt.rs`

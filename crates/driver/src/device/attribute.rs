@@ -1,8 +1,8 @@
 //! Attribute files: kept open, read whole, written in one go.
 use crate::error::{Access, Error, Result};
-use crate::latch;
 use crate::sysfs::{AttributeFile, Sysfs};
 use crate::value::Value;
+use ev3_signals::latch;
 use std::path::{Path, PathBuf};
 use std::sync::{OnceLock, RwLock};
 use std::time::Duration;
@@ -163,7 +163,7 @@ pub(super) fn open(
 
 /// Writes a text and a newline in one go: one write is one call of the driver.
 fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
-    if latch::refuses(path, text) {
+    if latch::is_set() && starts_motor(path, text) {
         return Err(Error::Latched { path: path.to_owned() });
     }
     let mut line = [b'\n'; SHORT];
@@ -175,6 +175,12 @@ fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
         _ => node.write(format!("{text}\n").as_bytes()),
     };
     written.map_err(|source| Error::Write { path: path.to_owned(), text: text.to_owned(), source })
+}
+
+/// Whether that text in that file starts a motor.
+#[cold]
+fn starts_motor(path: &Path, text: &str) -> bool {
+    path.ends_with("command") && text.trim_start().starts_with("run")
 }
 
 /// Reads all there is. More than fits cannot be an attribute's text: rather

@@ -1,0 +1,251 @@
+//! What is done in the handlers of signals themselves.
+use crate::latch::{self, Reason};
+use crate::{kept, watchdog};
+use nix::errno::Errno;
+use nix::libc::{self, c_int, c_void, siginfo_t};
+use std::mem::zeroed;
+use std::ptr::{null, null_mut};
+use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
+use std::time::Duration;
+
+/// The highest number of a signal.
+const LAST: c_int = 64;
+
+/// Those that ask a program to end.
+const ASKING: [c_int; 3] = [libc::SIGTERM, libc::SIGHUP, libc::SIGINT];
+
+/// Those after which it stands until it is continued.
+const STANDING: [c_int; 3] = [libc::SIGTSTP, libc::SIGTTIN, libc::SIGTTOU];
+
+/// Those that end it, unless the program has its own handler. Prolog has handlers.
+const CRASHES: [c_int; 6] =
+    [libc::SIGQUIT, libc::SIGABRT, libc::SIGSEGV, libc::SIGBUS, libc::SIGILL, libc::SIGFPE];
+
+/// Those that end nothing by themselves, and those that nobody can take. The C library has
+/// 32 and 33 for itself.
+const LEFT: [c_int; 8] = [
+    libc::SIGKILL,
+    libc::SIGSTOP,
+    libc::SIGCONT,
+    libc::SIGCHLD,
+    libc::SIGURG,
+    libc::SIGWINCH,
+    32,
+    33,
+];
+
+/// How long a thread may take from its look at the latch to the end of its write.
+const WRITING: Duration = Duration::from_millis(5);
+
+/// What each signal did before, by its number; null for what the kernel does by itself.
+static BEFORE: [AtomicPtr<libc::sigaction>; LAST as usize + 1] =
+    [const { AtomicPtr::new(null_mut()) }; LAST as usize + 1];
+
+/// The signals that the watchdog has not looked at yet, a bit each.
+static WITHHELD: AtomicU32 = AtomicU32::new(0);
+
+/// What a signal carries that the watchdog has looked at.
+static MARK: u8 = 0;
+
+/// Takes all signals that end a process, or make it stand. Those that are ignored stay so.
+pub(crate) fn take_all() {
+    for signal in (1..=LAST).filter(|signal| !LEFT.contains(signal)) {
+        let before = action(signal);
+        let is_default = before.sa_sigaction == libc::SIG_DFL;
+        if is_default || ASKING.contains(&signal) || CRASHES.contains(&signal) {
+            take(signal, &before);
+        }
+    }
+}
+
+/// Takes a signal again, if the handler `theirs` has taken it since.
+pub(crate) fn take_again(theirs: usize) {
+    for signal in ASKING {
+        let now = action(signal);
+        if now.sa_sigaction == theirs {
+            take(signal, &now);
+        }
+    }
+}
+
+/// The handler that there was, of a signal that is taken.
+pub(crate) fn handler_before(signal: c_int) -> Option<usize> {
+    before(signal).map(|action| action.sa_sigaction)
+}
+
+/// What a signal does now.
+fn action(signal: c_int) -> libc::sigaction {
+    // Safety: asks only.
+    unsafe {
+        let mut action = zeroed();
+        libc::sigaction(signal, null(), &raw mut action);
+        action
+    }
+}
+
+fn take(signal: c_int, before: &libc::sigaction) {
+    if [libc::SIG_IGN, handle as *const () as usize].contains(&before.sa_sigaction) {
+        return;
+    }
+    if before.sa_sigaction != libc::SIG_DFL && handler_before(signal) != Some(before.sa_sigaction) {
+        // For good: a handler may be looking at the one before.
+        let kept = Box::into_raw(Box::new(*before));
+        slot(signal).store(kept, Ordering::Release);
+    }
+    let mut ours = *before;
+    ours.sa_sigaction = handle as *const () as usize;
+    ours.sa_flags |= libc::SA_SIGINFO | libc::SA_ONSTACK;
+    if STANDING.contains(&signal) {
+        ours.sa_flags |= libc::SA_RESTART;
+    }
+    // Safety: the handler calls only what may be called in one.
+    unsafe { libc::sigaction(signal, &raw const ours, null_mut()) };
+}
+
+fn slot(signal: c_int) -> &'static AtomicPtr<libc::sigaction> {
+    static NONE: AtomicPtr<libc::sigaction> = AtomicPtr::new(null_mut());
+    usize::try_from(signal).ok().and_then(|number| BEFORE.get(number)).unwrap_or(&NONE)
+}
+
+fn before(signal: c_int) -> Option<&'static libc::sigaction> {
+    // Safety: it is kept for good.
+    unsafe { slot(signal).load(Ordering::Acquire).as_ref() }
+}
+
+/// Has the kernel do what it does by itself, at once.
+pub(crate) fn do_default(signal: c_int) {
+    // Safety: there is no handler any more.
+    unsafe {
+        libc::signal(signal, libc::SIG_DFL);
+        libc::raise(signal);
+        unblock(signal);
+    }
+}
+
+/// Lets a signal come to this thread; what was blocked before.
+unsafe fn unblock(signal: c_int) -> libc::sigset_t {
+    // Safety: changes the mask of this thread.
+    unsafe {
+        let mut set = zeroed();
+        let mut before = zeroed();
+        libc::sigemptyset(&raw mut set);
+        libc::sigaddset(&raw mut set, signal);
+        libc::pthread_sigmask(libc::SIG_UNBLOCK, &raw const set, &raw mut before);
+        before
+    }
+}
+
+/// Lets the signals that ask for the end come to this thread.
+pub(crate) fn listen() {
+    for signal in ASKING {
+        // Safety: the handlers are there.
+        unsafe { unblock(signal) };
+    }
+}
+
+extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
+    let errno = Errno::last();
+    if ASKING.contains(&signal) {
+        if is_marked(info) || !withhold(signal) {
+            pass_on(signal, info, context);
+        }
+    } else if STANDING.contains(&signal) {
+        stand(signal);
+    } else {
+        stop_for(Reason::Crashed);
+        pass_on(signal, info, context);
+        // It goes on.
+        latch::lift(Reason::Crashed);
+    }
+    errno.set();
+}
+
+/// Stops the motors, whatever other threads are doing.
+pub(crate) fn stop_for(reason: Reason) -> bool {
+    latch::set(reason);
+    let any = kept::stop();
+    if any {
+        let time = libc::timespec {
+            tv_sec: 0,
+            tv_nsec: WRITING.subsec_nanos().try_into().unwrap_or_default(),
+        };
+        // Safety: waits only. A thread that had looked at the latch before has written then.
+        unsafe { libc::nanosleep(&raw const time, null_mut()) };
+        kept::stop();
+    }
+    any
+}
+
+/// Gives a signal to the watchdog; `false` if there is none.
+fn withhold(signal: c_int) -> bool {
+    let is_new = WITHHELD.fetch_or(bit(signal), Ordering::AcqRel) & bit(signal) == 0;
+    !is_new || watchdog::tell(watchdog::SIGNAL, signal)
+}
+
+/// The watchdog looks at a signal.
+pub(crate) fn looked_at(signal: c_int) {
+    WITHHELD.fetch_and(!bit(signal), Ordering::AcqRel);
+}
+
+fn bit(signal: c_int) -> u32 {
+    1 << signal
+}
+
+/// Sends a signal that the handler passes on.
+pub(crate) fn send_on(signal: c_int) {
+    let value = libc::sigval { sival_ptr: mark() };
+    // Safety: to this process.
+    unsafe { libc::sigqueue(libc::getpid(), signal, value) };
+}
+
+fn mark() -> *mut c_void {
+    (&raw const MARK).cast_mut().cast()
+}
+
+fn is_marked(info: *const siginfo_t) -> bool {
+    // Safety: the kernel gives it to each handler.
+    unsafe { (*info).si_code == libc::SI_QUEUE && (*info).si_value().sival_ptr == mark() }
+}
+
+/// Does what the signal did before.
+fn pass_on(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
+    let Some(before) = before(signal) else {
+        do_default(signal);
+        return;
+    };
+    // Safety: the kernel would call it so.
+    unsafe {
+        if before.sa_flags & libc::SA_SIGINFO == 0 {
+            let handler: extern "C" fn(c_int) = std::mem::transmute(before.sa_sigaction);
+            handler(signal);
+        } else {
+            let handler: extern "C" fn(c_int, *mut siginfo_t, *mut c_void) =
+                std::mem::transmute(before.sa_sigaction);
+            handler(signal, info, context);
+        }
+    }
+}
+
+/// Stops the motors and stands until the process is continued.
+fn stand(signal: c_int) {
+    const SAID: &[u8] = b"% ev3dev: the motors were stopped while the program stood\n";
+    let stopped = stop_for(Reason::Standing);
+    let ours = action(signal);
+    // Safety: what a handler may do. It is put back when the process has been continued.
+    unsafe {
+        let mask = {
+            libc::signal(signal, libc::SIG_DFL);
+            libc::raise(signal);
+            unblock(signal)
+        };
+        libc::pthread_sigmask(libc::SIG_SETMASK, &raw const mask, null_mut());
+        libc::sigaction(signal, &raw const ours, null_mut());
+        if stopped {
+            libc::write(libc::STDERR_FILENO, SAID.as_ptr().cast(), SAID.len());
+        }
+    }
+    // What the driver knows of the motors has to follow.
+    if !stopped || !watchdog::tell(watchdog::CONTINUED, signal) {
+        latch::lift(Reason::Standing);
+    }
+}

@@ -1,0 +1,244 @@
+//! The motors that the program has started, where they can be stopped without a lock.
+//!
+//! A line of text tells of each: whether it runs, the command that stops it, its file.
+//!
+//! ```text
+//! 1 stop /sys/class/tacho-motor/motor0/command
+//! 0 float /sys/class/servo-motor/motor4/command
+//! ```
+//!
+//! The lines are in a file in memory, mapped, so that they outlive this process for one
+//! that has the same file open ([`crate::survivor`]). Handlers of signals stop the motors
+//! by the descriptors that this process has anyway.
+use crate::survivor;
+use nix::libc::{self, c_int};
+use std::os::unix::ffi::OsStrExt;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Room for the lines of more than a hundred motors.
+const ROOM: usize = 16 * 1024;
+
+/// No descriptor.
+const NONE: c_int = -1;
+
+/// What a line begins with.
+const RUNS: u8 = b'1';
+const RESTS: u8 = b'0';
+
+/// A motor: the descriptor of its file, where its line begins, and how long that is.
+struct Slot {
+    descriptor: AtomicI32,
+    start: AtomicUsize,
+    length: AtomicUsize,
+}
+
+static SLOTS: [Slot; 64] = [const {
+    Slot {
+        descriptor: AtomicI32::new(NONE),
+        start: AtomicUsize::new(0),
+        length: AtomicUsize::new(0),
+    }
+}; 64];
+
+/// The lines; null until there is one.
+static LINES: AtomicPtr<u8> = AtomicPtr::new(std::ptr::null_mut());
+
+/// The file that they are in, or [`NONE`].
+static FILE: AtomicI32 = AtomicI32::new(NONE);
+
+/// How long all lines are. The lock is for those who add one.
+static LENGTH: AtomicUsize = AtomicUsize::new(0);
+static ADDING: Mutex<()> = Mutex::new(());
+
+/// Whether what stops the motors after us is there, or has been tried.
+static IS_SURVIVED: AtomicBool = AtomicBool::new(false);
+
+/// A motor that is stopped when the program ends in any way. Dropped before its file is
+/// closed.
+pub struct Kept(&'static Slot);
+
+impl Kept {
+    /// Keeps the open `command` of a motor, which `word` stops; `None` if too many are kept
+    /// already.
+    #[must_use]
+    pub fn new(descriptor: c_int, path: &Path, word: &str) -> Option<Self> {
+        let path = std::path::absolute(path).ok()?;
+        let path = path.as_os_str().as_bytes();
+        if path.contains(&b'\n') {
+            return None;
+        }
+        let line = [&[RESTS, b' '], word.as_bytes(), b" ", path, b"\n"].concat();
+        let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_free = |slot: &&Slot| slot.descriptor.load(Ordering::Acquire) == NONE;
+        // The same motor has its line already, where its file is opened again.
+        let same = |slot: &&Slot| is_free(slot) && slot.line() == line;
+        let unused = |slot: &&Slot| !slot.is_used();
+        let slot = SLOTS.iter().find(same).or_else(|| {
+            let slot = SLOTS.iter().find(unused).or_else(|| SLOTS.iter().find(is_free))?;
+            slot.start.store(append(&line)?, Ordering::Relaxed);
+            slot.length.store(line.len(), Ordering::Relaxed);
+            Some(slot)
+        })?;
+        slot.descriptor.store(descriptor, Ordering::Release);
+        Some(Self(slot))
+    }
+
+    /// Has `write` give the motor a command.
+    ///
+    /// # Errors
+    /// Those of `write`.
+    #[inline]
+    pub fn tell<E>(&self, text: &[u8], write: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
+        let starts = text.starts_with(b"run");
+        if starts {
+            if !IS_SURVIVED.load(Ordering::Relaxed) {
+                be_survived();
+            }
+            // Before: if we are killed in between, a motor is stopped that never started.
+            self.0.flag(RUNS);
+        }
+        let written = write();
+        if !starts && written.is_ok() {
+            self.0.flag(RESTS);
+        }
+        written
+    }
+}
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        self.0.flag(RESTS);
+        self.0.descriptor.store(NONE, Ordering::Release);
+    }
+}
+
+impl Slot {
+    fn flag(&self, flag: u8) {
+        self.first_byte().store(flag, Ordering::Release);
+    }
+
+    fn runs(&self) -> bool {
+        self.first_byte().load(Ordering::Acquire) == RUNS
+    }
+
+    fn first_byte(&self) -> &AtomicU8 {
+        // Safety: nobody has another reference to it while the slot is in use.
+        unsafe { AtomicU8::from_ptr(self.first()) }
+    }
+
+    /// Whether there is a line of it.
+    fn is_used(&self) -> bool {
+        self.length.load(Ordering::Relaxed) != 0
+    }
+
+    fn first(&self) -> *mut u8 {
+        // Safety: where a slot has a line, there are lines, and it begins within them.
+        unsafe { LINES.load(Ordering::Relaxed).add(self.start.load(Ordering::Relaxed)) }
+    }
+
+    /// The line of a motor that rests; none if there is none yet.
+    fn line(&self) -> &[u8] {
+        match self.length.load(Ordering::Relaxed) {
+            0 => &[],
+            // Safety: nobody changes the line of a slot that is free.
+            length => unsafe { std::slice::from_raw_parts(self.first(), length) },
+        }
+    }
+}
+
+/// Adds a line; its start, or `None` where there is no room.
+fn append(line: &[u8]) -> Option<usize> {
+    let start = LENGTH.load(Ordering::Relaxed);
+    let end = start + line.len();
+    if end > ROOM {
+        return None;
+    }
+    let mut lines = LINES.load(Ordering::Relaxed);
+    if lines.is_null() {
+        lines = map(std::ptr::null_mut())?;
+        LINES.store(lines, Ordering::Release);
+    }
+    lengthen(end)?;
+    // Safety: there is room.
+    unsafe { std::ptr::copy_nonoverlapping(line.as_ptr(), lines.add(start), line.len()) };
+    LENGTH.store(end, Ordering::Relaxed);
+    Some(start)
+}
+
+/// Lets the file be so long: it has no page that may be written before.
+fn lengthen(length: usize) -> Option<()> {
+    let file = FILE.load(Ordering::Relaxed);
+    let length = libc::off_t::try_from(length).ok()?;
+    // Safety: asks the kernel only.
+    (file == NONE || unsafe { libc::ftruncate(file, length) } == 0).then_some(())
+}
+
+/// A new file in memory, mapped at an address, or anywhere if that is null. Without such
+/// files, as before Linux 3.17, it is just memory.
+fn map(address: *mut u8) -> Option<*mut u8> {
+    // Safety: asks the kernel only. What is at the address is the former lines.
+    unsafe {
+        let file = libc::memfd_create(c"ev3dev-motors".as_ptr(), libc::MFD_CLOEXEC);
+        FILE.store(file, Ordering::Relaxed);
+        let kind = if file == NONE { libc::MAP_ANONYMOUS } else { 0 };
+        let place = if address.is_null() { 0 } else { libc::MAP_FIXED };
+        let access = libc::PROT_READ | libc::PROT_WRITE;
+        let flags = libc::MAP_SHARED | kind | place;
+        let mapped = libc::mmap(address.cast(), ROOM, access, flags, file, 0);
+        (mapped != libc::MAP_FAILED).then_some(mapped.cast())
+    }
+}
+
+/// Starts what stops the motors after us.
+#[cold]
+fn be_survived() {
+    if !IS_SURVIVED.swap(true, Ordering::Relaxed) {
+        survivor::start(FILE.load(Ordering::Relaxed));
+    }
+}
+
+/// Writes the command that stops it to each motor that runs; whether there is one.
+pub(crate) fn stop() -> bool {
+    let mut any = false;
+    for slot in &SLOTS {
+        let descriptor = slot.descriptor.load(Ordering::Acquire);
+        if descriptor != NONE && slot.runs() {
+            any = true;
+            // Safety: within the line, which is longer.
+            let is_servo = unsafe { slot.first().add(2).read() } == b'f';
+            let word: &[u8] = if is_servo { b"float\n" } else { b"stop\n" };
+            // Safety: the buffer is as long as that; a closed descriptor is an error.
+            unsafe { libc::pwrite(descriptor, word.as_ptr().cast(), word.len(), 0) };
+        }
+    }
+    any
+}
+
+/// Leaves all motors as they are when the program has ended.
+pub fn leave() {
+    SLOTS.iter().filter(|slot| slot.is_used()).for_each(|slot| slot.flag(RESTS));
+}
+
+/// In a child of fork(2), which may go on: what its parent started is its parent's. Does
+/// only what may be done there.
+pub(crate) fn forked() {
+    let lines = LINES.load(Ordering::Relaxed);
+    if lines.is_null() {
+        return;
+    }
+    let mut text = [0; ROOM];
+    let length = LENGTH.load(Ordering::Relaxed);
+    // Safety: both have so much room, and no other thread goes on.
+    unsafe { std::ptr::copy_nonoverlapping(lines, text.as_mut_ptr(), ROOM) };
+    let parents = FILE.load(Ordering::Relaxed);
+    if map(lines).is_some() && lengthen(length).is_some() {
+        // Safety: as above; the file is as long.
+        unsafe { std::ptr::copy_nonoverlapping(text.as_ptr(), lines, length) };
+    }
+    // Safety: a descriptor of our own.
+    unsafe { libc::close(parents) };
+    leave();
+    IS_SURVIVED.store(false, Ordering::Relaxed);
+}

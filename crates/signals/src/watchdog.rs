@@ -1,0 +1,298 @@
+//! Two threads that see to the end of a program.
+//!
+//! The *watchdog* waits for signals, and takes no lock that Prolog or the driver may hold.
+//! It has the *asker* ask Prolog whether a signal will end the program, and stop the motors
+//! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
+//! after the signal the process has ended.
+use crate::latch::{self, Reason};
+use crate::{handlers, kept, survivor};
+use nix::libc::{self, c_int, c_void};
+use nix::sys::signal::{SigSet, SigmaskHow};
+use std::io::{self, IsTerminal, Read, Write};
+use std::os::fd::AsRawFd;
+use std::os::unix::net::UnixStream;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// How long Prolog may take to end the process.
+pub const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How long it may take to say whether it will.
+const ANSWER: Duration = Duration::from_millis(500);
+
+/// How often the watchdog looks whether all is as it should be.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// What the watchdog is told: each is followed by the number of a signal.
+pub(crate) const SIGNAL: u8 = b'S';
+pub(crate) const CONTINUED: u8 = b'C';
+const ENDS: u8 = b'E';
+const GOES_ON: u8 = b'G';
+const HALTS: u8 = b'H';
+const MAIN_IS_OVER: u8 = b'M';
+
+/// The way to the watchdog.
+static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
+
+/// Whether this is a child of the process that has the threads.
+static IS_CHILD: AtomicBool = AtomicBool::new(false);
+
+/// What the asker asks and does, without knowing Prolog.
+pub struct Asked {
+    /// Whether a signal, as `term`, will end the program; the second argument is whether
+    /// there is somebody at a terminal. If it will, nothing starts a motor any more when
+    /// this returns, and no motor runs.
+    pub ends: fn(&'static str, bool) -> bool,
+    /// Stops the motors.
+    pub stop: fn(),
+}
+
+/// Tells the watchdog something; `false` if there is none. For handlers of signals, too.
+pub(crate) fn tell(what: u8, signal: c_int) -> bool {
+    let number = u8::try_from(signal).unwrap_or_default();
+    let told = |mut way: &UnixStream| way.write_all(&[what, number]).is_ok();
+    !IS_CHILD.load(Ordering::Relaxed) && WATCHDOG.get().is_some_and(told)
+}
+
+/// Prolog ends the program because of a signal, as `term`: the process ends within
+/// [`PATIENCE`].
+pub fn halts(signal: &str) {
+    tell(HALTS, number(signal));
+}
+
+/// Takes the signals that end a program, from now on.
+///
+/// # Errors
+/// The kernel's, where no thread can be had.
+pub fn watch(asked: Asked) -> io::Result<()> {
+    let (read, write) = UnixStream::pair()?;
+    // A handler must not wait.
+    write.set_nonblocking(true)?;
+    if WATCHDOG.set(write).is_err() {
+        return Ok(());
+    }
+    let (asker, questions) = channel();
+    // The signals are for the program's own threads.
+    let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
+    let spawn = |name: &str, run: Box<dyn FnOnce() + Send>| {
+        std::thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
+    };
+    let spawned = spawn("ev3-asker", Box::new(move || answer(&questions, &asked)))
+        .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, asker).run())));
+    before.thread_set_mask()?;
+    spawned?;
+    handlers::take_all();
+    // Safety: the functions do only what may be done there.
+    unsafe {
+        libc::pthread_atfork(None, None, Some(forked));
+        if libc::gettid() == libc::getpid() {
+            let mut key = 0;
+            if libc::pthread_key_create(&raw mut key, Some(main_is_over)) == 0 {
+                libc::pthread_setspecific(key, (&raw const IS_CHILD).cast());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// In a child of fork(2), which has neither thread: its signals go to Prolog.
+unsafe extern "C" fn forked() {
+    IS_CHILD.store(true, Ordering::Relaxed);
+    kept::forked();
+    survivor::forked();
+}
+
+/// The main thread ends, and the process does not, as after `thread_exit/1`.
+unsafe extern "C" fn main_is_over(_: *mut c_void) {
+    tell(MAIN_IS_OVER, 0);
+}
+
+enum Question {
+    Ends(c_int),
+    Continued,
+}
+
+/// What the asker does.
+fn answer(questions: &Receiver<Question>, asked: &Asked) {
+    for question in questions {
+        match question {
+            Question::Ends(signal) => {
+                let ends = (asked.ends)(name(signal), io::stdin().is_terminal());
+                tell(if ends { ENDS } else { GOES_ON }, signal);
+            }
+            Question::Continued => {
+                (asked.stop)();
+                latch::lift(Reason::Standing);
+            }
+        }
+    }
+}
+
+const NAMES: [(c_int, &str); 3] =
+    [(libc::SIGTERM, "term"), (libc::SIGHUP, "hup"), (libc::SIGINT, "int")];
+
+fn name(signal: c_int) -> &'static str {
+    NAMES.iter().find(|named| named.0 == signal).map_or("term", |named| named.1)
+}
+
+fn number(name: &str) -> c_int {
+    NAMES.iter().find(|named| named.1 == name).map_or(libc::SIGTERM, |named| named.0)
+}
+
+struct Watchdog {
+    events: UnixStream,
+    asker: Sender<Question>,
+    /// The signal that Prolog is asked about, since when, and whether that took too long.
+    asked: Vec<(c_int, Instant, bool)>,
+    /// The signal that ends the process, and when.
+    end: Option<(c_int, Instant)>,
+    /// Until when no motor starts, after the process was continued.
+    stands_until: Option<Instant>,
+    /// Whether the main thread has ended.
+    is_main_over: bool,
+}
+
+impl Watchdog {
+    fn new(events: UnixStream, asker: Sender<Question>) -> Self {
+        let (asked, end, stands_until) = (Vec::new(), None, None);
+        Self { events, asker, asked, end, stands_until, is_main_over: false }
+    }
+
+    fn run(mut self) {
+        loop {
+            self.wait();
+            let mut told = [0; 2];
+            while self.is_told(Duration::ZERO) && self.events.read_exact(&mut told).is_ok() {
+                let [what, number] = told;
+                self.take(what, c_int::from(number));
+            }
+            self.look();
+        }
+    }
+
+    /// Waits for something to do.
+    fn wait(&self) {
+        let asked = self.asked.iter().filter(|asked| !asked.2).map(|asked| asked.1 + ANSWER);
+        let times = asked.chain(self.end.map(|end| end.1)).chain(self.stands_until);
+        let now = Instant::now();
+        let pause = times.map(|time| time.saturating_duration_since(now)).min();
+        // A millisecond is the least that poll(2) waits.
+        self.is_told(pause.map_or(LOOK, |pause| LOOK.min(pause + Duration::from_millis(1))));
+    }
+
+    /// Whether it is told something within that time.
+    fn is_told(&self, within: Duration) -> bool {
+        let descriptor = self.events.as_raw_fd();
+        let mut polled = libc::pollfd { fd: descriptor, events: libc::POLLIN, revents: 0 };
+        let milliseconds = c_int::try_from(within.as_millis()).unwrap_or(c_int::MAX);
+        // Safety: one descriptor, ours.
+        unsafe { libc::poll(&raw mut polled, 1, milliseconds) > 0 }
+    }
+
+    fn take(&mut self, what: u8, signal: c_int) {
+        let now = Instant::now();
+        match what {
+            SIGNAL => {
+                handlers::looked_at(signal);
+                if self.is_main_over {
+                    end_by(signal);
+                }
+                self.asked.push((signal, now, false));
+                let _ = self.asker.send(Question::Ends(signal));
+            }
+            ENDS => {
+                let (since, is_late) = self.answered(signal).unwrap_or((now, true));
+                self.ends_by(signal, since);
+                if !is_late {
+                    handlers::send_on(signal);
+                }
+            }
+            GOES_ON => match self.answered(signal) {
+                Some((_, false)) => handlers::send_on(signal),
+                Some((_, true)) => {
+                    self.end = None;
+                    latch::lift(Reason::Ending);
+                }
+                None => {}
+            },
+            HALTS => self.ends_by(signal, now),
+            CONTINUED => {
+                self.stands_until = Some(now + ANSWER);
+                let _ = self.asker.send(Question::Continued);
+            }
+            MAIN_IS_OVER => {
+                self.is_main_over = true;
+                handlers::listen();
+            }
+            _ => {}
+        }
+    }
+
+    /// When a question was put that is answered now, and whether Prolog has got the signal.
+    fn answered(&mut self, signal: c_int) -> Option<(Instant, bool)> {
+        let place = self.asked.iter().position(|asked| asked.0 == signal)?;
+        let (_, since, is_late) = self.asked.remove(place);
+        Some((since, is_late))
+    }
+
+    fn ends_by(&mut self, signal: c_int, since: Instant) {
+        self.end.get_or_insert((signal, since + PATIENCE));
+    }
+
+    /// Looks whether all is as it should be.
+    fn look(&mut self) {
+        let now = Instant::now();
+        let mut late = Vec::new();
+        for (signal, since, is_late) in &mut self.asked {
+            if !*is_late && *since + ANSWER <= now {
+                *is_late = true;
+                late.push((*signal, *since));
+            }
+        }
+        for (signal, since) in late {
+            // At a terminal Ctrl-C is seldom an end, and can be typed again.
+            if signal != libc::SIGINT || !io::stdin().is_terminal() {
+                handlers::stop_for(Reason::Ending);
+                self.ends_by(signal, since);
+            }
+            handlers::send_on(signal);
+        }
+        if let Some((signal, _)) = self.end.filter(|end| end.1 <= now) {
+            end_by(signal);
+        }
+        if self.stands_until.is_some_and(|time| time <= now) {
+            self.stands_until = None;
+            latch::lift(Reason::Standing);
+        }
+        if let Some(prologs) = handlers::handler_before(libc::SIGTERM) {
+            handlers::take_again(prologs);
+        }
+        if self.is_main_over && is_alone() {
+            handlers::stop_for(Reason::Ending);
+            // Safety: as at the end of the last thread.
+            unsafe { libc::_exit(0) };
+        }
+    }
+}
+
+/// Ends the process as the signal does by itself.
+fn end_by(signal: c_int) -> ! {
+    handlers::stop_for(Reason::Ending);
+    handlers::do_default(signal);
+    // Safety: nothing is left to be done.
+    unsafe { libc::_exit(128 + signal) }
+}
+
+/// Whether there are no threads but those of this library and Prolog's collector.
+fn is_alone() -> bool {
+    let main = std::process::id().to_string();
+    let Ok(threads) = std::fs::read_dir("/proc/self/task") else {
+        return false;
+    };
+    threads.flatten().filter(|thread| thread.file_name() != *main).all(|thread| {
+        let name = std::fs::read_to_string(thread.path().join("comm")).unwrap_or_default();
+        name.starts_with("ev3-") || name == "gc\n"
+    })
+}
