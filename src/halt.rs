@@ -56,7 +56,7 @@ predicates! {
     #[name("told_to_end_")]
     semidet fn told_to_end(_context) {
         ev3_signals::stop_for(Reason::Ending);
-        Ok(())
+        into_prolog_result(true)
     }
 
     /// stop_started_: stops the motors that the program started.

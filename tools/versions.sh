@@ -83,10 +83,11 @@ try() {
     [[ $name == *arm* ]] || step "$name: sessions" sessions
 }
 
-# What a person types and the papers show, at a terminal of this Prolog
+# What a person types and the papers show, at a terminal of this Prolog, with the pack's
+# library: the clone's own may want a newer C library than there is here
 sessions() {
     EV3DEV_SESSION_HOME=$home EV3DEV_SESSION_SECONDS=120 SWIPL=$home/swipl \
-        "$root/tests/sessions/play.py"
+        "$tree/ev3dev/tests/sessions/play.py"
 }
 
 # built_swipl NAME: the swipl that the environment names for it

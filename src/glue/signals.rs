@@ -1,14 +1,13 @@
 //! Signals that ask the program to end.
-use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
-use ev3_driver::motor;
 use ev3_signals::Asked;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 use swipl::prelude::*;
 
 /// Takes such signals from now on: first the motors stop, then Prolog gets the signal.
-pub(crate) fn watch() {
+/// Where Prolog need not be asked, `stop` stops them.
+pub(crate) fn watch(stop: fn()) {
     static WATCHED: Once = Once::new();
     // Without a thread, Prolog gets the signals as ever.
     WATCHED.call_once(|| drop(ev3_signals::watch(Asked { ends, stop })));
@@ -42,9 +41,4 @@ fn ends(signal: &'static str, has_terminal: bool) -> bool {
         .and_then(|()| terminal.unify(has_terminal))
         .and_then(|()| context.call_once(pred!("ev3dev_halt:told_to_end/2"), [&name, &terminal]));
     stops.is_ok()
-}
-
-fn stop() {
-    // What fails is said at the next command.
-    let _ = motor::stop_started(&devices());
 }

@@ -103,16 +103,21 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
     files.is_tree_chosen.then(|| Arc::clone(&files.tree.devices))
 }
 
+/// Stops the motors that the program started. What fails is said at the next command.
+fn stop_started() {
+    let _ = motor::stop_started(&devices());
+}
+
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
-    signals::watch();
+    signals::watch(stop_started);
     BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
-    signals::watch();
+    signals::watch(stop_started);
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();

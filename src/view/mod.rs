@@ -20,8 +20,8 @@ use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_driver::{Error, motor};
-use ev3_signals::latch::{self, Reason};
 use ev3_json::Json;
+use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 
 /// Registers the predicates below.

@@ -6,7 +6,6 @@ use nix::libc::{self, c_int, c_void, siginfo_t};
 use std::mem::zeroed;
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
-use std::time::Duration;
 
 /// The highest number of a signal.
 const LAST: c_int = 64;
@@ -35,7 +34,7 @@ const LEFT: [c_int; 8] = [
 ];
 
 /// How long a thread may take from its look at the latch to the end of its write.
-const WRITING: Duration = Duration::from_millis(5);
+const WRITING_NS: libc::c_long = 5_000_000;
 
 /// What each signal did before, by its number; null for what the kernel does by itself.
 static BEFORE: [AtomicPtr<libc::sigaction>; LAST as usize + 1] =
@@ -165,10 +164,7 @@ pub(crate) fn stop_for(reason: Reason) -> bool {
     latch::set(reason);
     let any = kept::stop();
     if any {
-        let time = libc::timespec {
-            tv_sec: 0,
-            tv_nsec: WRITING.subsec_nanos().try_into().unwrap_or_default(),
-        };
+        let time = libc::timespec { tv_sec: 0, tv_nsec: WRITING_NS };
         // Safety: waits only. A thread that had looked at the latch before has written then.
         unsafe { libc::nanosleep(&raw const time, null_mut()) };
         kept::stop();

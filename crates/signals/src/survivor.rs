@@ -62,8 +62,7 @@ pub(crate) fn start(lines: c_int) {
     let [pipe, ours] = ends;
     OUR_END.store(ours, Ordering::Relaxed);
     let mut limit = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
-    let mut stacks = [const { Stack([0; 16 * 1024]) }; 2].map(Box::new);
-    let [first, second] = stacks.each_mut().map(|stack| stack.end());
+    let (mut first, mut second) = (Stack::new(), Stack::new());
     // Safety: as said at each. All signals wait meanwhile, here and there.
     unsafe {
         libc::getrlimit(libc::RLIMIT_NOFILE, &raw mut limit);
@@ -80,14 +79,14 @@ pub(crate) fn start(lines: c_int) {
                 null(),
             ],
             environment: [null()],
-            stack: second,
+            stack: second.end(),
         };
         let plan = (&raw const plan).cast_mut().cast();
         let mut all = std::mem::zeroed();
         let mut before = std::mem::zeroed();
         libc::sigfillset(&raw mut all);
         libc::pthread_sigmask(libc::SIG_SETMASK, &raw const all, &raw mut before);
-        let child = libc::clone(between, first, WAITING, plan);
+        let child = libc::clone(between, first.end(), WAITING, plan);
         if child > 0 {
             while libc::waitpid(child, std::ptr::null_mut(), libc::__WCLONE) == -1
                 && nix::errno::Errno::last() == nix::errno::Errno::EINTR
@@ -112,10 +111,14 @@ pub(crate) fn forked() {
 /// signal at its end, `wait` for any child does not find it.
 const WAITING: c_int = libc::CLONE_VM | libc::CLONE_VFORK;
 
-#[repr(align(16))]
-struct Stack([u8; 16 * 1024]);
+/// A stack of 16 kB, aligned as one has to be.
+struct Stack(Vec<u128>);
 
 impl Stack {
+    fn new() -> Self {
+        Self(vec![0; 1024])
+    }
+
     fn end(&mut self) -> *mut c_void {
         self.0.as_mut_ptr_range().end.cast()
     }

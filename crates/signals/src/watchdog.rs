@@ -73,14 +73,14 @@ pub fn watch(asked: Asked) -> io::Result<()> {
     if WATCHDOG.set(write).is_err() {
         return Ok(());
     }
-    let (asker, questions) = channel();
+    let (question, questions) = channel();
     // The signals are for the program's own threads.
     let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
     let spawn = |name: &str, run: Box<dyn FnOnce() + Send>| {
         std::thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
     };
     let spawned = spawn("ev3-asker", Box::new(move || answer(&questions, &asked)))
-        .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, asker).run())));
+        .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, question).run())));
     before.thread_set_mask()?;
     spawned?;
     handlers::take_all();
@@ -156,8 +156,14 @@ struct Watchdog {
 
 impl Watchdog {
     fn new(events: UnixStream, asker: Sender<Question>) -> Self {
-        let (asked, end, stands_until) = (Vec::new(), None, None);
-        Self { events, asker, asked, end, stands_until, is_main_over: false }
+        Self {
+            events,
+            asker,
+            asked: Vec::new(),
+            end: None,
+            stands_until: None,
+            is_main_over: false,
+        }
     }
 
     fn run(mut self) {

@@ -2,6 +2,8 @@
 :- use_module(native,
               [at_halt_/1, halts_by_/1, stop_started_/0, told_to_end_/0]).
 
+:- set_prolog_flag(generate_debug_info, false).
+
 :- initialization(
        ( create_prolog_flag(ev3dev_stop_at_halt, true,
                             [keep(true), type(boolean)]),
@@ -65,6 +67,9 @@ ends_at_once(_, default, _).
 ends_at_once(int, debug, false).
 ends_at_once(term, '$foreign_function'(_), _).
 
+% In the tracer, too, where each call asks at the terminal
+:- '$hide'(halt_by/1).
+
 halt_by(Signal) :-
     halts_by_(Signal),
     status(Signal, Status),
@@ -75,6 +80,8 @@ halt_by(Signal) :-
 :- if((current_prolog_flag(version, Version), Version < 80120)).
 
 :- multifile user:ev3dev_halt_by/1.
+
+:- '$hide'(user:ev3dev_halt_by/1).
 
 user:ev3dev_halt_by(Signal) :-
     ev3dev_halt:halt_by(Signal).
