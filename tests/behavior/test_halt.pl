@@ -98,6 +98,31 @@ test(a_robot_that_is_driven_is_stopped,
             main :- set_robot(5.6, 10.6, outB, outC), ~s.", [Goal]),
     after_program(Tree, Text, [goal(main)], Status, C).
 
+% From the end on no motor starts, whoever tries.
+test(what_goes_on_while_prolog_halts_starts_no_motor,
+     [ forall(( tree(Tree),
+                member(Main, [ "thread_create(motor_run(outB, 20), _)",
+                               "thread_create(control, _, [detached(true)]), sleep(0.2)",
+                               "thread_create(setup_call_cleanup(true, wait(1000),
+                                                                 motor_run(outB, -20)),
+                                              _),
+                                sleep(0.2)",
+                               "thread_create(( thread_at_exit(motor_run(outB, 20)),
+                                                wait(1000) ), _),
+                                sleep(0.2)",
+                               "at_halt(motor_run(outB, 20))" ]) )),
+       true(memberchk(B, ['', stop])) ]) :-
+    format(string(Text), "main :- ~s.
+                          control :- repeat, motor_run(outB, 20), fail.", [Main]),
+    after_program(Tree, Text, [goal(main)], _, B-_).
+test(after_an_end_that_is_cancelled_they_start_and_stop_as_ever,
+     [forall(tree(Tree)), true(Status-C == exit(0)-(stop-stop))]) :-
+    after_program(Tree, ":- dynamic cancels/0.
+                         cancels.
+                         main :- at_halt(( retract(cancels) -> cancel_halt(not_yet) ; true )),
+                                 motor_run(outB, 20), \\+ halt, motor_run(outC, 20).",
+                  [goal(main)], Status, C).
+
 :- end_tests(halt).
 
 :- begin_tests(signals).
@@ -159,6 +184,10 @@ test(a_move_that_a_signal_stops_does_not_end,
     Expected = exit(143),
     ( sub_string(Output, _, _, _, "on") -> Went = on ; Went = no ).
 
+after_a_while(Goal) :-
+    sleep(0.2),
+    call(Goal).
+
 is_over(Pid) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.
@@ -178,10 +207,27 @@ test(one_signal_suffices_where_prolog_handles_none,
                                :- initialization(main)." ]) )),
        true(B-C == stop-stop) ]) :-
     signalled(Tree, Signal, Text, [], B, C).
+% Crashes, and other signals that end a process: SIGUSR1, SIGPWR, of real time
 test(a_crash_stops_the_motors,
-     [ forall(( tree(Tree), Tree \== simulator, member(Signal, [6, 11]) )),
+     [ forall(( tree(Tree),
+                Tree \== simulator,
+                member(Signal, [6, 11, 10, 30, 40]) )),
        true(B-C == stop-stop) ]) :-
     signalled(Tree, Signal, "", [goal(main)], B, C).
+test(a_process_that_is_killed_has_one_that_stops_its_motors,
+     [ forall(( tree(Tree), Tree \== simulator )),
+       true(Status == killed(9)) ]) :-
+    signalled(Tree, kill, "", [goal(main)], Status, eventually, stop, stop).
+test(without_that_process_they_run_on,
+     [ forall(( tree(Tree), Tree \== simulator )),
+       true(B-C == 'run-forever'-'run-forever') ]) :-
+    signalled(Tree, kill, ":- set_prolog_flag(ev3dev_stop_at_kill, false).",
+              [goal(main)], _, after_a_while, B, C).
+test(they_stop_when_the_main_thread_has_ended_and_no_other_goes_on,
+     [ forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(0)-stop-stop) ]) :-
+    after_program(Tree, "main :- motors_run([run(outB, 20), run(outC, 20)]),
+                                    thread_exit(over).",
+                  [goal(main)], Status, B-C).
 test(a_handler_of_the_program_decides,
      [forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(7)-stop-stop)]) :-
     signalled(Tree, term,
@@ -207,7 +253,11 @@ test(a_handler_set_before_loading_stays,
 signalled(Tree, Signal, Text, Options, B, C) :-
     signalled(Tree, Signal, Text, Options, _, B, C).
 
-signalled(Tree, Signal, Text, Options0, Status, B, C) :-
+signalled(Tree, Signal, Text, Options, Status, B, C) :-
+    signalled(Tree, Signal, Text, Options, Status, call, B, C).
+
+%   What the motors were told is asked for by When, a closure.
+signalled(Tree, Signal, Text, Options0, Status, When, B, C) :-
     with_tree(Tree, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
               ( string_concat(
                     ":- dynamic wait/0.
@@ -228,7 +278,7 @@ signalled(Tree, Signal, Text, Options0, Status, B, C) :-
                 catch(process_kill(Pid, kill), _, true),
                 Status \== timeout,
                 end_output(Child, _),
-                left(outB, command, "", B),
-                left(outC, command, "", C) )).
+                call(When, ( left(outB, command, "", B),
+                             left(outC, command, "", C) )) )).
 
 :- end_tests(signals).

@@ -22,15 +22,23 @@ expansion has not kept. Prolog gives up frames of the program for their last
 calls; a line that is missing is such a call.
 
 No tracer opens, as Prolog's own would after an error in a goal with choice
-points or clean-ups. After `debug.`, or with the flag `access_level` set to
+points or clean-ups, and in 9.2 after any second error. After `debug.`, or with the flag `access_level` set to
 `system`, all is as Prolog has it.
 */
 
 :- multifile prolog:message//1.
 
+%   Set while the flag `debug_on_error` is false by this library's doing.
+
+:- thread_local quiet/0.
+
 prolog:message(unhandled_exception(Error)) -->
     { is_located(Error, _, _) },
     prolog:message(Error).
+% As Prolog words it where a tracer may open
+prolog:message(unhandled_exception(Error)) -->
+    { quiet },
+    in_words(Error).
 prolog:message(Error) -->
     { is_located(Error, Plain, Places) },
     in_words(Plain),
@@ -160,6 +168,7 @@ located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
     uncaught(Catcher, Frame),
     \+ current_prolog_flag(access_level, system),
     \+ current_prolog_flag(debug, true),
+    no_tracer_opens(Catcher),
     words(Context, Called, Text),
     (   prolog_frame_attribute(Frame, pc, PC)
     ->  true
@@ -170,8 +179,7 @@ located(error(Formal, Context), error(Formal, Located), Frame, Catcher) :-
     ->  true
     ;   is_forgotten(Formal)
     ),
-    Located = context(Called, ev3dev_at(Text, Places)),
-    no_tracer_opens(Catcher).
+    Located = context(Called, ev3dev_at(Text, Places)).
 
 is_forgotten(existence_error(procedure, Predicate0)) :-
     unqualified(Predicate0, Predicate),
@@ -179,8 +187,6 @@ is_forgotten(existence_error(procedure, Predicate0)) :-
 
 %   The flag is looked at when this hook has succeeded or failed, and is set
 %   back when the next error comes. Each thread has its own.
-
-:- thread_local quiet/0.
 
 no_tracer_opens(Catcher) :-
     (   Catcher == none,
