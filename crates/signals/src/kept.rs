@@ -180,7 +180,10 @@ fn lengthen(length: usize) -> Option<()> {
 fn map(address: *mut u8) -> Option<*mut u8> {
     // Safety: asks the kernel only. What is at the address is the former lines.
     unsafe {
-        let file = libc::memfd_create(c"ev3dev-motors".as_ptr(), libc::MFD_CLOEXEC);
+        // Not by a function of the C library, which the brick's lacks
+        let name = c"ev3dev-motors".as_ptr();
+        let file = libc::syscall(libc::SYS_memfd_create, name, libc::MFD_CLOEXEC);
+        let file = c_int::try_from(file).unwrap_or(NONE);
         FILE.store(file, Ordering::Relaxed);
         let kind = if file == NONE { libc::MAP_ANONYMOUS } else { 0 };
         let place = if address.is_null() { 0 } else { libc::MAP_FIXED };

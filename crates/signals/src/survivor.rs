@@ -86,9 +86,9 @@ pub(crate) fn start(lines: c_int) {
         let mut before = std::mem::zeroed();
         libc::sigfillset(&raw mut all);
         libc::pthread_sigmask(libc::SIG_SETMASK, &raw const all, &raw mut before);
-        let child = libc::clone(between, first.end(), WAITING, plan);
+        let child = process(between, first.end(), plan);
         if child > 0 {
-            while libc::waitpid(child, std::ptr::null_mut(), libc::__WCLONE) == -1
+            while libc::waitpid(child, std::ptr::null_mut(), libc::__WALL) == -1
                 && nix::errno::Errno::last() == nix::errno::Errno::EINTR
             {}
         }
@@ -107,9 +107,23 @@ pub(crate) fn forked() {
 }
 
 /// A new process that has this one's memory, which waits until the new one has another
-/// program or has ended. Copying the tables of a process of 30 MB takes longer. Without a
-/// signal at its end, `wait` for any child does not find it.
-const WAITING: c_int = libc::CLONE_VM | libc::CLONE_VFORK;
+/// program or has ended: copying the tables of a process of 30 MB takes longer. Without a
+/// signal at its end, `wait` for any child does not find it; an emulator of a processor wants
+/// one.
+unsafe fn process(
+    run: extern "C" fn(*mut c_void) -> c_int,
+    stack: *mut c_void,
+    plan: *mut c_void,
+) -> c_int {
+    const WAITING: c_int = libc::CLONE_VM | libc::CLONE_VFORK;
+    // Safety: stack and plan are there until it ends.
+    unsafe {
+        match libc::clone(run, stack, WAITING, plan) {
+            -1 => libc::clone(run, stack, WAITING | libc::SIGCHLD, plan),
+            child => child,
+        }
+    }
+}
 
 /// A stack of 16 kB, aligned as one has to be.
 struct Stack(Vec<u128>);
@@ -127,7 +141,7 @@ impl Stack {
 /// The child between: when it has ended, its own child is nobody's.
 extern "C" fn between(plan: *mut c_void) -> c_int {
     // Safety: the plan outlives this process, and so does the stack.
-    unsafe { libc::clone(become_shell, (*plan.cast::<Plan>()).stack, WAITING, plan) };
+    unsafe { process(become_shell, (*plan.cast::<Plan>()).stack, plan) };
     0
 }
 

@@ -13,7 +13,6 @@ use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 /// How long Prolog may take to end the process.
@@ -73,21 +72,21 @@ pub fn watch(asked: Asked) -> io::Result<()> {
     if WATCHDOG.set(write).is_err() {
         return Ok(());
     }
-    let (question, questions) = channel();
+    let (questions, answers) = UnixStream::pair()?;
     // The signals are for the program's own threads.
     let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
     let spawn = |name: &str, run: Box<dyn FnOnce() + Send>| {
         std::thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
     };
     let spawned = spawn("ev3-asker", Box::new(move || answer(&questions, &asked)))
-        .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, question).run())));
+        .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, answers).run())));
     before.thread_set_mask()?;
     spawned?;
     handlers::take_all();
     // Safety: the functions do only what may be done there.
     unsafe {
         libc::pthread_atfork(None, None, Some(forked));
-        if libc::gettid() == libc::getpid() {
+        if libc::syscall(libc::SYS_gettid) == libc::c_long::from(libc::getpid()) {
             let mut key = 0;
             if libc::pthread_key_create(&raw mut key, Some(main_is_over)) == 0 {
                 libc::pthread_setspecific(key, (&raw const IS_CHILD).cast());
@@ -109,23 +108,18 @@ unsafe extern "C" fn main_is_over(_: *mut c_void) {
     tell(MAIN_IS_OVER, 0);
 }
 
-enum Question {
-    Ends(c_int),
-    Continued,
-}
-
-/// What the asker does.
-fn answer(questions: &Receiver<Question>, asked: &Asked) {
-    for question in questions {
-        match question {
-            Question::Ends(signal) => {
-                let ends = (asked.ends)(name(signal), io::stdin().is_terminal());
-                tell(if ends { ENDS } else { GOES_ON }, signal);
-            }
-            Question::Continued => {
-                (asked.stop)();
-                latch::lift(Reason::Standing);
-            }
+/// What the asker does: the watchdog tells it what it is told itself.
+fn answer(mut questions: &UnixStream, asked: &Asked) {
+    let mut told = [0; 2];
+    while questions.read_exact(&mut told).is_ok() {
+        let [what, number] = told;
+        if what == CONTINUED {
+            (asked.stop)();
+            latch::lift(Reason::Standing);
+        } else {
+            let signal = c_int::from(number);
+            let ends = (asked.ends)(name(signal), io::stdin().is_terminal());
+            tell(if ends { ENDS } else { GOES_ON }, signal);
         }
     }
 }
@@ -143,7 +137,7 @@ fn number(name: &str) -> c_int {
 
 struct Watchdog {
     events: UnixStream,
-    asker: Sender<Question>,
+    asker: UnixStream,
     /// The signal that Prolog is asked about, since when, and whether that took too long.
     asked: Vec<(c_int, Instant, bool)>,
     /// The signal that ends the process, and when.
@@ -155,7 +149,7 @@ struct Watchdog {
 }
 
 impl Watchdog {
-    fn new(events: UnixStream, asker: Sender<Question>) -> Self {
+    fn new(events: UnixStream, asker: UnixStream) -> Self {
         Self {
             events,
             asker,
@@ -172,7 +166,7 @@ impl Watchdog {
             let mut told = [0; 2];
             while self.is_told(Duration::ZERO) && self.events.read_exact(&mut told).is_ok() {
                 let [what, number] = told;
-                self.take(what, c_int::from(number));
+                self.take(what, number);
             }
             self.look();
         }
@@ -197,7 +191,8 @@ impl Watchdog {
         unsafe { libc::poll(&raw mut polled, 1, milliseconds) > 0 }
     }
 
-    fn take(&mut self, what: u8, signal: c_int) {
+    fn take(&mut self, what: u8, number: u8) {
+        let signal = c_int::from(number);
         let now = Instant::now();
         match what {
             SIGNAL => {
@@ -206,7 +201,7 @@ impl Watchdog {
                     end_by(signal);
                 }
                 self.asked.push((signal, now, false));
-                let _ = self.asker.send(Question::Ends(signal));
+                let _ = self.asker.write_all(&[SIGNAL, number]);
             }
             ENDS => {
                 let (since, is_late) = self.answered(signal).unwrap_or((now, true));
@@ -226,7 +221,7 @@ impl Watchdog {
             HALTS => self.ends_by(signal, now),
             CONTINUED => {
                 self.stands_until = Some(now + ANSWER);
-                let _ = self.asker.send(Question::Continued);
+                let _ = self.asker.write_all(&[CONTINUED, number]);
             }
             MAIN_IS_OVER => {
                 self.is_main_over = true;
