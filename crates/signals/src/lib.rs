@@ -54,18 +54,6 @@ const NONE: i32 = -1;
 /// The descriptors of files that take `stop`.
 static KEPT: [AtomicI32; 64] = [const { AtomicI32::new(NONE) }; 64];
 
-/// Makes a descriptor be closed in programs that this one starts.
-pub fn keep_from_children(descriptor: i32) {
-    // Safety: changes a flag of a descriptor. If it was closed meanwhile, nothing happens.
-    let _ = unsafe { libc::fcntl(descriptor, libc::F_SETFD, libc::FD_CLOEXEC) };
-}
-
-/// Ends the connection of a socket, so that a thread that waits for it goes on.
-pub fn hang_up(descriptor: i32) {
-    // Safety: sends no data. What is no socket stays as it is.
-    let _ = unsafe { libc::shutdown(descriptor, libc::SHUT_RDWR) };
-}
-
 /// A file that is told `stop` in a crash. Dropped before the file is closed.
 #[derive(Debug)]
 pub struct Kept(&'static AtomicI32);
