@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """What library(ev3dev/view) costs: processor time of its threads, and delays.
 
-    benches/view.py [--seconds S]
+    benches/view.py [--seconds S] [--strangers]
 
 A toplevel with a simulated robot that drives in the room, at x1 of the virtual
 clock; and pages, as small as can be, that ask for 20 frames a second. Processor time
 is that of all threads but the program's, as a share of one core. Beside it the time
 from STOP to the motors' `stop`, and from a motor's start until a page is told.
 benches/run.py measures it, too.
+
+With --strangers instead: how long, at worst, a new page, the next frame of an open one
+and the stop of a motor take while so many connections without a token are kept up.
 """
 import argparse
 import base64
 import json
+import multiprocessing
 import os
 import socket
 import statistics
@@ -185,6 +189,87 @@ def measure(seconds):
     return {"pages": shares, "stop_seconds": moments(stops), "seen_seconds": moments(starts)}
 
 
+HALF = b"GET / HTTP/1.1\r\nHost: localhost\r\nX: "
+WHOLE = b"GET /%s HTTP/1.1\r\nHost: localhost:%d\r\nOrigin: http://localhost:%d\r\n%s\r\n"
+UPGRADE = (b"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+           b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n")
+
+# What strangers send at first, and then again and again.
+STRANGERS = {
+    "silent": lambda port: (b"", b""),
+    "slow": lambda port: (HALF, b"x"),
+    "endless": lambda port: (HALF, b"x" * 4096),
+    "wrong token": lambda port: (WHOLE % (b"?t=wrong", port, port, b""), b""),
+    "websocket": lambda port: (WHOLE % (b"ws", port, port, UPGRADE), b""),
+}
+
+
+def besiege(port, kind, count, over):
+    """Keeps so many connections up until it is over: one that has ended comes again."""
+    first, more = STRANGERS[kind](port)
+    sockets = []
+    while not over.is_set():
+        while len(sockets) < count and not over.is_set():
+            one = socket.socket()
+            one.setblocking(False)
+            one.connect_ex(("127.0.0.1", port))
+            sockets.append((one, [first]))
+        for one, unsent in list(sockets):
+            try:
+                one.send(unsent.pop() if unsent else more)
+                if not one.recv(1, socket.MSG_PEEK):
+                    raise ConnectionError
+            except BlockingIOError:
+                pass
+            except OSError:
+                one.close()
+                sockets.remove((one, unsent))
+        time.sleep(0.01)
+    for one, _ in sockets:
+        one.close()
+
+
+def visit(port):
+    with socket.create_connection(("127.0.0.1", port), timeout=20) as one:
+        one.sendall(f"GET /?t={TOKEN} HTTP/1.1\r\nHost: localhost:{port}\r\n"
+                    "Connection: close\r\n\r\n".encode())
+        answer = b""
+        while part := one.recv(1 << 16):
+            answer += part
+    assert answer.startswith(b"HTTP/1.1 200"), answer[:100]
+
+
+def took(act):
+    begun = time.monotonic()
+    act()
+    return time.monotonic() - begun
+
+
+def measure_strangers(kind, count):
+    """The longest of ten times, in seconds."""
+    toplevel, over = Toplevel(), multiprocessing.Event()
+    try:
+        page = Page(toplevel.port)
+        page.ask("next")
+        crowd = multiprocessing.Process(target=besiege, args=(toplevel.port, kind, count, over))
+        crowd.start()
+        time.sleep(1)
+        visits, frames, stops = [], [], []
+        for _ in range(10):
+            visits.append(took(lambda: visit(toplevel.port)))
+            frames.append(max(took(lambda: page.ask("next")) for _ in range(5)))
+            toplevel.query("motor_run(outA, 30).")
+            until(page, runs)
+            stops.append(took(lambda: page.ask("stop")))
+            until(page, is_idle)
+        over.set()
+        crowd.join()
+    finally:
+        toplevel.end()
+    return {name: round(max(times), 3)
+            for name, times in (("page", visits), ("frame", frames), ("stop", stops))}
+
+
 def is_idle(frame):
     return frame["program"] == {"state": "idle", "latched": False}
 
@@ -192,7 +277,14 @@ def is_idle(frame):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seconds", type=float, default=10)
-    print(json.dumps(measure(parser.parse_args().seconds), indent=2))
+    parser.add_argument("--strangers", action="store_true")
+    arguments = parser.parse_args()
+    if not arguments.strangers:
+        print(json.dumps(measure(arguments.seconds), indent=2))
+        return
+    for kind in STRANGERS:
+        for count in (8, 60, 1000):
+            print(count, kind, json.dumps(measure_strangers(kind, count)), flush=True)
 
 
 if __name__ == "__main__":

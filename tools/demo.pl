@@ -49,7 +49,7 @@ show(Example, Seconds, View) :-
     sim_svg('demo.svg'),
     halt(0).
 
-%   Prints its address. Without library(http) the demo goes on without it.
+%   Prints its address. Without a server the demo goes on.
 
 start_view :-
     catch(( use_module(library(ev3dev/view)),

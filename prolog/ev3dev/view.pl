@@ -20,9 +20,9 @@
 :- use_module(private/view/known, [watch_add/2, watches_end/0]).
 :- use_module(private/view/log,
               [leave_messages/0, mark/1, watch_messages/0]).
-:- use_module(private/view/page, [page_settings/2, pages_close/0]).
+:- use_module(private/view/page,
+              [page_settings/2, pages_close/0, pages_serve/3]).
 :- use_module(private/view/program, [leave_program/0, watch_program/0]).
-:- use_module(private/view/server, [server_start/3, server_stop/1]).
 
 /** <module> The robot in a browser
 
@@ -77,6 +77,7 @@ prints, unless view/1 says otherwise.
 %   @error domain_error(view_rate, Hertz)
 %   @error domain_error(view_option, Option) if Option is not an option of
 %          this predicate
+%   @error permission_error(open, port, Port) if the port is in use
 %   @error permission_error(open, goals, any) for goals at all addresses
 
 view :-
@@ -196,12 +197,12 @@ ensure_served(Port, Address, Token0, Rate, Goals, Url) :-
 start(Wanted, Address, Token, Port) :-
     Wanted == default,
     !,
-    (   catch(server_start(Address, 8033, Token), error(_, _), fail)
+    (   catch(pages_serve(Address, 8033, Token), error(_, _), fail)
     ->  Port = 8033
-    ;   server_start(Address, Port, Token)
+    ;   pages_serve(Address, Port, Token)
     ).
 start(Port, Address, Token, Port) :-
-    server_start(Address, Port, Token).
+    pages_serve(Address, Port, Token).
 
 host_of(localhost, localhost).
 host_of(any, Host) :-
@@ -284,12 +285,11 @@ view_stop :-
     with_mutex(ev3dev_view, end).
 
 end :-
-    (   retract(serving(Port, _))
+    (   retract(serving(_, _))
     ->  leave_messages,
         leave_program,
         jog_end,
         pages_close,
-        server_stop(Port),
         hands_end,
         watches_end,
         view_close_

@@ -22,7 +22,6 @@ pub(super) fn register() {
     register_view_pull();
     register_view_put_back();
     register_view_move();
-    register_view_world();
     register_view_stands();
 }
 
@@ -113,14 +112,6 @@ predicates! {
             Ok(is_there) => into_prolog_result(is_there),
             Err(error) => wrong_because(&call, "possible_geometry", id, &error.to_string()),
         }
-    }
-
-    /// view_world_(-Text): the world as facts.
-    #[module("ev3dev_native")]
-    #[name("view_world_")]
-    semidet fn view_world(_context, text) {
-        let facts = simulation()?.machine().world_facts();
-        text.unify(facts.as_str())
     }
 }
 

@@ -5,6 +5,7 @@
 mod believed;
 mod brick;
 mod commands;
+mod door;
 mod frame;
 mod hand;
 mod notes;
@@ -14,29 +15,25 @@ mod threads;
 pub(crate) use self::believed::{counting_begins, pose_is_set};
 
 use self::notes::{Entry, notes};
-use self::reach::{keep_samples, outside, running_simulation, seconds};
+use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
 use crate::glue::call::{Call, Text};
-use crate::glue::state::devices;
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
-use ev3_driver::{Error, motor};
 use ev3_json::Json;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 
 /// Registers the predicates below.
 pub(crate) fn register() {
+    door::register();
     hand::register();
     register_view_open();
     register_view_close();
     register_view_thread();
-    register_view_keep_sockets();
-    register_view_hang_up();
     register_view_frame();
     register_view_keep();
     register_view_log();
     register_view_value();
-    register_view_csv();
     register_view_latch();
     register_view_lift();
     register_view_stop_motors();
@@ -94,24 +91,6 @@ predicates! {
         Ok(())
     }
 
-    /// view_keep_sockets_(+Port): programs that are started do not get the sockets of this port.
-    #[module("ev3dev_native")]
-    #[name("view_keep_sockets_")]
-    semidet fn view_keep_sockets(context, port) {
-        let port = Call::of(context, "view", 1).integer(port)?;
-        threads::keep_sockets(u16::try_from(port).unwrap_or_default());
-        Ok(())
-    }
-
-    /// view_hang_up_(+Port): ends the connections to a port.
-    #[module("ev3dev_native")]
-    #[name("view_hang_up_")]
-    semidet fn view_hang_up(context, port) {
-        let port = Call::of(context, "view_stop", 0).integer(port)?;
-        threads::hang_up_all(u16::try_from(port).unwrap_or_default());
-        Ok(())
-    }
-
     /// view_frame_(+Have, +State, +Settings, -Text): the next frame for a page that has some. State is
     /// that of the program; Settings are members of the frame that never change.
     #[module("ev3dev_native")]
@@ -162,16 +141,6 @@ predicates! {
         Ok(())
     }
 
-    /// view_csv_(-Text): all samples; fails if there are none.
-    #[module("ev3dev_native")]
-    #[name("view_csv_")]
-    semidet fn view_csv(_context, text) {
-        match frame::csv() {
-            Some(csv) => text.unify(csv.as_str()),
-            None => Err(PrologError::Failure),
-        }
-    }
-
     /// view_latch_: no motor starts from now on.
     #[module("ev3dev_native")]
     #[name("view_latch_")]
@@ -192,13 +161,7 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("view_stop_motors_")]
     semidet fn view_stop_motors(context) {
-        let call = Call::of(context, "view", 1);
-        let stopped = outside(|| motor::stop_connected(&devices(), &mut || true));
-        call.or_throw(stopped.or_else(|error| match error {
-            // A motor whose files are not open yet does not run.
-            Error::Interrupted => Ok(()),
-            error => Err(error),
-        }))
+        Call::of(context, "view", 1).or_throw(stop_motors())
     }
 
     /// view_users_(-Threads): the numbers of the threads that have used devices.

@@ -1,6 +1,7 @@
 //! Reaching into the simulation that runs, from outside of the program.
 use super::threads;
 use crate::glue::state::devices;
+use ev3_driver::{Error, motor};
 use ev3_sim::{Simulation, stay_outside};
 use std::sync::Arc;
 use std::time::Duration;
@@ -42,5 +43,14 @@ pub(super) fn seconds() -> f64 {
 pub(super) fn keep_samples(keep: bool) {
     if let Some(simulation) = running_simulation() {
         simulation.machine().keep_samples(keep);
+    }
+}
+
+/// Stops all motors that are connected, with brake, at once.
+pub(super) fn stop_motors() -> ev3_driver::Result<()> {
+    match outside(|| motor::stop_connected(&devices(), &mut || true)) {
+        // A motor whose files are not open yet does not run.
+        Err(Error::Interrupted) => Ok(()),
+        stopped => stopped,
     }
 }

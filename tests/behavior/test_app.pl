@@ -52,13 +52,6 @@ with_program(Lines, File, Goal) :-
         close(Out)),
     call_cleanup(once(Goal), delete_file(File)).
 
-%   The view needs it.
-
-has_http :-
-    absolute_file_name(library(http/thread_httpd), _,
-                       [ file_type(prolog), access(read),
-                         file_errors(fail) ]).
-
 %   Loads no view and drives no motor: the command line alone is wrong.
 refused("frob", "there is no command frob; there are: view, sim, run, ").
 refused("run", "run needs a program: ").
@@ -226,7 +219,7 @@ test(check_takes_the_time_of_the_simulated_robot) :-
 
 :- end_tests(app).
 
-:- begin_tests(app_prompt, [condition(has_http)]).
+:- begin_tests(app_prompt).
 
 test(the_prompt_has_the_libraries,
      forall(member(Line, ["sim room --no-open", "view --no-open"]))) :-
@@ -276,9 +269,7 @@ test(they_work, [forall(typed(File, Typed)), true(Status-Warned == 0-false)]) :-
     assertion(atom(File)),
     (   sub_string(Typed, _, _, _, "run ")
     ->  without_view(Typed, Line)
-    ;   has_http
-    ->  string_concat(Typed, " --no-open", Line)
-    ;   Line = "--help"
+    ;   string_concat(Typed, " --no-open", Line)
     ),
     app(Line, Status, Output),
     (   ( has(Output, "Warning") ; has(Output, "ERROR") )

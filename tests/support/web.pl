@@ -8,7 +8,8 @@
             page_hear/2,                % +Page, -Answer
             page_ask/3,                 % +Page, +Line, -Answer
             page_bytes/2,               % +Page, +Bytes
-            page_close/1                % +Page
+            page_close/1,               % +Page
+            besieged/4                  % +Port, +Count, +Kind, :Goal
           ]).
 :- use_module(old_prolog).
 :- use_module(library(apply)).
@@ -137,7 +138,7 @@ page_bytes(page(_, Out), Bytes) :-
 
 %!  page_hear(+Page, -Answer)
 %
-%   Answer is a dict, or close(Code), ping, or end.
+%   Answer is a dict, or close(Code), ping, pong, or end.
 
 page_hear(page(In, _), Answer) :-
     get_code(In, First),
@@ -169,6 +170,7 @@ heard(1, Codes, Answer) :-
 heard(8, [High, Low|_], close(Code)) :-
     Code is High << 8 + Low.
 heard(9, _, ping).
+heard(10, _, pong).
 
 page_ask(Page, Line, Answer) :-
     page_say(Page, Line),
@@ -177,3 +179,54 @@ page_ask(Page, Line, Answer) :-
 page_close(page(In, Out)) :-
     close(In, [force(true)]),
     close(Out, [force(true)]).
+
+%!  besieged(+Port, +Count, +Kind, :Goal)
+%
+%   Call Goal while so many strangers are connected. Kind is what they do.
+
+:- meta_predicate besieged(+, +, +, 0).
+
+besieged(Port, Count, Kind, Goal) :-
+    stranger(Kind, First, More),
+    atomic_list_concat(Parts, '~w', First),
+    atomic_list_concat(Parts, Port, Sent),
+    setup_call_cleanup(
+        findall(In-Out, ( between(1, Count, _),
+                          connect(Port, In, Out),
+                          send(Out, Sent) ), Strangers),
+        setup_call_cleanup(
+            thread_create(go_on(Strangers, More), Thread, []),
+            once(Goal),
+            ( thread_send_message(Thread, enough),
+              thread_join(Thread, _) )),
+        forall(member(In-Out, Strangers),
+               ( close(In, [force(true)]),
+                 close(Out, [force(true)]) ))).
+
+%   What a stranger sends at first, with the port, and then again and again.
+stranger(silent, "", "").
+stranger(slow, "GET / HTTP/1.1\r\nHost: localhost:~w\r\nX: ", "x").
+stranger(endless, "GET / HTTP/1.1\r\nHost: localhost:~w\r\nX: ", More) :-
+    length(Codes, 4000),
+    maplist(=(0'x), Codes),
+    string_codes(More, Codes).
+stranger(no_token, "GET / HTTP/1.1\r\nHost: localhost:~w\r\n\r\n", "").
+stranger(wrong_token,
+         "GET /?t=wrong HTTP/1.1\r\nHost: localhost:~w\r\n\r\n", "").
+stranger(websocket,
+         "GET /ws HTTP/1.1\r\nHost: localhost:~w\r\n\c
+          Origin: http://localhost:~w\r\nUpgrade: websocket\r\n\c
+          Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n\c
+          Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n", "").
+
+go_on(Strangers, More) :-
+    forall(( More \== "", member(_-Out, Strangers) ),
+           send(Out, More)),
+    thread_self(Me),
+    (   thread_get_message(Me, enough, [timeout(0.05)])
+    ->  true
+    ;   go_on(Strangers, More)
+    ).
+
+send(Out, Text) :-
+    catch(( write(Out, Text), flush_output(Out) ), error(_, _), true).

@@ -21,21 +21,8 @@ mod watchdog;
 
 pub use kept::{Kept, leave};
 use latch::Reason;
-use nix::libc;
 pub use survivor::survive;
 pub use watchdog::{Asked, PATIENCE, halts, watch};
-
-/// Makes a descriptor be closed in programs that this one starts.
-pub fn keep_from_children(descriptor: i32) {
-    // Safety: changes a flag of a descriptor. If it was closed meanwhile, nothing happens.
-    let _ = unsafe { libc::fcntl(descriptor, libc::F_SETFD, libc::FD_CLOEXEC) };
-}
-
-/// Ends the connection of a socket, so that a thread that waits for it goes on.
-pub fn hang_up(descriptor: i32) {
-    // Safety: sends no data. What is no socket stays as it is.
-    let _ = unsafe { libc::shutdown(descriptor, libc::SHUT_RDWR) };
-}
 
 /// Stops the motors that run and whose files are kept, and keeps all from starting.
 pub fn stop_for(reason: Reason) {

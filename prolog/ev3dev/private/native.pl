@@ -142,13 +142,13 @@
             stop_started_/0,
             told_to_end_/0,
             view_close_/0,
-            view_csv_/1,
+            view_end_/2,
             view_frame_/4,
-            view_hang_up_/1,
+            view_hear_/3,
             view_json_/2,
             view_keep_/2,
-            view_keep_sockets_/1,
             view_latch_/0,
+            view_leave_/1,
             view_lift_/0,
             view_log_/4,
             view_move_/4,
@@ -157,7 +157,10 @@
             view_pause_/1,
             view_pull_/1,
             view_put_back_/2,
+            view_say_/2,
+            view_serve_/5,
             view_serves_/0,
+            view_shut_/1,
             view_source_/1,
             view_stands_/0,
             view_step_/2,
@@ -166,7 +169,7 @@
             view_to_world_/5,
             view_users_/1,
             view_value_/2,
-            view_world_/1
+            view_visit_/1
           ]).
 :- use_module(errors, []).
 :- use_module(library_file, []).
@@ -415,12 +418,9 @@ missing.
 % The view
 
 %!  view_close_ is det.
-%!  view_csv_(-Text) is semidet.
 %!  view_frame_(+Have, +State, +Settings, -Text) is det.
-%!  view_hang_up_(+Port) is det.
 %!  view_json_(+Text, -Json) is det.
 %!  view_keep_(+Name, +Json) is det.
-%!  view_keep_sockets_(+Port) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
 %!  view_log_(+Kind, +Text, +Causes, +Thread) is det.
@@ -435,6 +435,16 @@ missing.
 %
 %   `src/view/mod.rs`
 
+%!  view_end_(+Page, +Code) is semidet.
+%!  view_hear_(+Page, +Seconds, -Line) is semidet.
+%!  view_leave_(+Page) is semidet.
+%!  view_say_(+Page, +Text) is det.
+%!  view_serve_(+Address, +Port, +Token, +Files, -Served) is det.
+%!  view_shut_(+Bye) is semidet.
+%!  view_visit_(-Visit) is semidet.
+%
+%   `src/view/door.rs`
+
 %!  view_move_(+Id, +X, +Y, +Heading) is semidet.
 %!  view_pace_(+Factor) is semidet.
 %!  view_pause_(+Pauses) is semidet.
@@ -442,7 +452,6 @@ missing.
 %!  view_put_back_(+Port, -Driver) is semidet.
 %!  view_stands_ is semidet.
 %!  view_step_(+Seconds, +IsIdle) is semidet.
-%!  view_world_(-Text) is semidet.
 %
 %   `src/view/hand.rs`
 

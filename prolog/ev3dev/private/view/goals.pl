@@ -1,12 +1,11 @@
 :- module(ev3dev_view_goals,
-          [ goal_line/4,                % +Word, +Rest, +Out, -Refused
-            goals_end/0
+          [ goal_line/4,                % +Word, +Rest, +Page, -Refused
+            goals_end/1                 % +Page
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../native', [view_json_/2]).
+:- use_module('../native', [view_json_/2, view_say_/2]).
 :- use_module(log, [error_text/2]).
 :- use_module(program, [program_state/1]).
-:- use_module(socket, [message_send/2]).
 
 /** <module> Goals that are typed into a page
 
@@ -16,18 +15,17 @@ thread of its own, as a part of the program.
 
 :- dynamic running/3.                   % Page, Number, Thread
 
-%!  goal_line(+Word, +Rest, +Out, -Refused) is semidet.
+%!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
 %   Start a goal, ask for its next answer, or end it. Fails if that is no
 %   line; Refused is bound to a text if it is not the time for it.
 
-goal_line(goal, Rest, Out, Refused) :-
+goal_line(goal, Rest, Page, Refused) :-
     sub_string(Rest, Before, 1, After, " "),
     !,
     sub_string(Rest, 0, Before, _, Number0),
     sub_string(Rest, _, After, 0, Text),
     number_of(Number0, Number),
-    thread_self(Page),
     (   running(Page, _, Thread),
         catch(thread_property(Thread, status(running)), _, fail)
     ->  Refused = "Another goal is not finished."
@@ -35,15 +33,14 @@ goal_line(goal, Rest, Out, Refused) :-
         State \== idle
     ->  Refused = "A program runs."
     ;   retractall(running(Page, _, _)),
-        thread_create(ev3dev_view_goals:solve(Text, Number, Out), Thread,
+        thread_create(ev3dev_view_goals:solve(Text, Number, Page), Thread,
                       [detached(true)]),
         assertz(running(Page, Number, Thread)),
         thread_send_message(Thread, ev3dev_view_goal(begin))
     ).
-goal_line(Word, Rest, _, _) :-
+goal_line(Word, Rest, Page, _) :-
     memberchk(Word, [more, enough]),
     number_of(Rest, Number),
-    thread_self(Page),
     (   running(Page, Number, Thread)
     ->  catch(thread_send_message(Thread, ev3dev_view_goal(Word)), _, true)
     ;   true
@@ -57,43 +54,42 @@ number_of(Text, Number) :-
          \+ between(0'0, 0'9, Code) ),
     number_codes(Number, Codes).
 
-%!  goals_end is det.
+%!  goals_end(+Page) is det.
 %
 %   End the goals of this page.
 
-goals_end :-
-    thread_self(Page),
+goals_end(Page) :-
     forall(running(Page, _, Thread),
            catch(thread_signal(Thread, abort), _, true)),
     retractall(running(Page, _, _)).
 
-solve(Text, Number, Out) :-
+solve(Text, Number, Page) :-
     thread_get_message(ev3dev_view_goal(begin)),
-    catch(solve_(Text, Number, Out), Error, true),
+    catch(solve_(Text, Number, Page), Error, true),
     (   var(Error)
     ->  true
     ;   Error = error(syntax_error(What), _)
     ->  format(string(Why), "Syntax error: ~w", [What]),
-        answer(Out, Number, error, Why)
+        answer(Page, Number, error, Why)
     ;   Error = error(_, _)
     ->  error_text(Error, Why),
-        answer(Out, Number, error, Why)
+        answer(Page, Number, error, Why)
     ;   format(string(Why), "~p", [Error]),
-        answer(Out, Number, stopped, Why)
+        answer(Page, Number, stopped, Why)
     ).
 
-solve_(Text, Number, Out) :-
+solve_(Text, Number, Page) :-
     term_string_with_names(Text, Goal, Names),
     (   solution(Goal, Last),
         bindings_text(Names, Answer),
         (   Last == true
-        ->  answer(Out, Number, last, Answer)
-        ;   answer(Out, Number, more, Answer),
+        ->  answer(Page, Number, last, Answer)
+        ;   answer(Page, Number, more, Answer),
             thread_get_message(ev3dev_view_goal(Word)),
             Word == enough
         )
     ->  true
-    ;   answer(Out, Number, false, "false")
+    ;   answer(Page, Number, false, "false")
     ).
 
 solution(Goal, Last) :-
@@ -133,7 +129,7 @@ bindings_text(Names, Text) :-
     ).
 
 %   After all but `more` the page may send another goal at once.
-answer(Out, Number, State, Text) :-
+answer(Page, Number, State, Text) :-
     (   State == more
     ->  true
     ;   thread_self(Me),
@@ -143,4 +139,4 @@ answer(Out, Number, State, Text) :-
     format(string(Message),
            "{\"type\":\"answer\",\"n\":~w,\"state\":\"~w\",\"text\":~w}",
            [Number, State, Json]),
-    catch(message_send(Out, Message), _, true).
+    view_say_(Page, Message).

@@ -1,11 +1,14 @@
 :- module(ev3dev_view_page,
-          [ page_serve/2,               % +In, +Out
-            pages/1,                    % -Threads
+          [ pages_serve/3,              % +Address, ?Port, +Token
             pages_close/0,
             page_settings/2             % +Rate, +Goals
           ]).
-:- use_module('../native', [view_frame_/4, view_json_/2]).
-:- use_module(goals, [goal_line/4, goals_end/0]).
+:- use_module('../errors', [throw_error/3]).
+:- use_module('../native',
+              [ view_end_/2, view_frame_/4, view_hear_/3, view_json_/2,
+                view_leave_/1, view_say_/2, view_serve_/5, view_shut_/1,
+                view_visit_/1 ]).
+:- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(hands, [hand_line/3]).
 :- use_module(known, [renew_kept/0]).
 :- use_module(log, [error_text/2, mark/1]).
@@ -13,25 +16,26 @@
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
               ]).
-:- use_module(socket,
-              [close_send/2, message_read/2, message_send/2, ping_send/1]).
 
-/** <module> The conversation with a page
+/** <module> The conversations with pages
 
-A thread for each page. The page asks for a frame when it has drawn the one
-before; so a page that does not draw costs nothing. A frame that is asked for
-too early is held back, and what else the page says is done meanwhile.
+The server is native (`crates/door`). Here is a thread that waits for its
+visitors, and a thread for each page that has come. A page is a number. It
+asks for a frame when it has drawn the one before; so a page that does not
+draw costs nothing. A frame that is asked for too early is held back, and what
+else the page says is done meanwhile.
 */
 
 :- dynamic
-    page/1,                             % Thread
-    settings/3.                         % Interval, Json, Goals
+    porter/1,                           % Thread
+    settings/3,                         % Interval, Json, Goals
+    files_directory/1.
 
 settings(0.05, "", false).
 
-%   A page that says nothing for so long is asked whether it is still there,
-%   and is left when it does not answer for as long again.
-silence(30).
+:- prolog_load_context(directory, Here),
+   atom_concat(Here, '/../../view', Directory),
+   assertz(files_directory(Directory)).
 
 %!  page_settings(+Rate, +Goals) is det.
 %
@@ -44,145 +48,112 @@ page_settings(Rate, Goals) :-
     retractall(settings(_, _, _)),
     assertz(settings(Interval, Json, Goals)).
 
-%!  pages(-Threads) is det.
+%!  pages_serve(+Address, ?Port, +Token) is det.
+%
+%   Serve pages at a port of localhost, or of any address, from now on.
+%
+%   @error permission_error(open, port, Port)
 
-pages(Threads) :-
-    findall(Thread, page(Thread), Threads).
+pages_serve(Address, Port, Token) :-
+    (   var(Port)
+    ->  Wanted = 0
+    ;   Wanted = Port
+    ),
+    files_directory(Directory),
+    view_serve_(Address, Wanted, Token, Directory, Served),
+    (   integer(Served)
+    ->  Port = Served
+    ;   throw_error(permission_error(open, port, Port), view/1, Served)
+    ),
+    thread_create(ev3dev_view_page:receive_visitors, Porter, []),
+    assertz(porter(Porter)).
 
 %!  pages_close is det.
 %
-%   Say good-bye to all pages, and wait until they are closed.
+%   Say good-bye to all pages, and end the server.
 
 pages_close :-
-    with_mutex(ev3dev_view_pages,
-               forall(page(Thread),
-                      catch(thread_signal(Thread, throw(ev3dev_view(stop))),
-                            _, true))),
-    wait_closed(200),
-    retractall(page(_)).
+    view_shut_("{\"type\":\"bye\",\"why\":\"stopped\"}"),
+    forall(retract(porter(Porter)),
+           thread_join(Porter, _)).
 
-wait_closed(Left) :-
-    (   Left > 0,
-        page(Thread),
-        catch(thread_property(Thread, status(running)), _, fail)
-    ->  sleep(0.01),
-        Left1 is Left - 1,
-        wait_closed(Left1)
-    ;   true
-    ).
-
-%!  page_serve(+In, +Out) is det.
-%
-%   Serve a page at the streams of its connection, until either side ends it.
-
-page_serve(In, Out) :-
+receive_visitors :-
     view_thread,
-    thread_self(Me),
-    %   pages_close/0 may throw when the conversation is over already.
-    catch(serve_to_end(Me, In, Out), ev3dev_view(stop),
-          end(ev3dev_view(stop), In, Out)).
-
-serve_to_end(Me, In, Out) :-
-    catch(setup_call_cleanup(
-              assertz(page(Me)),
-              conversation(In, Out),
-              with_mutex(ev3dev_view_pages, retractall(page(Me)))),
-          End, true),
-    end(End, In, Out).
-
-end(End, In, Out) :-
-    goals_end,
-    farewell(End, Out),
-    catch(close(In, [force(true)]), _, true),
-    catch(close(Out, [force(true)]), _, true).
-
-farewell(End, Out) :-
-    (   nonvar(End),
-        End = ev3dev_view(stop)
-    ->  catch(( message_send(Out, "{\"type\":\"bye\",\"why\":\"stopped\"}"),
-                close_send(Out, 1001) ),
-              _, true)
-    ;   true
+    repeat,
+    (   view_visit_(Visitor)
+    ->  catch(receive(Visitor), _, true),
+        fail
+    ;   !
     ).
 
-conversation(In, Out) :-
-    set_stream(In, encoding(octet)),
-    set_stream(In, newline(posix)),
-    set_stream(In, timeout(10)),
-    set_stream(Out, encoding(octet)),
-    set_stream(Out, newline(posix)),
-    set_stream(Out, buffer(full)),
-    probe_program,
-    converse(In, Out, none, 0, 0).
+receive(stop) :-
+    !,
+    stop_program.
+%   While Prolog halts, version 10 creates no thread.
+receive(Page) :-
+    catch(thread_create(ev3dev_view_page:page_serve(Page), _,
+                        [detached(true)]),
+          error(_, _), view_leave_(Page)).
+
+%   Serve a page until either side ends it.
+page_serve(Page) :-
+    view_thread,
+    setup_call_cleanup(
+        true,
+        ignore(catch(( probe_program, converse(Page, none, 0) ), _, true)),
+        ( goals_end(Page), view_leave_(Page) )).
 
 %   Wanted is what the page has that wants a frame, or `none`; Last is when it
-%   got the last one. Asked says how often it was asked whether it is there.
-converse(In, Out, Wanted, Last, Asked) :-
+%   got the last one.
+converse(Page, Wanted, Last) :-
     time_left(Wanted, Last, Left),
-    wait_for_input([In], Ready, Left),
-    (   Ready = [_|_]
-    ->  message_read(In, Message),
-        act(Message, In, Out, Wanted, Last)
-    ;   Wanted = wanted(Have)
-    ->  frame_send(Out, Have),
-        get_time(Now),
-        converse(In, Out, none, Now, 0)
-    ;   Asked > 0
-    ->  true
-    ;   ping_send(Out),
-        converse(In, Out, none, Last, 1)
+    (   view_hear_(Page, Left, Line)
+    ->  heard(Line, Page, Wanted, Last)
+    ;   true
     ).
 
-time_left(none, _, Left) :-
-    silence(Left).
+time_left(none, _, 10).
 time_left(wanted(_), Last, Left) :-
     settings(Interval, _, _),
     get_time(Now),
-    %   A time of 0 is forever.
-    Left is max(0.0005, Last + Interval - Now).
+    Left is max(0, Last + Interval - Now).
 
-act(close, _, Out, _, _) :-
-    catch(close_send(Out, 1000), _, true).
-act(fault(Code), _, Out, _, _) :-
-    catch(close_send(Out, Code), _, true).
-act(ping(Bytes), In, Out, Wanted, Last) :-
-    pong_send(Out, Bytes),
-    converse(In, Out, Wanted, Last, 0).
-act(pong, In, Out, Wanted, Last) :-
-    converse(In, Out, Wanted, Last, 0).
-act(text(Line), In, Out, Wanted0, Last) :-
+heard(none, Page, wanted(Have), _) :-
+    !,
+    frame_send(Page, Have),
+    get_time(Now),
+    converse(Page, none, Now).
+heard(none, Page, none, Last) :-
+    !,
+    converse(Page, none, Last).
+heard(Line, Page, Wanted0, Last) :-
     word_rest(Line, Word, Rest),
     (   Word == next
-    ->  due(Rest, Last, Out, Wanted, Last1),
-        converse(In, Out, Wanted, Last1, 0)
-    ;   line(Word, Rest, Out)
-    ->  converse(In, Out, Wanted0, Last, 0)
-    ;   catch(close_send(Out, 1008), _, true)
+    ->  due(Rest, Last, Page, Wanted, Last1),
+        converse(Page, Wanted, Last1)
+    ;   line(Word, Rest, Page)
+    ->  converse(Page, Wanted0, Last)
+    ;   view_end_(Page, 1008)
     ).
 
 %   A frame that is due is sent at once.
-due(Have, Last, Out, Wanted, Last1) :-
+due(Have, Last, Page, Wanted, Last1) :-
     settings(Interval, _, _),
     get_time(Now),
     (   Now >= Last + Interval - 0.0005
-    ->  frame_send(Out, Have),
+    ->  frame_send(Page, Have),
         Wanted = none,
         Last1 = Now
     ;   Wanted = wanted(Have),
         Last1 = Last
     ).
 
-frame_send(Out, Have) :-
+frame_send(Page, Have) :-
     settings(_, Settings, _),
     program_state(State),
     renew_kept,
     view_frame_(Have, State, Settings, Text),
-    message_send(Out, Text).
-
-pong_send(Out, Bytes) :-
-    length(Bytes, Length),
-    format(Out, "~s", [[0x8a, Length|Bytes]]),
-    flush_output(Out).
+    view_say_(Page, Text).
 
 word_rest(Line, Word, Rest) :-
     (   sub_string(Line, Before, 1, After, " ")
@@ -193,52 +164,52 @@ word_rest(Line, Word, Rest) :-
     ).
 
 %   What a page says is one of these; nothing of it is ever called.
-line(stop, "", Out) :-
+line(stop, "", Page) :-
     !,
     stop_program,
-    done(Out, stop, []).
-line(go, "", Out) :-
+    done(Page, stop, []).
+line(go, "", Page) :-
     !,
     lift_latch,
-    done(Out, go, []).
-line(mark, Text0, Out) :-
+    done(Page, go, []).
+line(mark, Text0, Page) :-
     !,
     string_length(Text0, Length),
     Length > 0,
     End is min(200, Length),
     sub_string(Text0, 0, End, _, Text),
     mark(Text),
-    done(Out, mark, []).
-line(Word, Rest, Out) :-
+    done(Page, mark, []).
+line(Word, Rest, Page) :-
     memberchk(Word, [goal, more, enough]),
     !,
     settings(_, _, Goals),
     (   Goals == true
-    ->  goal_line(Word, Rest, Out, Refused),
+    ->  goal_line(Word, Rest, Page, Refused),
         (   nonvar(Refused)
-        ->  refused(Out, Word, Refused)
+        ->  refused(Page, Word, Refused)
         ;   true
         )
-    ;   refused(Out, Word, "Goals are not allowed: view([goals(true)]).")
+    ;   refused(Page, Word, "Goals are not allowed: view([goals(true)]).")
     ).
-line(Word, Rest, Out) :-
+line(Word, Rest, Page) :-
     hand_line(Word, Rest, Answer),
     (   Answer = done(More)
-    ->  done(Out, Word, More)
+    ->  done(Page, Word, More)
     ;   Answer = refused(Why)
-    ->  refused(Out, Word, Why)
+    ->  refused(Page, Word, Why)
     ;   true
     ).
 
-done(Out, Word, More) :-
+done(Page, Word, More) :-
     (   More = [id(Id)]
     ->  format(string(Text), "{\"type\":\"done\",\"what\":\"~w\",\"id\":~w}",
                [Word, Id])
     ;   format(string(Text), "{\"type\":\"done\",\"what\":\"~w\"}", [Word])
     ),
-    message_send(Out, Text).
+    view_say_(Page, Text).
 
-refused(Out, Word, Why0) :-
+refused(Page, Word, Why0) :-
     (   string(Why0)
     ->  Why = Why0
     ;   error_text(Why0, Why)
@@ -246,4 +217,4 @@ refused(Out, Word, Why0) :-
     view_json_(Why, Json),
     format(string(Text),
            "{\"type\":\"refused\",\"what\":\"~w\",\"why\":~w}", [Word, Json]),
-    message_send(Out, Text).
+    view_say_(Page, Text).

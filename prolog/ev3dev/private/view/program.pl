@@ -22,6 +22,7 @@ Whether a program runs at the toplevel, and how it is stopped.
     queries/1,                          % how many there were
     stopping/1,                         % the thread that does it
     asked/1,                            % a thread that is to be interrupted
+    next_probe/2,                       % Time, Pause
     hook/1.                             % a clause
 
 queries(0).
@@ -34,7 +35,8 @@ program_state(State) :-
     flag(ev3dev_view_idle, Idle, Idle),
     (   Idle =:= 1
     ->  State = idle
-    ;   State = running
+    ;   State = running,
+        probe_again
     ).
 
 %   A flag is set at once; two threads do this.
@@ -104,7 +106,26 @@ is_main :-
 %   Have the program say whether it runs. Does not wait for the answer.
 
 probe_program :-
+    probe(0.1).
+
+probe(Pause) :-
+    get_time(Now),
+    Next is Now + Pause,
+    retractall(next_probe(_, _)),
+    assertz(next_probe(Next, Pause)),
     catch(thread_signal(main, ev3dev_view_program:probed), _, true).
+
+%   Nothing says when the toplevel begins to wait for its first query: it is
+%   asked again, ever more seldom.
+probe_again :-
+    (   queries(0),
+        next_probe(Next, Pause),
+        get_time(Now),
+        Now >= Next
+    ->  Longer is Pause*2,
+        probe(Longer)
+    ;   true
+    ).
 
 probed :-
     (   reads_query

@@ -1,0 +1,149 @@
+//! The page's server, and the talk with each page: what `crates/door` has, for Prolog.
+use super::frame;
+use super::reach::{outside, running_simulation, stop_motors};
+use crate::glue::call::{Call, Text};
+use crate::glue::terms::unify_atom;
+use ev3_door::{Door, Heard, Made, Page, Site, Visit};
+use ev3_signals::latch::{self, Reason};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use swipl::prelude::*;
+
+/// The server, if there is one.
+static DOOR: Mutex<Option<Arc<Door>>> = Mutex::new(None);
+
+/// What a page can save.
+const MADE: [Made; 2] = [
+    Made {
+        path: "/world.pl",
+        kind: "text/plain; charset=utf-8",
+        make: || outside(|| Some(running_simulation()?.machine().world_facts())),
+        lacking: "No simulation runs.",
+    },
+    Made {
+        path: "/samples.csv",
+        kind: "text/csv; charset=utf-8",
+        make: || outside(frame::csv),
+        lacking: "There are no samples.",
+    },
+];
+
+/// Registers the predicates below.
+pub(super) fn register() {
+    register_view_serve();
+    register_view_visit();
+    register_view_hear();
+    register_view_say();
+    register_view_end();
+    register_view_leave();
+    register_view_shut();
+}
+
+predicates! {
+    /// view_serve_(+Address, +Port, +Token, +Files, -Served): serves the page, with the files of a
+    /// folder, at a port; 0 is any. Served is the port, or a text that says why not.
+    #[module("ev3dev_native")]
+    #[name("view_serve_")]
+    semidet fn view_serve(context, address, port, token, files, served) {
+        let call = Call::of(context, "view", 1);
+        let owned = |term: &Term| call.text(term).map(Text::into_owned);
+        let any = call.text(address)? == "any";
+        let port = u16::try_from(call.integer(port)?).unwrap_or_default();
+        let (token, files) = (owned(token)?, PathBuf::from(owned(files)?));
+        match Door::open(Site { any, port, token, files, made: &MADE, stop }) {
+            Ok(door) => {
+                let port = door.port();
+                *locked() = Some(Arc::new(door));
+                served.unify(u64::from(port))
+            }
+            Err(error) => served.unify(error.to_string().as_str()),
+        }
+    }
+
+    /// view_visit_(-Visit): waits until a page comes, and is its number, or until STOP is pressed
+    /// without one, and is `stop`. Fails if the server has ended.
+    #[module("ev3dev_native")]
+    #[name("view_visit_")]
+    semidet fn view_visit(_context, visit) {
+        match door()?.visit() {
+            Some(Visit::Page(number)) => visit.unify(u64::from(number)),
+            Some(Visit::Stop) => unify_atom(visit, "stop"),
+            None => Err(PrologError::Failure),
+        }
+    }
+
+    /// view_hear_(+Page, +Seconds, -Line): waits so long for a line; `none` if there was none.
+    /// Fails if the page has gone.
+    #[module("ev3dev_native")]
+    #[name("view_hear_")]
+    semidet fn view_hear(context, page, seconds, line) {
+        let call = Call::of(context, "view", 1);
+        match page_of(&call, page)?.hear(call.time(seconds)?) {
+            Heard::Line(text) => line.unify(text.as_str()),
+            Heard::Nothing => unify_atom(line, "none"),
+            Heard::End => Err(PrologError::Failure),
+        }
+    }
+
+    /// view_say_(+Page, +Text): does nothing if the page was left.
+    #[module("ev3dev_native")]
+    #[name("view_say_")]
+    semidet fn view_say(context, page, text) {
+        let call = Call::of(context, "view", 1);
+        let text = call.text(text)?;
+        attempt_opt(page_of(&call, page))?.iter().for_each(|page| page.say(&text));
+        Ok(())
+    }
+
+    /// view_end_(+Page, +Code): ends the connection with the reason for that (RFC 6455, 7.4).
+    #[module("ev3dev_native")]
+    #[name("view_end_")]
+    semidet fn view_end(context, page, code) {
+        let call = Call::of(context, "view", 1);
+        page_of(&call, page)?.end(u16::try_from(call.integer(code)?).unwrap_or_default());
+        Ok(())
+    }
+
+    /// view_leave_(+Page): nobody serves this page any more.
+    #[module("ev3dev_native")]
+    #[name("view_leave_")]
+    semidet fn view_leave(context, page) {
+        door()?.leave(number_of(&Call::of(context, "view", 1), page)?);
+        Ok(())
+    }
+
+    /// view_shut_(+Bye): ends the server and all pages, which are told this.
+    #[module("ev3dev_native")]
+    #[name("view_shut_")]
+    semidet fn view_shut(context, bye) {
+        let bye = Call::of(context, "view_stop", 0).text(bye)?;
+        door()?.close(&bye);
+        *locked() = None;
+        Ok(())
+    }
+}
+
+/// Without Prolog, which interrupts the program as soon as it can.
+fn stop() {
+    latch::set(Reason::Stopped);
+    // The program's own stop says what went wrong.
+    let _ = stop_motors();
+}
+
+fn locked() -> MutexGuard<'static, Option<Arc<Door>>> {
+    DOOR.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The server; fails if there is none.
+fn door() -> PrologResult<Arc<Door>> {
+    locked().clone().ok_or(PrologError::Failure)
+}
+
+/// A page; fails if it was left.
+fn page_of<C: QueryableContextType>(call: &Call<C>, page: &Term) -> PrologResult<Arc<Page>> {
+    door()?.page(number_of(call, page)?).ok_or(PrologError::Failure)
+}
+
+fn number_of<C: QueryableContextType>(call: &Call<C>, page: &Term) -> PrologResult<u32> {
+    u32::try_from(call.integer(page)?).map_err(|_| PrologError::Failure)
+}
