@@ -402,8 +402,10 @@ class Run:
         rest = lambda: not self.tree.running()
         if not self.wait(self.ended_at + REST_S - time.monotonic(), rest) and not rest():
             self.add("runs", f"{self.tree.running()} run {REST_S} s after the end, which was {self.how_ended()}")
-        if not self.wait(self.ended_at + LEFT_S - time.monotonic(), lambda: not self.left()) and self.left():
-            self.add("left", f"{LEFT_S} s after the end there are {[command_of(pid) for pid in self.left()]}")
+        # A copy of the program got the signal, too, and has as long
+        limit = END_S if self.program.structure == "fork" else LEFT_S
+        if not self.wait(self.ended_at + limit - time.monotonic(), lambda: not self.left()) and self.left():
+            self.add("left", f"{limit} s after the end there are {[command_of(pid) for pid in self.left()]}")
 
     def how_ended(self):
         """Its status."""

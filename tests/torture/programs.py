@@ -164,8 +164,8 @@ class Program:
             self.rest = chance.choice([self.rest, "read"])
         else:
             self.signal = chance.choice(chance.choice([ASKING, ASKING, [9], CRASHES, STANDING, SIGNALS, SIGNALS]))
-            if self.start == "timeout" and self.signal in STANDING:
-                self.signal = 15
+            if self.start == "timeout" and self.signal in (17, *STANDING):
+                self.signal = 15  # timeout(1) itself would stand, or never hear of the end
             self.ending = signal_name(self.signal)
         if self.ending == "memory":
             self.limit = "as"
@@ -186,7 +186,7 @@ class Program:
         if self.ending == "thread_exit":
             return self.structure in SINGLE
         return self.ending in ("halt", "halt(3)", "halt in a thread") or (
-            self.ending in FINISHES and self.start in TO_HALT)
+            self.ending in ("end of main", "error", "failure", "abort") and self.start in TO_HALT)
 
     def asks(self):
         """Does the signal ask for the end, or force it?"""
