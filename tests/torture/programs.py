@@ -53,7 +53,7 @@ RESTS = {
     **LOOPS,
 }
 THREAD_RESTS = ["true", "wait(97)", "sleep(97)", "read(_)", *LOOPS.values()]
-NEEDED = {"ev3dev/sim": "sim_start", "time": "time_limit", "process": "process_create", "unix": "fork("}
+NEEDED = {"ev3dev/events": "race(", "ev3dev/sim": "sim_start", "time": "time_limit", "process": "process_create", "unix": "fork("}
 OWN = "sleep 97"  # what a program may leave: it is no part of the pack
 
 AGAIN = ["motor_run(outC, -50)", "run_forever(outB, 300)", f"servo_motor_position({SERVO}, -50)"]
@@ -87,6 +87,7 @@ FINISHES = {
     "error": "atom_length(_, _)",
     "failure": "fail",
     "thread_exit": "thread_exit(x)",
+    "thread_exit in a race": "race([wait(1), thread_exit(x)], _)",
     "abort": "abort",
     "stack overflow": "catch(set_prolog_flag(stack_limit, 40000000), _, true), deep(0)",
     "memory": "numlist(1, 100000000, L), L = [_|_]",
@@ -151,15 +152,16 @@ class Program:
 
     def choose_ending(self, chance):
         """By itself, by a limit, by what is typed, or by a signal."""
+        at_keys = chance.random() < 0.4
         kind = chance.random()
-        if self.start == "terminal" and kind < 0.5:
+        if self.start == "terminal" and at_keys:
             self.ending = chance.choice(["hang-up", *KEYS])
-        elif kind < 0.35 and self.start != "timeout":
+        elif kind < 0.35:
             self.ending = chance.choice(list(FINISHES))
-        elif kind < 0.43 and self.start != "timeout":
+        elif kind < 0.43:
             self.ending = chance.choice(list(LIMITED))
             self.limit, self.rest = LIMITED[self.ending][0], self.ending
-        elif kind < 0.48 and self.start != "timeout":
+        elif kind < 0.48:
             self.ending = "end of input"
             self.rest = chance.choice([self.rest, "read"])
         else:
@@ -230,9 +232,10 @@ class Program:
         elif self.start == "initialization(main)":
             lines.append(":- initialization(main).")
         text = " ".join(lines)
-        libraries = ["ev3dev", *([f"ev3dev/{library}"] if library else []),
-                     *(name for name, call in NEEDED.items() if call in text)]
-        self.lines = [f":- use_module([{', '.join(f'library({name})' for name in libraries)}]).", *lines]
+        names = {f"ev3dev/{library}"} if library else set()
+        names |= {name for name, call in NEEDED.items() if call in text}
+        libraries = ", ".join(f"library({name})" for name in ["ev3dev", *sorted(names)])
+        self.lines = [f":- use_module([{libraries}]).", *lines]
         assert len(self.lines) <= LINES, self.lines
 
     def shown(self):
