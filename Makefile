@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-torture check-all check-old check-dist \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -88,9 +88,15 @@ pictures: build
 check-bench: build
 	@benches/run.py --smoke
 
+# Three hundred random programs, each ended in some way: none leaves a motor running
+check-endings: build
+	@tests/torture/torture.py --self-test
+	@tests/torture/torture.py --count 300
+
 # Ten thousand random programs, moves, signals, worlds and sets of rules; `make check`
 # has 300
 check-torture: build
+	@tests/torture/torture.py --count 10000
 	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
 	    tests/behavior/test_motor_ramps.pl tests/behavior/test_rule_laws.pl
 

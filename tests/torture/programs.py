@@ -12,7 +12,8 @@ LOOPS = {
     "loop": "repeat, us_dist_cm(_, D), S is min(100, D/2), motor_run(outB, S), fail",
     "loop that waits": "repeat, us_dist_cm(_, D), S is min(100, D/2), motor_run(outB, S), wait(0.01), fail",
     "loop that catches all": "repeat, catch((motor_run(outB, 50), wait(0.5)), _, true), fail",
-    "loop of time limits": "repeat, catch(call_with_time_limit(0.05, wait(1)), _, true), catch(motor_run(outB, 50), _, true), fail",
+    "loop of time limits": "repeat, catch(call_with_time_limit(0.05, wait(1)), _, true), "
+    "catch(motor_run(outB, 50), _, true), fail",
     "loop that computes": "repeat, catch(call_with_time_limit(0.05, (repeat, fail)), _, true), motor_run(outB, 50), fail",
 }
 BODIES = {
@@ -53,7 +54,8 @@ RESTS = {
     **LOOPS,
 }
 THREAD_RESTS = ["true", "wait(97)", "sleep(97)", "read(_)", *LOOPS.values()]
-NEEDED = {"ev3dev/events": "race(", "ev3dev/sim": "sim_start", "time": "time_limit", "process": "process_create", "unix": "fork("}
+NEEDED = {"ev3dev/events": "race(", "ev3dev/sim": "sim_start", "time": "time_limit", "process": "process_create",
+          "unix": "fork("}
 OWN = "sleep 97"  # what a program may leave: it is no part of the pack
 
 AGAIN = ["motor_run(outC, -50)", "run_forever(outB, 300)", f"servo_motor_position({SERVO}, -50)"]
