@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-torture check-all check-old check-dist \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -42,9 +42,11 @@ place:
 ifneq ($(SWIHOME)$(SWIPL_HOME_DIR),)
 check: check-install
 else
-# In minutes: a browser is waited for most of the time, so Prolog runs beside it
+# In minutes: a browser is waited for most of the time, so Prolog runs beside it. How
+# programs end is measured in fractions of a second, so it is alone.
 check: build check-rust
 	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
+	$(MAKE) check-endings
 endif
 
 # Every predicate can be called, a motor and a sensor do what they should, and a robot
@@ -88,9 +90,15 @@ pictures: build
 check-bench: build
 	@benches/run.py --smoke
 
+# Three hundred random programs, each ended in some way: none leaves a motor running
+check-endings: build
+	@tests/torture/torture.py --self-test
+	@tests/torture/torture.py --count 300
+
 # Ten thousand random programs, moves, signals, worlds and sets of rules; `make check`
 # has 300
 check-torture: build
+	@tests/torture/torture.py --count 10000
 	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
 	    tests/behavior/test_motor_ramps.pl tests/behavior/test_rule_laws.pl
 
