@@ -43,8 +43,8 @@ static BEFORE: [AtomicPtr<libc::sigaction>; LAST as usize + 1] =
 /// The signals that the watchdog has not looked at yet, a bit each.
 static WITHHELD: AtomicU32 = AtomicU32::new(0);
 
-/// What a signal carries that the watchdog has looked at.
-static MARK: u8 = 0;
+/// Those that it has sent on.
+static LOOKED_AT: AtomicU32 = AtomicU32::new(0);
 
 /// Takes all signals that end a process, or make it stand. Those that are ignored stay so.
 pub(crate) fn take_all() {
@@ -145,7 +145,7 @@ pub(crate) fn listen() {
 extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
     let errno = Errno::last();
     if ASKING.contains(&signal) {
-        if is_marked(info) || !withhold(signal) {
+        if was_looked_at(signal) || !withhold(signal) {
             pass_on(signal, info, context);
         }
     } else if STANDING.contains(&signal) {
@@ -178,8 +178,8 @@ fn withhold(signal: c_int) -> bool {
     !is_new || watchdog::tell(watchdog::SIGNAL, signal)
 }
 
-/// The watchdog looks at a signal.
-pub(crate) fn looked_at(signal: c_int) {
+/// The watchdog looks at a signal: another one is for it, too.
+pub(crate) fn look_at(signal: c_int) {
     WITHHELD.fetch_and(!bit(signal), Ordering::AcqRel);
 }
 
@@ -187,20 +187,17 @@ fn bit(signal: c_int) -> u32 {
     1 << signal
 }
 
-/// Sends a signal that the handler passes on.
+/// Sends a signal that the handler passes on. What the signal itself carries does not tell
+/// that: a library that edits lines calls the handler as one without such an argument.
 pub(crate) fn send_on(signal: c_int) {
-    let value = libc::sigval { sival_ptr: mark() };
+    LOOKED_AT.fetch_or(bit(signal), Ordering::AcqRel);
     // Safety: to this process.
-    unsafe { libc::sigqueue(libc::getpid(), signal, value) };
+    unsafe { libc::kill(libc::getpid(), signal) };
 }
 
-fn mark() -> *mut c_void {
-    (&raw const MARK).cast_mut().cast()
-}
-
-fn is_marked(info: *const siginfo_t) -> bool {
-    // Safety: the kernel gives it to each handler.
-    unsafe { (*info).si_code == libc::SI_QUEUE && (*info).si_value().sival_ptr == mark() }
+/// Whether the watchdog has looked at a signal; then the next one is another.
+fn was_looked_at(signal: c_int) -> bool {
+    LOOKED_AT.fetch_and(!bit(signal), Ordering::AcqRel) & bit(signal) != 0
 }
 
 /// Does what the signal did before.

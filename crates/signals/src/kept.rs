@@ -233,8 +233,8 @@ pub(crate) fn forked() {
     }
     let mut text = [0; ROOM];
     let length = LENGTH.load(Ordering::Relaxed);
-    // Safety: both have so much room, and no other thread goes on.
-    unsafe { std::ptr::copy_nonoverlapping(lines, text.as_mut_ptr(), ROOM) };
+    // Safety: so long are the lines, and no other thread goes on.
+    unsafe { std::ptr::copy_nonoverlapping(lines, text.as_mut_ptr(), length) };
     let parents = FILE.load(Ordering::Relaxed);
     if map(lines).is_some() && lengthen(length).is_some() {
         // Safety: as above; the file is as long.

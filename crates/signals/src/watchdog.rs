@@ -196,7 +196,7 @@ impl Watchdog {
         let now = Instant::now();
         match what {
             SIGNAL => {
-                handlers::looked_at(signal);
+                handlers::look_at(signal);
                 if self.is_main_over {
                     end_by(signal);
                 }
