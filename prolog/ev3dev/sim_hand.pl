@@ -231,5 +231,6 @@ added_facts(Added) :-
     findall(Fact-Id, added(Fact, Id), Added).
 
 set_added_facts(Added) :-
+    must_be(list, Added),
     retractall(added(_, _)),
     forall(member(Fact-Id, Added), assertz(added(Fact, Id))).

@@ -1,3 +1,4 @@
+:- use_module('../support/odd_terms').
 :- use_module('../support/trees').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
@@ -250,35 +251,6 @@ call_of(stop_all_motors).
 call_of(stop).
 call_of(ev3_devices).
 call_of(robot(out, out, out, out)).
-
-odd(_).
-odd(7).
-odd(-7).
-odd(1.5).
-odd("text").
-odd('').
-odd([]).
-odd([a]).
-odd([_|_]).
-odd(f(x)).
-odd(f(_)).
-odd(outZ).
-odd('ev3-ports:').
-odd('../..').
-odd('a\u0000b').
-odd('\u4e2d\U0001f916').
-odd('a\nb').
-odd(X) :- X is 10**400.
-odd(X) :- X is -(10**400).
-odd(1.0e308).
-odd(-0.0).
-odd(X) :- evaluated(inf, X).
-odd(X) :- evaluated(nan, X).
-odd(9223372036854775807).
-odd(-9223372036854775808).
-odd(X) :- length(Codes, 5000), maplist(=(0'a), Codes), atom_codes(X, Codes).
-odd(X) :- X = f(X).
-odd(X) :- X = [a|X].
 
 % Goal is a call with one argument odd.
 odd_call(Goal) :-

@@ -3,7 +3,7 @@
             source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
-:- use_module(errors, [must_be/2, throw_error/3]).
+:- use_module(errors, [in_own_name/1, must_be/2, shown/2, throw_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(native, [sim_check_/2]).
 
@@ -32,7 +32,7 @@ located_facts(Kind, Facts, Located) :-
     findall(Fact-none, member(Fact, Facts), Located),
     check_all(Located, Kind).
 located_facts(Kind, Source, Located) :-
-    source_file(Kind, Source, File),
+    in_own_name(source_file(Kind, Source, File)),
     setup_call_cleanup(
         open(File, read, Stream, [encoding(utf8)]),
         read_facts(Stream, Kind, File, Located),
@@ -47,7 +47,7 @@ source_location(_, Facts, none) :-
     is_list(Facts),
     !.
 source_location(Kind, Source, file(File)) :-
-    source_file(Kind, Source, File).
+    in_own_name(source_file(Kind, Source, File)).
 
 source_file(Kind, Source, File) :-
     must_be(nonvar, Source),
@@ -61,8 +61,9 @@ source_file(Kind, Source, File) :-
     ->  true
     ;   findall(Name, shipped(Kind, Name), Names),
         atomic_list_concat(Names, ', ', Listed),
-        format(atom(Text), 'there is no ~w ~p; there are: ~w, or a file',
-               [Kind, Source, Listed]),
+        shown(Source, Shown),
+        format(atom(Text), 'there is no ~w ~w; there are: ~w, or a file',
+               [Kind, Shown, Listed]),
         throw_error(existence_error(Kind, Source), _, Text)
     ).
 
