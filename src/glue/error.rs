@@ -200,6 +200,9 @@ fn formal<'a, C: QueryableContextType>(
             unify_value(&value, &Value::parse(text.clone()))?;
             term! {context: domain_error(#attribute, #&value)}
         }
+        error if error.path().is_some_and(has_nul) => {
+            term! {context: domain_error(file_name, #path)}
+        }
         error => match error.errno() {
             Some(Errno::NOENT) => term! {context: existence_error(file, #path)},
             Some(Errno::ACCESS | Errno::PERM | Errno::ROFS) => {
@@ -281,6 +284,11 @@ fn device_of(path: &Path, devices: &Registry) -> (String, String) {
         Some((class.to_string(), device.port().to_owned()))
     });
     owner.unwrap_or_else(|| ("file".to_owned(), path.to_string_lossy().into_owned()))
+}
+
+/// No file has such a name.
+fn has_nul(path: &Path) -> bool {
+    path.as_os_str().as_encoded_bytes().contains(&0)
 }
 
 fn file_name(path: &Path) -> std::borrow::Cow<'_, str> {

@@ -67,8 +67,9 @@ message(1, Final, Bytes, In, Message) :-
     ->  Message = text(Text)
     ;   Message = fault(1007)
     ).
-message(8, 1, _, _, close) :-
-    !.
+message(8, 1, Bytes, _, Message) :-
+    !,
+    closing(Bytes, Message).
 message(9, 1, Bytes, _, ping(Bytes)) :-
     !.
 message(10, 1, _, _, pong) :-
@@ -94,9 +95,27 @@ more(0, Bytes, In, All, Fault) :-
     ;   memberchk(OpCode, [9, 10])
     ->  more(0, Bytes, In, All, Fault)
     ;   OpCode =:= 8
-    ->  Fault = close
+    ->  closing(Next, Fault)
     ;   Fault = fault(1002)
     ).
+
+%   What a page closes with: nothing, or a code that may be sent, and a reason
+%   (RFC 6455, 5.5.1 and 7.4).
+closing([], close).
+closing([_], fault(1002)).
+closing([High, Low|Reason], Message) :-
+    Code is High << 8 \/ Low,
+    (   \+ may_be_sent(Code)
+    ->  Message = fault(1002)
+    ;   text(Reason, _)
+    ->  Message = close
+    ;   Message = fault(1007)
+    ).
+
+may_be_sent(Code) :-
+    between(1000, 4999, Code),
+    \+ between(1004, 1006, Code),
+    \+ between(1015, 2999, Code).
 
 append_bytes([], Bytes, Bytes).
 append_bytes([Byte|Bytes0], Bytes1, [Byte|Bytes]) :-
