@@ -88,12 +88,12 @@ pictures: build
 check-bench: build
 	@benches/run.py --smoke
 
-# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls; `make
-# check` has 300
+# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, and 1000
+# maps; `make check` has 300, and 150
 check-torture: build
 	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
 	    tests/behavior/test_motor_ramps.pl tests/behavior/test_odd_terms.pl \
-	    tests/behavior/test_rule_laws.pl
+	    tests/behavior/test_rule_laws.pl tests/prolog/test_planners.pl
 
 lint: build
 	$(CARGO) fmt --all --check
