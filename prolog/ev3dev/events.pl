@@ -207,7 +207,7 @@ add_event(Kind, Action, State, Options) :-
         forget(Brick, Id)
     ;   next_id(Brick, Id)
     ),
-    in_own_name(assertz(event_(Brick, Id, Kind, Action))),  % none that is cyclic
+    in_own_name(assertz(event_(Brick, Id, Kind, Action))),  % not cyclic
     assertz(state_(Brick, Id, State)),
     look_every(Seconds),
     listen_for_events(Seconds),

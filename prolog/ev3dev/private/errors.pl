@@ -386,7 +386,7 @@ nearly(Term, Values, Value) :-
                 [Value])
     ).
 
-%   Of others, as half of a surrogate pair, downcase_atom/2 knows no small letter.
+%   downcase_atom/2 throws for other characters, as half of a surrogate pair.
 
 is_latin(Name) :-
     atom(Name),
@@ -417,8 +417,8 @@ quoted([Value|Values], [Atom|Atoms]) :-
 
 %!  shown(+Term, -Shown) is det.
 %
-%   Shown is a Term as a program has it, with `_` for each variable; not all of a long or
-%   deep one, nor a shared one as often as it occurs.
+%   Shown is a Term as a program has it, with `_` for each variable. Of a long
+%   or deep one it is the beginning.
 
 shown(Term, Shown) :-
     copy_term(Term, Copy, _),
