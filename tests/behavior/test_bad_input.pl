@@ -1,5 +1,5 @@
-:- use_module('../support/odd_terms').
 :- use_module('../support/trees').
+:- use_module('../support/odd_terms').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/journal)).

@@ -41,11 +41,13 @@ exported(Module, Name/Arity) :-
     Arity > 0,
     \+ left_out(Name).
 
-% They wait for a person, or until a goal is true; are for a session of its own; or take
+% They wait for a person, for a goal, or as long as asked; are for a session of its own; or take
 % a map that grid_map/2 made.
 left_out(jog).
 left_out(button_wait).
 left_out(sensor_wait).
+left_out(sim_step).
+left_out(sim_step_).
 left_out(ask_execute).
 left_out(ask_exog_occurs).
 left_out(ending_).

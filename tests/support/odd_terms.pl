@@ -2,7 +2,7 @@
           [ odd/1,                      % -Term
             large/1                     % -Term
           ]).
-:- use_module(library(ev3dev/private/errors), [evaluated/2]).
+:- use_module(old_prolog, [evaluated/2]).
 :- use_module(library(lists)).
 
 /** <module> Terms that nobody expects as an argument

@@ -32,7 +32,7 @@ located_facts(Kind, Facts, Located) :-
     findall(Fact-none, member(Fact, Facts), Located),
     check_all(Located, Kind).
 located_facts(Kind, Source, Located) :-
-    in_own_name(source_file(Kind, Source, File)),
+    source_file(Kind, Source, File),
     setup_call_cleanup(
         open(File, read, Stream, [encoding(utf8)]),
         read_facts(Stream, Kind, File, Located),
@@ -47,17 +47,11 @@ source_location(_, Facts, none) :-
     is_list(Facts),
     !.
 source_location(Kind, Source, file(File)) :-
-    in_own_name(source_file(Kind, Source, File)).
+    source_file(Kind, Source, File).
 
 source_file(Kind, Source, File) :-
     must_be(nonvar, Source),
-    (   shipped(Kind, Source, File)
-    ->  true
-    ;   absolute_file_name(Source, File,
-                           [ extensions([pl, '']), access(read),
-                             file_errors(fail)
-                           ]),
-        exists_file(File)
+    (   in_own_name(found(Kind, Source, File))
     ->  true
     ;   findall(Name, shipped(Kind, Name), Names),
         atomic_list_concat(Names, ', ', Listed),
@@ -66,6 +60,16 @@ source_file(Kind, Source, File) :-
                [Kind, Shown, Listed]),
         throw_error(existence_error(Kind, Source), _, Text)
     ).
+
+found(Kind, Source, File) :-
+    shipped(Kind, Source, File),
+    !.
+found(_, Source, File) :-
+    absolute_file_name(Source, File,
+                       [ extensions([pl, '']), access(read),
+                         file_errors(fail)
+                       ]),
+    exists_file(File).
 
 shipped(Kind, Name, File) :-
     atomic(Name),
