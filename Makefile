@@ -95,12 +95,13 @@ check-endings: build
 	@tests/torture/torture.py --self-test
 	@tests/torture/torture.py --count 300
 
-# Ten thousand random programs, moves, signals, worlds and sets of rules; `make check`
-# has 300
+# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, and 1000
+# maps; `make check` has 300, and 150
 check-torture: build
 	@tests/torture/torture.py --count 10000
 	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
-	    tests/behavior/test_motor_ramps.pl tests/behavior/test_rule_laws.pl
+	    tests/behavior/test_motor_ramps.pl tests/behavior/test_odd_terms.pl \
+	    tests/behavior/test_rule_laws.pl tests/prolog/test_planners.pl
 
 lint: build
 	$(CARGO) fmt --all --check

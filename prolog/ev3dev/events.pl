@@ -15,8 +15,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
-              [ error_within/3, goal_of_program/1, must_be/2, throw_error/3,
-                term_expansion/4
+              [ error_within/3, goal_of_program/1, in_own_name/1, must_be/2,
+                term_expansion/4, throw_error/3
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
@@ -207,7 +207,7 @@ add_event(Kind, Action, State, Options) :-
         forget(Brick, Id)
     ;   next_id(Brick, Id)
     ),
-    assertz(event_(Brick, Id, Kind, Action)),
+    in_own_name(assertz(event_(Brick, Id, Kind, Action))),  % not cyclic
     assertz(state_(Brick, Id, State)),
     look_every(Seconds),
     listen_for_events(Seconds),

@@ -402,7 +402,7 @@ all_readable([Term0|Terms0], [Term|Terms]) :-
 %   @error syntax_error(What)
 
 journal_replay(File) :-
-    journal_file(File, Path),
+    in_own_name(journal_file(File, Path)),
     setup_call_cleanup(
         in_own_name(open(Path, read, Stream, [encoding(utf8)])),
         read_facts(Stream, Path, Facts),

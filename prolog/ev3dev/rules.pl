@@ -13,7 +13,7 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, error_within/3, existence_error/2,
-                goal_of_program/1, instantiation_error/1, must_be/2,
+                goal_of_program/1, instantiation_error/1, must_be/2, shown/2,
                 term_expansion/4, throw_error/3, type_error/2
               ]).
 :- use_module(private/arguments,
@@ -219,8 +219,9 @@ rule(Name, Module, Name, Options, Guard, Action) :-
     ->  true
     ;   atom(Name)
     ->  existence_error(rule, Name)
-    ;   format(atom(Text),
-               'a rule is written Name :: Guard ~~> Action, not ~p', [Name]),
+    ;   shown(Name, Shown),
+        format(atom(Text),
+               'a rule is written Name :: Guard ~~> Action, not ~w', [Shown]),
         throw_error(existence_error(rule, Name), _, Text)
     ).
 

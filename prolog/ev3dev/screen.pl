@@ -18,8 +18,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4,
-                throw_error/3
+              [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
+                term_expansion/4, throw_error/3
               ]).
 :- use_module(private/explain).
 :- use_module(files, []).
@@ -230,7 +230,7 @@ screen_text(X0, Y0, Text, Options) :-
     option(color(Color), Options, black),
     option(background(Background), Options, none),
     must_be_within(1, 16, text_scale, Scale),
-    format(string(String), "~w", [Text]),
+    in_own_name(format(string(String), "~w", [Text])),
     screen_write_(X, Y, String,
                   letters(Color, Background, Font, Scale, Align)).
 

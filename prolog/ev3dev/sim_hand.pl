@@ -115,6 +115,8 @@ sim_unplug(Port) :-
 %!  sim_jam(+Port, +Boolean) is semidet.
 %
 %   Hold the shaft of a motor fast, or let go of it.
+%
+%   @error domain_error(motor_port, Port) if Port is one of a sensor
 
 sim_jam(Port, Boolean) :-
     must_be(boolean, Boolean),
@@ -231,5 +233,6 @@ added_facts(Added) :-
     findall(Fact-Id, added(Fact, Id), Added).
 
 set_added_facts(Added) :-
+    must_be(list, Added),
     retractall(added(_, _)),
     forall(member(Fact-Id, Added), assertz(added(Fact, Id))).

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::time::Duration;
-use swipl::fli::integer_in;
+use swipl::fli::{integer_in, list_end};
 use swipl::prelude::*;
 
 /// The text of an atom or a string.
@@ -133,7 +133,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
             None => term.get_str(|text| text.map(|text| Text::Owned(text.to_owned())))?,
             atom => atom,
         };
-        text.map_or_else(|| self.wrong_type("atom", term), Ok)
+        match text {
+            Some(text) => Ok(text),
+            None if term.is_atom() || term.is_string() => crate::glue::error::no_text(self),
+            None => self.wrong_type("atom", term),
+        }
     }
 
     /// The text of an atom or a string, or `None` for a variable.
@@ -209,10 +213,8 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// The elements of a list.
     pub(crate) fn list(&self, term: &Term<'a>) -> PrologResult<Vec<Term<'a>>> {
-        match term.term_type() {
-            TermType::Nil | TermType::ListPair => Ok(self.context.term_list_vec(term)),
-            _ => self.wrong_type("list", term),
-        }
+        self.must_be_list(term)?;
+        Ok(self.context.term_list_vec(term))
     }
 
     /// Converts each element of a list, in one pass and without a vector of terms.
@@ -221,10 +223,17 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         term: &Term<'a>,
         of: impl FnMut(Term<'a>) -> PrologResult<T>,
     ) -> PrologResult<Vec<T>> {
-        match term.term_type() {
-            TermType::Nil | TermType::ListPair => {
-                self.context.term_list_iter(term).map(of).collect()
-            }
+        self.must_be_list(term)?;
+        self.context.term_list_iter(term).map(of).collect()
+    }
+
+    /// Raises an error for what is no list: a partial list, one that has no end.
+    fn must_be_list(&self, term: &Term) -> PrologResult<()> {
+        let end = self.context.new_term_ref();
+        list_end!(term, &end);
+        match end.term_type() {
+            TermType::Nil => Ok(()),
+            TermType::Variable => self.wrong_type("list", &end),
             _ => self.wrong_type("list", term),
         }
     }

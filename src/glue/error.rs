@@ -137,6 +137,14 @@ pub(crate) fn too_long<T, C: QueryableContextType>(call: &Origin<C>) -> PrologRe
     throw(call, &formal, "")
 }
 
+/// Raises the error for a text that Rust, and a file's name, cannot have: half of a surrogate
+/// pair.
+pub(crate) fn no_text<T, C: QueryableContextType>(call: &Origin<C>) -> PrologResult<T> {
+    let context = call.context;
+    let formal = term! {context: representation_error(character)}?;
+    throw(call, &formal, "")
+}
+
 /// Raises `error(Formal, context(Called, Message))`, as
 /// `prolog/ev3dev/private/errors.pl` does: that file finds the predicate that the
 /// program called, and words an empty message.
@@ -212,6 +220,9 @@ fn formal<'a, C: QueryableContextType>(
             let value = context.new_term_ref();
             unify_value(&value, &Value::parse(text.clone()))?;
             term! {context: domain_error(#attribute, #&value)}
+        }
+        error if error.path().is_some_and(has_nul) => {
+            term! {context: domain_error(file_name, #path)}
         }
         error => match error.errno() {
             Some(Errno::NOENT) => term! {context: existence_error(file, #path)},
@@ -294,6 +305,11 @@ fn device_of(path: &Path, devices: &Registry) -> (String, String) {
         Some((class.to_string(), device.port().to_owned()))
     });
     owner.unwrap_or_else(|| ("file".to_owned(), path.to_string_lossy().into_owned()))
+}
+
+/// No file has such a name.
+fn has_nul(path: &Path) -> bool {
+    path.as_os_str().as_encoded_bytes().contains(&0)
 }
 
 fn file_name(path: &Path) -> std::borrow::Cow<'_, str> {

@@ -215,9 +215,12 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("sim_jam_")]
     semidet fn sim_jam(context, port, fast) {
-        let port = port_of(&Call::of(context, "sim_jam", 2), port)?;
-        let fast = fast.get_ex()?;
-        simulation(context)?.machine().jam(port, fast);
+        let call = Call::of(context, "sim_jam", 2);
+        let (at, fast) = (port_of(&call, port)?, fast.get_ex()?);
+        if !at.is_output() {
+            return wrong_value(&call, "motor_port", port);
+        }
+        simulation(context)?.machine().jam(at, fast);
         Ok(())
     }
 

@@ -1,6 +1,11 @@
 :- use_module('../support/trees').
+:- use_module('../support/odd_terms').
 :- use_module('../support/old_prolog').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/journal)).
+:- use_module(library(ev3dev/navigation)).
+:- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/sim)).
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
@@ -250,35 +255,6 @@ call_of(stop_all_motors).
 call_of(stop).
 call_of(ev3_devices).
 call_of(robot(out, out, out, out)).
-
-odd(_).
-odd(7).
-odd(-7).
-odd(1.5).
-odd("text").
-odd('').
-odd([]).
-odd([a]).
-odd([_|_]).
-odd(f(x)).
-odd(f(_)).
-odd(outZ).
-odd('ev3-ports:').
-odd('../..').
-odd('a\u0000b').
-odd('\u4e2d\U0001f916').
-odd('a\nb').
-odd(X) :- X is 10**400.
-odd(X) :- X is -(10**400).
-odd(1.0e308).
-odd(-0.0).
-odd(X) :- evaluated(inf, X).
-odd(X) :- evaluated(nan, X).
-odd(9223372036854775807).
-odd(-9223372036854775808).
-odd(X) :- length(Codes, 5000), maplist(=(0'a), Codes), atom_codes(X, Codes).
-odd(X) :- X = f(X).
-odd(X) :- X = [a|X].
 
 % Goal is a call with one argument odd.
 odd_call(Goal) :-
@@ -548,9 +524,6 @@ root_reads_all :-
     unreadable(File),
     catch(( open(File, read, In), close(In) ), _, fail).
 
-% A file that no kernel has.
-:- begin_tests(any_files).
-
 % strange(Name, Goal_1): Goal_1 makes such a file.
 strange(empty, bytes([])).
 strange(binary, every_byte).
@@ -565,6 +538,9 @@ strange(directory, make_directory).
 strange(pipe, pipe).
 strange(missing, [_]>>true).
 strange(unreadable, unreadable).
+
+% A file that no kernel has.
+:- begin_tests(any_files).
 
 test(numbers_are_read_or_refused,
      [ forall(( strange(Name, Make_1), Name \== no_newline,
@@ -676,6 +652,80 @@ test(a_text_of_a_page_is_written_whole, true(Length == 4096)) :-
                        atom_length(Written, Length) )).
 
 :- end_tests(any_files).
+
+                /*******************************
+                *       FILES OF A PROGRAM     *
+                *******************************/
+
+% What a program names as a file that is read or written.
+:- begin_tests(files_of_a_program).
+
+names_file(File, Goal) :-
+    member(Goal,
+           [ sim_start(File, []), sim_start([], [robot(File)]), play(File),
+             screen_image(0, 0, File), journal_replay(File), file_read(File, _),
+             roadmap_path(File, 0-0, 9-9, _), navigate_to(File, 9-9) ]).
+
+writes_file(File, Goal) :-
+    member(Goal,
+           [ file_write(File, 1), screen_png(File), sim_svg(File), sim_mount(File),
+             ev3_sysfs(File), ev3_dev(File) ]).
+
+no_file(Name, File) :-
+    strange(Name, Make_1),
+    tmp_file(strange, File),
+    call(Make_1, File).
+no_file(links, File) :-
+    tmp_file(strange, File),
+    link_file(File, File, symbolic).
+no_file(device, '/dev/zero').
+no_file(below_a_file, '/dev/null/x').
+no_file(picture, File) :-
+    tmp_file(strange, File),
+    bytes([0x89, 0'P, 0'N, 0'G, 13, 10, 26, 10, 0, 0], File).
+no_file(sound, File) :-
+    tmp_file(strange, File),
+    bytes(`RIFF....WAVEfmt `, File).
+no_file(fact, File) :-
+    tmp_file(strange, File),
+    bytes(`wall(0,0,9,9).\nwall(`, File).
+
+%   Named by the file, too, where the syntax is wrong.
+is_refused(error(Formal, Context), Goal) :-
+    nonvar(Formal),
+    iso_of_file(Formal),
+    functor(Goal, Name, Arity),
+    (   Context = context(Name/Arity, Message)
+    ->  atom(Message)
+    ;   memberchk(Context, [file(_, _, _, _), fact(_, _)])
+    ).
+
+iso_of_file(Formal) :-
+    iso_file_error(Formal).
+iso_of_file(syntax_error(_)).
+iso_of_file(domain_error(_, _)).
+iso_of_file(permission_error(_, _, _)).
+
+test(each_is_read_or_refused_with_the_reason, true(Wrong == [])) :-
+    findall(Name-Goal-Outcome,
+            ( no_file(Name, File),
+              names_file(File, Goal),
+              warnings(outcome(with_sim([], call_with_time_limit(9, Goal)), done, Outcome),
+                       _),
+              \+ Outcome == fails,
+              \+ Outcome = value(_),
+              \+ is_refused(Outcome, Goal) ),
+            Wrong).
+test(no_file_has_a_name_with_a_nul, true(Wrong == [])) :-
+    findall(Goal-Outcome,
+            ( member(File, ['a\u0000b', "a\u0000b"]),
+              ( names_file(File, Goal) ; writes_file(File, Goal) ),
+              functor(Goal, Name, Arity),
+              outcome(with_sim([], Goal), done, Outcome),
+              \+ Outcome = error(domain_error(file_name, _), context(Name/Arity, _)) ),
+            Wrong).
+
+:- end_tests(files_of_a_program).
 
                 /*******************************
                 *        TORN VALUES           *

@@ -80,7 +80,7 @@ bad(view_value(a, 1), [_-1, _-2, high-2]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
 bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
 bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).
-bad(sim_jam(outA, true), [1-1, 7-2]).
+bad(sim_jam(outA, true), [1-1, in1-1, 7-2]).
 bad(sim_wait(0.1), [a-1, _-1, -1-1]).
 bad(with_sim([], true), [nowhere-1, 7-2, _-2]).
 bad(with_sim([], true, []), [nowhere-1, 7-2, x-3, [colour(red)]-3]).

@@ -130,24 +130,25 @@ unblock(Cell) :-
 
 :- begin_tests(random_maps).
 
-test(every_planner_keeps_its_claim_on_1000_maps, true(Wrong == [])) :-
+test(every_planner_keeps_its_claim_on_random_maps, true(Wrong == [])) :-
     findall(Seed-Planner-Why,
-            ( case(1000, Seed), wrong(Seed, Planner, Why) ),
+            ( case(150, 1000, Seed), wrong(Seed, Planner, Why) ),
             Wrong).
 test(the_maps_are_a_fair_lot, condition(all_cases)) :-
     findall(Solution,
-            ( case(1000, Seed),
+            ( case(150, 1000, Seed),
               task(Seed, [], Task),
               problem(Seed, Task, Problem),
               solve(a_star, Problem, Solution)
             ),
             Solutions),
+    length(Solutions, Count),
     aggregate_all(count, member(none, Solutions), Unreachable),
     aggregate_all(count,
                   ( member(solution(_, _, Steps), Solutions), Steps > 8 ),
                   Long),
-    Unreachable > 100,
-    Long > 200.
+    Unreachable > Count / 10,
+    Long > Count / 5.
 % Dijkstra's own results against the simplest method there is: let costs fall
 % until none falls any more.
 test(dijkstra_agrees_with_relaxation_on_60_maps, true(Wrong == [])) :-
@@ -306,11 +307,11 @@ advance_by(Count, Plan, Map, State0, State) :-
     ;   State = State0
     ).
 
-test(d_star_lite_repairs_as_well_as_it_replans_on_200_walks) :-
+test(d_star_lite_repairs_as_well_as_it_replans_on_random_walks) :-
     findall(Repaired-Anew,
-            ( case(200, Seed), once(walk(Seed, Repaired, Anew)) ),
+            ( case(50, 200, Seed), once(walk(Seed, Repaired, Anew)) ),
             Walks),
-    cases(200, Count),
+    aggregate_all(count, case(50, 200, _), Count),
     length(Walks, Count),
     aggregate_all(sum(R), member(R-_, Walks), Repaired),
     aggregate_all(sum(A), member(_-A, Walks), Anew),

@@ -330,6 +330,14 @@ fault(1002, [0x89, 0xfe, 0, 126, 0, 0, 0, 0]).            % long ping
 fault(1009, [0x81, 0xff, 0, 0, 0, 0, 0x17, 0, 0, 0]).     % 385 MB
 fault(1009, [0x81, 0xff, 0xff, 0, 0, 0, 0, 0, 0, 0]).
 fault(1000, [0x88, 0x80, 0, 0, 0, 0]).                    % it closes itself
+fault(1000, [0x88, 0x82, 0, 0, 0, 0, 3, 0xe9]).           % 1001
+fault(1000, [0x88, 0x83, 0, 0, 0, 0, 0x0b, 0xb8, 0'x]).   % 3000, a reason
+fault(1002, [0x88, 0x81, 0, 0, 0, 0, 3]).                 % half a code
+fault(1002, [0x88, 0x82, 0, 0, 0, 0, 3, 0xe7]).           % 999
+fault(1002, [0x88, 0x82, 0, 0, 0, 0, 3, 0xed]).           % 1005, never sent
+fault(1002, [0x88, 0x82, 0, 0, 0, 0, 0x13, 0x88]).        % 5000
+fault(1002, [0x01, 0x81, 0, 0, 0, 0, 0'x, 0x88, 0x81, 0, 0, 0, 0, 3]).
+fault(1007, [0x88, 0x83, 0, 0, 0, 0, 3, 0xe8, 0xff]).     % a reason, no UTF-8
 
 test(fault, [forall(fault(Code, Bytes)), true(Answer == close(Code))]) :-
     paged(Page, no_messages(( page_bytes(Page, Bytes),
@@ -638,6 +646,8 @@ hand("plug outD lego-ev3-m-motor", "done").
 hand("plug outD lego-ev3-us", "refused").
 hand("hold outB", "done").
 hand("free outB", "done").
+hand("hold in1", "refused").
+hand("free in1", "refused").
 hand("add box 150 150 20 10 45", "done").
 hand("add box 40 40 20 20", "refused").
 hand("add beacon 10 10 7", "refused").

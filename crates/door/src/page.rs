@@ -183,7 +183,7 @@ impl Reading {
                 Err(code) => return Some(Err(code)),
             };
             let all = match (kind, self.begun.take()) {
-                (CLOSE, _) => return Some(Err(1000)),
+                (CLOSE, _) => return Some(Err(closing(&data))),
                 (PING | PONG, begun) => {
                     self.begun = begun;
                     return Some(Ok(if kind == PING {
@@ -233,6 +233,20 @@ impl Reading {
         let data = data.collect();
         self.bytes.drain(..2 + more + 4 + length);
         Some(Ok((is_last, kind, data)))
+    }
+}
+
+/// What a frame is answered with that closes the connection: it holds nothing, or a code that
+/// may be sent, and a reason (RFC 6455, 5.5.1 and 7.4).
+fn closing(data: &[u8]) -> u16 {
+    match data {
+        [] => 1000,
+        [high, low, reason @ ..] => match u16::from_be_bytes([*high, *low]) {
+            1000..=1003 | 1007..=1014 | 3000..=4999 if std::str::from_utf8(reason).is_ok() => 1000,
+            1000..=1003 | 1007..=1014 | 3000..=4999 => 1007,
+            _ => 1002,
+        },
+        [_] => 1002,
     }
 }
 

@@ -29,9 +29,6 @@ struct Wall {
 /// The most wall time that one step makes up for.
 const LATE: Duration = Duration::from_millis(100);
 
-/// How far behind a machine may be when it is used: two steps of its clock.
-const BEHIND: Duration = Duration::from_millis(4);
-
 impl Shared {
     /// Takes a machine in.
     #[must_use]
@@ -47,12 +44,13 @@ impl Shared {
     /// The machine, for as long as the guard lives. A thread that panicked with the lock in its
     /// hand leaves a machine that is still in order, at most in the middle of a step.
     ///
-    /// If the machine is to follow the wall clock, and the thread that steps it is late, this makes
-    /// up for it: so what a program does on a busy computer happens at its time.
+    /// If the machine is to follow the wall clock, this makes up for what has passed since its
+    /// last step: so a program that waits 10 ms between two accesses waits 10 ms of the machine's
+    /// time, also on a busy computer.
     pub fn lock(&self) -> MutexGuard<'_, Machine> {
         let mut machine = self.lock_as_it_is();
         if self.wall.get().is_some() {
-            machine.step(self.behind(BEHIND));
+            machine.step(self.behind());
         }
         machine
     }
@@ -68,19 +66,15 @@ impl Shared {
         *locked(self.wall.get_or_init(|| Mutex::new(wall))) = wall;
     }
 
-    /// How far the machine is behind the wall clock, in its own time, if that is more than
-    /// `more_than` of wall time. The caller makes up for it. A machine that cannot keep up falls
-    /// behind, but not without limit.
-    pub(crate) fn behind(&self, more_than: Duration) -> Duration {
+    /// How far the machine is behind the wall clock, in its own time. The caller makes up for it. A
+    /// machine that cannot keep up falls behind, but not without limit.
+    pub(crate) fn behind(&self) -> Duration {
         let Some(wall) = self.wall.get() else {
             return Duration::ZERO;
         };
         let Wall { factor, last } = &mut *locked(wall);
         let now = Instant::now();
         let passed = now - *last;
-        if passed <= more_than {
-            return Duration::ZERO;
-        }
         *last = now;
         self.pace.of_wall(passed.min(LATE), *factor)
     }

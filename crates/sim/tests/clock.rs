@@ -542,6 +542,16 @@ fn a_machine_whose_clock_is_late_is_on_time_when_it_is_used() {
     assert!(shared.lock().now() >= ms(200));
 }
 
+#[test]
+fn a_short_wait_by_the_wall_is_no_shorter_for_the_machine() {
+    let machine = Machine::new(&WorldSpec::default(), &default_robot(), Options::default());
+    let shared = Shared::new(machine.unwrap());
+    shared.follow(1.0);
+    let before = shared.lock().now();
+    compute(ms(3));
+    assert!(shared.lock().now() >= before + ms(3));
+}
+
 /// What a program does that drives, waits and reads, with the time at each step.
 fn drives(simulation: &Simulation) -> Vec<(Duration, String)> {
     let mut seen = Vec::new();

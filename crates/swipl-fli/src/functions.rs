@@ -7,8 +7,9 @@
 //! everywhere.
 use crate::pruned::guarded;
 use crate::types::{
-    IOSTREAM, PL_FA_NONDETERMINISTIC, PL_blob_t, PL_engine_t, PL_fid_t, atom_t, control_t,
-    functor_t, module_t, pl_function_t, predicate_t, qid_t, record_t, term_t,
+    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_FA_NONDETERMINISTIC, PL_blob_t, PL_engine_t, PL_fid_t,
+    REP_UTF8, atom_t, control_t, functor_t, module_t, pl_function_t, predicate_t, qid_t, record_t,
+    term_t,
 };
 use crate::version::{Version, bits};
 use std::ffi::{c_char, c_int, c_uchar, c_void};
@@ -37,9 +38,7 @@ truth! {
     PL_get_atom(t: term_t, a: *mut atom_t);
     PL_get_blob(t: term_t, blob: *mut *mut c_void, len: *mut usize, kind: *mut *mut PL_blob_t);
     PL_get_bool(t: term_t, value: *mut c_int);
-    PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize);
     PL_get_float(t: term_t, f: *mut f64);
-    PL_get_functor(t: term_t, f: *mut functor_t);
     PL_get_int64(t: term_t, i: *mut i64);
     PL_get_list(l: term_t, h: term_t, t: term_t);
     PL_get_nil(l: term_t);
@@ -140,12 +139,67 @@ macro_rules! translated {
 }
 
 translated! {
-    fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> u8
-        => |version| (t, len, s, version.text_flags(flags)) |answer| answer;
     fn PL_unify_chars(t: term_t, flags: c_int, len: usize, s: *const c_char) -> u8
         => |version| (t, version.typed_text_flags(flags), len, s) |answer| answer;
     fn PL_term_type(t: term_t) -> c_int
         => |version| (t) |answer| version.type_from(answer);
+}
+
+/// The text of a term, if it is one for Rust: an atom may have half of a surrogate pair, and
+/// `swipl` panics at that.
+pub unsafe fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> c_int {
+    unsafe extern "C" {
+        fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> u8;
+    }
+    unsafe {
+        let has_text = PL_get_nchars(t, len, s, Version::running().text_flags(flags)) != 0;
+        let is_text = |bytes| std::str::from_utf8(bytes).is_ok();
+        c_int::from(has_text && is_text(std::slice::from_raw_parts((*s).cast(), *len)))
+    }
+}
+
+/// Whether an atom has a text. The name of a dict has none, nor a blob.
+unsafe fn is_text(atom: atom_t) -> bool {
+    let (mut len, mut s) = (0, std::ptr::null_mut());
+    unsafe {
+        let t = PL_new_term_ref();
+        PL_put_atom(t, atom);
+        let flags = CVT_ATOM | REP_UTF8 | BUF_DISCARDABLE;
+        let is_text = PL_get_nchars(t, &raw mut len, &raw mut s, flags) != 0;
+        PL_reset_term_refs(t);
+        is_text
+    }
+}
+
+/// The name and arity of a compound term, if the name is a text: `swipl` panics at any other.
+pub unsafe fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize) -> c_int {
+    unsafe extern "C" {
+        fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize) -> u8;
+    }
+    let mut its_name = 0;
+    unsafe {
+        let is_compound = PL_get_compound_name_arity(t, &raw mut its_name, arity) != 0;
+        if !name.is_null() {
+            *name = its_name;
+        }
+        c_int::from(is_compound && is_text(its_name))
+    }
+}
+
+/// The functor of a term, if its name is a text, as above.
+pub unsafe fn PL_get_functor(t: term_t, f: *mut functor_t) -> c_int {
+    unsafe extern "C" {
+        fn PL_get_functor(t: term_t, f: *mut functor_t) -> u8;
+    }
+    unsafe { c_int::from(PL_get_functor(t, f) != 0 && is_text(PL_functor_name(*f))) }
+}
+
+/// Puts into `end` what follows the elements of a list: `[]`, if it is one.
+pub unsafe fn list_end(list: term_t, end: term_t) {
+    unsafe extern "C" {
+        fn PL_skip_list(list: term_t, end: term_t, len: *mut usize) -> c_int;
+    }
+    unsafe { PL_skip_list(list, end, std::ptr::null_mut()) };
 }
 
 /// Puts text into a term. Version 7.2 has no such function; what it does is this.
@@ -208,6 +262,18 @@ macro_rules! integer_in {
         term.assert_term_handling_possible();
         // Safety: the term is one of the engine that runs, as was just made sure.
         unsafe { $crate::functions::integer_in(term.term_ptr()) }
+    }};
+}
+
+/// Puts into a term what follows the elements of a list, see [`list_end`](fn@list_end).
+#[macro_export]
+macro_rules! list_end {
+    ($list:expr, $end:expr) => {{
+        let (list, end) = ($list, $end);
+        list.assert_term_handling_possible();
+        end.assert_term_handling_possible();
+        // Safety: the terms are of the engine that runs, as was just made sure.
+        unsafe { $crate::functions::list_end(list.term_ptr(), end.term_ptr()) }
     }};
 }
 

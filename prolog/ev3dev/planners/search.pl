@@ -8,7 +8,7 @@
                                         % +Planning0, -Planning
           ]).
 :- use_module('../private/errors',
-              [domain_error/2, must_be/2]).
+              [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module('../private/domains', [finite/1]).
 :- use_module(best_first).
 :- use_module(breadth_first).

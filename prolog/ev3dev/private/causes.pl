@@ -5,6 +5,7 @@
             follow_no_more/0,
             causes/2                    % +Number, -Causes
           ]).
+:- use_module(errors, [in_own_name/1]).
 :- use_module(native, [cause_/2, cause_active_/1]).
 
 /** <module> Why a program does what it does
@@ -59,7 +60,7 @@ begins(Cause) :-
     ).
 
 note(Number, Former, Cause) :-
-    assertz(cause(Number, Former, Cause)),
+    in_own_name(assertz(cause(Number, Former, Cause))),  % none that is cyclic
     forget_before(Number).
 
 %!  causes(+Number, -Causes) is det.

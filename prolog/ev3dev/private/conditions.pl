@@ -34,6 +34,7 @@ comparison(Comparison, Sensor, test(Operator, Number)) :-
 
 compared(Comparison, Operator, Sensor, Expression) :-
     compound(Comparison),
+    compound_name_arity(Comparison, _, 2),
     Comparison =.. [Operator, Sensor, Expression],
     memberchk(Operator, [<, =<, >, >=, =:=, =\=]),
     compound(Sensor).

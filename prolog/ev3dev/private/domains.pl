@@ -90,6 +90,7 @@ allowed(milliseconds,       'a time in milliseconds is a number from 0 on').
 allowed(motor_move,
         [ move('Port', 'Speed', 'Angle'), to('Port', 'Speed', 'Angle'),
           for('Port', 'Speed', 'Seconds') ]).
+allowed(motor_port,         'a port of motors is one of outA to outD').
 allowed(motor_run,          'run(Port, Speed) is expected').
 allowed(motor_state,        [ running, ramping, holding, overloaded,
                               stalled ]).

@@ -8,6 +8,7 @@
             existence_error/2,          % +Kind, +Name
             instantiation_error/1,      % +Term
             throw_error/3,              % +Formal, +Called, +Message
+            shown/2,                    % +Term, -Shown
             called_by_program/1,        % -Called
             error_within/3,             % +Error0, +Where, -Error
             in_pack/3,                  % +Predicate, -Module, -Indicator
@@ -323,7 +324,8 @@ in_words(domain_error(Domain, Term), Text) :-
     format(atom(Text), '~w cannot be a ~w', [Shown, Words]).
 in_words(existence_error(source_sink, File), Text) :-
     !,
-    format(atom(Text), 'there is no file ~p, or no folder for it', [File]).
+    shown(File, Shown),
+    format(atom(Text), 'there is no file ~w, or no folder for it', [Shown]).
 in_words(existence_error(Kind, Name), Text) :-
     words_of(Kind, Words),
     shown(Name, Shown),
@@ -372,8 +374,9 @@ nearly(Term, Values, Value) :-
     (   atom(Term)
     ->  Name = Term
     ;   compound(Term),
-        functor(Term, Name, 1)
+        compound_name_arity(Term, Name, 1)
     ),
+    is_latin(Name),
     downcase_atom(Name, Low),
     (   findall(Near, ( one_of(Values, Near), spelt(Low, Near) ), [Value])
     ->  true
@@ -382,6 +385,14 @@ nearly(Term, Values, Value) :-
         findall(Longer, ( one_of(Values, Longer), starts(Low, Longer) ),
                 [Value])
     ).
+
+%   downcase_atom/2 throws for other characters, as half of a surrogate pair.
+
+is_latin(Name) :-
+    atom(Name),
+    \+ ( sub_atom(Name, _, 1, _, Character),
+         Character @> '\xFF\'
+       ).
 
 spelt(Low, Value) :-
     atom(Value),
@@ -404,16 +415,23 @@ quoted([Value|Values], [Atom|Atoms]) :-
     format(atom(Atom), '~w', [Value]),
     quoted(Values, Atoms).
 
-%   A Term as a program has it, with `_` for each variable.
+%!  shown(+Term, -Shown) is det.
+%
+%   Shown is a Term as a program has it, with `_` for each variable. Of a long
+%   or deep one it is the beginning.
 
 shown(Term, Shown) :-
-    (   ground(Term)
-    ->  format(atom(Shown), '~p', [Term])
-    ;   copy_term(Term, Copy, _),
-        term_variables(Copy, Variables),
-        all_same(Variables, '$VAR'('_')),
-        format(atom(Shown), '~W',
-               [ Copy, [quoted(true), numbervars(true), portray(true)] ])
+    copy_term(Term, Copy, _),
+    term_variables(Copy, Variables),
+    all_same(Variables, '$VAR'('_')),
+    format(atom(Whole), '~W',
+           [ Copy,
+             [ quoted(true), numbervars(true), portray(true), max_depth(20) ]
+           ]),
+    (   sub_atom(Whole, 0, 500, After, Begin),
+        After > 3
+    ->  atom_concat(Begin, ..., Shown)
+    ;   Shown = Whole
     ).
 
 all_same([], _).

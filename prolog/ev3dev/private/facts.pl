@@ -3,7 +3,7 @@
             source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
-:- use_module(errors, [must_be/2, throw_error/3]).
+:- use_module(errors, [in_own_name/1, must_be/2, shown/2, throw_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(native, [sim_check_/2]).
 
@@ -51,20 +51,25 @@ source_location(Kind, Source, file(File)) :-
 
 source_file(Kind, Source, File) :-
     must_be(nonvar, Source),
-    (   shipped(Kind, Source, File)
-    ->  true
-    ;   absolute_file_name(Source, File,
-                           [ extensions([pl, '']), access(read),
-                             file_errors(fail)
-                           ]),
-        exists_file(File)
+    (   in_own_name(found(Kind, Source, File))
     ->  true
     ;   findall(Name, shipped(Kind, Name), Names),
         atomic_list_concat(Names, ', ', Listed),
-        format(atom(Text), 'there is no ~w ~p; there are: ~w, or a file',
-               [Kind, Source, Listed]),
+        shown(Source, Shown),
+        format(atom(Text), 'there is no ~w ~w; there are: ~w, or a file',
+               [Kind, Shown, Listed]),
         throw_error(existence_error(Kind, Source), _, Text)
     ).
+
+found(Kind, Source, File) :-
+    shipped(Kind, Source, File),
+    !.
+found(_, Source, File) :-
+    absolute_file_name(Source, File,
+                       [ extensions([pl, '']), access(read),
+                         file_errors(fail)
+                       ]),
+    exists_file(File).
 
 shipped(Kind, Name, File) :-
     atomic(Name),

@@ -4,5 +4,6 @@ pub mod buttons;
 pub mod light;
 pub mod port;
 mod programs;
+mod recorded;
 pub mod screen;
 pub mod sound;

@@ -9,12 +9,12 @@
 //! none while a recording plays.
 use crate::brick::buttons::EVENT_BYTES;
 use crate::brick::programs::{Program, Programs, Started};
+use crate::brick::recorded::open_file;
 use crate::devfs::{Devfs, Finds, SLICE, Stream, UntilFound, open, open_first, pause};
 use crate::error::{Access, Error, Result};
 use crate::sysfs::{Repeated, Sysfs};
 use crate::wait::{AnyWait, Look, Slices, Wait};
 use std::ffi::OsStr;
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -452,11 +452,10 @@ fn write_tone(stream: &dyn Stream, path: &Path, hertz: u32) -> Result<()> {
 
 /// How long a WAV file lasts.
 fn length_of(path: &Path) -> Result<Duration> {
-    let cannot = |source| Error::Open { path: path.to_owned(), access: Access::Read, source };
-    let mut file = File::open(path).map_err(cannot)?;
+    let (mut file, length) = open_file(path, "wav")?;
     let mut header = [0; 44];
     let is_read = file.read_exact(&mut header).is_ok();
-    let bytes = file.metadata().map_err(cannot)?.len().saturating_sub(44);
+    let bytes = length.saturating_sub(44);
     let rate = header.get(28..32).and_then(|rate| rate.try_into().ok()).map(u32::from_le_bytes);
     match rate {
         Some(rate) if is_read && rate > 0 && header.starts_with(b"RIFF") => {

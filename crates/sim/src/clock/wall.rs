@@ -32,7 +32,7 @@ impl Stepper {
             while !is_over.load(Ordering::Relaxed) {
                 std::thread::sleep(STEP);
                 let machine = shared.lock_as_it_is();
-                let passed = shared.behind(Duration::ZERO);
+                let passed = shared.behind();
                 drop(acts.step(&shared, machine, passed));
                 shared.wake();
             }

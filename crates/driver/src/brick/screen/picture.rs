@@ -1,9 +1,13 @@
 //! Pictures in files: PNG and PBM are read, PNG is written.
+use crate::brick::recorded::open_file;
 use crate::error::{Access, Error, Result};
+use std::io::Read;
 use std::path::Path;
 
 /// No picture for this screen is wider or higher.
 const MOST: u32 = 4096;
+/// No file of such a picture is longer, even if nothing in it is packed.
+const MOST_BYTES: u64 = 1 << 27;
 
 /// A picture: shades of gray, some of which may be missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,11 +25,11 @@ impl Picture {
     /// [`Error::Open`]; [`Error::Format`] for what is no such file, as an
     /// interlaced PNG.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|source| Error::Open {
-            path: path.to_owned(),
-            access: Access::Read,
-            source,
-        })?;
+        let mut bytes = Vec::new();
+        let (file, _) = open_file(path, "png")?;
+        file.take(MOST_BYTES)
+            .read_to_end(&mut bytes)
+            .map_err(|source| Error::Read { path: path.to_owned(), source })?;
         let (format, picture) =
             if bytes.starts_with(b"P") { ("pbm", pbm(&bytes)) } else { ("png", png(&bytes)) };
         picture.map_err(|reason| Error::Format { path: path.to_owned(), format, reason })

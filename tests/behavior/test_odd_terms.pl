@@ -1,0 +1,174 @@
+% Random calls of every public predicate, and of every native one, with terms that
+% nobody expects: each succeeds, fails, or throws an error that names what was called.
+
+:- use_module('../support/simulation').
+:- use_module('../support/cases').
+:- use_module('../support/odd_terms').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(random)).
+:- use_module(library(time)).
+
+                /*******************************
+                *        WHAT IS CALLED        *
+                *******************************/
+
+:- dynamic library_file/1.
+
+:- prolog_load_context(directory, Here),
+   atomic_list_concat([Here, '/../../prolog/ev3dev/*.pl'], Pattern),
+   expand_file_name(Pattern, Files),
+   forall(member(File0, Files),
+          ( absolute_file_name(File0, File),
+            assertz(library_file(File)),
+            file_base_name(File, Base),
+            file_name_extension(Name, pl, Base),
+            use_module(library(ev3dev/Name), []) )).
+
+predicate(public, Module:Name/Arity) :-
+    library_file(File),
+    module_property(Module, file(File)),
+    exported(Module, Name/Arity).
+predicate(native, ev3dev_native:Name/Arity) :-
+    exported(ev3dev_native, Name/Arity).
+
+exported(Module, Name/Arity) :-
+    module_property(Module, exports(Exports)),
+    member(Name/Arity, Exports),
+    Arity > 0,
+    \+ left_out(Name).
+
+% They wait for a person, for a goal, or as long as asked; are for a session of its own; or take
+% a map that grid_map/2 made.
+left_out(jog).
+left_out(button_wait).
+left_out(sensor_wait).
+left_out(sim_step).
+left_out(sim_step_).
+left_out(ask_execute).
+left_out(ask_exog_occurs).
+left_out(ending_).
+left_out(Name) :-
+    sub_atom(Name, 0, _, _, grid_).
+
+                /*******************************
+                *           A CALL             *
+                *******************************/
+
+:- dynamic predicates/2.
+
+:- forall(member(Kind, [public, native]),
+          ( setof(Predicate, predicate(Kind, Predicate), Predicates),
+            assertz(predicates(Kind, Predicates)) )).
+
+call_of(Kind, Seed, Module:Goal) :-
+    predicates(Kind, Predicates),
+    set_random(seed(Seed)),
+    random_member(Module:Name/Arity, Predicates),
+    functor(Head, Name, Arity),
+    (   predicate_property(Module:Head, meta_predicate(Meta))
+    ->  true
+    ;   Meta = Head
+    ),
+    Meta =.. [_|Modes],
+    maplist(argument, Modes, Arguments),
+    Goal =.. [Name|Arguments].
+
+% A list is a goal of Prolog's: it loads files.
+argument(Mode, Argument) :-
+    repeat,
+    (   maybe(0.05)
+    ->  findall(Large, large(Large), Larges),
+        random_member(Argument, Larges)
+    ;   maybe(0.4)
+    ->  findall(Odd, odd(Odd), Odds),
+        random_member(Odd, Odds),
+        within(Odd, Argument)
+    ;   findall(Usual, usual(Usual), Usuals),
+        random_member(Argument, Usuals)
+    ),
+    \+ ( integer(Mode),
+         nonvar(Argument),
+         Argument = [_|_] ),
+    !.
+
+within(Odd, Argument) :-
+    random_member(Argument,
+                  [ Odd, Odd, Odd, [Odd], [a, Odd], Odd-1, 1-Odd, Odd+1, [1-Odd],
+                    [timeout(Odd)], motor_run(outB, Odd) ]).
+
+usual(_).
+usual(_).
+usual(Term) :-
+    member(Term,
+           [ outA, outB, outC, in1, in2, in4, 0, 1, 50, 1.5, [], [a], true, fail, room,
+             '/nowhere/file', "text", foo(bar), [1, 2], 1-2, [1-2, 3-4], red, left,
+             enter, pressed, 'US-DIST-CM', position, stop, hold, speed, [wait(false)],
+             [timeout(0.1)], [outB, outC], [run(outB, 5)], circle(10, 10, 5),
+             us_dist_cm(in1, _), us_dist_cm(in1) < 20 ]).
+
+wrong(Kind, Seed, Goal-Error) :-
+    call_of(Kind, Seed, Goal),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               catch(call_with_time_limit(30,
+                                          with_output_to(string(_), ignore(Goal))),
+                     Error, true) )),
+    nonvar(Error),
+    \+ may_throw(Kind, Goal, Error).
+
+may_throw(_, _, Error) :-
+    of_its_goal(Error).
+may_throw(public, _:Goal, error(Formal, context(Called, Message))) :-
+    nonvar(Formal),
+    (   Calls = Goal
+    ;   arg(_, Goal, Calls)             % a goal that it called
+    ),
+    nonvar(Calls),
+    functor(Calls, Name, Arity),
+    Called == Name/Arity,
+    !,
+    atom(Message),
+    atom_length(Message, Length),
+    Length < 12000.
+may_throw(public, _, error(_, fact(file(_), _))).
+may_throw(native, _, error(Formal, _)) :-
+    nonvar(Formal),
+    Formal \= rust_error(_).
+
+of_its_goal(error(existence_error(procedure, _), _)).
+of_its_goal(error(format(_), _)).
+
+                /*******************************
+                *            TESTS             *
+                *******************************/
+
+% What writes a file does so in a directory of its own.
+all_wrong(Kind, Wrongs) :-
+    schedules(First, Last),
+    tmp_file(odd, Directory),
+    working_directory(Before, Before),
+    setup_call_cleanup(
+        ( make_directory(Directory), working_directory(_, Directory) ),
+        findall(Seed:Wrong,
+                ( between(First, Last, Seed), once(wrong(Kind, Seed, Wrong)) ),
+                Wrongs),
+        ( working_directory(_, Before), delete_directory_and_contents(Directory) )).
+
+:- begin_tests(odd_terms, [ setup(silent(true)), cleanup(silent(false)) ]).
+
+% Goals of threads print their errors.
+silent(true) :-
+    asserta((user:message_hook(Message, _, _) :- Message \= plunit(_), !)).
+silent(false) :-
+    retract((user:message_hook(_, _, _) :- _, !)).
+
+test(are_no_reason_for_what_is_no_iso_error, true(Wrongs == [])) :-
+    all_wrong(public, Wrongs).
+test(are_no_reason_for_a_panic, true(Wrongs == [])) :-
+    all_wrong(native, Wrongs).
+
+:- end_tests(odd_terms).
