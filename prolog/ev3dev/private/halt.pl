@@ -23,8 +23,8 @@ If Prolog does not end within two seconds of such a signal, the process is
 ended without its at_halt/1 goals. Whatever the flag says, the motors stop at
 any other signal that ends the process, and at one that makes it stand, as
 Ctrl-Z does. If the process is killed, another one stops its motors. It begins
-with the first motor that runs, unless the flag `ev3dev_stop_at_kill` is `false`
-then.
+with the first motor that runs, unless the flag `ev3dev_stop_at_kill` is then
+`false`.
 `docs/safety.md` tells all of it.
 */
 

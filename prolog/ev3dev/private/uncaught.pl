@@ -22,8 +22,8 @@ expansion has not kept. Prolog gives up frames of the program for their last
 calls; a line that is missing is such a call.
 
 No tracer opens, as Prolog's own would after an error in a goal with choice
-points or clean-ups, and in 9.2 after any second error. After `debug.`, or with
-the flag `access_level` set to `system`, all is as Prolog has it.
+points or clean-ups, and in 9.2 after any second error. After `debug.`, or
+with the flag `access_level` set to `system`, all is as Prolog has it.
 */
 
 :- multifile prolog:message//1.
