@@ -60,8 +60,10 @@ library(ev3dev/servo_motors) the RC servos.
 
 When Prolog halts, or SIGINT, SIGTERM or SIGHUP ends it, the pack stops every
 motor that the program started, unless the flag `ev3dev_stop_at_halt` is
-`false`. After such a signal it has two seconds to end, then the process is
-ended. A crash stops motors, too; SIGKILL does not.
+`false`, and none starts from then on. After such a signal Prolog has two
+seconds to end, then the process is ended. A crash stops motors, too, and so
+does Ctrl-Z. After SIGKILL another process does, which the first motor starts:
+not if the flag `ev3dev_stop_at_kill` was `false` then.
 
 To end a thread that waits here, throw into it with thread_signal/2. Do not
 signal thread_exit/1: no cleanup runs then, and the motors run on.

@@ -153,7 +153,7 @@ extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) 
     } else {
         stop_for(Reason::Crashed);
         pass_on(signal, info, context);
-        // It goes on.
+        // The program goes on. Where Prolog does not come back to here, the watchdog lifts it.
         latch::lift(Reason::Crashed);
     }
     errno.set();
@@ -175,7 +175,11 @@ pub(crate) fn stop_for(reason: Reason) -> bool {
 /// Gives a signal to the watchdog; `false` if there is none.
 fn withhold(signal: c_int) -> bool {
     let is_new = WITHHELD.fetch_or(bit(signal), Ordering::AcqRel) & bit(signal) == 0;
-    !is_new || watchdog::tell(watchdog::SIGNAL, signal)
+    let is_told = !is_new || watchdog::tell(watchdog::SIGNAL, signal);
+    if !is_told {
+        look_at(signal);
+    }
+    is_told
 }
 
 /// The watchdog looks at a signal: another one is for it, too.

@@ -27,7 +27,8 @@ const NONE: c_int = -1;
 const RUNS: u8 = b'1';
 const RESTS: u8 = b'0';
 
-/// A motor: the descriptor of its file, where its line begins, and how long that is.
+/// A motor: the descriptor of its file, where its line begins, and how long that is without
+/// its newline.
 struct Slot {
     descriptor: AtomicI32,
     start: AtomicUsize,
@@ -69,18 +70,17 @@ impl Kept {
         if path.contains(&b'\n') {
             return None;
         }
-        let line = [&[RESTS, b' '], word.as_bytes(), b" ", path, b"\n"].concat();
+        let line = [&[RESTS, b' '], word.as_bytes(), b" ", path].concat();
         let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);
         let is_free = |slot: &&Slot| slot.descriptor.load(Ordering::Acquire) == NONE;
-        // The same motor has its line already, where its file is opened again.
-        let same = |slot: &&Slot| is_free(slot) && slot.line() == line;
-        let unused = |slot: &&Slot| !slot.is_used();
-        let slot = SLOTS.iter().find(same).or_else(|| {
-            let slot = SLOTS.iter().find(unused).or_else(|| SLOTS.iter().find(is_free))?;
-            slot.start.store(append(&line)?, Ordering::Relaxed);
+        let has_room = |slot: &&Slot| slot.length.load(Ordering::Relaxed) >= line.len();
+        let slot = SLOTS.iter().filter(is_free).find(has_room).or_else(|| {
+            let slot = SLOTS.iter().filter(is_free).find(|slot| !slot.is_used())?;
+            slot.start.store(append(line.len())?, Ordering::Relaxed);
             slot.length.store(line.len(), Ordering::Relaxed);
             Some(slot)
         })?;
+        slot.write(&line);
         slot.descriptor.store(descriptor, Ordering::Release);
         Some(Self(slot))
     }
@@ -138,31 +138,29 @@ impl Slot {
         unsafe { LINES.load(Ordering::Relaxed).add(self.start.load(Ordering::Relaxed)) }
     }
 
-    /// The line of a motor that rests; none if there is none yet.
-    fn line(&self) -> &[u8] {
-        match self.length.load(Ordering::Relaxed) {
-            0 => &[],
-            // Safety: nobody changes the line of a slot that is free.
-            length => unsafe { std::slice::from_raw_parts(self.first(), length) },
+    /// Writes the line into its place; spaces at its end do not count.
+    fn write(&self, line: &[u8]) {
+        let (first, length) = (self.first(), self.length.load(Ordering::Relaxed));
+        // Safety: so long is the place, and a newline; nobody else has a slot that is free.
+        unsafe {
+            first.write_bytes(b' ', length);
+            first.copy_from_nonoverlapping(line.as_ptr(), line.len());
+            first.add(length).write(b'\n');
         }
     }
 }
 
-/// Adds a line; its start, or `None` where there is no room.
-fn append(line: &[u8]) -> Option<usize> {
+/// Makes a place for a line of that length; its start, or `None` where there is no room.
+fn append(line: usize) -> Option<usize> {
     let start = LENGTH.load(Ordering::Relaxed);
-    let end = start + line.len();
+    let end = start + line + 1;
     if end > ROOM {
         return None;
     }
-    let mut lines = LINES.load(Ordering::Relaxed);
-    if lines.is_null() {
-        lines = map(std::ptr::null_mut())?;
-        LINES.store(lines, Ordering::Release);
+    if LINES.load(Ordering::Relaxed).is_null() {
+        LINES.store(map(std::ptr::null_mut())?, Ordering::Release);
     }
     lengthen(end)?;
-    // Safety: there is room.
-    unsafe { std::ptr::copy_nonoverlapping(line.as_ptr(), lines.add(start), line.len()) };
     LENGTH.store(end, Ordering::Relaxed);
     Some(start)
 }
@@ -244,4 +242,50 @@ pub(crate) fn forked() {
     unsafe { libc::close(parents) };
     leave();
     IS_SURVIVED.store(false, Ordering::Relaxed);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs::{File, read_to_string};
+    use std::os::fd::AsRawFd;
+
+    fn keep(path: &Path, word: &str) -> (File, Kept) {
+        let file = File::create(path).unwrap();
+        let kept = Kept::new(file.as_raw_fd(), path, word).unwrap();
+        (file, kept)
+    }
+
+    fn told(kept: &Kept, text: &str) {
+        kept.tell(text.as_bytes(), || Ok::<_, ()>(())).unwrap();
+    }
+
+    // One test, as there is one record.
+    #[test]
+    fn those_that_run_are_stopped_and_lines_are_used_again() {
+        survivor::survive(false);
+        let folder = std::env::temp_dir().join(format!("ev3-kept-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let [runs, rests, servo] = ["runs", "rests", "servo"].map(|name| folder.join(name));
+        let (one, two) = (keep(&runs, "stop"), keep(&rests, "stop"));
+        let three = keep(&servo, "float");
+        told(&one.1, "run-forever\n");
+        told(&two.1, "run-timed\n");
+        told(&two.1, "stop\n");
+        told(&three.1, "run\n");
+        assert!(stop());
+        let texts = [&runs, &rests, &servo].map(|path| read_to_string(path).unwrap());
+        assert_eq!(texts, ["stop\n", "", "float\n"]);
+
+        drop((one, two));
+        let before = LENGTH.load(Ordering::Relaxed);
+        for number in 0..2000 {
+            drop(keep(&folder.join(format!("m{number}")), "stop"));
+        }
+        // The longest of these did not fit at first.
+        assert!(LENGTH.load(Ordering::Relaxed) < before + 200);
+        leave();
+        assert!(!stop());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

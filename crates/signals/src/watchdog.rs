@@ -144,6 +144,8 @@ struct Watchdog {
     end: Option<(c_int, Instant)>,
     /// Until when no motor starts, after the process was continued.
     stands_until: Option<Instant>,
+    /// Since when the program has crashed, as far as is known.
+    crashed: Option<Instant>,
     /// Whether the main thread has ended.
     is_main_over: bool,
 }
@@ -156,6 +158,7 @@ impl Watchdog {
             asked: Vec::new(),
             end: None,
             stands_until: None,
+            crashed: None,
             is_main_over: false,
         }
     }
@@ -212,11 +215,11 @@ impl Watchdog {
             }
             GOES_ON => match self.answered(signal) {
                 Some((_, false)) => handlers::send_on(signal),
-                Some((_, true)) => {
+                Some((_, true)) if self.end.is_some_and(|end| end.0 == signal) => {
                     self.end = None;
                     latch::lift(Reason::Ending);
                 }
-                None => {}
+                _ => {}
             },
             HALTS => self.ends_by(signal, now),
             CONTINUED => {
@@ -266,6 +269,12 @@ impl Watchdog {
         if self.stands_until.is_some_and(|time| time <= now) {
             self.stands_until = None;
             latch::lift(Reason::Standing);
+        }
+        if !latch::is_set_as(Reason::Crashed) {
+            self.crashed = None;
+        } else if *self.crashed.get_or_insert(now) + PATIENCE <= now {
+            // It has survived that.
+            latch::lift(Reason::Crashed);
         }
         if let Some(prologs) = handlers::handler_before(libc::SIGTERM) {
             handlers::take_again(prologs);
