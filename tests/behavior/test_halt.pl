@@ -7,6 +7,12 @@
 
 % What the motors were told last, once a program is over.
 
+% Since 9.3 halt/0 unwinds the stack, and does not come back if it is cancelled; and
+% thread_exit/1 does not end the main thread.
+halt_returns :-
+    current_prolog_flag(version, Version),
+    Version < 90300.
+
 % The program, run on a tree of its own, ends with Status; then outB has had
 % the command B and outC the command C.
 after_program(Tree, Text, Options, Status, B-C) :-
@@ -117,7 +123,7 @@ test(what_goes_on_while_prolog_halts_starts_no_motor,
                           control :- repeat, motor_run(outB, 20), fail.", [Main]),
     after_program(Tree, Text, [goal(main)], _, B-_).
 test(after_an_end_that_is_cancelled_they_start_and_stop_as_ever,
-     [forall(tree(Tree)), true(Status-C == exit(0)-(stop-stop))]) :-
+     [condition(halt_returns), forall(tree(Tree)), true(Status-C == exit(0)-(stop-stop))]) :-
     after_program(Tree, ":- dynamic cancels/0.
                          cancels.
                          main :- at_halt(( retract(cancels) -> cancel_halt(not_yet) ; true )),
@@ -225,7 +231,8 @@ test(without_that_process_they_run_on,
     signalled(Tree, kill, ":- set_prolog_flag(ev3dev_stop_at_kill, false).",
               [goal(main)], _, after_a_while, B, C).
 test(they_stop_when_the_main_thread_has_ended_and_no_other_goes_on,
-     [ forall(( tree(Tree), Tree \== simulator )), true(Status-B-C == exit(0)-stop-stop) ]) :-
+     [ condition(halt_returns), forall(( tree(Tree), Tree \== simulator )),
+       true(Status-B-C == exit(0)-stop-stop) ]) :-
     after_program(Tree, "main :- motors_run([run(outB, 20), run(outC, 20)]),
                                     thread_exit(over).",
                   [goal(main)], Status, B-C).

@@ -455,7 +455,8 @@ no_value(Variable, Frame, Text) :-
     ->  named(Name, Text)
     ;   Frame \== none,
         arguments(Frame, Arguments)
-    ->  (   missing(Arguments, Variable, Missing)
+    ->  (   \+ place(Arguments, '<garbage_collected>', 1, _),
+            missing(Arguments, Variable, Missing)
         ->  (   names_in_query(Frame, Names),
                 name_of(Names, Missing, Name)
             ->  named(Name, Text)

@@ -39,6 +39,8 @@ stop_at_halt :-
     ).
 
 %   The foreign library asks at the first motor that runs.
+:- '$hide'(stops_at_kill/0).
+
 stops_at_kill :-
     \+ current_prolog_flag(ev3dev_stop_at_kill, false).
 
