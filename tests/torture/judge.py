@@ -204,7 +204,8 @@ class Run:
                     self.prepare()
                     os.execvpe(self.command()[0], self.command(), environment)
                 os.write(tells, str(job).encode())
-                signal.signal(signal.SIGTERM, signal.SIG_DFL)
+                for number in (signal.SIGTERM, signal.SIGHUP):  # which `nohup` has ignored
+                    signal.signal(number, signal.SIG_DFL)
                 os.waitpid(job, 0)
             finally:
                 os._exit(0)

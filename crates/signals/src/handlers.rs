@@ -5,7 +5,7 @@ use nix::errno::Errno;
 use nix::libc::{self, c_int, c_void, siginfo_t};
 use std::mem::zeroed;
 use std::ptr::{null, null_mut};
-use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU32, Ordering};
 
 /// The highest number of a signal.
 const LAST: c_int = 64;
@@ -223,8 +223,17 @@ fn pass_on(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
     }
 }
 
-/// Stops the motors and stands until the process is continued.
+/// Stops the motors and stands until the process is continued. Another such signal meanwhile,
+/// in another thread, would make it stand again thereafter.
 fn stand(signal: c_int) {
+    static STANDS: AtomicBool = AtomicBool::new(false);
+    if !STANDS.swap(true, Ordering::AcqRel) {
+        stand_alone(signal);
+        STANDS.store(false, Ordering::Release);
+    }
+}
+
+fn stand_alone(signal: c_int) {
     const SAID: &[u8] = b"% ev3dev: the motors were stopped while the program stood\n";
     let stopped = stop_for(Reason::Standing);
     let ours = action(signal);
