@@ -57,19 +57,17 @@ pub(crate) fn take_all() {
     }
 }
 
-/// Takes a signal again, if the handler `theirs` has taken it since.
-pub(crate) fn take_again(theirs: usize) {
-    for signal in ASKING {
-        let now = action(signal);
-        if now.sa_sigaction == theirs {
-            take(signal, &now);
+/// Takes signals again that Prolog has taken since, as its toplevel does when it begins.
+/// Prolog has one handler for all.
+pub(crate) fn take_again() {
+    if let Some(prologs) = before(libc::SIGTERM) {
+        for signal in ASKING {
+            let now = action(signal);
+            if now.sa_sigaction == prologs.sa_sigaction {
+                take(signal, &now);
+            }
         }
     }
-}
-
-/// The handler that there was, of a signal that is taken.
-pub(crate) fn handler_before(signal: c_int) -> Option<usize> {
-    before(signal).map(|action| action.sa_sigaction)
 }
 
 /// What a signal does now.
@@ -86,7 +84,9 @@ fn take(signal: c_int, before: &libc::sigaction) {
     if [libc::SIG_IGN, handle as *const () as usize].contains(&before.sa_sigaction) {
         return;
     }
-    if before.sa_sigaction != libc::SIG_DFL && handler_before(signal) != Some(before.sa_sigaction) {
+    if before.sa_sigaction != libc::SIG_DFL
+        && self::before(signal).map(|known| known.sa_sigaction) != Some(before.sa_sigaction)
+    {
         // For good: a handler may be looking at the one before.
         let kept = Box::into_raw(Box::new(*before));
         slot(signal).store(kept, Ordering::Release);

@@ -10,7 +10,7 @@
 //! The lines are in a file in memory, mapped, so that they outlive this process for one
 //! that has the same file open ([`crate::survivor`]). Handlers of signals stop the motors
 //! by the descriptors that this process has anyway.
-use crate::survivor;
+use crate::{handlers, survivor};
 use nix::libc::{self, c_int};
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
@@ -192,10 +192,11 @@ fn map(address: *mut u8) -> Option<*mut u8> {
     }
 }
 
-/// Starts what stops the motors after us.
+/// The first motor runs. Starts what stops the motors after us.
 #[cold]
 fn be_survived() {
     if !IS_SURVIVED.swap(true, Ordering::Relaxed) {
+        handlers::take_again();
         survivor::start(FILE.load(Ordering::Relaxed));
     }
 }

@@ -22,7 +22,7 @@ pub const PATIENCE: Duration = Duration::from_secs(2);
 const ANSWER: Duration = Duration::from_millis(500);
 
 /// How often the watchdog looks whether all is as it should be.
-const LOOK: Duration = Duration::from_millis(250);
+const LOOK: Duration = Duration::from_millis(100);
 
 /// What the watchdog is told: each is followed by the number of a signal.
 pub(crate) const SIGNAL: u8 = b'S';
@@ -276,9 +276,7 @@ impl Watchdog {
             // It has survived that.
             latch::lift(Reason::Crashed);
         }
-        if let Some(prologs) = handlers::handler_before(libc::SIGTERM) {
-            handlers::take_again(prologs);
-        }
+        handlers::take_again();
         if self.is_main_over && is_alone() {
             handlers::stop_for(Reason::Ending);
             // Safety: as at the end of the last thread.
