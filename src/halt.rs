@@ -48,6 +48,7 @@ predicates! {
     #[name("at_halt_")]
     semidet fn at_halt(_context, stops) {
         STOPS.store(stops.get_ex()?, Ordering::Relaxed);
+        act_at_halt(halts);
         Ok(())
     }
 

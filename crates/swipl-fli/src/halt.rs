@@ -6,6 +6,8 @@ static ACT: OnceLock<fn()> = OnceLock::new();
 
 /// Calls `act` when Prolog halts, after all goals of `at_halt/1`, of which none has cancelled
 /// that, and before the other threads are ended. The first `act` counts. It must not panic.
+/// What was registered last is called first: one called in `at_halt/1` comes before the hooks of
+/// other libraries, of which that of library(time) may hang.
 pub fn act_at_halt(act: fn()) {
     unsafe extern "C" {
         fn PL_on_halt(
@@ -13,10 +15,9 @@ pub fn act_at_halt(act: fn()) {
             argument: *mut c_void,
         );
     }
-    if ACT.set(act).is_ok() {
-        // Safety: as declared in every version.
-        unsafe { PL_on_halt(halts, std::ptr::null_mut()) };
-    }
+    ACT.get_or_init(|| act);
+    // Safety: as declared in every version.
+    unsafe { PL_on_halt(halts, std::ptr::null_mut()) };
 }
 
 unsafe extern "C" fn halts(_status: c_int, _argument: *mut c_void) -> c_int {
