@@ -46,6 +46,9 @@ static WITHHELD: AtomicU32 = AtomicU32::new(0);
 /// Those that it has sent on.
 static LOOKED_AT: AtomicU32 = AtomicU32::new(0);
 
+/// Whether a thread makes the process stand.
+static STANDS: AtomicBool = AtomicBool::new(false);
+
 /// Takes all signals that end a process, or make it stand. Those that are ignored stay so.
 pub(crate) fn take_all() {
     for signal in (1..=LAST).filter(|signal| !LEFT.contains(signal)) {
@@ -57,8 +60,8 @@ pub(crate) fn take_all() {
     }
 }
 
-/// Takes signals again that Prolog has taken since, as its toplevel does when it begins.
-/// Prolog has one handler for all.
+/// Takes signals again that Prolog has taken since, as its toplevel does when it begins, and
+/// shell/1 with Ctrl-Z. Prolog has one handler for all.
 pub(crate) fn take_again() {
     if let Some(prologs) = before(libc::SIGTERM) {
         for signal in ASKING {
@@ -66,6 +69,12 @@ pub(crate) fn take_again() {
             if now.sa_sigaction == prologs.sa_sigaction {
                 take(signal, &now);
             }
+        }
+    }
+    for signal in STANDING {
+        let now = action(signal);
+        if now.sa_sigaction == libc::SIG_DFL && !STANDS.load(Ordering::Acquire) {
+            take(signal, &now);
         }
     }
 }
@@ -226,7 +235,6 @@ fn pass_on(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
 /// Stops the motors and stands until the process is continued. Another such signal meanwhile,
 /// in another thread, would make it stand again thereafter.
 fn stand(signal: c_int) {
-    static STANDS: AtomicBool = AtomicBool::new(false);
     if !STANDS.swap(true, Ordering::AcqRel) {
         stand_alone(signal);
         STANDS.store(false, Ordering::Release);
