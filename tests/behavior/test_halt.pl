@@ -218,9 +218,9 @@ test(one_signal_suffices_where_prolog_handles_none,
 test(a_crash_stops_the_motors,
      [ forall(( tree(Tree),
                 Tree \== simulator,
-                member(Signal, [6, 11, 10, 30]) )),
-       true(B-C == stop-stop) ]) :-
-    signalled(Tree, Signal, "", [goal(main)], B, C).
+                member(Signal, [6, 11, 10, 30]) )) ]) :-
+    % The process that stays writes again, and empties a plain file for that.
+    signalled(Tree, Signal, "", [goal(main)], _, eventually, stop, stop).
 test(a_process_that_is_killed_has_one_that_stops_its_motors,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(Status == killed(9)) ]) :-

@@ -87,10 +87,15 @@ impl Page {
 
     /// Says good-bye, unless that takes time.
     pub(crate) fn dismiss(&self, bye: &str) {
-        if let Ok(_turn) = self.writing.try_lock() {
-            let _ = self.stream.set_nonblocking(true);
-            let end = frame(CLOSE, &1001_u16.to_be_bytes());
-            let _ = (&self.stream).write(&[frame(TEXT, bye.as_bytes()), end].concat());
+        // Who writes just now is done in a moment, if the page reads.
+        for _ in 0..100 {
+            if let Ok(_turn) = self.writing.try_lock() {
+                let _ = self.stream.set_nonblocking(true);
+                let end = frame(CLOSE, &1001_u16.to_be_bytes());
+                let _ = (&self.stream).write(&[frame(TEXT, bye.as_bytes()), end].concat());
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
         }
         let _ = self.stream.shutdown(Shutdown::Both);
     }
