@@ -1,7 +1,6 @@
 //! `prolog/ev3dev/private/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
-use crate::glue::signals;
-use crate::glue::state::{chosen_devices, devices};
+use crate::glue::state::{self, chosen_devices, devices};
 use ev3_driver::motor;
 use ev3_signals::latch::Reason;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,7 +25,7 @@ fn halts() {
     if STOPS.load(Ordering::Relaxed) {
         ev3_signals::stop_for(Reason::Halting);
         // What fails was to be stopped before, and said so.
-        let _ = motor::stop_started(&devices());
+        state::stop_started();
     } else {
         ev3_signals::leave();
     }
@@ -72,7 +71,7 @@ predicates! {
     #[name("halts_by_")]
     semidet fn halts_by(context, signal) {
         let signal = Call::of(context, "halt", 0).text(signal)?;
-        signals::halts_by(&signal);
+        ev3_signals::halts(&signal);
         Ok(())
     }
 }

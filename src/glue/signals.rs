@@ -27,11 +27,6 @@ pub(crate) fn before_motors<C: QueryableContextType>(context: &Context<C>) -> Pr
     Ok(())
 }
 
-/// Prolog halts because of that signal.
-pub(crate) fn halts_by(signal: &str) {
-    ev3_signals::halts(signal);
-}
-
 /// Asks Prolog in an engine of its own, as the program's may be busy.
 fn ends(signal: &'static str, has_terminal: bool) -> bool {
     let engine = Engine::new();

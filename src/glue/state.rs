@@ -103,8 +103,8 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
     files.is_tree_chosen.then(|| Arc::clone(&files.tree.devices))
 }
 
-/// Stops the motors that the program started. What fails is said at the next command.
-fn stop_started() {
+/// Stops the motors that the program started, where nobody is told what fails.
+pub(crate) fn stop_started() {
     let _ = motor::stop_started(&devices());
 }
 

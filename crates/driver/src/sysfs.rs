@@ -239,10 +239,12 @@ impl Sysfs for SysfsDir {
             .open(path)?;
         // Devices and pipes are no stores of bytes either.
         let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
-        let is_motors = access == Access::Write && path.ends_with("command");
-        let is_servos = path.starts_with(self.root.join(Class::ServoMotor.directory()));
-        let word = if is_servos { "float" } else { "stop" };
-        let kept = is_motors.then(|| Kept::new(file.as_raw_fd(), path, word)).flatten();
+        let kept = if access == Access::Write && path.ends_with("command") {
+            let is_servos = path.starts_with(self.root.join(Class::ServoMotor.directory()));
+            Kept::new(file.as_raw_fd(), path, if is_servos { "float" } else { "stop" })
+        } else {
+            None
+        };
         Ok(Box::new(OpenFile { kept, file, is_plain }))
     }
 
