@@ -150,6 +150,8 @@ class Program:
         self.choose_ending(chance)
         if self.start in ("goals on stdin", "-g main", "initialization(main)") or self.ending == "end of input":
             self.stdin = "open"
+        if self.structure == "fork" and self.signal == signal.SIGINT and self.start == "goals on stdin":
+            self.group = False  # the copy, which has no motors, would ask in Prolog's debugger for ever
         self.write()
 
     def choose_ending(self, chance):
