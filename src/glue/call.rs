@@ -65,7 +65,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices, for a call that starts a motor.
     pub(crate) fn devices_to_move(&self) -> PrologResult<Arc<Registry>> {
         self.may_move()?;
-        signals::before_motors(self.context)?;
+        signals::before_motors(self)?;
         self.devices_to_command()
     }
 

@@ -1,27 +1,41 @@
 //! Signals that ask the program to end.
+use crate::glue::call::Call;
+use crate::glue::state;
 use crate::glue::terms::unify_atom;
+use ev3_driver::error::{Access, Error};
 use ev3_signals::Asked;
-use std::sync::Once;
+use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use swipl::prelude::*;
 
 /// Takes such signals from now on: first the motors stop, then Prolog gets the signal.
-/// Where Prolog need not be asked, `stop` stops them.
-pub(crate) fn watch(stop: fn()) {
-    static WATCHED: Once = Once::new();
-    // Without a thread, Prolog gets the signals as ever.
-    WATCHED.call_once(|| drop(ev3_signals::watch(Asked { ends, stop })));
+/// Where Prolog need not be asked, `stop` stops them. After an error, as where no descriptor
+/// is left, Prolog gets the signals as ever.
+pub(crate) fn watch() -> io::Result<()> {
+    static IS_WATCHED: Mutex<bool> = Mutex::new(false);
+    let mut is_watched = IS_WATCHED.lock().unwrap_or_else(PoisonError::into_inner);
+    if !*is_watched {
+        ev3_signals::watch(Asked { ends, stop: state::stop_started })?;
+        *is_watched = true;
+    }
+    Ok(())
 }
 
-/// Motors may start from now on. The first time, Prolog says whether they are to be stopped
-/// when the process is killed.
+/// Motors may start from now on, which signals can stop. The first time, Prolog says whether
+/// they are to be stopped when the process is killed.
 #[inline]
-pub(crate) fn before_motors<C: QueryableContextType>(context: &Context<C>) -> PrologResult<()> {
+pub(crate) fn before_motors<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> {
     static IS_ASKED: AtomicBool = AtomicBool::new(false);
     if IS_ASKED.load(Ordering::Relaxed) {
         return Ok(());
     }
-    let survives = context.call_once(pred!("ev3dev_halt:stops_at_kill/0"), []);
+    call.or_throw(watch().map_err(|source| Error::Open {
+        path: "a pipe for signals".into(),
+        access: Access::Write,
+        source,
+    }))?;
+    let survives = call.context.call_once(pred!("ev3dev_halt:stops_at_kill/0"), []);
     ev3_signals::survive(attempt(survives)?);
     IS_ASKED.store(true, Ordering::Relaxed);
     Ok(())

@@ -154,7 +154,11 @@ pub(crate) fn listen() {
 extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
     let errno = Errno::last();
     if ASKING.contains(&signal) {
-        if was_looked_at(signal) || !withhold(signal) {
+        let is_for_prolog = was_looked_at(signal) || !withhold(signal);
+        if is_for_prolog && latch::is_set_as(Reason::Halting) {
+            // Prolog has begun to take itself down.
+            do_default(signal);
+        } else if is_for_prolog {
             pass_on(signal, info, context);
         }
     } else if STANDING.contains(&signal) {

@@ -12,6 +12,7 @@
 //! the latter needs Linux 5.3. The pipe ends when the last thread has gone, so that nobody
 //! starts a motor thereafter.
 use nix::libc::{self, c_char, c_int, c_void};
+use std::io;
 use std::ptr::null;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 
@@ -48,15 +49,19 @@ struct Plan {
     stack: *mut c_void,
 }
 
-/// Starts it, with the file of the lines. Where that fails, nothing is lost but this.
-pub(crate) fn start(lines: c_int) {
+/// Starts it, with the file of the lines. Where there can be no process, nothing is lost but
+/// this.
+///
+/// # Errors
+/// The kernel's, where no descriptor is left.
+pub(crate) fn start(lines: c_int) -> io::Result<()> {
     if lines == NONE || !IS_WANTED.load(Ordering::Relaxed) {
-        return;
+        return Ok(());
     }
     let mut ends = [NONE; 2];
     // Safety: two descriptors come back.
     if unsafe { libc::pipe2(ends.as_mut_ptr(), libc::O_CLOEXEC) } != 0 {
-        return;
+        return Err(io::Error::last_os_error());
     }
     let [pipe, ours] = ends;
     OUR_END.store(ours, Ordering::Relaxed);
@@ -94,6 +99,7 @@ pub(crate) fn start(lines: c_int) {
         libc::pthread_sigmask(libc::SIG_SETMASK, &raw const before, std::ptr::null_mut());
         libc::close(pipe);
     }
+    Ok(())
 }
 
 /// In a child of fork(2): it does not keep its parent's process waiting.

@@ -21,8 +21,11 @@ pub const PATIENCE: Duration = Duration::from_secs(2);
 /// How long it may take to say whether it will.
 const ANSWER: Duration = Duration::from_millis(500);
 
-/// How often the watchdog looks whether all is as it should be.
+/// How often the watchdog looks whether all is as it should be, and for how long more often
+/// when the process has forked.
 const LOOK: Duration = Duration::from_millis(100);
+const SOON: Duration = Duration::from_millis(1);
+const JUST: Duration = Duration::from_millis(20);
 
 /// What the watchdog is told: each is followed by the number of a signal.
 pub(crate) const SIGNAL: u8 = b'S';
@@ -31,6 +34,7 @@ const ENDS: u8 = b'E';
 const GOES_ON: u8 = b'G';
 const HALTS: u8 = b'H';
 const MAIN_IS_OVER: u8 = b'M';
+const FORKED: u8 = b'F';
 
 /// The way to the watchdog.
 static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
@@ -61,7 +65,7 @@ pub fn halts(signal: &str) {
     tell(HALTS, number(signal));
 }
 
-/// Takes the signals that end a program, from now on.
+/// Takes the signals that end a program, from now on; to be called once.
 ///
 /// # Errors
 /// The kernel's, where no thread can be had.
@@ -69,9 +73,6 @@ pub fn watch(asked: Asked) -> io::Result<()> {
     let (read, write) = UnixStream::pair()?;
     // A handler must not wait.
     write.set_nonblocking(true)?;
-    if WATCHDOG.set(write).is_err() {
-        return Ok(());
-    }
     let (questions, answers) = UnixStream::pair()?;
     // The signals are for the program's own threads.
     let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
@@ -82,10 +83,13 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, answers).run())));
     before.thread_set_mask()?;
     spawned?;
+    if WATCHDOG.set(write).is_err() {
+        return Ok(());
+    }
     handlers::take_all();
     // Safety: the functions do only what may be done there.
     unsafe {
-        libc::pthread_atfork(None, None, Some(forked));
+        libc::pthread_atfork(None, Some(has_forked), Some(forked));
         if libc::syscall(libc::SYS_gettid) == libc::c_long::from(libc::getpid()) {
             let mut key = 0;
             if libc::pthread_key_create(&raw mut key, Some(main_is_over)) == 0 {
@@ -94,6 +98,11 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// After fork(2): shell/1 does so before it takes Ctrl-Z.
+unsafe extern "C" fn has_forked() {
+    tell(FORKED, 0);
 }
 
 /// In a child of fork(2), which has neither thread: its signals go to Prolog.
@@ -148,6 +157,8 @@ struct Watchdog {
     crashed: Option<Instant>,
     /// Whether the main thread has ended.
     is_main_over: bool,
+    /// Until when it has just forked.
+    forks_until: Option<Instant>,
 }
 
 impl Watchdog {
@@ -160,6 +171,7 @@ impl Watchdog {
             stands_until: None,
             crashed: None,
             is_main_over: false,
+            forks_until: None,
         }
     }
 
@@ -181,8 +193,9 @@ impl Watchdog {
         let times = asked.chain(self.end.map(|end| end.1)).chain(self.stands_until);
         let now = Instant::now();
         let pause = times.map(|time| time.saturating_duration_since(now)).min();
+        let look = self.forks_until.map_or(LOOK, |_| SOON);
         // A millisecond is the least that poll(2) waits.
-        self.is_told(pause.map_or(LOOK, |pause| LOOK.min(pause + Duration::from_millis(1))));
+        self.is_told(pause.map_or(look, |pause| look.min(pause + Duration::from_millis(1))));
     }
 
     /// Whether it is told something within that time.
@@ -202,6 +215,10 @@ impl Watchdog {
                 handlers::look_at(signal);
                 if self.is_main_over {
                     end_by(signal);
+                }
+                if latch::is_set_as(Reason::Halting) {
+                    self.ends_by(signal, now);
+                    return;
                 }
                 self.asked.push((signal, now, false));
                 let _ = self.asker.write_all(&[SIGNAL, number]);
@@ -230,6 +247,7 @@ impl Watchdog {
                 self.is_main_over = true;
                 handlers::listen();
             }
+            FORKED => self.forks_until = Some(now + JUST),
             _ => {}
         }
     }
@@ -277,6 +295,9 @@ impl Watchdog {
             latch::lift(Reason::Crashed);
         }
         handlers::take_again();
+        if self.forks_until.is_some_and(|time| time <= now) {
+            self.forks_until = None;
+        }
         if self.is_main_over && is_alone() {
             handlers::stop_for(Reason::Ending);
             // Safety: as at the end of the last thread.
