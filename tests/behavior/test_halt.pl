@@ -225,6 +225,27 @@ test(a_process_that_is_killed_has_one_that_stops_its_motors,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(Status == killed(9)) ]) :-
     signalled(Tree, kill, "", [goal(main)], Status, eventually, stop, stop).
+test(one_that_runs_with_the_last_descriptors_is_stopped_as_well,
+     [ forall(( tree(Tree), Tree \== simulator )), true(Status-C == killed(9)-stop) ]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor'],
+              ( program_in_tree(":- use_module([library(process), library(rlimit)]).
+                                 main :- rlimit(nofile, _, 40), leaked(Ss), started(Ss).
+                                 leaked([S|Ss]) :-
+                                     catch(open('/dev/null', read, S), _, fail), !,
+                                     leaked(Ss).
+                                 leaked([]).
+                                 started([]) :-
+                                     motor_run(outB, 20),
+                                     current_prolog_flag(pid, Pid),
+                                     process_kill(Pid, kill),
+                                     sleep(9).
+                                 started(Ss) :-
+                                     catch(started([]),
+                                           error(resource_error(max_files), _), fail)
+                                     ;   Ss = [S|Ss1], close(S), started(Ss1).",
+                                Program, Options),
+                run_program(Program, [goal(main)|Options], Status, Output),
+                eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
 test(without_that_process_they_run_on,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(B-C == 'run-forever'-'run-forever') ]) :-

@@ -49,6 +49,20 @@ struct Plan {
     stack: *mut c_void,
 }
 
+impl Plan {
+    /// Closes all descriptors from `first` on, below `end`.
+    unsafe fn close(&self, first: c_int, end: c_int) {
+        // Safety: closes only. Linux has that since version 5.9.
+        unsafe {
+            if first < end && libc::syscall(libc::SYS_close_range, first, end - 1, 0) != 0 {
+                for descriptor in first..end.min(self.descriptors) {
+                    libc::close(descriptor);
+                }
+            }
+        }
+    }
+}
+
 /// Starts it, with the file of the lines. Where there can be no process, nothing is lost but
 /// this.
 ///
@@ -159,26 +173,20 @@ extern "C" fn become_shell(plan: *mut c_void) -> c_int {
         let plan = &*plan.cast::<Plan>();
         libc::setsid();
         libc::chdir(c"/".as_ptr());
+        // This process may have no descriptor to spare.
+        let (one, other) = (plan.pipe.min(plan.lines), plan.pipe.max(plan.lines));
+        plan.close(0, one);
+        plan.close(one + 1, other);
+        plan.close(other + 1, c_int::MAX);
         let aside = |file| libc::fcntl(file, libc::F_DUPFD, ASIDE);
         let null_device = aside(libc::open(c"/dev/null".as_ptr(), libc::O_RDWR));
         let files = [null_device; 3].into_iter().chain([aside(plan.pipe), aside(plan.lines)]);
         for (file, number) in files.zip(0..) {
             libc::dup2(file, number);
         }
-        close_from(LINES + 1, plan.descriptors);
+        plan.close(LINES + 1, c_int::MAX);
         libc::execve(c"/bin/sh".as_ptr(), plan.arguments.as_ptr(), plan.environment.as_ptr());
         libc::_exit(127)
     }
 }
 
-/// Closes all descriptors from `first` on, below `end`.
-unsafe fn close_from(first: c_int, end: c_int) {
-    // Safety: closes only. Linux has that since version 5.9.
-    unsafe {
-        if libc::syscall(libc::SYS_close_range, first, c_int::MAX, 0) != 0 {
-            for descriptor in first..end {
-                libc::close(descriptor);
-            }
-        }
-    }
-}
