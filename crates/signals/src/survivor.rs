@@ -189,4 +189,3 @@ extern "C" fn become_shell(plan: *mut c_void) -> c_int {
         libc::_exit(127)
     }
 }
-
