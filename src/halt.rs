@@ -14,6 +14,7 @@ static STOPS: AtomicBool = AtomicBool::new(true);
 pub(crate) fn register() {
     register_running();
     register_at_halt();
+    register_halt_cancelled();
     register_told_to_end();
     register_stop_started();
     register_halts_by();
@@ -46,9 +47,19 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("at_halt_")]
     semidet fn at_halt(_context, stops) {
-        STOPS.store(stops.get_ex()?, Ordering::Relaxed);
+        let stops = stops.get_ex()?;
+        STOPS.store(stops, Ordering::Relaxed);
+        ev3_signals::is_to_halt(stops);
         act_at_halt(halts);
         Ok(())
+    }
+
+    /// halt_cancelled_: a goal of `at_halt/1` has cancelled that.
+    #[module("ev3dev_native")]
+    #[name("halt_cancelled_")]
+    semidet fn halt_cancelled(_context) {
+        ev3_signals::is_to_halt(false);
+        into_prolog_result(true)
     }
 
     /// told_to_end_: a signal ends the program. From now on no motor starts.

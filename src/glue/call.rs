@@ -65,12 +65,12 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices, for a call that starts a motor.
     pub(crate) fn devices_to_move(&self) -> PrologResult<Arc<Registry>> {
         self.may_move()?;
-        signals::before_motors(self)?;
         self.devices_to_command()
     }
 
-    /// Throws in a guard, which must not start a motor.
+    /// A motor may be started: throws in a guard, and where nothing could stop the motor.
     pub(crate) fn may_move(&self) -> PrologResult<()> {
+        signals::before_motors(self)?;
         if has_guards() {
             self.context.call_once(pred!("ev3dev_waits:no_guard/0"), [])?;
         }
@@ -92,7 +92,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         let mut interrupted = self.interrupted();
         loop {
             let mut asked = Ok(());
+            // It may ask more than once, and Prolog answers nothing after an exception.
             let is_over = is_turn(&mut || {
+                if asked.is_err() {
+                    return String::new();
+                }
                 self.about().unwrap_or_else(|error| {
                     asked = Err(error);
                     String::new()

@@ -35,7 +35,7 @@ pub(crate) fn before_motors<C: QueryableContextType>(call: &Call<C>) -> PrologRe
         access: Access::Write,
         source,
     }))?;
-    let survives = call.context.call_once(pred!("ev3dev_halt:stops_at_kill/0"), []);
+    let survives = call.context.call_once(pred!("ev3dev_halt:before_motors/0"), []);
     ev3_signals::survive(attempt(survives)?);
     IS_ASKED.store(true, Ordering::Relaxed);
     Ok(())

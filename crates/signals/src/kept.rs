@@ -16,8 +16,9 @@ use nix::libc::{self, c_int};
 use std::io;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Room for the lines of more than a hundred motors.
 const ROOM: usize = 16 * 1024;
@@ -56,7 +57,10 @@ static LENGTH: AtomicUsize = AtomicUsize::new(0);
 static ADDING: Mutex<()> = Mutex::new(());
 
 /// Whether what stops the motors after us is there, or has been tried.
-static IS_SURVIVED: AtomicBool = AtomicBool::new(false);
+static SURVIVED: AtomicU8 = AtomicU8::new(NOT_YET);
+const NOT_YET: u8 = 0;
+const BEGINS: u8 = 1;
+const IS: u8 = 2;
 
 /// A motor that is stopped when the program ends in any way. Dropped before its file is
 /// closed.
@@ -104,7 +108,7 @@ impl Kept {
     pub fn tell(&self, text: &[u8], write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
         let starts = text.starts_with(b"run");
         if starts {
-            if !IS_SURVIVED.load(Ordering::Relaxed) {
+            if SURVIVED.load(Ordering::Acquire) != IS {
                 be_survived()?;
             }
             // Before: if we are killed in between, a motor is stopped that never started.
@@ -209,12 +213,19 @@ fn map(address: *mut u8) -> io::Result<*mut u8> {
 /// The first motor runs. Starts what stops the motors after us.
 #[cold]
 fn be_survived() -> io::Result<()> {
-    if !IS_SURVIVED.swap(true, Ordering::Relaxed) {
-        handlers::take_again();
-        survivor::start(FILE.load(Ordering::Relaxed))
-            .inspect_err(|_| IS_SURVIVED.store(false, Ordering::Relaxed))?;
+    loop {
+        match SURVIVED.compare_exchange(NOT_YET, BEGINS, Ordering::Acquire, Ordering::Acquire) {
+            Ok(_) => {
+                handlers::take_again();
+                let started = survivor::start(FILE.load(Ordering::Relaxed));
+                SURVIVED.store(if started.is_ok() { IS } else { NOT_YET }, Ordering::Release);
+                return started;
+            }
+            Err(IS) => return Ok(()),
+            // Another thread starts it: in a millisecond or two.
+            Err(_) => std::thread::sleep(Duration::from_micros(100)),
+        }
     }
-    Ok(())
 }
 
 /// Writes the command that stops it to each motor that runs; whether there is one.
@@ -258,7 +269,7 @@ pub(crate) fn forked() {
     // Safety: a descriptor of our own.
     unsafe { libc::close(parents) };
     leave();
-    IS_SURVIVED.store(false, Ordering::Relaxed);
+    SURVIVED.store(NOT_YET, Ordering::Relaxed);
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub enum Reason {
     Crashed = 4,
     /// The program stands, as after Ctrl-Z, or has just been continued.
     Standing = 8,
-    /// Prolog halts for good.
+    /// Prolog halts for good, or has begun to, and takes too long.
     Halting = 16,
 }
 

@@ -22,7 +22,7 @@ mod watchdog;
 pub use kept::{Kept, leave};
 use latch::Reason;
 pub use survivor::survive;
-pub use watchdog::{Asked, PATIENCE, halts, watch};
+pub use watchdog::{Asked, PATIENCE, halts, is_to_halt, watch};
 
 /// Stops the motors that run and whose files are kept, and keeps all from starting.
 pub fn stop_for(reason: Reason) {

@@ -1,6 +1,7 @@
 //! Two threads that see to the end of a program.
 //!
-//! The *watchdog* waits for signals, and takes no lock that Prolog or the driver may hold.
+//! The *watchdog* waits for signals, and takes no lock that Prolog or the driver may hold, nor
+//! the allocator's: a handler that leaves by longjmp, as Prolog's for SIGFPE, may keep it.
 //! It has the *asker* ask Prolog whether a signal will end the program, and stop the motors
 //! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
 //! after the signal the process has ended.
@@ -8,7 +9,7 @@ use crate::latch::{self, Reason};
 use crate::{handlers, kept, survivor};
 use nix::libc::{self, c_int, c_void};
 use nix::sys::signal::{SigSet, SigmaskHow};
-use std::io::{self, IsTerminal, Read, Write};
+use std::io::{self, Read, Write};
 use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
 use std::sync::OnceLock;
@@ -35,6 +36,7 @@ const GOES_ON: u8 = b'G';
 const HALTS: u8 = b'H';
 const MAIN_IS_OVER: u8 = b'M';
 const FORKED: u8 = b'F';
+const IS_TO_HALT: u8 = b'A';
 
 /// The way to the watchdog.
 static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
@@ -63,6 +65,12 @@ pub(crate) fn tell(what: u8, signal: c_int) -> bool {
 /// [`PATIENCE`].
 pub fn halts(signal: &str) {
     tell(HALTS, number(signal));
+}
+
+/// Prolog has begun to halt, or its halt was cancelled. Its clean-ups may wait for ever, as for
+/// a stream that another thread reads from: after [`PATIENCE`] no motor starts.
+pub fn is_to_halt(halts: bool) {
+    tell(IS_TO_HALT, halts.into());
 }
 
 /// Takes the signals that end a program, from now on; to be called once.
@@ -127,10 +135,16 @@ fn answer(mut questions: &UnixStream, asked: &Asked) {
             latch::lift(Reason::Standing);
         } else {
             let signal = c_int::from(number);
-            let ends = (asked.ends)(name(signal), io::stdin().is_terminal());
+            let ends = (asked.ends)(name(signal), has_terminal());
             tell(if ends { ENDS } else { GOES_ON }, signal);
         }
     }
+}
+
+/// Whether somebody can type there.
+fn has_terminal() -> bool {
+    // Safety: asks the kernel only.
+    unsafe { libc::isatty(libc::STDIN_FILENO) == 1 }
 }
 
 const NAMES: [(c_int, &str); 3] =
@@ -147,8 +161,8 @@ fn number(name: &str) -> c_int {
 struct Watchdog {
     events: UnixStream,
     asker: UnixStream,
-    /// The signal that Prolog is asked about, since when, and whether that took too long.
-    asked: Vec<(c_int, Instant, bool)>,
+    /// Since when Prolog is asked about each of [`NAMES`], and whether that took too long.
+    asked: [Option<(Instant, bool)>; NAMES.len()],
     /// The signal that ends the process, and when.
     end: Option<(c_int, Instant)>,
     /// Until when no motor starts, after the process was continued.
@@ -157,6 +171,8 @@ struct Watchdog {
     crashed: Option<Instant>,
     /// Whether the main thread has ended.
     is_main_over: bool,
+    /// When Prolog, which has begun to halt, has taken too long.
+    halt: Option<Instant>,
     /// Until when it has just forked.
     forks_until: Option<Instant>,
 }
@@ -166,11 +182,12 @@ impl Watchdog {
         Self {
             events,
             asker,
-            asked: Vec::new(),
+            asked: [None; NAMES.len()],
             end: None,
             stands_until: None,
             crashed: None,
             is_main_over: false,
+            halt: None,
             forks_until: None,
         }
     }
@@ -189,7 +206,8 @@ impl Watchdog {
 
     /// Waits for something to do.
     fn wait(&self) {
-        let asked = self.asked.iter().filter(|asked| !asked.2).map(|asked| asked.1 + ANSWER);
+        let asked =
+            self.asked.iter().flatten().filter(|asked| !asked.1).map(|asked| asked.0 + ANSWER);
         let times = asked.chain(self.end.map(|end| end.1)).chain(self.stands_until);
         let now = Instant::now();
         let pause = times.map(|time| time.saturating_duration_since(now)).min();
@@ -220,8 +238,10 @@ impl Watchdog {
                     self.ends_by(signal, now);
                     return;
                 }
-                self.asked.push((signal, now, false));
-                let _ = self.asker.write_all(&[SIGNAL, number]);
+                if let Some(asked) = self.asked(signal).filter(|asked| asked.is_none()) {
+                    *asked = Some((now, false));
+                    let _ = self.asker.write_all(&[SIGNAL, number]);
+                }
             }
             ENDS => {
                 let (since, is_late) = self.answered(signal).unwrap_or((now, true));
@@ -247,16 +267,20 @@ impl Watchdog {
                 self.is_main_over = true;
                 handlers::listen();
             }
+            IS_TO_HALT => self.halt = (number != 0).then_some(now + PATIENCE),
             FORKED => self.forks_until = Some(now + JUST),
             _ => {}
         }
     }
 
+    fn asked(&mut self, signal: c_int) -> Option<&mut Option<(Instant, bool)>> {
+        let place = NAMES.iter().position(|named| named.0 == signal)?;
+        self.asked.get_mut(place)
+    }
+
     /// When a question was put that is answered now, and whether Prolog has got the signal.
     fn answered(&mut self, signal: c_int) -> Option<(Instant, bool)> {
-        let place = self.asked.iter().position(|asked| asked.0 == signal)?;
-        let (_, since, is_late) = self.asked.remove(place);
-        Some((since, is_late))
+        self.asked(signal)?.take()
     }
 
     fn ends_by(&mut self, signal: c_int, since: Instant) {
@@ -266,16 +290,17 @@ impl Watchdog {
     /// Looks whether all is as it should be.
     fn look(&mut self) {
         let now = Instant::now();
-        let mut late = Vec::new();
-        for (signal, since, is_late) in &mut self.asked {
-            if !*is_late && *since + ANSWER <= now {
-                *is_late = true;
-                late.push((*signal, *since));
+        for (signal, _) in NAMES {
+            let Some(Some((since, is_late))) = self.asked(signal) else {
+                continue;
+            };
+            if *is_late || *since + ANSWER > now {
+                continue;
             }
-        }
-        for (signal, since) in late {
+            *is_late = true;
+            let since = *since;
             // At a terminal Ctrl-C is seldom an end, and can be typed again.
-            if signal != libc::SIGINT || !io::stdin().is_terminal() {
+            if signal != libc::SIGINT || !has_terminal() {
                 handlers::stop_for(Reason::Ending);
                 self.ends_by(signal, since);
             }
@@ -283,6 +308,10 @@ impl Watchdog {
         }
         if let Some((signal, _)) = self.end.filter(|end| end.1 <= now) {
             end_by(signal);
+        }
+        if self.halt.is_some_and(|time| time <= now) {
+            self.halt = None;
+            handlers::stop_for(Reason::Halting);
         }
         if self.stands_until.is_some_and(|time| time <= now) {
             self.stands_until = None;
