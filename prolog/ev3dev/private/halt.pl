@@ -44,7 +44,7 @@ stop_at_halt :-
 
 %   Prolog has forgotten the goals that it has called.
 prolog:message(cancel_halt(_)) -->
-    { assertz(halt_cancelled),
+    { ( halt_cancelled -> true ; assertz(halt_cancelled) ),
       halt_cancelled_,
       at_halt(stop_at_halt),
       fail
