@@ -7,8 +7,8 @@
           ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
-              [ context/3, context_module/2, print_again/1, stepping/2,
-                recorded_step/3, recording/3, unblock/0, was_blocked/2
+              [ context/3, context_module/2, print_again/1, recorded_step/3,
+                recording/3, unblock/0, was_blocked/2
               ]).
 :- use_module(domain,
               [ done/4, entries_done/4, history_shortened/3, situation/3,
@@ -19,7 +19,7 @@
               [has_clauses/2, is_kind/3, prepare/1, refuse_epistemic/1]).
 :- use_module(transitions,
               [ is_final/3, is_preempted/4, made_possible/4, program_shown/2,
-                simplified/2, step/5
+                simplified/3, step/5
               ]).
 :- use_module(waiting,
               [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
@@ -56,7 +56,7 @@ run_online(M:E, Settings, Reason, History) :-
     queue_of(M, Queue),
     Agent = agent(M, Robot, Queue, Device),
     situation(Initial, S, X),
-    simplified(E, E1),
+    simplified(E, E1, X),
     Ended = ended(none),
     situation_noted(Outer),
     setup_call_cleanup(
@@ -265,7 +265,7 @@ taken(Steps, E0, S0, News0, R, E, S, News, Next) :-
         performed(E0, E1, S0, S1, News0, r(X, Agent, Settings, Deadline),
                   E2, S2, News2, Next2),
         Next2 \== backtrack
-    ->  simplified(E2, E),
+    ->  simplified(E2, E, X),
         S = S2,
         News = News2,
         Next = Next2,
@@ -370,9 +370,10 @@ performed_action(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
 %   step, what made it possible, and the interrupts that it belongs to.
 
 causes(A, S, X, [golog(Number, A, Condition)|Causes]) :-
-    recorded_step(X, Number, Triggers),
+    recorded_step(X, Number, Notes),
     made_possible(A, Condition, S, X),
-    findall(interrupt(Trigger), member(Trigger, Triggers), Causes).
+    Interrupt = interrupt(_),
+    findall(Interrupt, member(Interrupt, Notes), Causes).
 
 %   The newest entries of a situation, and the record of all but the last
 
@@ -442,8 +443,7 @@ is_to_end(E0, E1, S0, R) :-
     ->  true
     ;   New = [_|_],
         entries_done(All, S0, S, X),
-        stepping(X, X1),
-        is_preempted(E0, E1, S, X1)
+        is_preempted(E0, E1, S, X)
     ->  true
     ).
 
