@@ -4,7 +4,7 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::signals;
 use crate::glue::state;
-use crate::glue::terms::unify_value;
+use crate::glue::terms::{Ask as _, unify_value};
 use crate::glue::watch;
 use ev3_driver::journal::{self, Act, SoundCommand};
 use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
@@ -41,7 +41,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
         let Some(devices) = state::chosen_devices() else {
-            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+            self.context.ask(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
             return self.devices();
         };
@@ -72,7 +72,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     pub(crate) fn may_move(&self) -> PrologResult<()> {
         signals::before_motors(self)?;
         if has_guards() {
-            self.context.call_once(pred!("ev3dev_waits:no_guard/0"), [])?;
+            self.context.ask(pred!("ev3dev_waits:no_guard/0"), [])?;
         }
         Ok(())
     }
@@ -115,7 +115,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// What this thread is about to do.
     fn about(&self) -> PrologResult<String> {
         let text = self.context.new_term_ref();
-        self.context.call_once(pred!("ev3dev_turn:about/1"), [&text])?;
+        self.context.ask(pred!("ev3dev_turn:about/1"), [&text])?;
         text.get()
     }
 
@@ -260,7 +260,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// Fails, and has Prolog explain why.
     pub(crate) fn fail_because<T>(&self, cause: &Term) -> PrologResult<T> {
-        self.context.call_once(pred!("ev3dev_explain:fail_because/1"), [cause])?;
+        self.context.ask(pred!("ev3dev_explain:fail_because/1"), [cause])?;
         Err(PrologError::Failure)
     }
 
@@ -345,7 +345,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 /// Runs the goals that this thread has planned and that are due.
 fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
     if has_rung() {
-        context.call_once(pred!("ev3dev_plans:run_due_goals/0"), [])?;
+        context.ask(pred!("ev3dev_plans:run_due_goals/0"), [])?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Signals that ask the program to end.
 use crate::glue::call::Call;
 use crate::glue::state;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Ask as _, unify_atom};
 use ev3_driver::error::{Access, Error};
 use ev3_signals::Asked;
 use std::io;
@@ -35,7 +35,7 @@ pub(crate) fn before_motors<C: QueryableContextType>(call: &Call<C>) -> PrologRe
         access: Access::Write,
         source,
     }))?;
-    let survives = call.context.call_once(pred!("ev3dev_halt:before_motors/0"), []);
+    let survives = call.context.ask(pred!("ev3dev_halt:before_motors/0"), []);
     ev3_signals::survive(attempt(survives)?);
     IS_ASKED.store(true, Ordering::Relaxed);
     Ok(())
@@ -48,6 +48,6 @@ fn ends(signal: &'static str, has_terminal: bool) -> bool {
     let [name, terminal] = context.new_term_refs();
     let stops = unify_atom(&name, signal)
         .and_then(|()| terminal.unify(has_terminal))
-        .and_then(|()| context.call_once(pred!("ev3dev_halt:told_to_end/2"), [&name, &terminal]));
+        .and_then(|()| context.ask(pred!("ev3dev_halt:told_to_end/2"), [&name, &terminal]));
     stops.is_ok()
 }

@@ -9,7 +9,7 @@ use crate::glue::call::Call;
 use crate::glue::due;
 use crate::glue::error;
 use crate::glue::state;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Ask as _, unify_atom};
 use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
@@ -215,7 +215,7 @@ impl<C: QueryableContextType> Call<'_, C> {
     /// such a time, too, for programs that never wait.
     pub(crate) fn serve_if_due(&self) -> PrologResult<()> {
         if is_tick_due(|| state::devices().tree().now()) {
-            self.context.call_once(pred!("ev3dev_waits:serve_at_read/0"), [])?;
+            self.context.ask(pred!("ev3dev_waits:serve_at_read/0"), [])?;
         }
         Ok(())
     }
@@ -257,7 +257,7 @@ impl<C: QueryableContextType> Call<'_, C> {
         let [called, woken] = self.context.new_term_refs();
         unify_atom(&called, name)?;
         let arguments = [&called, port, types, mode, number, value, &woken];
-        self.context.call_once(pred!("ev3dev_waits:read_later/7"), arguments)?;
+        self.context.ask(pred!("ev3dev_waits:read_later/7"), arguments)?;
         unify_atom(&woken, "true").map(|()| true)
     }
 

@@ -17,7 +17,7 @@ pub(crate) use self::believed::{counting_begins, pose_is_set};
 use self::notes::{Entry, notes};
 use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
 use crate::glue::call::{Call, Text};
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Ask as _, unify_atom};
 use crate::glue::watch;
 use ev3_json::Json;
 use ev3_signals::latch::{self, Reason};
@@ -53,7 +53,7 @@ fn log_commands<'a, C: QueryableContextType>(
         let texts = context.new_term_ref();
         let number = context.new_term_ref();
         number.unify(u64::from(cause))?;
-        context.call_once(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
+        context.ask(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
         call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
     })
 }
