@@ -45,6 +45,7 @@ else
 # In minutes: a browser is waited for most of the time, so Prolog runs beside it
 check: build check-rust
 	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
+	$(MAKE) check-endings
 endif
 
 # Every predicate can be called, a motor and a sensor do what they should, and a robot
@@ -57,7 +58,6 @@ check-install:
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
 check-all: lint check
-	$(MAKE) check-endings
 	$(MAKE) dist
 	$(MAKE) check-torture
 	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
