@@ -90,15 +90,12 @@ predicates! {
         Ok(())
     }
 
-    /// branches_leave_: branches are left from now on. Their clean-ups may wait, and time passes,
-    /// but within 20 ms they are asked again to end.
+    /// branches_leave_: a branch is left from now on. Its clean-ups may wait, and time passes.
     #[module("ev3dev_native")]
     #[name("branches_leave_")]
-    semidet fn branches_leave(context) {
-        let now = Call::of(context, "both", 2).devices()?.tree().now();
-        let again = now.saturating_add(BRANCHES_LOOK);
-        waiting::leave_branches(again);
-        Ok(())
+    semidet fn branches_leave(_context) {
+        waiting::leave_branches();
+        into_prolog_result(true)
     }
 
     /// read_on_: the next read of a branch lets no other go on before.

@@ -678,31 +678,18 @@ answers([]).
 answers([branch(_, _, Goal, true(Goal), _, _)|Branches]) :-
     answers(Branches).
 
-%   By an exception, so that clean-ups run; one that catches everything is
-%   destroyed.
+%   To destroy an engine runs its clean-ups, which may wait.
 leave_branches([]).
-leave_branches([Branch|Branches]) :-
-    Branch = branch(_, Engine, _, Over, Commands, _),
+leave_branches([branch(_, Engine, _, Over, Commands, _)|Branches]) :-
     (   Over == false
-    ->  leave_branch(3, Engine),
-        motors_stopped(Commands)
+    ->  motors_stopped(Commands)
     ;   true
     ),
-    catch(engine_destroy(Engine), _, true),
+    setup_call_cleanup(
+        branches_leave_,
+        catch(engine_destroy(Engine), _, true),
+        branches_end_),
     leave_branches(Branches).
-
-leave_branch(Times, Engine) :-
-    (   Times > 0,
-        catch(engine_post(Engine, leave), _, fail),
-        setup_call_cleanup(
-            branches_leave_,
-            catch(engine_next(Engine, Answer), _, fail),
-            branches_end_),
-        Answer == tick
-    ->  Next is Times - 1,
-        leave_branch(Next, Engine)
-    ;   true
-    ).
 
 motors_stopped([]).
 motors_stopped([From-Before|Ranges]) :-
@@ -711,14 +698,8 @@ motors_stopped([From-Before|Ranges]) :-
 
 :- multifile ev3dev_waits:yield/0.
 
-%   A branch lets the others go on, and may be left.
 ev3dev_waits:yield :-
-    engine_yield(tick),
-    (   catch(engine_fetch(leave), _, fail)
-    ->  nb_setval(ev3dev_branch, left),
-        throw(ev3dev_branch_left)
-    ;   true
-    ).
+    engine_yield(tick).
 
 :- else.
 

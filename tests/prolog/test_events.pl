@@ -356,6 +356,26 @@ test(a_clean_up_may_wait) :-
           Notes),
     times(Notes, cleaned, Times),
     near_all(Times, [2.01]).
+test(a_clean_up_waits_on_while_events_are_due) :-
+    noted([], ( every(0.3, note(every)),
+                race([setup_call_cleanup(true, wait(9), ( wait(1), note(cleaned) )), wait(1)], 2),
+                wait(0.5) ), Notes),
+    times(Notes, cleaned, Times),
+    near_all(Times, [2.01]),
+    times(Notes, every, Every),
+    near_all(Every, [0.31, 0.61, 0.91, 2.01, 2.11, 2.41]).
+test(a_clean_up_within_a_branch_may_wait) :-
+    noted([], race([( race([setup_call_cleanup(true, wait(9), ( wait(1), note(cleaned) )),
+                            wait(1)], 2), wait(9) ), wait(3)], 2), Notes),
+    times(Notes, cleaned, Times),
+    near_all(Times, [2.01]).
+test(until_leaves_a_wait_of_a_clean_up) :-
+    noted([], race([setup_call_cleanup(true, wait(9),
+                                       ( until(( ev3_time(T), T > 1.5 ), wait(9), Which),
+                                         note(Which) )),
+                    wait(1)], 2), Notes),
+    times(Notes, condition, Times),
+    near_all(Times, [1.5]).
 test(waits_do_not_add_up) :-
     noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
     noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),

@@ -21,9 +21,9 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, with a
-choice point, and at its end its reason, or what is to be thrown. So a caller
-writes
+A native wait returns `pause` or `tick` after each slice of time, or `yield` in
+a branch, with a choice point, and at its end its reason, or what is to be
+thrown. So a caller writes
 
 ```
     wait_(Seconds, Reason),
@@ -55,6 +55,11 @@ waited(Reason) :-
         fail
     ;   Reason == tick
     ->  no_guard,
+        serve,
+        fail
+    ;   Reason == yield
+    ->  no_guard,
+        yield,
         serve,
         fail
     ;   Reason = throw(Formal, Called, Message)
@@ -168,7 +173,7 @@ serve_at_read :-
     (   nb_current(ev3dev_guard, Name),
         Name \== []
     ->  true
-    ;   branch(_)
+    ;   branch
     ->  true
     ;   serve
     ).
@@ -187,7 +192,7 @@ read_after_others(Read) :-
         Name \== []
     ->  true
     ;   yield_if_possible,
-        serve_own
+        serve
     ),
     read_on_,
     ev3dev_native:Read.
@@ -198,13 +203,12 @@ read_after_others(Read) :-
 %   events, if it is time to; if it runs a branch itself, others go on.
 
 let_others_go_on :-
-    (   branch(_)
+    (   branch
     ->  yield_if_possible
     ;   serve_if_due_
     ).
 
-%   `true`, or `left` if it is asked to end.
-branch(Branch) :-
+branch :-
     nb_current(ev3dev_branch, Branch),
     Branch \== [].
 
@@ -230,16 +234,6 @@ yield_if_possible :-
     yield/0.
 
 serve :-
-    (   branch(Branch)
-    ->  (   Branch == left
-        ->  yield_if_possible
-        ;   yield
-        )
-    ;   true
-    ),
-    serve_own.
-
-serve_own :-
     forall(serve_planned, true),
     listeners(Listeners),
     serve(Listeners).
