@@ -7,14 +7,6 @@ use ev3_driver::wait::AnyWait;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_buttons();
-    register_button_wait();
-    register_button_source();
-    register_button_event();
-}
-
 /// The button events from the opening of the source to its close.
 #[arc_blob("ev3_buttons", defaults)]
 struct Source {
@@ -42,11 +34,9 @@ pub(crate) fn close_sources() {
     }
 }
 
-predicates! {
+natives! {
     /// buttons_(-Keys)
-    #[module("ev3dev_native")]
-    #[name("buttons_")]
-    semidet fn buttons(context, keys) {
+    semidet fn "buttons_"(context, keys) {
         let call = Call::of(context, "button", 1);
         let pressed = call.or_throw(keys::pressed(&*call.dev()?))?;
         let pressed = pressed.map_or_else(|| call.lacking("buttons"), Ok)?;
@@ -56,9 +46,7 @@ predicates! {
 
     /// button_wait_(?Key, ?Event, +Timeout, -Reason): `over` at the end. Fails if the time
     /// is up before.
-    #[module("ev3dev_native")]
-    #[name("button_wait_")]
-    nondet fn button_wait<UntilEvent>(context, key, event, timeout, reason) {
+    nondet fn "button_wait_"<UntilEvent>(context, key, event, timeout, reason) {
         setup => {
             let call = Call::of(context, "button_wait", 3);
             let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
@@ -72,9 +60,7 @@ predicates! {
     }
 
     /// button_source_(-Source)
-    #[module("ev3dev_native")]
-    #[name("button_source_")]
-    semidet fn button_source(context, source) {
+    semidet fn "button_source_"(context, source) {
         let call = Call::of(context, "button_events", 1);
         let events = events_from_now(&call)?;
         let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
@@ -84,9 +70,7 @@ predicates! {
     }
 
     /// button_event_(+Source, +Index, -Key, -Event, -Reason): `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("button_event_")]
-    nondet fn button_event<UntilEvent>(context, source, index, key, event, reason) {
+    nondet fn "button_event_"<UntilEvent>(context, source, index, key, event, reason) {
         setup => {
             let call = Call::of(context, "button_events", 1);
             let source: Arc<Source> = source.get_ex()?;

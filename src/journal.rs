@@ -11,21 +11,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_cause();
-    register_cause_now();
-    register_cause_set();
-    register_cause_active();
-    register_journal_entry();
-}
-
-predicates! {
+natives! {
     /// cause_(-Cause, -Former): from now on this thread acts for a new cause. The former
     /// one is back as soon as the choice point of this call is gone.
-    #[module("ev3dev_native")]
-    #[name("cause_")]
-    nondet fn cause<Cause>(_context, cause, former) {
+    nondet fn "cause_"<Cause>(_context, cause, former) {
         setup => {
             Cause::begin().map(Some).ok_or(PrologError::Failure)
         },
@@ -41,33 +30,25 @@ predicates! {
     }
 
     /// cause_now_(-Cause): 0 if there is none.
-    #[module("ev3dev_native")]
-    #[name("cause_now_")]
-    semidet fn cause_now(_context, cause) {
+    semidet fn "cause_now_"(_context, cause) {
         cause.unify(u64::from(origin().cause))
     }
 
     /// cause_set_(+Cause)
-    #[module("ev3dev_native")]
-    #[name("cause_set_")]
-    semidet fn cause_set(context, cause) {
+    semidet fn "cause_set_"(context, cause) {
         set_cause(number(&Call::of(context, "because", 2), cause)?);
         Ok(())
     }
 
     /// cause_active_(+Cause): some thread or engine still acts for it.
-    #[module("ev3dev_native")]
-    #[name("cause_active_")]
-    semidet fn cause_active(context, cause) {
+    semidet fn "cause_active_"(context, cause) {
         let cause = number(&Call::of(context, "because", 2), cause)?;
         into_prolog_result(active().contains(&cause))
     }
 
     /// journal_entry_(-Time, -Act, -Cause, -Called): the last first. Called is
     /// `Name/Arity`, or `none`.
-    #[module("ev3dev_native")]
-    #[name("journal_entry_")]
-    nondet fn journal_entry<std::vec::IntoIter<Entry>>(context, time, act, cause, called) {
+    nondet fn "journal_entry_"<std::vec::IntoIter<Entry>>(context, time, act, cause, called) {
         setup => {
             let call = Call::of(context, "journal", 1);
             Ok(Some(call.devices()?.journal().entries().into_iter()))

@@ -12,18 +12,10 @@ thread_local! {
     static LIMITS: RefCell<Vec<i64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Registers the predicates below.
-pub(super) fn register() {
-    register_limit_call();
-    register_limit_insist();
-}
-
-predicates! {
+natives! {
     /// limit_call_(+Id, :Goal): calls Goal once. What it throws ends it well if
     /// `ev3dev_limits:is_left_by/2` says so.
-    #[module("ev3dev_native")]
-    #[name("limit_call_")]
-    semidet fn limit_call(context, id, goal) {
+    semidet fn "limit_call_"(context, id, goal) {
         let rounds = waiting::rounds();
         let number = id.get()?;
         LIMITS.with_borrow_mut(|limits| limits.push(number));
@@ -40,9 +32,7 @@ predicates! {
     /// limit_insist_(+Id, +Thread, :Goal, +Ball): if this thread still is in that limit, throws
     /// Ball, and has Goal called as soon as that was caught: also before the first goal of a
     /// recovery.
-    #[module("ev3dev_native")]
-    #[name("limit_insist_")]
-    semidet fn limit_insist(context, id, thread, goal, ball) {
+    semidet fn "limit_insist_"(context, id, thread, goal, ball) {
         let number: i64 = id.get()?;
         if LIMITS.with_borrow(|limits| limits.contains(&number)) {
             context.ask(pred!("thread_signal/2"), [thread, goal])?;

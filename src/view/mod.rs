@@ -5,9 +5,9 @@
 mod believed;
 mod brick;
 mod commands;
-mod door;
+pub(crate) mod door;
 mod frame;
-mod hand;
+pub(crate) mod hand;
 mod notes;
 mod reach;
 mod threads;
@@ -23,27 +23,6 @@ use ev3_json::Json;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    door::register();
-    hand::register();
-    register_view_open();
-    register_view_close();
-    register_view_thread();
-    register_view_frame();
-    register_view_keep();
-    register_view_log();
-    register_view_value();
-    register_view_latch();
-    register_view_lift();
-    register_view_stop_motors();
-    register_view_source();
-    register_view_users();
-    register_view_serves();
-    register_view_json();
-    register_view_to_world();
-}
-
 /// Adds what the program has commanded meanwhile to the log.
 fn log_commands<'a, C: QueryableContextType>(
     context: &'a Context<'a, C>,
@@ -58,20 +37,16 @@ fn log_commands<'a, C: QueryableContextType>(
     })
 }
 
-predicates! {
+natives! {
     /// view_open_: somebody may watch from now on.
-    #[module("ev3dev_native")]
-    #[name("view_open_")]
-    semidet fn view_open(_context) {
+    semidet fn "view_open_"(_context) {
         watch::set_watched(true);
         keep_samples(true);
         into_prolog_result(true)
     }
 
     /// view_close_: nobody does any more. Time passes as fast as ever.
-    #[module("ev3dev_native")]
-    #[name("view_close_")]
-    semidet fn view_close(_context) {
+    semidet fn "view_close_"(_context) {
         watch::set_watched(false);
         keep_samples(false);
         if let Some(simulation) = running_simulation() {
@@ -84,18 +59,14 @@ predicates! {
 
     /// view_thread_(+Serves): this thread serves a page from now on, and is no part of the
     /// program; or it ends.
-    #[module("ev3dev_native")]
-    #[name("view_thread_")]
-    semidet fn view_thread(_context, serves) {
+    semidet fn "view_thread_"(_context, serves) {
         threads::serve(serves.get_ex()?);
         Ok(())
     }
 
     /// view_frame_(+Have, +State, +Settings, -Text): the next frame for a page that has some. State is
     /// that of the program; Settings are members of the frame that never change.
-    #[module("ev3dev_native")]
-    #[name("view_frame_")]
-    semidet fn view_frame(context, have, state, settings, text) {
+    semidet fn "view_frame_"(context, have, state, settings, text) {
         let call = Call::of(context, "view", 1);
         let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
         log_commands(context, &call)?;
@@ -103,9 +74,7 @@ predicates! {
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
-    #[module("ev3dev_native")]
-    #[name("view_keep_")]
-    semidet fn view_keep(context, name, json) {
+    semidet fn "view_keep_"(context, name, json) {
         let call = Call::of(context, "view", 1);
         let (name, json) = (call.text(name)?, call.text(json)?);
         notes().keep(&name, &json);
@@ -113,9 +82,7 @@ predicates! {
     }
 
     /// view_log_(+Kind, +Text, +Causes, +Thread)
-    #[module("ev3dev_native")]
-    #[name("view_log_")]
-    semidet fn view_log(context, kind, text, causes, thread) {
+    semidet fn "view_log_"(context, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
         let owned = |term: &Term| call.text(term).map(Text::into_owned);
         // What was commanded before stands before it.
@@ -132,9 +99,7 @@ predicates! {
     }
 
     /// view_value_(+Name, +Number)
-    #[module("ev3dev_native")]
-    #[name("view_value_")]
-    semidet fn view_value(context, name, number) {
+    semidet fn "view_value_"(context, name, number) {
         let call = Call::of(context, "view_value", 2);
         let (name, number, time) = (call.text(name)?, call.float(number)?, seconds());
         notes().value(&name, time, number);
@@ -142,46 +107,34 @@ predicates! {
     }
 
     /// view_latch_: no motor starts from now on.
-    #[module("ev3dev_native")]
-    #[name("view_latch_")]
-    semidet fn view_latch(_context) {
+    semidet fn "view_latch_"(_context) {
         latch::set(Reason::Stopped);
         into_prolog_result(true)
     }
 
     /// view_lift_: motors may start again.
-    #[module("ev3dev_native")]
-    #[name("view_lift_")]
-    semidet fn view_lift(_context) {
+    semidet fn "view_lift_"(_context) {
         latch::lift(Reason::Stopped);
         into_prolog_result(true)
     }
 
     /// view_stop_motors_: stops all motors that are connected, with brake, at once.
-    #[module("ev3dev_native")]
-    #[name("view_stop_motors_")]
-    semidet fn view_stop_motors(context) {
+    semidet fn "view_stop_motors_"(context) {
         Call::of(context, "view", 1).or_throw(stop_motors())
     }
 
     /// view_users_(-Threads): the numbers of the threads that have used devices.
-    #[module("ev3dev_native")]
-    #[name("view_users_")]
-    semidet fn view_users(_context, list) {
+    semidet fn "view_users_"(_context, list) {
         list.unify(threads::users().collect::<Vec<_>>().as_slice())
     }
 
     /// view_serves_: this thread serves a page.
-    #[module("ev3dev_native")]
-    #[name("view_serves_")]
-    semidet fn view_serves(_context) {
+    semidet fn "view_serves_"(_context) {
         into_prolog_result(threads::serves())
     }
 
     /// view_json_(+Text, -Json): a text as JSON, all of it ASCII.
-    #[module("ev3dev_native")]
-    #[name("view_json_")]
-    semidet fn view_json(context, text, json) {
+    semidet fn "view_json_"(context, text, json) {
         let mut written = Json::new();
         written.text(&Call::of(context, "view", 1).text(text)?);
         json.unify(written.as_text())
@@ -189,9 +142,7 @@ predicates! {
 
     /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and
     /// the turn from its frame to the world's.
-    #[module("ev3dev_native")]
-    #[name("view_to_world_")]
-    semidet fn view_to_world(context, x, y, world_x, world_y, turn) {
+    semidet fn "view_to_world_"(context, x, y, world_x, world_y, turn) {
         let call = Call::of(context, "view", 1);
         let to_world = believed::ToWorld::now();
         let [x, y] = to_world.point([call.float(x)?, call.float(y)?]);
@@ -201,9 +152,7 @@ predicates! {
     }
 
     /// view_source_(-Source): `sim`, `brick` or `none`.
-    #[module("ev3dev_native")]
-    #[name("view_source_")]
-    semidet fn view_source(_context, source) {
+    semidet fn "view_source_"(_context, source) {
         unify_atom(source, frame::source())
     }
 }

@@ -250,7 +250,7 @@ missing.
 % Motors without rotation sensor
 
 %!  dc_motor_run_(+Port, +Speed) is semidet.
-%!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is semidet.
+%!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is nondet.
 %
 %   `src/dc_motors.rs`
 
