@@ -3,8 +3,9 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
+use ev3_driver::lock::locked;
 use ev3_driver::wait::AnyWait;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use swipl::prelude::*;
 
 /// The button events from the opening of the source to its close.
@@ -13,24 +14,16 @@ struct Source {
     events: Mutex<Option<Arc<Events>>>,
 }
 
-impl Source {
-    fn events(&self) -> MutexGuard<'_, Option<Arc<Events>>> {
-        self.events.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
+impl Source {}
 
 /// The sources that somebody may still read.
 static SOURCES: Mutex<Vec<Weak<Source>>> = Mutex::new(Vec::new());
 
-fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
-    SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Closes all sources, because their file system is going away. Later reads fail.
 #[cfg(feature = "fuse")]
 pub(crate) fn close_sources() {
-    for source in sources().drain(..).filter_map(|source| source.upgrade()) {
-        *source.events() = None;
+    for source in locked(&SOURCES).drain(..).filter_map(|source| source.upgrade()) {
+        *locked(&source.events) = None;
     }
 }
 
@@ -64,8 +57,8 @@ natives! {
         let call = Call::of(context, "button_events", 1);
         let events = events_from_now(&call)?;
         let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
-        sources().retain(|source| source.strong_count() > 0);
-        sources().push(Arc::downgrade(&opened));
+        locked(&SOURCES).retain(|source| source.strong_count() > 0);
+        locked(&SOURCES).push(Arc::downgrade(&opened));
         source.unify(opened)
     }
 
@@ -75,7 +68,7 @@ natives! {
             let call = Call::of(context, "button_events", 1);
             let source: Arc<Source> = source.get_ex()?;
             let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
-            let events = source.events().clone().ok_or(PrologError::Failure)?;
+            let events = locked(&source.events).clone().ok_or(PrologError::Failure)?;
             Ok(Some(events.until_nth(index)))
         },
         call(waiting) => {

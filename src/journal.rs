@@ -5,9 +5,10 @@ use crate::glue::terms::unify_atom;
 use ev3_driver::course::{Command, DriveOptions, Leg};
 use ev3_driver::journal::{Act, Course, Entry, LightChange, MotorCommand, Name};
 use ev3_driver::journal::{SoundCommand, origin, set_cause};
+use ev3_driver::lock::locked;
 use std::collections::BTreeSet;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -43,7 +44,7 @@ natives! {
     /// cause_active_(+Cause): some thread or engine still acts for it.
     semidet fn "cause_active_"(context, cause) {
         let cause = number(&Call::of(context, "because", 2), cause)?;
-        into_prolog_result(active().contains(&cause))
+        into_prolog_result(locked(&ACTIVE).contains(&cause))
     }
 
     /// journal_entry_(-Time, -Act, -Cause, -Called): the last first. Called is
@@ -81,10 +82,6 @@ static LAST: AtomicU32 = AtomicU32::new(0);
 /// The causes for which somebody acts.
 static ACTIVE: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
 
-fn active() -> MutexGuard<'static, BTreeSet<u32>> {
-    ACTIVE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// A cause of what this thread does, until it is dropped.
 struct Cause {
     number: u32,
@@ -98,7 +95,7 @@ impl Cause {
     fn begin() -> Option<Self> {
         let number = LAST.fetch_add(1, Ordering::Relaxed).wrapping_add(1);
         let former = origin().cause;
-        active().insert(number).then(|| {
+        locked(&ACTIVE).insert(number).then(|| {
             set_cause(number);
             Self { number, former, is_over: false }
         })
@@ -107,7 +104,7 @@ impl Cause {
 
 impl Drop for Cause {
     fn drop(&mut self) {
-        active().remove(&self.number);
+        locked(&ACTIVE).remove(&self.number);
         // Not in an engine that is destroyed while another one runs.
         if origin().cause == self.number {
             set_cause(self.former);

@@ -4,7 +4,7 @@ use crate::glue::places::{place, place_term, places_term};
 use crate::roadmap::{map_of, no_way, options_of};
 use ev3_motion::Pose;
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 use swipl::prelude::*;
 
 /// The echoes that a robot has measured on its path.
@@ -91,7 +91,7 @@ natives! {
 }
 
 fn locked(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
-    seen.views.lock().unwrap_or_else(PoisonError::into_inner)
+    ev3_driver::lock::locked(&seen.views)
 }
 
 /// step(Heading, Length, Safe, Unseen, Rest, Way)

@@ -3,6 +3,7 @@ use crate::glue::{signals, watch};
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
+use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use std::path::{Path, PathBuf};
 use std::sync::{
@@ -209,17 +210,17 @@ pub(crate) fn sound() -> &'static Sound {
 
 /// The picture that this program has drawn.
 pub(crate) fn frame() -> MutexGuard<'static, Frame> {
-    BRICK.frame.lock().unwrap_or_else(PoisonError::into_inner)
+    locked(&BRICK.frame)
 }
 
 /// Sets aside what this program has drawn, and begins a blank picture.
 pub(crate) fn set_frame_aside() {
     let before = std::mem::take(&mut *frame());
-    BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).push(before);
+    locked(&BRICK.frames_aside).push(before);
 }
 
 /// Has what was set aside last in the place of what was drawn since.
 pub(crate) fn give_frame_back() {
-    let before = BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    let before = locked(&BRICK.frames_aside).pop();
     *frame() = before.unwrap_or_default();
 }

@@ -23,13 +23,14 @@ use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_driver::Registry;
 use ev3_driver::device::sleep::Sleep;
+use ev3_driver::lock::locked;
 use ev3_driver::wait::Slices;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -270,7 +271,7 @@ natives! {
     /// sim_restore_(+Snapshot)
     semidet fn "sim_restore_"(context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
-        let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let machine = locked(&snapshot.machine).clone();
         let simulation = simulation(context)?;
         simulation.machine().restore(machine);
         simulation.machine().keep_samples(watch::is_watched());

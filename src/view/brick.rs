@@ -3,10 +3,11 @@ use super::believed::{believed, report_believed};
 use super::notes::notes;
 use crate::glue::state::{dev, devices};
 use ev3_driver::brick::{buttons, screen};
+use ev3_driver::lock::locked;
 use ev3_driver::{Class, Device, Registry, motor};
 use ev3_json::Json;
 use std::collections::VecDeque;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// How often the files are read at most.
@@ -46,7 +47,7 @@ pub(super) fn report(json: &mut Json) -> Duration {
     });
     json.key("see").array(|_| {});
     json.key("beams").array(|_| {});
-    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut read = locked(&READ);
     let tree = devices.tree().root().to_string_lossy().into_owned();
     let is_fresh = |read: &Read| read.tree == tree && read.at.elapsed() < EVERY;
     if !read.as_ref().is_some_and(is_fresh) {
@@ -71,7 +72,7 @@ pub(super) fn report(json: &mut Json) -> Duration {
 
 /// Writes the samples after a moment, in microseconds; returns the time of the last one.
 pub(super) fn report_samples(json: &mut Json, after: u64) -> Option<u64> {
-    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = locked(&READ);
     let rows: Vec<_> = read.as_ref()?.samples.iter().filter(|row| row.at > after).collect();
     let last = rows.last()?.at;
     let mut columns: Vec<(&str, &str)> = Vec::new();

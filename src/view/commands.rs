@@ -4,7 +4,8 @@ use crate::glue::state::chosen_devices;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, DriveOptions};
 use ev3_driver::journal::{Act, Course, LightChange, MotorCommand, SoundCommand};
-use std::sync::{Arc, Mutex, PoisonError};
+use ev3_driver::lock::locked;
+use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
 /// How far the journal is in the log: of which devices, and how many entries.
@@ -17,7 +18,7 @@ pub(super) fn log_new(
     let Some(devices) = chosen_devices() else {
         return Ok(());
     };
-    let mut logged = LOGGED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut logged = locked(&LOGGED);
     let address = Arc::as_ptr(&devices).addr();
     let after = if logged.0 == address { logged.1 } else { 0 };
     let (entries, count) = devices.journal().after(after);

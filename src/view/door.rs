@@ -4,9 +4,10 @@ use super::reach::{outside, running_simulation, stop_motors};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
+use ev3_driver::lock::locked;
 use ev3_signals::latch::{self, Reason};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
 /// The server, if there is one.
@@ -40,7 +41,7 @@ natives! {
         match Door::open(Site { any, port, token, files, made: &MADE, stop }) {
             Ok(door) => {
                 let port = door.port();
-                *locked() = Some(Arc::new(door));
+                *locked(&DOOR) = Some(Arc::new(door));
                 served.unify(u64::from(port))
             }
             Err(error) => served.unify(error.to_string().as_str()),
@@ -93,7 +94,7 @@ natives! {
     semidet fn "view_shut_"(context, bye) {
         let bye = Call::of(context, "view_stop", 0).text(bye)?;
         door()?.close(&bye);
-        *locked() = None;
+        *locked(&DOOR) = None;
         Ok(())
     }
 }
@@ -105,13 +106,9 @@ fn stop() {
     let _ = stop_motors();
 }
 
-fn locked() -> MutexGuard<'static, Option<Arc<Door>>> {
-    DOOR.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// The server; fails if there is none.
 fn door() -> PrologResult<Arc<Door>> {
-    locked().clone().ok_or(PrologError::Failure)
+    locked(&DOOR).clone().ok_or(PrologError::Failure)
 }
 
 /// A page; fails if it was left.

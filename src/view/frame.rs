@@ -6,12 +6,13 @@ use super::notes::notes;
 use super::reach::running_simulation;
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
+use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_signals::latch;
 use ev3_sim::{Beside, Clock, MOTOR_KINDS, Machine, Pose, SensorKind, Simulation};
 use std::fmt;
 use std::str::FromStr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// What a page has: counts of what was sent, in the order of the fields.
@@ -142,7 +143,7 @@ fn micros(time: Duration) -> u64 {
 
 /// The time, and what all pages are sent alike.
 fn shared(source: &Source, film: u64) -> (Duration, Arc<str>) {
-    let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut shared = locked(&SHARED);
     if let Some(old) = &*shared {
         if old.film == film && old.made.elapsed() < SHARED_FOR {
             return (old.time, Arc::clone(&old.text));
@@ -177,7 +178,7 @@ fn report_simulation(json: &mut Json, simulation: &Simulation) -> Duration {
 /// Renews what is only sent when it has changed.
 fn keep_versions(machine: &Machine) {
     static VERSIONS: Mutex<Option<[u64; 3]>> = Mutex::new(None);
-    let mut versions = VERSIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut versions = locked(&VERSIONS);
     let now = [film(), machine.world_version(), machine.screen_version()];
     let before = versions.replace(now);
     let [film, world, screen] = before.unwrap_or_default();

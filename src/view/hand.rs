@@ -4,8 +4,9 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch::film;
+use ev3_driver::lock::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
 /// The driver of what was pulled out of each port.
@@ -62,7 +63,7 @@ natives! {
         if is_pulled {
             let mut now = pulled();
             now[port as usize] = driver;
-            *locked() = (film(), now);
+            *locked(&PULLED) = (film(), now);
         }
         into_prolog_result(is_pulled)
     }
@@ -97,12 +98,8 @@ fn simulation() -> PrologResult<Arc<Simulation>> {
 
 /// What was pulled out of each port.
 pub(super) fn pulled() -> Pulled {
-    let (of, pulled) = *locked();
+    let (of, pulled) = *locked(&PULLED);
     if of == film() { pulled } else { Pulled::default() }
-}
-
-fn locked() -> MutexGuard<'static, (u64, Pulled)> {
-    PULLED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Port> {
