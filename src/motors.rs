@@ -287,9 +287,7 @@ pub(crate) fn stop_action<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
 ) -> PrologResult<StopAction> {
-    let word = call.text(term)?;
-    let actions = [StopAction::Coast, StopAction::Brake, StopAction::Hold];
-    match actions.into_iter().find(|action| action.word() == word) {
+    match StopAction::named(&call.text(term)?) {
         Some(action) => Ok(action),
         None => wrong_value(call, "stop_action", term),
     }

@@ -23,9 +23,6 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-/// The frequencies that the speaker can do, in Hz.
-pub const FREQUENCIES: std::ops::RangeInclusive<u32> = 100..=10000;
-
 /// The paths of the tone generator: ev3dev-stretch, jessie.
 const DEVICES: [&str; 2] =
     ["input/by-path/platform-sound-event", "input/by-path/platform-snd-legoev3-event"];
