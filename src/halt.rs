@@ -30,7 +30,7 @@ natives! {
     }
 
     /// at_halt_(+Stops): Prolog is about to halt, and is to stop the motors, or to leave them,
-    /// if that is not cancelled.
+    /// if that is not canceled.
     semidet fn "at_halt_"(_context, stops) {
         let stops = stops.get_ex()?;
         STOPS.store(stops, Ordering::Relaxed);

@@ -50,8 +50,8 @@ natives! {
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
     /// move(Port, Speed, Degrees), to(Port, Speed, Degrees) and
     /// for(Port, Speed, Seconds), options is
-    /// options(StopAction, RampUp, RampDown, Wait, Timeout). Who leaves the wait stops
-    /// the motors.
+    /// options(StopAction, RampUp, RampDown, Wait, Timeout). If the wait is left, the
+    /// motors stop.
     nondet fn "motor_turn_"<Slices<Moving>>(context, moves, options, reason) {
         setup => {
             let call = Call::of(context, "motor_run", 4);

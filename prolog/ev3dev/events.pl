@@ -267,9 +267,9 @@ serve :-
     ).
 
 %   The native code calls this in the main thread while Prolog waits for input
-%   at its terminal, if it is time to serve. What the toplevel waits for is a
-%   query; a program that reads, or is looked at in a break or by the tracer,
-%   is not interrupted.
+%   at its terminal, if it is time to serve. It serves while the
+%   toplevel waits for a query; it does not interrupt a program that reads, or
+%   that a break or the tracer shows.
 :- public serve_at_prompt/0.
 
 serve_at_prompt :-
@@ -390,8 +390,7 @@ change(Id, State) :-
     ;   true
     ).
 
-%   What a program's own interrupt is goes on its way: only errors are
-%   printed. The event stays in either case, also after an abort, which
+%   Prints errors; a program's own interrupt goes on its way. The event stays in either case, also after an abort, which
 %   catch/3 does not see.
 happen(Id, Kind, Action) :-
     setup_call_cleanup(true,
@@ -497,7 +496,7 @@ until_tick(Id, Condition, Listener) :-
     ;   true
     ).
 
-%   What did not wait goes on by itself.
+%   Waits for ever after a goal that did not wait: what it started goes on.
 to_the_end(Goal) :-
     slices_(Slices0),
     goal_of_program(Goal),

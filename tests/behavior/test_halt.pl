@@ -7,7 +7,7 @@
 
 % What the motors were told last, once a program is over.
 
-% Since 9.3 halt/0 unwinds the stack, and does not come back if it is cancelled; and
+% Since 9.3 halt/0 unwinds the stack, and does not come back if it is canceled; and
 % thread_exit/1 does not end the main thread.
 halt_returns :-
     current_prolog_flag(version, Version),
@@ -104,7 +104,7 @@ test(a_robot_that_is_driven_is_stopped,
             main :- set_robot(5.6, 10.6, outB, outC), ~s.", [Goal]),
     after_program(Tree, Text, [goal(main)], Status, C).
 
-% From the end on no motor starts, whoever tries.
+% From the end on no thread starts a motor.
 test(what_goes_on_while_prolog_halts_starts_no_motor,
      [ forall(( tree(Tree),
                 Tree \== simulator,

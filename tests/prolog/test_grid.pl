@@ -204,9 +204,9 @@ test(cells_may_be_wider_and_the_origin_elsewhere) :-
                set_grid([ bounds(0, 0, 10, 10), start([1, 1], [0, 1]),
                           cell_cm(30), origin(15, 15) ]),
                plan_and_go_to([1, 9], _),
-               col_color(in2, Colour),
+               col_color(in2, Color),
                sim_collisions(Collisions) )),
-    Colour == 5,
+    Color == 5,
     Collisions == [].
 
 :- end_tests(worlds).

@@ -2,7 +2,7 @@
 //!
 //! A program whose motors were stopped could start them again before it ends, or before it
 //! has been interrupted. So whatever starts a motor looks at the latch last, beside its
-//! write and under the motor's lock; and whoever stops the motors sets it first. A handler
+//! write and under the motor's lock; and a stop of the motors sets it first. A handler
 //! of a signal may do so, too.
 use std::sync::atomic::{AtomicU8, Ordering};
 

@@ -2,7 +2,7 @@
 //!
 //! The kernel lets a motor run on when the program that started it has gone. So:
 //!
-//! * Whoever stops the motors sets a [`latch`] first: from then on none starts.
+//! * A stop of the motors sets a [`latch`] first: from then on none starts.
 //! * A signal that asks the program to end, as SIGTERM, goes to two threads first
 //!   ([`watch`]). They stop the motors and then let Prolog have the signal; and the process
 //!   ends within [`PATIENCE`], whatever Prolog does.

@@ -10,7 +10,7 @@
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
 
-use crate::shared::locked;
+use crate::lock::locked;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, Thread};
@@ -65,7 +65,7 @@ struct Stand {
     wall: Option<Instant>,
 }
 
-/// Who goes first of those that wait for the same moment.
+/// Orders the threads that wait for the same moment.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     /// Those that had a turn, and did not sleep elsewhere since: in the order of their first.

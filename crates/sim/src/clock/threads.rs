@@ -3,7 +3,7 @@
 //! A thread that can run is not asleep, also while other programs have the processors. Nothing
 //! here depends on how much wall time passes.
 
-use crate::shared::locked;
+use crate::lock::locked;
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io::Read;
@@ -77,7 +77,7 @@ impl Threads {
     /// in line may have been awake since.
     ///
     /// Two looks tell: a thread that was asleep in both, and has left its processor equally often,
-    /// did not run in between. Who stands in line and is awake may hold a lock that a sleeper
+    /// did not run in between. A thread that is awake in line may hold a lock that a sleeper
     /// waits for, so these have to be asleep between the looks. One look tells that nobody has run
     /// since the last time, but those in line.
     pub(super) fn rest(&mut self, stands: impl Fn(Id) -> bool) -> bool {
