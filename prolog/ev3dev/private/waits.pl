@@ -12,7 +12,7 @@
 :- use_module(native,
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
               ]).
-:- use_module(one_of, [one_of/2]).
+:- use_module(one_of, [append_lists/3, one_of/2]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -99,7 +99,7 @@ listening(Seconds, Closure, Goal) :-
     listeners(Outer),
     period(Outer, Before),
     Period is min(Seconds, Before),
-    append_listener(Outer, listener(Closure, [], Period), Listeners),
+    append_lists(Outer, [listener(Closure, [], Period)], Listeners),
     b_setval(ev3dev_listeners, Listeners),
     tick_after_(Period),
     goal_of_program(Goal),
@@ -111,10 +111,6 @@ listeners(Listeners) :-
     ->  true
     ;   Listeners = []
     ).
-
-append_listener([], Listener, [Listener]).
-append_listener([First|Rest0], Listener, [First|Rest]) :-
-    append_listener(Rest0, Listener, Rest).
 
 %   The period of the innermost is the shortest.
 period([], Period) :-
