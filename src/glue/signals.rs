@@ -3,10 +3,11 @@ use crate::glue::call::Call;
 use crate::glue::state;
 use crate::glue::terms::{Ask as _, unify_atom};
 use ev3_driver::error::{Access, Error};
+use ev3_driver::lock::locked;
 use ev3_signals::Asked;
 use std::io;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 use swipl::prelude::*;
 
 /// Takes such signals from now on: first the motors stop, then Prolog gets the signal.
@@ -14,7 +15,7 @@ use swipl::prelude::*;
 /// is left, Prolog gets the signals as ever.
 pub(crate) fn watch() -> io::Result<()> {
     static IS_WATCHED: Mutex<bool> = Mutex::new(false);
-    let mut is_watched = IS_WATCHED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut is_watched = locked(&IS_WATCHED);
     if !*is_watched {
         ev3_signals::watch(Asked { ends, stop: state::stop_started })?;
         *is_watched = true;
