@@ -174,11 +174,17 @@ test(every_ends_after_its_count) :-
     noted([], ( every(1, note(tick), [count(2)]), wait(3.5) ), Notes),
     times(Notes, tick, Times),
     near_all(Times, [1, 2]).
-test(every_does_not_run_within_itself_nor_make_up, true(Whats == [in, out, in])) :-
-    noted([], ( every(1, ( note(in), wait(1.5), note(out) ), [count(2)]), wait(1.2) ), Notes0),
-    noted([], true, _),
-    findall(W, member(_-W, Notes0), Whats0),
-    append(Whats0, [in], Whats).
+test(every_does_not_run_within_itself_nor_make_up,
+     [ forall(member(Wait-Expected, [ 0.5-[1, 2, 3, 4, 5, 6, 7], 1.5-[1, 3, 5, 7],
+                                      2.5-[1, 4, 7] ])) ]) :-
+    noted([], ( every(1, ( note(in), wait(Wait), note(out) )), wait(7.4) ), Notes),
+    times(Notes, in, Times),
+    near_all(Times, Expected),
+    \+ ( nextto(_-in, _-in, Notes) ; nextto(_-out, _-out, Notes) ).
+test(every_happens_once_for_the_times_at_which_nothing_was_served) :-
+    noted([], ( every(1, note(tick)), sim_step(3.5), wait(2) ), Notes),
+    times(Notes, tick, Times),
+    near_all(Times, [3.5, 4, 5]).
 test(after_is_once) :-
     noted([], ( after(1, note(now)), wait(3), \+ event(_, _) ), Notes),
     times(Notes, now, Times),

@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events), [both/2]).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/journal)).
 :- use_module(library(ev3dev/navigation)).
@@ -69,6 +70,14 @@ test(the_outer_cause_is_back_after_the_inner_one,
     in_room(( because(( catch(ignore(because(Inner, inner)), x, true),
                         motor_run(outB, 20) ), outer),
               why(outB, why(_, _, Causes)) )).
+test(goals_that_go_on_at_the_same_time_keep_their_causes,
+     [ condition(current_predicate(system:engine_create/3)),
+       true([A, B, C] == [[first, outer, called(motor_run/2)], [second, outer, called(motor_run/2)],
+                          [outer, called(motor_run/2)]]) ]) :-
+    in_room(( because(( both(because(( wait(2), motor_run(outA, 20) ), first),
+                             because(( wait(1), motor_run(outB, 20), wait(2) ), second)),
+                        motor_run(outC, 20) ), outer),
+              why(outA, why(_, _, A)), why(outB, why(_, _, B)), why(outC, why(_, _, C)) )).
 test(a_goal_is_called_once, true(Xs == [1])) :-
     findall(X, because(member(X, [1, 2]), cause), Xs).
 test(a_cause_keeps_what_it_was_bound_to,
