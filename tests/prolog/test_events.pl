@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev/events)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
+:- use_module(library(aggregate)).
 :- use_module(library(apply)).
 
 % What the test makes true, and what happens.
@@ -126,6 +127,11 @@ test(an_id_replaces, true(Whats == [second])) :-
           ( on(up(a), note(first), [id(x)]), on(up(a), note(second), [id(x)]), wait(2) ),
           Notes),
     findall(W, member(_-W, Notes), Whats).
+test(one_that_is_replaced_at_a_moment_does_not_happen_then, true(Whats == [second])) :-
+    noted([1-raise(a)],
+          ( on(up(a), on(up(a), note(second), [id(x)])), on(up(a), note(first), [id(x)]),
+            wait(2) ), Notes),
+    findall(W, member(_-W, Notes), Whats).
 test(it_happens_only_once_at_a_time) :-
     noted([ 1-raise(a), 1.2-lower(a), 1.4-raise(a) ],
           ( on(up(a), ( note(in), wait(1), note(out) )), wait(4) ), Notes),
@@ -149,6 +155,10 @@ test(what_is_no_error_ends_the_wait, throws(enough)) :-
     noted([1-raise(a)], ( on(up(a), throw(enough)), wait(2) ), _).
 test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
     noted([], ( on(wait(1), true, [id(x)]), wait(2) ), _).
+test(nothing_of_them_is_left_when_their_simulation_ends, true(Counts == [0, 0, 0])) :-
+    with_sim([], ( on(up(a), true), every(1, true, [id(x)]) )),
+    findall(Count, ( member(Fact, [event_(_, _, _, _), state_(_, _, _), next(_, _)]),
+                     aggregate_all(count, ev3dev_events:Fact, Count) ), Counts).
 test(each_thread_has_its_own, true(Kinds-Notes == []-[])) :-
     noted([1-raise(a)],
           ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id, []),

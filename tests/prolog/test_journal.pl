@@ -96,7 +96,7 @@ test(each_thread_has_its_own_cause, true(Causes == [called(motor_run/2)])) :-
 test(an_error_names_what_the_goal_called,
      error(_, context(motor_run/2, _))) :-
     in_room(because(motor_run(outB, fast), cause)).
-test(what_is_no_goal_throws, error(type_error(callable, 7))) :-
+test(what_is_no_goal_throws, error(type_error(callable, 7), context(because/2, _))) :-
     because(7, cause).
 test(an_unbound_cause_throws, error(instantiation_error, _)) :-
     because(true, _).

@@ -287,6 +287,13 @@ test(the_variables_of_while_are_its_own, true(Whats == [rule(w), 20])) :-
                                                               assertz(value(30)) ) ],
           behave_for(2, [ (w, while(value(S)) :: up(a), value(S) ~> note(S), go(S)) ]), Notes),
     whats(Notes, Whats).
+test(one_that_ended_may_apply_again_though_its_guard_was_false_while_another_acted,
+     true(Whats == [rule(late), late, ended(late), rule(early), ended(early),
+                    rule(late), late, ended(late)])) :-
+    noted([ 0-raise(b), 1-raise(a), 1.5-lower(b), 2-raise(b) ],
+          behave_for(4, [ (early :: up(a) ~> wait(2)), (late :: up(b) ~> note(late), wait(0.1)) ]),
+          Notes),
+    findall(What, ( member(_-What, Notes), What \== rest ), Whats).
 test(min_time_keeps_it, true(Changes == [rule(w), rule(wander)])) :-
     noted([ 0-raise(a), 0.5-lower(a) ],
           behave_for(3, [ (w, min_time(2) :: up(a) ~> go(20)), wander ]), Notes),
@@ -406,6 +413,11 @@ test(what_is_no_rule, [forall(member(R, [7, "x"])), error(type_error(rule, R), _
     behave([R]).
 test(what_is_unbound, error(instantiation_error, _)) :-
     behave([_]).
+test(a_list_of_steps_as_a_part_of_an_action,
+     [ forall(member(Goal, [expand_term(Rule, _), behave([Rule])])),
+       error(type_error(callable, [b]), _) ]) :-
+    Rule = (r :: true ~> wait(1), [b]),
+    call(Goal).
 test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _)) :-
     behave([(r, hurry(1) :: true ~> true)]).
 test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-
