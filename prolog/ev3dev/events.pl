@@ -327,8 +327,7 @@ looked_at(Id, Condition) :-
     catch(in_guard(Id, Condition), E, true),
     (   var(E)
     ->  true
-    ;   b_setval(ev3dev_guard, []),
-        E = error(_, _),
+    ;   E = error(_, _),
         E \= error(permission_error(wait, guard, _), _)
     ->  change(Id, over),
         print_error(E, Id, on),

@@ -474,7 +474,6 @@ goes_on(Module:Options, Name, Start, Behavior) :-
 
 %   An error names the rule.
 failed(E, Name, Where, Behavior) :-
-    b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
     ;   E = error(_, _)
@@ -599,7 +598,6 @@ outcome(ev3dev_leave(Id), Id, _, _, Outcome) :-
     !,
     Outcome = suppressed.
 outcome(E, _, Name, Behavior, Outcome) :-
-    b_setval(ev3dev_behavior, Behavior),
     \+ failed(E, Name, action, Behavior),
     Outcome = thrown.
 
