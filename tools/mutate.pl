@@ -231,6 +231,7 @@ tests([limits, plans],                    [sim_time, sim]).
 tests([ports],                            [ports, hints]).
 tests([prompt],                           [events]).
 tests([roadmap_arguments],                [roadmap, navigation]).
+tests([robot],                            [robot, hints]).
 tests([sensor_type],                      [sensors, calibrate, raw]).
 tests([waits],                            [events, rules, sim_time, threads]).
 

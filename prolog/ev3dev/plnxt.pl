@@ -409,7 +409,6 @@ types(light,      ['lego-nxt-light', 'lego-ev3-color']).
 types(sound,      ['lego-nxt-sound']).
 
 reading_now('lego-nxt-sound', Port, Value) :-
-    !,
     nxt_sound(Port, Value).
 reading_now(Type, Port, Value) :-
     reading_of(Type, On, Off),

@@ -3,7 +3,7 @@
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/plnxt)).
-:- use_module(library(ev3dev/events), [event/2]).
+:- use_module(library(ev3dev/events), [event/2, on/2]).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
@@ -224,8 +224,14 @@ test(have_timers, true(All == [once-1.0, twice-1.5, twice-3.0])) :-
 test(timers_are_killed, true(All == [])) :-
     nxt([], ( timer_create(a, 1, see(a)), timer_create(b, 1, see(b)),
               timer_kill(a), timer_killall, wait(3), all_seen(All) )).
-test(are_listed) :-
-    nxt([], ( trigger_create(a, fail, true), nxt_threads )).
+test(are_listed, true(Ids == [nxt_trigger(a), nxt_timer(b)])) :-
+    nxt([], ( trigger_create(a, fail, true), timer_create(b, 1, true), on(fail, true),
+              setup_call_cleanup(
+                  asserta((user:message_hook(ev3dev(plnxt_events(Listed)), _, _) :-
+                               assertz(user:seen(Listed))), Ref),
+                  nxt_threads,
+                  erase(Ref)),
+              all_seen([Ids]) )).
 
 % True from 1 to 2 s, from 3 to 4 s, ...
 flips :-
