@@ -326,10 +326,10 @@ tested(Copy, Test, Limit, Verdict) :-
     current_prolog_flag(executable, Swipl),
     process_create(path(timeout), ['-k', 5, Limit, Swipl, '-g', Goal, '-t', halt],
                    [cwd(Copy), stdin(null), stdout(null), stderr(null), process(Pid)]),
-    process_wait(Pid, exit(Status)),
-    (   Status =:= 0
+    process_wait(Pid, Status),
+    (   Status == exit(0)
     ->  Verdict = survived
-    ;   memberchk(Status, [124, 137])
+    ;   memberchk(Status, [exit(124), exit(137), killed(9)])
     ->  Verdict = late
     ;   Verdict = killed
     ).

@@ -154,6 +154,14 @@ test(read_if_there_is_no_last_value) :-
     nxt(room, ( nxt_light(L), nxt_ultrasonic(D) )),
     number(L),
     number(D).
+% Bricks that share a program know nothing of each other's readings.
+test(are_those_of_the_own_brick, true(Whole-Others == 50-[7])) :-
+    setup_call_cleanup(
+        assertz(ev3dev_plnxt:read_last(other, ultrasonic, 7)),
+        nxt(room, ( sim_show(in1, value0, 500), nxt_ultrasonic(D),
+                    findall(Cm, ev3dev_plnxt:read_last(other, _, Cm), Others) )),
+        retractall(ev3dev_plnxt:read_last(other, _, _))),
+    whole(D, Whole).
 test(fail_if_there_is_none,
      [ fail, forall(member(Goal, [nxt_touch(_), nxt_touch(_, force),
                                   nxt_sound(_), nxt_sound(_, force)])) ]) :-
