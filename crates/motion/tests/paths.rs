@@ -61,13 +61,12 @@ fn beside_a_path_one_steers_to_the_point_four_cm_ahead_on_it() {
     }
 }
 
-/// Where a way comes by twice, one is where one was last.
+/// Where a way comes by twice, one is where one was last, though the other is nearer.
 #[test]
 fn on_the_way_back_one_is_not_on_the_way_there() {
-    let path = Path::straight(&[[0.0, 0.0], [0.0, 50.0], [0.0, 0.0]]);
-    let at = |heading| Pose { x: 0.0, y: 20.0, heading };
-    assert!(near(path.steer(at(0.0), 16.0).0, 20.0));
-    assert!(near(path.steer(at(180.0), 76.0).0, 80.0));
+    let path = Path::straight(&[[0.0, 0.0], [0.0, 50.0], [1.0, 50.0], [1.0, 0.0]]);
+    assert!(near(path.steer(Pose { x: 0.8, y: 20.0, heading: 0.0 }, 16.0).0, 20.0));
+    assert!(near(path.steer(Pose { x: 0.2, y: 20.0, heading: 180.0 }, 77.0).0, 81.0));
 }
 
 #[test]
