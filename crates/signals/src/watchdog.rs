@@ -44,6 +44,11 @@ static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
 /// Whether this is a child of the process that has the threads.
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
 
+/// Whether this is a child of fork(2), which has no motors of its own yet.
+pub(crate) fn is_child() -> bool {
+    IS_CHILD.load(Ordering::Relaxed)
+}
+
 /// What the asker asks and does, without knowing Prolog.
 pub struct Asked {
     /// Whether a signal, as `term`, will end the program; the second argument is whether
@@ -58,7 +63,7 @@ pub struct Asked {
 pub(crate) fn tell(what: u8, signal: c_int) -> bool {
     let number = u8::try_from(signal).unwrap_or_default();
     let told = |mut way: &UnixStream| way.write_all(&[what, number]).is_ok();
-    !IS_CHILD.load(Ordering::Relaxed) && WATCHDOG.get().is_some_and(told)
+    !is_child() && WATCHDOG.get().is_some_and(told)
 }
 
 /// Prolog ends the program because of a signal, as `term`: the process ends within
