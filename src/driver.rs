@@ -1,7 +1,6 @@
 //! `prolog/ev3dev/driver.pl`: devices and their attributes.
 use crate::glue::call::{Call, ListedDevices, Text};
 use crate::glue::error::wrong_value;
-use crate::glue::signals;
 use crate::glue::terms::{unify_atom, unify_value};
 use ev3_driver::class::Detected;
 use ev3_driver::{Class, Device, Registry, attributes};
@@ -71,7 +70,7 @@ natives! {
         let call = Call::of(context, accessor(class), 3);
         let socket = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
-        signals::before_motors(&call)?;
+        call.before_motors()?;
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
         call.or_absent(class, port, written)

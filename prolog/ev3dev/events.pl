@@ -389,8 +389,8 @@ change(Id, State) :-
     ;   true
     ).
 
-%   Prints errors; a program's own interrupt goes on its way. The event stays in either case, also after an abort, which
-%   catch/3 does not see.
+%   Prints errors; a program's own interrupt goes on its way. The event stays
+%   in either case, also after an abort, which catch/3 does not see.
 happen(Id, Kind, Action) :-
     setup_call_cleanup(true,
                        act(Id, Kind, Action),

@@ -6,11 +6,13 @@ use crate::glue::signals;
 use crate::glue::state;
 use crate::glue::terms::{Ask as _, unify_value};
 use crate::glue::watch;
+use ev3_driver::error::Access;
 use ev3_driver::journal::{self, Act, SoundCommand};
 use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use swipl::fli::{integer_in, list_end};
 use swipl::prelude::*;
@@ -70,10 +72,29 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// A motor may be started: throws in a guard, and where nothing could stop the motor.
     pub(crate) fn may_move(&self) -> PrologResult<()> {
-        signals::before_motors(self)?;
+        self.before_motors()?;
         if has_guards() {
             self.context.ask(pred!("ev3dev_waits:no_guard/0"), [])?;
         }
+        Ok(())
+    }
+
+    /// Motors may start from now on, which signals can stop. The first time, Prolog says
+    /// whether they are to be stopped when the process is killed.
+    #[inline]
+    pub(crate) fn before_motors(&self) -> PrologResult<()> {
+        static IS_ASKED: AtomicBool = AtomicBool::new(false);
+        if IS_ASKED.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        self.or_throw(signals::watch(state::stop_started).map_err(|source| Error::Open {
+            path: "a pipe for signals".into(),
+            access: Access::Write,
+            source,
+        }))?;
+        let survives = self.context.ask(pred!("ev3dev_halt:before_motors/0"), []);
+        ev3_signals::survive(attempt(survives)?);
+        IS_ASKED.store(true, Ordering::Relaxed);
         Ok(())
     }
 

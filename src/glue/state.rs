@@ -111,14 +111,14 @@ pub(crate) fn stop_started() {
 
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
-    let _ = signals::watch(); // else no motor starts
+    let _ = signals::watch(stop_started); // else no motor starts
     BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
-    let _ = signals::watch(); // else no motor starts
+    let _ = signals::watch(stop_started); // else no motor starts
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();

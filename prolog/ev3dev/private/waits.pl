@@ -21,8 +21,8 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, or `yield` in
-a branch, with a choice point, and at its end its reason, or what is to be
+A native wait returns `pause` or `tick` after each slice of time, or `yield`
+in a branch, with a choice point, and at its end its reason, or what is to be
 thrown. So a caller writes
 
 ```
