@@ -39,8 +39,8 @@ natives! {
         Ok(())
     }
 
-    /// halt_cancelled_: a goal of `at_halt/1` has cancelled that.
-    semidet fn "halt_cancelled_"(_context) {
+    /// halt_canceled_: a goal of `at_halt/1` has canceled that.
+    semidet fn "halt_canceled_"(_context) {
         ev3_signals::is_to_halt(false);
         into_prolog_result(true)
     }

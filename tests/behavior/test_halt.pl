@@ -122,7 +122,7 @@ test(what_goes_on_while_prolog_halts_starts_no_motor,
     format(string(Text), "main :- ~s.
                           control :- repeat, motor_run(outB, 20), fail.", [Main]),
     after_program(Tree, Text, [goal(main)], _, B-_).
-test(after_an_end_that_is_cancelled_they_start_and_stop_as_ever,
+test(after_an_end_that_is_canceled_they_start_and_stop_as_ever,
      [condition(halt_returns), forall(tree(Tree)), true(Status-C == exit(0)-(stop-stop))]) :-
     after_program(Tree, ":- dynamic cancels/0.
                          cancels.

@@ -72,7 +72,7 @@ pub fn halts(signal: &str) {
     tell(HALTS, number(signal));
 }
 
-/// Prolog has begun to halt, or its halt was cancelled. Its clean-ups may wait for ever, as for
+/// Prolog has begun to halt, or its halt was canceled. Its clean-ups may wait for ever, as for
 /// a stream that another thread reads from: after [`PATIENCE`] no motor starts.
 pub fn is_to_halt(halts: bool) {
     tell(IS_TO_HALT, halts.into());

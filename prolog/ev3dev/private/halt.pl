@@ -1,6 +1,6 @@
 :- module(ev3dev_halt, []).
 :- use_module(native,
-              [ at_halt_/1, halt_cancelled_/0, halts_by_/1, stop_started_/0,
+              [ at_halt_/1, halt_canceled_/0, halts_by_/1, stop_started_/0,
                 told_to_end_/0
               ]).
 
@@ -40,12 +40,12 @@ stop_at_halt :-
 
 :- multifile prolog:message//1.
 
-:- dynamic halt_cancelled/0.
+:- dynamic halt_canceled/0.
 
 %   Prolog has forgotten the goals that it has called.
 prolog:message(cancel_halt(_)) -->
-    { ( halt_cancelled -> true ; assertz(halt_cancelled) ),
-      halt_cancelled_,
+    { ( halt_canceled -> true ; assertz(halt_canceled) ),
+      halt_canceled_,
       at_halt(stop_at_halt),
       fail
     }.
@@ -59,7 +59,7 @@ prolog:message(cancel_halt(_)) -->
 before_motors :-
     at_halt(stop_at_halt),
     (   current_prolog_flag(exit_status, _),
-        \+ halt_cancelled
+        \+ halt_canceled
     ->  stop_at_halt
     ;   true
     ),

@@ -137,7 +137,7 @@
             sim_unshow_/2,
             sim_wait_/2,
             at_halt_/1,
-            halt_cancelled_/0,
+            halt_canceled_/0,
             halts_by_/1,
             running_/1,
             stop_started_/0,
@@ -459,7 +459,7 @@ missing.
 % The end of the program
 
 %!  at_halt_(+Stops) is semidet.
-%!  halt_cancelled_ is semidet.
+%!  halt_canceled_ is semidet.
 %!  halts_by_(+Signal) is semidet.
 %!  running_(-Ports) is semidet.
 %!  stop_started_ is semidet.
