@@ -42,7 +42,8 @@ place:
 ifneq ($(SWIHOME)$(SWIPL_HOME_DIR),)
 check: check-install
 else
-# In minutes: a browser is waited for most of the time, so Prolog runs beside it
+# In minutes: a browser is waited for most of the time, so Prolog runs beside it. How
+# programs end is measured in fractions of a second, so it is alone.
 check: build check-rust
 	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
 	$(MAKE) check-endings

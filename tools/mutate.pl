@@ -215,7 +215,7 @@ text(Text, Position, Part) :-
 
 %   tests(Files, Tests): of what has no test file of its name, or other tests, too.
 tests([arguments, domains, errors],       [errors, bad_input, motors, robot]).
-tests([attributes, class_settings],       [motor_settings, dc_motors, driver, ports]).
+tests([attributes],                       [motor_settings, dc_motors, driver, ports]).
 tests([brick, facts, world_name],         [sim, view, planners]).
 tests([causes],                           [journal, events]).
 tests([chance, turn],                     [sim, events, grid]).

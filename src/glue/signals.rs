@@ -1,22 +1,14 @@
 //! Signals that ask the program to end.
 use crate::glue::terms::{Ask as _, unify_atom};
-use ev3_driver::lock::locked;
 use ev3_signals::Asked;
 use std::io;
-use std::sync::Mutex;
 use swipl::prelude::*;
 
 /// Takes such signals from now on: first the motors stop, then Prolog gets the signal.
 /// Where Prolog need not be asked, `stop` stops them. After an error, as where no descriptor
 /// is left, Prolog gets the signals as ever.
 pub(crate) fn watch(stop: fn()) -> io::Result<()> {
-    static IS_WATCHED: Mutex<bool> = Mutex::new(false);
-    let mut is_watched = locked(&IS_WATCHED);
-    if !*is_watched {
-        ev3_signals::watch(Asked { ends, stop })?;
-        *is_watched = true;
-    }
-    Ok(())
+    ev3_signals::watch(Asked { ends, stop })
 }
 
 /// Asks Prolog in an engine of its own, as the program's may be busy.

@@ -246,6 +246,28 @@ test(one_that_runs_with_the_last_descriptors_is_stopped_as_well,
                                 Program, Options),
                 run_program(Program, [goal(main)|Options], Status, Output),
                 eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
+test(a_copy_without_descriptors_does_not_keep_them_from_being_stopped,
+     [ condition(catch(( use_module(library(unix)), predicate_property(fork(_), defined) ),
+                       _, fail)),
+       forall(( tree(Tree), Tree \== simulator )), true(Status-C == killed(9)-stop) ]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor'],
+              ( program_in_tree(":- use_module([library(process), library(rlimit), library(unix)]).
+                                 main :- motor_run(outB, 20), rlimit(nofile, _, 40), leaked,
+                                     fork(Copy),
+                                     (   Copy == child
+                                     ->  exec(true)
+                                     ;   wait(Copy, _),
+                                         current_prolog_flag(pid, Pid),
+                                         process_kill(Pid, kill),
+                                         sleep(9)
+                                     ).
+                                 leaked :-
+                                     catch(open('/dev/null', read, _), _, fail), !,
+                                     leaked.
+                                 leaked.",
+                                Program, Options),
+                run_program(Program, [goal(main)|Options], Status, Output),
+                eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
 test(without_that_process_they_run_on,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(B-C == 'run-forever'-'run-forever') ]) :-

@@ -81,7 +81,7 @@ impl Kept {
         let line = [&[RESTS, b' '], word.as_bytes(), b" ", path].concat();
         let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);
         if LINES.load(Ordering::Relaxed).is_null() {
-            LINES.store(map(std::ptr::null_mut())?, Ordering::Release);
+            LINES.store(map(file_in_memory()?, std::ptr::null_mut())?, Ordering::Release);
         }
         Ok(Self::in_slot(descriptor, &line))
     }
@@ -185,19 +185,24 @@ fn lengthen(length: usize) -> Option<()> {
     (file == NONE || unsafe { libc::ftruncate(file, length) } == 0).then_some(())
 }
 
-/// A new file in memory, mapped at an address, or anywhere if that is null. Without such
-/// files, as before Linux 3.17, it is just memory.
-fn map(address: *mut u8) -> io::Result<*mut u8> {
+/// A new file in memory, or [`NONE`] where there are none, as before Linux 3.17.
+fn file_in_memory() -> io::Result<c_int> {
+    // Safety: asks the kernel only, not by a function of the C library, which the brick's lacks.
+    let file = unsafe {
+        let name = c"ev3dev-motors".as_ptr();
+        libc::syscall(libc::SYS_memfd_create, name, libc::MFD_CLOEXEC)
+    };
+    match c_int::try_from(file).unwrap_or(NONE) {
+        NONE if Errno::last() != Errno::ENOSYS => Err(io::Error::last_os_error()),
+        file => Ok(file),
+    }
+}
+
+/// Maps that file at an address, or anywhere if that is null. Without one it is just memory.
+fn map(file: c_int, address: *mut u8) -> io::Result<*mut u8> {
+    FILE.store(file, Ordering::Relaxed);
     // Safety: asks the kernel only. What is at the address is the former lines.
     unsafe {
-        // Not by a function of the C library, which the brick's lacks
-        let name = c"ev3dev-motors".as_ptr();
-        let file = libc::syscall(libc::SYS_memfd_create, name, libc::MFD_CLOEXEC);
-        let file = c_int::try_from(file).unwrap_or(NONE);
-        if file == NONE && Errno::last() != Errno::ENOSYS {
-            return Err(io::Error::last_os_error());
-        }
-        FILE.store(file, Ordering::Relaxed);
         let kind = if file == NONE { libc::MAP_ANONYMOUS } else { 0 };
         let place = if address.is_null() { 0 } else { libc::MAP_FIXED };
         let access = libc::PROT_READ | libc::PROT_WRITE;
@@ -262,7 +267,9 @@ pub(crate) fn forked() {
     // Safety: so long are the lines, and no other thread goes on.
     unsafe { std::ptr::copy_nonoverlapping(lines, text.as_mut_ptr(), length) };
     let parents = FILE.load(Ordering::Relaxed);
-    if map(lines).is_ok() && lengthen(length).is_some() {
+    // Never the parent's file, even where no descriptor is left.
+    let file = file_in_memory().unwrap_or(NONE);
+    if map(file, lines).is_ok() && lengthen(length).is_some() {
         // Safety: as above; the file is as long.
         unsafe { std::ptr::copy_nonoverlapping(text.as_ptr(), lines, length) };
     }

@@ -12,8 +12,8 @@ use nix::sys::signal::{SigSet, SigmaskHow};
 use std::io::{self, Read, Write};
 use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long Prolog may take to end the process.
@@ -78,11 +78,16 @@ pub fn is_to_halt(halts: bool) {
     tell(IS_TO_HALT, halts.into());
 }
 
-/// Takes the signals that end a program, from now on; to be called once.
+/// Takes the signals that end a program, from now on, unless it does already.
 ///
 /// # Errors
-/// The kernel's, where no thread can be had.
+/// The kernel's, where no thread or no descriptor can be had; then it may be tried again.
 pub fn watch(asked: Asked) -> io::Result<()> {
+    static TAKING: Mutex<()> = Mutex::new(());
+    let _taking = TAKING.lock().unwrap_or_else(PoisonError::into_inner);
+    if WATCHDOG.get().is_some() {
+        return Ok(());
+    }
     let (read, write) = UnixStream::pair()?;
     // A handler must not wait.
     write.set_nonblocking(true)?;
@@ -96,9 +101,7 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, answers).run())));
     before.thread_set_mask()?;
     spawned?;
-    if WATCHDOG.set(write).is_err() {
-        return Ok(());
-    }
+    let _ = WATCHDOG.set(write); // under the lock it was not set
     handlers::take_all();
     // Safety: the functions do only what may be done there.
     unsafe {
