@@ -1,5 +1,6 @@
 //! What a program has commanded, in the log of the pages.
-use super::notes::{Entry, notes};
+use super::notes::notes;
+use super::state::{Decimal, Entry, Text};
 use crate::glue::state::chosen_devices;
 use ev3_driver::drive::steering::Leg;
 use ev3_driver::drive::{Command, DriveOptions};
@@ -32,12 +33,14 @@ pub(super) fn log_new(
         if cause != last.0 {
             last = (cause, if cause == 0 { Vec::new() } else { causes(cause)? });
         }
+        let causes_of: Vec<Text> = last.1.iter().cloned().map(Text::Owned).collect();
         notes().log(Entry {
-            time: entry.time.as_secs_f64(),
-            kind: "command".to_owned(),
-            text,
-            causes: last.1.clone(),
-            thread: String::new(),
+            n: 0,
+            time: Decimal(entry.time.as_secs_f64()),
+            kind: "command".into(),
+            text: text.into(),
+            causes: (!causes_of.is_empty()).then_some(causes_of),
+            thread: None,
         });
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The page's server, and the talk with each page: what `crates/door` has, for Prolog.
-use super::frame;
 use super::reach::{outside, running_simulation, stop_motors};
+use super::{simulated, terms};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
@@ -23,7 +23,7 @@ const MADE: [Made; 2] = [
     Made {
         path: "/samples.csv",
         kind: "text/csv; charset=utf-8",
-        make: || outside(frame::csv),
+        make: || outside(|| simulated::csv(&running_simulation()?.machine())),
         lacking: "There are no samples.",
     },
 ];
@@ -85,14 +85,12 @@ predicates! {
         }
     }
 
-    /// view_say_(+Page, +Text): does nothing if the page was left.
+    /// view_say_(+Page, +Json): does nothing if the page was left.
     #[module("ev3dev_native")]
     #[name("view_say_")]
-    semidet fn view_say(context, page, text) {
+    semidet fn view_say(context, page, answer) {
         let call = Call::of(context, "view", 1);
-        let text = call.text(text)?;
-        attempt_opt(page_of(&call, page))?.iter().for_each(|page| page.say(&text));
-        Ok(())
+        say(&call, page, &terms::text(&call, answer)?)
     }
 
     /// view_end_(+Page, +Code): ends the connection with the reason for that (RFC 6455, 7.4).
@@ -116,11 +114,21 @@ predicates! {
     #[module("ev3dev_native")]
     #[name("view_shut_")]
     semidet fn view_shut(context, bye) {
-        let bye = Call::of(context, "view_stop", 0).text(bye)?;
+        let bye = terms::text(&Call::of(context, "view_stop", 0), bye)?;
         door()?.close(&bye);
         *locked() = None;
         Ok(())
     }
+}
+
+/// Does nothing if the page was left.
+pub(super) fn say<C: QueryableContextType>(
+    call: &Call<C>,
+    page: &Term,
+    text: &str,
+) -> PrologResult<()> {
+    attempt_opt(page_of(call, page))?.iter().for_each(|page| page.say(text));
+    Ok(())
 }
 
 /// Without Prolog, which interrupts the program as soon as it can.

@@ -10,16 +10,19 @@ mod frame;
 mod hand;
 mod notes;
 mod reach;
+mod simulated;
+mod state;
+mod terms;
 mod threads;
 
 pub(crate) use self::believed::{counting_begins, pose_is_set};
 
-use self::notes::{Entry, notes};
+use self::notes::notes;
 use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
+use self::state::{Decimal, Entry};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
-use ev3_json::Json;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 
@@ -40,7 +43,6 @@ pub(crate) fn register() {
     register_view_source();
     register_view_users();
     register_view_serves();
-    register_view_json();
     register_view_to_world();
 }
 
@@ -91,15 +93,15 @@ predicates! {
         Ok(())
     }
 
-    /// view_frame_(+Have, +State, +Settings, -Text): the next frame for a page that has some. State is
-    /// that of the program; Settings are members of the frame that never change.
+    /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
+    /// State is that of the program; Rate and Goals are the page's settings.
     #[module("ev3dev_native")]
     #[name("view_frame_")]
-    semidet fn view_frame(context, have, state, settings, text) {
+    semidet fn view_frame(context, page, have, state, rate, goals) {
         let call = Call::of(context, "view", 1);
-        let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
+        let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
         log_commands(context, &call)?;
-        text.unify(frame::next(&have, &state, &settings).as_str())
+        door::say(&call, page, &frame::next(&have, &state, rate, goals.get_ex()?))
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
@@ -107,8 +109,8 @@ predicates! {
     #[name("view_keep_")]
     semidet fn view_keep(context, name, json) {
         let call = Call::of(context, "view", 1);
-        let (name, json) = (call.text(name)?, call.text(json)?);
-        notes().keep(&name, &json);
+        let (name, json) = (call.text(name)?, terms::text(&call, json)?);
+        notes().keep(&name, json);
         Ok(())
     }
 
@@ -117,15 +119,16 @@ predicates! {
     #[name("view_log_")]
     semidet fn view_log(context, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
-        let owned = |term: &Term| call.text(term).map(Text::into_owned);
+        let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
         // What was commanded before stands before it.
         log_commands(context, &call)?;
         let entry = Entry {
-            time: seconds(),
+            n: 0,
+            time: Decimal(seconds()),
             kind: owned(kind)?,
             text: owned(text)?,
-            causes: call.map_list(causes, |cause| owned(&cause))?,
-            thread: owned(thread)?,
+            causes: Some(call.map_list(causes, |cause| owned(&cause))?).filter(|all| !all.is_empty()),
+            thread: Some(owned(thread)?).filter(|name: &state::Text| !name.is_empty()),
         };
         notes().log(entry);
         Ok(())
@@ -176,15 +179,6 @@ predicates! {
     #[name("view_serves_")]
     semidet fn view_serves(_context) {
         into_prolog_result(threads::serves())
-    }
-
-    /// view_json_(+Text, -Json): a text as JSON, all of it ASCII.
-    #[module("ev3dev_native")]
-    #[name("view_json_")]
-    semidet fn view_json(context, text, json) {
-        let mut written = Json::new();
-        written.text(&Call::of(context, "view", 1).text(text)?);
-        json.unify(written.as_text())
     }
 
     /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and

@@ -176,7 +176,9 @@ test(samples_as_a_table, true(Code == 200)) :-
     with_sim(room, viewed(Port, ( own(Port, Fields), wait(1),
                                   get(Port, '/samples.csv', Fields, Code,
                                       Answer) ))),
-    has(Answer, "time,x,y,heading,").
+    has(Answer, "time,x,y,heading,outA.position,outA.speed,outA.duty,"),
+    has(Answer, "\n0,40,40,40,0,0,0,"),
+    has(Answer, "\n1,40,40,40,0,0,0,").
 
 % Each of these is refused.
 refused(403, '/', []).
@@ -557,6 +559,19 @@ test(rules_and_events_that_begin, true(Kinds == Expected)) :-
     Expected = [ "rule"-"rule drive", "command"-"outB run-forever",
                  "rule"-"event tick", "rule"-"rule look",
                  "command"-"outB stop" ].
+test(numbers_are_short, true(Numbers == [0.3, -0.05, 2, null, 0.333333])) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            forall(member(Number, [0.1+0.2, -0.05, 2.0, 1.0e300, 1/3.0]),
+                   view_value(number, Number)),
+            frame(Page, First.have, Frame) )),
+    findall(Number, member([_, _, Number], Frame.values), Numbers).
+test(texts_of_all_letters, true(Texts == ["a\"b\\c\n</script>\u00e9\u20ac"])) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            view_mark("a\"b\\c\n</script>\u00e9\u20ac"),
+            frame(Page, First.have, Frame) )),
+    findall(Text, ( member(Line, Frame.log), Text = Line.text ), Texts).
 test(watches, true(Watches == Expected)) :-
     paged(Page,
           ( view_watch(left, outB),

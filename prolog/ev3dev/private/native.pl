@@ -143,9 +143,8 @@
             told_to_end_/0,
             view_close_/0,
             view_end_/2,
-            view_frame_/4,
+            view_frame_/5,
             view_hear_/3,
-            view_json_/2,
             view_keep_/2,
             view_latch_/0,
             view_leave_/1,
@@ -418,8 +417,7 @@ missing.
 % The view
 
 %!  view_close_ is det.
-%!  view_frame_(+Have, +State, +Settings, -Text) is det.
-%!  view_json_(+Text, -Json) is det.
+%!  view_frame_(+Page, +Have, +State, +Rate, +Goals) is det.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
@@ -438,7 +436,7 @@ missing.
 %!  view_end_(+Page, +Code) is semidet.
 %!  view_hear_(+Page, +Seconds, -Line) is semidet.
 %!  view_leave_(+Page) is semidet.
-%!  view_say_(+Page, +Text) is det.
+%!  view_say_(+Page, +Json) is det.
 %!  view_serve_(+Address, +Port, +Token, +Files, -Served) is det.
 %!  view_shut_(+Bye) is semidet.
 %!  view_visit_(-Visit) is semidet.
