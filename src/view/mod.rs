@@ -4,7 +4,6 @@
 //! time passes, and nothing is read on the program's behalf.
 mod believed;
 mod brick;
-mod commands;
 mod door;
 mod frame;
 mod hand;
@@ -20,7 +19,7 @@ pub(crate) use self::believed::{counting_begins, pose_is_set};
 use self::notes::notes;
 use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
 use self::state::{Decimal, Entry};
-use crate::glue::call::{Call, Text};
+use crate::glue::call::Call;
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_signals::latch::{self, Reason};
@@ -44,20 +43,6 @@ pub(crate) fn register() {
     register_view_users();
     register_view_serves();
     register_view_to_world();
-}
-
-/// Adds what the program has commanded meanwhile to the log.
-fn log_commands<'a, C: QueryableContextType>(
-    context: &'a Context<'a, C>,
-    call: &Call<'a, C>,
-) -> PrologResult<()> {
-    commands::log_new(|cause| {
-        let texts = context.new_term_ref();
-        let number = context.new_term_ref();
-        number.unify(u64::from(cause))?;
-        context.call_once(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
-        call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
-    })
 }
 
 predicates! {
@@ -100,7 +85,6 @@ predicates! {
     semidet fn view_frame(context, page, have, state, rate, goals) {
         let call = Call::of(context, "view", 1);
         let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
-        log_commands(context, &call)?;
         door::say(&call, page, &frame::next(&have, &state, rate, goals.get_ex()?))
     }
 
@@ -114,17 +98,15 @@ predicates! {
         Ok(())
     }
 
-    /// view_log_(+Kind, +Text, +Causes, +Thread)
+    /// view_log_(+Time, +Kind, +Text, +Causes, +Thread): Time is in seconds, or `now`.
     #[module("ev3dev_native")]
     #[name("view_log_")]
-    semidet fn view_log(context, kind, text, causes, thread) {
+    semidet fn view_log(context, time, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
         let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
-        // What was commanded before stands before it.
-        log_commands(context, &call)?;
         let entry = Entry {
             n: 0,
-            time: Decimal(seconds()),
+            time: Decimal(if time.is_atom() { seconds() } else { call.float(time)? }),
             kind: owned(kind)?,
             text: owned(text)?,
             causes: Some(call.map_list(causes, |cause| owned(&cause))?).filter(|all| !all.is_empty()),

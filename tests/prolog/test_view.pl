@@ -556,9 +556,28 @@ test(rules_and_events_that_begin, true(Kinds == Expected)) :-
     memberchk(Drive, Frame.log),
     Drive.kind == "rule",
     once(sub_string(Drive.text, _, _, _, "rule drive, ev3_time")),
-    Expected = [ "rule"-"rule drive", "command"-"outB run-forever",
+    Expected = [ "rule"-"rule drive", "command"-"outB runs",
                  "rule"-"event tick", "rule"-"rule look",
-                 "command"-"outB stop" ].
+                 "command"-"outB was" ].
+% As why/1 says them; a pose that is set moves nothing.
+test(commands_in_words, true(Texts == Expected)) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            set_robot(5.6, 10.6, outB, outC),
+            set_pose(60, 50, 0),
+            motor_run(outA, 30),
+            motor_run(outA, 50, 360),
+            go_cm(30, 5),
+            led(left, green),
+            ev3_time(Before),
+            frame(Page, First.have, Frame),
+            ev3_time(After),
+            After =:= Before )),
+    findall(Text, ( member(Line, Frame.log), Line.kind == "command",
+                    Text = Line.text ), Texts),
+    Expected = [ "outA runs at 30 %", "outA was turned by 360 degrees at 50 %",
+                 "the robot goes 5 cm at 30 %", "the robot rests (reached)",
+                 "the light left is green" ].
 test(numbers_are_short, true(Numbers == [0.3, -0.05, 2, null, 0.333333])) :-
     paged(Page,
           ( page_ask(Page, "next", First),

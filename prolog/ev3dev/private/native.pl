@@ -27,6 +27,7 @@
             slices_/1,
             tick_after_/1,
             tick_at_once_/0,
+            motor_counts_/3,
             motor_gear_/2,
             motor_position_/2,
             motor_reset_/1,
@@ -106,6 +107,7 @@
             cause_now_/1,
             cause_set_/1,
             journal_entry_/4,
+            journal_new_/1,
             limit_call_/2,
             limit_insist_/4,
             sim_active_/0,
@@ -149,7 +151,7 @@
             view_latch_/0,
             view_leave_/1,
             view_lift_/0,
-            view_log_/4,
+            view_log_/5,
             view_move_/4,
             view_open_/0,
             view_pace_/1,
@@ -227,6 +229,7 @@ missing.
 
 % Motors
 
+%!  motor_counts_(+Port, +Constant, -Counts) is semidet.
 %!  motor_gear_(?Port, -Ratio) is nondet.
 %!  motor_position_(?Port, -Position) is nondet.
 %!  motor_reset_(+Port) is semidet.
@@ -351,6 +354,7 @@ missing.
 %!  cause_now_(-Cause) is det.
 %!  cause_set_(+Cause) is semidet.
 %!  journal_entry_(-Time, -Act, -Cause, -Called) is nondet.
+%!  journal_new_(-Done) is det.
 %
 %   `src/journal.rs`
 
@@ -421,7 +425,7 @@ missing.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
-%!  view_log_(+Kind, +Text, +Causes, +Thread) is det.
+%!  view_log_(+Time, +Kind, +Text, +Causes, +Thread) is det.
 %!  view_open_ is det.
 %!  view_serves_ is semidet.
 %!  view_source_(-Source) is det.

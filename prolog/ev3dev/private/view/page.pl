@@ -10,7 +10,7 @@
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(hands, [hand_line/3]).
 :- use_module(known, [renew_kept/0]).
-:- use_module(log, [error_text/2, mark/1]).
+:- use_module(log, [error_text/2, log_commands/0, mark/1]).
 :- use_module(program,
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
@@ -150,6 +150,7 @@ frame_send(Page, Have) :-
     settings(_, Rate, Goals),
     program_state(State),
     renew_kept,
+    log_commands,
     view_frame_(Page, Have, State, Rate, Goals).
 
 word_rest(Line, Word, Rest) :-
