@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-all check-old check-dist \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -45,6 +45,7 @@ else
 # In minutes: a browser is waited for most of the time, so Prolog runs beside it
 check: build check-rust
 	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
+	$(MAKE) check-endings
 endif
 
 # Every predicate can be called, a motor and a sensor do what they should, and a robot
@@ -57,9 +58,10 @@ check-install:
 # What takes an hour: all that is below, too. docs/checked.md says when it last
 # passed.
 check-all: lint check
-	$(MAKE) check-endings
 	$(MAKE) dist
 	$(MAKE) check-torture
+	$(MAKE) mutants SAMPLE=60 LEAST=70 \
+	    SINCE=$$(sed -n 's/.* on commit \([0-9a-f]*\),.*/\1/p' docs/checked.md)
 	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
 	@tools/checked.sh
 
@@ -101,6 +103,14 @@ check-torture: build
 	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
 	    tests/behavior/test_motor_ramps.pl tests/behavior/test_odd_terms.pl \
 	    tests/behavior/test_rule_laws.pl tests/prolog/test_planners.pl
+
+# Changes of single clauses, each of which a test should notice, in FILES, in lines changed
+# SINCE a commit, or a SAMPLE of so many by a SEED; LEAST is the percentage that must be
+mutants: export TREES := $(or $(TREES),plain simulator)
+mutants: build
+	@$(SWIPL) -g main -t 'halt(1)' tools/mutate.pl -- --self_test
+	@$(SWIPL) -g main -t 'halt(1)' tools/mutate.pl -- \
+	    $(SINCE:%=--since=%) $(SAMPLE:%=--sample=%) $(SEED:%=--seed=%) $(LEAST:%=--least=%) $(FILES)
 
 lint: build
 	$(CARGO) fmt --all --check

@@ -6,16 +6,9 @@ use ev3_driver::Value;
 use ev3_driver::brick::battery;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_battery();
-}
-
-predicates! {
+natives! {
     /// battery_(+Key, -Value)
-    #[module("ev3dev_native")]
-    #[name("battery_")]
-    semidet fn battery(context, key, value) {
+    semidet fn "battery_"(context, key, value) {
         let call = Call::of(context, "battery", 2);
         let (name, devices) = (call.text(key)?, call.devices()?);
         let battery = call.or_throw(battery::battery(&devices))?;

@@ -3,17 +3,10 @@ use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
 use crate::glue::terms::unify_atom;
 use ev3_driver::brick::buttons::{self as keys, Button, Event, Events};
+use ev3_driver::lock::locked;
 use ev3_driver::wait::AnyWait;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use swipl::prelude::*;
-
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_buttons();
-    register_button_wait();
-    register_button_source();
-    register_button_event();
-}
 
 /// The button events from the opening of the source to its close.
 #[arc_blob("ev3_buttons", defaults)]
@@ -21,32 +14,22 @@ struct Source {
     events: Mutex<Option<Arc<Events>>>,
 }
 
-impl Source {
-    fn events(&self) -> MutexGuard<'_, Option<Arc<Events>>> {
-        self.events.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
+impl Source {}
 
 /// The sources that somebody may still read.
 static SOURCES: Mutex<Vec<Weak<Source>>> = Mutex::new(Vec::new());
 
-fn sources() -> MutexGuard<'static, Vec<Weak<Source>>> {
-    SOURCES.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Closes all sources, because their file system is going away. Later reads fail.
 #[cfg(feature = "fuse")]
 pub(crate) fn close_sources() {
-    for source in sources().drain(..).filter_map(|source| source.upgrade()) {
-        *source.events() = None;
+    for source in locked(&SOURCES).drain(..).filter_map(|source| source.upgrade()) {
+        *locked(&source.events) = None;
     }
 }
 
-predicates! {
+natives! {
     /// buttons_(-Keys)
-    #[module("ev3dev_native")]
-    #[name("buttons_")]
-    semidet fn buttons(context, keys) {
+    semidet fn "buttons_"(context, keys) {
         let call = Call::of(context, "button", 1);
         let pressed = call.or_throw(keys::pressed(&*call.dev()?))?;
         let pressed = pressed.map_or_else(|| call.lacking("buttons"), Ok)?;
@@ -56,9 +39,7 @@ predicates! {
 
     /// button_wait_(?Key, ?Event, +Timeout, -Reason): `over` at the end. Fails if the time
     /// is up before.
-    #[module("ev3dev_native")]
-    #[name("button_wait_")]
-    nondet fn button_wait<UntilEvent>(context, key, event, timeout, reason) {
+    nondet fn "button_wait_"<UntilEvent>(context, key, event, timeout, reason) {
         setup => {
             let call = Call::of(context, "button_wait", 3);
             let (wanted, is_press) = (key_of(&call, key)?, is_press_of(&call, event)?);
@@ -72,26 +53,22 @@ predicates! {
     }
 
     /// button_source_(-Source)
-    #[module("ev3dev_native")]
-    #[name("button_source_")]
-    semidet fn button_source(context, source) {
+    semidet fn "button_source_"(context, source) {
         let call = Call::of(context, "button_events", 1);
         let events = events_from_now(&call)?;
         let opened = Arc::new(Source { events: Mutex::new(Some(Arc::new(events))) });
-        sources().retain(|source| source.strong_count() > 0);
-        sources().push(Arc::downgrade(&opened));
+        locked(&SOURCES).retain(|source| source.strong_count() > 0);
+        locked(&SOURCES).push(Arc::downgrade(&opened));
         source.unify(opened)
     }
 
     /// button_event_(+Source, +Index, -Key, -Event, -Reason): `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("button_event_")]
-    nondet fn button_event<UntilEvent>(context, source, index, key, event, reason) {
+    nondet fn "button_event_"<UntilEvent>(context, source, index, key, event, reason) {
         setup => {
             let call = Call::of(context, "button_events", 1);
             let source: Arc<Source> = source.get_ex()?;
             let index = usize::try_from(call.integer(index)?).map_err(|_| PrologError::Failure)?;
-            let events = source.events().clone().ok_or(PrologError::Failure)?;
+            let events = locked(&source.events).clone().ok_or(PrologError::Failure)?;
             Ok(Some(events.until_nth(index)))
         },
         call(waiting) => {

@@ -5,17 +5,9 @@ use ev3_driver::motor::{Moving, dc};
 use ev3_driver::wait::Slices;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_dc_motor_run();
-    register_dc_motor_run_timed();
-}
-
-predicates! {
+natives! {
     /// dc_motor_run_(+Port, +Percent)
-    #[module("ev3dev_native")]
-    #[name("dc_motor_run_")]
-    semidet fn dc_motor_run(context, port, percent) {
+    semidet fn "dc_motor_run_"(context, port, percent) {
         let call = Call::of(context, "dc_motor_run", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
@@ -24,9 +16,7 @@ predicates! {
 
     /// dc_motor_run_timed_(+Port, +Percent, +Seconds, +Options, -Reason): options
     /// as those of motor_turn_/3.
-    #[module("ev3dev_native")]
-    #[name("dc_motor_run_timed_")]
-    nondet fn dc_motor_run_timed<Slices<Moving>>(context, port, percent, seconds, options, reason) {
+    nondet fn "dc_motor_run_timed_"<Slices<Moving>>(context, port, percent, seconds, options, reason) {
         setup => {
             let call = Call::of(context, "dc_motor_run_timed", 4);
             let (port, percent) = (call.text(port)?, call.float(percent)?);

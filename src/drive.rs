@@ -17,30 +17,15 @@ use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_odometry();
-    register_pose();
-    register_set_pose();
-    register_pose_uncertainty();
-    register_heading_wrapped();
-    register_drive();
-    register_drive_wait();
-}
-
-predicates! {
+natives! {
     /// odometry_(+Robot): starts the odometry if it does not run yet.
-    #[module("ev3dev_native")]
-    #[name("odometry_")]
-    semidet fn odometry(context, robot) {
+    semidet fn "odometry_"(context, robot) {
         let call = Call::of(context, "set_robot", 4);
         into_prolog_result(call.or_throw(robots_drive(&call, robot)?.start())?)
     }
 
     /// pose_(+Robot, +UseGyro, -X, -Y, -Heading)
-    #[module("ev3dev_native")]
-    #[name("pose_")]
-    semidet fn pose(context, robot, use_gyro, x, y, heading) {
+    semidet fn "pose_"(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "pose", 3);
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = call.or_fail(drive.pose())?;
@@ -50,9 +35,7 @@ predicates! {
     }
 
     /// set_pose_(+Robot, +UseGyro, +X, +Y, +Heading)
-    #[module("ev3dev_native")]
-    #[name("set_pose_")]
-    semidet fn set_pose(context, robot, use_gyro, x, y, heading) {
+    semidet fn "set_pose_"(context, robot, use_gyro, x, y, heading) {
         let call = Call::of(context, "set_pose", 3);
         let drive = drive_of(&call, robot, use_gyro)?;
         let pose = Pose { x: call.float(x)?, y: call.float(y)?, heading: call.float(heading)? };
@@ -62,9 +45,7 @@ predicates! {
     }
 
     /// pose_uncertainty_(+Robot, +UseGyro, -Rows)
-    #[module("ev3dev_native")]
-    #[name("pose_uncertainty_")]
-    semidet fn pose_uncertainty(context, robot, use_gyro, rows) {
+    semidet fn "pose_uncertainty_"(context, robot, use_gyro, rows) {
         let call = Call::of(context, "pose_uncertainty", 1);
         let drive = drive_of(&call, robot, use_gyro)?;
         let covariance = call.or_fail(drive.uncertainty())?;
@@ -73,18 +54,14 @@ predicates! {
     }
 
     /// heading_wrapped_(+Heading, -Wrapped)
-    #[module("ev3dev_native")]
-    #[name("heading_wrapped_")]
-    semidet fn heading_wrapped(context, heading, result) {
+    semidet fn "heading_wrapped_"(context, heading, result) {
         result.unify(wrapped(Call::of(context, "heading_wrapped", 2).float(heading)?))
     }
 
     /// `drive_(+Robot, +Course, +Options, -Reason)`: options is
     /// `options(Percent, Acceleration, StopAction, UseGyro, Wait, Timeout)`. Who leaves
     /// the wait ends the motion.
-    #[module("ev3dev_native")]
-    #[name("drive_")]
-    nondet fn drive<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) {
+    nondet fn "drive_"<Option<Slices<UntilEnded>>>(context, robot, course, options, reason) {
         setup => {
             let call = Call::of(context, "go_to", 4);
             let (course, drive) = (course_of(&call, course)?, robots_drive(&call, robot)?);
@@ -105,9 +82,7 @@ predicates! {
     }
 
     /// drive_wait_(+Robot, +Timeout, -Reason)
-    #[module("ev3dev_native")]
-    #[name("drive_wait_")]
-    nondet fn drive_wait<Slices<UntilEnded>>(context, robot, timeout, reason) {
+    nondet fn "drive_wait_"<Slices<UntilEnded>>(context, robot, timeout, reason) {
         setup => {
             let call = Call::of(context, "drive_wait", 2);
             let (timeout, drive) = (call.seconds(timeout)?, robots_drive(&call, robot)?);

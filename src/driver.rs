@@ -7,19 +7,9 @@ use ev3_driver::{Class, Device, Registry, attributes};
 use std::sync::Arc;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_device();
-    register_device_path();
-    register_attribute();
-    register_attribute_write();
-}
-
-predicates! {
+natives! {
     /// device_(+Class, ?Port, ?Type): the native twin of `tacho_motor/2` and the like.
-    #[module("ev3dev_native")]
-    #[name("device_")]
-    nondet fn device<Found>(context, class, port, kind) {
+    nondet fn "device_"<Found>(context, class, port, kind) {
         setup => {
             let found = found(context, class, port, kind)?;
             Ok(Some(found))
@@ -34,9 +24,7 @@ predicates! {
     }
 
     /// device_(+Class, ?Port, ?Type, ?Path)
-    #[module("ev3dev_native")]
-    #[name("device_")]
-    nondet fn device_path<Found>(context, class, port, kind, path) {
+    nondet fn "device_"<Found>(context, class, port, kind, path) {
         setup => {
             let mut found = found(context, class, port, kind)?;
             if let Some(path) = Call::of(context, "tacho_motor", 3).text_if_bound(path)? {
@@ -56,9 +44,7 @@ predicates! {
     }
 
     /// attribute_(+Class, ?Port, +Attribute, ?Value)
-    #[module("ev3dev_native")]
-    #[name("attribute_")]
-    nondet fn attribute<AttributeReads>(context, class, port, attribute, value) {
+    nondet fn "attribute_"<AttributeReads>(context, class, port, attribute, value) {
         setup => {
             let class = class_of(context, class)?;
             let call = Call::of(context, accessor(class), 3);
@@ -79,13 +65,12 @@ predicates! {
     }
 
     /// attribute_write_(+Class, +Port, +Attribute, +Value)
-    #[module("ev3dev_native")]
-    #[name("attribute_write_")]
-    semidet fn attribute_write(context, class, port, attribute, value) {
+    semidet fn "attribute_write_"(context, class, port, attribute, value) {
         let class = class_of(context, class)?;
         let call = Call::of(context, accessor(class), 3);
         let socket = call.text(port)?;
         let (name, text) = (call.text(attribute)?, call.value(value)?);
+        call.before_motors()?;
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
         call.or_absent(class, port, written)

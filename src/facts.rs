@@ -3,6 +3,7 @@
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_type};
 use crate::glue::places::places;
+use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
     Bounds, Drawing, Drawn, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError,
@@ -52,7 +53,7 @@ pub(crate) fn must_be_ground<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
 ) -> PrologResult<()> {
-    if attempt(call.context.call_once(pred!("system:ground/1"), [term]))? {
+    if attempt(call.context.ask(pred!("system:ground/1"), [term]))? {
         return Ok(());
     }
     wrong_type(call, "ground", &call.context.new_term_ref())

@@ -10,23 +10,9 @@ use std::path::Path;
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_subsystem_detect();
-    register_file_read();
-    register_file_write();
-    register_stale_mount();
-    register_sysfs();
-    register_sysfs_use();
-    register_dev();
-    register_dev_use();
-}
-
-predicates! {
+natives! {
     /// subsystem_detect_(?Port, ?Type, ?Path, +Pattern)
-    #[module("ev3dev_native")]
-    #[name("subsystem_detect_")]
-    nondet fn subsystem_detect<IntoIter<Detected>>(context, port, kind, path, pattern) {
+    nondet fn "subsystem_detect_"<IntoIter<Detected>>(context, port, kind, path, pattern) {
         setup => {
             let call = Call::of(context, "subsystem_detect", 4);
             let pattern = call.text(pattern)?;
@@ -42,9 +28,7 @@ predicates! {
     }
 
     /// file_read_(+File, -Value)
-    #[module("ev3dev_native")]
-    #[name("file_read_")]
-    semidet fn file_read(context, file, value) {
+    semidet fn "file_read_"(context, file, value) {
         let call = Call::of(context, "file_read", 2);
         let path = call.text(file)?;
         let read = call.or_throw(read_value(call.devices()?.tree(), Path::new(&*path)))?;
@@ -52,34 +36,26 @@ predicates! {
     }
 
     /// file_write_(+File, +Value)
-    #[module("ev3dev_native")]
-    #[name("file_write_")]
-    semidet fn file_write(context, file, value) {
+    semidet fn "file_write_"(context, file, value) {
         let call = Call::of(context, "file_write", 2);
         let (path, text) = (call.text(file)?, call.value(value)?);
         call.or_throw(write_file(call.devices()?.tree(), Path::new(&*path), &text))
     }
 
     /// stale_mount_(+Directory): the program that serves the files below it has ended.
-    #[module("ev3dev_native")]
-    #[name("stale_mount_")]
-    semidet fn stale_mount(context, directory) {
+    semidet fn "stale_mount_"(context, directory) {
         let directory = Call::of(context, "ev3_sysfs", 1).text(directory)?;
         let looked = std::fs::metadata(&*directory);
         into_prolog_result(looked.is_err_and(|error| error.kind() == ErrorKind::NotConnected))
     }
 
     /// sysfs_(-Root)
-    #[module("ev3dev_native")]
-    #[name("sysfs_")]
-    semidet fn sysfs(_context, root) {
+    semidet fn "sysfs_"(_context, root) {
         unify_atom(root, &devices().tree().root().to_string_lossy())
     }
 
     /// sysfs_use_(+Root): a directory that exists.
-    #[module("ev3dev_native")]
-    #[name("sysfs_use_")]
-    semidet fn sysfs_use(context, root) {
+    semidet fn "sysfs_use_"(context, root) {
         let call = Call::of(context, "ev3_sysfs", 1);
         let root = call.text(root)?;
         let used = use_files(&*root);
@@ -89,16 +65,12 @@ predicates! {
     }
 
     /// dev_(-Directory)
-    #[module("ev3dev_native")]
-    #[name("dev_")]
-    semidet fn dev(_context, directory) {
+    semidet fn "dev_"(_context, directory) {
         unify_atom(directory, &state::dev().root().to_string_lossy())
     }
 
     /// dev_use_(+Directory)
-    #[module("ev3dev_native")]
-    #[name("dev_use_")]
-    semidet fn dev_use(context, directory) {
+    semidet fn "dev_use_"(context, directory) {
         let directory = Call::of(context, "ev3_dev", 1).text(directory)?;
         state::use_dev_files(&*directory);
         Ok(())

@@ -3,17 +3,10 @@ use crate::facts::drawing;
 use crate::glue::call::Call;
 use swipl::prelude::*;
 
-/// Registers the predicate below.
-pub(crate) fn register() {
-    register_grid_drawn();
-}
-
-predicates! {
+natives! {
     /// grid_drawn_(+Rows, -Drawn): drawn(Width, Height, Obstructed, Start), where start is
     /// start(Cell, Heading) or `none`, and a cell is `[X, Y]`.
-    #[module("ev3dev_native")]
-    #[name("grid_drawn_")]
-    semidet fn grid_drawn(context, rows, drawn) {
+    semidet fn "grid_drawn_"(context, rows, drawn) {
         let call = Call::of(context, "grid_map", 2);
         let drawing = drawing(&call, rows)?;
         let cells = drawing.obstructed().map(|cell| cell_term(&call, cell));

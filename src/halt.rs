@@ -10,18 +10,8 @@ use swipl::prelude::*;
 /// Whether the motors are stopped when Prolog halts.
 static STOPS: AtomicBool = AtomicBool::new(true);
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_running();
-    register_at_halt();
-    register_told_to_end();
-    register_stop_started();
-    register_halts_by();
-    act_at_halt(halts);
-}
-
 /// Prolog halts for good. Its threads may go on for a while, and start motors.
-fn halts() {
+pub(crate) fn halts() {
     if STOPS.load(Ordering::Relaxed) {
         ev3_signals::stop_for(Reason::Halting);
         // What fails was to be stopped before, and said so.
@@ -31,45 +21,43 @@ fn halts() {
     }
 }
 
-predicates! {
+natives! {
     /// running_(-Ports): the motors that the program started and that still turn.
-    #[module("ev3dev_native")]
-    #[name("running_")]
-    semidet fn running(_context, ports) {
+    semidet fn "running_"(_context, ports) {
         let motors = chosen_devices().map(|devices| motor::running(&devices)).unwrap_or_default();
         let names: Vec<_> = motors.iter().map(|motor| atomable(motor.port())).collect();
         ports.unify(names.as_slice())
     }
 
     /// at_halt_(+Stops): Prolog is about to halt, and is to stop the motors, or to leave them,
-    /// if that is not cancelled.
-    #[module("ev3dev_native")]
-    #[name("at_halt_")]
-    semidet fn at_halt(_context, stops) {
-        STOPS.store(stops.get_ex()?, Ordering::Relaxed);
+    /// if that is not canceled.
+    semidet fn "at_halt_"(_context, stops) {
+        let stops = stops.get_ex()?;
+        STOPS.store(stops, Ordering::Relaxed);
+        ev3_signals::is_to_halt(stops);
         act_at_halt(halts);
         Ok(())
     }
 
+    /// halt_canceled_: a goal of `at_halt/1` has canceled that.
+    semidet fn "halt_canceled_"(_context) {
+        ev3_signals::is_to_halt(false);
+        into_prolog_result(true)
+    }
+
     /// told_to_end_: a signal ends the program. From now on no motor starts.
-    #[module("ev3dev_native")]
-    #[name("told_to_end_")]
-    semidet fn told_to_end(_context) {
+    semidet fn "told_to_end_"(_context) {
         ev3_signals::stop_for(Reason::Ending);
         into_prolog_result(true)
     }
 
     /// stop_started_: stops the motors that the program started.
-    #[module("ev3dev_native")]
-    #[name("stop_started_")]
-    semidet fn stop_started(context) {
+    semidet fn "stop_started_"(context) {
         Call::of(context, "halt", 0).or_throw(motor::stop_started(&devices()))
     }
 
     /// halts_by_(+Signal): Prolog halts because of a signal, `term`, `hup` or `int`.
-    #[module("ev3dev_native")]
-    #[name("halts_by_")]
-    semidet fn halts_by(context, signal) {
+    semidet fn "halts_by_"(context, signal) {
         let signal = Call::of(context, "halt", 0).text(signal)?;
         ev3_signals::halts(&signal);
         Ok(())

@@ -7,28 +7,17 @@ use ev3_driver::Registry;
 use ev3_driver::course::{Command, DriveOptions, Leg};
 use ev3_driver::journal::{Act, Course, Entry, LightChange, MotorCommand, Name};
 use ev3_driver::journal::{SoundCommand, origin, set_cause};
+use ev3_driver::lock::locked;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_cause();
-    register_cause_now();
-    register_cause_set();
-    register_cause_active();
-    register_journal_entry();
-    register_journal_new();
-}
-
-predicates! {
+natives! {
     /// cause_(-Cause, -Former): from now on this thread acts for a new cause. The former
     /// one is back as soon as the choice point of this call is gone.
-    #[module("ev3dev_native")]
-    #[name("cause_")]
-    nondet fn cause<Cause>(_context, cause, former) {
+    nondet fn "cause_"<Cause>(_context, cause, former) {
         setup => {
             Cause::begin().map(Some).ok_or(PrologError::Failure)
         },
@@ -44,33 +33,25 @@ predicates! {
     }
 
     /// cause_now_(-Cause): 0 if there is none.
-    #[module("ev3dev_native")]
-    #[name("cause_now_")]
-    semidet fn cause_now(_context, cause) {
+    semidet fn "cause_now_"(_context, cause) {
         cause.unify(u64::from(origin().cause))
     }
 
     /// cause_set_(+Cause)
-    #[module("ev3dev_native")]
-    #[name("cause_set_")]
-    semidet fn cause_set(context, cause) {
+    semidet fn "cause_set_"(context, cause) {
         set_cause(number(&Call::of(context, "because", 2), cause)?);
         Ok(())
     }
 
     /// cause_active_(+Cause): some thread or engine still acts for it.
-    #[module("ev3dev_native")]
-    #[name("cause_active_")]
-    semidet fn cause_active(context, cause) {
+    semidet fn "cause_active_"(context, cause) {
         let cause = number(&Call::of(context, "because", 2), cause)?;
-        into_prolog_result(active().contains(&cause))
+        into_prolog_result(locked(&ACTIVE).contains(&cause))
     }
 
     /// journal_entry_(-Time, -Act, -Cause, -Called): the last first. Called is
     /// `Name/Arity`, or `none`.
-    #[module("ev3dev_native")]
-    #[name("journal_entry_")]
-    nondet fn journal_entry<std::vec::IntoIter<Entry>>(context, time, act, cause, called) {
+    nondet fn "journal_entry_"<std::vec::IntoIter<Entry>>(context, time, act, cause, called) {
         setup => {
             let call = Call::of(context, "journal", 1);
             Ok(Some(call.devices()?.journal().entries().into_iter()))
@@ -91,9 +72,7 @@ predicates! {
 
     /// journal_new_(-Done): terms `done(Time, Act, Cause)`, what was done since the last call,
     /// in its order.
-    #[module("ev3dev_native")]
-    #[name("journal_new_")]
-    semidet fn journal_new(context, done) {
+    semidet fn "journal_new_"(context, done) {
         let call = Call::of(context, "view", 1);
         let term = |entry: &Entry| {
             let maker = Maker(&call);
@@ -112,7 +91,7 @@ static SEEN: Mutex<(Weak<Registry>, u64)> = Mutex::new((Weak::new(), 0));
 /// What was done since the last call. Asks no device.
 fn new_entries() -> Vec<Entry> {
     let Some(devices) = chosen_devices() else { return Vec::new() };
-    let mut seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut seen = locked(&SEEN);
     let these = Arc::downgrade(&devices);
     let after = if these.ptr_eq(&seen.0) { seen.1 } else { 0 };
     let (entries, count) = devices.journal().after(after);
@@ -133,10 +112,6 @@ static LAST: AtomicU32 = AtomicU32::new(0);
 /// The causes for which somebody acts.
 static ACTIVE: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
 
-fn active() -> MutexGuard<'static, BTreeSet<u32>> {
-    ACTIVE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// A cause of what this thread does, until it is dropped.
 struct Cause {
     number: u32,
@@ -150,7 +125,7 @@ impl Cause {
     fn begin() -> Option<Self> {
         let number = LAST.fetch_add(1, Ordering::Relaxed).wrapping_add(1);
         let former = origin().cause;
-        active().insert(number).then(|| {
+        locked(&ACTIVE).insert(number).then(|| {
             set_cause(number);
             Self { number, former, is_over: false }
         })
@@ -159,7 +134,7 @@ impl Cause {
 
 impl Drop for Cause {
     fn drop(&mut self) {
-        active().remove(&self.number);
+        locked(&ACTIVE).remove(&self.number);
         // Not in an engine that is destroyed while another one runs.
         if origin().cause == self.number {
             set_cause(self.former);

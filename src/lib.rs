@@ -7,6 +7,9 @@
 //!
 //! A native predicate `p_/M` is the twin of the public `p/N` of the Prolog
 //! module, and names that in its errors.
+#[macro_use]
+mod glue;
+
 mod battery;
 mod buttons;
 mod dc_motors;
@@ -14,7 +17,6 @@ mod drive;
 mod driver;
 mod facts;
 mod files;
-mod glue;
 mod grid;
 mod halt;
 mod journal;
@@ -42,6 +44,7 @@ pub extern "C" fn install() {
     dc_motors::register();
     servo_motors::register();
     halt::register();
+    swipl::fli::act_at_halt(halt::halts);
     journal::register();
     lights::register();
     battery::register();
@@ -57,6 +60,12 @@ pub extern "C" fn install() {
     navigation::register();
     drive::register();
     view::register();
+    view::door::register();
+    view::hand::register();
     #[cfg(feature = "sim")]
-    sim::register();
+    {
+        sim::register();
+        sim::buttons::register();
+        sim::limit::register();
+    }
 }

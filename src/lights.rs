@@ -7,23 +7,13 @@ use ev3_driver::brick::light::{self, Color, Light};
 use std::vec::IntoIter;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_led();
-    register_led_set_color();
-    register_led_set_trigger();
-    register_led_set_delays();
-}
-
 /// The lights that the call has not returned yet.
 type Lights = IntoIter<Light>;
 
-predicates! {
+natives! {
     /// led_(?Light, +What, -Value): what is `name`, `color`, `trigger`, `triggers`,
     /// or `delays`, whose value is `delays(On, Off)`.
-    #[module("ev3dev_native")]
-    #[name("led_")]
-    nondet fn led<Lights>(context, name, what, value) {
+    nondet fn "led_"<Lights>(context, name, what, value) {
         setup => {
             let call = Call::of(context, "led", 2);
             let (name, devices) = (call.text_if_bound(name)?, call.devices()?);
@@ -43,9 +33,7 @@ predicates! {
     }
 
     /// led_set_color_(+Light, +Color)
-    #[module("ev3dev_native")]
-    #[name("led_set_color_")]
-    semidet fn led_set_color(context, name, color) {
+    semidet fn "led_set_color_"(context, name, color) {
         let call = Call::of(context, "led", 2);
         let (name, color) = (call.text(name)?, color_of(&call, color)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
@@ -54,9 +42,7 @@ predicates! {
     }
 
     /// led_set_trigger_(+Light, +Trigger)
-    #[module("ev3dev_native")]
-    #[name("led_set_trigger_")]
-    semidet fn led_set_trigger(context, name, trigger) {
+    semidet fn "led_set_trigger_"(context, name, trigger) {
         let call = Call::of(context, "led_trigger", 2);
         let (name, trigger) = (call.text(name)?, call.text(trigger)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
@@ -64,9 +50,7 @@ predicates! {
     }
 
     /// led_set_delays_(+Light, +On, +Off)
-    #[module("ev3dev_native")]
-    #[name("led_set_delays_")]
-    semidet fn led_set_delays(context, name, on, off) {
+    semidet fn "led_set_delays_"(context, name, on, off) {
         let call = Call::of(context, "led_blink", 3);
         let (name, delays) = (call.text(name)?, [call.integer(on)?, call.integer(off)?]);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());

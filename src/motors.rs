@@ -15,34 +15,9 @@ use std::sync::Arc;
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_motor_run();
-    register_run_forever();
-    register_motors_run();
-    register_motor_turn();
-    register_motor_stop();
-    register_stop_all_motors();
-    register_commands();
-    register_motors_stop();
-    register_motors_leave();
-    register_motor_reset();
-    register_motor_wait();
-    register_motor_wait_flag();
-    register_motor_run_direct();
-    register_motor_position();
-    register_motor_speed();
-    register_motor_counts();
-    register_motor_gear();
-    register_motor_set_gear();
-    register_motor_set_position();
-}
-
-predicates! {
+natives! {
     /// motor_run_(+Port, +Speed): a percentage, or dps(DegreesPerSecond).
-    #[module("ev3dev_native")]
-    #[name("motor_run_")]
-    semidet fn motor_run(context, port, percent) {
+    semidet fn "motor_run_"(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
         let (port, speed) = (call.text(port)?, speed_of(&call, percent)?);
         let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
@@ -51,9 +26,7 @@ predicates! {
     }
 
     /// run_forever_(+Port, +CountsPerSecond)
-    #[module("ev3dev_native")]
-    #[name("run_forever_")]
-    semidet fn run_forever(context, port, speed) {
+    semidet fn "run_forever_"(context, port, speed) {
         let call = Call::of(context, "run_forever", 2);
         let (port, speed) = (call.text(port)?, Speed::CountsPerSecond(call.integer(speed)?));
         let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
@@ -62,9 +35,7 @@ predicates! {
     }
 
     /// motors_run_(+Runs): a list of run(Port, Speed), started together.
-    #[module("ev3dev_native")]
-    #[name("motors_run_")]
-    semidet fn motors_run(context, runs) {
+    semidet fn "motors_run_"(context, runs) {
         let call = Call::of(context, "motors_run", 1);
         let run = |run: &Term<'a>| -> PrologResult<_> {
             let [port, percent] = call.arguments(run)?;
@@ -80,11 +51,9 @@ predicates! {
     /// motor_turn_(+Moves, +Options, -Reason): moves is a list of
     /// move(Port, Speed, Degrees), to(Port, Speed, Degrees) and
     /// for(Port, Speed, Seconds), options is
-    /// options(StopAction, RampUp, RampDown, Wait, Timeout). Who leaves the wait stops
-    /// the motors.
-    #[module("ev3dev_native")]
-    #[name("motor_turn_")]
-    nondet fn motor_turn<Slices<Moving>>(context, moves, options, reason) {
+    /// options(StopAction, RampUp, RampDown, Wait, Timeout). If the wait is left, the
+    /// motors stop.
+    nondet fn "motor_turn_"<Slices<Moving>>(context, moves, options, reason) {
         setup => {
             let call = Call::of(context, "motor_run", 4);
             let turn = |turn: &Term<'a>| -> PrologResult<_> {
@@ -104,9 +73,7 @@ predicates! {
     }
 
     /// motor_stop_(+Class, +Port, +StopAction)
-    #[module("ev3dev_native")]
-    #[name("motor_stop_")]
-    semidet fn motor_stop(context, class, port, action) {
+    semidet fn "motor_stop_"(context, class, port, action) {
         let call = Call::of(context, "motor_stop", 2);
         let class = class_of(context, class)?;
         let (name, action) = (call.text(port)?, stop_action(&call, action)?);
@@ -116,25 +83,19 @@ predicates! {
     }
 
     /// stop_all_motors_
-    #[module("ev3dev_native")]
-    #[name("stop_all_motors_")]
-    semidet fn stop_all_motors(context) {
+    semidet fn "stop_all_motors_"(context) {
         let call = Call::of(context, "stop_all_motors", 0);
         call.or_throw(motor::stop_connected(&*call.devices_to_command()?, &mut call.interrupted()))
     }
 
     /// commands_(-Count): how many commands the program has given to motors.
-    #[module("ev3dev_native")]
-    #[name("commands_")]
-    semidet fn commands(_context, count) {
+    semidet fn "commands_"(_context, count) {
         count.unify(u64::from(motor::command_count()))
     }
 
     /// motors_stop_(+From, +Before): stops the motors whose last command was one of
     /// these.
-    #[module("ev3dev_native")]
-    #[name("motors_stop_")]
-    semidet fn motors_stop(context, from, before) {
+    semidet fn "motors_stop_"(context, from, before) {
         let call = Call::of(context, "behave", 2);
         let commands = commands_of(&call, from, before)?;
         call.or_throw(motor::stop_commanded(&*call.devices_to_command()?, &commands))
@@ -142,18 +103,14 @@ predicates! {
 
     /// motors_leave_(+From, +Before): the same at the first wait of this thread, in the place of
     /// other commands since From.
-    #[module("ev3dev_native")]
-    #[name("motors_leave_")]
-    semidet fn motors_leave(context, from, before) {
+    semidet fn "motors_leave_"(context, from, before) {
         let call = Call::of(context, "behave", 2);
         waiting::stop_at_wait(commands_of(&call, from, before)?);
         Ok(())
     }
 
     /// motor_reset_(+Port)
-    #[module("ev3dev_native")]
-    #[name("motor_reset_")]
-    semidet fn motor_reset(context, port) {
+    semidet fn "motor_reset_"(context, port) {
         let call = Call::of(context, "motor_reset", 1);
         let (class, name) = (Class::TachoMotor, call.text(port)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
@@ -162,9 +119,7 @@ predicates! {
     }
 
     /// motor_wait_(+Ports, +Timeout, -Reason)
-    #[module("ev3dev_native")]
-    #[name("motor_wait_")]
-    nondet fn motor_wait<Slices<UntilDone>>(context, ports, timeout, reason) {
+    nondet fn "motor_wait_"<Slices<UntilDone>>(context, ports, timeout, reason) {
         setup => {
             let call = Call::of(context, "motor_wait", 3);
             let devices = call.devices()?;
@@ -179,9 +134,7 @@ predicates! {
     }
 
     /// motor_wait_flag_(+Port, +Flag, +Present, -Reason): `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("motor_wait_flag_")]
-    nondet fn motor_wait_flag<Slices<UntilFlag>>(context, port, flag, present, reason) {
+    nondet fn "motor_wait_flag_"<Slices<UntilFlag>>(context, port, flag, present, reason) {
         setup => {
             let call = Call::of(context, "motor_wait_while", 2);
             let devices = call.devices()?;
@@ -197,9 +150,7 @@ predicates! {
     }
 
     /// motor_run_direct_(+Class, +Port, +Percent)
-    #[module("ev3dev_native")]
-    #[name("motor_run_direct_")]
-    semidet fn motor_run_direct(context, class, port, percent) {
+    semidet fn "motor_run_direct_"(context, class, port, percent) {
         let call = Call::of(context, "motor_run_direct", 2);
         let class = class_of(context, class)?;
         let (port, percent) = (call.text(port)?, call.float(percent)?);
@@ -209,9 +160,7 @@ predicates! {
     }
 
     /// motor_position_(?Port, -Position)
-    #[module("ev3dev_native")]
-    #[name("motor_position_")]
-    nondet fn motor_position<ListedDevices>(context, port, position) {
+    nondet fn "motor_position_"<ListedDevices>(context, port, position) {
         setup => {
             let call = Call::of(context, "motor_position", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
@@ -222,9 +171,7 @@ predicates! {
     }
 
     /// motor_speed_(?Port, -Speed)
-    #[module("ev3dev_native")]
-    #[name("motor_speed_")]
-    nondet fn motor_speed<ListedDevices>(context, port, speed) {
+    nondet fn "motor_speed_"<ListedDevices>(context, port, speed) {
         setup => {
             let call = Call::of(context, "motor_speed", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
@@ -236,9 +183,7 @@ predicates! {
 
     /// motor_counts_(+Port, +Constant, -Counts): `max_speed`, or `count_per_rot` with the gear,
     /// of a motor of which the driver has read it. Asks no device.
-    #[module("ev3dev_native")]
-    #[name("motor_counts_")]
-    semidet fn motor_counts(context, port, constant, counts) {
+    semidet fn "motor_counts_"(context, port, constant, counts) {
         let call = Call::of(context, "why", 1);
         let devices = chosen_devices().ok_or(PrologError::Failure)?;
         let known = motor::known_counts(&devices, &call.text(port)?, &call.text(constant)?);
@@ -246,9 +191,7 @@ predicates! {
     }
 
     /// motor_gear_(?Port, -Ratio)
-    #[module("ev3dev_native")]
-    #[name("motor_gear_")]
-    nondet fn motor_gear<ListedDevices>(context, port, ratio) {
+    nondet fn "motor_gear_"<ListedDevices>(context, port, ratio) {
         setup => {
             let call = Call::of(context, "motor_gear", 2);
             call.listed(&*call.devices()?, Class::TachoMotor, port).map(Some)
@@ -263,9 +206,7 @@ predicates! {
     }
 
     /// motor_set_gear_(+Port, +Ratio)
-    #[module("ev3dev_native")]
-    #[name("motor_set_gear_")]
-    semidet fn motor_set_gear(context, port, ratio) {
+    semidet fn "motor_set_gear_"(context, port, ratio) {
         let call = Call::of(context, "motor_gear", 2);
         let (name, ratio) = (call.text(port)?, call.float(ratio)?);
         let devices = call.devices()?;
@@ -274,9 +215,7 @@ predicates! {
     }
 
     /// motor_set_position_(+Port, +Position)
-    #[module("ev3dev_native")]
-    #[name("motor_set_position_")]
-    semidet fn motor_set_position(context, port, position) {
+    semidet fn "motor_set_position_"(context, port, position) {
         let call = Call::of(context, "motor_position", 2);
         let (name, position) = (call.text(port)?, call.float(position)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
@@ -358,9 +297,7 @@ pub(crate) fn stop_action<C: QueryableContextType>(
     call: &Call<C>,
     term: &Term,
 ) -> PrologResult<StopAction> {
-    let word = call.text(term)?;
-    let actions = [StopAction::Coast, StopAction::Brake, StopAction::Hold];
-    match actions.into_iter().find(|action| action.word() == word) {
+    match StopAction::named(&call.text(term)?) {
         Some(action) => Ok(action),
         None => wrong_value(call, "stop_action", term),
     }

@@ -4,19 +4,8 @@ use crate::glue::places::{place, place_term, places_term};
 use crate::roadmap::{map_of, no_way, options_of};
 use ev3_motion::Pose;
 use ev3_roadmap::{Obstacle, Path, Step, View, Views};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 use swipl::prelude::*;
-
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_views_new();
-    register_views_look();
-    register_views_forget();
-    register_views_block();
-    register_views_obstacles();
-    register_views_step();
-    register_steer();
-}
 
 /// The echoes that a robot has measured on its path.
 #[arc_blob("ev3_views", defaults)]
@@ -30,19 +19,15 @@ struct PathBlob {
     path: Path,
 }
 
-predicates! {
+natives! {
     /// views_new_(+Radius, -Views)
-    #[module("ev3dev_native")]
-    #[name("views_new_")]
-    semidet fn views_new(context, radius, views) {
+    semidet fn "views_new_"(context, radius, views) {
         let radius = Call::of(context, "navigate_to", 3).float(radius)?;
         views.unify(Arc::new(SeenSoFar { views: Mutex::new(Views::new(radius)) }))
     }
 
     /// views_look_(+Views, +pose(X, Y, Heading), +sensor(X, Y, Heading), +Range, -Moved)
-    #[module("ev3dev_native")]
-    #[name("views_look_")]
-    semidet fn views_look(context, views, pose, sensor, range, moved) {
+    semidet fn "views_look_"(context, views, pose, sensor, range, moved) {
         let call = Call::of(context, "navigate_to", 3);
         let number = |term: &Term| call.float(term);
         let ([x, y, heading], [aside, ahead, turned]) =
@@ -54,26 +39,20 @@ predicates! {
     }
 
     /// views_forget_(+Views)
-    #[module("ev3dev_native")]
-    #[name("views_forget_")]
-    semidet fn views_forget(_context, views) {
+    semidet fn "views_forget_"(_context, views) {
         locked(&views.get_ex()?).forget();
         Ok(())
     }
 
     /// views_block_(+Views, +Place)
-    #[module("ev3dev_native")]
-    #[name("views_block_")]
-    semidet fn views_block(context, views, at) {
+    semidet fn "views_block_"(context, views, at) {
         let at = place(&Call::of(context, "navigate_to", 3), at)?;
         locked(&views.get_ex()?).block(at);
         Ok(())
     }
 
     /// views_obstacles_(+Views, +Facts, -Polygons)
-    #[module("ev3dev_native")]
-    #[name("views_obstacles_")]
-    semidet fn views_obstacles(context, views, facts, polygons) {
+    semidet fn "views_obstacles_"(context, views, facts, polygons) {
         let call = Call::of(context, "navigate_to", 3);
         let found = locked(&views.get_ex()?).obstacles(&map_of(&call, facts)?);
         let corners = found.iter().filter_map(Obstacle::corners);
@@ -86,9 +65,7 @@ predicates! {
 
     /// views_step_(+Views, +Facts, +way(Start, Goal, Margin), +Options, -Step): step is
     /// step(Heading, Length, Safe, Unseen, Rest, Way) or no_way(Why).
-    #[module("ev3dev_native")]
-    #[name("views_step_")]
-    semidet fn views_step(context, views, facts, way, options, step) {
+    semidet fn "views_step_"(context, views, facts, way, options, step) {
         let call = Call::of(context, "navigate_to", 3);
         let (map, options) = (map_of(&call, facts)?, options_of(&call, options)?);
         let [start, goal, margin] = call.arguments(way)?;
@@ -102,9 +79,7 @@ predicates! {
     }
 
     /// steer_(+Way, +pose(X, Y, Heading), +Before, -Gone, -DegreesPerCm)
-    #[module("ev3dev_native")]
-    #[name("steer_")]
-    semidet fn steer(context, way, pose, before, gone, turn) {
+    semidet fn "steer_"(context, way, pose, before, gone, turn) {
         let call = Call::of(context, "navigate_to", 3);
         let [x, y, heading] = call.arguments(pose)?;
         let pose = Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? };
@@ -116,7 +91,7 @@ predicates! {
 }
 
 fn locked(seen: &Arc<SeenSoFar>) -> MutexGuard<'_, Views> {
-    seen.views.lock().unwrap_or_else(PoisonError::into_inner)
+    ev3_driver::lock::locked(&seen.views)
 }
 
 /// step(Heading, Length, Safe, Unseen, Rest, Way)

@@ -5,18 +5,9 @@ use crate::glue::terms::unify_atom;
 use ev3_driver::brick::port as lego_port;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_port_set_mode();
-    register_port_device();
-    register_port_set_device();
-}
-
-predicates! {
+natives! {
     /// port_set_mode_(+Port, +Mode)
-    #[module("ev3dev_native")]
-    #[name("port_set_mode_")]
-    semidet fn port_set_mode(context, port, mode) {
+    semidet fn "port_set_mode_"(context, port, mode) {
         let call = Call::of(context, "port_mode", 2);
         let (port, mode) = (call.text(port)?, call.text(mode)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());
@@ -25,9 +16,7 @@ predicates! {
     }
 
     /// port_device_(?Port, -Type)
-    #[module("ev3dev_native")]
-    #[name("port_device_")]
-    nondet fn port_device<ListedDevices>(context, port, kind) {
+    nondet fn "port_device_"<ListedDevices>(context, port, kind) {
         setup => {
             let call = Call::of(context, "port_device", 2);
             let (bound, devices) = (call.text_if_bound(port)?, call.devices()?);
@@ -43,9 +32,7 @@ predicates! {
     }
 
     /// port_set_device_(+Port, +Name)
-    #[module("ev3dev_native")]
-    #[name("port_set_device_")]
-    semidet fn port_set_device(context, port, name) {
+    semidet fn "port_set_device_"(context, port, name) {
         let call = Call::of(context, "port_device", 2);
         let (port, name) = (call.text(port)?, call.text(name)?);
         let (devices, interrupted) = (call.devices()?, &mut call.interrupted());

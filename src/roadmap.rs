@@ -12,18 +12,10 @@ use ev3_sim::Item;
 use ev3_sim::facts::{Fact, Subject};
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_roadmap();
-    register_roadmap_svg();
-}
-
-predicates! {
+natives! {
     /// roadmap_(+Facts, +Start, +Goal, +Options, -Way): way is
     /// way(Length, Points, Legs) or no_way(Why).
-    #[module("ev3dev_native")]
-    #[name("roadmap_")]
-    semidet fn roadmap(context, facts, start, goal, options, way) {
+    semidet fn "roadmap_"(context, facts, start, goal, options, way) {
         let call = Call::of(context, "roadmap_path", 5);
         match solve(&call, [facts, start, goal, options])?.1 {
             Ok(found) => way.unify(&way_term(&call, &found.path)?),
@@ -32,9 +24,7 @@ predicates! {
     }
 
     /// roadmap_svg_(+Facts, +Start, +Goal, +Options, -Text)
-    #[module("ev3dev_native")]
-    #[name("roadmap_svg_")]
-    semidet fn roadmap_svg(context, facts, start, goal, options, text) {
+    semidet fn "roadmap_svg_"(context, facts, start, goal, options, text) {
         let call = Call::of(context, "roadmap_svg", 5);
         let keep = options_of(&call, options)?.keep;
         let (map, found) = solve(&call, [facts, start, goal, options])?;

@@ -8,31 +8,15 @@ use ev3_driver::brick::screen::{self, frame, picture};
 use std::path::Path;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_screen_clear();
-    register_screen_draw();
-    register_screen_write();
-    register_screen_image();
-    register_screen_show();
-    register_screen_png();
-    register_screen_set_aside();
-    register_screen_give_back();
-}
-
-predicates! {
+natives! {
     /// screen_clear_
-    #[module("ev3dev_native")]
-    #[name("screen_clear_")]
-    semidet fn screen_clear(_context) {
+    semidet fn "screen_clear_"(_context) {
         frame().clear();
         into_prolog_result(true)
     }
 
     /// screen_draw_(+Shape, +style(Color, Width, Fill))
-    #[module("ev3dev_native")]
-    #[name("screen_draw_")]
-    semidet fn screen_draw(context, shape, style) {
+    semidet fn "screen_draw_"(context, shape, style) {
         let call = Call::of(context, "screen_draw", 2);
         let shape = shape_of(&call, shape)?;
         let [color, width, fill] = call.arguments(style)?;
@@ -46,9 +30,7 @@ predicates! {
     }
 
     /// screen_write_(+X, +Y, +Text, +letters(Color, Background, Font, Scale, Align))
-    #[module("ev3dev_native")]
-    #[name("screen_write_")]
-    semidet fn screen_write(context, x, y, text, letters) {
+    semidet fn "screen_write_"(context, x, y, text, letters) {
         let call = Call::of(context, "screen_text", 4);
         let (at, text) = (point(&call, [x, y])?, call.text(text)?);
         let letters = letters_of(&call, letters)?;
@@ -57,9 +39,7 @@ predicates! {
     }
 
     /// screen_image_(+X, +Y, +File)
-    #[module("ev3dev_native")]
-    #[name("screen_image_")]
-    semidet fn screen_image(context, x, y, file) {
+    semidet fn "screen_image_"(context, x, y, file) {
         let call = Call::of(context, "screen_image", 3);
         let at = point(&call, [x, y])?;
         let picture = call.or_throw(Picture::read(Path::new(&*call.text(file)?)))?;
@@ -68,34 +48,26 @@ predicates! {
     }
 
     /// screen_show_
-    #[module("ev3dev_native")]
-    #[name("screen_show_")]
-    semidet fn screen_show(context) {
+    semidet fn "screen_show_"(context) {
         let call = Call::of(context, "screen_show", 0);
         let dev = call.dev()?;
         call.or_fail(screen::show(devices().tree(), &*dev, &frame()))
     }
 
     /// screen_set_aside_: the sheet is blank from now on, until it is given back.
-    #[module("ev3dev_native")]
-    #[name("screen_set_aside_")]
-    semidet fn screen_set_aside(_context) {
+    semidet fn "screen_set_aside_"(_context) {
         state::set_frame_aside();
         into_prolog_result(true)
     }
 
     /// screen_give_back_: what was set aside last.
-    #[module("ev3dev_native")]
-    #[name("screen_give_back_")]
-    semidet fn screen_give_back(_context) {
+    semidet fn "screen_give_back_"(_context) {
         state::give_frame_back();
         into_prolog_result(true)
     }
 
     /// screen_png_(+File)
-    #[module("ev3dev_native")]
-    #[name("screen_png_")]
-    semidet fn screen_png(context, file) {
+    semidet fn "screen_png_"(context, file) {
         let call = Call::of(context, "screen_png", 1);
         let (file, dev) = (call.text(file)?, call.dev()?);
         let seen = call.or_fail(screen::seen(devices().tree(), &*dev))?;

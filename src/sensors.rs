@@ -12,23 +12,9 @@ use std::cell::Cell;
 use std::sync::Arc;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_sensor_value();
-    register_sensor_value_or_why();
-    register_sensor_values();
-    register_sensor_restart();
-    register_sensor_wait();
-    register_sensor_scale();
-    register_i2c_read();
-    register_i2c_write();
-}
-
-predicates! {
+natives! {
     /// sensor_value_(?Port, +Types, +Mode, +Index, -Value)
-    #[module("ev3dev_native")]
-    #[name("sensor_value_")]
-    nondet fn sensor_value<Readings>(context, port, types, mode, index, value) {
+    nondet fn "sensor_value_"<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             if call.serve_before("sensor_value_", [port, types, mode, index, value])? {
@@ -44,9 +30,7 @@ predicates! {
 
     /// sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value): the same, but explains
     /// it if there is no value.
-    #[module("ev3dev_native")]
-    #[name("sensor_value_or_why_")]
-    nondet fn sensor_value_or_why<Readings>(context, port, types, mode, index, value) {
+    nondet fn "sensor_value_or_why_"<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             if call.serve_before("sensor_value_or_why_", [port, types, mode, index, value])? {
@@ -66,9 +50,7 @@ predicates! {
 
     /// sensor_values_(?Port, +Types, +Mode, +Count, ?Values): the list of the first
     /// Count values, or of all values of the mode if Count is 0.
-    #[module("ev3dev_native")]
-    #[name("sensor_values_")]
-    nondet fn sensor_values<Readings>(context, port, types, mode, count, values) {
+    nondet fn "sensor_values_"<Readings>(context, port, types, mode, count, values) {
         setup => {
             let call = Call::of(context, "sensor_values", 3);
             if call.serve_before("sensor_values_", [port, types, mode, count, values])? {
@@ -95,9 +77,7 @@ predicates! {
     }
 
     /// sensor_restart_(+Port, +Types, +Mode)
-    #[module("ev3dev_native")]
-    #[name("sensor_restart_")]
-    semidet fn sensor_restart(context, port, types, mode) {
+    semidet fn "sensor_restart_"(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
         call.text(port)?;
         let Readings { devices, mut sensors, mode: name, .. } = readings(&call, port, types, mode, 0)?;
@@ -110,9 +90,7 @@ predicates! {
 
     /// sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended): reading is
     /// reading(Types, Mode, Index), test is test(Operator, Number) or `bumped`.
-    #[module("ev3dev_native")]
-    #[name("sensor_wait_")]
-    nondet fn sensor_wait<Slices<UntilShown>>(context, port, reading, test, timeout, ended) {
+    nondet fn "sensor_wait_"<Slices<UntilShown>>(context, port, reading, test, timeout, ended) {
         setup => {
             let call = Call::of(context, "sensor_wait", 2);
             let [types, mode, index] = call.arguments(reading)?;
@@ -130,9 +108,7 @@ predicates! {
     }
 
     /// sensor_scale_(+Port, +Raw, -Value)
-    #[module("ev3dev_native")]
-    #[name("sensor_scale_")]
-    semidet fn sensor_scale(context, port, raw, value) {
+    semidet fn "sensor_scale_"(context, port, raw, value) {
         let call = Call::of(context, "adjust_val", 3);
         let (name, raw) = (call.text(port)?, call.integer(raw)?);
         let devices = call.devices()?;
@@ -141,9 +117,7 @@ predicates! {
     }
 
     /// i2c_read_(+Port, +Register, +Count, -Bytes)
-    #[module("ev3dev_native")]
-    #[name("i2c_read_")]
-    semidet fn i2c_read(context, port, register, count, bytes) {
+    semidet fn "i2c_read_"(context, port, register, count, bytes) {
         let call = Call::of(context, "i2c_read", 4);
         let (name, register) = (call.text(port)?, byte(&call, register)?);
         let mut buffer = vec![0; byte(&call, count)?.into()];
@@ -155,9 +129,7 @@ predicates! {
     }
 
     /// i2c_write_(+Port, +Register, +Bytes)
-    #[module("ev3dev_native")]
-    #[name("i2c_write_")]
-    semidet fn i2c_write(context, port, register, bytes) {
+    semidet fn "i2c_write_"(context, port, register, bytes) {
         let call = Call::of(context, "i2c_write", 3);
         let (name, register) = (call.text(port)?, byte(&call, register)?);
         let bytes = call.map_list(bytes, |term| byte(&call, &term))?;

@@ -7,18 +7,9 @@ use ev3_driver::{Class, Device};
 use std::sync::Arc;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_servo_position();
-    register_servo_set_position();
-    register_servo_motor_float();
-}
-
-predicates! {
+natives! {
     /// servo_position_(?Port, -Percent)
-    #[module("ev3dev_native")]
-    #[name("servo_position_")]
-    nondet fn servo_position<ListedDevices>(context, port, percent) {
+    nondet fn "servo_position_"<ListedDevices>(context, port, percent) {
         setup => {
             let call = Call::of(context, "servo_motor_position", 2);
             call.listed(&*call.devices()?, Class::ServoMotor, port).map(Some)
@@ -37,9 +28,7 @@ predicates! {
     }
 
     /// servo_set_position_(+Port, +Percent)
-    #[module("ev3dev_native")]
-    #[name("servo_set_position_")]
-    semidet fn servo_set_position(context, port, percent) {
+    semidet fn "servo_set_position_"(context, port, percent) {
         let call = Call::of(context, "servo_motor_position", 2);
         let (port, percent) = (call.text(port)?, call.float(percent)?);
         let (devices, interrupted) = (call.devices_to_move()?, &mut call.interrupted());
@@ -49,9 +38,7 @@ predicates! {
     }
 
     /// servo_motor_float_(+Port)
-    #[module("ev3dev_native")]
-    #[name("servo_motor_float_")]
-    semidet fn servo_motor_float(context, port) {
+    semidet fn "servo_motor_float_"(context, port) {
         let call = Call::of(context, "servo_motor_float", 1);
         let (class, name) = (Class::ServoMotor, call.text(port)?);
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());

@@ -9,23 +9,10 @@ use std::path::Path;
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_tones();
-    register_say();
-    register_play();
-    register_volume();
-    register_volume_set();
-    register_sound_wait();
-    register_sound_stop();
-}
-
-predicates! {
+natives! {
     /// tones_(+Tones, +Wait, -Reason): a list of tone(Hertz, Milliseconds); 0 Hz is
     /// silence. `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("tones_")]
-    nondet fn tones<UntilSilent>(context, tones, wait, reason) {
+    nondet fn "tones_"<UntilSilent>(context, tones, wait, reason) {
         setup => {
             let call = Call::of(context, "tones", 2);
             let tones = call.list(tones)?;
@@ -48,9 +35,7 @@ predicates! {
     }
 
     /// say_(+Text, +Wait, -Reason)
-    #[module("ev3dev_native")]
-    #[name("say_")]
-    nondet fn say<UntilSilent>(context, text, wait, reason) {
+    nondet fn "say_"<UntilSilent>(context, text, wait, reason) {
         setup => {
             let call = Call::of(context, "say", 1);
             let (text, dev) = (call.text(text)?, call.dev()?);
@@ -70,9 +55,7 @@ predicates! {
     }
 
     /// play_(+File, +Wait, -Reason)
-    #[module("ev3dev_native")]
-    #[name("play_")]
-    nondet fn play<UntilSilent>(context, file, wait, reason) {
+    nondet fn "play_"<UntilSilent>(context, file, wait, reason) {
         setup => {
             let call = Call::of(context, "play", 1);
             let (file, dev) = (call.text(file)?, call.dev()?);
@@ -93,18 +76,14 @@ predicates! {
     }
 
     /// volume_(-Percent)
-    #[module("ev3dev_native")]
-    #[name("volume_")]
-    semidet fn volume(context, percent) {
+    semidet fn "volume_"(context, percent) {
         let call = Call::of(context, "volume", 1);
         let volume = call.or_throw(sound::volume(&*call.dev()?))?;
         percent.unify(i64::from(volume.map_or_else(|| call.lacking("speaker"), Ok)?))
     }
 
     /// volume_set_(+Percent): from 0 to 100.
-    #[module("ev3dev_native")]
-    #[name("volume_set_")]
-    semidet fn volume_set(context, percent) {
+    semidet fn "volume_set_"(context, percent) {
         let call = Call::of(context, "volume", 1);
         let percent = u8::try_from(call.integer(percent)?).map_err(|_| PrologError::Failure)?;
         let set = call.or_throw(sound::set_volume(&*call.dev()?, percent))?;
@@ -112,9 +91,7 @@ predicates! {
     }
 
     /// sound_wait_(-Reason): `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("sound_wait_")]
-    nondet fn sound_wait<UntilSilent>(context, reason) {
+    nondet fn "sound_wait_"<UntilSilent>(context, reason) {
         setup => {
             let dev = Call::of(context, "sound_wait", 0).dev()?;
             let waiting = sound().until_silent(&dev);
@@ -127,9 +104,7 @@ predicates! {
     }
 
     /// sound_stop_
-    #[module("ev3dev_native")]
-    #[name("sound_stop_")]
-    semidet fn sound_stop(context) {
+    semidet fn "sound_stop_"(context) {
         // This does not choose a tree: the call that started the sound has done so.
         let call = Call::of(context, "sound_stop", 0);
         call.note_sound(SoundCommand::Stop);

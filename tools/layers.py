@@ -16,9 +16,7 @@ is an error.
     device   device               -> ground
     front    lib.rs               -> *
 
-Whatever the table says, files must not import each other in a circle. In a
-section that is marked `circles N`, that many files may be in circles: a debt to
-be paid off, and an error as soon as it is smaller.
+Whatever the table says, files must not import each other in a circle.
 
 Rust: paths that begin with crate, self, super or a child module, in `use` and
 elsewhere, but not in tests, comments and strings. A re-exported name counts as
@@ -254,21 +252,21 @@ def circles(files, arrows):
 
 
 def read_table(text):
-    """[(folder, allowed circles, {layer: (names, allowed layers)})]"""
+    """[(folder, {layer: (names, allowed layers)})]"""
     sections = []
     for number, line in enumerate(text.splitlines(), 1):
         line = line.partition("#")[0].strip()
         if not line:
             continue
-        if head := re.fullmatch(r"\[(\S+)\](?:\s+circles\s+(\d+))?", line):
-            sections.append((head.group(1), int(head.group(2) or 0), {}))
+        if head := re.fullmatch(r"\[(\S+)\]", line):
+            sections.append((head.group(1), {}))
             continue
         left, _, right = line.partition("->")
         layer, *names = left.split()
-        if not sections or not names or layer in sections[-1][2]:
+        if not sections or not names or layer in sections[-1][1]:
             raise SystemExit(f"layers: line {number} is not a layer: {line}")
-        sections[-1][2][layer] = (names, right.split())
-    for folder, _, layers in sections:
+        sections[-1][1][layer] = (names, right.split())
+    for folder, layers in sections:
         for layer, (_, allowed) in layers.items():
             for other in allowed:
                 if other != "*" and other not in layers:
@@ -292,8 +290,8 @@ def check(top, table, listing=False):
     """Prints what it checks; how many errors there are."""
     errors = 0
     sections = read_table(table)
-    folders = [folder for folder, _, _ in sections]
-    for folder, debt, layers in sections:
+    folders = [folder for folder, _ in sections]
+    for folder, layers in sections:
         root = os.path.join(top, folder)
         files = sorted(
             os.path.relpath(os.path.join(where, name), root).replace(os.sep, "/")
@@ -326,13 +324,9 @@ def check(top, table, listing=False):
                 print(f"layers: {folder}/{source} ({ours}) must not import {target} ({theirs})")
                 up += 1
         found = circles(files, arrows)
-        inside = sum(len(circle) for circle in found)
         for circle in found:
             print(f"layers: {folder}: circle of {len(circle)}: {' '.join(circle)}")
-        if inside != debt:
-            print(f"layers: {folder}: {inside} files in circles, the table says {debt}")
-            errors += 1
-        errors += up
+        errors += up + len(found)
         print(
             f"{folder}: {len(files)} files, {len(arrows)} arrows, "
             f"{up} against the table, {len(found)} circles"
@@ -400,15 +394,7 @@ def self_test():
         if (got == 0) != (errors == 0) or text not in said:
             print(f"self-test: {name}: {got} errors\n{said}")
             failed += 1
-    got, said = run({**base, "src/device/list.rs": "use super::Device;\n"}, table.replace("[src]", "[src] circles 2"))
-    if got:
-        print(f"self-test: a debt that is written down: {got} errors\n{said}")
-        failed += 1
-    got, said = run(base, table.replace("[src]", "[src] circles 2"))
-    if not got:
-        print("self-test: a debt that was paid off must be taken out of the table")
-        failed += 1
-    print(f"self-test: {len(cases) + len(pl_cases) + 2} cases, {failed} failed")
+    print(f"self-test: {len(cases) + len(pl_cases)} cases, {failed} failed")
     return failed
 
 

@@ -15,12 +15,14 @@
 :- use_module(private/errors,
               [domain_error/2, evaluated/2, term_expansion/4]).
 :- use_module(private/explain).
-:- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [dc_motor/1]).
 :- use_module(private/halt, []).
 :- use_module(motors, []).
 :- use_module(private/arguments, [motor_options/5, word/2]).
-:- use_module(private/attributes, [attribute/4, attribute_words/4]).
+:- use_module(private/attributes,
+              [ attribute/4, attribute_words/4, class_polarity/3,
+                class_settings/3
+              ]).
 :- use_module(private/waits, [waited/1]).
 :- use_module(private/native,
               [ attribute_/4, dc_motor_run_/2, dc_motor_run_timed_/5,

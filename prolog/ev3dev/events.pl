@@ -267,9 +267,9 @@ serve :-
     ).
 
 %   The native code calls this in the main thread while Prolog waits for input
-%   at its terminal, if it is time to serve. What the toplevel waits for is a
-%   query; a program that reads, or is looked at in a break or by the tracer,
-%   is not interrupted.
+%   at its terminal, if it is time to serve. It serves while the
+%   toplevel waits for a query; it does not interrupt a program that reads, or
+%   that a break or the tracer shows.
 :- public serve_at_prompt/0.
 
 serve_at_prompt :-
@@ -327,8 +327,7 @@ looked_at(Id, Condition) :-
     catch(in_guard(Id, Condition), E, true),
     (   var(E)
     ->  true
-    ;   b_setval(ev3dev_guard, []),
-        E = error(_, _),
+    ;   E = error(_, _),
         E \= error(permission_error(wait, guard, _), _)
     ->  change(Id, over),
         print_error(E, Id, on),
@@ -390,9 +389,8 @@ change(Id, State) :-
     ;   true
     ).
 
-%   What a program's own interrupt is goes on its way: only errors are
-%   printed. The event stays in either case, also after an abort, which
-%   catch/3 does not see.
+%   Prints errors; a program's own interrupt goes on its way. The event stays
+%   in either case, also after an abort, which catch/3 does not see.
 happen(Id, Kind, Action) :-
     setup_call_cleanup(true,
                        act(Id, Kind, Action),
@@ -497,7 +495,7 @@ until_tick(Id, Condition, Listener) :-
     ;   true
     ).
 
-%   What did not wait goes on by itself.
+%   Waits for ever after a goal that did not wait: what it started goes on.
 to_the_end(Goal) :-
     slices_(Slices0),
     goal_of_program(Goal),
@@ -678,31 +676,18 @@ answers([]).
 answers([branch(_, _, Goal, true(Goal), _, _)|Branches]) :-
     answers(Branches).
 
-%   By an exception, so that clean-ups run; one that catches everything is
-%   destroyed.
+%   To destroy an engine runs its clean-ups, which may wait.
 leave_branches([]).
-leave_branches([Branch|Branches]) :-
-    Branch = branch(_, Engine, _, Over, Commands, _),
+leave_branches([branch(_, Engine, _, Over, Commands, _)|Branches]) :-
     (   Over == false
-    ->  leave_branch(3, Engine),
-        motors_stopped(Commands)
+    ->  motors_stopped(Commands)
     ;   true
     ),
-    catch(engine_destroy(Engine), _, true),
+    setup_call_cleanup(
+        branches_leave_,
+        catch(engine_destroy(Engine), _, true),
+        branches_end_),
     leave_branches(Branches).
-
-leave_branch(Times, Engine) :-
-    (   Times > 0,
-        catch(engine_post(Engine, leave), _, fail),
-        setup_call_cleanup(
-            branches_leave_,
-            catch(engine_next(Engine, Answer), _, fail),
-            branches_end_),
-        Answer == tick
-    ->  Next is Times - 1,
-        leave_branch(Next, Engine)
-    ;   true
-    ).
 
 motors_stopped([]).
 motors_stopped([From-Before|Ranges]) :-
@@ -711,14 +696,8 @@ motors_stopped([From-Before|Ranges]) :-
 
 :- multifile ev3dev_waits:yield/0.
 
-%   A branch lets the others go on, and may be left.
 ev3dev_waits:yield :-
-    engine_yield(tick),
-    (   catch(engine_fetch(leave), _, fail)
-    ->  nb_setval(ev3dev_branch, left),
-        throw(ev3dev_branch_left)
-    ;   true
-    ).
+    engine_yield(tick).
 
 :- else.
 

@@ -88,7 +88,6 @@ why(What0) :-
 %   within 0.02 s, by the same predicate, for the same cause.
 
 stopped_with(What, done(Time, Of, Command, Cause, Called), Ports) :-
-    ( What == stop ; What == robot ),
     is_stop(Command),
     Of \= robot(_, _),
     !,

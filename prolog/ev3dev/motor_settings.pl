@@ -13,10 +13,10 @@
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, term_expansion/4
               ]).
-:- use_module(private/class_settings, [class_polarity/3, class_settings/3]).
 :- use_module(driver, [motor_attribute/3, tacho_motor/2]).
 :- use_module(private/arguments, [must_be_within/4, number_value/3]).
-:- use_module(private/attributes, [device_at/3]).
+:- use_module(private/attributes,
+              [class_polarity/3, class_settings/3, device_at/3]).
 :- use_module(private/native,
               [ attribute_/4, motor_gear_/2, motor_position_/2,
                 motor_set_gear_/2, motor_set_position_/2, motor_speed_/2 ]).

@@ -32,7 +32,7 @@
               [ command/2, max_speed/2, motor_attribute/3 ]).
 :- use_module(private/halt, []).
 :- use_module(private/arguments,
-              [ angle_value/2, motor_moves/2, motor_options/5, motor_runs/2,
+              [ motor_moves/2, motor_options/5, motor_runs/2,
                 must_be_options/3, number_option/4, option/2, option/3,
                 speed_value/2, stop_action/3, timeout_option/2, word/2
               ]).
@@ -140,9 +140,7 @@ motor_run(Port, Speed, Angle) :-
     motor_run(Port, Speed, Angle, []).
 
 motor_run(Port, Speed, Angle, Options) :-
-    speed_value(Speed, Value),
-    angle_value(Angle, Degrees),
-    motors_turn([move(Port, Value, Degrees)], Options).
+    motors_turn([move(Port, Speed, Angle)], Options).
 
 %!  motors_turn(+Moves, +Options) is semidet.
 %
@@ -371,9 +369,7 @@ motor_run_to(Port, Speed, Angle) :-
     motor_run_to(Port, Speed, Angle, []).
 
 motor_run_to(Port, Speed, Angle, Options) :-
-    speed_value(Speed, Value),
-    angle_value(Angle, Degrees),
-    motors_turn([to(Port, Value, Degrees)], Options).
+    motors_turn([to(Port, Speed, Angle)], Options).
 
 %!  motor_run_direct(+Port, +Percent) is semidet.
 %

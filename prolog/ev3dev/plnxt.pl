@@ -37,7 +37,7 @@
               ]).
 :- use_module(private/arguments, [number_value/2, number_value/3]).
 :- use_module(private/brick, [brick/1]).
-:- use_module(private/one_of, [one_of/2]).
+:- use_module(private/one_of, [append_lists/3, one_of/2]).
 :- use_module(private/robot_state, [robot/4]).
 :- use_module(private/sensor_type, [sensor_of/3, sensor_to_read/3]).
 :- use_module(drive, [arc_cm/4, go_cm/3, turn/3]).
@@ -171,12 +171,8 @@ definition(Module0, Alias, Robot) :-
 
 last_ten(Arguments, Last) :-
     length(Last, 10),
-    append_any(_, Last, Arguments),
+    append_lists(_, Last, Arguments),
     !.
-
-append_any([], Ys, Ys).
-append_any([X|Xs], Ys, [X|Zs]) :-
-    append_any(Xs, Ys, Zs).
 
 described([ Circumference0, Axle, Left0, Right0, _, Reversed,
             Touch0, Sound0, Light0, Ultrasonic0 ], Ports) :-
@@ -413,7 +409,6 @@ types(light,      ['lego-nxt-light', 'lego-ev3-color']).
 types(sound,      ['lego-nxt-sound']).
 
 reading_now('lego-nxt-sound', Port, Value) :-
-    !,
     nxt_sound(Port, Value).
 reading_now(Type, Port, Value) :-
     reading_of(Type, On, Off),

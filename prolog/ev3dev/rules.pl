@@ -18,7 +18,7 @@
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/2, option/3]).
-:- use_module(private/one_of, [one_of/2]).
+:- use_module(private/one_of, [append_lists/3, one_of/2]).
 :- use_module(private/causes, [acting_for/2, begins/1]).
 :- use_module(private/conditions, [condition_goal/2]).
 :- use_module(private/waits, [in_guard/2, leave/2, listening/3]).
@@ -169,10 +169,6 @@ conjuncts((A, B), Conjuncts) :-
     conjuncts(B, Bs),
     append_lists(As, Bs, Conjuncts).
 conjuncts(Term, [Term]).
-
-append_lists([], Ys, Ys).
-append_lists([X|Xs], Ys, [X|Zs]) :-
-    append_lists(Xs, Ys, Zs).
 
 %   rule(Index, Name, Guard, Action, Options, Shared): Shared are the
 %   variables of the guard that the action has, too.
@@ -478,7 +474,6 @@ goes_on(Module:Options, Name, Start, Behavior) :-
 
 %   An error names the rule.
 failed(E, Name, Where, Behavior) :-
-    b_setval(ev3dev_guard, []),
     (   E = error(permission_error(wait, guard, _), _)
     ->  throw(E)
     ;   E = error(_, _)
@@ -603,7 +598,6 @@ outcome(ev3dev_leave(Id), Id, _, _, Outcome) :-
     !,
     Outcome = suppressed.
 outcome(E, _, Name, Behavior, Outcome) :-
-    b_setval(ev3dev_behavior, Behavior),
     \+ failed(E, Name, action, Behavior),
     Outcome = thrown.
 

@@ -4,13 +4,15 @@ use crate::glue::error::{Origin, raise};
 use crate::glue::interned::atom_text;
 use crate::glue::signals;
 use crate::glue::state;
-use crate::glue::terms::unify_value;
+use crate::glue::terms::{Ask as _, unify_value};
 use crate::glue::watch;
+use ev3_driver::error::Access;
 use ev3_driver::journal::{self, Act, SoundCommand};
 use ev3_driver::{Class, Devfs, Device, Error, Registry, Value};
 use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use swipl::fli::{integer_in, list_end};
 use swipl::prelude::*;
@@ -41,7 +43,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// one. Runs planned goals that are due.
     pub(crate) fn devices(&self) -> PrologResult<Arc<Registry>> {
         let Some(devices) = state::chosen_devices() else {
-            self.context.call_once(pred!("ev3dev_files:choose_tree/0"), [])?;
+            self.context.ask(pred!("ev3dev_files:choose_tree/0"), [])?;
             state::chosen();
             return self.devices();
         };
@@ -65,15 +67,34 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// The devices, for a call that starts a motor.
     pub(crate) fn devices_to_move(&self) -> PrologResult<Arc<Registry>> {
         self.may_move()?;
-        signals::before_motors(self.context)?;
         self.devices_to_command()
     }
 
-    /// Throws in a guard, which must not start a motor.
+    /// A motor may be started: throws in a guard, and where nothing could stop the motor.
     pub(crate) fn may_move(&self) -> PrologResult<()> {
+        self.before_motors()?;
         if has_guards() {
-            self.context.call_once(pred!("ev3dev_waits:no_guard/0"), [])?;
+            self.context.ask(pred!("ev3dev_waits:no_guard/0"), [])?;
         }
+        Ok(())
+    }
+
+    /// Motors may start from now on, which signals can stop. The first time, Prolog says
+    /// whether they are to be stopped when the process is killed.
+    #[inline]
+    pub(crate) fn before_motors(&self) -> PrologResult<()> {
+        static IS_ASKED: AtomicBool = AtomicBool::new(false);
+        if IS_ASKED.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        self.or_throw(signals::watch(state::stop_started).map_err(|source| Error::Open {
+            path: "a pipe for signals".into(),
+            access: Access::Write,
+            source,
+        }))?;
+        let survives = self.context.ask(pred!("ev3dev_halt:before_motors/0"), []);
+        ev3_signals::survive(attempt(survives)?);
+        IS_ASKED.store(true, Ordering::Relaxed);
         Ok(())
     }
 
@@ -92,7 +113,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         let mut interrupted = self.interrupted();
         loop {
             let mut asked = Ok(());
+            // It may ask more than once, and Prolog answers nothing after an exception.
             let is_over = is_turn(&mut || {
+                if asked.is_err() {
+                    return String::new();
+                }
                 self.about().unwrap_or_else(|error| {
                     asked = Err(error);
                     String::new()
@@ -111,7 +136,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// What this thread is about to do.
     fn about(&self) -> PrologResult<String> {
         let text = self.context.new_term_ref();
-        self.context.call_once(pred!("ev3dev_turn:about/1"), [&text])?;
+        self.context.ask(pred!("ev3dev_turn:about/1"), [&text])?;
         text.get()
     }
 
@@ -256,7 +281,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 
     /// Fails, and has Prolog explain why.
     pub(crate) fn fail_because<T>(&self, cause: &Term) -> PrologResult<T> {
-        self.context.call_once(pred!("ev3dev_explain:fail_because/1"), [cause])?;
+        self.context.ask(pred!("ev3dev_explain:fail_because/1"), [cause])?;
         Err(PrologError::Failure)
     }
 
@@ -341,7 +366,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
 /// Runs the goals that this thread has planned and that are due.
 fn run_due_goals<'a, C: QueryableContextType>(context: &'a Context<'a, C>) -> PrologResult<()> {
     if has_rung() {
-        context.call_once(pred!("ev3dev_plans:run_due_goals/0"), [])?;
+        context.ask(pred!("ev3dev_plans:run_due_goals/0"), [])?;
     }
     Ok(())
 }

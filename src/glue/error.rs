@@ -16,7 +16,7 @@
 //! | anything else | `system_error(Words)` |
 //!
 //! Access is `read` or `write`.
-use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::terms::{Ask as _, unify_atom, unify_value};
 use ev3_driver::device::read_value;
 use ev3_driver::error::{Access, Error};
 use ev3_driver::{Class, Errno, Registry, Value};
@@ -59,7 +59,7 @@ fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()>
     while latch::is_ending() {
         call.context.handle_signals()?;
         if latch::is_set_as(Reason::Halting) && since.elapsed() > MOST {
-            return call.context.call_once(pred!("system:abort/0"), []);
+            return call.context.ask(pred!("system:abort/0"), []);
         }
         std::thread::sleep(Duration::from_millis(10));
     }
@@ -155,7 +155,7 @@ fn throw<'a, T, C: QueryableContextType>(
 ) -> PrologResult<T> {
     let formal = formal.clone();
     let ball = ball(call, formal, message)?;
-    call.context.call_once(pred!("ev3dev_errors:throw_error/3"), ball.each_ref())?;
+    call.context.ask(pred!("ev3dev_errors:throw_error/3"), ball.each_ref())?;
     // It has thrown.
     Err(PrologError::Exception)
 }

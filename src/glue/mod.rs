@@ -4,6 +4,8 @@ pub(crate) mod call;
 pub(crate) mod due;
 pub(crate) mod error;
 pub(crate) mod interned;
+#[macro_use]
+mod natives;
 pub(crate) mod places;
 pub(crate) mod signals;
 pub(crate) mod state;

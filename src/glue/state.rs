@@ -3,6 +3,7 @@ use crate::glue::{signals, watch};
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
+use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use std::path::{Path, PathBuf};
 use std::sync::{
@@ -110,14 +111,14 @@ pub(crate) fn stop_started() {
 
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
-    signals::watch(stop_started);
+    let _ = signals::watch(stop_started); // else no motor starts
     BRICK.change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
 /// tree, because no later call would find them there.
 pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
-    signals::watch(stop_started);
+    let _ = signals::watch(stop_started); // else no motor starts
     let tree = InTree::new(tree);
     let before = {
         let mut files = BRICK.change_files();
@@ -209,17 +210,17 @@ pub(crate) fn sound() -> &'static Sound {
 
 /// The picture that this program has drawn.
 pub(crate) fn frame() -> MutexGuard<'static, Frame> {
-    BRICK.frame.lock().unwrap_or_else(PoisonError::into_inner)
+    locked(&BRICK.frame)
 }
 
 /// Sets aside what this program has drawn, and begins a blank picture.
 pub(crate) fn set_frame_aside() {
     let before = std::mem::take(&mut *frame());
-    BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).push(before);
+    locked(&BRICK.frames_aside).push(before);
 }
 
 /// Has what was set aside last in the place of what was drawn since.
 pub(crate) fn give_frame_back() {
-    let before = BRICK.frames_aside.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    let before = locked(&BRICK.frames_aside).pop();
     *frame() = before.unwrap_or_default();
 }

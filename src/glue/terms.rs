@@ -11,3 +11,27 @@ pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
         Value::Text(text) => unify_atom(term, text),
     }
 }
+
+/// Calls a predicate of Prolog once.
+pub(crate) trait Ask {
+    /// As `call_once`, but after an exception nothing is called: Prolog's handlers of signals
+    /// may raise one at any moment.
+    fn ask<P: Callable<N>, const N: usize>(
+        &self,
+        predicate: P,
+        arguments: [&Term; N],
+    ) -> PrologResult<()>;
+}
+
+impl<C: QueryableContextType> Ask for Context<'_, C> {
+    fn ask<P: Callable<N>, const N: usize>(
+        &self,
+        predicate: P,
+        arguments: [&Term; N],
+    ) -> PrologResult<()> {
+        if self.has_exception() {
+            return Err(PrologError::Exception);
+        }
+        self.call_once(predicate, arguments)
+    }
+}

@@ -1,7 +1,7 @@
 //! Native waits, as Prolog sees them.
 //!
 //! A wait is a nondeterministic predicate. Its last argument is the end of the wait, or before that
-//! `pause` or `tick`, each time with a choice point: `private/waits.pl` handles it, and
+//! `pause`, `tick` or `yield`, each time with a choice point: `private/waits.pl` handles it, and
 //! fails back into the wait. So Prolog handles signals and serves events between two slices,
 //! and an engine can yield there. What leaves the wait, as an exception, drops its state, and so
 //! stops the motors of a move.
@@ -9,7 +9,7 @@ use crate::glue::call::Call;
 use crate::glue::due;
 use crate::glue::error;
 use crate::glue::state;
-use crate::glue::terms::unify_atom;
+use crate::glue::terms::{Ask as _, unify_atom};
 use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
@@ -49,9 +49,9 @@ pub(crate) enum Round {
     /// Each goes on until it waits; no time passes. The first of them has to look again at this
     /// time, and one that reads sensors then lets the others go on.
     GoesOn(Duration),
-    /// One of them is left, and its clean-ups may wait. A read may leave it from this time on;
-    /// later the thread's own ticks go on.
-    Left(Duration, Option<Duration>),
+    /// One of them is left, and time passes while its clean-ups wait. Later the thread's own
+    /// ticks go on, the next of which is this.
+    Left(Option<Duration>),
 }
 
 /// Sets when this thread serves its events next.
@@ -108,14 +108,14 @@ pub(crate) fn branches_look() -> Option<Duration> {
     }
 }
 
-/// Branches are left from now on, which serve events, and so may be left again, at this time.
-pub(crate) fn leave_branches(again: Duration) {
-    begin_branches(Round::Left(again, NEXT_TICK.replace(Some(again))));
+/// A branch is left from now on.
+pub(crate) fn leave_branches() {
+    begin_branches(Round::Left(NEXT_TICK.take()));
 }
 
 /// The branches pause. If they are within another branch, this runs on.
 pub(crate) fn end_branches() {
-    if let Some(Round::Left(_, tick)) = BRANCHES.with_borrow_mut(Vec::pop) {
+    if let Some(Round::Left(tick)) = BRANCHES.with_borrow_mut(Vec::pop) {
         NEXT_TICK.set(tick);
     }
     note_serving();
@@ -196,7 +196,7 @@ impl<C: QueryableContextType> Call<'_, C> {
                 Ok(Look::Again(end)) => {
                     SLICES.set(SLICES.get() + 1);
                     look_at(end);
-                    unify_atom(reason, "tick").map(|()| true)
+                    unify_atom(reason, "yield").map(|()| true)
                 }
             };
         }
@@ -215,7 +215,7 @@ impl<C: QueryableContextType> Call<'_, C> {
     /// such a time, too, for programs that never wait.
     pub(crate) fn serve_if_due(&self) -> PrologResult<()> {
         if is_tick_due(|| state::devices().tree().now()) {
-            self.context.call_once(pred!("ev3dev_waits:serve_at_read/0"), [])?;
+            self.context.ask(pred!("ev3dev_waits:serve_at_read/0"), [])?;
         }
         Ok(())
     }
@@ -235,11 +235,9 @@ impl<C: QueryableContextType> Call<'_, C> {
     #[cold]
     #[inline(never)]
     fn serve_before_read(&self, name: &str, arguments: [&Term; 5]) -> PrologResult<bool> {
-        match round() {
+        match branches_look() {
             None => self.serve_if_due().map(|()| false),
-            Some(Round::GoesOn(time) | Round::Left(time, _)) => {
-                self.goes_on_later(time, name, arguments)
-            }
+            Some(time) => self.goes_on_later(time, name, arguments),
         }
     }
 
@@ -257,7 +255,7 @@ impl<C: QueryableContextType> Call<'_, C> {
         let [called, woken] = self.context.new_term_refs();
         unify_atom(&called, name)?;
         let arguments = [&called, port, types, mode, number, value, &woken];
-        self.context.call_once(pred!("ev3dev_waits:read_later/7"), arguments)?;
+        self.context.ask(pred!("ev3dev_waits:read_later/7"), arguments)?;
         unify_atom(&woken, "true").map(|()| true)
     }
 

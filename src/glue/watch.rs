@@ -1,9 +1,10 @@
 //! Somebody watches the program: `prolog/ev3dev/view.pl`.
+use ev3_driver::lock::locked;
 use ev3_motion::Pose;
 use ev3_sim::is_outside;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 use swipl::fli::this_thread;
 
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
@@ -104,5 +105,5 @@ pub(crate) fn begin_film() {
 
 /// The frame in which the odometry counts; `None` if it is the world's.
 pub(crate) fn frame() -> MutexGuard<'static, Option<Frame>> {
-    FRAME.lock().unwrap_or_else(PoisonError::into_inner)
+    locked(&FRAME)
 }

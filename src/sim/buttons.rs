@@ -7,12 +7,6 @@ use ev3_sim::{Button, Machine, Port};
 use std::sync::Arc;
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    register_sim_key();
-    register_sim_plan_key();
-}
-
 /// What a hand can press.
 #[derive(Clone, Copy)]
 enum Key {
@@ -44,11 +38,9 @@ impl Key {
     }
 }
 
-predicates! {
+natives! {
     /// sim_key_(+Key, +IsPress)
-    #[module("ev3dev_native")]
-    #[name("sim_key_")]
-    semidet fn sim_key(context, key, is_press) {
+    semidet fn "sim_key_"(context, key, is_press) {
         let key = Key::of(&Call::of(context, "sim_press", 1), key)?;
         let (simulation, is_press) = (simulation(context)?, is_press.get_ex()?);
         let is_there = key.set(&mut simulation.machine(), is_press);
@@ -57,9 +49,7 @@ predicates! {
     }
 
     /// sim_plan_key_(+Key, +After, +For): seconds; an atom as For means without end.
-    #[module("ev3dev_native")]
-    #[name("sim_plan_key_")]
-    semidet fn sim_plan_key(context, key, after, lasts) {
+    semidet fn "sim_plan_key_"(context, key, after, lasts) {
         let call = Call::of(context, "sim_press", 2);
         let (key, at) = (Key::of(&call, key)?, call.time(after)?);
         let lasts = if lasts.is_atom() { None } else { Some(call.time(lasts)?) };

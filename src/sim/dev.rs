@@ -3,10 +3,11 @@ use crate::sim::files::error;
 use ev3_driver::Devfs;
 use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
+use ev3_driver::lock::locked;
 use ev3_sim::{DevDescriptor, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// The directory that programs see.
@@ -94,16 +95,12 @@ struct Place {
     offset: usize,
 }
 
-impl SimulatedStream {
-    fn place(&self) -> MutexGuard<'_, Place> {
-        self.place.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
+impl SimulatedStream {}
 
 impl Stream for SimulatedStream {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.simulation.read(|machine| {
-            let Place { descriptor, offset } = &mut *self.place();
+            let Place { descriptor, offset } = &mut *locked(&self.place);
             let length = descriptor.read(machine, *offset, buffer).map_err(error)?;
             *offset += length;
             Ok(length)
@@ -112,7 +109,7 @@ impl Stream for SimulatedStream {
 
     fn write(&self, bytes: &[u8]) -> io::Result<usize> {
         self.simulation.write(|machine| {
-            let Place { descriptor, offset } = &mut *self.place();
+            let Place { descriptor, offset } = &mut *locked(&self.place);
             let length = descriptor.write(machine, *offset, bytes).map_err(error)?;
             *offset += length;
             Ok(length)
@@ -125,7 +122,8 @@ impl Stream for SimulatedStream {
 
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
         let command = eviocgkey(bits.len());
-        let state = self.simulation.read(|machine| self.place().descriptor.ioctl(machine, command));
+        let state =
+            self.simulation.read(|machine| locked(&self.place).descriptor.ioctl(machine, command));
         let (_, state) = state.map_err(error)?;
         let (known, rest) = bits.split_at_mut(state.len());
         known.copy_from_slice(&state);
@@ -135,7 +133,7 @@ impl Stream for SimulatedStream {
 
     fn length(&self) -> Option<u64> {
         let machine = self.simulation.machine();
-        let length = self.place().descriptor.length(&machine);
+        let length = locked(&self.place).descriptor.length(&machine);
         length.map(|length| length as u64)
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! catch/3 throws an abort again when it has caught one, so no goal of Prolog ends it: only a
 //! query of native code does.
+use crate::glue::terms::Ask as _;
 use crate::glue::waiting;
 use std::cell::RefCell;
 use swipl::prelude::*;
@@ -11,22 +12,14 @@ thread_local! {
     static LIMITS: RefCell<Vec<i64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Registers the predicates below.
-pub(super) fn register() {
-    register_limit_call();
-    register_limit_insist();
-}
-
-predicates! {
+natives! {
     /// limit_call_(+Id, :Goal): calls Goal once. What it throws ends it well if
     /// `ev3dev_limits:is_left_by/2` says so.
-    #[module("ev3dev_native")]
-    #[name("limit_call_")]
-    semidet fn limit_call(context, id, goal) {
+    semidet fn "limit_call_"(context, id, goal) {
         let rounds = waiting::rounds();
         let number = id.get()?;
         LIMITS.with_borrow_mut(|limits| limits.push(number));
-        let result = context.call_once(pred!("ev3dev_errors:goal_of_program/1"), [goal]);
+        let result = context.ask(pred!("ev3dev_errors:goal_of_program/1"), [goal]);
         LIMITS.with_borrow_mut(Vec::pop);
         if matches!(result, Err(PrologError::Exception)) && is_left(context, id) {
             context.clear_exception();
@@ -39,12 +32,10 @@ predicates! {
     /// limit_insist_(+Id, +Thread, :Goal, +Ball): if this thread still is in that limit, throws
     /// Ball, and has Goal called as soon as that was caught: also before the first goal of a
     /// recovery.
-    #[module("ev3dev_native")]
-    #[name("limit_insist_")]
-    semidet fn limit_insist(context, id, thread, goal, ball) {
+    semidet fn "limit_insist_"(context, id, thread, goal, ball) {
         let number: i64 = id.get()?;
         if LIMITS.with_borrow(|limits| limits.contains(&number)) {
-            context.call_once(pred!("thread_signal/2"), [thread, goal])?;
+            context.ask(pred!("thread_signal/2"), [thread, goal])?;
             return context.raise_exception(ball);
         }
         Ok(())
@@ -54,7 +45,7 @@ predicates! {
 /// Whether the exception that is thrown now is how a limit leaves its goal.
 fn is_left<C: QueryableContextType>(context: &Context<C>, id: &Term) -> bool {
     context.with_exception(|ball| {
-        let by = |ball| context.call_once(pred!("ev3dev_limits:is_left_by/2"), [id, ball]);
+        let by = |ball| context.ask(pred!("ev3dev_limits:is_left_by/2"), [id, ball]);
         ball.is_some_and(|ball| by(ball).is_ok())
     })
 }

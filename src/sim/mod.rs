@@ -1,8 +1,8 @@
 //! `prolog/ev3dev/sim.pl`, `sim_hand.pl`, `sim_time.pl`, `sim_views.pl`: the simulator.
-mod buttons;
+pub(crate) mod buttons;
 mod dev;
 mod files;
-mod limit;
+pub(crate) mod limit;
 #[cfg(feature = "fuse")]
 mod mount;
 #[cfg(not(feature = "fuse"))]
@@ -23,49 +23,16 @@ use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_driver::Registry;
 use ev3_driver::device::sleep::Sleep;
+use ev3_driver::lock::locked;
 use ev3_driver::wait::Slices;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
     Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use swipl::prelude::*;
-
-/// Registers the predicates below.
-pub(crate) fn register() {
-    buttons::register();
-    limit::register();
-    register_sim_check();
-    register_sim_start();
-    register_sim_stop();
-    register_sim_active();
-    register_sim_pose();
-    register_sim_place();
-    register_sim_add();
-    register_sim_remove();
-    register_sim_plug();
-    register_sim_unplug();
-    register_sim_detecting();
-    register_sim_jam();
-    register_sim_show();
-    register_sim_unshow();
-    register_sim_wait();
-    register_sim_plan();
-    register_sim_remote();
-    register_sim_step();
-    register_sim_time();
-    register_sim_clock();
-    register_sim_snapshot();
-    register_sim_snapshots();
-    register_sim_restore();
-    register_sim_collisions();
-    register_sim_trace();
-    register_sim_svg();
-    register_sim_mount();
-    register_sim_unmount();
-}
 
 /// How much simulated time passes between two checks for signals. A slow machine
 /// takes some ms for it.
@@ -93,11 +60,9 @@ impl Drop for Snapshot {
     }
 }
 
-predicates! {
+natives! {
     /// sim_check_(+Subject, +Fact): subject is `world` or `robot`.
-    #[module("ev3dev_native")]
-    #[name("sim_check_")]
-    semidet fn sim_check(context, subject, term) {
+    semidet fn "sim_check_"(context, subject, term) {
         let call = Call::of(context, "sim_start", 2);
         known_fact(&call, subject_of(&call, subject)?, term).map(drop)
     }
@@ -105,9 +70,7 @@ predicates! {
     /// sim_start_(+WorldFacts, +RobotFacts, +options(Clock, Seed, Noise, ScreenBits), -Fault):
     /// fault is `none`, or fault(Subject, Index, Why) for the faulty fact. Index counts from
     /// 1; 0 means that a fact is missing.
-    #[module("ev3dev_native")]
-    #[name("sim_start_")]
-    semidet fn sim_start(context, world, robot, options, fault) {
+    semidet fn "sim_start_"(context, world, robot, options, fault) {
         let call = Call::of(context, "sim_start", 2);
         let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
         let [clock, seed, noise, screen] = call.arguments(options)?;
@@ -128,24 +91,18 @@ predicates! {
     }
 
     /// sim_stop_
-    #[module("ev3dev_native")]
-    #[name("sim_stop_")]
-    semidet fn sim_stop(context) {
+    semidet fn "sim_stop_"(context) {
         let call = Call::of(context, "sim_stop", 0);
         running::stop(&call)
     }
 
     /// sim_active_
-    #[module("ev3dev_native")]
-    #[name("sim_active_")]
-    semidet fn sim_active(_context) {
+    semidet fn "sim_active_"(_context) {
         into_prolog_result(is_running())
     }
 
     /// sim_pose_(-X, -Y, -Heading)
-    #[module("ev3dev_native")]
-    #[name("sim_pose_")]
-    semidet fn sim_pose(context, x, y, heading) {
+    semidet fn "sim_pose_"(context, x, y, heading) {
         let pose = simulation(context)?.machine().pose();
         x.unify(pose.x)?;
         y.unify(pose.y)?;
@@ -153,9 +110,7 @@ predicates! {
     }
 
     /// sim_place_(+X, +Y, +Heading)
-    #[module("ev3dev_native")]
-    #[name("sim_place_")]
-    semidet fn sim_place(context, x, y, heading) {
+    semidet fn "sim_place_"(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
         let pose = facts::pose(&call, [x, y, heading])?;
         let placed = simulation(context)?.machine().place(pose);
@@ -163,9 +118,7 @@ predicates! {
     }
 
     /// sim_add_(+Fact, -Id)
-    #[module("ev3dev_native")]
-    #[name("sim_add_")]
-    semidet fn sim_add(context, term, id) {
+    semidet fn "sim_add_"(context, term, id) {
         let call = Call::of(context, "sim_add", 1);
         let item = match facts::fact(&call, Subject::World, term)? {
             Some(Fact::Item(item)) => item,
@@ -177,18 +130,14 @@ predicates! {
     }
 
     /// sim_remove_(+Id)
-    #[module("ev3dev_native")]
-    #[name("sim_remove_")]
-    semidet fn sim_remove(context, id) {
+    semidet fn "sim_remove_"(context, id) {
         let id = Call::of(context, "sim_remove", 1).integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
         into_prolog_result(simulation(context)?.machine().remove_item(ItemId(id)))
     }
 
     /// sim_plug_(+Port, +Type)
-    #[module("ev3dev_native")]
-    #[name("sim_plug_")]
-    semidet fn sim_plug(context, port, kind) {
+    semidet fn "sim_plug_"(context, port, kind) {
         let call = Call::of(context, "sim_plug", 2);
         let (port, kind) = (port_of(&call, port)?, call.text(kind)?);
         let plugged = simulation(context)?.machine().plug(port, &kind);
@@ -196,25 +145,19 @@ predicates! {
     }
 
     /// sim_unplug_(+Port)
-    #[module("ev3dev_native")]
-    #[name("sim_unplug_")]
-    semidet fn sim_unplug(context, port) {
+    semidet fn "sim_unplug_"(context, port) {
         let port = port_of(&Call::of(context, "sim_unplug", 1), port)?;
         into_prolog_result(simulation(context)?.machine().unplug(port))
     }
 
     /// sim_detecting_(+Port): the brick has not found out yet what was plugged in.
-    #[module("ev3dev_native")]
-    #[name("sim_detecting_")]
-    semidet fn sim_detecting(context, port) {
+    semidet fn "sim_detecting_"(context, port) {
         let port = port_of(&Call::of(context, "sim_plug", 2), port)?;
         into_prolog_result(simulation(context)?.machine().is_detecting(port))
     }
 
     /// sim_jam_(+Port, +Bool)
-    #[module("ev3dev_native")]
-    #[name("sim_jam_")]
-    semidet fn sim_jam(context, port, fast) {
+    semidet fn "sim_jam_"(context, port, fast) {
         let call = Call::of(context, "sim_jam", 2);
         let (at, fast) = (port_of(&call, port)?, fast.get_ex()?);
         if !at.is_output() {
@@ -225,9 +168,7 @@ predicates! {
     }
 
     /// sim_show_(+Port, +Attribute, +Text)
-    #[module("ev3dev_native")]
-    #[name("sim_show_")]
-    semidet fn sim_show(context, port, attribute, text) {
+    semidet fn "sim_show_"(context, port, attribute, text) {
         let call = Call::of(context, "sim_show", 3);
         let (port, name, line) = (port_of(&call, port)?, call.text(attribute)?, call.value(text)?);
         let simulation = simulation(context)?;
@@ -237,9 +178,7 @@ predicates! {
     }
 
     /// sim_unshow_(+Port, +Attribute)
-    #[module("ev3dev_native")]
-    #[name("sim_unshow_")]
-    semidet fn sim_unshow(context, port, attribute) {
+    semidet fn "sim_unshow_"(context, port, attribute) {
         let call = Call::of(context, "sim_unshow", 2);
         let (port, name) = (port_of(&call, port)?, call.text(attribute)?);
         let simulation = simulation(context)?;
@@ -252,9 +191,7 @@ predicates! {
     }
 
     /// sim_wait_(+Seconds, -Reason): `over` at the end.
-    #[module("ev3dev_native")]
-    #[name("sim_wait_")]
-    nondet fn sim_wait<Slices<Sleep>>(context, seconds, reason) {
+    nondet fn "sim_wait_"<Slices<Sleep>>(context, seconds, reason) {
         setup => {
             let call = Call::of(context, "sim_wait", 1);
             let Ok(time) = Duration::try_from_secs_f64(call.float(seconds)?) else {
@@ -270,9 +207,7 @@ predicates! {
     }
 
     /// sim_plan_(+Seconds): runs the due goals of this thread after some time.
-    #[module("ev3dev_native")]
-    #[name("sim_plan_")]
-    semidet fn sim_plan(context, after) {
+    semidet fn "sim_plan_"(context, after) {
         let after = Call::of(context, "sim_at", 2).time(after)?;
         let bell = Bell::of_this_thread();
         let ring = move || {
@@ -284,9 +219,7 @@ predicates! {
     }
 
     /// sim_remote_(+Channel, +Buttons)
-    #[module("ev3dev_native")]
-    #[name("sim_remote_")]
-    semidet fn sim_remote(context, channel, list) {
+    semidet fn "sim_remote_"(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
         match simulation(context)?.machine().hold_buttons(channel, &held) {
@@ -296,9 +229,7 @@ predicates! {
     }
 
     /// sim_step_(+Seconds)
-    #[module("ev3dev_native")]
-    #[name("sim_step_")]
-    semidet fn sim_step(context, seconds) {
+    semidet fn "sim_step_"(context, seconds) {
         let call = Call::of(context, "sim_step", 1);
         let Ok(mut left) = Duration::try_from_secs_f64(call.float(seconds)?) else {
             return wrong_value(&call, "seconds", seconds);
@@ -316,41 +247,31 @@ predicates! {
     }
 
     /// sim_time_(-Seconds)
-    #[module("ev3dev_native")]
-    #[name("sim_time_")]
-    semidet fn sim_time(context, seconds) {
+    semidet fn "sim_time_"(context, seconds) {
         seconds.unify(simulation(context)?.machine().now().as_secs_f64())
     }
 
     /// sim_clock_(-Seconds): the same, without a turn, nor a reason to fail.
-    #[module("ev3dev_native")]
-    #[name("sim_clock_")]
-    semidet fn sim_clock(_context, seconds) {
+    semidet fn "sim_clock_"(_context, seconds) {
         let simulation = running_simulation().ok_or(PrologError::Failure)?;
         seconds.unify(simulation.machine().now().as_secs_f64())
     }
 
     /// sim_snapshot_(-Snapshot)
-    #[module("ev3dev_native")]
-    #[name("sim_snapshot_")]
-    semidet fn sim_snapshot(context, snapshot) {
+    semidet fn "sim_snapshot_"(context, snapshot) {
         let machine = simulation(context)?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
     /// sim_snapshots_(-Count): how many there are, those that are garbage included.
-    #[module("ev3dev_native")]
-    #[name("sim_snapshots_")]
-    semidet fn sim_snapshots(_context, count) {
+    semidet fn "sim_snapshots_"(_context, count) {
         count.unify(SNAPSHOTS.load(Ordering::Relaxed) as u64)
     }
 
     /// sim_restore_(+Snapshot)
-    #[module("ev3dev_native")]
-    #[name("sim_restore_")]
-    semidet fn sim_restore(context, snapshot) {
+    semidet fn "sim_restore_"(context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
-        let machine = snapshot.machine.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let machine = locked(&snapshot.machine).clone();
         let simulation = simulation(context)?;
         simulation.machine().restore(machine);
         simulation.machine().keep_samples(watch::is_watched());
@@ -360,9 +281,7 @@ predicates! {
     }
 
     /// sim_collisions_(-Collisions): a list of collision(Time, X, Y, Heading).
-    #[module("ev3dev_native")]
-    #[name("sim_collisions_")]
-    semidet fn sim_collisions(context, collisions) {
+    semidet fn "sim_collisions_"(context, collisions) {
         let seen: Vec<_> = simulation(context)?.machine().trace().collisions().copied().collect();
         let terms = seen.iter().map(|collision| {
             let (at, pose) = (collision.at.as_secs_f64(), collision.pose);
@@ -373,9 +292,7 @@ predicates! {
     }
 
     /// sim_trace_(-Trace): a list of at(Time, Event).
-    #[module("ev3dev_native")]
-    #[name("sim_trace_")]
-    semidet fn sim_trace(context, trace) {
+    semidet fn "sim_trace_"(context, trace) {
         let seen = simulation(context)?.machine().trace().clone();
         let poses = seen.path().map(|(at, pose)| {
             let seconds = at.as_secs_f64();
@@ -404,26 +321,20 @@ predicates! {
     }
 
     /// sim_svg_(-Text)
-    #[module("ev3dev_native")]
-    #[name("sim_svg_")]
-    semidet fn sim_svg(context, text) {
+    semidet fn "sim_svg_"(context, text) {
         let picture = simulation(context)?.machine().svg();
         unify_atom(text, &picture)
     }
 
     /// sim_mount_(+Directory, ?DevDirectory)
-    #[module("ev3dev_native")]
-    #[name("sim_mount_")]
-    semidet fn sim_mount(context, classes, dev) {
+    semidet fn "sim_mount_"(context, classes, dev) {
         let call = Call::of(context, "sim_mount", 1);
         let dev = (!dev.is_var()).then_some(dev);
         mount::mount(&call, &simulation(context)?.shared(), classes, dev)
     }
 
     /// sim_unmount_
-    #[module("ev3dev_native")]
-    #[name("sim_unmount_")]
-    semidet fn sim_unmount(context) {
+    semidet fn "sim_unmount_"(context) {
         mount::unmount(&Call::of(context, "sim_unmount", 0))
     }
 }

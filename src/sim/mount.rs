@@ -4,10 +4,11 @@ use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because};
 use crate::glue::state::{dev, devices, use_default_dev, use_default_files};
 use ev3_driver::Registry;
+use ev3_driver::lock::locked;
 use ev3_sim::{Mount, MountError, Shared};
 use std::error::Error;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 use swipl::prelude::*;
 
@@ -31,7 +32,7 @@ pub(crate) fn mount<C: QueryableContextType>(
     end();
     let classes = mounted(call, classes, Mount::new, machine)?;
     let dev = dev.map(|term| mounted(call, term, Mount::dev, machine)).transpose()?;
-    *MOUNTED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Mounted { classes, dev });
+    *locked(&MOUNTED) = Some(Mounted { classes, dev });
     Ok(())
 }
 
@@ -94,7 +95,7 @@ fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<(
 
 /// Whether something is mounted.
 pub(crate) fn is_mounted() -> bool {
-    MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+    locked(&MOUNTED).is_some()
 }
 
 /// Unmounts everything.
@@ -106,5 +107,5 @@ pub(crate) fn end() {
 }
 
 fn take() -> Option<Mounted> {
-    MOUNTED.lock().unwrap_or_else(PoisonError::into_inner).take()
+    locked(&MOUNTED).take()
 }

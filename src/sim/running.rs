@@ -7,8 +7,9 @@ use crate::glue::error::no_such;
 use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
+use ev3_driver::lock::locked;
 use ev3_sim::{Clock, Machine, Simulation};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use swipl::fli::has_other_threads;
 use swipl::prelude::*;
 
@@ -20,15 +21,11 @@ struct Running {
     before: Selected,
 }
 
-fn running() -> MutexGuard<'static, Option<Running>> {
-    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// The running simulation, in which it is this thread's turn; fails if there is none.
 pub(super) fn simulation<C: QueryableContextType>(
     context: &Context<C>,
 ) -> PrologResult<Arc<Simulation>> {
-    let simulation = running().as_ref().map(|running| Arc::clone(&running.simulation));
+    let simulation = locked(&RUNNING).as_ref().map(|running| Arc::clone(&running.simulation));
     let call = Call::of(context, "sim_start", 1);
     let Some(simulation) = simulation else {
         return none(&call);
@@ -39,7 +36,7 @@ pub(super) fn simulation<C: QueryableContextType>(
 
 /// The running simulation, for somebody who only looks or reaches in from outside.
 pub(crate) fn running_simulation() -> Option<Arc<Simulation>> {
-    running().as_ref().map(|running| Arc::clone(&running.simulation))
+    locked(&RUNNING).as_ref().map(|running| Arc::clone(&running.simulation))
 }
 
 /// Fails because no simulation runs.
@@ -50,7 +47,7 @@ fn none<C: QueryableContextType, T>(call: &Call<C>) -> PrologResult<T> {
 
 /// Whether a simulation runs.
 pub(super) fn is_running() -> bool {
-    running().is_some()
+    locked(&RUNNING).is_some()
 }
 
 /// Starts a simulation and ends the running one.
@@ -65,9 +62,9 @@ pub(super) fn start<C: QueryableContextType>(
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
     mount::end();
-    let before = running().as_ref().map(|running| running.before.clone());
+    let before = locked(&RUNNING).as_ref().map(|running| running.before.clone());
     let before = before.unwrap_or_else(selected);
-    let ended = running().replace(Running { simulation: Arc::clone(&simulation), before });
+    let ended = locked(&RUNNING).replace(Running { simulation: Arc::clone(&simulation), before });
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
     watch::set_simulated(true);
@@ -81,7 +78,7 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
         return none(call);
     }
     mount::end();
-    let ended = running().take();
+    let ended = locked(&RUNNING).take();
     tick_at_once();
     match ended {
         Some(ended) => call.or_throw(select(ended.before)),
@@ -93,7 +90,7 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
 /// it to other programs.
 pub(crate) fn end_unless_mounted() {
     if !mount::is_mounted() {
-        let ended = running().take();
+        let ended = locked(&RUNNING).take();
         drop(ended);
     }
 }

@@ -9,8 +9,9 @@ use super::state::{self, Decimal, OrNull, fine, text};
 use crate::glue::state::known_drive;
 use crate::glue::watch::{Frame, film, frame};
 use ev3_driver::drive::Believed;
+use ev3_driver::lock::locked;
 use ev3_motion::{Pose, wrapped};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// How far a pose may be from the true one to be one in the world, in cm and degrees.
@@ -40,7 +41,7 @@ pub(crate) fn pose_is_set(believed: Pose) {
 pub(super) fn believed(after: Duration) -> Option<Believed> {
     static LAST: Mutex<Option<(u64, Believed)>> = Mutex::new(None);
     let drive = known_drive()?;
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut last = locked(&LAST);
     match drive.peek(after) {
         Some(believed) => {
             *last = Some((film(), Believed { way: Vec::new(), ..believed.clone() }));

@@ -8,10 +8,11 @@ use super::state::{
 use crate::glue::state::{dev, devices};
 use ev3_driver::brick::{buttons, screen};
 use ev3_driver::drive::Believed;
+use ev3_driver::lock::locked;
 use ev3_driver::{Class, Device, Registry, motor};
 use ev3_json::Json;
 use std::collections::VecDeque;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// How often the files are read at most.
@@ -49,7 +50,7 @@ pub(super) fn state() -> (Duration, String) {
     let at = Duration::from_micros(u64::try_from(now.as_micros()).unwrap_or(u64::MAX));
     let believed = believed(Duration::MAX);
     let robot = Robot { believed: OrNull(believe(believed.as_ref())), ..Robot::default() };
-    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut read = locked(&READ);
     let tree = devices.tree().root().to_string_lossy().into_owned();
     let known = read.take().filter(|read| read.tree == tree);
     let read = read.insert(match known {
@@ -77,7 +78,7 @@ pub(super) fn state() -> (Duration, String) {
 
 /// The samples after a moment, or all, and the time of the last one; `None` if there are none.
 pub(super) fn samples(after: Option<Duration>) -> Option<(Samples, Duration)> {
-    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = locked(&READ);
     let read = read.as_ref()?;
     let is_new = |sample: &&Sample| after.is_none_or(|after| sample.at > after);
     let rows: Vec<_> = read.samples.iter().filter(is_new).map(row).collect();

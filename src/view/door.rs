@@ -4,9 +4,10 @@ use super::{simulated, terms};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
+use ev3_driver::lock::locked;
 use ev3_signals::latch::{self, Reason};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
 /// The server, if there is one.
@@ -28,23 +29,10 @@ const MADE: [Made; 2] = [
     },
 ];
 
-/// Registers the predicates below.
-pub(super) fn register() {
-    register_view_serve();
-    register_view_visit();
-    register_view_hear();
-    register_view_say();
-    register_view_end();
-    register_view_leave();
-    register_view_shut();
-}
-
-predicates! {
+natives! {
     /// view_serve_(+Address, +Port, +Token, +Files, -Served): serves the page, with the files of a
     /// folder, at a port; 0 is any. Served is the port, or a text that says why not.
-    #[module("ev3dev_native")]
-    #[name("view_serve_")]
-    semidet fn view_serve(context, address, port, token, files, served) {
+    semidet fn "view_serve_"(context, address, port, token, files, served) {
         let call = Call::of(context, "view", 1);
         let owned = |term: &Term| call.text(term).map(Text::into_owned);
         let any = call.text(address)? == "any";
@@ -53,7 +41,7 @@ predicates! {
         match Door::open(Site { any, port, token, files, made: &MADE, stop }) {
             Ok(door) => {
                 let port = door.port();
-                *locked() = Some(Arc::new(door));
+                *locked(&DOOR) = Some(Arc::new(door));
                 served.unify(u64::from(port))
             }
             Err(error) => served.unify(error.to_string().as_str()),
@@ -62,9 +50,7 @@ predicates! {
 
     /// view_visit_(-Visit): waits until a page comes, and is its number, or until STOP is pressed
     /// without one, and is `stop`. Fails if the server has ended.
-    #[module("ev3dev_native")]
-    #[name("view_visit_")]
-    semidet fn view_visit(_context, visit) {
+    semidet fn "view_visit_"(_context, visit) {
         match door()?.visit() {
             Some(Visit::Page(number)) => visit.unify(u64::from(number)),
             Some(Visit::Stop) => unify_atom(visit, "stop"),
@@ -74,9 +60,7 @@ predicates! {
 
     /// view_hear_(+Page, +Seconds, -Line): waits so long for a line; `none` if there was none.
     /// Fails if the page has gone.
-    #[module("ev3dev_native")]
-    #[name("view_hear_")]
-    semidet fn view_hear(context, page, seconds, line) {
+    semidet fn "view_hear_"(context, page, seconds, line) {
         let call = Call::of(context, "view", 1);
         match page_of(&call, page)?.hear(call.time(seconds)?) {
             Heard::Line(text) => line.unify(text.as_str()),
@@ -86,37 +70,29 @@ predicates! {
     }
 
     /// view_say_(+Page, +Json): does nothing if the page was left.
-    #[module("ev3dev_native")]
-    #[name("view_say_")]
-    semidet fn view_say(context, page, answer) {
+    semidet fn "view_say_"(context, page, answer) {
         let call = Call::of(context, "view", 1);
         say(&call, page, &terms::text(&call, answer)?)
     }
 
     /// view_end_(+Page, +Code): ends the connection with the reason for that (RFC 6455, 7.4).
-    #[module("ev3dev_native")]
-    #[name("view_end_")]
-    semidet fn view_end(context, page, code) {
+    semidet fn "view_end_"(context, page, code) {
         let call = Call::of(context, "view", 1);
         page_of(&call, page)?.end(u16::try_from(call.integer(code)?).unwrap_or_default());
         Ok(())
     }
 
     /// view_leave_(+Page): nobody serves this page any more.
-    #[module("ev3dev_native")]
-    #[name("view_leave_")]
-    semidet fn view_leave(context, page) {
+    semidet fn "view_leave_"(context, page) {
         door()?.leave(number_of(&Call::of(context, "view", 1), page)?);
         Ok(())
     }
 
     /// view_shut_(+Bye): ends the server and all pages, which are told this.
-    #[module("ev3dev_native")]
-    #[name("view_shut_")]
-    semidet fn view_shut(context, bye) {
+    semidet fn "view_shut_"(context, bye) {
         let bye = terms::text(&Call::of(context, "view_stop", 0), bye)?;
         door()?.close(&bye);
-        *locked() = None;
+        *locked(&DOOR) = None;
         Ok(())
     }
 }
@@ -138,13 +114,9 @@ fn stop() {
     let _ = stop_motors();
 }
 
-fn locked() -> MutexGuard<'static, Option<Arc<Door>>> {
-    DOOR.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// The server; fails if there is none.
 fn door() -> PrologResult<Arc<Door>> {
-    locked().clone().ok_or(PrologError::Failure)
+    locked(&DOOR).clone().ok_or(PrologError::Failure)
 }
 
 /// A page; fails if it was left.

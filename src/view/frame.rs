@@ -5,12 +5,13 @@ use super::state::{Clock, Decimal, Report, Samples};
 use super::{brick, simulated};
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
+use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_signals::latch;
 use ev3_sim::Simulation;
 use std::fmt;
 use std::str::FromStr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// What a page has: counts of what was sent, in the order of the fields.
@@ -152,7 +153,7 @@ fn micros(time: Duration) -> u64 {
 
 /// The state, which is the same for all pages for a short while.
 fn shared(source: &Source, film: u64) -> Arc<Shared> {
-    let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut shared = locked(&SHARED);
     if let Some(old) = &*shared {
         if old.film == film && old.made.elapsed() < SHARED_FOR {
             return Arc::clone(old);

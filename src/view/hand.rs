@@ -4,8 +4,9 @@ use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch::film;
+use ev3_driver::lock::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
 
 /// The driver of what was pulled out of each port.
@@ -14,22 +15,9 @@ type Pulled = [Option<&'static str>; 8];
 /// The same, and the film in which that happened.
 static PULLED: Mutex<(u64, Pulled)> = Mutex::new((0, [None; 8]));
 
-/// Registers the predicates below.
-pub(super) fn register() {
-    register_view_pace();
-    register_view_pause();
-    register_view_step();
-    register_view_pull();
-    register_view_put_back();
-    register_view_move();
-    register_view_stands();
-}
-
-predicates! {
+natives! {
     /// view_pace_(+Factor): simulated seconds in a second at most; 0 is no limit.
-    #[module("ev3dev_native")]
-    #[name("view_pace_")]
-    semidet fn view_pace(context, factor) {
+    semidet fn "view_pace_"(context, factor) {
         let factor = Call::of(context, "view", 1).float(factor)?;
         let simulation = simulation()?;
         let limit = match simulation.clock() {
@@ -42,18 +30,14 @@ predicates! {
     }
 
     /// view_pause_(+Pauses)
-    #[module("ev3dev_native")]
-    #[name("view_pause_")]
-    semidet fn view_pause(_context, pauses) {
+    semidet fn "view_pause_"(_context, pauses) {
         simulation()?.set_paused(pauses.get_ex()?);
         Ok(())
     }
 
     /// view_step_(+Seconds, +IsIdle): lets time pass while paused. If the program waits for a
     /// person, nobody else would.
-    #[module("ev3dev_native")]
-    #[name("view_step_")]
-    semidet fn view_step(context, seconds, is_idle) {
+    semidet fn "view_step_"(context, seconds, is_idle) {
         let call = Call::of(context, "view", 1);
         let (time, is_idle) = (call.time(seconds)?, is_idle.get_ex()?);
         let simulation = simulation()?;
@@ -66,16 +50,12 @@ predicates! {
     }
 
     /// view_stands_: the clock is virtual, so time stands while no program runs.
-    #[module("ev3dev_native")]
-    #[name("view_stands_")]
-    semidet fn view_stands(_context) {
+    semidet fn "view_stands_"(_context) {
         into_prolog_result(simulation()?.clock() == Clock::Virtual)
     }
 
     /// view_pull_(+Port): fails if nothing is plugged in.
-    #[module("ev3dev_native")]
-    #[name("view_pull_")]
-    semidet fn view_pull(context, port) {
+    semidet fn "view_pull_"(context, port) {
         let call = Call::of(context, "view", 1);
         let (port, simulation) = (port_of(&call, port)?, simulation()?);
         let driver = simulation.machine().plugged(port);
@@ -83,15 +63,13 @@ predicates! {
         if is_pulled {
             let mut now = pulled();
             now[port as usize] = driver;
-            *locked() = (film(), now);
+            *locked(&PULLED) = (film(), now);
         }
         into_prolog_result(is_pulled)
     }
 
     /// view_put_back_(+Port, -Driver): what was pulled out of a port; fails if nothing was.
-    #[module("ev3dev_native")]
-    #[name("view_put_back_")]
-    semidet fn view_put_back(context, port, driver) {
+    semidet fn "view_put_back_"(context, port, driver) {
         let port = port_of(&Call::of(context, "view", 1), port)?;
         match pulled()[port as usize] {
             Some(name) => unify_atom(driver, name),
@@ -100,9 +78,7 @@ predicates! {
     }
 
     /// view_move_(+Id, +X, +Y, +Heading): heading may be an atom. Fails if there is no such item.
-    #[module("ev3dev_native")]
-    #[name("view_move_")]
-    semidet fn view_move(context, id, x, y, heading) {
+    semidet fn "view_move_"(context, id, x, y, heading) {
         let call = Call::of(context, "view", 1);
         let item = ItemId(u32::try_from(call.integer(id)?).map_err(|_| PrologError::Failure)?);
         let to = [call.float(x)?, call.float(y)?];
@@ -122,12 +98,8 @@ fn simulation() -> PrologResult<Arc<Simulation>> {
 
 /// What was pulled out of each port.
 pub(super) fn pulled() -> Pulled {
-    let (of, pulled) = *locked();
+    let (of, pulled) = *locked(&PULLED);
     if of == film() { pulled } else { Pulled::default() }
-}
-
-fn locked() -> MutexGuard<'static, (u64, Pulled)> {
-    PULLED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Port> {

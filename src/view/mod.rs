@@ -4,9 +4,9 @@
 //! time passes, and nothing is read on the program's behalf.
 mod believed;
 mod brick;
-mod door;
+pub(crate) mod door;
 mod frame;
-mod hand;
+pub(crate) mod hand;
 mod notes;
 mod reach;
 mod simulated;
@@ -25,40 +25,16 @@ use crate::glue::watch;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
 
-/// Registers the predicates below.
-pub(crate) fn register() {
-    door::register();
-    hand::register();
-    register_view_open();
-    register_view_close();
-    register_view_thread();
-    register_view_frame();
-    register_view_keep();
-    register_view_log();
-    register_view_value();
-    register_view_latch();
-    register_view_lift();
-    register_view_stop_motors();
-    register_view_source();
-    register_view_users();
-    register_view_serves();
-    register_view_to_world();
-}
-
-predicates! {
+natives! {
     /// view_open_: somebody may watch from now on.
-    #[module("ev3dev_native")]
-    #[name("view_open_")]
-    semidet fn view_open(_context) {
+    semidet fn "view_open_"(_context) {
         watch::set_watched(true);
         keep_samples(true);
         into_prolog_result(true)
     }
 
     /// view_close_: nobody does any more. Time passes as fast as ever.
-    #[module("ev3dev_native")]
-    #[name("view_close_")]
-    semidet fn view_close(_context) {
+    semidet fn "view_close_"(_context) {
         watch::set_watched(false);
         keep_samples(false);
         if let Some(simulation) = running_simulation() {
@@ -71,27 +47,21 @@ predicates! {
 
     /// view_thread_(+Serves): this thread serves a page from now on, and is no part of the
     /// program; or it ends.
-    #[module("ev3dev_native")]
-    #[name("view_thread_")]
-    semidet fn view_thread(_context, serves) {
+    semidet fn "view_thread_"(_context, serves) {
         threads::serve(serves.get_ex()?);
         Ok(())
     }
 
     /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
     /// State is that of the program; Rate and Goals are the page's settings.
-    #[module("ev3dev_native")]
-    #[name("view_frame_")]
-    semidet fn view_frame(context, page, have, state, rate, goals) {
+    semidet fn "view_frame_"(context, page, have, state, rate, goals) {
         let call = Call::of(context, "view", 1);
         let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
         door::say(&call, page, &frame::next(&have, &state, rate, goals.get_ex()?))
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
-    #[module("ev3dev_native")]
-    #[name("view_keep_")]
-    semidet fn view_keep(context, name, json) {
+    semidet fn "view_keep_"(context, name, json) {
         let call = Call::of(context, "view", 1);
         let (name, json) = (call.text(name)?, terms::text(&call, json)?);
         notes().keep(&name, json);
@@ -99,9 +69,7 @@ predicates! {
     }
 
     /// view_log_(+Time, +Kind, +Text, +Causes, +Thread): Time is in seconds, or `now`.
-    #[module("ev3dev_native")]
-    #[name("view_log_")]
-    semidet fn view_log(context, time, kind, text, causes, thread) {
+    semidet fn "view_log_"(context, time, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
         let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
         let entry = Entry {
@@ -117,9 +85,7 @@ predicates! {
     }
 
     /// view_value_(+Name, +Number)
-    #[module("ev3dev_native")]
-    #[name("view_value_")]
-    semidet fn view_value(context, name, number) {
+    semidet fn "view_value_"(context, name, number) {
         let call = Call::of(context, "view_value", 2);
         let (name, number, time) = (call.text(name)?, call.float(number)?, seconds());
         notes().value(&name, time, number);
@@ -127,47 +93,35 @@ predicates! {
     }
 
     /// view_latch_: no motor starts from now on.
-    #[module("ev3dev_native")]
-    #[name("view_latch_")]
-    semidet fn view_latch(_context) {
+    semidet fn "view_latch_"(_context) {
         latch::set(Reason::Stopped);
         into_prolog_result(true)
     }
 
     /// view_lift_: motors may start again.
-    #[module("ev3dev_native")]
-    #[name("view_lift_")]
-    semidet fn view_lift(_context) {
+    semidet fn "view_lift_"(_context) {
         latch::lift(Reason::Stopped);
         into_prolog_result(true)
     }
 
     /// view_stop_motors_: stops all motors that are connected, with brake, at once.
-    #[module("ev3dev_native")]
-    #[name("view_stop_motors_")]
-    semidet fn view_stop_motors(context) {
+    semidet fn "view_stop_motors_"(context) {
         Call::of(context, "view", 1).or_throw(stop_motors())
     }
 
     /// view_users_(-Threads): the numbers of the threads that have used devices.
-    #[module("ev3dev_native")]
-    #[name("view_users_")]
-    semidet fn view_users(_context, list) {
+    semidet fn "view_users_"(_context, list) {
         list.unify(threads::users().collect::<Vec<_>>().as_slice())
     }
 
     /// view_serves_: this thread serves a page.
-    #[module("ev3dev_native")]
-    #[name("view_serves_")]
-    semidet fn view_serves(_context) {
+    semidet fn "view_serves_"(_context) {
         into_prolog_result(threads::serves())
     }
 
     /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and
     /// the turn from its frame to the world's.
-    #[module("ev3dev_native")]
-    #[name("view_to_world_")]
-    semidet fn view_to_world(context, x, y, world_x, world_y, turn) {
+    semidet fn "view_to_world_"(context, x, y, world_x, world_y, turn) {
         let call = Call::of(context, "view", 1);
         let to_world = believed::ToWorld::now();
         let [x, y] = to_world.point([call.float(x)?, call.float(y)?]);
@@ -177,9 +131,7 @@ predicates! {
     }
 
     /// view_source_(-Source): `sim`, `brick` or `none`.
-    #[module("ev3dev_native")]
-    #[name("view_source_")]
-    semidet fn view_source(_context, source) {
+    semidet fn "view_source_"(_context, source) {
         unify_atom(source, frame::source())
     }
 }

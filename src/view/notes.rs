@@ -1,8 +1,9 @@
 //! What pages get beside the state: the log, values of the program, and what seldom changes.
 use super::state::{Entry, Report};
+use ev3_driver::lock::locked;
 use ev3_json::Json;
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// How many lines of the log, and how many values, are kept.
 const LINES: usize = 500;
@@ -25,7 +26,7 @@ static NOTES: Mutex<Notes> = Mutex::new(Notes {
 
 /// All of it.
 pub(super) fn notes() -> MutexGuard<'static, Notes> {
-    NOTES.lock().unwrap_or_else(PoisonError::into_inner)
+    locked(&NOTES)
 }
 
 /// What pages get beside the state.

@@ -8,11 +8,12 @@ use super::state::{
     text,
 };
 use crate::glue::watch::film;
+use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_sim::{
     Bounds, Button, ItemId, MOTOR_KINDS, Machine, Pose, Sample, SensorKind, Shown, Simulation,
 };
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// The ports, as they stand on the brick.
@@ -146,7 +147,7 @@ fn seen(pose: Pose, sight: ev3_sim::Sight) -> Sight {
 /// Renews what is only sent when it has changed.
 fn keep_versions(machine: &Machine) {
     static VERSIONS: Mutex<Option<[u64; 3]>> = Mutex::new(None);
-    let mut versions = VERSIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut versions = locked(&VERSIONS);
     let now = [film(), machine.world_version(), machine.screen_version()];
     let before = versions.replace(now);
     let [film, world, screen] = before.unwrap_or_default();

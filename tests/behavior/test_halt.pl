@@ -7,7 +7,7 @@
 
 % What the motors were told last, once a program is over.
 
-% Since 9.3 halt/0 unwinds the stack, and does not come back if it is cancelled; and
+% Since 9.3 halt/0 unwinds the stack, and does not come back if it is canceled; and
 % thread_exit/1 does not end the main thread.
 halt_returns :-
     current_prolog_flag(version, Version),
@@ -104,7 +104,7 @@ test(a_robot_that_is_driven_is_stopped,
             main :- set_robot(5.6, 10.6, outB, outC), ~s.", [Goal]),
     after_program(Tree, Text, [goal(main)], Status, C).
 
-% From the end on no motor starts, whoever tries.
+% From the end on no thread starts a motor.
 test(what_goes_on_while_prolog_halts_starts_no_motor,
      [ forall(( tree(Tree),
                 Tree \== simulator,
@@ -122,7 +122,7 @@ test(what_goes_on_while_prolog_halts_starts_no_motor,
     format(string(Text), "main :- ~s.
                           control :- repeat, motor_run(outB, 20), fail.", [Main]),
     after_program(Tree, Text, [goal(main)], _, B-_).
-test(after_an_end_that_is_cancelled_they_start_and_stop_as_ever,
+test(after_an_end_that_is_canceled_they_start_and_stop_as_ever,
      [condition(halt_returns), forall(tree(Tree)), true(Status-C == exit(0)-(stop-stop))]) :-
     after_program(Tree, ":- dynamic cancels/0.
                          cancels.
@@ -225,6 +225,27 @@ test(a_process_that_is_killed_has_one_that_stops_its_motors,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(Status == killed(9)) ]) :-
     signalled(Tree, kill, "", [goal(main)], Status, eventually, stop, stop).
+test(one_that_runs_with_the_last_descriptors_is_stopped_as_well,
+     [ forall(( tree(Tree), Tree \== simulator )), true(Status-C == killed(9)-stop) ]) :-
+    with_tree(Tree, [outB-'lego-ev3-l-motor'],
+              ( program_in_tree(":- use_module([library(process), library(rlimit)]).
+                                 main :- rlimit(nofile, _, 40), leaked(Ss), started(Ss).
+                                 leaked([S|Ss]) :-
+                                     catch(open('/dev/null', read, S), _, fail), !,
+                                     leaked(Ss).
+                                 leaked([]).
+                                 started([]) :-
+                                     motor_run(outB, 20),
+                                     current_prolog_flag(pid, Pid),
+                                     process_kill(Pid, kill),
+                                     sleep(9).
+                                 started(Ss) :-
+                                     catch(started([]),
+                                           error(resource_error(max_files), _), fail)
+                                     ;   Ss = [S|Ss1], close(S), started(Ss1).",
+                                Program, Options),
+                run_program(Program, [goal(main)|Options], Status, Output),
+                eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
 test(without_that_process_they_run_on,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(B-C == 'run-forever'-'run-forever') ]) :-

@@ -225,6 +225,10 @@ test(what_is_missing_is_told_once,
               hints(( Goal ; Goal ), Texts)),
     Texts = [Text],
     assertion(begins(Text, Start)).
+test(a_port_at_which_nothing_appears_is_told,
+     true(Texts == ['nothing came of dc-motor at outA'])) :-
+    with_tree(plain, [port(outA)-'ev3-output-port'],
+              hints(port_mode(outA, 'dc-motor'), Texts)).
 test(what_is_impossible_is_told_once,
      [forall(( behaving(Tree), impossible(Goal, Start) )), true(Texts = [_])]) :-
     on(Tree, ( a_robot, hints(( Goal ; Goal ), Texts) )),

@@ -14,13 +14,13 @@ picture(Bytes) :-
 :- begin_tests(traffic_light).
 
 test(shows_each_colour,
-     [ forall(member(Colour, [red, amber, green])),
-       true(Colours-Same == [left-Colour, right-Colour]-true)
+     [ forall(member(Color, [red, amber, green])),
+       true(Colors-Same == [left-Color, right-Color]-true)
      ]) :-
-    atomic_list_concat(['tests/pictures/traffic_', Colour, '.png'], File),
+    atomic_list_concat(['tests/pictures/traffic_', Color, '.png'], File),
     with_sim(room,
-             ( traffic_light:show(Colour),
-               findall(Light-Shown, led(Light, Shown), Colours),
+             ( traffic_light:show(Color),
+               findall(Light-Shown, led(Light, Shown), Colors),
                picture(Drawn),
                screen_clear, screen_image(0, 0, File), screen_show,
                picture(Kept) )),
@@ -34,7 +34,7 @@ test(turns_green_for_who_presses_enter_and_ends_at_another_key,
              ( sim_press(enter, [after(2)]),
                sim_press(left, [after(20)]),
                traffic_light:start,
-               findall(Colour, led(_, Colour), Lights),
+               findall(Color, led(_, Color), Lights),
                sim_time(End),
                sim_trace(Trace) )),
     End > 20,

@@ -51,6 +51,7 @@ source('tests/brick/example.pl').
 %   version on the brick.
 
 for_new('tools/doc.pl').
+for_new('tools/mutate.pl').
 for_new('tools/check-brick-prolog.pl').
 
 pack_file(File) :-

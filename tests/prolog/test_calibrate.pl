@@ -16,7 +16,7 @@ uncalibrated(Seed, Gyro, Robot) :-
     ;   robot_of(5.46, 5.74, 10.3, Gyro, Noise, Robot)
     ).
 
-%   Squares of a metre both ways: how far from its start the robot ends.
+%   Squares of a meter both ways: how far from its start the robot ends.
 umbmark(Error) :-
     square(1, E1),
     square(-1, E2),
@@ -51,7 +51,7 @@ by_measuring :-
     calibrate(axle, [measured(measured_turn(H1))], Axle),
     call(Axle).
 
-%   A student with a tape measure that shows millimetres and a protractor that
+%   A student with a tape measure that shows millimeters and a protractor that
 %   shows degrees.
 measured_way(X0, Y0, H0, Ahead, Right) :-
     sim_pose(X, Y, _),

@@ -558,7 +558,7 @@ beside(Cm) :-
     near(X, 0, Cm),
     near(Y, 200, 1).
 
-%   The distance of each point of the way from the centre. The robot gets on its
+%   The distance of each point of the way from the center. The robot gets on its
 %   way within the first 10 cm.
 keeps_radius(Radius) :-
     sim_trace(Trace),

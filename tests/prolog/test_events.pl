@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev/events)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(lists)).
+:- use_module(library(aggregate)).
 :- use_module(library(apply)).
 
 % What the test makes true, and what happens.
@@ -126,6 +127,11 @@ test(an_id_replaces, true(Whats == [second])) :-
           ( on(up(a), note(first), [id(x)]), on(up(a), note(second), [id(x)]), wait(2) ),
           Notes),
     findall(W, member(_-W, Notes), Whats).
+test(one_that_is_replaced_at_a_moment_does_not_happen_then, true(Whats == [second])) :-
+    noted([1-raise(a)],
+          ( on(up(a), on(up(a), note(second), [id(x)])), on(up(a), note(first), [id(x)]),
+            wait(2) ), Notes),
+    findall(W, member(_-W, Notes), Whats).
 test(it_happens_only_once_at_a_time) :-
     noted([ 1-raise(a), 1.2-lower(a), 1.4-raise(a) ],
           ( on(up(a), ( note(in), wait(1), note(out) )), wait(4) ), Notes),
@@ -149,6 +155,10 @@ test(what_is_no_error_ends_the_wait, throws(enough)) :-
     noted([1-raise(a)], ( on(up(a), throw(enough)), wait(2) ), _).
 test(a_condition_must_not_wait, error(permission_error(wait, guard, x), _)) :-
     noted([], ( on(wait(1), true, [id(x)]), wait(2) ), _).
+test(nothing_of_them_is_left_when_their_simulation_ends, true(Counts == [0, 0, 0])) :-
+    with_sim([], ( on(up(a), true), every(1, true, [id(x)]) )),
+    findall(Count, ( member(Fact, [event_(_, _, _, _), state_(_, _, _), next(_, _)]),
+                     aggregate_all(count, ev3dev_events:Fact, Count) ), Counts).
 test(each_thread_has_its_own, true(Kinds-Notes == []-[])) :-
     noted([1-raise(a)],
           ( thread_create(( on(up(a), note(other)), findall(K, event(_, K), [on]) ), Id, []),
@@ -174,11 +184,17 @@ test(every_ends_after_its_count) :-
     noted([], ( every(1, note(tick), [count(2)]), wait(3.5) ), Notes),
     times(Notes, tick, Times),
     near_all(Times, [1, 2]).
-test(every_does_not_run_within_itself_nor_make_up, true(Whats == [in, out, in])) :-
-    noted([], ( every(1, ( note(in), wait(1.5), note(out) ), [count(2)]), wait(1.2) ), Notes0),
-    noted([], true, _),
-    findall(W, member(_-W, Notes0), Whats0),
-    append(Whats0, [in], Whats).
+test(every_does_not_run_within_itself_nor_make_up,
+     [ forall(member(Wait-Expected, [ 0.5-[1, 2, 3, 4, 5, 6, 7], 1.5-[1, 3, 5, 7],
+                                      2.5-[1, 4, 7] ])) ]) :-
+    noted([], ( every(1, ( note(in), wait(Wait), note(out) )), wait(7.4) ), Notes),
+    times(Notes, in, Times),
+    near_all(Times, Expected),
+    \+ ( nextto(_-in, _-in, Notes) ; nextto(_-out, _-out, Notes) ).
+test(every_happens_once_for_the_times_at_which_nothing_was_served) :-
+    noted([], ( every(1, note(tick)), sim_step(3.5), wait(2) ), Notes),
+    times(Notes, tick, Times),
+    near_all(Times, [3.5, 4, 5]).
 test(after_is_once) :-
     noted([], ( after(1, note(now)), wait(3), \+ event(_, _) ), Notes),
     times(Notes, now, Times),
@@ -356,6 +372,26 @@ test(a_clean_up_may_wait) :-
           Notes),
     times(Notes, cleaned, Times),
     near_all(Times, [2.01]).
+test(a_clean_up_waits_on_while_events_are_due) :-
+    noted([], ( every(0.3, note(every)),
+                race([setup_call_cleanup(true, wait(9), ( wait(1), note(cleaned) )), wait(1)], 2),
+                wait(0.5) ), Notes),
+    times(Notes, cleaned, Times),
+    near_all(Times, [2.01]),
+    times(Notes, every, Every),
+    near_all(Every, [0.31, 0.61, 0.91, 2.01, 2.11, 2.41]).
+test(a_clean_up_within_a_branch_may_wait) :-
+    noted([], race([( race([setup_call_cleanup(true, wait(9), ( wait(1), note(cleaned) )),
+                            wait(1)], 2), wait(9) ), wait(3)], 2), Notes),
+    times(Notes, cleaned, Times),
+    near_all(Times, [2.01]).
+test(until_leaves_a_wait_of_a_clean_up) :-
+    noted([], race([setup_call_cleanup(true, wait(9),
+                                       ( until(( ev3_time(T), T > 1.5 ), wait(9), Which),
+                                         note(Which) )),
+                    wait(1)], 2), Notes),
+    times(Notes, condition, Times),
+    near_all(Times, [1.5]).
 test(waits_do_not_add_up) :-
     noted([], ( both(go_cm(20, 40), forall(between(1, 10, _), wait(0.1))), ev3_time(T) ), _),
     noted([], ( go_cm(20, 40), ev3_time(Alone) ), _),

@@ -409,6 +409,275 @@ test(each_construct_is_there, Missing == []) :-
 
 :- end_tests(golog_each).
 
+                /*******************************
+                *        LAWS FOR EACH         *
+                *******************************/
+
+%   whole(+Part, -Program): Program begins with a step of Part. Each construct
+%   has one, in each place where it may be, but those of without_part/1.
+
+whole(P, [P]).
+whole(P, [[], P]).
+whole(P, [P, I]) :- idle(I).
+whole(P, ndet(P, never)).
+whole(P, ndet(never, P)).
+whole(P, rndet(P, never)).
+whole(P, wndet(P, never)).
+whole(P, wndet(never, P)).
+whole(P, if(true, P, never)).
+whole(P, if(false, never, P)).
+whole(P, while(neg(done(a)), P)).
+whole(P, star(P)).
+whole(P, star(P, 2)).
+whole(P, pi(x, [1], P)).
+whole(P, pi((x, [1]), P)).
+whole(P, rpi(x, [1], P)).
+whole(P, rpi((x, [1]), P)).
+whole(P, for(x, [1], P)).
+whole(P, conc(P, I)) :- idle(I).
+whole(P, conc(I, P)) :- idle(I).
+whole(P, '$turn'(P, I)) :- idle(I).
+whole(P, '$turn'(I, P)) :- idle(I).
+whole(P, pconc(P, I)) :- idle(I).
+whole(P, pconc(I, P)) :- idle(I).
+whole(P, rconc(P, I)) :- idle(I).
+whole(P, rconc(I, P)) :- idle(I).
+whole(P, rconc([I, P, I])) :- idle(I).
+whole(P, rrobin([I, P, I])) :- idle(I).
+whole(P, iconc(P)).
+whole(P, interrupt(true, P)).
+whole(P, interrupt(x, x = 1, P)).
+whole(P, prioritized_interrupts([I, P, I])) :- idle(I).
+whole(P, prioritized_interrupts_simple([interrupt(true, P)])).
+whole(P, search(P)).
+whole(P, search(P, m)).
+whole(P, search(P, m, [depth(99)])).
+whole(P, searchn(P, [])).
+whole(P, searchc(P)).
+whole(P, searchc(P, [])).
+whole(P, '$path'(P, [none], at(99, none), [])).
+whole(P, gexec(true, P)).
+whole(P, gexec2(true, P)).
+whole(P, goal(false, P, false, never)).
+whole(P, goal(false, never, true, P)).
+whole(P, atomic(P)).
+whole(P, '$atomic'(P)).
+whole(P, exogint(P, true)).
+whole(P, time(P, 99)).
+whole(P, ttime(P, 99)).
+whole(P, sync([P])).
+whole(P, sync([P, P])).
+
+%   It may end, and takes no step.
+
+idle(star(never)).
+
+without_part([]).
+without_part(?(_)).
+without_part(??(_)).
+without_part(wait).
+without_part(wait_exog).
+without_part(sim(_)).
+without_part(achieve(_)).
+without_part(abort).
+without_part(abort(_)).
+without_part(commit).
+without_part(branch(_)).
+without_part(set(_)).
+without_part(unset(_)).
+without_part(e(_, _)).
+
+whole_in_whole(P, E) :-
+    whole(P, E).
+whole_in_whole(P, E) :-
+    whole(P, E1),
+    \+ prints(E1),
+    whole(E1, E),
+    \+ prints(E).
+
+prints(search(_, m)).
+prints(search(_, m, _)).
+
+%   begun(+Program0, -Program, -Situation, +Context): the first action has
+%   been done, and Program remains.
+
+begun(E0, E, S, X) :-
+    ev3dev_golog_domain:situation([], S0, X),
+    once(first_action(E0, S0, E, S, X)).
+
+first_action(E0, S0, E, S, X) :-
+    ev3dev_golog_transitions:step(E0, S0, E1, S1, X),
+    (   done_first(S1, _)
+    ->  E = E1,
+        S = S1
+    ;   first_action(E1, S1, E, S, X)
+    ).
+
+done_first(S, A) :-
+    ev3dev_golog_domain:situation_history(S, [A|_]).
+
+lab_context(Words, X) :-
+    ev3dev_golog_theory:prepare(golog_lab),
+    ev3dev_golog_context:context(golog_lab, Words, X).
+
+%   What Program may do next in Situation; `none` is a step without an action.
+
+next_actions(E, S, X, As) :-
+    ev3dev_golog_domain:situation_history(S, H),
+    findall(A,
+            ( ev3dev_golog_transitions:step(E, S, _, S1, X),
+              ev3dev_golog_domain:situation_history(S1, H1),
+              (   H1 = [A|H]
+              ->  true
+              ;   A = none
+              ) ),
+            As0),
+    sort(As0, As).
+
+beside(E, C, conc(E, C)).
+beside(E, C, conc(C, E)).
+beside(E, C, '$turn'(E, C)).
+beside(E, C, '$turn'(C, E)).
+beside(E, C, pconc(E, C)).
+beside(E, C, pconc(C, E)).
+beside(E, C, rconc(E, C)).
+beside(E, C, rconc(C, E)).
+beside(E, C, rconc([never, E, C])).
+beside(E, C, rconc([C, never, E])).
+beside(E, C, rrobin([never, E, C])).
+beside(E, C, rrobin([C, never, E])).
+beside(E, C, prioritized_interrupts([never, E, C])).
+beside(E, C, prioritized_interrupts([C, never, E])).
+
+:- begin_tests(golog_laws,
+               [cleanup(retractall(ev3dev_golog_search:replanned_(_)))]).
+
+test(each_construct_has_a_whole, Missing == []) :-
+    findall(E,
+            ( ( ev3dev_golog_programs:construct(E)
+              ; ev3dev_golog_programs:weak_construct(E) ),
+              \+ whole(a, E),
+              \+ without_part(E) ),
+            Missing).
+test(nothing_comes_between_the_actions_of_an_atomic, Wrong == []) :-
+    lab_context([], X),
+    findall(Whole-Two-As,
+            ( whole_in_whole(atomic([up, a]), Whole),
+              begun(Whole, E, S, X),
+              beside(E, c, Two),
+              next_actions(Two, S, X, As),
+              As \== [a] ),
+            Wrong).
+test(after_an_atomic_others_go_on, Wrong == []) :-
+    lab_context([], X),
+    findall(Whole-As,
+            ( whole(atomic([up, a]), Whole),
+              begun(Whole, E0, S0, X),
+              ev3dev_golog_transitions:step(E0, S0, E, S, X),
+              next_actions(conc(E, c), S, X, As),
+              \+ memberchk(c, As) ),
+            Wrong).
+test(an_atomic_that_is_given_up_holds_nobody_up,
+     [ forall(member(Whole, [ gexec(n = 0, P), gexec2(n = 0, P),
+                              goal(n = 1, P, false, never) ])),
+       true(Runs == [[c, up, b], [up, b, c], [up, c, b]]) ]) :-
+    P = atomic([up, a]),
+    runs(conc([Whole, b], c), Runs0),
+    sort(Runs0, Runs).
+test(a_simplified_program_is_the_same, Wrong == []) :-
+    lab_context([], X),
+    findall(Steps-Steps0,
+            ( whole_in_whole([[up, a], c], Whole),
+              begun(Whole, E0, S, X),
+              simple(E0, E, X),
+              steps_and_end(E0, S, X, Steps0),
+              steps_and_end(E, S, X, Steps),
+              Steps \=@= Steps0 ),
+            Wrong).
+test(a_simplified_program_has_no_empty_one, Wrong == []) :-
+    lab_context([], X),
+    findall(E,
+            ( whole_in_whole([[up, a], c], Whole),
+              begun(Whole, E0, _, X),
+              simple(E0, E, X),
+              part_of(E, Part),
+              Part == [[[], a], c] ),
+            Wrong).
+test(a_simplified_action_keeps_its_arguments,
+     Runs == [[sync([[[], 1]])], [ttime([[], 1], 2)]]) :-
+    with_domain([ prim_action(sync(_)), prim_action(ttime(_, _)),
+                  poss(_, true) ],
+                M,
+                findall(Run,
+                        do(M:ndet([sync([[[], 1]])], [ttime([[], 1], 2)]),
+                           Run),
+                        Runs)).
+test(no_mark_of_the_interpreter_is_shown, Wrong == []) :-
+    lab_context([online], X),
+    findall(E,
+            ( whole_in_whole(atomic([conc([up, a], [up, b]), c]), Whole),
+              begun(Whole, E0, _, X),
+              ev3dev_golog_transitions:program_shown(E0, E),
+              part_of(E, Part),
+              compound(Part),
+              functor(Part, Name, _),
+              sub_atom(Name, 0, 1, _, $) ),
+            Wrong).
+test(interrupts_that_stop_end_what_they_have_begun,
+     [ forall(( whole([?(ringing), a, interrupt(true, b)], Whole),
+                keeps_interrupts(Whole) )),
+       true(Left-As == []-[a]) ]) :-
+    % None can take a step before it rings.
+    lab_context([], X),
+    ev3dev_golog_domain:situation([], S0, X),
+    once(ev3dev_golog_transitions:step(prioritized_interrupts([Whole]), S0,
+                                       E, S1, X)),
+    findall(I, ( part_of(E, I), I = interrupt(_, _) ), Left),
+    ev3dev_golog_domain:done(ring, S1, S2, X),
+    % The test, in sync/1 together with the action
+    (   ev3dev_golog_transitions:step(E, S2, E1, S2, X)
+    ->  true
+    ;   E1 = E
+    ),
+    next_actions(E1, S2, X, As).
+
+%   Constructs that keep a part that has not taken a step yet
+
+keeps_interrupts(Whole) :-
+    functor(Whole, Name, _),
+    memberchk(Name, [ '[|]', conc, '$turn', pconc, rconc, rrobin, gexec,
+                      gexec2, goal, exogint, ttime, sync ]),
+    Whole \= goal(_, never, _, _).
+
+simple(E0, E, X) :-
+    ev3dev_golog_transitions:simplified(E0, E, X).
+
+%   Each step of Program, as what it does and what remains, and whether it may
+%   end
+
+steps_and_end(E, S, X, Steps-End) :-
+    findall(H-Next,
+            ( ev3dev_golog_transitions:step(E, S, Next0, S1, X),
+              simple(Next0, Next, X),
+              ev3dev_golog_domain:situation_history(S1, H) ),
+            Steps0),
+    msort(Steps0, Steps),
+    (   ev3dev_golog_transitions:is_final(E, S, X)
+    ->  End = yes
+    ;   End = no
+    ).
+
+%   Not in what a plan has found: it is followed as it is.
+
+part_of(E, E).
+part_of(E, Part) :-
+    compound(E),
+    E \= '$path'(_, _, _, _),
+    arg(_, E, A),
+    part_of(A, Part).
+
+:- end_tests(golog_laws).
+
 :- begin_tests(golog_search).
 
 test(search_takes_the_way_that_ends, H == [b]) :-       % [I] Sigma
@@ -1341,6 +1610,12 @@ user:note_exog(E) :-
     ;   true
     ).
 
+%   What was planned goes on until its action is done.
+
+follows_plan(Whole) :-
+    functor(Whole, Name, _),
+    memberchk(Name, [search, searchn, searchc, '$path']).
+
 :- begin_tests(golog_robot).
 
 test(an_action_moves_the_robot, true(near(Way, 40, 1))) :-
@@ -1417,6 +1692,20 @@ test(an_atomic_program_is_not_interrupted, H == [beep, key, ahead]) :-
                                 interrupt(neg(done(ahead)),
                                           atomic([ahead, ?(true)])) ]),
                           [history(H)]) )).
+test(a_higher_program_ends_a_move_in_each_construct,
+     [ forall(( whole(pconc([?(keys > 0), beep], ahead), Whole),
+                \+ follows_plan(Whole),
+                Whole \= atomic(_),
+                Whole \= '$atomic'(_) )),
+       true(Interrupted == true) ]) :-
+    with_rover(M, ( assertz((M:proc(never, ?(false)))),
+                    sim_press(enter, [after(0.5)]),
+                    golog(M:[Whole, ?(beeps > 0)],
+                          [limit(8), reason(_), history(H)]) )),
+    (   memberchk(interrupted(ahead), H)
+    ->  Interrupted = true
+    ;   Interrupted = H
+    ).
 test(a_condition_is_one_event, Count == 1) :-
     with_rover(M, ( sim_press(enter, [for(0.5)]),
                     golog(M:[ahead], [history(H)]) )),

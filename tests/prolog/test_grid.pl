@@ -204,14 +204,20 @@ test(cells_may_be_wider_and_the_origin_elsewhere) :-
                set_grid([ bounds(0, 0, 10, 10), start([1, 1], [0, 1]),
                           cell_cm(30), origin(15, 15) ]),
                plan_and_go_to([1, 9], _),
-               col_color(in2, Colour),
+               col_color(in2, Color),
                sim_collisions(Collisions) )),
-    Colour == 5,
+    Color == 5,
     Collisions == [].
 
 :- end_tests(worlds).
 
 :- begin_tests(on_the_way).
+
+%   The robot and a grid without walls; then Goal.
+:- meta_predicate in_open(+, +, 0).
+
+in_open(Items, Options, Goal) :-
+    with_sim(Items, ( robot, set_grid([bounds(-1, -1, 3, 3)|Options]), call(Goal) )).
 
 %   Boxes in some cells of an otherwise empty room; then Goal.
 
@@ -351,6 +357,26 @@ test(what_stops_it_is_an_obstacle) :-
              )),
     near(X, 0, 2),
     near(Y, 40, 2).
+test(it_goes_back_backward, Seen-Cell == [[0,1]]-[0,0]) :-
+    in_open([circle(9, 20, 2), circle(-9, 20, 2)], [],
+            ( \+ execute_plan([move]),
+              findall(C, obstructed(C), Seen),
+              state_position(Cell, _),
+              motor_position(outB, Left),
+              motor_position(outC, Right),
+              sim_pose(X, Y, _)
+            )),
+    near(X, 0, 2),
+    near(Y, 0, 2),
+    near(Left, 0, 30),
+    near(Right, 0, 30).
+% The middle of the next cell is 28 cm ahead.
+test(what_is_behind_the_middle_of_a_diagonal_cell_is_in_it,
+     [ forall(member(At-Found, [22.6-[[1,1]], 28-[]])), true(Seen-Collisions == Found-[]) ]) :-
+    in_open([circle(At, At, 2)], [neighbors(8)],
+            ( ignore(execute_plan([right, move])),
+              findall(C, obstructed(C), Seen),
+              sim_collisions(Collisions) )).
 
 :- end_tests(on_the_way).
 

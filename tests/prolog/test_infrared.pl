@@ -10,7 +10,7 @@
 %
 %   Call Goal with the EV3's infrared sensor at in1, which shows Values in a
 %   plain tree, and stands in World else. In a plain tree it is in the mode
-%   with so many values already: to change it takes 1.1 s.
+%   with that number of values already: to change it takes 1.1 s.
 
 :- meta_predicate with_ir(+, +, +, 0).
 

@@ -46,23 +46,23 @@ test(a_light_is_there_or_not, [forall(tree(Tree))]) :-
     lit(Tree, ( led(left), \+ led(up), \+ led(outA) )).
 test(a_colour_is_made_of_red_and_green,
      [ forall(( tree(Tree),
-                member(Colour-Red-Green,
+                member(Color-Red-Green,
                        [ off-0-0, red-255-0, green-0-255, amber-255-255,
                          orange-255-128, yellow-26-255,
                          levels(20, 40)-51-102, levels(100, 0)-255-0,
                          levels(10*2, 80/2)-51-102 ]) )),
        true(R-G == Red-Green) ]) :-
-    lit(Tree, ( led(left, Colour),
+    lit(Tree, ( led(left, Color),
                 brightness('led0:red:brick-status', R),
                 brightness('led0:green:brick-status', G) )).
 test(the_other_light_stays_as_it_is, [forall(tree(Tree)), true(C == green)]) :-
     lit(Tree, ( led(left, red), led(right, C) )).
 test(what_was_set_is_read,
      [ forall(( tree(Tree),
-                member(Colour, [off, red, green, amber, orange, yellow,
+                member(Color, [off, red, green, amber, orange, yellow,
                                 levels(20, 40), levels(1, 99)]) )),
-       true(C == Colour) ]) :-
-    lit(Tree, ( led(right, Colour), led(right, C) )).
+       true(C == Color) ]) :-
+    lit(Tree, ( led(right, Color), led(right, C) )).
 test(levels_that_have_a_name_are_read_as_that,
      [forall(tree(Tree)), true(C == orange)]) :-
     lit(Tree, ( led(right, levels(100, 50)), led(right, C) )).
@@ -78,7 +78,7 @@ test(an_absent_light_fails, [forall(tree(Tree)), fail]) :-
 test(no_lights_at_all, [fail]) :-
     with_tree(plain, [], ( led(_) ; led(_, _) ; led(left, red) )).
 test(what_is_no_colour_throws_and_changes_nothing,
-     [ forall(member(Colour-Error,
+     [ forall(member(Color-Error,
                      [ pink-domain_error(led_color, pink),
                        levels(101, 0)-domain_error(led_color, 101),
                        levels(0, -1)-domain_error(led_color, -1),
@@ -90,7 +90,7 @@ test(what_is_no_colour_throws_and_changes_nothing,
                        f(x)-domain_error(led_color, f(x)) ])),
        true(E-W == caught-[]) ]) :-
     leds(['led0:red:brick-status', 'led0:green:brick-status'],
-         ( catch(led(left, Colour), error(Error, _), E = caught),
+         ( catch(led(left, Color), error(Error, _), E = caught),
            written(W) )).
 test(an_unbound_light_cannot_be_set, error(instantiation_error, _)) :-
     leds(['led0:red:brick-status'], led(_, red)).

@@ -241,7 +241,7 @@ shut(room(Known, Unknown, (X-Y)/Heading, GX-GY),
     Y1 is GY - 28,
     Y2 is GY + 28.
 
-%   They are no test unless whoever does not look runs into something.
+%   They test something only if a robot that does not look runs into it.
 
 test(who_does_not_look_runs_into_something, [condition(all_cases), true(Hits > 20)]) :-
     aggregate_all(count,

@@ -569,7 +569,7 @@ test(changed_is_what_changes, [forall(member(N, [4, 8])), Told == Real]) :-
     sort(Real0, Real),
     grid_map([bounds(0, 0, 4, 4), neighbors(N)], Map),
     grid_changed(Map, [Cell], Told0),
-    % A move off the map is none, be the cell free or not.
+    % A move off the map does not count, be the cell free or not.
     findall(State, ( member(State, Told0), memberchk(State, Real) ), Told1),
     length(Told0, CountTold),
     length(Real, CountReal),

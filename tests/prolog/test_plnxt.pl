@@ -3,7 +3,7 @@
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/plnxt)).
-:- use_module(library(ev3dev/events), [event/2]).
+:- use_module(library(ev3dev/events), [event/2, on/2]).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
@@ -154,6 +154,14 @@ test(read_if_there_is_no_last_value) :-
     nxt(room, ( nxt_light(L), nxt_ultrasonic(D) )),
     number(L),
     number(D).
+% Bricks that share a program know nothing of each other's readings.
+test(are_those_of_the_own_brick, true(Whole-Others == 50-[7])) :-
+    setup_call_cleanup(
+        assertz(ev3dev_plnxt:read_last(other, ultrasonic, 7)),
+        nxt(room, ( sim_show(in1, value0, 500), nxt_ultrasonic(D),
+                    findall(Cm, ev3dev_plnxt:read_last(other, _, Cm), Others) )),
+        retractall(ev3dev_plnxt:read_last(other, _, _))),
+    whole(D, Whole).
 test(fail_if_there_is_none,
      [ fail, forall(member(Goal, [nxt_touch(_), nxt_touch(_, force),
                                   nxt_sound(_), nxt_sound(_, force)])) ]) :-
@@ -224,8 +232,14 @@ test(have_timers, true(All == [once-1.0, twice-1.5, twice-3.0])) :-
 test(timers_are_killed, true(All == [])) :-
     nxt([], ( timer_create(a, 1, see(a)), timer_create(b, 1, see(b)),
               timer_kill(a), timer_killall, wait(3), all_seen(All) )).
-test(are_listed) :-
-    nxt([], ( trigger_create(a, fail, true), nxt_threads )).
+test(are_listed, true(Ids == [nxt_trigger(a), nxt_timer(b)])) :-
+    nxt([], ( trigger_create(a, fail, true), timer_create(b, 1, true), on(fail, true),
+              setup_call_cleanup(
+                  asserta((user:message_hook(ev3dev(plnxt_events(Listed)), _, _) :-
+                               assertz(user:seen(Listed))), Ref),
+                  nxt_threads,
+                  erase(Ref)),
+              all_seen([Ids]) )).
 
 % True from 1 to 2 s, from 3 to 4 s, ...
 flips :-

@@ -108,6 +108,11 @@ test(the_guard_of_an_action_that_waits_is_not_looked_at,
      true(Whats == [rule(turn_b), called(b)])) :-
     noted([0-raise(b), 0.5-lower(b)], behave_for(2, [turn_b]), Notes),
     whats(Notes, Whats).
+test(an_until_around_it_looks_every_20_ms_whatever_its_period, true(Which == condition)) :-
+    noted([], ( until(( ev3_time(Now), Now > 1.1 ),
+                      behave([(r :: true ~> wait(9))], [period(0.5)]), Which),
+                ev3_time(T) ), _),
+    near(T, 1.1, 0.03).
 test(bindings_of_the_guard_reach_the_action, true(Whats == [rule(r), 7])) :-
     noted([], behave_for(0.5, [(r :: member(X, [7, 8]) ~> note(X))]), Notes),
     whats(Notes, Whats).
@@ -277,6 +282,18 @@ test(while_keeps_one_that_has_returned, true(Changes == [rule(w), rule(wander)])
     changes(Notes, Changes),
     at_time(rule(wander), Notes, Time),
     near(Time, 2, 0.03).
+test(the_variables_of_while_are_its_own, true(Whats == [rule(w), 20])) :-
+    noted([ 0-raise(a), 0-assertz(value(20)), 1-lower(a), 1-( retractall(value(_)),
+                                                              assertz(value(30)) ) ],
+          behave_for(2, [ (w, while(value(S)) :: up(a), value(S) ~> note(S), go(S)) ]), Notes),
+    whats(Notes, Whats).
+test(one_that_ended_may_apply_again_though_its_guard_was_false_while_another_acted,
+     true(Whats == [rule(late), late, ended(late), rule(early), ended(early),
+                    rule(late), late, ended(late)])) :-
+    noted([ 0-raise(b), 1-raise(a), 1.5-lower(b), 2-raise(b) ],
+          behave_for(4, [ (early :: up(a) ~> wait(2)), (late :: up(b) ~> note(late), wait(0.1)) ]),
+          Notes),
+    findall(What, ( member(_-What, Notes), What \== rest ), Whats).
 test(min_time_keeps_it, true(Changes == [rule(w), rule(wander)])) :-
     noted([ 0-raise(a), 0.5-lower(a) ],
           behave_for(3, [ (w, min_time(2) :: up(a) ~> go(20)), wander ]), Notes),
@@ -396,6 +413,11 @@ test(what_is_no_rule, [forall(member(R, [7, "x"])), error(type_error(rule, R), _
     behave([R]).
 test(what_is_unbound, error(instantiation_error, _)) :-
     behave([_]).
+test(a_list_of_steps_as_a_part_of_an_action,
+     [ forall(member(Goal, [expand_term(Rule, _), behave([Rule])])),
+       error(type_error(callable, [b]), _) ]) :-
+    Rule = (r :: true ~> wait(1), [b]),
+    call(Goal).
 test(an_unknown_option_of_a_rule, error(domain_error(rule_option, hurry(1)), _)) :-
     behave([(r, hurry(1) :: true ~> true)]).
 test(an_unknown_option, error(domain_error(behave_option, hurry(1)), _)) :-

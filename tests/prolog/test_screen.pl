@@ -12,7 +12,7 @@
     with_picture(0, -),
     show(0).
 
-%   Call Goal once with a screen of so many bits in a tree.
+%   Call Goal once with a screen of that depth, in bits, in a tree.
 on_screen(plain, Bits, Goal) :-
     memberchk(Bits-Size, [32-91136, 1-3072]),
     with_dev([fb0-zero(Size)], Goal).

@@ -774,7 +774,7 @@ watch_pause(Page, Main) :-
 
 :- begin_tests(view_same).
 
-% A run is byte for byte the same, whoever looks.
+% A run is byte for byte the same, watched or not.
 test(six_pages_change_nothing, true(Watched == Alone)) :-
     token(Token),
     with_sim(room, run(Alone), [noise(true), seed(7)]),

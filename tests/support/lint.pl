@@ -25,7 +25,7 @@ main :-
     forall(undocumented(Module, PI), complain(undocumented(Module:PI))),
     forall(( source(File), bad_line(File, Line, Why) ), complain(line(File, Line, Why))),
     forall(without_partner(File), complain(no_test_or_no_module(File))),
-    forall(( page(File), line_of(File, Line, Text), banned_in(Text, Word) ),
+    forall(( prose(File, Line, Text), banned_in(Text, Word) ),
            complain(line(File, Line, banned(Word)))),
     (   complaint
     ->  halt(1)
@@ -92,10 +92,19 @@ source(File) :-
     expand_file_name(Pattern, Files),
     member(File, Files).
 
-page(File) :-
+% A line of a page, and the comment in a line of Rust or of a test.
+prose(File, Number, Line) :-
     member(Pattern, ['README.md', 'docs/*.md']),
     expand_file_name(Pattern, Files),
-    member(File, Files).
+    member(File, Files),
+    line_of(File, Number, Line).
+prose(File, Number, Comment) :-
+    member(Folder-Extension-Mark,
+           [src-rs-"//", crates-rs-"//", tests-pl-"%"]),
+    directory_member(Folder, File, [extensions([Extension]), recursive(true)]),
+    line_of(File, Number, Line),
+    once(sub_string(Line, Before, _, _, Mark)),
+    sub_string(Line, Before, _, 0, Comment).
 
 bad_line(File, Number, Why) :-
     line_of(File, Number, Line),
@@ -162,13 +171,13 @@ excused(Word, Line, Before) :-
 
 % The check of words can fail, and does not fail on good words.
 self_test :-
-    forall(( member(Bad, [ "% Plans anew.", "%   for an option that is none",
+    forall(( member(Bad, [ "Plans anew.", "for an option that is none",
                            "an actuator, in millimetres", "led(?Light, ?Colour)",
-                           "% the centre, whoever asks", "So many times" ]),
+                           "the centre, whoever asks", "So many times" ]),
              \+ banned_in(Bad, _)
            ),
            complain(not_found(Bad))),
-    forall(( member(Good, [ "% fails if there is none", "set_grid([neighbors(8)])",
+    forall(( member(Good, [ "fails if there is none", "set_grid([neighbors(8)])",
                             "in centimeters", "a_grey_name", "the center" ]),
              banned_in(Good, Word)
            ),

@@ -259,7 +259,7 @@ robot_with(Type, [ left_wheel(outB, 5.6), right_wheel(outC, 5.6),
                    motor(outC, 'lego-ev3-l-motor'),
                    sensor(in1, Type, 0, 0, 0) ]).
 
-% What the brick does not recognise comes up as `nxt-analog`.
+% An unrecognized sensor comes up as `nxt-analog`.
 tell_port(Tree, Type) :-
     (   lego_sensor(in1, 'nxt-analog'),
         Type \== 'nxt-analog'
@@ -327,7 +327,7 @@ settle(mount) :-
 
 %!  took(+Tree, +Since, +Seconds, +Tolerance)
 %
-%   True if so many seconds of the simulation have passed since that time of it.
+%   True if that many seconds of the simulation have passed since that time of it.
 %   In real time it may be more, as this machine may be busy.
 
 took(Tree, Since, Seconds, Tolerance) :-

@@ -182,7 +182,7 @@ page_close(page(In, Out)) :-
 
 %!  besieged(+Port, +Count, +Kind, :Goal)
 %
-%   Call Goal while so many strangers are connected. Kind is what they do.
+%   Call Goal while n strangers are connected. Kind is what they do.
 
 :- meta_predicate besieged(+, +, +, 0).
 

@@ -146,12 +146,15 @@ class Program:
         self.limit = chance.choice(LIMITS) if chance.random() < 0.1 else None
         self.signal = None
         self.twice = chance.random() < 0.15
-        self.group = self.structure == "fork" or chance.random() < 0.25
+        self.group = chance.random() < 0.25
         self.choose_ending(chance)
         if self.start in ("goals on stdin", "-g main", "initialization(main)") or self.ending == "end of input":
             self.stdin = "open"
-        if self.structure == "fork" and self.signal == signal.SIGINT and self.start == "goals on stdin":
-            self.group = False  # the copy, which has no motors, would ask in Prolog's debugger for ever
+        if self.structure == "fork":
+            # The copy, which has no motors, is Prolog's own affair: interrupted, it would ask in
+            # the debugger for ever, and after an exception by SIGFPE wait in malloc.
+            asks = self.signal in ASKING and not (self.signal == signal.SIGINT and self.start == "goals on stdin")
+            self.group = asks
         self.write()
 
     def choose_ending(self, chance):

@@ -14,7 +14,7 @@ pub(crate) struct Head<'a> {
 }
 
 impl<'a> Head<'a> {
-    /// Reads a head; `None` if that is none.
+    /// Reads a head; `None` if it is malformed.
     pub(crate) fn read(text: &'a [u8], fields: &'a mut [Header<'a>; MOST_FIELDS]) -> Option<Self> {
         *fields = [EMPTY_HEADER; MOST_FIELDS];
         let mut request = httparse::Request::new(fields);

@@ -87,7 +87,7 @@ impl Page {
 
     /// Says good-bye, unless that takes time.
     pub(crate) fn dismiss(&self, bye: &str) {
-        // Who writes just now is done in a moment, if the page reads.
+        // A writer is done in a moment, if the page reads.
         for _ in 0..100 {
             if let Ok(_turn) = self.writing.try_lock() {
                 let _ = self.stream.set_nonblocking(true);

@@ -8,11 +8,12 @@
 //! thread has one at a time.
 use crate::class::Class;
 use crate::course::{Command, DriveOptions};
+use crate::lock::locked;
 use crate::stop_action::StopAction;
 use ev3_motion::Pose;
 use std::cell::Cell;
 use std::sync::atomic::{AtomicI32, AtomicU8, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// How many commands are kept.
@@ -372,7 +373,7 @@ impl Journal {
     /// Notes what is done for a cause.
     pub fn note_for(&self, origin: Origin, time: Duration, act: Act) {
         let entry = Entry { time, act, origin };
-        let mut ring = self.ring();
+        let mut ring = locked(&self.0);
         let next = ring.next;
         ring.count += 1;
         if ring.entries.len() < ROOM {
@@ -390,7 +391,7 @@ impl Journal {
     /// What was done, the last first.
     #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
-        let ring = self.ring();
+        let ring = locked(&self.0);
         let (new, old) = ring.entries.split_at(ring.next);
         new.iter().rev().chain(old.iter().rev()).cloned().collect()
     }
@@ -399,16 +400,12 @@ impl Journal {
     /// how many commands there were in all.
     #[must_use]
     pub fn after(&self, count: u64) -> (Vec<Entry>, u64) {
-        let ring = self.ring();
+        let ring = locked(&self.0);
         let new = usize::try_from(ring.count.saturating_sub(count)).unwrap_or(usize::MAX);
         let (late, early) = ring.entries.split_at(ring.next);
         let known = late.len() + early.len();
         let in_order = early.iter().chain(late).skip(known.saturating_sub(new));
         (in_order.cloned().collect(), ring.count)
-    }
-
-    fn ring(&self) -> MutexGuard<'_, Ring> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -38,6 +38,7 @@ pub mod device;
 pub mod drive;
 pub mod error;
 pub mod journal;
+pub mod lock;
 pub mod motor;
 pub mod port_name;
 pub mod sensor;

@@ -241,7 +241,7 @@ impl Sysfs for SysfsDir {
         let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
         let kept = if access == Access::Write && path.ends_with("command") {
             let is_servos = path.starts_with(self.root.join(Class::ServoMotor.directory()));
-            Kept::new(file.as_raw_fd(), path, if is_servos { "float" } else { "stop" })
+            Kept::new(file.as_raw_fd(), path, if is_servos { "float" } else { "stop" })?
         } else {
             None
         };

@@ -72,3 +72,45 @@ impl Arc {
         least
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ev3_motion::Pose;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
+        /// What is as far from an arc as the nearest of many points on it.
+        #[test]
+        fn distances_are_those_of_the_nearest_point(
+            heading in -180.0_f64..180.0,
+            radius in prop_oneof![-30.0_f64..-5.0, 5.0_f64..30.0],
+            turn in 5.0_f64..175.0,
+            (a, b) in (prop::array::uniform2(-50.0_f64..50.0), prop::array::uniform2(-50.0_f64..50.0)),
+        ) {
+            let start = Pose { x: 3.0, y: -4.0, heading };
+            let path = Segment::arc(start, turn.to_radians() * radius.abs(), 1.0 / radius);
+            let arc = Arc::of(&path).unwrap();
+            let nearest = |far: &dyn Fn(Point) -> f64| {
+                let points = (0..=1000).map(|n| path.at(path.length() * f64::from(n) / 1000.0));
+                points.map(|pose| far(pose.point())).fold(f64::INFINITY, f64::min)
+            };
+            let off = nearest(&|point| distance(point, a)) - arc.distance_to(a);
+            prop_assert!((-1e-6..0.1).contains(&off), "{off}");
+            let segment = shape::Segment::new(parry(a), parry(b));
+            let to_segment = |point: Point| segment.distance_to_local_point(&parry(point), true);
+            let off = nearest(&to_segment) - arc.distance_to_segment(&segment);
+            prop_assert!((-1e-6..0.1).contains(&off), "{off}");
+        }
+    }
+
+    #[test]
+    fn a_line_is_no_arc_and_a_segment_may_be_a_point() {
+        assert!(Arc::of(&Segment::line([0.0, 0.0], [9.0, 0.0])).is_none());
+        let arc = Arc::of(&Segment::arc(Pose::default(), 10.0, 0.1)).unwrap();
+        let point = shape::Segment::new(parry([7.0, 5.0]), parry([7.0, 5.0]));
+        assert!((arc.distance_to_segment(&point) - arc.distance_to([7.0, 5.0])).abs() < 1e-9);
+    }
+}

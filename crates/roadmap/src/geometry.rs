@@ -79,3 +79,18 @@ pub(crate) fn apart([low, high]: &[Point; 2], other: &[Point; 2], distance: f64)
         || other[0][0] - high[0] > distance
         || other[0][1] - high[1] > distance
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_are_apart_if_they_are_so_on_any_side() {
+        let here = [[0.0, 0.0], [2.0, 2.0]];
+        for there in [[5.0, 0.0], [-5.0, 0.0], [0.0, 5.0], [0.0, -5.0]] {
+            let other = here.map(|[x, y]| [x + there[0], y + there[1]]);
+            assert!(apart(&here, &other, 2.9), "{there:?}");
+            assert!(!apart(&here, &other, 3.1), "{there:?}");
+        }
+    }
+}

@@ -333,6 +333,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn without_bounds_there_is_room_around_all() {
+        let circle = Obstacle::circle([10.0, 20.0], 3.0).unwrap();
+        let corners = vec![[-9.0, 0.0], [0.0, 0.0], [0.0, 5.0]];
+        let map = Map::new(vec![circle, Obstacle::polygon(corners).unwrap()], None).unwrap();
+        let Bounds { low, high } = map.extent([[1.0, -7.0], [2.0, 4.0]], 2.0);
+        assert_eq!((low, high), ([-11.0, -9.0], [15.0, 25.0]));
+    }
+
+    #[test]
     fn impossible_polygons_are_refused() {
         let fault = |corners: &[Point]| Obstacle::polygon(corners.to_vec()).err();
         assert_eq!(fault(&[[0.0, 0.0], [1.0, 0.0]]), Some(Fault::TooFewCorners));

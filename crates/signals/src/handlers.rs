@@ -17,8 +17,15 @@ const ASKING: [c_int; 3] = [libc::SIGTERM, libc::SIGHUP, libc::SIGINT];
 const STANDING: [c_int; 3] = [libc::SIGTSTP, libc::SIGTTIN, libc::SIGTTOU];
 
 /// Those that end it, unless the program has its own handler. Prolog has handlers.
-const CRASHES: [c_int; 6] =
-    [libc::SIGQUIT, libc::SIGABRT, libc::SIGSEGV, libc::SIGBUS, libc::SIGILL, libc::SIGFPE];
+const CRASHES: [c_int; 7] = [
+    libc::SIGQUIT,
+    libc::SIGABRT,
+    libc::SIGSEGV,
+    libc::SIGBUS,
+    libc::SIGILL,
+    libc::SIGFPE,
+    libc::SIGSYS,
+];
 
 /// Those that end nothing by themselves, and those that nobody can take. The C library has
 /// 32 and 33 for itself.
@@ -154,11 +161,18 @@ pub(crate) fn listen() {
 extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
     let errno = Errno::last();
     if ASKING.contains(&signal) {
-        if was_looked_at(signal) || !withhold(signal) {
+        let is_for_prolog = was_looked_at(signal) || !withhold(signal);
+        if is_for_prolog && latch::is_set_as(Reason::Halting) {
+            // Prolog has begun to take itself down.
+            do_default(signal);
+        } else if is_for_prolog {
             pass_on(signal, info, context);
         }
     } else if STANDING.contains(&signal) {
         stand(signal);
+    } else if watchdog::is_child() && is_sent(info) {
+        // Prolog's handler would make a copy of the program of what is to be another one.
+        do_default(signal);
     } else {
         stop_for(Reason::Crashed);
         pass_on(signal, info, context);
@@ -166,6 +180,12 @@ extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) 
         latch::lift(Reason::Crashed);
     }
     errno.set();
+}
+
+/// Whether a process has sent a signal, and not the processor. The kernel has called the handler.
+fn is_sent(info: *const siginfo_t) -> bool {
+    // Safety: it is the kernel's then.
+    unsafe { info.as_ref() }.is_some_and(|info| info.si_code <= 0)
 }
 
 /// Stops the motors, whatever other threads are doing.

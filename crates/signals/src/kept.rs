@@ -11,11 +11,14 @@
 //! that has the same file open ([`crate::survivor`]). Handlers of signals stop the motors
 //! by the descriptors that this process has anyway.
 use crate::{handlers, survivor};
+use nix::errno::Errno;
 use nix::libc::{self, c_int};
+use std::io;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Room for the lines of more than a hundred motors.
 const ROOM: usize = 16 * 1024;
@@ -54,7 +57,10 @@ static LENGTH: AtomicUsize = AtomicUsize::new(0);
 static ADDING: Mutex<()> = Mutex::new(());
 
 /// Whether what stops the motors after us is there, or has been tried.
-static IS_SURVIVED: AtomicBool = AtomicBool::new(false);
+static SURVIVED: AtomicU8 = AtomicU8::new(NOT_YET);
+const NOT_YET: u8 = 0;
+const BEGINS: u8 = 1;
+const IS: u8 = 2;
 
 /// A motor that is stopped when the program ends in any way. Dropped before its file is
 /// closed.
@@ -63,15 +69,24 @@ pub struct Kept(&'static Slot);
 impl Kept {
     /// Keeps the open `command` of a motor, which `word` stops; `None` if too many are kept
     /// already.
-    #[must_use]
-    pub fn new(descriptor: c_int, path: &Path, word: &str) -> Option<Self> {
-        let path = std::path::absolute(path).ok()?;
+    ///
+    /// # Errors
+    /// The kernel's, where there is no descriptor left.
+    pub fn new(descriptor: c_int, path: &Path, word: &str) -> io::Result<Option<Self>> {
+        let path = std::path::absolute(path)?;
         let path = path.as_os_str().as_bytes();
         if path.contains(&b'\n') {
-            return None;
+            return Ok(None);
         }
         let line = [&[RESTS, b' '], word.as_bytes(), b" ", path].concat();
         let _adding = ADDING.lock().unwrap_or_else(PoisonError::into_inner);
+        if LINES.load(Ordering::Relaxed).is_null() {
+            LINES.store(map(std::ptr::null_mut())?, Ordering::Release);
+        }
+        Ok(Self::in_slot(descriptor, &line))
+    }
+
+    fn in_slot(descriptor: c_int, line: &[u8]) -> Option<Self> {
         let is_free = |slot: &&Slot| slot.descriptor.load(Ordering::Acquire) == NONE;
         let has_room = |slot: &&Slot| slot.length.load(Ordering::Relaxed) >= line.len();
         let slot = SLOTS.iter().filter(is_free).find(has_room).or_else(|| {
@@ -80,7 +95,7 @@ impl Kept {
             slot.length.store(line.len(), Ordering::Relaxed);
             Some(slot)
         })?;
-        slot.write(&line);
+        slot.write(line);
         slot.descriptor.store(descriptor, Ordering::Release);
         Some(Self(slot))
     }
@@ -88,13 +103,13 @@ impl Kept {
     /// Has `write` give the motor a command.
     ///
     /// # Errors
-    /// Those of `write`.
+    /// Those of `write`; no motor starts that nobody could stop after us.
     #[inline]
-    pub fn tell<E>(&self, text: &[u8], write: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
+    pub fn tell(&self, text: &[u8], write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
         let starts = text.starts_with(b"run");
         if starts {
-            if !IS_SURVIVED.load(Ordering::Relaxed) {
-                be_survived();
+            if SURVIVED.load(Ordering::Acquire) != IS {
+                be_survived()?;
             }
             // Before: if we are killed in between, a motor is stopped that never started.
             self.0.flag(RUNS);
@@ -157,9 +172,6 @@ fn append(line: usize) -> Option<usize> {
     if end > ROOM {
         return None;
     }
-    if LINES.load(Ordering::Relaxed).is_null() {
-        LINES.store(map(std::ptr::null_mut())?, Ordering::Release);
-    }
     lengthen(end)?;
     LENGTH.store(end, Ordering::Relaxed);
     Some(start)
@@ -175,29 +187,44 @@ fn lengthen(length: usize) -> Option<()> {
 
 /// A new file in memory, mapped at an address, or anywhere if that is null. Without such
 /// files, as before Linux 3.17, it is just memory.
-fn map(address: *mut u8) -> Option<*mut u8> {
+fn map(address: *mut u8) -> io::Result<*mut u8> {
     // Safety: asks the kernel only. What is at the address is the former lines.
     unsafe {
         // Not by a function of the C library, which the brick's lacks
         let name = c"ev3dev-motors".as_ptr();
         let file = libc::syscall(libc::SYS_memfd_create, name, libc::MFD_CLOEXEC);
         let file = c_int::try_from(file).unwrap_or(NONE);
+        if file == NONE && Errno::last() != Errno::ENOSYS {
+            return Err(io::Error::last_os_error());
+        }
         FILE.store(file, Ordering::Relaxed);
         let kind = if file == NONE { libc::MAP_ANONYMOUS } else { 0 };
         let place = if address.is_null() { 0 } else { libc::MAP_FIXED };
         let access = libc::PROT_READ | libc::PROT_WRITE;
         let flags = libc::MAP_SHARED | kind | place;
         let mapped = libc::mmap(address.cast(), ROOM, access, flags, file, 0);
-        (mapped != libc::MAP_FAILED).then_some(mapped.cast())
+        if mapped == libc::MAP_FAILED {
+            return Err(io::Error::last_os_error());
+        }
+        Ok(mapped.cast())
     }
 }
 
 /// The first motor runs. Starts what stops the motors after us.
 #[cold]
-fn be_survived() {
-    if !IS_SURVIVED.swap(true, Ordering::Relaxed) {
-        handlers::take_again();
-        survivor::start(FILE.load(Ordering::Relaxed));
+fn be_survived() -> io::Result<()> {
+    loop {
+        match SURVIVED.compare_exchange(NOT_YET, BEGINS, Ordering::Acquire, Ordering::Acquire) {
+            Ok(_) => {
+                handlers::take_again();
+                let started = survivor::start(FILE.load(Ordering::Relaxed));
+                SURVIVED.store(if started.is_ok() { IS } else { NOT_YET }, Ordering::Release);
+                return started;
+            }
+            Err(IS) => return Ok(()),
+            // Another thread starts it: in a millisecond or two.
+            Err(_) => std::thread::sleep(Duration::from_micros(100)),
+        }
     }
 }
 
@@ -235,14 +262,14 @@ pub(crate) fn forked() {
     // Safety: so long are the lines, and no other thread goes on.
     unsafe { std::ptr::copy_nonoverlapping(lines, text.as_mut_ptr(), length) };
     let parents = FILE.load(Ordering::Relaxed);
-    if map(lines).is_some() && lengthen(length).is_some() {
+    if map(lines).is_ok() && lengthen(length).is_some() {
         // Safety: as above; the file is as long.
         unsafe { std::ptr::copy_nonoverlapping(text.as_ptr(), lines, length) };
     }
     // Safety: a descriptor of our own.
     unsafe { libc::close(parents) };
     leave();
-    IS_SURVIVED.store(false, Ordering::Relaxed);
+    SURVIVED.store(NOT_YET, Ordering::Relaxed);
 }
 
 #[cfg(test)]
@@ -253,12 +280,12 @@ mod tests {
 
     fn keep(path: &Path, word: &str) -> (File, Kept) {
         let file = File::create(path).unwrap();
-        let kept = Kept::new(file.as_raw_fd(), path, word).unwrap();
+        let kept = Kept::new(file.as_raw_fd(), path, word).unwrap().unwrap();
         (file, kept)
     }
 
     fn told(kept: &Kept, text: &str) {
-        kept.tell(text.as_bytes(), || Ok::<_, ()>(())).unwrap();
+        kept.tell(text.as_bytes(), || Ok(())).unwrap();
     }
 
     // One test, as there is one record.

@@ -2,7 +2,7 @@
 //!
 //! A program whose motors were stopped could start them again before it ends, or before it
 //! has been interrupted. So whatever starts a motor looks at the latch last, beside its
-//! write and under the motor's lock; and whoever stops the motors sets it first. A handler
+//! write and under the motor's lock; and a stop of the motors sets it first. A handler
 //! of a signal may do so, too.
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -18,7 +18,7 @@ pub enum Reason {
     Crashed = 4,
     /// The program stands, as after Ctrl-Z, or has just been continued.
     Standing = 8,
-    /// Prolog halts for good.
+    /// Prolog halts for good, or has begun to, and takes too long.
     Halting = 16,
 }
 

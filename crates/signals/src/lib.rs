@@ -2,7 +2,7 @@
 //!
 //! The kernel lets a motor run on when the program that started it has gone. So:
 //!
-//! * Whoever stops the motors sets a [`latch`] first: from then on none starts.
+//! * A stop of the motors sets a [`latch`] first: from then on none starts.
 //! * A signal that asks the program to end, as SIGTERM, goes to two threads first
 //!   ([`watch`]). They stop the motors and then let Prolog have the signal; and the process
 //!   ends within [`PATIENCE`], whatever Prolog does.
@@ -22,7 +22,7 @@ mod watchdog;
 pub use kept::{Kept, leave};
 use latch::Reason;
 pub use survivor::survive;
-pub use watchdog::{Asked, PATIENCE, halts, watch};
+pub use watchdog::{Asked, PATIENCE, halts, is_to_halt, watch};
 
 /// Stops the motors that run and whose files are kept, and keeps all from starting.
 pub fn stop_for(reason: Reason) {

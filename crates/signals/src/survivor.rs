@@ -12,6 +12,7 @@
 //! the latter needs Linux 5.3. The pipe ends when the last thread has gone, so that nobody
 //! starts a motor thereafter.
 use nix::libc::{self, c_char, c_int, c_void};
+use std::io;
 use std::ptr::null;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 
@@ -48,15 +49,33 @@ struct Plan {
     stack: *mut c_void,
 }
 
-/// Starts it, with the file of the lines. Where that fails, nothing is lost but this.
-pub(crate) fn start(lines: c_int) {
+impl Plan {
+    /// Closes all descriptors from `first` on, below `end`.
+    unsafe fn close(&self, first: c_int, end: c_int) {
+        // Safety: closes only. Linux has that since version 5.9.
+        unsafe {
+            if first < end && libc::syscall(libc::SYS_close_range, first, end - 1, 0) != 0 {
+                for descriptor in first..end.min(self.descriptors) {
+                    libc::close(descriptor);
+                }
+            }
+        }
+    }
+}
+
+/// Starts it, with the file of the lines. Where there can be no process, nothing is lost but
+/// this.
+///
+/// # Errors
+/// The kernel's, where no descriptor is left.
+pub(crate) fn start(lines: c_int) -> io::Result<()> {
     if lines == NONE || !IS_WANTED.load(Ordering::Relaxed) {
-        return;
+        return Ok(());
     }
     let mut ends = [NONE; 2];
     // Safety: two descriptors come back.
     if unsafe { libc::pipe2(ends.as_mut_ptr(), libc::O_CLOEXEC) } != 0 {
-        return;
+        return Err(io::Error::last_os_error());
     }
     let [pipe, ours] = ends;
     OUR_END.store(ours, Ordering::Relaxed);
@@ -94,6 +113,7 @@ pub(crate) fn start(lines: c_int) {
         libc::pthread_sigmask(libc::SIG_SETMASK, &raw const before, std::ptr::null_mut());
         libc::close(pipe);
     }
+    Ok(())
 }
 
 /// In a child of fork(2): it does not keep its parent's process waiting.
@@ -153,26 +173,19 @@ extern "C" fn become_shell(plan: *mut c_void) -> c_int {
         let plan = &*plan.cast::<Plan>();
         libc::setsid();
         libc::chdir(c"/".as_ptr());
+        // This process may have no descriptor to spare.
+        let (one, other) = (plan.pipe.min(plan.lines), plan.pipe.max(plan.lines));
+        plan.close(0, one);
+        plan.close(one + 1, other);
+        plan.close(other + 1, c_int::MAX);
         let aside = |file| libc::fcntl(file, libc::F_DUPFD, ASIDE);
         let null_device = aside(libc::open(c"/dev/null".as_ptr(), libc::O_RDWR));
         let files = [null_device; 3].into_iter().chain([aside(plan.pipe), aside(plan.lines)]);
         for (file, number) in files.zip(0..) {
             libc::dup2(file, number);
         }
-        close_from(LINES + 1, plan.descriptors);
+        plan.close(LINES + 1, c_int::MAX);
         libc::execve(c"/bin/sh".as_ptr(), plan.arguments.as_ptr(), plan.environment.as_ptr());
         libc::_exit(127)
-    }
-}
-
-/// Closes all descriptors from `first` on, below `end`.
-unsafe fn close_from(first: c_int, end: c_int) {
-    // Safety: closes only. Linux has that since version 5.9.
-    unsafe {
-        if libc::syscall(libc::SYS_close_range, first, c_int::MAX, 0) != 0 {
-            for descriptor in first..end {
-                libc::close(descriptor);
-            }
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! Two threads that see to the end of a program.
 //!
-//! The *watchdog* waits for signals, and takes no lock that Prolog or the driver may hold.
+//! The *watchdog* waits for signals, and takes no lock that Prolog or the driver may hold, nor
+//! the allocator's: a handler that leaves by longjmp, as Prolog's for SIGFPE, may keep it.
 //! It has the *asker* ask Prolog whether a signal will end the program, and stop the motors
 //! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
 //! after the signal the process has ended.
@@ -8,7 +9,7 @@ use crate::latch::{self, Reason};
 use crate::{handlers, kept, survivor};
 use nix::libc::{self, c_int, c_void};
 use nix::sys::signal::{SigSet, SigmaskHow};
-use std::io::{self, IsTerminal, Read, Write};
+use std::io::{self, Read, Write};
 use std::os::fd::AsRawFd;
 use std::os::unix::net::UnixStream;
 use std::sync::OnceLock;
@@ -21,8 +22,11 @@ pub const PATIENCE: Duration = Duration::from_secs(2);
 /// How long it may take to say whether it will.
 const ANSWER: Duration = Duration::from_millis(500);
 
-/// How often the watchdog looks whether all is as it should be.
+/// How often the watchdog looks whether all is as it should be, and for how long more often
+/// when the process has forked.
 const LOOK: Duration = Duration::from_millis(100);
+const SOON: Duration = Duration::from_millis(1);
+const JUST: Duration = Duration::from_millis(20);
 
 /// What the watchdog is told: each is followed by the number of a signal.
 pub(crate) const SIGNAL: u8 = b'S';
@@ -31,12 +35,19 @@ const ENDS: u8 = b'E';
 const GOES_ON: u8 = b'G';
 const HALTS: u8 = b'H';
 const MAIN_IS_OVER: u8 = b'M';
+const FORKED: u8 = b'F';
+const IS_TO_HALT: u8 = b'A';
 
 /// The way to the watchdog.
 static WATCHDOG: OnceLock<UnixStream> = OnceLock::new();
 
 /// Whether this is a child of the process that has the threads.
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
+
+/// Whether this is a child of fork(2), which has no motors of its own yet.
+pub(crate) fn is_child() -> bool {
+    IS_CHILD.load(Ordering::Relaxed)
+}
 
 /// What the asker asks and does, without knowing Prolog.
 pub struct Asked {
@@ -52,7 +63,7 @@ pub struct Asked {
 pub(crate) fn tell(what: u8, signal: c_int) -> bool {
     let number = u8::try_from(signal).unwrap_or_default();
     let told = |mut way: &UnixStream| way.write_all(&[what, number]).is_ok();
-    !IS_CHILD.load(Ordering::Relaxed) && WATCHDOG.get().is_some_and(told)
+    !is_child() && WATCHDOG.get().is_some_and(told)
 }
 
 /// Prolog ends the program because of a signal, as `term`: the process ends within
@@ -61,7 +72,13 @@ pub fn halts(signal: &str) {
     tell(HALTS, number(signal));
 }
 
-/// Takes the signals that end a program, from now on.
+/// Prolog has begun to halt, or its halt was canceled. Its clean-ups may wait for ever, as for
+/// a stream that another thread reads from: after [`PATIENCE`] no motor starts.
+pub fn is_to_halt(halts: bool) {
+    tell(IS_TO_HALT, halts.into());
+}
+
+/// Takes the signals that end a program, from now on; to be called once.
 ///
 /// # Errors
 /// The kernel's, where no thread can be had.
@@ -69,9 +86,6 @@ pub fn watch(asked: Asked) -> io::Result<()> {
     let (read, write) = UnixStream::pair()?;
     // A handler must not wait.
     write.set_nonblocking(true)?;
-    if WATCHDOG.set(write).is_err() {
-        return Ok(());
-    }
     let (questions, answers) = UnixStream::pair()?;
     // The signals are for the program's own threads.
     let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
@@ -82,10 +96,13 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         .and_then(|()| spawn("ev3-signals", Box::new(move || Watchdog::new(read, answers).run())));
     before.thread_set_mask()?;
     spawned?;
+    if WATCHDOG.set(write).is_err() {
+        return Ok(());
+    }
     handlers::take_all();
     // Safety: the functions do only what may be done there.
     unsafe {
-        libc::pthread_atfork(None, None, Some(forked));
+        libc::pthread_atfork(None, Some(has_forked), Some(forked));
         if libc::syscall(libc::SYS_gettid) == libc::c_long::from(libc::getpid()) {
             let mut key = 0;
             if libc::pthread_key_create(&raw mut key, Some(main_is_over)) == 0 {
@@ -94,6 +111,11 @@ pub fn watch(asked: Asked) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// After fork(2): shell/1 does so before it takes Ctrl-Z.
+unsafe extern "C" fn has_forked() {
+    tell(FORKED, 0);
 }
 
 /// In a child of fork(2), which has neither thread: its signals go to Prolog.
@@ -118,10 +140,16 @@ fn answer(mut questions: &UnixStream, asked: &Asked) {
             latch::lift(Reason::Standing);
         } else {
             let signal = c_int::from(number);
-            let ends = (asked.ends)(name(signal), io::stdin().is_terminal());
+            let ends = (asked.ends)(name(signal), has_terminal());
             tell(if ends { ENDS } else { GOES_ON }, signal);
         }
     }
+}
+
+/// Whether somebody can type there.
+fn has_terminal() -> bool {
+    // Safety: asks the kernel only.
+    unsafe { libc::isatty(libc::STDIN_FILENO) == 1 }
 }
 
 const NAMES: [(c_int, &str); 3] =
@@ -138,8 +166,8 @@ fn number(name: &str) -> c_int {
 struct Watchdog {
     events: UnixStream,
     asker: UnixStream,
-    /// The signal that Prolog is asked about, since when, and whether that took too long.
-    asked: Vec<(c_int, Instant, bool)>,
+    /// Since when Prolog is asked about each of [`NAMES`], and whether that took too long.
+    asked: [Option<(Instant, bool)>; NAMES.len()],
     /// The signal that ends the process, and when.
     end: Option<(c_int, Instant)>,
     /// Until when no motor starts, after the process was continued.
@@ -148,6 +176,10 @@ struct Watchdog {
     crashed: Option<Instant>,
     /// Whether the main thread has ended.
     is_main_over: bool,
+    /// When Prolog, which has begun to halt, has taken too long.
+    halt: Option<Instant>,
+    /// Until when it has just forked.
+    forks_until: Option<Instant>,
 }
 
 impl Watchdog {
@@ -155,11 +187,13 @@ impl Watchdog {
         Self {
             events,
             asker,
-            asked: Vec::new(),
+            asked: [None; NAMES.len()],
             end: None,
             stands_until: None,
             crashed: None,
             is_main_over: false,
+            halt: None,
+            forks_until: None,
         }
     }
 
@@ -177,12 +211,14 @@ impl Watchdog {
 
     /// Waits for something to do.
     fn wait(&self) {
-        let asked = self.asked.iter().filter(|asked| !asked.2).map(|asked| asked.1 + ANSWER);
+        let asked =
+            self.asked.iter().flatten().filter(|asked| !asked.1).map(|asked| asked.0 + ANSWER);
         let times = asked.chain(self.end.map(|end| end.1)).chain(self.stands_until);
         let now = Instant::now();
         let pause = times.map(|time| time.saturating_duration_since(now)).min();
+        let look = self.forks_until.map_or(LOOK, |_| SOON);
         // A millisecond is the least that poll(2) waits.
-        self.is_told(pause.map_or(LOOK, |pause| LOOK.min(pause + Duration::from_millis(1))));
+        self.is_told(pause.map_or(look, |pause| look.min(pause + Duration::from_millis(1))));
     }
 
     /// Whether it is told something within that time.
@@ -203,8 +239,14 @@ impl Watchdog {
                 if self.is_main_over {
                     end_by(signal);
                 }
-                self.asked.push((signal, now, false));
-                let _ = self.asker.write_all(&[SIGNAL, number]);
+                if latch::is_set_as(Reason::Halting) {
+                    self.ends_by(signal, now);
+                    return;
+                }
+                if let Some(asked) = self.asked(signal).filter(|asked| asked.is_none()) {
+                    *asked = Some((now, false));
+                    let _ = self.asker.write_all(&[SIGNAL, number]);
+                }
             }
             ENDS => {
                 let (since, is_late) = self.answered(signal).unwrap_or((now, true));
@@ -230,15 +272,20 @@ impl Watchdog {
                 self.is_main_over = true;
                 handlers::listen();
             }
+            IS_TO_HALT => self.halt = (number != 0).then_some(now + PATIENCE),
+            FORKED => self.forks_until = Some(now + JUST),
             _ => {}
         }
     }
 
+    fn asked(&mut self, signal: c_int) -> Option<&mut Option<(Instant, bool)>> {
+        let place = NAMES.iter().position(|named| named.0 == signal)?;
+        self.asked.get_mut(place)
+    }
+
     /// When a question was put that is answered now, and whether Prolog has got the signal.
     fn answered(&mut self, signal: c_int) -> Option<(Instant, bool)> {
-        let place = self.asked.iter().position(|asked| asked.0 == signal)?;
-        let (_, since, is_late) = self.asked.remove(place);
-        Some((since, is_late))
+        self.asked(signal)?.take()
     }
 
     fn ends_by(&mut self, signal: c_int, since: Instant) {
@@ -248,16 +295,17 @@ impl Watchdog {
     /// Looks whether all is as it should be.
     fn look(&mut self) {
         let now = Instant::now();
-        let mut late = Vec::new();
-        for (signal, since, is_late) in &mut self.asked {
-            if !*is_late && *since + ANSWER <= now {
-                *is_late = true;
-                late.push((*signal, *since));
+        for (signal, _) in NAMES {
+            let Some(Some((since, is_late))) = self.asked(signal) else {
+                continue;
+            };
+            if *is_late || *since + ANSWER > now {
+                continue;
             }
-        }
-        for (signal, since) in late {
+            *is_late = true;
+            let since = *since;
             // At a terminal Ctrl-C is seldom an end, and can be typed again.
-            if signal != libc::SIGINT || !io::stdin().is_terminal() {
+            if signal != libc::SIGINT || !has_terminal() {
                 handlers::stop_for(Reason::Ending);
                 self.ends_by(signal, since);
             }
@@ -265,6 +313,10 @@ impl Watchdog {
         }
         if let Some((signal, _)) = self.end.filter(|end| end.1 <= now) {
             end_by(signal);
+        }
+        if self.halt.is_some_and(|time| time <= now) {
+            self.halt = None;
+            handlers::stop_for(Reason::Halting);
         }
         if self.stands_until.is_some_and(|time| time <= now) {
             self.stands_until = None;
@@ -277,6 +329,9 @@ impl Watchdog {
             latch::lift(Reason::Crashed);
         }
         handlers::take_again();
+        if self.forks_until.is_some_and(|time| time <= now) {
+            self.forks_until = None;
+        }
         if self.is_main_over && is_alone() {
             handlers::stop_for(Reason::Ending);
             // Safety: as at the end of the last thread.

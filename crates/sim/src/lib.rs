@@ -97,6 +97,7 @@ pub mod facts;
 mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
+mod lock;
 mod log;
 mod machine;
 mod mechanics;

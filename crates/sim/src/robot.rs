@@ -280,17 +280,17 @@ fn validate_devices(
     Ok(())
 }
 
-/// The types of motors that begin most like a name that is none of them.
+/// The types of motors that begin most like an unknown name.
 pub(crate) fn motors_alike(name: &str) -> String {
     alike(name, MOTOR_KINDS.iter().map(|kind| kind.driver_name))
 }
 
-/// The types of sensors that begin most like a name that is none of them.
+/// The types of sensors that begin most like an unknown name.
 pub(crate) fn sensors_alike(name: &str) -> String {
     alike(name, SensorKind::all().map(|kind| kind.driver_name))
 }
 
-/// The names that begin most like one that is none of them, or those of the EV3's own devices.
+/// The names that begin most like an unknown one, or those of the EV3's own devices.
 fn alike(name: &str, all: impl Iterator<Item = &'static str> + Clone) -> String {
     let shared = |other: &str| name.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
     let most = all.clone().map(shared).max().unwrap_or(0);

@@ -4,6 +4,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::clock::pace::Pace;
+use crate::lock::locked;
 use crate::machine::Machine;
 
 /// A machine behind a lock. The thread with the clock calls [`Shared::step`], or steps under the
@@ -104,9 +105,4 @@ impl Shared {
         let woken = self.changed.wait_timeout(guard, at_most);
         woken.unwrap_or_else(PoisonError::into_inner).0
     }
-}
-
-/// Locks a mutex. A thread that panicked while it held the lock has left the value in order.
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -5,13 +5,11 @@
 //! new ones; [`translated!`] those that take or answer numbers which changed
 //! ([`crate::version`]); the plain `extern` block those that are the same
 //! everywhere.
-use crate::pruned::guarded;
 use crate::types::{
-    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_FA_NONDETERMINISTIC, PL_blob_t, PL_engine_t, PL_fid_t,
-    REP_UTF8, atom_t, control_t, functor_t, module_t, pl_function_t, predicate_t, qid_t, record_t,
-    term_t,
+    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_blob_t, PL_engine_t, PL_fid_t, REP_UTF8, atom_t,
+    control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
 };
-use crate::version::{Version, bits};
+use crate::version::Version;
 use std::ffi::{c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
@@ -92,32 +90,6 @@ pub unsafe fn PL_is_initialised(count: *mut c_int, args: *mut *mut *mut c_char) 
     let answer = unsafe { PL_is_initialised(count, args) };
     IS_INITIALISED.store(answer != 0, Ordering::Relaxed);
     c_int::from(answer)
-}
-
-/// Registers a predicate; `meta` is its meta-predicate specification, or null.
-pub unsafe fn PL_register_foreign_in_module(
-    module: *const c_char,
-    name: *const c_char,
-    arity: c_int,
-    function: pl_function_t,
-    flags: c_int,
-    meta: *const c_char,
-) -> c_int {
-    unsafe extern "C" {
-        fn PL_register_foreign_in_module(
-            module: *const c_char,
-            name: *const c_char,
-            arity: c_int,
-            function: pl_function_t,
-            flags: c_int,
-            ...
-        ) -> u8;
-    }
-    let is_nondeterministic = bits(flags) & PL_FA_NONDETERMINISTIC != 0;
-    let function = if is_nondeterministic { guarded(function) } else { function };
-    c_int::from(unsafe {
-        PL_register_foreign_in_module(module, name, arity, function, flags, meta)
-    })
 }
 
 /// Declares functions that take or answer numbers which not all versions share.
@@ -234,8 +206,8 @@ pub unsafe fn atom_in(t: term_t) -> Option<atom_t> {
     unsafe { (PL_get_atom(t, &raw mut atom) != 0).then_some(atom) }
 }
 
-/// The integer that a term is, if it is one of at most 64 bits; a float without decimals
-/// is none.
+/// The integer that a term is, if it is one of at most 64 bits; no
+/// float.
 pub unsafe fn integer_in(t: term_t) -> Option<i64> {
     let mut integer = 0;
     unsafe { (PL_is_integer(t) != 0 && PL_get_int64(t, &raw mut integer) != 0).then_some(integer) }
@@ -396,7 +368,7 @@ pub fn this_thread() -> i32 {
 pub fn has_other_threads() -> bool {
     /// The highest number of a thread so far. Prolog gives a new thread a free one, or the next.
     static HIGHEST: AtomicI32 = AtomicI32::new(1);
-    /// So many numbers above the highest are asked for: a thread that has one, and is not a
+    /// How many numbers above the highest are asked for: a thread that has one, and is not a
     /// thread of Prolog yet, hides those behind it. That which collects garbage begins so.
     const AHEAD: i32 = 8;
     // Safety: the frame gives back the references. Where there is no thread, `id` stays unbound.

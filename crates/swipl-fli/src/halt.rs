@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 static ACT: OnceLock<fn()> = OnceLock::new();
 
-/// Calls `act` when Prolog halts, after all goals of `at_halt/1`, of which none has cancelled
+/// Calls `act` when Prolog halts, after all goals of `at_halt/1`, of which none has canceled
 /// that, and before the other threads are ended. The first `act` counts. It must not panic.
 /// What was registered last is called first: one called in `at_halt/1` comes before the hooks of
 /// other libraries, of which that of library(time) may hang.

@@ -47,5 +47,5 @@ pub use functions::*;
 pub use halt::act_at_halt;
 pub use late::*;
 pub use prompt::{Act, act_without_input};
-pub use pruned::_PL_retry_address;
+pub use pruned::{_PL_retry_address, PL_register_foreign_in_module};
 pub use types::*;

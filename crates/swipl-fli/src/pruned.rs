@@ -5,9 +5,9 @@
 //! double free. So in those versions the contexts that Prolog has are known here, and
 //! a predicate is called through a function that leaves out the call for any other.
 use crate::functions::{PL_foreign_context_address, PL_foreign_control};
-use crate::types::{control_t, foreign_t, pl_function_t, term_t};
-use crate::version::Version;
-use std::ffi::{c_int, c_void};
+use crate::types::{PL_FA_NONDETERMINISTIC, control_t, foreign_t, pl_function_t, term_t};
+use crate::version::{Version, bits};
+use std::ffi::{c_char, c_int, c_void};
 use std::mem::transmute;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -56,8 +56,34 @@ unsafe extern "C" fn through<const NUMBER: usize>(
     }
 }
 
+/// Registers a predicate; `meta` is its meta-predicate specification, or null.
+pub unsafe fn PL_register_foreign_in_module(
+    module: *const c_char,
+    name: *const c_char,
+    arity: c_int,
+    function: pl_function_t,
+    flags: c_int,
+    meta: *const c_char,
+) -> c_int {
+    unsafe extern "C" {
+        fn PL_register_foreign_in_module(
+            module: *const c_char,
+            name: *const c_char,
+            arity: c_int,
+            function: pl_function_t,
+            flags: c_int,
+            ...
+        ) -> u8;
+    }
+    let is_nondeterministic = bits(flags) & PL_FA_NONDETERMINISTIC != 0;
+    let function = if is_nondeterministic { guarded(function) } else { function };
+    c_int::from(unsafe {
+        PL_register_foreign_in_module(module, name, arity, function, flags, meta)
+    })
+}
+
 /// What to register for a nondeterministic predicate of variable arity.
-pub(crate) fn guarded(function: pl_function_t) -> pl_function_t {
+fn guarded(function: pl_function_t) -> pl_function_t {
     if !Version::running().prunes_twice() {
         return function;
     }

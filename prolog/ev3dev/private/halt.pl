@@ -1,6 +1,8 @@
 :- module(ev3dev_halt, []).
 :- use_module(native,
-              [at_halt_/1, halts_by_/1, stop_started_/0, told_to_end_/0]).
+              [ at_halt_/1, halt_canceled_/0, halts_by_/1, stop_started_/0,
+                told_to_end_/0
+              ]).
 
 :- set_prolog_flag(generate_debug_info, false).
 
@@ -28,8 +30,6 @@ with the first motor that runs, unless the flag `ev3dev_stop_at_kill` is then
 `docs/safety.md` tells all of it.
 */
 
-:- initialization(at_halt(stop_at_halt), now).
-
 stop_at_halt :-
     current_prolog_flag(ev3dev_stop_at_halt, Stops),
     at_halt_(Stops),
@@ -38,10 +38,31 @@ stop_at_halt :-
     ;   true
     ).
 
-%   The foreign library asks at the first motor that runs.
-:- '$hide'(stops_at_kill/0).
+:- multifile prolog:message//1.
 
-stops_at_kill :-
+:- dynamic halt_canceled/0.
+
+%   Prolog has forgotten the goals that it has called.
+prolog:message(cancel_halt(_)) -->
+    { ( halt_canceled -> true ; assertz(halt_canceled) ),
+      halt_canceled_,
+      at_halt(stop_at_halt),
+      fail
+    }.
+
+%   The foreign library calls this before the first motor runs. True if the
+%   motors stop when the process is killed. What at_halt/1 has got last comes
+%   first: the toplevel's goal waits while another thread reads what is typed.
+%   Another thread may be about to halt already.
+:- '$hide'(before_motors/0).
+
+before_motors :-
+    at_halt(stop_at_halt),
+    (   current_prolog_flag(exit_status, _),
+        \+ halt_canceled
+    ->  stop_at_halt
+    ;   true
+    ),
     \+ current_prolog_flag(ev3dev_stop_at_kill, false).
 
 % SIGTERM, and SIGINT without a debugger, end Prolog at once and without its

@@ -139,6 +139,7 @@
             sim_unshow_/2,
             sim_wait_/2,
             at_halt_/1,
+            halt_canceled_/0,
             halts_by_/1,
             running_/1,
             stop_started_/0,
@@ -251,7 +252,7 @@ missing.
 % Motors without rotation sensor
 
 %!  dc_motor_run_(+Port, +Speed) is semidet.
-%!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is semidet.
+%!  dc_motor_run_timed_(+Port, +Percent, +Time, +Options, -Reason) is nondet.
 %
 %   `src/dc_motors.rs`
 
@@ -460,6 +461,7 @@ missing.
 % The end of the program
 
 %!  at_halt_(+Stops) is semidet.
+%!  halt_canceled_ is semidet.
 %!  halts_by_(+Signal) is semidet.
 %!  running_(-Ports) is semidet.
 %!  stop_started_ is semidet.

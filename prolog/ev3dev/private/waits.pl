@@ -12,7 +12,7 @@
 :- use_module(native,
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
               ]).
-:- use_module(one_of, [one_of/2]).
+:- use_module(one_of, [append_lists/3, one_of/2]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 
 :- meta_predicate
@@ -21,9 +21,9 @@
 
 /** <module> Waits, and what happens meanwhile
 
-A native wait returns `pause` or `tick` after each slice of time, with a
-choice point, and at its end its reason, or what is to be thrown. So a caller
-writes
+A native wait returns `pause` or `tick` after each slice of time, or `yield`
+in a branch, with a choice point, and at its end its reason, or what is to be
+thrown. So a caller writes
 
 ```
     wait_(Seconds, Reason),
@@ -55,6 +55,11 @@ waited(Reason) :-
         fail
     ;   Reason == tick
     ->  no_guard,
+        serve,
+        fail
+    ;   Reason == yield
+    ->  no_guard,
+        yield,
         serve,
         fail
     ;   Reason = throw(Formal, Called, Message)
@@ -94,7 +99,7 @@ listening(Seconds, Closure, Goal) :-
     listeners(Outer),
     period(Outer, Before),
     Period is min(Seconds, Before),
-    append_listener(Outer, listener(Closure, [], Period), Listeners),
+    append_lists(Outer, [listener(Closure, [], Period)], Listeners),
     b_setval(ev3dev_listeners, Listeners),
     tick_after_(Period),
     goal_of_program(Goal),
@@ -106,10 +111,6 @@ listeners(Listeners) :-
     ->  true
     ;   Listeners = []
     ).
-
-append_listener([], Listener, [Listener]).
-append_listener([First|Rest0], Listener, [First|Rest]) :-
-    append_listener(Rest0, Listener, Rest).
 
 %   The period of the innermost is the shortest.
 period([], Period) :-
@@ -168,7 +169,7 @@ serve_at_read :-
     (   nb_current(ev3dev_guard, Name),
         Name \== []
     ->  true
-    ;   branch(_)
+    ;   branch
     ->  true
     ;   serve
     ).
@@ -187,7 +188,7 @@ read_after_others(Read) :-
         Name \== []
     ->  true
     ;   yield_if_possible,
-        serve_own
+        serve
     ),
     read_on_,
     ev3dev_native:Read.
@@ -198,13 +199,12 @@ read_after_others(Read) :-
 %   events, if it is time to; if it runs a branch itself, others go on.
 
 let_others_go_on :-
-    (   branch(_)
+    (   branch
     ->  yield_if_possible
     ;   serve_if_due_
     ).
 
-%   `true`, or `left` if it is asked to end.
-branch(Branch) :-
+branch :-
     nb_current(ev3dev_branch, Branch),
     Branch \== [].
 
@@ -230,16 +230,6 @@ yield_if_possible :-
     yield/0.
 
 serve :-
-    (   branch(Branch)
-    ->  (   Branch == left
-        ->  yield_if_possible
-        ;   yield
-        )
-    ;   true
-    ),
-    serve_own.
-
-serve_own :-
     forall(serve_planned, true),
     listeners(Listeners),
     serve(Listeners).

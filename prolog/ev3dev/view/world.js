@@ -913,13 +913,13 @@ export class World {
     this.draw();
   }
 
-  up(event, cancelled = false) {
+  up(event, canceled = false) {
     this.pointers.delete(event.pointerId);
     const { drag } = this;
     if (drag?.kind === 'pinch' && this.pointers.size) return;
     this.drag = null;
     toggle(this.canvas, 'grabbing', false);
-    if (!drag || cancelled) return this.draw();
+    if (!drag || canceled) return this.draw();
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];

@@ -1,6 +1,6 @@
 % An elevator in the dialect of IndiGolog's plain interpreter. No interpreter is
 % loaded here: the file that loads this one does that. The world is that of a
-% test: what was executed, and what happens after so many actions.
+% test: what was executed, and what happens after n actions.
 
 :- dynamic executed/1, happens/2.
 

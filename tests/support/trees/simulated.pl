@@ -89,7 +89,7 @@ simulated_unplug(Port) :-
 %!  told_type(+Kind, +Port, +Type)
 %
 %   Tell the port what is plugged in, as one has to for a motor that a brick
-%   takes for another. It comes up anew.
+%   takes for another. It comes up again.
 
 told_type(Kind, Port, Type) :-
     nth0(Number, [in1, in2, in3, in4, outA, outB, outC, outD], Port),

@@ -9,13 +9,14 @@
 //! reader that waits gets those that are appended.
 use crate::devfs::{Devfs, SLICE, Stream, open_first, pause_for};
 use crate::error::{Access, Error, Result};
+use crate::lock::locked;
 use crate::wait::{AnyWait, Look, Slices, Wait};
 use input_linux::sys::input_event;
 use rustix::io::Errno;
 use std::collections::VecDeque;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// The paths of the buttons of each board: EV3 with ev3dev-stretch and with jessie,
@@ -203,10 +204,6 @@ impl Events {
         let end = timeout.map(|timeout| self.dev.now().saturating_add(timeout));
         Slices::new(UntilTaken { events: Arc::clone(self), end, take }).boxed()
     }
-
-    fn queue(&self) -> MutexGuard<'_, Queue> {
-        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 /// Until an event can be taken from the queue.
@@ -222,7 +219,7 @@ impl<T: FnMut(&mut Queue) -> Option<Event>> Wait for UntilTaken<T> {
 
     fn look(&mut self) -> Result<Look<Option<Event>>> {
         let Events { dev, stream, path, .. } = &*self.events;
-        let mut queue = self.events.queue();
+        let mut queue = locked(&self.events.queue);
         while queue.fill(&**stream, path)? {}
         if let Some(event) = (self.take)(&mut queue) {
             return Ok(Look::Over(Some(event)));

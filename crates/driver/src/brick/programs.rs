@@ -1,6 +1,7 @@
 //! Other programs: those that speak and play.
 use crate::devfs::{Devfs, Finds, UntilFound};
 use crate::error::{Error, Result};
+use crate::lock::locked;
 use crate::wait::Slices;
 use nix::sys::signal::Signal;
 use std::ffi::OsStr;
@@ -8,7 +9,7 @@ use std::io::{self, Read};
 use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// How a program ends that could not be started, where that is only found out
 /// later: in shells, and on an emulated processor.
@@ -120,7 +121,7 @@ impl Finds for Running<'_> {
 
 impl Drop for Running<'_> {
     fn drop(&mut self) {
-        self.programs.running().retain(|(other, _)| *other != self.number);
+        locked(&self.programs.running).retain(|(other, _)| *other != self.number);
     }
 }
 
@@ -151,19 +152,19 @@ impl Programs {
         start: impl FnOnce() -> Result<[Started; N]>,
     ) -> Result<u32> {
         let number = self.next.fetch_add(1, Ordering::SeqCst);
-        let mut running = self.running();
+        let mut running = locked(&self.running);
         running.extend(start()?.map(|program| (number, program)));
         Ok(number)
     }
 
     /// Whether all that run have ended; `None` if not. An error is reported once.
     pub(crate) fn are_all_over(&self) -> Result<Option<()>> {
-        let Some(number) = self.running().first().map(|(number, _)| *number) else {
+        let Some(number) = locked(&self.running).first().map(|(number, _)| *number) else {
             return Ok(Some(()));
         };
         let over = self.are_over(number);
         if !matches!(over, Ok(None)) {
-            self.running().retain(|(other, _)| *other != number);
+            locked(&self.running).retain(|(other, _)| *other != number);
         }
         over.map(|_| None)
     }
@@ -171,7 +172,7 @@ impl Programs {
     /// Whether all have ended. If several failed, the error is that of the first one
     /// that did not just lose the reader of its output.
     fn are_over(&self, number: u32) -> Result<Option<()>> {
-        let mut running = self.running();
+        let mut running = locked(&self.running);
         let mut failed = Vec::new();
         for (_, started) in running.iter_mut().filter(|(other, _)| *other == number) {
             let status = started.child.try_wait();
@@ -187,11 +188,7 @@ impl Programs {
 
     /// Ends all that run, and those that are just being started.
     pub(crate) fn end(&self) {
-        self.running().clear();
-    }
-
-    fn running(&self) -> MutexGuard<'_, Vec<(u32, Started)>> {
-        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.running).clear();
     }
 }
 

@@ -12,6 +12,7 @@ use crate::brick::programs::{Program, Programs, Started};
 use crate::brick::recorded::open_file;
 use crate::devfs::{Devfs, Finds, SLICE, Stream, UntilFound, open, open_first, pause};
 use crate::error::{Access, Error, Result};
+use crate::lock::locked;
 use crate::sysfs::{Repeated, Sysfs};
 use crate::wait::{AnyWait, Look, Slices, Wait};
 use std::ffi::OsStr;
@@ -19,11 +20,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
-
-/// The frequencies that the speaker can do, in Hz.
-pub const FREQUENCIES: std::ops::RangeInclusive<u32> = 100..=10000;
 
 /// The paths of the tone generator: ev3dev-stretch, jessie.
 const DEVICES: [&str; 2] =
@@ -100,7 +98,7 @@ impl Sound {
         };
         append(&*stream, &path)?;
         self.stop(dev)?;
-        let (stops, playing) = (self.stops(), Arc::clone(&self.in_background()));
+        let (stops, playing) = (self.stops(), Arc::clone(&locked(&self.in_background)));
         let mut tones = tones.into_iter();
         let mut next = move || {
             let _ = &playing;
@@ -118,16 +116,12 @@ impl Sound {
         Ok(Some(()))
     }
 
-    fn in_background(&self) -> MutexGuard<'_, Arc<()>> {
-        self.in_background.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     fn stops(&self) -> u32 {
         self.stops.load(Ordering::SeqCst)
     }
 
     fn set_tone(&self, stream: &dyn Stream, path: &Path, hertz: u32) -> Result<()> {
-        let mut on = self.on();
+        let mut on = locked(&self.on);
         if hertz == 0 && on.iter().all(|other| other != path) {
             return Ok(());
         }
@@ -206,7 +200,7 @@ impl Sound {
     }
 
     fn begin_speaking(&'static self, tree: &dyn Sysfs, lasts: Duration) -> Result<()> {
-        let (stops, playing) = (self.stops(), Arc::clone(&self.in_background()));
+        let (stops, playing) = (self.stops(), Arc::clone(&locked(&self.in_background)));
         self.speaks.store(true, Ordering::SeqCst);
         let end = move || {
             let _ = &playing;
@@ -240,7 +234,7 @@ impl Sound {
     /// The kernel's.
     pub fn stop(&self, dev: &dyn Devfs) -> Result<()> {
         self.stops.fetch_add(1, Ordering::SeqCst);
-        *self.in_background() = Arc::default();
+        *locked(&self.in_background) = Arc::default();
         self.programs.end();
         if self.speaks.swap(false, Ordering::SeqCst) {
             if let Some(speaker) = dev.speaker() {
@@ -248,7 +242,7 @@ impl Sound {
             }
         }
         // The thread that made the tone goes on only once the tone is over.
-        let mut on = self.on();
+        let mut on = locked(&self.on);
         while let Some(path) = on.pop() {
             if let Some(stream) = open(dev, &path, Access::Write)? {
                 append(&*stream, &path)?;
@@ -256,10 +250,6 @@ impl Sound {
             }
         }
         Ok(())
-    }
-
-    fn on(&self) -> MutexGuard<'_, Vec<PathBuf>> {
-        self.on.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -401,7 +391,7 @@ struct Background<'a>(&'a Sound);
 
 impl Finds for Background<'_> {
     fn find(&mut self) -> Result<bool> {
-        let is_over = Arc::strong_count(&self.0.in_background()) == 1;
+        let is_over = Arc::strong_count(&locked(&self.0.in_background)) == 1;
         Ok(is_over && self.0.programs.are_all_over()?.is_some())
     }
 }

@@ -17,13 +17,14 @@ use crate::device::motion::MotorRun;
 pub(crate) use crate::device::observer::{MotionObserver, Observer};
 use crate::error::{Access, Error, Result};
 use crate::journal::{Act, Journal, MotorCommand, Name, Written};
+use crate::lock::locked;
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
 use rustix::io::Errno;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
@@ -217,7 +218,7 @@ impl Device {
 
     /// The last command to the motor.
     pub(crate) fn run(&self) -> MutexGuard<'_, Option<MotorRun>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.run)
     }
 
     /// The journal of the tree.
@@ -276,7 +277,7 @@ impl Device {
     /// waits may ask for the same sensor.
     pub(crate) fn try_use(&self) -> Option<Use<'_>> {
         let me = thread::current().id();
-        let mut user = self.user();
+        let mut user = locked(&self.user);
         match *user {
             None => {
                 *user = Some(me);
@@ -287,18 +288,14 @@ impl Device {
         }
     }
 
-    fn user(&self) -> MutexGuard<'_, Option<ThreadId>> {
-        self.user.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// When the sensor's values will have settled; zero once they have.
     pub(crate) fn settled_at(&self) -> MutexGuard<'_, Duration> {
-        self.settled_at.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.settled_at)
     }
 
     /// What a gyro had turned by before its mode changed.
     pub(crate) fn turned(&self) -> MutexGuard<'_, Turned> {
-        self.turned.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.turned)
     }
 
     /// An integer attribute.
@@ -503,7 +500,7 @@ pub(crate) struct Use<'a> {
 impl Drop for Use<'_> {
     fn drop(&mut self) {
         if self.is_outermost {
-            *self.device.user() = None;
+            *locked(&self.device.user) = None;
         }
     }
 }

@@ -9,13 +9,14 @@ use crate::class::{Class, Detected};
 use crate::device::{Device, Gears, MotionObserver, Observer, identity};
 use crate::error::{Access, Error, Result};
 use crate::journal::Journal;
+use crate::lock::locked;
 use crate::port_name;
 use crate::sysfs::{Entry, Sysfs};
 use rustix::io::Errno;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, Weak};
 use std::time::Duration;
 
 /// How long a listing of a class directory is believed.
@@ -244,7 +245,7 @@ impl Registry {
             Class::Led => led,
             Class::Battery => battery,
         };
-        listing.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(listing)
     }
 
     fn detected(&self, class: Class, entry: Entry) -> Result<Device> {

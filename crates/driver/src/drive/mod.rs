@@ -23,6 +23,7 @@ use crate::device::retry::while_permissions_settle;
 use crate::device::{Device, MotionObserver};
 use crate::error::{Interrupted, Result};
 use crate::journal::{Act, Place};
+use crate::lock::locked;
 use crate::motor;
 use crate::motor::wait::Reason;
 use crate::sensor::{self, gyro};
@@ -34,7 +35,7 @@ pub use devices::Robot;
 use devices::{angle, counts};
 use ev3_motion::Pose;
 pub use motion::{Outcome, PERIOD};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, Weak};
 use std::time::Duration;
 
 /// How far the gyro may turn either way before its angle is put back to 0, in
@@ -90,7 +91,7 @@ impl Drive {
     /// Changes the robot, and keeps the pose. Nothing happens if it is the same
     /// robot.
     pub fn set_robot(&self, robot: &Robot) {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         if inner.robot == *robot {
             return;
         }
@@ -159,7 +160,7 @@ impl Drive {
     /// that polls continuously starves the periodic callback, so this runs any
     /// control period that was missed.
     fn look(&self) -> Result<Option<MutexGuard<'_, Inner>>> {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         let is_there = self.registry.retry_after_relisting(|| inner.integrate(&self.registry))?;
         if is_there {
             inner.catch_up();
@@ -169,7 +170,7 @@ impl Drive {
 
     /// Whether the gyro, if there is one, measures the heading.
     pub fn use_gyro(&self, use_gyro: bool) {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         if inner.use_gyro != use_gyro {
             inner.use_gyro = use_gyro;
             inner.estimate.gyro_lost();
@@ -192,7 +193,7 @@ impl Drive {
     ) -> Result<Option<Arc<Outcome>>> {
         self.use_gyro(options.use_gyro);
         let prepare = || {
-            let mut inner = self.lock();
+            let mut inner = locked(&self.inner);
             let is_there = inner.integrate(&self.registry)?;
             let is_possible = is_there && inner.steering(command, options)?.is_some();
             let Some(devices) = inner.devices.as_ref().filter(|_| is_possible) else {
@@ -209,7 +210,7 @@ impl Drive {
             sensor::measure_angle(&self.registry, &gyro, &mut *interrupted)?;
             self.keep_from_filling(&gyro, interrupted)?;
         }
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         inner.integrate(&self.registry)?;
         let begun = inner.begin(command, options)?;
         if begun.is_some() {
@@ -229,19 +230,19 @@ impl Drive {
 
     /// Puts the angle of a gyro that has turned much back to 0, if the robot stands.
     fn keep_from_filling(&self, gyro: &Arc<Device>, interrupted: Interrupted) -> Result<()> {
-        if self.lock().active.is_some()
+        if locked(&self.inner).active.is_some()
             || angle(gyro)?.is_some_and(|angle| angle.abs() < MUCH_TURNED)
         {
             return Ok(());
         }
         sleep(self.registry.tree(), STANDS, &mut *interrupted)?;
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         inner.integrate(&self.registry)?;
         let stands = inner.now.saturating_sub(inner.moved) >= STANDS;
         drop(inner);
         if stands {
             sensor::restart(&self.registry, gyro, gyro::ANGLE, interrupted)?;
-            self.lock().estimate.gyro_lost();
+            locked(&self.inner).estimate.gyro_lost();
         }
         Ok(())
     }
@@ -260,7 +261,7 @@ impl Drive {
     /// nothing.
     #[must_use]
     pub fn until_last_ended(self: &Arc<Self>, timeout: Option<Duration>) -> Slices<UntilEnded> {
-        let last = self.lock().last.clone();
+        let last = locked(&self.inner).last.clone();
         self.until(last, timeout, false)
     }
 
@@ -276,7 +277,7 @@ impl Drive {
 
     /// Nobody waits any more for a motion.
     fn leave(&self, outcome: &Arc<Outcome>) {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         inner.last.take_if(|last| Arc::ptr_eq(last, outcome));
         let active = inner.active.as_ref();
         if active.is_some_and(|active| Arc::ptr_eq(&active.outcome, outcome)) {
@@ -286,7 +287,7 @@ impl Drive {
 
     /// Makes the tree call the drive periodically, unless it does already.
     fn be_called(&self) {
-        let mut is_called = self.is_called();
+        let mut is_called = locked(&self.is_called);
         if *is_called {
             return;
         }
@@ -298,7 +299,7 @@ impl Drive {
 
     /// Does one period; returns the time to the next call.
     fn called(&self) -> Option<Duration> {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         let integrated = inner.integrate(&self.registry);
         let stepped = match integrated {
             Ok(true) => inner.control(),
@@ -306,18 +307,10 @@ impl Drive {
             Err(error) => Err(error),
         };
         inner.conclude(stepped);
-        let mut is_called = self.is_called();
+        let mut is_called = locked(&self.is_called);
         let next = inner.next_call();
         *is_called = next.is_some();
         next
-    }
-
-    fn is_called(&self) -> MutexGuard<'_, bool> {
-        self.is_called.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Inner> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -342,7 +335,7 @@ impl Wait for UntilEnded {
             return Ok(Look::Over(Reason::Reached));
         };
         if let Some(ended) = outcome.ended() {
-            self.drive.lock().last.take_if(|last| Arc::ptr_eq(last, outcome));
+            locked(&self.drive.inner).last.take_if(|last| Arc::ptr_eq(last, outcome));
             return ended.map(Look::Over);
         }
         let now = self.drive.registry.tree().now();
@@ -369,7 +362,7 @@ impl MotionObserver for Drive {
     }
 
     fn without_counting(&self, port: &str, write: &mut dyn FnMut() -> Result<()>) -> Result<()> {
-        let mut inner = self.lock();
+        let mut inner = locked(&self.inner);
         if !inner.robot.ports.iter().any(|ours| crate::port_name::short(ours) == port) {
             drop(inner);
             return write();

@@ -5,10 +5,11 @@ use crate::drive::devices::DriveDevices;
 use crate::drive::steering::Steering;
 use crate::error::Result;
 use crate::journal::{Course, Origin};
+use crate::lock::locked;
 use crate::motor::claim::Claim;
 use crate::motor::wait::{Reason, has};
 use crate::motor::{Ramps, StopAction};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// The period of the control.
@@ -101,12 +102,12 @@ impl Outcome {
     }
 
     pub(super) fn end(&self, result: Result<Reason>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(result);
+        locked(&self.0).get_or_insert(result);
     }
 
     /// The result, once there is one. Only the first caller gets an error.
     pub(super) fn ended(&self) -> Option<Result<Reason>> {
-        let mut outcome = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut outcome = locked(&self.0);
         let after = match outcome.as_ref()? {
             Ok(reason) => *reason,
             Err(error) if error.is_unplugged() => Reason::Unplugged,

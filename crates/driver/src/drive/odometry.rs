@@ -38,10 +38,10 @@ const READ_AFTER: f64 = 0.25;
 /// arithmetic is most of the filter's, and the brick's processor does it in software.
 const SETTLE_EVERY: f64 = 0.03;
 
-/// Variance of a wheel's way for each cm, in cm²: 2 mm after a metre.
+/// Variance of a wheel's way for each cm, in cm²: 2 mm after a meter.
 const WHEEL_VARIANCE: f64 = 0.0004;
 
-/// Variance of the heading for each cm, in radians²: 0.15 degrees after a metre,
+/// Variance of the heading for each cm, in radians²: 0.15 degrees after a meter,
 /// from wheels that slip now and then.
 const HEADING_VARIANCE: f64 = 2e-4 * DEGREE * DEGREE;
 

@@ -14,7 +14,6 @@ use crate::device::registry::Registry;
 use crate::device::retry;
 use crate::device::retry::while_permissions_settle;
 use crate::error::{Interrupted, Result};
-use crate::motor::wait::Reason;
 use crate::motor::{self, MoveOptions, Moving, Ramps};
 use crate::wait::Slices;
 use std::sync::Arc;
@@ -46,28 +45,10 @@ pub fn run_forever(
 
 /// Runs a motor at a duty for a time, and then stops it. `None` if it is absent,
 /// the percentage beyond 100 or the time beyond a minute; then nothing has
-/// moved. Otherwise as [`motor::run_to`].
+/// moved. Otherwise as [`motor::begin`].
 ///
 /// # Errors
 /// As [`motor::run_to`].
-pub fn run_timed(
-    registry: &Arc<Registry>,
-    port: &str,
-    percent: f64,
-    time: Duration,
-    options: &MoveOptions,
-    interrupted: Interrupted,
-) -> Result<Option<Reason>> {
-    match begin_timed(registry, port, percent, time, options, &mut *interrupted)? {
-        Some(moving) => moving.block(interrupted).map(Some),
-        None => Ok(None),
-    }
-}
-
-/// The same as a wait that can be left: that stops the motor.
-///
-/// # Errors
-/// As [`run_timed`].
 pub fn begin_timed(
     registry: &Arc<Registry>,
     port: &str,

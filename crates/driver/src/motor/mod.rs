@@ -127,7 +127,7 @@ pub fn stop_commanded(registry: &Registry, commands: &Range<u32>) -> Result<()> 
     result
 }
 
-/// Stops all motors that are connected, whoever started them; servos keep their
+/// Stops all motors that are connected, also those of other programs; servos keep their
 /// positions. One whose files udev has not opened yet is waited for, once all others
 /// are stopped.
 ///

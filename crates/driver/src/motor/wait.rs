@@ -106,22 +106,9 @@ pub fn until_done(
     Slices::new(UntilDone::new(registry, motors, timeout, Box::new(|_, _| Ok(()))))
 }
 
-/// Waits until a flag is among the motor's states, or no longer.
-///
-/// # Errors
+/// A wait until a flag is among the motor's states, or no longer. Its errors are
 /// [`Error::Unplugged`](crate::Error::Unplugged) when the motor is unplugged, the kernel's,
-/// [`Error::Interrupted`](crate::Error::Interrupted).
-pub fn wait_for_flag(
-    registry: &Arc<Registry>,
-    motor: &Arc<Device>,
-    flag: &str,
-    present: bool,
-    interrupted: Interrupted,
-) -> Result<()> {
-    until_flag(registry, motor, flag, present).block(interrupted)
-}
-
-/// The same as a wait that can be left.
+/// and [`Error::Interrupted`](crate::Error::Interrupted).
 #[must_use]
 pub fn until_flag(
     registry: &Arc<Registry>,

@@ -1,7 +1,7 @@
 //! Waiting until a sensor shows what the program waits for.
 use crate::device::Device;
 use crate::device::registry::Registry;
-use crate::error::{Interrupted, Result};
+use crate::error::Result;
 use crate::sensor::read;
 use crate::value::Value;
 use crate::wait::{Look, Slices, Wait};
@@ -53,24 +53,8 @@ impl Ended {
     }
 }
 
-/// Waits until value `index` of a sensor in a mode is as it should be. Samples it
-/// at least once.
-///
-/// # Errors
-/// As [`read`].
-pub fn wait_until(
-    registry: &Arc<Registry>,
-    sensor: &Arc<Device>,
-    mode: &str,
-    index: usize,
-    until: Until,
-    timeout: Option<Duration>,
-    interrupted: Interrupted,
-) -> Result<Ended> {
-    until_shown(registry, sensor, mode, index, until, timeout).block(interrupted)
-}
-
-/// The same as a wait that can be left.
+/// A wait until value `index` of a sensor in a mode is as it should be. Samples it at
+/// least once. Its errors are those of [`read`].
 #[must_use]
 pub fn until_shown(
     registry: &Arc<Registry>,

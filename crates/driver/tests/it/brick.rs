@@ -360,7 +360,7 @@ pub(crate) struct Sensor {
     pub(crate) settling: Duration,
     /// How long the write of a mode takes.
     pub(crate) mode_latency: Duration,
-    /// Until when the sensor introduces itself anew.
+    /// Until when the sensor introduces itself again.
     pub(crate) out_of_contact_until: Duration,
     /// What is answered to the write of a mode in the meantime.
     pub(crate) refuses_mode_with: Errno,
@@ -439,7 +439,7 @@ impl Sensor {
         Ok(bytes)
     }
 
-    /// What the bus has at a place in `direct`: an end, an error, or so many registers.
+    /// What the bus has at a place in `direct`: an end, an error, or n registers.
     fn on_bus(&mut self, offset: u8, count: usize, now: Duration) -> io::Result<&mut [u8]> {
         match self.bus_error {
             _ if self.is_unplugged => errno(Errno::NODEV),

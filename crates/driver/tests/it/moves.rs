@@ -160,7 +160,9 @@ fn a_motor_without_sensor_gets_whole_percents_and_milliseconds() {
     let devices = tree.devices();
     let options = MoveOptions { ramp_up_ms: Some(70), wait: false, ..MoveOptions::default() };
     let start = |percent, time| {
-        dc::run_timed(&devices, "outA", percent, time, &options, &mut || false).unwrap()
+        dc::begin_timed(&devices, "outA", percent, time, &options, &mut || false)
+            .unwrap()
+            .map(|moving| moving.block(&mut || false).unwrap())
     };
     assert_eq!(start(33.4, Duration::from_secs(61)), None);
     assert_eq!(start(100.5, ms(10)), None);

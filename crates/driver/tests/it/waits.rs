@@ -1,6 +1,6 @@
 //! Waiting, and why a wait ends.
 use crate::brick::{Brick, motors, ms};
-use ev3_driver::motor::wait::{Reason, wait_for, wait_for_flag};
+use ev3_driver::motor::wait::{Reason, until_flag, wait_for};
 use ev3_driver::motor::{
     Extent, Move, MoveOptions, Run, Speed, StopAction, command, run_forever, run_to, stop,
 };
@@ -296,10 +296,10 @@ fn a_flag_is_waited_for_until_it_is_there() {
     let devices = brick.devices();
     let motor = &motors(&devices, &["outA"])[0];
     start(&devices, &["outA"], 300.0);
-    wait_for_flag(&devices, motor, "holding", true, &mut brick.attentive()).unwrap();
+    until_flag(&devices, motor, "holding", true).block(&mut brick.attentive()).unwrap();
     let done = brick.now();
     assert!(done > ms(500) && done < ms(650), "{done:?}");
-    wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
+    until_flag(&devices, motor, "running", false).block(&mut brick.attentive()).unwrap();
     assert!(brick.since(done) < ms(1));
 }
 
@@ -310,7 +310,7 @@ fn the_end_of_running_is_not_seen_before_its_beginning() {
     let devices = brick.devices();
     let motor = &motors(&devices, &["outA"])[0];
     start(&devices, &["outA"], 500.0);
-    wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
+    until_flag(&devices, motor, "running", false).block(&mut brick.attentive()).unwrap();
     let position = brick.world().motor("outA").counts();
     assert!((position - 500).abs() < 15, "at {position}");
 }
@@ -323,7 +323,7 @@ fn a_run_that_was_seen_and_is_over_is_not_waited_for_any_longer() {
     motor.write("speed_sp", "500").unwrap();
     motor.write("time_sp", "40").unwrap();
     command(motor, "run-timed").unwrap();
-    wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
+    until_flag(&devices, motor, "running", false).block(&mut brick.attentive()).unwrap();
     assert!(brick.now() < ms(50), "{:?}", brick.now());
 }
 
@@ -335,7 +335,7 @@ fn a_command_that_never_shows_as_running_is_given_100_ms() {
     command(motor, "run-forever").unwrap();
     motor.write("command", "stop").unwrap();
     let started = brick.now();
-    wait_for_flag(&devices, motor, "running", false, &mut brick.attentive()).unwrap();
+    until_flag(&devices, motor, "running", false).block(&mut brick.attentive()).unwrap();
     let waited = brick.since(started);
     assert!(waited > ms(90) && waited < ms(125), "{waited:?}");
 }
@@ -346,6 +346,6 @@ fn a_flag_of_an_unplugged_motor_is_an_error_that_names_it() {
     let devices = brick.devices();
     let motor = &motors(&devices, &["outA"])[0];
     brick.at(ms(200), |world| world.motor("outA").is_unplugged = true);
-    let error = wait_for_flag(&devices, motor, "stalled", true, &mut brick.attentive());
+    let error = until_flag(&devices, motor, "stalled", true).block(&mut brick.attentive());
     assert!(matches!(error, Err(Error::Unplugged { port, .. }) if port == "outA"));
 }

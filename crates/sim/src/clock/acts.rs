@@ -1,7 +1,8 @@
 //! What happens periodically in simulated time.
 
+use crate::lock::locked;
 use std::fmt;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 use std::thread::ThreadId;
 use std::time::Duration;
 
@@ -37,12 +38,12 @@ impl fmt::Debug for PeriodicActs {
 
 impl PeriodicActs {
     pub(super) fn add(&self, now: Duration, period: Duration, act: Act) {
-        self.acts().due.push(Due { at: now.saturating_add(period), period, act });
+        locked(&self.0).due.push(Due { at: now.saturating_add(period), period, act });
     }
 
     /// Whether this thread runs an act. Its reads then take no time.
     pub(super) fn is_acting(&self) -> bool {
-        self.acts().actor.is_some_and(|actor| actor == std::thread::current().id())
+        locked(&self.0).actor.is_some_and(|actor| actor == std::thread::current().id())
     }
 
     /// Lets time pass, and runs the acts that become due meanwhile.
@@ -58,7 +59,7 @@ impl PeriodicActs {
             machine.step(left);
             drop(machine);
             let next = act();
-            self.acts().actor = None;
+            locked(&self.0).actor = None;
             machine = shared.lock();
             if let Some(next) = next {
                 // One that comes late keeps its rhythm.
@@ -75,7 +76,7 @@ impl PeriodicActs {
     /// Takes the first act that is due by `end`, for this thread to run. There is one
     /// at a time: while a thread runs one, other threads let time pass without.
     fn due(&self, now: Duration, end: Duration) -> Option<Due> {
-        let mut acts = self.acts();
+        let mut acts = locked(&self.0);
         if acts.actor.is_some() {
             return None;
         }
@@ -89,9 +90,5 @@ impl PeriodicActs {
         }
         acts.actor = Some(std::thread::current().id());
         Some(acts.due.swap_remove(index))
-    }
-
-    fn acts(&self) -> MutexGuard<'_, Acts> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

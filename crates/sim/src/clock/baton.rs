@@ -10,8 +10,9 @@
 //! before time goes on, however slow this machine is. That is why a program with several threads
 //! does the same in each run.
 
+use crate::lock::locked;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
 
@@ -64,7 +65,7 @@ struct Stand {
     wall: Option<Instant>,
 }
 
-/// Who goes first of those that wait for the same moment.
+/// Orders the threads that wait for the same moment.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     /// Those that had a turn, and did not sleep elsewhere since: in the order of their first.
@@ -217,7 +218,7 @@ impl Baton {
 
     fn line(&self) -> MutexGuard<'_, Line> {
         self.arriving.fetch_add(1, Ordering::SeqCst);
-        let line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        let line = locked(&self.line);
         self.arriving.fetch_sub(1, Ordering::SeqCst);
         line
     }

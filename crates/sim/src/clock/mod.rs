@@ -228,7 +228,7 @@ impl Simulation {
         if self.acts.is_acting() || IS_OUTSIDE.get() {
             return self.shared.lock();
         }
-        // Who comes without a turn, as at the end of the program, waits, but not for ever.
+        // A thread without a turn, as at the end of the program, waits, but not for ever.
         if !baton.is_mine() {
             let wish = Wish::Turn(self.machine().now());
             baton.stand(wish, &mut String::new, SLICE);

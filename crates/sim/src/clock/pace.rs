@@ -3,8 +3,9 @@
 //! A virtual clock is held back between its steps, a wall clock gets another factor. Both can be
 //! paused. What a program does, and what it sees, is the same at any pace.
 
+use crate::lock::locked;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long time is held back before signals are handled, by the wall clock, and between two
@@ -53,7 +54,7 @@ pub(crate) enum Leave {
 impl Pace {
     /// Sets the limit, in simulated seconds in a second; `None` is no limit.
     pub(crate) fn set_factor(&self, factor: Option<f64>) {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         state.factor = factor;
         state.since = None;
         self.note(&state);
@@ -68,12 +69,12 @@ impl Pace {
     }
 
     pub(crate) fn factor(&self) -> Option<f64> {
-        self.state().factor
+        locked(&self.state).factor
     }
 
     /// Lets time stand from now on, or pass again.
     pub(crate) fn set_paused(&self, is_paused: bool) {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         state.is_paused = is_paused;
         state.allowed = Duration::ZERO;
         state.left = Duration::ZERO;
@@ -82,12 +83,12 @@ impl Pace {
     }
 
     pub(crate) fn is_paused(&self) -> bool {
-        self.state().is_paused
+        locked(&self.state).is_paused
     }
 
     /// Lets some time pass while paused.
     pub(crate) fn allow(&self, now: Duration, time: Duration) {
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         state.allowed = state.allowed.max(now).saturating_add(time);
         state.left = state.left.saturating_add(time);
     }
@@ -97,7 +98,7 @@ impl Pace {
         if !self.is_limited() {
             return Leave::Go(Duration::MAX);
         }
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         let mut most = Duration::MAX;
         if state.is_paused {
             most = state.allowed.saturating_sub(now);
@@ -125,7 +126,7 @@ impl Pace {
         if !self.is_limited() {
             return wall.mul_f64(factor);
         }
-        let mut state = self.state();
+        let mut state = locked(&self.state);
         let passed = wall.mul_f64(factor * state.factor.unwrap_or(1.0).min(FASTEST));
         if !state.is_paused {
             return passed;
@@ -133,10 +134,6 @@ impl Pace {
         let passed = passed.min(state.left);
         state.left -= passed;
         passed
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

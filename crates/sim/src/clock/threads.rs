@@ -3,11 +3,12 @@
 //! A thread that can run is not asleep, also while other programs have the processors. Nothing
 //! here depends on how much wall time passes.
 
+use crate::lock::locked;
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io::Read;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The kernel's number of a thread.
 pub(super) type Id = u32;
@@ -35,16 +36,12 @@ pub(super) fn me() -> Id {
 /// Threads that are no part of the program.
 static OUTSIDE: Mutex<Vec<Id>> = Mutex::new(Vec::new());
 
-fn outside() -> MutexGuard<'static, Vec<Id>> {
-    OUTSIDE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// A thread that is no part of the program, until it ends.
 struct Outsider(Id);
 
 impl Drop for Outsider {
     fn drop(&mut self) {
-        outside().retain(|other| *other != self.0);
+        locked(&OUTSIDE).retain(|other| *other != self.0);
     }
 }
 
@@ -58,7 +55,7 @@ pub(super) fn stay_outside(is_outside: bool) {
         if !is_outside {
             *outsider = None;
         } else if outsider.is_none() {
-            outside().push(me());
+            locked(&OUTSIDE).push(me());
             *outsider = Some(Outsider(me()));
         }
     });
@@ -80,7 +77,7 @@ impl Threads {
     /// in line may have been awake since.
     ///
     /// Two looks tell: a thread that was asleep in both, and has left its processor equally often,
-    /// did not run in between. Who stands in line and is awake may hold a lock that a sleeper
+    /// did not run in between. A thread that is awake in line may hold a lock that a sleeper
     /// waits for, so these have to be asleep between the looks. One look tells that nobody has run
     /// since the last time, but those in line.
     pub(super) fn rest(&mut self, stands: impl Fn(Id) -> bool) -> bool {
@@ -106,7 +103,7 @@ impl Threads {
 /// The threads; `None` if one of those that are looked at is awake. This one is not looked at.
 fn look(is_looked_at: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
     let mut seen = Vec::new();
-    let outside = outside().clone();
+    let outside = locked(&OUTSIDE).clone();
     for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
         let Some(id) = task.file_name().to_str().and_then(|name| name.parse().ok()) else {
             continue;

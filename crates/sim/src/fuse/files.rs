@@ -15,9 +15,10 @@ use super::open::{Open, written};
 use super::served::Served;
 use crate::files::attr::Access;
 use crate::files::errno::Errno;
+use crate::lock::locked;
 use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::machine::{Machine, Written};
-use crate::shared::{Shared, locked};
+use crate::shared::Shared;
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;

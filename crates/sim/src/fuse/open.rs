@@ -13,8 +13,9 @@ use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 
 use super::served::Served;
 use crate::files::errno::Errno;
+use crate::lock::locked;
 use crate::machine::Machine;
-use crate::shared::{Shared, locked};
+use crate::shared::Shared;
 
 /// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);

@@ -53,8 +53,8 @@ impl Machine {
         was_there
     }
 
-    /// Presses the touch sensor that is plugged in, and holds it, or lets go of it; false if there
-    /// is none.
+    /// Presses the touch sensor that is plugged in, and holds it, or lets go of it; false if
+    /// another device is there.
     pub fn press_touch(&mut self, port: Port, is_press: bool) -> bool {
         let is_touch = match self.sockets[port as usize].plug {
             Some(Plug::Sensor(kind)) => kind.modes.iter().any(|mode| mode.sense == Sense::Touch),

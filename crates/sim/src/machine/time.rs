@@ -11,7 +11,6 @@ use crate::mechanics::Load;
 use crate::noise::{Noise, Source};
 use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
-use crate::world::geometry::Pose;
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 /// A clock that jumps is not asked to jump farther than this.
@@ -246,11 +245,5 @@ impl Machine {
             + free
                 .map(|slot| loads[slot].inertia * self.shafts[slot].omega.powi(2) / 2.0)
                 .sum::<f64>()
-    }
-
-    /// The place of a sensor in the world, and its heading.
-    #[must_use]
-    pub fn sensor_pose(&self, port: Port) -> Pose {
-        self.body.pose.compose(&self.mount(port).0)
     }
 }

@@ -1,4 +1,4 @@
-//! What of the world a sensor sees, as shapes that can be drawn.
+//! The shapes in which a sensor sees the world.
 
 use super::infrared::BEACON_FAR;
 use super::{

@@ -76,7 +76,7 @@ pub(crate) enum Scale {
     Above(i32),
     /// 1 for less millivolts than this: a switch that draws a voltage down.
     Below(i32),
-    /// 1 from so many millivolts on, and below so many: one of several switches.
+    /// 1 between two voltages, in millivolts: one of several switches.
     Within(i32, i32),
     /// The root of twice the millivolts.
     Root,

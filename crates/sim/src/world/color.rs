@@ -90,6 +90,6 @@ mod tests {
             assert_eq!(color.code(), code, "{name}");
         }
         assert!("mauve".parse::<Color>().is_err());
-        assert_eq!(Color::rgb(128, 128, 128).code(), 7, "grey looks brown to it");
+        assert_eq!(Color::rgb(128, 128, 128).code(), 7, "gray looks brown to it");
     }
 }

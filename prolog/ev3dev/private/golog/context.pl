@@ -6,8 +6,8 @@
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
             recording/3,                % +Number, +Context0, -Context
-            triggered/3,                % +Condition, +Context0, -Context
-            recorded_step/3,            % +Context, -Number, -Triggers
+            noted/2,                    % +Note, +Context
+            recorded_step/3,            % +Context, -Number, -Notes
             print_once/3,               % +Module, +Kind, +Message
             print_again/1,              % +Module
             blocked/2,                  % +Action, +Condition
@@ -22,9 +22,8 @@
 A context is `x(Module, Options, Calls, Record)`. Module holds the domain.
 Options are words of this run: `online`, `assume` (what gexec/2 means),
 `simulate`. Calls are the procedures entered since the step began. Record is
-`none`, or record(Number, Triggers, Tail) of the step that an online run
-takes: Triggers is a partial list that ends in Tail, of the conditions of the
-interrupts in which the step is found, the outermost first.
+`none`, or record(Number, Notes) of the step that an online run takes: Notes
+is a partial list, of what noted/2 says of the step, the outermost first.
 */
 
 %!  context(+Module, +Options, -Context) is det.
@@ -45,29 +44,37 @@ context_option(Option, x(_, Options, _, _)) :-
 stepping(x(M, O, _, _), x(M, O, [], none)).
 
 %!  recording(+Number, +Context0, -Context) is det.
-%!  triggered(+Condition, +Context0, -Context) is det.
-%!  recorded_step(+Context, -Number, -Triggers) is det.
+%!  noted(+Note, +Context) is det.
+%!  recorded_step(+Context, -Number, -Notes) is det.
 %
-%   For the explanation of an action: a step Number begins; it is found within
-%   an interrupt whose Condition holds; Triggers are these conditions, the
-%   innermost first. Backtracking undoes what was recorded.
+%   A step Number begins. Note is interrupt(Condition) if the step is found
+%   within an interrupt whose Condition holds, above(Program) if Program has a
+%   higher priority than what takes the step. Notes are these, the innermost
+%   first. Backtracking undoes what was noted.
 
-recording(Number, x(M, O, _, _), x(M, O, [], record(Number, Ts, Ts))).
+recording(Number, x(M, O, _, _), x(M, O, [], record(Number, _))).
 
-triggered(Condition, x(M, O, Calls, Record0), x(M, O, Calls, Record)) :-
-    (   Record0 = record(Number, Triggers, [Condition|Tail])
-    ->  Record = record(Number, Triggers, Tail)
-    ;   Record = Record0
+noted(Note, x(_, _, _, Record)) :-
+    (   Record = record(_, Notes)
+    ->  ends_in(Notes, Note)
+    ;   true
     ).
 
-recorded_step(x(_, _, _, record(Number, Partial, _)), Number, Triggers) :-
-    reversed(Partial, [], Triggers).
-
-reversed(Partial, Triggers0, Triggers) :-
+ends_in(Partial, Note) :-
     (   var(Partial)
-    ->  Triggers = Triggers0
-    ;   Partial = [Trigger|Rest],
-        reversed(Rest, [Trigger|Triggers0], Triggers)
+    ->  Partial = [Note|_]
+    ;   Partial = [_|Rest],
+        ends_in(Rest, Note)
+    ).
+
+recorded_step(x(_, _, _, record(Number, Partial)), Number, Notes) :-
+    reversed(Partial, [], Notes).
+
+reversed(Partial, Notes0, Notes) :-
+    (   var(Partial)
+    ->  Notes = Notes0
+    ;   Partial = [Note|Rest],
+        reversed(Rest, [Note|Notes0], Notes)
     ).
 
 %!  entered(+Kind, +Call, +Context0, -Context) is det.

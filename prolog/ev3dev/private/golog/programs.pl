@@ -7,6 +7,8 @@
             closed/1,                   % +Term
             construct/1,                % ?Program
             weak_construct/1,           % ?Program
+            parts/5,                    % +Program0, ?Use, -Parts0, ?Parts,
+                                        % -Program
             condition_construct/1       % ?Condition
           ]).
 :- use_module(library(lists), [append/3]).
@@ -83,6 +85,39 @@ weak_construct(e(_, _)).
 weak_construct(time(_, _)).
 weak_construct(ttime(_, _)).
 weak_construct(sync(_)).
+
+%!  parts(+Program0, ?Use, -Parts0, ?Parts, -Program) is semidet.
+%
+%   Parts0 are the parts of the construct Program0, a list, of which one takes
+%   its next step; Program is Program0 with Parts in their place. Fails if a
+%   step of Program0 need not be one of a part. Use is `all`: Program0 may end
+%   when all of them may; `first`: as `all`, and none is under way, as the
+%   first step leaves Program0; `own`: it has a rule of its own for its end.
+
+parts([E0|Es], own, [E0], [E], [E|Es]).
+parts(wndet(A0, B0), first, [A0, B0], [A, B], wndet(A, B)).
+parts(conc(A0, B0), all, [A0, B0], [A, B], conc(A, B)).
+parts('$turn'(A0, B0), all, [A0, B0], [A, B], '$turn'(A, B)).
+parts(pconc(A0, B0), all, [A0, B0], [A, B], pconc(A, B)).
+parts(rconc(A0, B0), all, [A0, B0], [A, B], rconc(A, B)).
+parts(rconc(Es0), all, Es0, Es, rconc(Es)).
+parts(rrobin(Es0), all, Es0, Es, rrobin(Es)).
+parts(sync(Es0), all, Es0, Es, sync(Es)).
+parts(prioritized_interrupts(Es0), own, Es0, Es, prioritized_interrupts(Es)).
+parts(search(E0), first, [E0], [E], search(E)).
+parts(search(E0, M), first, [E0], [E], search(E, M)).
+parts(search(E0, M, Options), first, [E0], [E], search(E, M, Options)).
+parts(searchn(E0, M), first, [E0], [E], searchn(E, M)).
+parts(searchc(E0), first, [E0], [E], searchc(E)).
+parts(searchc(E0, M), first, [E0], [E], searchc(E, M)).
+parts(gexec(C, E0), own, [E0], [E], gexec(C, E)).
+parts(gexec2(C, E0), own, [E0], [E], gexec2(C, E)).
+parts(goal(P, E0, F, R), own, [E0], [E], goal(P, E, F, R)).
+parts(atomic(E0), first, [E0], [E], atomic(E)).
+parts('$atomic'(E0), all, [E0], [E], '$atomic'(E)).
+parts(exogint(E0, P), all, [E0], [E], exogint(E, P)).
+parts(time(E0, Seconds), first, [E0], [E], time(E, Seconds)).
+parts(ttime(E0, Seconds), all, [E0], [E], ttime(E, Seconds)).
 
 %!  condition_construct(?Condition) is nondet.
 

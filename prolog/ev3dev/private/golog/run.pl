@@ -7,8 +7,8 @@
           ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
-              [ context/3, context_module/2, print_again/1, stepping/2,
-                recorded_step/3, recording/3, unblock/0, was_blocked/2
+              [ context/3, context_module/2, print_again/1, recorded_step/3,
+                recording/3, unblock/0, was_blocked/2
               ]).
 :- use_module(domain,
               [ done/4, entries_done/4, history_shortened/3, situation/3,
@@ -19,7 +19,7 @@
               [has_clauses/2, is_kind/3, prepare/1, refuse_epistemic/1]).
 :- use_module(transitions,
               [ is_final/3, is_preempted/4, made_possible/4, program_shown/2,
-                simplified/2, step/5
+                simplified/3, step/5
               ]).
 :- use_module(waiting,
               [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
@@ -56,7 +56,7 @@ run_online(M:E, Settings, Reason, History) :-
     queue_of(M, Queue),
     Agent = agent(M, Robot, Queue, Device),
     situation(Initial, S, X),
-    simplified(E, E1),
+    simplified(E, E1, X),
     Ended = ended(none),
     situation_noted(Outer),
     setup_call_cleanup(
@@ -64,7 +64,7 @@ run_online(M:E, Settings, Reason, History) :-
         ( b_setval(ev3dev_golog_now, now(M, S)),
           initialized(M),
           deadline(Timeout, Robot, Deadline),
-          cycle(E1, S, quiet, 0, r(X, Agent, Settings, Deadline), Reason),
+          cycle(at(E1, S, quiet), 0, r(X, Agent, Settings, Deadline), Reason),
           nb_setarg(1, Ended, Reason) ),
         finished(M, Robot, Ended)),
     b_setval(ev3dev_golog_now, Outer),
@@ -103,7 +103,7 @@ deadline(Timeout, Robot, Deadline) :-
         Deadline is Now+Timeout
     ).
 
-is_over(Deadline, Robot) :-
+is_over(r(_, agent(_, Robot, _, _), _, Deadline)) :-
     Deadline \== infinite,
     clock(Robot, Now),
     Now >= Deadline.
@@ -179,15 +179,15 @@ situation_noted(Now) :-
                 *             CYCLE            *
                 *******************************/
 
-%   cycle(+Program, +Situation, +News, +Steps, +Run, -Reason). News is `news`
-%   if an exogenous action has come since the last primitive action and since
-%   the last wait, else `quiet`.
+%   cycle(+State, +Steps, +Run, -Reason). A state is at(Program, Situation,
+%   News). News is `news` if an exogenous action has come since the last
+%   primitive action and since the last wait, else `quiet`. A run is
+%   r(Context, Agent, Settings, Deadline).
 
-cycle(E, S0, News0, Steps0, R, Reason) :-
-    R = r(X, Agent, Settings, Deadline),
+cycle(State0, Steps0, R, Reason) :-
+    R = r(X, Agent, Settings, _),
     exogenous_seen(Agent, Actions),
-    happened(Actions, S0, S1, News0, News1, R, Stop),
-    Agent = agent(_, Robot, _, _),
+    happened(Actions, State0, at(E, S1, News), R, Stop),
     note_situation(S1),
     arg(5, Settings, Limit),
     (   Stop == stop
@@ -197,13 +197,13 @@ cycle(E, S0, News0, Steps0, R, Reason) :-
     ;   Limit \== infinite,
         Steps0 >= Limit
     ->  Reason = limit
-    ;   is_over(Deadline, Robot)
+    ;   is_over(R)
     ->  Reason = timeout
     ;   Steps is Steps0+1,
-        shortened(Steps, S1, S2),
-        taken(Steps, E, S2, News1, R, E3, S3, News3, Next),
+        shortened(Steps, S1, S),
+        taken(Steps, at(E, S, News), R, State, Next),
         (   Next == on
-        ->  cycle(E3, S3, News3, Steps, R, Reason)
+        ->  cycle(State, Steps, R, Reason)
         ;   Reason = Next
         )
     ).
@@ -216,19 +216,19 @@ shortened(Steps, S0, S) :-
 
 %   Exogenous actions enter the history.
 
-happened([], S, S, News, News, _, go).
-happened([Seen|As], S0, S, News0, News, R, Stop) :-
+happened([], State, State, _, go).
+happened([Seen|As], State0, State, R, Stop) :-
     arg(1, Seen, A),
-    (   is_to_stop([A])
-    ->  S = S0,
-        News = News0,
+    (   stops_run(A)
+    ->  State = State0,
         Stop = stop
     ;   (   Seen = new(_)
         ->  traced(exog(A), R)
         ;   true
         ),
-        entered(A, S0, S1, R),
-        happened(As, S1, S, news, News, R, Stop)
+        State0 = at(E, S0, _),
+        entered(A, S0, S, R),
+        happened(As, at(E, S, news), State, R, Stop)
     ).
 
 entered(Entry, S0, S, R) :-
@@ -254,30 +254,25 @@ traced(Event, R) :-
     ;   followed(Event)
     ).
 
-%   taken(+Number, +Program0, +Situation0, +News0, +Run, -Program, -Situation,
-%   -News, -Next): the first step, `on` or the reason why the run ends.
+%   taken(+Number, +State0, +Run, -State, -Next): the first step. Next is `on`
+%   or the reason why the run ends.
 
-taken(Steps, E0, S0, News0, R, E, S, News, Next) :-
-    R = r(X0, Agent, Settings, Deadline),
+taken(Steps, State0, R0, State, Next) :-
+    R0 = r(X0, Agent, Settings, Deadline),
     recording(Steps, X0, X),
+    R = r(X, Agent, Settings, Deadline),
+    State0 = at(E0, S0, _),
     unblock,
     (   step(E0, S0, E1, S1, X),
-        performed(E0, E1, S0, S1, News0, r(X, Agent, Settings, Deadline),
-                  E2, S2, News2, Next2),
-        Next2 \== backtrack
-    ->  simplified(E2, E),
-        S = S2,
-        News = News2,
-        Next = Next2,
+        performed(E1, S1, State0, R, at(E2, S, News), Next0)
+    ->  simplified(E2, E, X),
+        State = at(E, S, News),
+        Next = Next0,
         traced_step(E, R)
-    ;   no_step(E0, Next)
-    ).
-
-no_step(E0, Reason) :-
-    (   was_blocked(A, Condition)
-    ->  Reason = not_possible(A, Condition)
+    ;   was_blocked(A, Condition)
+    ->  Next = not_possible(A, Condition)
     ;   program_shown(E0, E),
-        Reason = no_step(E)
+        Next = no_step(E)
     ).
 
 traced_step(E0, R) :-
@@ -289,90 +284,103 @@ traced_step(E0, R) :-
         traced(step(E), R)
     ).
 
-%   performed(+Program0, +Program1, +Situation0, +Situation1, +News0, +Run,
-%   -Program, -Situation, -News, -Next): carry out what the step added to the
-%   history.
+%   performed(+Program, +Situation, +State0, +Run, -State, -Next) is semidet:
+%   carry out what the step from State0 to Program and Situation added to the
+%   history. Fails if another step is to be tried.
 
-performed(E0, E1, S0, S1, News0, R, E, S, News, Next) :-
+performed(E, S, State0, R, State, Next) :-
+    State0 = at(_, S0, News),
     situation_count(S0, C0),
-    situation_count(S1, C1),
-    (   C1 =:= C0
-    ->  E = E1,
-        S = S0,
-        News = News0,
+    situation_count(S, C),
+    (   C =:= C0
+    ->  State = at(E, S0, News),
         Next = on
-    ;   More is C1-C0,
-        newest(More, S1, [Entry|Before]),
-        record_before(Before, C1),
-        (   is_mark(Entry, R)
-        ->  performed_mark(Entry, E0, E1, S0, S1, News0, R, E, S, News,
-                           Next)
-        ;   performed_action(Entry, E0, E1, S0, S1, News0, R, E, S, News,
-                             Next)
+    ;   More is C-C0,
+        newest(More, S, [Entry|Before]),
+        record_before(Before, C),
+        (   mark(Entry, Use),
+            R = r(X, _, _, _),
+            context_module(X, M),
+            \+ is_kind(action, Entry, M)
+        ->  (   Use == wait
+            ->  waited(E, State0, R, State),
+                Next = on
+            ;   Use == kept
+            ->  record(C, Entry),
+                State = at(E, S, News),
+                Next = on
+            ;   State = at(E, S0, News),
+                Next = Use
+            )
+        ;   acted(Entry, E, S, State0, R, State, Next)
         )
     ).
 
-%   Not an action of the domain, which comes first
+%   mark(?Entry, ?Use): Entry is not executed, unless it is an action of the
+%   domain. Without `kept` and `wait` it does not enter the history, and Use
+%   is what follows.
 
-is_mark(Entry, r(X, _, _, _)) :-
-    internal(Entry),
-    context_module(X, M),
-    \+ is_kind(action, Entry, M).
+mark(wait, wait).
+mark(commit, on).
+mark(branch(_), on).
+mark(sim(_), on).
+mark(abort, stopped).
+mark(set(_), kept).
+mark(unset(_), kept).
+mark(test(_), kept).
+mark(e(_, _), kept).
 
-internal(wait).
-internal(commit).
-internal(branch(_)).
-internal(sim(_)).
-internal(abort).
-internal(set(_)).
-internal(unset(_)).
-internal(test(_)).
-internal(e(_, _)).
+%   acted(+Action, +Program, +Situation, +State0, +Run, -State, -Next) is
+%   semidet: execute Action.
 
-performed_mark(wait, E0, E1, S0, _, News0, R, E, S, News, on) :-
-    !,
-    waited(News0, S0, S, R, Came),
-    (   Came == over
-    ->  E = E0,
-        News = News0
-    ;   E = E1,
-        News = quiet
-    ).
-performed_mark(commit, _, E, S, _, News, _, E, S, News, on) :-
-    !.
-performed_mark(branch(_), _, E, S, _, News, _, E, S, News, on) :-
-    !.
-performed_mark(sim(_), _, E, S, _, News, _, E, S, News, on) :-
-    !.
-performed_mark(abort, _, E, S, _, News, _, E, S, News, stopped) :-
-    !.
-performed_mark(Entry, _, E, _, S, News, R, E, S, News, on) :-
-    recorded_since(S, Entry, R).
-
-performed_action(A, E0, E1, S0, S1, News0, R, E, S, News, Next) :-
+acted(A, E, S1, State0, R, State, Next) :-
+    State0 = at(E0, S0, News),
     R = r(X, Agent, Settings, _),
-    Agent = agent(_, Robot, _, _),
+    Agent = agent(M, Robot, _, _),
     situation_history(S0, History),
     traced(action(A), R),
-    Goal = executed(A, History,
-                    ev3dev_golog_run:is_to_end(E0, E1, S0, R), Agent,
-                    Outcome, Value),
+    Goal = executed(A, History, ev3dev_golog_run:is_to_end(E0, E, S0, R),
+                    Agent, Outcome, Value),
     (   causes_wanted(Robot)
     ->  causes(A, S0, X, Causes),
         for_causes(Causes, Goal)
     ;   call(Goal)
     ),
-    arg(3, Settings, OnFailed),
-    after(Outcome, OnFailed, A, Value, E0, E1, S0, S1, News0, R,
-          E, S, News, Next).
+    (   Outcome == done,
+        sensing_entries(A, Value, M, Entries),
+        ( Entries == [] ; nonvar(Value) )
+    ->  situation_count(S1, C),
+        record(C, A),
+        entered_all(Entries, S1, S, R),
+        (   Entries == []
+        ->  true
+        ;   traced(sensed(A, Value), R)
+        ),
+        State = at(E, S, quiet),
+        Next = on
+    ;   Outcome == interrupted
+    ->  entered(interrupted(A), S0, S, R),
+        State = at(E0, S, News),
+        Next = on
+    ;   arg(3, Settings, OnFailed),
+        OnFailed \== backtrack,
+        entered(failed(A), S0, S, R),
+        State = at(E, S, News),
+        (   OnFailed == stop
+        ->  Next = failed(A)
+        ;   print_message(informational, golog(failed_action(A))),
+            Next = on
+        )
+    ).
 
 %   What library(ev3dev/journal) tells about the commands of an action: its
 %   step, what made it possible, and the interrupts that it belongs to.
 
 causes(A, S, X, [golog(Number, A, Condition)|Causes]) :-
-    recorded_step(X, Number, Triggers),
+    recorded_step(X, Number, Notes),
     made_possible(A, Condition, S, X),
-    findall(interrupt(Trigger), member(Trigger, Triggers), Causes).
+    Interrupt = interrupt(_),
+    findall(Interrupt, member(Interrupt, Notes), Causes).
 
 %   The newest entries of a situation, and the record of all but the last
 
@@ -388,98 +396,49 @@ record_before([Entry|Entries], C1) :-
     record_before(Entries, C),
     record(C, Entry).
 
-recorded_since(S, Entry, _) :-
-    situation_count(S, C),
-    record(C, Entry).
-
-after(done, OnFailed, A, Value, _, E, S0, S1, News0, R, E, S, News, Next) :-
-    R = r(_, agent(M, _, _, _), _, _),
-    sensing_entries(A, Value, M, Entries),
-    (   Entries = [_|_],
-        var(Value)
-    ->  after(failed, OnFailed, A, _, E, E, S0, S1, News0, R, E, S, News,
-              Next)
-    ;   situation_count(S1, C),
-        record(C, A),
-        entered_all(Entries, S1, S, R),
-        (   Entries == []
-        ->  true
-        ;   traced(sensed(A, Value), R)
-        ),
-        News = quiet,
-        Next = on
-    ).
-after(interrupted, _, A, _, E, _, S0, _, News, R, E, S, News, on) :-
-    entered(interrupted(A), S0, S, R).
-after(failed, OnFailed, A, _, E0, E1, S0, _, News, R, E, S, News, Next) :-
-    (   OnFailed == backtrack
-    ->  E = E0,
-        S = S0,
-        Next = backtrack
-    ;   entered(failed(A), S0, S, R),
-        E = E1,
-        (   OnFailed == stop
-        ->  Next = failed(A)
-        ;   print_message(informational, golog(failed_action(A))),
-            Next = on
-        )
-    ).
-
 %   True if the action that is being executed has to end: something new has
 %   happened, and a part of the program with a higher priority can take a step
 %   after all that has happened meanwhile; or the time is up.
 
 :- public is_to_end/4.
 
-is_to_end(E0, E1, S0, R) :-
-    R = r(X, Agent, _, Deadline),
-    Agent = agent(_, Robot, _, _),
+is_to_end(E0, E, S0, R) :-
+    R = r(X, Agent, _, _),
     exogenous_noticed(Agent, New, All),
-    traced_all(New, R),
-    (   is_over(Deadline, Robot)
+    forall(member(A, New), traced(exog(A), R)),
+    (   is_over(R)
     ->  true
-    ;   is_to_stop(All)
+    ;   member(A, All),
+        stops_run(A)
     ->  true
     ;   New = [_|_],
         entries_done(All, S0, S, X),
-        stepping(X, X1),
-        is_preempted(E0, E1, S, X1)
+        is_preempted(E0, E, S, X)
     ->  true
     ).
 
-is_to_stop(As) :-
-    member(A, As),
-    stops_run(A),
-    !.
+%   waited(+Program, +State0, +Run, -State): Program is what remains after the
+%   wait. It returns at once if there is news, else it blocks. State is State0
+%   if the time of the run was up before something came.
 
-traced_all([], _).
-traced_all([A|As], R) :-
-    traced(exog(A), R),
-    traced_all(As, R).
-
-%   A wait returns at once if there is news, else it blocks. `over`: the time
-%   of the run was up before something came.
-
-waited(news, S, S, _, came) :-
-    !.
-waited(quiet, S0, S, R, Came) :-
+waited(E, State0, R, State) :-
+    State0 = at(_, S0, News),
     R = r(_, Agent, _, Deadline),
     Agent = agent(_, Robot, Queue, _),
-    exogenous_seen(Agent, Actions),
-    (   Actions \== []
-    ->  happened(Actions, S0, S, quiet, _, R, Stop),
-        stop_again(Stop, R),
-        Came = came
-    ;   is_over(Deadline, Robot)
-    ->  S = S0,
-        Came = over
+    (   News == news
+    ->  State = at(E, S0, quiet)
+    ;   exogenous_seen(Agent, Actions),
+        Actions \== []
+    ->  happened(Actions, at(E, S0, quiet), at(_, S, _), R, Stop),
+        State = at(E, S, quiet),
+        (   Stop == stop
+        ->  % It is seen by the next cycle.
+            thread_send_message(Queue, exogenous(end_indi))
+        ;   true
+        )
+    ;   is_over(R)
+    ->  State = State0
     ;   pause(Robot, Queue, Deadline, Message),
         message_seen(Message, Agent),
-        waited(quiet, S0, S, R, Came)
+        waited(E, State0, R, State)
     ).
-
-%   A message to stop that came while waiting is seen by the next cycle.
-
-stop_again(go, _).
-stop_again(stop, r(_, agent(_, _, Queue, _), _, _)) :-
-    thread_send_message(Queue, exogenous(end_indi)).

@@ -10,8 +10,8 @@
               [ done/4, fluents_now/3, holds/3, marked/3,
                 situation_count/2, situation_history/2
               ]).
-:- use_module(theory, [is_kind/3, is_sensing_action/2]).
-:- use_module(transitions, [is_final/3, step/5]).
+:- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
+:- use_module(transitions, [in_atom/3, is_final/3, step/5]).
 :- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
 /** <module> Search: plans that are found before they are carried out
@@ -34,25 +34,51 @@ programs with sensing (1999); Sardina: Local conditional high-level robot
 programs (2001) for conditional plans.
 */
 
-ev3dev_golog_transitions:planned_step(search(E), S, E1, S1, X) :-
+ev3dev_golog_transitions:step_construct(search(E), S, E1, S1, X) :-
     search_step(E, [], S, E1, S1, X).
-ev3dev_golog_transitions:planned_step(search(E, M), S, E1, S1, X) :-
+ev3dev_golog_transitions:step_construct(search(E, M), S, E1, S1, X) :-
     (   is_options(M)
     ->  search_step(E, M, S, E1, S1, X)
     ;   search_step(E, [message(M)], S, E1, S1, X)
     ).
-ev3dev_golog_transitions:planned_step(search(E, M, Options), S, E1, S1, X) :-
+ev3dev_golog_transitions:step_construct(search(E, M, Options), S,
+                                        E1, S1, X) :-
     search_step(E, [message(M)|Options], S, E1, S1, X).
-ev3dev_golog_transitions:planned_step(searchc(E), S, Plan, S, X) :-
+ev3dev_golog_transitions:step_construct(searchn(E, _), S, E1, S1, X) :-
+    search_step(E, [], S, E1, S1, X).
+ev3dev_golog_transitions:step_construct(searchc(E), S, Plan, S, X) :-
     conditional_plan(E, S, Plan, X).
-ev3dev_golog_transitions:planned_step('$path'(E, Path, At, Options), S,
-                                      E1, S1, X) :-
+ev3dev_golog_transitions:step_construct(searchc(E, _), S, Plan, S, X) :-
+    conditional_plan(E, S, Plan, X).
+ev3dev_golog_transitions:step_construct('$path'(E, Path, At, Options), S,
+                                        E1, S1, X) :-
     path_step(E, Path, At-Options, S, E1, S1, X).
-ev3dev_golog_transitions:planned_step(achieve(Goal), S, E1, S1, X) :-
-    achieve_step(Goal, S, E1, S1, X).
+ev3dev_golog_transitions:step_construct(achieve(Goal), S, E1, S1, X) :-
+    (   rules(X, M)
+    ->  rule_of(M, Goal, Guard, Body),
+        holds(Guard, S, X),
+        step(Body, S, E1, S1, X)
+    ;   \+ holds(Goal, S, X),
+        achieve_step(Goal, S, E1, S1, X)
+    ).
 
-ev3dev_golog_transitions:planned_final('$path'(E, Path, At, _), S, X) :-
+ev3dev_golog_transitions:ends('$path'(E, Path, At, _), S, X) :-
     path_is_final(E, Path, At, S, X).
+ev3dev_golog_transitions:ends(achieve(Goal), S, X) :-
+    (   rules(X, M)
+    ->  rule_of(M, Goal, Guard, Body),
+        holds(Guard, S, X),
+        is_final(Body, S, X)
+    ;   holds(Goal, S, X)
+    ).
+
+rules(X, M) :-
+    context_module(X, M),
+    has_clauses(M, rule(_, _, _)).
+
+rule_of(M, Goal, Guard, Body) :-
+    Rule = rule(Goal, Guard, Body),
+    M:Rule.
 
 is_options(Options) :-
     is_list(Options),
@@ -310,7 +336,8 @@ told(Options, What, _) :-
 %
 %   Plan is a program of actions and if/3 that runs Program to its end from
 %   Situation, whatever the conditions of its branch/1 turn out to be. It
-%   keeps each sim/1, so that a search around it can follow it.
+%   keeps each sim/1, so that a search around it can follow it, and holds
+%   together what an atomic/1 does.
 
 conditional_plan(E, S, Plan, X0) :-
     offline(X0, [], X),
@@ -340,11 +367,16 @@ planned_after(commit, E, S, _, Plan, X) :-
     ->  true
     ;   throw('$golog_committed')
     ).
-planned_after(test(P), E, S, _, [?(P)|Plan], X) :-
+planned_after(test(P), E, S, _, Plan, X) :-
     !,
-    planned(E, S, Plan, X).
-planned_after(A, E, _, S, [A|Plan], X) :-
-    planned(E, S, Plan, X).
+    planned_after(?(P), E, S, S, Plan, X).
+planned_after(A, E, _, S, Plan, X) :-
+    planned(E, S, Plan1, X),
+    (   Plan1 = [B|Bs],
+        in_atom(E, S, X)
+    ->  Plan = [atomic([A, B])|Bs]
+    ;   Plan = [A|Plan1]
+    ).
 
                 /*******************************
                 *           ACHIEVE            *

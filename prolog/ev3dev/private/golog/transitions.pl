@@ -8,26 +8,25 @@
                                         % +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
                                         % +Context
-            simplified/2,               % +Program0, -Program
+            in_atom/3,                  % +Program, +Situation, +Context
+            simplified/3,               % +Program0, -Program, +Context
             program_shown/2             % +Program0, -Program
           ]).
 :- use_module(library(lists),
-              [append/3, member/2, nth1/3, select/3]).
-:- use_module(library(random), [random_between/3]).
+              [append/3, member/2, select/3, select/4]).
+:- use_module(library(random), [random_permutation/2]).
 :- use_module(context,
               [ blocked/2, context_module/2, context_option/2, entered/4,
-                stepping/2, triggered/3
+                noted/2, recorded_step/3, stepping/2
               ]).
 :- use_module(domain,
               [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
                 holds/3, marked/3, situation_count/2, situation_history/2
               ]).
 :- use_module(programs,
-              [construct/1, fresh/4, mapped/3, weak_construct/1]).
+              [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
-              [ has_clauses/2, is_exogenous/2, is_kind/3, located/3,
-                proc_body/3
-              ]).
+              [is_exogenous/2, is_kind/3, located/3, proc_body/3]).
 :- use_module('../errors', [throw_error/3]).
 
 /** <module> The language: which steps a program can take
@@ -38,17 +37,12 @@ situation calculus, AI 121 (2000), for the constructs of Golog and ConGolog;
 De Giacomo, Lesperance, Levesque, Sardina: IndiGolog (2009) for those of
 IndiGolog. if/3 and while/2 make their test and the first step of their body
 one step, as there. A condition with free variables has a step for each of its
-solutions.
+solutions. search.pl adds the constructs that look ahead.
 */
 
 :- multifile
-    planned_step/5,
-    planned_final/3.
-
-%   planned_step(+Program0, +Situation0, -Program, -Situation, +Context)
-%   is nondet.
-%   planned_final(+Program, +Situation, +Context) is semidet.
-%   Trans and Final of the constructs that look ahead, in search.pl
+    step_construct/5,
+    ends/3.
 
                 /*******************************
                 *             FINAL            *
@@ -65,147 +59,85 @@ is_final(E, S, X) :-
 final(E, S, X) :-
     (   var(E)
     ->  unbound_program
+    ;   E = [First|Rest]
+    ->  is_final(First, S, X),
+        is_final(Rest, S, X)
     ;   construct(E)
     ->  final_construct(E, S, X)
     ;   context_module(X, M),
         domain_names(E, M)
-    ->  final_named(E, S, X, M)
+    ->  is_kind(proc, E, M),
+        proc_body(E, Body, M),
+        entered(final, E, X, X1),
+        final(Body, S, X1)
     ;   weak_construct(E)
-    ->  final_weak(E, S, X)
-    ;   context_module(X, M),
-        unknown_program(E, M)
+    ->  final_construct(E, S, X)
+    ;   unknown_program(E, X)
     ).
 
-final_named(E, S, X, M) :-
-    is_kind(proc, E, M),
-    proc_body(E, Body, M),
-    entered(final, E, X, X1),
-    final(Body, S, X1).
-
-final_construct([], _, _).
-final_construct([E|Es], S, X) :-
-    is_final(E, S, X),
-    is_final(Es, S, X).
-final_construct(ndet(A, B), S, X) :-
-    either_final(A, B, S, X).
-final_construct(rndet(A, B), S, X) :-
-    either_final(A, B, S, X).
-%   As in IndiGolog: either may take the steps, and both must agree to end.
-final_construct(wndet(A, B), S, X) :-
-    is_final(A, S, X),
-    is_final(B, S, X).
-final_construct(if(P, A, B), S, X) :-
-    (   holds(P, S, X)
-    *-> is_final(A, S, X)
-    ;   is_final(B, S, X)
+final_construct(E, S, X) :-
+    (   parts(E, Use, Es, _, _),
+        Use \== own
+    ->  all_final(Es, S, X)
+    ;   ends(E, S, X)
     ).
-final_construct(while(P, E), S, X) :-
-    (   \+ holds(P, S, X)
-    ->  true
-    ;   holds(P, S, X),
-        is_final(E, S, X)
-    ).
-final_construct(star(_), _, _).
-final_construct(star(_, _), _, _).
-final_construct(pi(Vs, E), S, X) :-
-    final_pick(Vs, E, S, X).
-final_construct(pi(V, D, E), S, X) :-
-    final_pick((V, D), E, S, X).
-final_construct(rpi(Vs, E), S, X) :-
-    final_pick(Vs, E, S, X).
-final_construct(rpi(V, D, E), S, X) :-
-    final_pick((V, D), E, S, X).
-final_construct(conc(A, B), S, X) :-
-    both_final(A, B, S, X).
-final_construct('$turn'(A, B), S, X) :-
-    both_final(A, B, S, X).
-final_construct(pconc(A, B), S, X) :-
-    both_final(A, B, S, X).
-final_construct(rconc(A, B), S, X) :-
-    both_final(A, B, S, X).
-final_construct(rconc(Es), S, X) :-
-    all_final(Es, S, X).
-final_construct(rrobin(Es), S, X) :-
-    all_final(Es, S, X).
-final_construct(iconc(_), _, _).
-final_construct(interrupt(_, _), _, _).
-final_construct(interrupt(_, _, _), _, _).
-final_construct(search(E), S, X) :-
-    is_final(E, S, X).
-final_construct(search(E, _), S, X) :-
-    is_final(E, S, X).
-final_construct(search(E, _, _), S, X) :-
-    is_final(E, S, X).
-final_construct(searchn(E, _), S, X) :-
-    is_final(E, S, X).
-final_construct(searchc(E), S, X) :-
-    is_final(E, S, X).
-final_construct(searchc(E, _), S, X) :-
-    is_final(E, S, X).
-final_construct('$path'(E, Path, At, Options), S, X) :-
-    planned_final('$path'(E, Path, At, Options), S, X).
-final_construct(gexec(C, E), S, X) :-
-    (   context_option(assume, X)
-    ->  is_final(E, S, X)
-    ;   final_guarded(C, E, S, X)
-    ).
-final_construct(gexec2(C, E), S, X) :-
-    final_guarded(C, E, S, X).
-final_construct(goal(Success, E, _, _), S, X) :-
-    (   holds(Success, S, X)
-    ->  true
-    ;   is_final(E, S, X)
-    ).
-final_construct(atomic(E), S, X) :-
-    is_final(E, S, X).
-final_construct('$atomic'(E), S, X) :-
-    is_final(E, S, X).
-final_construct(for(V, D, E), S, X) :-
-    for_program(V, D, E, S, X, Program),
-    is_final(Program, S, X).
-final_construct(exogint(E, _), S, X) :-
-    is_final(E, S, X).
-
-either_final(A, B, S, X) :-
-    (   is_final(A, S, X)
-    ->  true
-    ;   is_final(B, S, X)
-    ).
-
-both_final(A, B, S, X) :-
-    is_final(A, S, X),
-    is_final(B, S, X).
 
 all_final([], _, _).
 all_final([E|Es], S, X) :-
     is_final(E, S, X),
     all_final(Es, S, X).
 
-final_pick(Vs, E0, S, X) :-
+%   ends(+Program, +Situation, +Context) is nondet: Final of the constructs
+%   with a rule of their own
+
+ends([], _, _).
+ends(ndet(A, B), S, X) :-
+    (   is_final(A, S, X)
+    ;   is_final(B, S, X)
+    ).
+ends(rndet(A, B), S, X) :-
+    ends(ndet(A, B), S, X).
+ends(if(P, A, B), S, X) :-
+    (   holds(P, S, X)
+    *-> is_final(A, S, X)
+    ;   is_final(B, S, X)
+    ).
+ends(while(P, E), S, X) :-
+    (   \+ holds(P, S, X)
+    ;   holds(P, S, X),
+        is_final(E, S, X)
+    ).
+ends(star(_), _, _).
+ends(star(_, _), _, _).
+ends(pi(Vs, E0), S, X) :-
     fresh(Vs, E0, E, Choices),
     chosen(Choices, S, X),
     is_final(E, S, X).
-
-final_guarded(C, E, S, X) :-
+ends(pi(V, D, E), S, X) :-
+    ends(pi((V, D), E), S, X).
+ends(rpi(Vs, E), S, X) :-
+    ends(pi(Vs, E), S, X).
+ends(rpi(V, D, E), S, X) :-
+    ends(pi((V, D), E), S, X).
+ends(iconc(_), _, _).
+ends(interrupt(_, _), _, _).
+ends(interrupt(_, _, _), _, _).
+ends(gexec(C, E), S, X) :-
+    (   context_option(assume, X)
+    ->  is_final(E, S, X)
+    ;   ends(gexec2(C, E), S, X)
+    ).
+ends(gexec2(C, E), S, X) :-
     (   \+ holds(C, S, X)
-    ->  true
     ;   is_final(E, S, X)
     ).
-
-final_weak(achieve(Goal), S, X) :-
-    context_module(X, M),
-    (   has_clauses(M, rule(_, _, _))
-    ->  rule_of(M, Goal, Guard, Body),
-        holds(Guard, S, X),
-        is_final(Body, S, X)
-    ;   holds(Goal, S, X)
+ends(goal(Success, E, _, _), S, X) :-
+    (   holds(Success, S, X)
+    ;   is_final(E, S, X)
     ).
-final_weak(time(E, _), S, X) :-
-    is_final(E, S, X).
-final_weak(ttime(E, _), S, X) :-
-    is_final(E, S, X).
-final_weak(sync(Es), S, X) :-
-    all_final(Es, S, X).
+ends(for(V, D, E), S, X) :-
+    for_program(V, D, E, S, X, Es),
+    is_final(Es, S, X).
 
                 /*******************************
                 *             TRANS            *
@@ -225,9 +157,8 @@ step(E, S, E1, S1, X) :-
         domain_names(E, M)
     ->  step_named(E, S, E1, S1, X, M)
     ;   weak_construct(E)
-    ->  step_weak(E, S, E1, S1, X)
-    ;   context_module(X, M),
-        unknown_program(E, M)
+    ->  step_construct(E, S, E1, S1, X)
+    ;   unknown_program(E, X)
     ).
 
 %   The domain has a procedure or an action with this functor.
@@ -242,7 +173,8 @@ unbound_program :-
     throw_error(instantiation_error, _,
                 'a part of a program is still a variable when it is to run').
 
-unknown_program(E, M) :-
+unknown_program(E, X) :-
+    context_module(X, M),
     (   callable(E)
     ->  functor(E, Name, Arity),
         What = Name/Arity
@@ -254,17 +186,13 @@ unknown_program(E, M) :-
     throw_error(existence_error(golog_program, What), _, Text).
 
 step_named(E, S, E1, S1, X, M) :-
-    is_kind(proc, E, M),
-    (   is_kind(action, E, M)
-    ->  (   proc_step(E, S, E1, S1, X, M)
-        ;   action_step(E, S, E1, S1, X, M)
-        )
-    ;   !,
-        proc_step(E, S, E1, S1, X, M)
+    (   \+ is_kind(proc, E, M)
+    ->  action_step(E, S, E1, S1, X, M)
+    ;   \+ is_kind(action, E, M)
+    ->  proc_step(E, S, E1, S1, X, M)
+    ;   proc_step(E, S, E1, S1, X, M)
+    ;   action_step(E, S, E1, S1, X, M)
     ).
-step_named(E, S, E1, S1, X, M) :-
-    \+ is_kind(proc, E, M),
-    action_step(E, S, E1, S1, X, M).
 
 proc_step(E, S, E1, S1, X, M) :-
     proc_body(E, Body, M),
@@ -334,17 +262,30 @@ no_precondition(A, M) :-
 
 % Golog
 
+%   step_construct(+Program0, +Situation0, -Program, -Situation, +Context) is
+%   nondet: Trans of each construct
+
 step_construct([E|Es], S, E1, S1, X) :-
     (   Es == []
     ->  step(E, S, E1, S1, X)
-    ;   (   is_final(E, S, X),
-            step_rest(Es, S, E1, S1, X)
-        ;   step(E, S, E2, S1, X),
-            E1 = [E2|Es]
+    ;   is_final(E, S, X),
+        (   Es = [Last]
+        ->  step(Last, S, E1, S1, X)
+        ;   step(Es, S, E1, S1, X)
         )
+    ;   step(E, S, E2, S1, X),
+        E1 = [E2|Es]
     ).
-step_construct(?(P), S, E1, S1, X) :-
-    step_test(P, S, E1, S1, X).
+step_construct(?(P), S, [], S1, X) :-
+    (   P == wait_exog_action
+    ->  marked(wait, S, S1)
+    ;   P == printHistory
+    ->  situation_history(S, History),
+        print_message(informational, golog(history(History))),
+        S1 = S
+    ;   S1 = S,
+        holds(P, S, X)
+    ).
 step_construct(ndet(A, B), S, E1, S1, X) :-
     (   step(A, S, E1, S1, X)
     ;   step(B, S, E1, S1, X)
@@ -367,80 +308,53 @@ step_construct(star(E, N0), S, E1, S1, X) :-
     ->  E1 = E2
     ;   E1 = [E2, star(E, N)]
     ).
-step_construct(pi(Vs, E), S, E1, S1, X) :-
-    step_pick(Vs, E, S, E1, S1, X).
+step_construct(pi(Vs, E0), S, E1, S1, X) :-
+    fresh(Vs, E0, E, Choices),
+    chosen(Choices, S, X),
+    step(E, S, E1, S1, X).
 step_construct(pi(V, D, E), S, E1, S1, X) :-
     (   nonvar(V),
         V = r(V1)
-    ->  step_random_pick((V1, D), E, S, E1, S1, X)
-    ;   step_pick((V, D), E, S, E1, S1, X)
+    ->  step_construct(rpi((V1, D), E), S, E1, S1, X)
+    ;   step_construct(pi((V, D), E), S, E1, S1, X)
     ).
 
 % ConGolog
 
 step_construct(conc(A, B), S, E1, S1, X) :-
-    (   allowed(A, B, S, X),
-        step(A, S, A1, S1, X),
-        turned(X, A1, B, E1)
-    ;   allowed(B, A, S, X),
-        step(B, S, B1, S1, X),
-        E1 = conc(A, B1)
+    (   turn_taken(left, A, B, S, E1, S1, X)
+    ;   turn_taken(right, A, B, S, E1, S1, X)
     ).
 step_construct('$turn'(A, B), S, E1, S1, X) :-
-    (   allowed(B, A, S, X),
-        step(B, S, B1, S1, X),
-        E1 = conc(A, B1)
-    ;   allowed(A, B, S, X),
-        step(A, S, A1, S1, X),
-        turned(X, A1, B, E1)
+    (   turn_taken(right, A, B, S, E1, S1, X)
+    ;   turn_taken(left, A, B, S, E1, S1, X)
     ).
-step_construct(pconc(A, B), S, E1, S1, X) :-
-    (   allowed(A, B, S, X),
-        step(A, S, A1, S1, X)
-    *-> E1 = pconc(A1, B)
-    ;   allowed(B, A, S, X),
-        step(B, S, B1, S1, X),
-        E1 = pconc(A, B1)
-    ).
+step_construct(pconc(A, B), S, pconc(A1, B1), S1, X) :-
+    first_step([A, B], S, [A1, B1], S1, X).
 step_construct(iconc(E), S, E1, S1, X) :-
-    step(E, S, E2, S1, X),
-    turned(X, E2, iconc(E), E1).
+    turn_taken(left, E, iconc(E), S, E1, S1, X).
 step_construct(interrupt(P, E), S, [E1, interrupt(P, E)], S1, X) :-
     holds(P, S, X),
-    triggered(P, X, X1),
-    step(E, S, E1, S1, X1).
+    noted(interrupt(P), X),
+    step(E, S, E1, S1, X).
 step_construct(interrupt(Vs, P, E), S, [E1, interrupt(Vs, P, E)], S1, X) :-
     fresh(Vs, P-E, P1-E0, Choices),
     chosen(Choices, S, X),
     holds(P1, S, X),
-    triggered(P1, X, X1),
-    step(E0, S, E1, S1, X1).
+    noted(interrupt(P1), X),
+    step(E0, S, E1, S1, X).
 step_construct(prioritized_interrupts(Es), S, E1, S1, X) :-
     (   first_step(Es, S, Es1, S1, X)
     *-> E1 = prioritized_interrupts(Es1)
-    ;   \+ ( member(E, Es), in_atom(E, S, X) ),
+    ;   \+ in_atom(prioritized_interrupts(Es), S, X),
         S1 = S,
-        stopped(Es, E1)
+        stopped(Es, E1, X)
     ).
 step_construct(prioritized_interrupts_simple(Es), S, E1, S1, X) :-
     step_construct(prioritized_interrupts(Es), S, E1, S1, X).
 
 % IndiGolog
 
-step_construct(search(E), S, E1, S1, X) :-
-    planned_step(search(E), S, E1, S1, X).
-step_construct(search(E, M), S, E1, S1, X) :-
-    planned_step(search(E, M), S, E1, S1, X).
-step_construct(search(E, M, Options), S, E1, S1, X) :-
-    planned_step(search(E, M, Options), S, E1, S1, X).
-step_construct(searchn(E, _), S, E1, S1, X) :-
-    planned_step(search(E), S, E1, S1, X).
-step_construct(searchc(E), S, E1, S1, X) :-
-    planned_step(searchc(E), S, E1, S1, X).
-step_construct(searchc(E, _), S, E1, S1, X) :-
-    planned_step(searchc(E), S, E1, S1, X).
-step_construct('$path'(E, Path, At, Options), S, E1, S1, X) :-
-    planned_step('$path'(E, Path, At, Options), S, E1, S1, X).
 step_construct(gexec(C, E), S, E1, S1, X) :-
     (   context_option(assume, X)
     ->  done(e(C, true), S, S2, X),
@@ -467,182 +381,159 @@ step_construct(wndet(A, B), S, E1, S1, X) :-
     ;   step(B, S, E1, S1, X)
     ).
 step_construct(rndet(A, B), S, E1, S1, X) :-
-    shuffled([A, B], Es),
+    random_permutation([A, B], Es),
     member(E, Es),
     step(E, S, E1, S1, X).
-step_construct(rpi(Vs, E), S, E1, S1, X) :-
-    step_random_pick(Vs, E, S, E1, S1, X).
-step_construct(rpi(V, D, E), S, E1, S1, X) :-
-    step_random_pick((V, D), E, S, E1, S1, X).
-step_construct(rconc(A, B), S, E1, S1, X) :-
-    shuffled([1, 2], Order),
-    member(Which, Order),
-    (   Which == 1
-    ->  allowed(A, B, S, X),
-        step(A, S, A1, S1, X),
-        E1 = rconc(A1, B)
-    ;   allowed(B, A, S, X),
-        step(B, S, B1, S1, X),
-        E1 = rconc(A, B1)
-    ).
-step_construct(rconc(Es), S, rconc([E1|Rest]), S1, X) :-
-    numbers(Es, 1, Numbers),
-    shuffled(Numbers, Order),
-    member(Number, Order),
-    nth1_rest(Number, Es, E, Rest),
-    all_allowed(Rest, E, S, X),
+step_construct(rpi(Vs, E0), S, E1, S1, X) :-
+    fresh(Vs, E0, E, Choices),
+    findall(Choices, chosen(Choices, S, X), All0),
+    random_permutation(All0, All),
+    member(Choices, All),
     step(E, S, E1, S1, X).
-step_construct(rrobin(Es), S, rrobin(Es1), S1, X) :-
-    select(E, Es, Rest),
-    all_allowed(Rest, E, S, X),
-    step(E, S, E1, S1, X),
-    append(Rest, [E1], Es1).
+step_construct(rpi(V, D, E), S, E1, S1, X) :-
+    step_construct(rpi((V, D), E), S, E1, S1, X).
+step_construct(rconc(A, B), S, rconc(A1, B1), S1, X) :-
+    random_permutation([left, right], Sides),
+    member(Side, Sides),
+    side_step(Side, A, B, S, A1, B1, S1, X).
+step_construct(rconc(Es0), S, rconc([E|Es]), S1, X) :-
+    random_permutation(Es0, Es1),
+    one_step(Es1, S, E, Es, S1, X).
+step_construct(rrobin(Es0), S, rrobin(Es), S1, X) :-
+    one_step(Es0, S, E, Rest, S1, X),
+    append(Rest, [E], Es).
 step_construct(atomic(E), S, '$atomic'(E1), S1, X) :-
     step(E, S, E1, S1, X).
 step_construct('$atomic'(E), S, '$atomic'(E1), S1, X) :-
     step(E, S, E1, S1, X).
 step_construct(for(V, D, E), S, E1, S1, X) :-
-    for_program(V, D, E, S, X, Program),
-    step(Program, S, E1, S1, X).
+    for_program(V, D, E, S, X, Es),
+    step(Es, S, E1, S1, X).
 step_construct(??(P), S, [], S1, X) :-
     holds(P, S, X),
     marked(test(P), S, S1).
 step_construct(exogint(E, P), S, exogint(E1, P), S1, X) :-
     step(E, S, E1, S1, X).
 
-%   What follows a first part that may end
+% What the domain may define otherwise
 
-step_rest(Es, S, E1, S1, X) :-
-    (   Es = [E]
-    ->  step(E, S, E1, S1, X)
-    ;   step(Es, S, E1, S1, X)
-    ).
+step_construct(wait, S, [], S1, _) :-
+    marked(wait, S, S1).
+step_construct(wait_exog, S, [], S1, _) :-
+    marked(wait, S, S1).
+step_construct(commit, S, [], S1, _) :-
+    marked(commit, S, S1).
+step_construct(branch(P), S, [], S1, _) :-
+    marked(branch(P), S, S1).
+step_construct(abort, S, [], S1, _) :-
+    marked(abort, S, S1).
+step_construct(abort(P), S, [], S1, X) :-
+    done(e(P, false), S, S1, X).
+step_construct(e(F0, V0), S, [], S1, X) :-
+    evaluated_arguments(F0, F, S, X),
+    evaluated_arguments(v(V0), v(V), S, X),
+    done(e(F, V), S, S1, X).
+step_construct(set(F0), S, [], S1, X) :-
+    evaluated_arguments(F0, F, S, X),
+    done(set(F), S, S1, X).
+step_construct(unset(F0), S, [], S1, X) :-
+    evaluated_arguments(F0, F, S, X),
+    done(unset(F), S, S1, X).
+step_construct(sim(A0), S, [], S1, X) :-
+    evaluated_arguments(A0, A, S, X),
+    done(sim(A), S, S1, X).
+step_construct(time(E, Seconds), S, E1, S1, X) :-
+    catch(call_with_time_limit(Seconds, once(step(E, S, E1, S1, X))),
+          time_limit_exceeded, fail).
+step_construct(ttime(E, Seconds), S, ttime(E1, Seconds), S1, X) :-
+    step_construct(time(E, Seconds), S, E1, S1, X).
+step_construct(sync(Es), S, sync(Es1), S1, X) :-
+    together(Es, S, Es1, S1, _, X).
 
-step_test(P, S, E1, S1, X) :-
-    (   P == wait_exog_action
-    ->  E1 = [],
-        marked(wait, S, S1)
-    ;   P == printHistory
-    ->  situation_history(S, History),
-        print_message(informational, golog(history(History))),
-        E1 = [],
-        S1 = S
-    ;   E1 = [],
-        S1 = S,
-        holds(P, S, X)
-    ).
-
-step_pick(Vs, E0, S, E1, S1, X) :-
-    fresh(Vs, E0, E, Choices),
-    chosen(Choices, S, X),
-    step(E, S, E1, S1, X).
-
-step_random_pick(Vs, E0, S, E1, S1, X) :-
-    fresh(Vs, E0, E, Choices),
-    findall(Choices, chosen(Choices, S, X), All0),
-    shuffled(All0, All),
-    member(Choices, All),
-    step(E, S, E1, S1, X).
-
-for_program(V, D, E, S, X, Program) :-
+for_program(V, D, E, S, X, Es) :-
     findall(Value, domain_value(Value, D, S, X), Values),
-    for_each(Values, V, E, Program).
+    for_each(Values, V, E, Es).
 
 for_each([], _, _, []).
 for_each([Value|Values], V, E0, [E|Es]) :-
     fresh(V, E0, E, [Value-_]),
     for_each(Values, V, E0, Es).
 
+% Concurrency: while an atomic/1 is under way, only its program takes steps
+
+%   side_step(+Side, +A0, +B0, +S0, -A, -B, -S, +X) is nondet: the program on
+%   Side takes a step.
+
+side_step(left, A0, B, S0, A, B, S, X) :-
+    \+ in_atom(B, S0, X),
+    step(A0, S0, A, S, X).
+side_step(right, A, B0, S0, A, B, S, X) :-
+    \+ in_atom(A, S0, X),
+    step(B0, S0, B, S, X).
+
 %   An online run takes turns: after a step of the first program the second
 %   one comes first. Offline, all orders are enumerated anyway.
 
-turned(X, A, B, E) :-
-    (   context_option(online, X)
+turn_taken(Side, A0, B0, S0, E, S, X) :-
+    side_step(Side, A0, B0, S0, A, B, S, X),
+    (   Side == left,
+        context_option(online, X)
     ->  E = '$turn'(A, B)
     ;   E = conc(A, B)
     ).
 
-%   allowed(+Program, +Other, +Situation, +Context): Program may take a step
-%   now, because Other is not in the middle of an atomic/1.
+%   one_step(+Es, +S0, -E, -Rest, -S, +X) is nondet: one of Es takes a step to
+%   E, and Rest are the others.
 
-allowed(_, Other, S, X) :-
-    \+ in_atom(Other, S, X).
+one_step(Es, S0, E, Rest, S, X) :-
+    select(E0, Es, Rest),
+    \+ ( member(Other, Rest), in_atom(Other, S0, X) ),
+    step(E0, S0, E, S, X).
 
-all_allowed([], _, _, _).
-all_allowed([Other|Others], E, S, X) :-
-    allowed(E, Other, S, X),
-    all_allowed(Others, E, S, X).
+%   first_step(+Es0, +S0, -Es, -S, +X) is nondet: the first of Es0 that can
+%   take a step takes it.
+
+first_step(Es0, S0, Es, S, X) :-
+    (   select(E0, Es0, E, Es1),
+        in_atom(E0, S0, X)
+    ->  Es = Es1,
+        step(E0, S0, E, S, X)
+    ;   first_of(Es0, S0, Es, S, X)
+    ).
+
+first_of([E0|Es0], S0, [E|Es], S, X) :-
+    (   step(E0, S0, E1, S1, X)
+    *-> E = E1,
+        Es = Es0,
+        S = S1
+    ;   E = E0,
+        noted(above(E0), X),
+        first_of(Es0, S0, Es, S, X)
+    ).
+
+%!  in_atom(+Program, +Situation, +Context) is semidet.
+%
+%   True if an atomic/1 in Program is under way, and Program may not end.
 
 in_atom(E, S, X) :-
-    atom_in(E, Inner),
-    \+ is_final(Inner, S, X),
-    !.
-
-%   atom_in(+Program, -Inner) is nondet: atomic(Inner) is under way in a part
-%   of Program that may take a step next.
-
-atom_in(E, Inner) :-
     nonvar(E),
-    atom_in_(E, Inner).
-
-atom_in_('$atomic'(E), E).
-atom_in_([E|_], Inner) :-
-    atom_in(E, Inner).
-atom_in_(conc(A, B), Inner) :-
-    atom_in_list([A, B], Inner).
-atom_in_('$turn'(A, B), Inner) :-
-    atom_in_list([A, B], Inner).
-atom_in_(pconc(A, B), Inner) :-
-    atom_in_list([A, B], Inner).
-atom_in_(rconc(A, B), Inner) :-
-    atom_in_list([A, B], Inner).
-atom_in_(rconc(Es), Inner) :-
-    atom_in_list(Es, Inner).
-atom_in_(rrobin(Es), Inner) :-
-    atom_in_list(Es, Inner).
-atom_in_(prioritized_interrupts(Es), Inner) :-
-    atom_in_list(Es, Inner).
-atom_in_(gexec(_, E), Inner) :-
-    atom_in(E, Inner).
-atom_in_(gexec2(_, E), Inner) :-
-    atom_in(E, Inner).
-atom_in_('$path'(E, _, _, _), Inner) :-
-    atom_in(E, Inner).
-atom_in_(goal(_, E, _, _), Inner) :-
-    atom_in(E, Inner).
-
-atom_in_list(Es, Inner) :-
-    member(E, Es),
-    atom_in(E, Inner).
-
-% Interrupts
-
-%   first_step(+Es, +S, -Es1, -S1, +X): the first of Es that can take a step
-%   takes it, unless another is in the middle of an atomic/1.
-
-first_step(Es, S, Es1, S1, X) :-
-    (   append(Before, [E|After], Es),
-        in_atom(E, S, X)
-    ->  step(E, S, E1, S1, X),
-        append(Before, [E1|After], Es1)
-    ;   first_of(Es, S, Es1, S1, X)
-    ).
-
-first_of([E|Es], S, Es1, S1, X) :-
-    (   step(E, S, E1, S2, X)
-    *-> Es1 = [E1|Es],
-        S1 = S2
-    ;   Es1 = [E|Es2],
-        first_of(Es, S, Es2, S1, X)
-    ).
+    (   E = '$atomic'(_)
+    ;   (   E = '$path'(Part, _, _, _)
+        ;   parts(E, _, Parts, _, _),
+            member(Part, Parts)
+        ),
+        in_atom(Part, S, X)
+    ),
+    \+ is_final(E, S, X),
+    !.
 
 %   When none of them can take a step, the interrupts stop. What one of them
 %   has begun is still to be ended.
 
-stopped([], []).
-stopped([E0|Es0], E) :-
-    without_interrupts(E0, E1),
-    stopped(Es0, E2),
+stopped([], [], _).
+stopped([E0|Es0], E, X) :-
+    without_interrupts(E0, E1, X),
+    stopped(Es0, E2, X),
     (   E1 == []
     ->  E = E2
     ;   E2 == []
@@ -650,166 +541,40 @@ stopped([E0|Es0], E) :-
     ;   E = pconc(E1, E2)
     ).
 
-without_interrupts(E0, E) :-
+without_interrupts(E0, E, X) :-
     (   var(E0)
     ->  E = E0
-    ;   E0 = interrupt(_, _)
+    ;   ( E0 = interrupt(_, _) ; E0 = interrupt(_, _, _) )
     ->  E = []
-    ;   E0 = interrupt(_, _, _)
-    ->  E = []
-    ;   E0 = [E1|Es1]
-    ->  without_interrupts(E1, E2),
-        without_interrupts(Es1, Es2),
-        (   E2 == []
-        ->  E = Es2
-        ;   E = [E2|Es2]
+    ;   E0 = [First0|Rest0]
+    ->  without_interrupts(First0, First, X),
+        without_interrupts(Rest0, Rest, X),
+        (   First == []
+        ->  E = Rest
+        ;   E = [First|Rest]
         )
-    ;   E0 = conc(A0, B0)
-    ->  without_interrupts(A0, A),
-        without_interrupts(B0, B),
-        E = conc(A, B)
-    ;   E0 = pconc(A0, B0)
-    ->  without_interrupts(A0, A),
-        without_interrupts(B0, B),
-        E = pconc(A, B)
+    ;   E0 \= prioritized_interrupts(_),
+        parts(E0, Use, Es0, Es, E1),
+        Use \== first,
+        is_construct(E0, X)
+    ->  all_without_interrupts(Es0, Es, X),
+        E = E1
     ;   E = E0
     ).
 
-%!  is_preempted(+Program0, +Program, +Situation, +Context) is semidet.
-%
-%   Program0 has taken a step to Program. True if in Situation a part of
-%   Program0 with a higher priority than the one that took the step can take
-%   a step, too. Not if the step is part of an atomic/1.
+all_without_interrupts([], [], _).
+all_without_interrupts([E0|Es0], [E|Es], X) :-
+    without_interrupts(E0, E, X),
+    all_without_interrupts(Es0, Es, X).
 
-is_preempted(E0, E, S, X) :-
-    \+ ( atom_in(E, Inner),
-         \+ ( atom_in(E0, Inner0), Inner0 =@= Inner ) ),
-    preempted_by(E0, E, S, X),
-    !.
+%   Program is a construct, and not what the domain means by its name.
 
-preempted_by(E0, E, S, X) :-
-    nonvar(E0),
-    preempted(E0, E, S, X).
-
-preempted([A0|As], E, S, X) :-
-    (   As == []
-    ->  preempted_by(A0, E, S, X)
-    ;   nonvar(E),
-        E = [A|Bs],
-        Bs =@= As
-    ->  preempted_by(A0, A, S, X)
-    ;   preempted_by(As, E, S, X)
+is_construct(E, X) :-
+    (   construct(E)
+    ->  true
+    ;   context_module(X, M),
+        \+ domain_names(E, M)
     ).
-preempted(conc(A0, B0), E, S, X) :-
-    preempted_in_pair(A0, B0, E, S, X).
-preempted('$turn'(A0, B0), E, S, X) :-
-    preempted_in_pair(A0, B0, E, S, X).
-preempted(rconc(A0, B0), E, S, X) :-
-    preempted_in_pair(A0, B0, E, S, X).
-preempted(pconc(A0, B0), pconc(A, B), S, X) :-
-    (   A0 =@= A
-    ->  (   can_step(A0, S, X)
-        ->  true
-        ;   preempted_by(B0, B, S, X)
-        )
-    ;   preempted_by(A0, A, S, X)
-    ).
-preempted(prioritized_interrupts(Es0), prioritized_interrupts(Es), S, X) :-
-    preempted_in_list(Es0, Es, S, X).
-preempted(gexec(C, E0), gexec(C, E), S, X) :-
-    preempted_by(E0, E, S, X).
-preempted(gexec2(C, E0), gexec2(C, E), S, X) :-
-    preempted_by(E0, E, S, X).
-preempted(goal(P, E0, F, R), goal(P, E, F, R), S, X) :-
-    preempted_by(E0, E, S, X).
-preempted(interrupt(_, B0), [B|_], S, X) :-
-    preempted_by(B0, B, S, X).
-preempted(while(_, B0), [B|_], S, X) :-
-    preempted_by(B0, B, S, X).
-preempted(if(P, A0, B0), E, S, X) :-
-    (   holds(P, S, X)
-    ->  preempted_by(A0, E, S, X)
-    ;   preempted_by(B0, E, S, X)
-    ).
-preempted(E0, E, S, X) :-
-    callable(E0),
-    context_module(X, M),
-    is_kind(proc, E0, M),
-    proc_body(E0, Body, M),
-    entered(preempted, E0, X, X1),
-    preempted_by(Body, E, S, X1).
-
-preempted_in_pair(A0, B0, E, S, X) :-
-    arg(1, E, A),
-    arg(2, E, B),
-    (   A0 =@= A
-    ->  preempted_by(B0, B, S, X)
-    ;   preempted_by(A0, A, S, X)
-    ).
-
-preempted_in_list([E0|Es0], [E|Es], S, X) :-
-    (   E0 =@= E
-    ->  (   can_step(E0, S, X)
-        ->  true
-        ;   preempted_in_list(Es0, Es, S, X)
-        )
-    ;   preempted_by(E0, E, S, X)
-    ).
-
-can_step(E, S, X) :-
-    stepping(X, X1),
-    \+ \+ step(E, S, _, _, X1).
-
-% What the domain may define otherwise
-
-step_weak(wait, S, [], S1, _) :-
-    marked(wait, S, S1).
-step_weak(wait_exog, S, [], S1, _) :-
-    marked(wait, S, S1).
-step_weak(commit, S, [], S1, _) :-
-    marked(commit, S, S1).
-step_weak(branch(P), S, [], S1, _) :-
-    marked(branch(P), S, S1).
-step_weak(abort, S, [], S1, _) :-
-    marked(abort, S, S1).
-step_weak(abort(P), S, [], S1, X) :-
-    done(e(P, false), S, S1, X).
-step_weak(e(F0, V0), S, [], S1, X) :-
-    evaluated_arguments(F0, F, S, X),
-    evaluated_arguments(v(V0), v(V), S, X),
-    done(e(F, V), S, S1, X).
-step_weak(set(F0), S, [], S1, X) :-
-    evaluated_arguments(F0, F, S, X),
-    done(set(F), S, S1, X).
-step_weak(unset(F0), S, [], S1, X) :-
-    evaluated_arguments(F0, F, S, X),
-    done(unset(F), S, S1, X).
-step_weak(sim(A0), S, [], S1, X) :-
-    evaluated_arguments(A0, A, S, X),
-    done(sim(A), S, S1, X).
-step_weak(achieve(Goal), S, E1, S1, X) :-
-    context_module(X, M),
-    (   has_clauses(M, rule(_, _, _))
-    ->  rule_of(M, Goal, Guard, Body),
-        holds(Guard, S, X),
-        step(Body, S, E1, S1, X)
-    ;   \+ holds(Goal, S, X),
-        planned_step(achieve(Goal), S, E1, S1, X)
-    ).
-step_weak(time(E, Seconds), S, E1, S1, X) :-
-    step_in_time(E, Seconds, S, E1, S1, X).
-step_weak(ttime(E, Seconds), S, ttime(E1, Seconds), S1, X) :-
-    step_in_time(E, Seconds, S, E1, S1, X).
-step_weak(sync(Es), S, sync(Es1), S1, X) :-
-    together(Es, S, Es1, S1, _, X).
-
-step_in_time(E, Seconds, S, E1, S1, X) :-
-    catch(call_with_time_limit(Seconds, once(step(E, S, E1, S1, X))),
-          time_limit_exceeded, fail).
-
-rule_of(M, Goal, Guard, Body) :-
-    Rule = rule(Goal, Guard, Body),
-    M:Rule.
 
 %   All programs take the same action; tests before it are each one's own.
 
@@ -833,33 +598,30 @@ to_action(E, S, E1, S1, A, X) :-
         S1 = S2
     ).
 
-% Chance
+%!  is_preempted(+Program0, +Program, +Situation, +Context) is semidet.
+%
+%   Program0 has taken the step to Program that Context has recorded. True if
+%   in Situation a part with a higher priority than the one that took the step
+%   can take a step, too. Not if the step is part of an atomic/1.
 
-shuffled(List, Shuffled) :-
-    keyed(List, Keyed0),
-    keysort(Keyed0, Keyed),
-    without_keys(Keyed, Shuffled).
+is_preempted(E0, E, S, X) :-
+    \+ ( atom_in(E, Inner),
+         \+ ( atom_in(E0, Inner0), Inner0 =@= Inner ) ),
+    recorded_step(X, _, Notes),
+    stepping(X, X1),
+    member(above(Higher), Notes),
+    \+ \+ step(Higher, S, _, _, X1),
+    !.
 
-keyed([], []).
-keyed([X|Xs], [Key-X|Ys]) :-
-    random_between(0, 1000000000, Key),
-    keyed(Xs, Ys).
-
-without_keys([], []).
-without_keys([_-X|Xs], [X|Ys]) :-
-    without_keys(Xs, Ys).
-
-numbers([], _, []).
-numbers([_|Xs], N, [N|Ns]) :-
-    N1 is N+1,
-    numbers(Xs, N1, Ns).
-
-nth1_rest(N, List, X, Rest) :-
-    nth1(N, List, X),
-    N0 is N-1,
-    length(Before, N0),
-    append(Before, [_|After], List),
-    append(Before, After, Rest).
+atom_in(E, Inner) :-
+    nonvar(E),
+    (   E = '$atomic'(Inner)
+    ;   (   E = '$path'(Part, _, _, _)
+        ;   parts(E, _, Parts, _, _),
+            member(Part, Parts)
+        ),
+        atom_in(Part, Inner)
+    ).
 
                 /*******************************
                 *              RUN             *
@@ -872,7 +634,7 @@ nth1_rest(N, List, X, Rest) :-
 %   steps which lead elsewhere are given up.
 
 run(E0, S0, S, Length, X) :-
-    simplified(E0, E),
+    simplified(E0, E, X),
     (   E == []
     ->  S = S0
     ;   (   is_final(E, S0, X),
@@ -893,56 +655,36 @@ on_the_way(at(Count, Histories), S) :-
     \+ \+ ( length(Newer, Skip),
             append(Newer, History, Wanted) ).
 
-%!  simplified(+Program0, -Program) is det.
+%!  simplified(+Program0, -Program, +Context) is det.
 %
 %   Program is Program0 without the empty programs that actions and tests have
 %   left where the next step may begin. So a step of Program always makes a
 %   difference to it.
 
-simplified(E0, E) :-
-    (   nonvar(E0),
-        simpler(E0, E1)
-    ->  E = E1
+simplified(E0, E, X) :-
+    (   var(E0)
+    ->  E = E0
+    ;   E0 = [First0|Rest]
+    ->  simplified(First0, First, X),
+        (   First \== []
+        ->  E = [First|Rest]
+        ;   Rest = [Last]
+        ->  simplified(Last, E, X)
+        ;   simplified(Rest, E, X)
+        )
+    ;   parts(E0, _, Es0, Es, E1),
+        is_construct(E0, X)
+    ->  all_simplified(Es0, Es, X),
+        E = E1
+    ;   E0 = '$path'(_, [], _, _)
+    ->  E = []
     ;   E = E0
     ).
 
-simpler([A0|As], E) :-
-    simplified(A0, A),
-    (   A == []
-    ->  (   As = [B]
-        ->  simplified(B, E)
-        ;   simplified(As, E)
-        )
-    ;   E = [A|As]
-    ).
-simpler(conc(A0, B0), conc(A, B)) :-
-    simplified(A0, A),
-    simplified(B0, B).
-simpler('$turn'(A0, B0), '$turn'(A, B)) :-
-    simplified(A0, A),
-    simplified(B0, B).
-simpler(pconc(A0, B0), pconc(A, B)) :-
-    simplified(A0, A),
-    simplified(B0, B).
-simpler(rconc(A0, B0), rconc(A, B)) :-
-    simplified(A0, A),
-    simplified(B0, B).
-simpler(prioritized_interrupts(Es0), prioritized_interrupts(Es)) :-
-    all_simplified(Es0, Es).
-simpler(gexec(C, E0), gexec(C, E)) :-
-    simplified(E0, E).
-simpler(gexec2(C, E0), gexec2(C, E)) :-
-    simplified(E0, E).
-simpler(goal(P, E0, F, R), goal(P, E, F, R)) :-
-    simplified(E0, E).
-simpler('$path'(_, [], _, _), []).
-simpler('$atomic'(E0), '$atomic'(E)) :-
-    simplified(E0, E).
-
-all_simplified([], []).
-all_simplified([E0|Es0], [E|Es]) :-
-    simplified(E0, E),
-    all_simplified(Es0, Es).
+all_simplified([], [], _).
+all_simplified([E0|Es0], [E|Es], X) :-
+    simplified(E0, E, X),
+    all_simplified(Es0, Es, X).
 
 %!  program_shown(+Program0, -Program) is det.
 %
@@ -952,15 +694,11 @@ all_simplified([E0|Es0], [E|Es]) :-
 program_shown(E0, E) :-
     (   \+ compound(E0)
     ->  E = E0
-    ;   E0 = '$turn'(A0, B0)
-    ->  program_shown(A0, A),
-        program_shown(B0, B),
-        E = conc(A, B)
-    ;   E0 = '$atomic'(A0)
-    ->  program_shown(A0, A),
-        E = atomic(A)
-    ;   E0 = '$path'(A0, _, _, _)
-    ->  program_shown(A0, A),
-        E = search(A)
+    ;   shown(E0, E1)
+    ->  program_shown(E1, E)
     ;   mapped(program_shown, E0, E)
     ).
+
+shown('$turn'(A, B), conc(A, B)).
+shown('$atomic'(E), atomic(E)).
+shown('$path'(E, _, _, _), search(E)).

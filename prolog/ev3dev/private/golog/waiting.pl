@@ -146,7 +146,7 @@ loaded :-
 
 clock(Robot, Seconds) :-
     (   on_robot_time(Robot)
-    ->  ev3dev_native:now_(Seconds)
+    ->  ev3dev_time:ev3_time(Seconds)
     ;   get_time(Seconds)
     ).
 

@@ -196,7 +196,7 @@ uncertainty([DX, DY], Deviation) :-
     ;   Deviation = 0
     ).
 
-%   What stops the robot and was not seen is an obstacle, too: then back. But
+%   An unseen thing that stops the robot is an obstacle, too: then back. But
 %   where it may be in the middle of the cell already, it ran into what is
 %   behind.
 
