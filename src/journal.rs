@@ -1,14 +1,16 @@
 //! `prolog/ev3dev/journal.pl`, `private/causes.pl`: what was done, and why.
 use crate::glue::call::Call;
 use crate::glue::places::places_term;
+use crate::glue::state::chosen_devices;
 use crate::glue::terms::unify_atom;
+use ev3_driver::Registry;
 use ev3_driver::course::{Command, DriveOptions, Leg};
 use ev3_driver::journal::{Act, Course, Entry, LightChange, MotorCommand, Name};
 use ev3_driver::journal::{SoundCommand, origin, set_cause};
 use ev3_driver::lock::locked;
 use std::collections::BTreeSet;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 use swipl::prelude::*;
 
@@ -67,6 +69,34 @@ natives! {
             })
         }
     }
+
+    /// journal_new_(-Done): terms `done(Time, Act, Cause)`, what was done since the last call,
+    /// in its order.
+    semidet fn "journal_new_"(context, done) {
+        let call = Call::of(context, "view", 1);
+        let term = |entry: &Entry| {
+            let maker = Maker(&call);
+            let (time, cause) = (seconds(entry.time), u64::from(entry.origin.cause));
+            let parts = [maker.number(time)?, maker.act(&entry.act)?, maker.number(cause)?];
+            maker.compound("done", &parts)
+        };
+        let terms = new_entries().iter().map(term).collect::<PrologResult<Vec<_>>>()?;
+        done.unify(terms.as_slice())
+    }
+}
+
+/// How far `journal_new_` has come: in the journal of which devices, and how many entries.
+static SEEN: Mutex<(Weak<Registry>, u64)> = Mutex::new((Weak::new(), 0));
+
+/// What was done since the last call. Asks no device.
+fn new_entries() -> Vec<Entry> {
+    let Some(devices) = chosen_devices() else { return Vec::new() };
+    let mut seen = locked(&SEEN);
+    let these = Arc::downgrade(&devices);
+    let after = if these.ptr_eq(&seen.0) { seen.1 } else { 0 };
+    let (entries, count) = devices.journal().after(after);
+    *seen = (these, count);
+    entries
 }
 
 /// A whole number of nanoseconds, divided once: so it is written with no more digits than

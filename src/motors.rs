@@ -2,6 +2,7 @@
 use crate::driver::{class_of, unify_port};
 use crate::glue::call::{Call, ListedDevices};
 use crate::glue::error::wrong_value;
+use crate::glue::state::chosen_devices;
 use crate::glue::terms::{unify_atom, unify_value};
 use crate::glue::waiting;
 use ev3_driver::device::retry;
@@ -178,6 +179,15 @@ natives! {
         call(motors) => {
             next_measured(&Call::of(context, "motor_speed", 2), motors, "speed", port, speed)
         }
+    }
+
+    /// motor_counts_(+Port, +Constant, -Counts): `max_speed`, or `count_per_rot` with the gear,
+    /// of a motor of which the driver has read it. Asks no device.
+    semidet fn "motor_counts_"(context, port, constant, counts) {
+        let call = Call::of(context, "why", 1);
+        let devices = chosen_devices().ok_or(PrologError::Failure)?;
+        let known = motor::known_counts(&devices, &call.text(port)?, &call.text(constant)?);
+        counts.unify(known.ok_or(PrologError::Failure)?)
     }
 
     /// motor_gear_(?Port, -Ratio)

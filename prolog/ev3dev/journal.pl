@@ -138,6 +138,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %       What moves the robot that is set, or its motors.
 %     - `stop`
 %       The last stop of a motor, or end of a course.
+%     - `sound`
+%       What the brick was to play or to say.
 %
 %   Time is that of ev3_time/1. Causes are those of because/2, the innermost
 %   first, and at last called(Name/Arity), the predicate that wrote the
@@ -174,6 +176,8 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %     - wheel(Port, Command)
 %       of `robot`, whose motor got a command by itself
 %     - led(Color), led_trigger(Word), led_blink(On, Off)
+%     - tones(Tones), say(Text), play(File), `stop`
+%       of `sound`
 %
 %   Fails if there was no such command.
 %

@@ -5,11 +5,11 @@
 //! its frame is laid on the robot as it truly was at that moment.
 use super::notes::notes;
 use super::reach::running_simulation;
+use super::state::{self, Decimal, OrNull, fine, text};
 use crate::glue::state::known_drive;
 use crate::glue::watch::{Frame, film, frame};
 use ev3_driver::drive::Believed;
 use ev3_driver::lock::locked;
-use ev3_json::Json;
 use ev3_motion::{Pose, wrapped};
 use std::sync::Mutex;
 use std::time::Duration;
@@ -96,29 +96,19 @@ fn ellipse(covariance: [[f64; 3]; 3]) -> [f64; 3] {
     [axis(mean + root), axis(mean - root), 90.0 - angle.to_degrees()]
 }
 
-/// Where the program believes the robot to be, and where it is to go.
-pub(super) fn report_believed(json: &mut Json, believed: Option<&Believed>) {
-    let Some(Believed { pose, covariance, course, .. }) = believed else {
-        json.key("believed").null();
-        notes().keep("path", "null");
-        return;
-    };
+/// Where the program believes the robot to be; where it is to go is kept.
+pub(super) fn believe(believed: Option<&Believed>) -> Option<state::Believed> {
     let to_world = ToWorld::now();
-    json.key("believed").object(|json| {
-        let ours = to_world.pose(*pose);
-        json.key("pose").numbers([ours.x, ours.y, ours.heading], 2);
-        json.key("odometry").numbers([pose.x, pose.y, pose.heading], 2);
-        let [a, b, heading] = ellipse(*covariance);
-        json.key("ellipse").numbers([a, b, heading + to_world.turn()], 2);
-    });
-    let mut path = Json::new();
-    match course.as_deref() {
-        None | Some([]) => path.null(),
-        Some(points) => path.array(|json| {
-            for point in points {
-                json.numbers(to_world.point(*point), 1);
-            }
-        }),
-    }
-    notes().keep("path", path.as_text());
+    let course = believed.and_then(|believed| believed.course.as_deref()).unwrap_or_default();
+    let path: Vec<_> =
+        course.iter().map(|point| to_world.point(*point).map(Decimal::<1>)).collect();
+    notes().keep("path", text(&OrNull((!path.is_empty()).then_some(path))));
+    let Believed { pose, covariance, .. } = believed?;
+    let ours = to_world.pose(*pose);
+    let [a, b, heading] = ellipse(*covariance);
+    Some(state::Believed {
+        pose: fine([ours.x, ours.y, ours.heading]),
+        odometry: fine([pose.x, pose.y, pose.heading]),
+        ellipse: fine([a, b, heading + to_world.turn()]),
+    })
 }

@@ -1,6 +1,6 @@
 //! The page's server, and the talk with each page: what `crates/door` has, for Prolog.
-use super::frame;
 use super::reach::{outside, running_simulation, stop_motors};
+use super::{simulated, terms};
 use crate::glue::call::{Call, Text};
 use crate::glue::terms::unify_atom;
 use ev3_door::{Door, Heard, Made, Page, Site, Visit};
@@ -24,7 +24,7 @@ const MADE: [Made; 2] = [
     Made {
         path: "/samples.csv",
         kind: "text/csv; charset=utf-8",
-        make: || outside(frame::csv),
+        make: || outside(|| simulated::csv(&running_simulation()?.machine())),
         lacking: "There are no samples.",
     },
 ];
@@ -69,12 +69,10 @@ natives! {
         }
     }
 
-    /// view_say_(+Page, +Text): does nothing if the page was left.
-    semidet fn "view_say_"(context, page, text) {
+    /// view_say_(+Page, +Json): does nothing if the page was left.
+    semidet fn "view_say_"(context, page, answer) {
         let call = Call::of(context, "view", 1);
-        let text = call.text(text)?;
-        attempt_opt(page_of(&call, page))?.iter().for_each(|page| page.say(&text));
-        Ok(())
+        say(&call, page, &terms::text(&call, answer)?)
     }
 
     /// view_end_(+Page, +Code): ends the connection with the reason for that (RFC 6455, 7.4).
@@ -92,11 +90,21 @@ natives! {
 
     /// view_shut_(+Bye): ends the server and all pages, which are told this.
     semidet fn "view_shut_"(context, bye) {
-        let bye = Call::of(context, "view_stop", 0).text(bye)?;
+        let bye = terms::text(&Call::of(context, "view_stop", 0), bye)?;
         door()?.close(&bye);
         *locked(&DOOR) = None;
         Ok(())
     }
+}
+
+/// Does nothing if the page was left.
+pub(super) fn say<C: QueryableContextType>(
+    call: &Call<C>,
+    page: &Term,
+    text: &str,
+) -> PrologResult<()> {
+    attempt_opt(page_of(call, page))?.iter().for_each(|page| page.say(text));
+    Ok(())
 }
 
 /// Without Prolog, which interrupts the program as soon as it can.

@@ -1,15 +1,14 @@
 //! Frames: what a page is sent, beginning with what it has not got yet.
-use super::believed::{ToWorld, believed, report_believed};
-use super::brick;
-use super::hand::pulled;
 use super::notes::notes;
 use super::reach::running_simulation;
+use super::state::{Clock, Decimal, Report, Samples};
+use super::{brick, simulated};
 use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_signals::latch;
-use ev3_sim::{Beside, Clock, MOTOR_KINDS, Machine, Pose, SensorKind, Simulation};
+use ev3_sim::Simulation;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, Mutex};
@@ -45,18 +44,18 @@ impl fmt::Display for Have {
     }
 }
 
-/// What all pages are sent alike, for a short while.
+/// What all pages get alike, for a short while.
 struct Shared {
     made: Instant,
     film: u64,
     time: Duration,
-    text: Arc<str>,
+    members: String,
 }
 
 /// For how long.
 const SHARED_FOR: Duration = Duration::from_millis(15);
 
-static SHARED: Mutex<Option<Shared>> = Mutex::new(None);
+static SHARED: Mutex<Option<Arc<Shared>>> = Mutex::new(None);
 
 /// What is watched.
 enum Source {
@@ -88,9 +87,9 @@ pub(super) fn source() -> &'static str {
     Source::now().name()
 }
 
-/// The next frame for a page. `state` is that of the program, and `settings` are members that
-/// never change.
-pub(super) fn next(have: &str, state: &str, settings: &str) -> String {
+/// The next frame for a page that has some. `program` is its state; at most `rate` frames come
+/// in a second, and `goals` may be sent or not.
+pub(super) fn next(have: &str, program: &str, rate: f64, goals: bool) -> String {
     let had = have.parse::<Have>().ok();
     let (film, source) = (film(), Source::now());
     let is_new = had.is_none_or(|had| had.film != film);
@@ -98,162 +97,73 @@ pub(super) fn next(have: &str, state: &str, settings: &str) -> String {
     // The log goes on from film to film.
     have.logged = had.map_or(0, |had| had.logged);
     have.film = film;
-    let (time, shared) = shared(&source, film);
+    let shared = shared(&source, film);
     let mut json = Json::new();
     json.object(|json| {
         json.key("type").text("frame");
         if is_new {
             json.key("new").bool(true);
         }
-        json.raw(settings);
+        json.key("rate").number(rate, 6);
+        json.key("goals").bool(goals);
         json.key("source").text(source.name());
         if !matches!(source, Source::None) {
             json.key("tree").text(&devices().tree().root().to_string_lossy());
         }
-        json.key("clock").object(|json| report_clock(json, &source, time, have.time_us));
+        let stands = micros(shared.time) == have.time_us;
+        clock(&source, shared.time, stands).report(json.key("clock"));
         json.key("program").object(|json| {
-            json.key("state").text(state);
+            json.key("state").text(program);
             json.key("latched").bool(latch::is_set());
         });
-        json.raw(&shared);
-        if let Source::Simulation(simulation) = &source {
-            let after = (!is_new).then(|| Duration::from_micros(have.sampled_us));
-            let way = believed(after.unwrap_or_default()).map(|believed| believed.way);
-            let way = way.unwrap_or_default();
-            if let Some(last) = report_samples(json, &simulation.machine(), after, &way) {
-                have.sampled_us = micros(last);
-            }
-        } else if let Some(last) = brick::report_samples(json, have.sampled_us) {
-            have.sampled_us = last;
+        json.raw(&shared.members);
+        let after = (!is_new).then(|| Duration::from_micros(have.sampled_us));
+        if let Some((samples, last)) = samples(&source, after) {
+            samples.report(json.key("samples"));
+            have.sampled_us = micros(last);
         }
         let notes = notes();
         have.stamp = notes.report_kept(json, have.stamp);
         have.logged = notes.report_log(json, have.logged);
         have.valued = notes.report_values(json, have.valued);
         drop(notes);
-        have.time_us = micros(time);
+        have.time_us = micros(shared.time);
         json.key("have").text(&have.to_string());
     });
     json.into_text()
+}
+
+fn clock(source: &Source, time: Duration, stands: bool) -> Clock {
+    match source {
+        Source::Simulation(simulation) => simulated::clock(simulation, time, stands),
+        _ => Clock { time: Decimal(time.as_secs_f64()), kind: "real", ..Clock::default() },
+    }
+}
+
+fn samples(source: &Source, after: Option<Duration>) -> Option<(Samples, Duration)> {
+    match source {
+        Source::Simulation(simulation) => simulated::samples(simulation, after),
+        _ => brick::samples(after),
+    }
 }
 
 fn micros(time: Duration) -> u64 {
     u64::try_from(time.as_micros()).unwrap_or(u64::MAX)
 }
 
-/// The time, and what all pages are sent alike.
-fn shared(source: &Source, film: u64) -> (Duration, Arc<str>) {
+/// The state, which is the same for all pages for a short while.
+fn shared(source: &Source, film: u64) -> Arc<Shared> {
     let mut shared = locked(&SHARED);
     if let Some(old) = &*shared {
         if old.film == film && old.made.elapsed() < SHARED_FOR {
-            return (old.time, Arc::clone(&old.text));
+            return Arc::clone(old);
         }
     }
-    let mut json = Json::new();
-    let time = match source {
-        Source::Simulation(simulation) => report_simulation(&mut json, simulation),
-        Source::Brick => brick::report(&mut json),
-        Source::None => Duration::ZERO,
+    let (time, members) = match source {
+        Source::Simulation(simulation) => simulated::state(simulation),
+        Source::Brick => brick::state(),
+        Source::None => (Duration::ZERO, String::new()),
     };
-    let text: Arc<str> = json.into_text().into();
-    *shared = Some(Shared { made: Instant::now(), film, time, text: Arc::clone(&text) });
-    (time, text)
-}
-
-fn report_simulation(json: &mut Json, simulation: &Simulation) -> Duration {
-    let believed = believed(Duration::MAX);
-    let machine = simulation.machine();
-    keep_versions(&machine);
-    json.key("robot").object(|json| {
-        let Pose { x, y, heading } = machine.pose();
-        json.key("true").numbers([x, y, heading], 2);
-        report_believed(json, believed.as_ref());
-        json.key("hits").integer(machine.trace().collision_count().into());
-        json.key("moving").bool(machine.moves());
-    });
-    machine.report_state(json, &Beside { pulled: pulled() });
-    machine.now()
-}
-
-/// Renews what is only sent when it has changed.
-fn keep_versions(machine: &Machine) {
-    static VERSIONS: Mutex<Option<[u64; 3]>> = Mutex::new(None);
-    let mut versions = locked(&VERSIONS);
-    let now = [film(), machine.world_version(), machine.screen_version()];
-    let before = versions.replace(now);
-    let [film, world, screen] = before.unwrap_or_default();
-    let kept = |name: &str, write: &dyn Fn(&mut Json)| {
-        let mut json = Json::new();
-        write(&mut json);
-        notes().keep(name, json.as_text());
-    };
-    if before.is_none() || film != now[0] {
-        kept("spec", &|json| machine.report_robot(json));
-        kept("plugs", &report_plugs);
-    }
-    if before.is_none() || [film, world] != now[..2] {
-        kept("world", &|json| json.object(|json| machine.report_world(json)));
-    }
-    if before.is_none() || film != now[0] || screen != now[2] {
-        kept("screen", &|json| machine.report_screen(json));
-    }
-}
-
-/// What can be plugged into outputs and inputs.
-fn report_plugs(json: &mut Json) {
-    json.object(|json| {
-        json.key("out").array(|json| {
-            for kind in &MOTOR_KINDS {
-                json.text(kind.driver_name);
-            }
-        });
-        json.key("in").array(|json| {
-            SensorKind::all().for_each(|kind| json.text(kind.driver_name));
-        });
-    });
-}
-
-fn report_clock(json: &mut Json, source: &Source, time: Duration, before_us: u64) {
-    json.key("time").number(time.as_secs_f64(), 3);
-    let Source::Simulation(simulation) = source else {
-        json.key("kind").text("real");
-        return;
-    };
-    json.key("kind").text(match simulation.clock() {
-        Clock::Virtual => "virtual",
-        Clock::Wall(1.0) => "realtime",
-        Clock::Wall(_) => "scaled",
-    });
-    let pace = match (simulation.pace(), simulation.clock()) {
-        (None, Clock::Virtual) => "max".to_owned(),
-        (None, Clock::Wall(_)) => "x1".to_owned(),
-        (Some(factor), _) if factor.is_infinite() => "max".to_owned(),
-        (Some(factor), _) => format!("x{factor}"),
-    };
-    json.key("pace").text(&pace);
-    json.key("paused").bool(simulation.is_paused());
-    json.key("stands").bool(micros(time) == before_us);
-}
-
-fn report_samples(
-    json: &mut Json,
-    machine: &Machine,
-    after: Option<Duration>,
-    way: &[(Duration, ev3_motion::Pose)],
-) -> Option<Duration> {
-    let (to_world, mut next) = (ToWorld::now(), 0);
-    let mut belief = |at: Duration| {
-        while way.get(next).is_some_and(|(noted, _)| *noted <= at) {
-            next += 1;
-        }
-        let (_, pose) = way.get(next.checked_sub(1)?)?;
-        let ev3_motion::Pose { x, y, heading } = to_world.pose(*pose);
-        Some(Pose { x, y, heading })
-    };
-    machine.report_samples(json, after, &mut belief)
-}
-
-/// All samples as a table; `None` if there are none.
-pub(super) fn csv() -> Option<String> {
-    running_simulation()?.machine().samples_csv()
+    let new = Shared { made: Instant::now(), film, time, members };
+    Arc::clone(shared.insert(Arc::new(new)))
 }

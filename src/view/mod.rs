@@ -4,38 +4,26 @@
 //! time passes, and nothing is read on the program's behalf.
 mod believed;
 mod brick;
-mod commands;
 pub(crate) mod door;
 mod frame;
 pub(crate) mod hand;
 mod notes;
 mod reach;
+mod simulated;
+mod state;
+mod terms;
 mod threads;
 
 pub(crate) use self::believed::{counting_begins, pose_is_set};
 
-use self::notes::{Entry, notes};
+use self::notes::notes;
 use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
-use crate::glue::call::{Call, Text};
-use crate::glue::terms::{Ask as _, unify_atom};
+use self::state::{Decimal, Entry};
+use crate::glue::call::Call;
+use crate::glue::terms::unify_atom;
 use crate::glue::watch;
-use ev3_json::Json;
 use ev3_signals::latch::{self, Reason};
 use swipl::prelude::*;
-
-/// Adds what the program has commanded meanwhile to the log.
-fn log_commands<'a, C: QueryableContextType>(
-    context: &'a Context<'a, C>,
-    call: &Call<'a, C>,
-) -> PrologResult<()> {
-    commands::log_new(|cause| {
-        let texts = context.new_term_ref();
-        let number = context.new_term_ref();
-        number.unify(u64::from(cause))?;
-        context.ask(pred!("ev3dev_view_log:cause_texts/2"), [&number, &texts])?;
-        call.map_list(&texts, |text| call.text(&text).map(Text::into_owned))
-    })
-}
 
 natives! {
     /// view_open_: somebody may watch from now on.
@@ -64,35 +52,33 @@ natives! {
         Ok(())
     }
 
-    /// view_frame_(+Have, +State, +Settings, -Text): the next frame for a page that has some. State is
-    /// that of the program; Settings are members of the frame that never change.
-    semidet fn "view_frame_"(context, have, state, settings, text) {
+    /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.
+    /// State is that of the program; Rate and Goals are the page's settings.
+    semidet fn "view_frame_"(context, page, have, state, rate, goals) {
         let call = Call::of(context, "view", 1);
-        let (have, state, settings) = (call.text(have)?, call.text(state)?, call.text(settings)?);
-        log_commands(context, &call)?;
-        text.unify(frame::next(&have, &state, &settings).as_str())
+        let (have, state, rate) = (call.text(have)?, call.text(state)?, call.float(rate)?);
+        door::say(&call, page, &frame::next(&have, &state, rate, goals.get_ex()?))
     }
 
     /// view_keep_(+Name, +Json): a member of the frames that is sent when it has changed.
     semidet fn "view_keep_"(context, name, json) {
         let call = Call::of(context, "view", 1);
-        let (name, json) = (call.text(name)?, call.text(json)?);
-        notes().keep(&name, &json);
+        let (name, json) = (call.text(name)?, terms::text(&call, json)?);
+        notes().keep(&name, json);
         Ok(())
     }
 
-    /// view_log_(+Kind, +Text, +Causes, +Thread)
-    semidet fn "view_log_"(context, kind, text, causes, thread) {
+    /// view_log_(+Time, +Kind, +Text, +Causes, +Thread): Time is in seconds, or `now`.
+    semidet fn "view_log_"(context, time, kind, text, causes, thread) {
         let call = Call::of(context, "view_mark", 1);
-        let owned = |term: &Term| call.text(term).map(Text::into_owned);
-        // What was commanded before stands before it.
-        log_commands(context, &call)?;
+        let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
         let entry = Entry {
-            time: seconds(),
+            n: 0,
+            time: Decimal(if time.is_atom() { seconds() } else { call.float(time)? }),
             kind: owned(kind)?,
             text: owned(text)?,
-            causes: call.map_list(causes, |cause| owned(&cause))?,
-            thread: owned(thread)?,
+            causes: Some(call.map_list(causes, |cause| owned(&cause))?).filter(|all| !all.is_empty()),
+            thread: Some(owned(thread)?).filter(|name: &state::Text| !name.is_empty()),
         };
         notes().log(entry);
         Ok(())
@@ -131,13 +117,6 @@ natives! {
     /// view_serves_: this thread serves a page.
     semidet fn "view_serves_"(_context) {
         into_prolog_result(threads::serves())
-    }
-
-    /// view_json_(+Text, -Json): a text as JSON, all of it ASCII.
-    semidet fn "view_json_"(context, text, json) {
-        let mut written = Json::new();
-        written.text(&Call::of(context, "view", 1).text(text)?);
-        json.unify(written.as_text())
     }
 
     /// view_to_world_(+X, +Y, -WorldX, -WorldY, -Turn): a place of the odometry in the world, and

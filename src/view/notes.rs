@@ -1,4 +1,5 @@
-//! What pages are told beside the state: the log, values of the program, and what seldom changes.
+//! What pages get beside the state: the log, values of the program, and what seldom changes.
+use super::state::{Entry, Report};
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use std::collections::{BTreeMap, VecDeque};
@@ -28,17 +29,7 @@ pub(super) fn notes() -> MutexGuard<'static, Notes> {
     locked(&NOTES)
 }
 
-/// A line of the log.
-#[derive(Clone, Debug)]
-pub(super) struct Entry {
-    pub(super) time: f64,
-    pub(super) kind: String,
-    pub(super) text: String,
-    pub(super) causes: Vec<String>,
-    pub(super) thread: String,
-}
-
-/// What pages are told beside the state.
+/// What pages get beside the state.
 pub(super) struct Notes {
     log: VecDeque<Entry>,
     /// How many lines there were in all.
@@ -53,17 +44,18 @@ pub(super) struct Notes {
 impl Notes {
     /// Adds a line to the log.
     pub(super) fn log(&mut self, mut entry: Entry) {
-        for text in std::iter::once(&mut entry.text).chain(&mut entry.causes) {
+        for text in std::iter::once(&mut entry.text).chain(entry.causes.iter_mut().flatten()) {
             if let Some((end, _)) = text.char_indices().nth(LONGEST) {
-                text.truncate(end);
-                text.push_str(" ...");
+                text.to_mut().truncate(end);
+                text.to_mut().push_str(" ...");
             }
         }
         if self.log.len() == LINES {
             self.log.pop_front();
         }
-        self.log.push_back(entry);
         self.logged += 1;
+        entry.n = self.logged;
+        self.log.push_back(entry);
     }
 
     /// Adds a value.
@@ -76,12 +68,12 @@ impl Notes {
     }
 
     /// Sets a member that is sent when it has changed.
-    pub(super) fn keep(&mut self, name: &str, json: &str) {
+    pub(super) fn keep(&mut self, name: &str, json: String) {
         match self.kept.get(name) {
-            Some((old, _)) if old == json => {}
+            Some((old, _)) if *old == json => {}
             _ => {
                 self.stamp += 1;
-                self.kept.insert(name.to_owned(), (json.to_owned(), self.stamp));
+                self.kept.insert(name.to_owned(), (json, self.stamp));
             }
         }
     }
@@ -98,28 +90,25 @@ impl Notes {
 
     /// Writes the lines after a number of them; returns how many there were then.
     pub(super) fn report_log(&self, json: &mut Json, since: u64) -> u64 {
-        let first = self.logged - self.log.len() as u64;
-        let skip = usize::try_from(since.saturating_sub(first)).unwrap_or(usize::MAX);
-        let new = self.log.iter().skip(skip).take(AT_ONCE);
-        let (mut number, count) = (since.max(first), new.len() as u64);
-        if count == 0 {
-            return self.logged;
+        let mut new = self.log.iter().filter(|entry| entry.n > since).take(AT_ONCE).peekable();
+        let mut last = self.logged;
+        if new.peek().is_some() {
+            json.key("log").array(|json| {
+                for entry in new {
+                    entry.report(json);
+                    last = entry.n;
+                }
+            });
         }
-        json.key("log").array(|json| {
-            for entry in new {
-                number += 1;
-                json.object(|json| entry.report(json, number));
-            }
-        });
-        number
+        last
     }
 
     /// Writes the values after a number of them; returns how many there were then.
     pub(super) fn report_values(&self, json: &mut Json, since: u64) -> u64 {
         let first = self.valued - self.values.len() as u64;
         let skip = usize::try_from(since.saturating_sub(first)).unwrap_or(usize::MAX);
-        let new = self.values.iter().skip(skip);
-        if new.len() > 0 {
+        let mut new = self.values.iter().skip(skip).peekable();
+        if new.peek().is_some() {
             json.key("values").array(|json| {
                 for (name, time, number) in new {
                     json.array(|json| {
@@ -131,20 +120,5 @@ impl Notes {
             });
         }
         self.valued
-    }
-}
-
-impl Entry {
-    fn report(&self, json: &mut Json, number: u64) {
-        json.key("n").integer(number.try_into().unwrap_or(i64::MAX));
-        json.key("time").number(self.time, 3);
-        json.key("kind").text(&self.kind);
-        json.key("text").text(&self.text);
-        if !self.causes.is_empty() {
-            json.key("causes").array(|json| self.causes.iter().for_each(|cause| json.text(cause)));
-        }
-        if !self.thread.is_empty() {
-            json.key("thread").text(&self.thread);
-        }
     }
 }

@@ -264,6 +264,12 @@ sentence(because(motor_run(outB, 20), rule(r, G)), outB,
     member(G, [_, _:_]).
 sentence(led(left, green), left,
          "the light left is green since 2.01 s: led/2 was called").
+sentence(led_blink(left, 100, 200), left,
+         "the light left blinks (100 ms on, 200 off) since 2.51 s: led_blink/3 was called").
+sentence(because(tones([tone(440, 100), tone(880, 100)]), song), sound,
+         "the brick played 440 Hz 880 Hz at 2.01 s: song").
+sentence(because(say(hello), greeting), sound, "the brick said hello at 2.01 s: greeting").
+sentence(because(sound_stop, quiet), sound, "the brick was silenced at 2.01 s: quiet").
 
 :- end_tests(words).
 

@@ -176,7 +176,9 @@ test(samples_as_a_table, true(Code == 200)) :-
     with_sim(room, viewed(Port, ( own(Port, Fields), wait(1),
                                   get(Port, '/samples.csv', Fields, Code,
                                       Answer) ))),
-    has(Answer, "time,x,y,heading,").
+    has(Answer, "time,x,y,heading,outA.position,outA.speed,outA.duty,"),
+    has(Answer, "\n0,40,40,40,0,0,0,"),
+    has(Answer, "\n1,40,40,40,0,0,0,").
 
 % Each of these is refused.
 refused(403, '/', []).
@@ -554,9 +556,41 @@ test(rules_and_events_that_begin, true(Kinds == Expected)) :-
     memberchk(Drive, Frame.log),
     Drive.kind == "rule",
     once(sub_string(Drive.text, _, _, _, "rule drive, ev3_time")),
-    Expected = [ "rule"-"rule drive", "command"-"outB run-forever",
+    Expected = [ "rule"-"rule drive", "command"-"outB runs",
                  "rule"-"event tick", "rule"-"rule look",
-                 "command"-"outB stop" ].
+                 "command"-"outB was" ].
+% As why/1 says them; a pose that is set moves nothing.
+test(commands_in_words, true(Texts == Expected)) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            set_robot(5.6, 10.6, outB, outC),
+            set_pose(60, 50, 0),
+            motor_run(outA, 30),
+            motor_run(outA, 50, 360),
+            go_cm(30, 5),
+            led(left, green),
+            ev3_time(Before),
+            frame(Page, First.have, Frame),
+            ev3_time(After),
+            After =:= Before )),
+    findall(Text, ( member(Line, Frame.log), Line.kind == "command",
+                    Text = Line.text ), Texts),
+    Expected = [ "outA runs at 30 %", "outA was turned by 360 degrees at 50 %",
+                 "the robot goes 5 cm at 30 %", "the robot rests (reached)",
+                 "the light left is green" ].
+test(numbers_are_short, true(Numbers == [0.3, -0.05, 2, null, 0.333333])) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            forall(member(Number, [0.1+0.2, -0.05, 2.0, 1.0e300, 1/3.0]),
+                   view_value(number, Number)),
+            frame(Page, First.have, Frame) )),
+    findall(Number, member([_, _, Number], Frame.values), Numbers).
+test(texts_of_all_letters, true(Texts == ["a\"b\\c\n</script>\u00e9\u20ac"])) :-
+    paged(Page,
+          ( page_ask(Page, "next", First),
+            view_mark("a\"b\\c\n</script>\u00e9\u20ac"),
+            frame(Page, First.have, Frame) )),
+    findall(Text, ( member(Line, Frame.log), Text = Line.text ), Texts).
 test(watches, true(Watches == Expected)) :-
     paged(Page,
           ( view_watch(left, outB),

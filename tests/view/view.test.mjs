@@ -67,7 +67,7 @@ group('a simulated robot', ROOM, '', (it) => {
   });
 
   test('has its commands in the log', async () => {
-    await shows(it.page, (s) => s.log.some((line) => line.kind === 'command' && /^out[BC] /.test(line.text)), 'a command');
+    await shows(it.page, (s) => s.log.some((line) => line.kind === 'command' && /^the robot goes 20 cm/.test(line.text)), 'a command');
   });
 
   test('has one line for what two wheels do in turn, and times in order', async () => {

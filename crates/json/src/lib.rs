@@ -52,12 +52,16 @@ impl Json {
 
     /// An object, filled by a closure that writes keys and values.
     pub fn object(&mut self, fill: impl FnOnce(&mut Self)) {
-        self.inside('{', '}', fill);
+        self.open('{');
+        fill(self);
+        self.close('}');
     }
 
     /// An array, filled by a closure that writes its elements.
     pub fn array(&mut self, fill: impl FnOnce(&mut Self)) {
-        self.inside('[', ']', fill);
+        self.open('[');
+        fill(self);
+        self.close(']');
     }
 
     /// The name of the next value. It must need no escapes.
@@ -167,12 +171,14 @@ impl Json {
         self.text.push('"');
     }
 
-    fn inside(&mut self, open: char, close: char, fill: impl FnOnce(&mut Self)) {
+    fn open(&mut self, bracket: char) {
         self.next();
-        self.text.push(open);
+        self.text.push(bracket);
         self.comma = false;
-        fill(self);
-        self.text.push(close);
+    }
+
+    fn close(&mut self, bracket: char) {
+        self.text.push(bracket);
         self.comma = true;
     }
 

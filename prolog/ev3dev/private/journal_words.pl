@@ -1,9 +1,10 @@
 :- module(ev3dev_journal_words,
           [ why_words//3,               % +Why, +What, +Ports
+            command_words//2,           % +Command, +What
             cause_words//1              % +Cause
           ]).
 :- use_module(library(lists), [append/3]).
-:- use_module(native, [attribute_/4, device_/3, motor_gear_/2]).
+:- use_module(native, [motor_counts_/3]).
 
 /** <module> Commands and their causes in words
 */
@@ -21,8 +22,8 @@ why_words(why(Time, Command0, Causes0), What, Ports) -->
       ;   Who = Who0
       )
     },
-    command(Command, Who),
-    [ ' ~2f s'-[Time] ],
+    command(Command, Who, Since),
+    [ ' ~w ~2f s'-[Since, Time] ],
     reasons(Causes).
 
 %   A variable is written as _.
@@ -46,91 +47,114 @@ about(wheel(Port, Command), _, Command, Port) :-
     !.
 about(Command, What, Command, What).
 
-%   ... since, or ... at
+%!  command_words(+Command, +What)// is semidet.
+%
+%   What was done to What, a port, a light, `sound`, or the robot. Asks no
+%   device. Fails for what moves nothing.
 
-command(tacho_motor('run-forever', SetPoints), Port) -->
+command_words(Command, What) -->
+    { What = robot(_, _)
+    ->  Who = robot
+    ;   Who = What
+    },
+    command(Command, Who, _).
+
+%   Since is `since` or `at`: what goes on, or was done once.
+
+command(tacho_motor('run-forever', SetPoints), Port, since) -->
     !,
     [ '~w runs'-[Port] ],
-    speed(SetPoints, Port),
-    [ ' since'-[] ].
-command(tacho_motor('run-timed', SetPoints), Port) -->
+    speed(SetPoints, Port).
+command(tacho_motor('run-timed', SetPoints), Port, at) -->
     !,
     [ '~w was sent'-[Port] ],
     speed(SetPoints, Port),
-    time(SetPoints),
-    [ ' at'-[] ].
-command(tacho_motor('run-to-abs-pos', SetPoints), Port) -->
+    time(SetPoints).
+command(tacho_motor('run-to-abs-pos', SetPoints), Port, at) -->
     !,
     [ '~w was sent to '-[Port] ],
     angle(SetPoints, Port),
-    speed(SetPoints, Port),
-    [ ' at'-[] ].
-command(tacho_motor('run-to-rel-pos', SetPoints), Port) -->
+    speed(SetPoints, Port).
+command(tacho_motor('run-to-rel-pos', SetPoints), Port, at) -->
     !,
     [ '~w was turned by '-[Port] ],
     angle(SetPoints, Port),
-    speed(SetPoints, Port),
-    [ ' at'-[] ].
-command(dc_motor('run-timed', SetPoints), Port) -->
+    speed(SetPoints, Port).
+command(dc_motor('run-timed', SetPoints), Port, at) -->
     !,
     [ '~w was given'-[Port] ],
     duty(SetPoints),
-    time(SetPoints),
-    [ ' at'-[] ].
-command(servo_motor(run, SetPoints), Port) -->
+    time(SetPoints).
+command(servo_motor(run, SetPoints), Port, at) -->
     !,
     { memberchk(position_sp(Percent), SetPoints)
     ->  true
     ;   Percent = 'some'
     },
-    [ '~w was sent to ~w % at'-[Port, Percent] ].
-command(servo_motor(float, _), Port) -->
+    [ '~w was sent to ~w %'-[Port, Percent] ].
+command(servo_motor(float, _), Port, since) -->
     !,
-    [ '~w floats since'-[Port] ].
-command(led(Color), Light) -->
+    [ '~w floats'-[Port] ].
+command(led(Color), Light, since) -->
     !,
-    [ 'the light ~w is ~w since'-[Light, Color] ].
-command(led_trigger(Word), Light) -->
+    [ 'the light ~w is ~w'-[Light, Color] ].
+command(led_trigger(Word), Light, since) -->
     !,
-    [ 'the light ~w shows ~w since'-[Light, Word] ].
-command(led_blink(On, Off), Light) -->
+    [ 'the light ~w shows ~w'-[Light, Word] ].
+command(led_blink(On, Off), Light, since) -->
     !,
-    [ 'the light ~w blinks, ~d ms on and ~d off, since'-[Light, On, Off] ].
-command(drive, Port) -->
+    [ 'the light ~w blinks (~d ms on, ~d off)'-[Light, On, Off] ].
+command(drive, Port, since) -->
     !,
-    [ '~w drives the robot since'-[Port] ].
-command(course(Course, Options), _) -->
+    [ '~w drives the robot'-[Port] ].
+command(course(Course, Options), _, since) -->
     !,
     [ 'the robot '-[] ],
-    course(Course, Options),
-    [ ' since'-[] ].
-command(ended(Reason), robot) -->
+    course(Course, Options).
+command(ended(Reason), robot, since) -->
     !,
-    [ 'the robot rests (~w) since'-[Reason] ].
-command(ended(Reason), Port) -->
+    [ 'the robot rests (~w)'-[Reason] ].
+command(ended(Reason), Port, since) -->
     !,
-    [ '~w rests (~w) since'-[Port, Reason] ].
-command(Command, Port) -->
+    [ '~w rests (~w)'-[Port, Reason] ].
+command(Sound, sound, at) -->
+    !,
+    sound(Sound).
+command(Command, Port, Since) -->
     { Command =.. [_, Word, SetPoints] },
-    of_any(Word, SetPoints, Port).
+    of_any(Word, SetPoints, Port, Since).
 
-of_any(stop, SetPoints, Port) -->
+sound(tones(Tones)) -->
+    [ 'the brick played'-[] ],
+    tones(Tones).
+sound(say(Text)) -->
+    [ 'the brick said ~w'-[Text] ].
+sound(play(File)) -->
+    [ 'the brick played ~w'-[File] ].
+sound(stop) -->
+    [ 'the brick was silenced'-[] ].
+
+tones([]) -->
+    [].
+tones([tone(Hertz, _)|Tones]) -->
+    [ ' ~d Hz'-[Hertz] ],
+    tones(Tones).
+
+of_any(stop, SetPoints, Port, at) -->
     !,
     those(Port),
     [ ' stopped'-[] ],
     (   { memberchk(stop_action(Action), SetPoints) }
     ->  [ ' (~w)'-[Action] ]
     ;   []
-    ),
-    [ ' at'-[] ].
-of_any(reset, _, Port) -->
+    ).
+of_any(reset, _, Port, at) -->
     !,
     those(Port),
-    [ ' reset at'-[] ].
-of_any(_, SetPoints, Port) -->
+    [ ' reset'-[] ].
+of_any(_, SetPoints, Port, since) -->
     [ '~w gets'-[Port] ],
-    duty(SetPoints),
-    [ ' since'-[] ].
+    duty(SetPoints).
 
 those([Port|Ports]) -->
     !,
@@ -149,23 +173,13 @@ and([Port|Ports]) -->
 
 speed(SetPoints, Port) -->
     (   { memberchk(speed_sp(Speed), SetPoints) }
-    ->  (   { constant(Port, max_speed, Max),
-              Max > 0
-            }
+    ->  (   { motor_counts_(Port, max_speed, Max) }
         ->  { Percent is round(100 * Speed / Max) },
             [ ' at ~d %'-[Percent] ]
         ;   [ ' at ~d counts/s'-[Speed] ]
         )
     ;   []
     ).
-
-%   Fails also if the motor is no longer there.
-
-constant(Port, Name, Value) :-
-    device_('tacho-motor', Port, _),
-    !,
-    attribute_('tacho-motor', Port, Name, Value),
-    !.
 
 duty(SetPoints) -->
     (   { memberchk(duty_cycle_sp(Percent), SetPoints) }
@@ -182,11 +196,8 @@ time(SetPoints) -->
 
 angle(SetPoints, Port) -->
     (   { memberchk(position_sp(Position), SetPoints) }
-    ->  (   { constant(Port, count_per_rot, Counts),
-              Counts > 0,
-              motor_gear_(Port, Gear)
-            }
-        ->  { Degrees is round(Position * 360 / (Counts * Gear)) },
+    ->  (   { motor_counts_(Port, count_per_rot, Counts) }
+        ->  { Degrees is round(Position * 360 / Counts) },
             [ '~d degrees'-[Degrees] ]
         ;   [ '~d counts'-[Position] ]
         )

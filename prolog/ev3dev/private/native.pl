@@ -27,6 +27,7 @@
             slices_/1,
             tick_after_/1,
             tick_at_once_/0,
+            motor_counts_/3,
             motor_gear_/2,
             motor_position_/2,
             motor_reset_/1,
@@ -106,6 +107,7 @@
             cause_now_/1,
             cause_set_/1,
             journal_entry_/4,
+            journal_new_/1,
             limit_call_/2,
             limit_insist_/4,
             sim_active_/0,
@@ -144,14 +146,13 @@
             told_to_end_/0,
             view_close_/0,
             view_end_/2,
-            view_frame_/4,
+            view_frame_/5,
             view_hear_/3,
-            view_json_/2,
             view_keep_/2,
             view_latch_/0,
             view_leave_/1,
             view_lift_/0,
-            view_log_/4,
+            view_log_/5,
             view_move_/4,
             view_open_/0,
             view_pace_/1,
@@ -229,6 +230,7 @@ missing.
 
 % Motors
 
+%!  motor_counts_(+Port, +Constant, -Counts) is semidet.
 %!  motor_gear_(?Port, -Ratio) is nondet.
 %!  motor_position_(?Port, -Position) is nondet.
 %!  motor_reset_(+Port) is semidet.
@@ -353,6 +355,7 @@ missing.
 %!  cause_now_(-Cause) is det.
 %!  cause_set_(+Cause) is semidet.
 %!  journal_entry_(-Time, -Act, -Cause, -Called) is nondet.
+%!  journal_new_(-Done) is det.
 %
 %   `src/journal.rs`
 
@@ -419,12 +422,11 @@ missing.
 % The view
 
 %!  view_close_ is det.
-%!  view_frame_(+Have, +State, +Settings, -Text) is det.
-%!  view_json_(+Text, -Json) is det.
+%!  view_frame_(+Page, +Have, +State, +Rate, +Goals) is det.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
-%!  view_log_(+Kind, +Text, +Causes, +Thread) is det.
+%!  view_log_(+Time, +Kind, +Text, +Causes, +Thread) is det.
 %!  view_open_ is det.
 %!  view_serves_ is semidet.
 %!  view_source_(-Source) is det.
@@ -439,7 +441,7 @@ missing.
 %!  view_end_(+Page, +Code) is semidet.
 %!  view_hear_(+Page, +Seconds, -Line) is semidet.
 %!  view_leave_(+Page) is semidet.
-%!  view_say_(+Page, +Text) is det.
+%!  view_say_(+Page, +Json) is det.
 %!  view_serve_(+Address, +Port, +Token, +Files, -Served) is det.
 %!  view_shut_(+Bye) is semidet.
 %!  view_visit_(-Visit) is semidet.

@@ -32,6 +32,7 @@ const brick = new Brick(send);
 const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
+const panels = [ports, brick, hands, log, charts];
 
 // ----------------------------------------------------------------- the line
 
@@ -57,11 +58,7 @@ function frame(next) {
   if (arrived && now - arrived < 500) interval += 0.2 * (now - arrived - interval);
   arrived = now;
   const came = model.take(next);
-  ports.take(model);
-  brick.take(model, came);
-  hands.take(model);
-  log.take(model);
-  charts.take(model);
+  for (const panel of panels) panel.take(model, came);
   world.take(model, came, interval);
   heading();
   if (came.has('world')) layout();

@@ -26,7 +26,9 @@ pub use command::{StopAction, command, reset, stop, stop_all};
 use command::{best_effort, start_all, stop_best_effort, stop_run};
 pub(crate) use command::{prepare, runs_on, start};
 use plan::plan;
-pub use plan::{Extent, Move, Speed, counts_per_unit, measured, set_gear, set_position};
+pub use plan::{
+    Extent, Move, Speed, counts_per_unit, known_counts, measured, set_gear, set_position,
+};
 pub(crate) use plan::{duty, milliseconds};
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,6 +1,8 @@
 //! Moves in the kernel's units: speeds, angles and times as set-points.
+use crate::class::Class;
 use crate::device::Device;
 use crate::device::motion::{End, MotorRun};
+use crate::device::registry::Registry;
 use crate::error::Result;
 use crate::motor::wait::{TOLERANCE, has};
 use crate::value::Value;
@@ -159,6 +161,17 @@ pub fn counts_per_unit(motor: &Device) -> Result<f64> {
         motor.constant("count_per_rot")? as f64 / 360.0
     };
     Ok(counts * motor.gear())
+}
+
+/// `max_speed`, or `count_per_rot` for a turn of what the motor drives, if the driver has
+/// read it from the motor at a port. Asks no device.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "counts are few")]
+pub fn known_counts(devices: &Registry, port: &str, constant: &str) -> Option<f64> {
+    let motors = devices.known(Class::TachoMotor);
+    let motor = motors.iter().find(|motor| motor.port() == port)?;
+    let counts = motor.known_in(constant, "").filter(|counts| *counts > 0)? as f64;
+    Some(if constant == "count_per_rot" { counts * motor.gear() } else { counts })
 }
 
 /// A time as the kernel takes it; `None` if it is longer than that.

@@ -1,10 +1,12 @@
 //! A film of the run: where the robot was, and what motors and sensors showed, every 50 ms of
-//! simulated time. On long runs the samples are farther apart.
+//! simulated time. On long runs the samples are farther apart. It is kept only where somebody
+//! wants it, as a sample costs as much as some ticks.
 //!
 //! A virtual clock jumps, so somebody who only looked now and then would miss what lies between.
 
 use std::time::Duration;
 
+use crate::brick::port::Port;
 use crate::log::Log;
 use crate::world::geometry::Pose;
 
@@ -13,7 +15,7 @@ const MOST: usize = 2048;
 /// At first one is taken every 50 ms.
 const FIRST_SPACING_TICKS: u64 = 25;
 /// How many values of a sensor are kept.
-pub(super) const VALUES: usize = 4;
+const VALUES: usize = 4;
 
 /// The samples so far.
 #[derive(Clone, Debug)]
@@ -24,24 +26,40 @@ pub(crate) struct Film {
 
 /// What there was at a moment.
 #[derive(Clone, Debug)]
-pub(crate) struct Sample {
-    pub(super) at: Duration,
-    pub(super) state: State,
+pub struct Sample {
+    /// The time since the start.
+    pub at: Duration,
+    /// The true pose of the robot.
+    pub pose: Pose,
+    /// What the devices showed, in the order of [`Port::ALL`].
+    pub(super) ports: [Values; Port::ALL.len()],
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct State {
-    pub(super) pose: Pose,
-    /// Position, speed and duty.
-    pub(super) motors: [Option<[i32; 3]>; 4],
-    pub(super) sensors: [Values; 4],
-}
-
-/// The first values of a sensor, with their decimals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Values {
-    pub(super) count: usize,
-    pub(super) values: [f64; VALUES],
+pub(super) struct Values {
+    count: usize,
+    values: [f64; VALUES],
+}
+
+impl Sample {
+    /// Position, speed and duty of a motor as its files show them, or the first four values of a
+    /// sensor; empty for all else.
+    #[must_use]
+    pub fn values(&self, port: Port) -> &[f64] {
+        let Values { count, values } = &self.ports[port as usize];
+        &values[..*count]
+    }
+}
+
+impl FromIterator<f64> for Values {
+    fn from_iter<T: IntoIterator<Item = f64>>(all: T) -> Self {
+        let mut kept = Values::default();
+        for (place, value) in kept.values.iter_mut().zip(all) {
+            *place = value;
+            kept.count += 1;
+        }
+        kept
+    }
 }
 
 impl Film {
@@ -50,12 +68,13 @@ impl Film {
     }
 
     /// Adds what there is at a moment.
-    pub(super) fn take(&mut self, at: Duration, state: State) {
+    pub(super) fn take(&mut self, sample: Sample) {
         // Of a time at which nothing changes, the first and the last are enough.
-        if self.kept.newest().take(2).filter(|old| old.state == state).count() == 2 {
+        let is_same = |old: &&Sample| old.pose == sample.pose && old.ports == sample.ports;
+        if self.kept.newest().take(2).filter(is_same).count() == 2 {
             self.kept.pop();
         }
-        self.kept.push(|_| Sample { at, state });
+        self.kept.push(|_| sample);
         if self.kept.len() >= MOST {
             self.kept.thin_out();
             self.spacing *= 2;

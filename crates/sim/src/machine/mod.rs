@@ -1,15 +1,17 @@
 //! The whole: brick, robot and world, and their state.
 //!
 //! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
-//! time pass, `report` says how everything is.
+//! time pass, `shown` says how everything is.
 
 pub(crate) mod descriptor;
 pub(crate) mod dev;
+mod facts;
 mod files;
-mod film;
+pub(crate) mod film;
 mod panel;
 mod plugs;
-pub(crate) mod report;
+mod samples;
+pub(crate) mod shown;
 mod socket;
 mod svg;
 mod time;

@@ -3,20 +3,14 @@
 use std::fmt::Write;
 
 use crate::machine::Machine;
-use crate::world::Hull;
 use crate::world::geometry::Pose;
-use crate::world::{Item, Point};
+use crate::world::{Bounds, Hull, Item, Point};
 
 /// Room around everything, in cm.
 const MARGIN: f64 = 10.0;
 
-/// A rectangle that grows.
-pub(super) struct Frame {
-    pub(super) low: Point,
-    pub(super) high: Point,
-}
-
-impl Frame {
+impl Bounds {
+    /// Grows until a circle is in it.
     fn include(&mut self, [x, y]: Point, reach: f64) {
         self.low = [self.low[0].min(x - reach), self.low[1].min(y - reach)];
         self.high = [self.high[0].max(x + reach), self.high[1].max(y + reach)];
@@ -53,7 +47,7 @@ impl Machine {
     #[must_use]
     pub fn svg(&self) -> String {
         let pose = self.pose();
-        let Frame { low: [left, bottom], high: [right, top] } = self.frame();
+        let Bounds { low: [left, bottom], high: [right, top] } = self.frame();
         let (width, height) = (right - left, top - bottom);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" \
@@ -90,9 +84,10 @@ impl Machine {
     }
 
     /// What has everything in it, with a margin.
-    pub(super) fn frame(&self) -> Frame {
+    #[must_use]
+    pub fn frame(&self) -> Bounds {
         let pose = self.pose();
-        let mut frame = Frame { low: [pose.x, pose.y], high: [pose.x, pose.y] };
+        let mut frame = Bounds { low: [pose.x, pose.y], high: [pose.x, pose.y] };
         frame.include([pose.x, pose.y], self.robot.hull.reach());
         self.trace.path().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
         self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
@@ -100,7 +95,7 @@ impl Machine {
             frame.include(bounds.low, 0.0);
             frame.include(bounds.high, 0.0);
         }
-        Frame { low: frame.low.map(|n| n - MARGIN), high: frame.high.map(|n| n + MARGIN) }
+        Bounds { low: frame.low.map(|n| n - MARGIN), high: frame.high.map(|n| n + MARGIN) }
     }
 
     fn draw_floor(&self, svg: &mut String, [x, y]: Point, [width, height]: Point) {

@@ -124,10 +124,6 @@ impl Machine {
         (loads, amperes)
     }
 
-    pub(super) fn is_moving(&self) -> bool {
-        self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
-    }
-
     fn turn_shafts(&mut self, start_us: u64) {
         let undriven =
             |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));

@@ -6,21 +6,33 @@ use super::{
     SONAR_HALF_ANGLE, SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
 };
 use crate::sensor::Sense;
+use crate::world::Point;
 use crate::world::color::Color;
 use crate::world::geometry::{Pose, Vec2, direction, length};
 
 /// The part of the world that a sensor sees in a mode.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Sight {
-    /// The ends of a fan of rays: an obstacle, or as far as the sensor sees; and the nearest
-    /// obstacle.
-    Cone { fan: Vec<Vec2>, hit: Option<Vec2> },
+pub enum Sight {
+    /// A fan of rays, each of which ends at an obstacle, or as far as the sensor sees.
+    Cone {
+        /// The ends, from left to right.
+        fan: Vec<Point>,
+        /// The nearest obstacle.
+        hit: Option<Point>,
+    },
     /// A spot of the floor.
     Spot(Color),
-    /// A bumper from a point to another, and whether it is pressed.
-    Bumper { from: Vec2, to: Vec2, is_on: bool },
+    /// A bumper.
+    Bumper {
+        /// The left end.
+        from: Point,
+        /// The right end.
+        to: Point,
+        /// It is pressed.
+        is_on: bool,
+    },
     /// The nearest beacon in sight, and its channel.
-    Beacon(Option<(Vec2, u8)>),
+    Beacon(Option<(Point, u8)>),
 }
 
 impl View<'_> {
@@ -47,11 +59,13 @@ impl View<'_> {
             | Sense::Row { .. }
             | Sense::LineSteering => Sight::Spot(self.scene.color_at(self.pose.point())),
             Sense::Touch | Sense::Volts => {
-                let end = |x| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
+                let end = |x| point(self.pose.compose(&Pose::new(x, 0.0, 0.0)).point());
                 let (from, to) = (end(-BUMPER_HALF), end(BUMPER_HALF));
                 Sight::Bumper { from, to, is_on: self.pressed() }
             }
-            Sense::Seek | Sense::Direction { .. } => Sight::Beacon(self.nearest_beacon()),
+            Sense::Seek | Sense::Direction { .. } => {
+                Sight::Beacon(self.nearest_beacon().map(|(at, channel)| (point(at), channel)))
+            }
             _ => return None,
         })
     }
@@ -59,11 +73,11 @@ impl View<'_> {
     fn fan(&self, half_angle: f64, rays: u32, far: f64) -> Sight {
         let here = self.pose.point();
         let step = 2.0 * half_angle / f64::from(rays - 1);
-        let mut nearest: Option<(f64, Vec2)> = None;
+        let mut nearest: Option<(f64, Point)> = None;
         let mut end = |ray: u32| {
             let way = direction(self.pose.heading - half_angle + step * f64::from(ray));
             let hit = self.scene.cast(here, way, far);
-            let end = here + way * hit.unwrap_or(far);
+            let end = point(here + way * hit.unwrap_or(far));
             if let Some(distance) = hit.filter(|hit| nearest.is_none_or(|(near, _)| *hit < near)) {
                 nearest = Some((distance, end));
             }
@@ -81,4 +95,8 @@ impl View<'_> {
         });
         seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }
+}
+
+fn point(at: Vec2) -> Point {
+    [at.x, at.y]
 }

@@ -3,7 +3,7 @@
             goals_end/1                 % +Page
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../native', [view_json_/2, view_say_/2]).
+:- use_module('../native', [view_say_/2]).
 :- use_module(log, [error_text/2]).
 :- use_module(program, [program_state/1]).
 
@@ -135,8 +135,5 @@ answer(Page, Number, State, Text) :-
     ;   thread_self(Me),
         retractall(running(_, _, Me))
     ),
-    view_json_(Text, Json),
-    format(string(Message),
-           "{\"type\":\"answer\",\"n\":~w,\"state\":\"~w\",\"text\":~w}",
-           [Number, State, Json]),
-    view_say_(Page, Message).
+    atom_string(State, Word),
+    view_say_(Page, json([type=answer, n=Number, state=Word, text=Text])).

@@ -5,7 +5,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../native',
               [ sim_add_/2, sim_jam_/2, sim_key_/2, sim_place_/3,
-                sim_plug_/2, sim_remove_/1, view_json_/2, view_keep_/2,
+                sim_plug_/2, sim_remove_/1, view_keep_/2,
                 view_move_/4, view_pace_/1, view_pause_/1, view_pull_/1,
                 view_put_back_/2, view_source_/1, view_step_/2
               ]).
@@ -310,10 +310,8 @@ forget_snapshot(Name) :-
     tell_snapshots.
 
 tell_snapshots :-
-    findall(Json, ( snapshot(_, Name, _), view_json_(Name, Json) ), Names),
-    atomic_list_concat(Names, ',', Joined),
-    format(string(Text), "[~w]", [Joined]),
-    view_keep_(snapshots, Text).
+    findall(Text, ( snapshot(_, Name, _), atom_string(Name, Text) ), Texts),
+    view_keep_(snapshots, Texts).
 
 %!  hands_end is det.
 %

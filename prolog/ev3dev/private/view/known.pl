@@ -4,7 +4,7 @@
             watches_end/0
           ]).
 :- use_module('../native',
-              [ view_json_/2, view_keep_/2, view_to_world_/5 ]).
+              [ view_keep_/2, view_to_world_/5 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../world_name', [world_name/1]).
@@ -38,10 +38,10 @@ renew_kept :-
 
 keep_name :-
     (   world_name(Name)
-    ->  view_json_(Name, Json)
-    ;   Json = null
+    ->  atom_string(Name, Text)
+    ;   Text = null
     ),
-    view_keep_(name, Json).
+    view_keep_(name, Text).
 
 keep_grid :-
     brick(Brick),
@@ -58,31 +58,25 @@ grid_json(Brick, Map, metric(Cm, X0, Y0, _, _), Json) :-
     view_to_world_(Left, Low, X, Y, Turn),
     Columns is X2 - X1 + 1,
     Rows is Y2 - Y1 + 1,
-    findall(Text,
+    findall(Place,
             ( ev3dev_grid_knowledge:obstructed(Cell),
-              cell(Cell, X1, Y1, Text)
+              place(Cell, X1, Y1, Place)
             ),
             Blocked0),
-    findall(Text,
+    findall(Place,
             ( ev3dev_grid_knowledge:known_free(Cell),
-              cell(Cell, X1, Y1, Text)
+              place(Cell, X1, Y1, Place)
             ),
             Free0),
     sort(Blocked0, Blocked),
     sort(Free0, Free),
-    atomic_list_concat(Blocked, ',', BlockedText),
-    atomic_list_concat(Free, ',', FreeText),
-    findall(Text,
+    findall(Place,
             ( planned(Brick, Cell),
-              cell(Cell, X1, Y1, Text)
+              place(Cell, X1, Y1, Place)
             ),
             Plan),
-    atomic_list_concat(Plan, ',', PlanText),
-    format(string(Json),
-           "{\"cell\":~w,\"origin\":[~2f,~2f],\"h\":~2f,\"cols\":~w,\c
-            \"rows\":~w,\"blocked\":[~w],\"free\":[~w],\"plan\":[~w]}",
-           [ Cm, X, Y, Turn, Columns, Rows, BlockedText, FreeText,
-             PlanText ]).
+    Json = json([ cell=Cm, origin=[X, Y], h=Turn, cols=Columns, rows=Rows,
+                  blocked=Blocked, free=Free, plan=Plan ]).
 
 %   The cells of the plan under way, in order.
 
@@ -91,10 +85,9 @@ planned(Brick, Cell) :-
     !,
     member(Cell, Cells).
 
-cell([CX, CY], X1, Y1, Text) :-
+place([CX, CY], X1, Y1, [X, Y]) :-
     X is CX - X1,
-    Y is CY - Y1,
-    format(atom(Text), '[~w,~w]', [X, Y]).
+    Y is CY - Y1.
 
 %!  watch_add(+Name, +Column) is det.
 %
@@ -108,18 +101,10 @@ watch_add(Name, Column) :-
                  keep_watches )).
 
 keep_watches :-
-    findall(Text,
-            ( watch(_, Name, Column),
-              view_json_(Name, NameJson),
-              unit(Column, Unit),
-              format(string(Text),
-                     "{\"name\":~w,\"column\":\"~w\",\"unit\":\"~w\"}",
-                     [NameJson, Column, Unit])
-            ),
-            Texts),
-    atomic_list_concat(Texts, ',', Joined),
-    format(string(Json), "[~w]", [Joined]),
-    view_keep_(watches, Json).
+    findall(json([name=Name, column=Column, unit=Unit]),
+            ( watch(_, Name, Column), unit(Column, Unit) ),
+            Watches),
+    view_keep_(watches, Watches).
 
 unit(Column, Unit) :-
     (   ending(Ending, Unit0),

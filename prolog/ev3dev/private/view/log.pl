@@ -2,18 +2,18 @@
           [ watch_messages/0,
             leave_messages/0,
             mark/1,                     % +Term
-            cause_texts/2,              % +Cause, -Texts
+            log_commands/0,
             error_text/2                % +Error, -Text
           ]).
-:- use_module('../journal_words', [cause_words//1]).
+:- use_module('../journal_words', [cause_words//1, command_words//2]).
 :- use_module('../causes', [causes/2, follow/1, follow_no_more/0]).
-:- use_module('../native', [view_log_/4, view_serves_/0]).
+:- use_module('../native', [journal_new_/1, view_log_/5, view_serves_/0]).
 :- use_module('../uncaught', [in_words//1]).
 
 /** <module> What the page's log is told
 
-Warnings and errors of the program, its marks, rules that become active,
-events that happen and Golog's history.
+Commands, warnings and errors of the program, its marks, rules that become
+active, events that happen and Golog's history.
 */
 
 :- multifile user:message_hook/3.
@@ -67,7 +67,9 @@ lines_text(Lines, Text) :-
 
 note(Kind, Text) :-
     thread_name(Thread),
-    view_log_(Kind, Text, [], Thread).
+    % What was commanded before stands before it.
+    log_commands,
+    view_log_(now, Kind, Text, [], Thread).
 
 thread_name(page) :-
     view_serves_,
@@ -105,14 +107,28 @@ mark(Term) :-
     ),
     note(mark, Text).
 
-%!  cause_texts(+Cause, -Texts) is det.
+%!  log_commands is det.
 %
-%   What a command was given for, by the number of its cause: the innermost
-%   first. The native code calls this; it asks no device.
+%   Add what the program has commanded meanwhile. Asks no device.
 
-cause_texts(Cause, Texts) :-
-    causes(Cause, Causes),
-    texts_of(Causes, Texts).
+log_commands :-
+    journal_new_(Done),
+    log_each(Done).
+
+log_each([]).
+log_each([done(Time, What-Command0, Cause)|Done]) :-
+    (   Command0 = ended(Reason, _)
+    ->  Command = ended(Reason)
+    ;   Command = Command0
+    ),
+    (   phrase(command_words(Command, What), Lines)
+    ->  lines_text(Lines, Text),
+        causes(Cause, Causes),
+        texts_of(Causes, Texts),
+        view_log_(Time, command, Text, Texts, '')
+    ;   true
+    ),
+    log_each(Done).
 
 texts_of([], []).
 texts_of([Cause|Causes], [Text|Texts]) :-

@@ -5,13 +5,12 @@
           ]).
 :- use_module('../errors', [throw_error/3]).
 :- use_module('../native',
-              [ view_end_/2, view_frame_/4, view_hear_/3, view_json_/2,
-                view_leave_/1, view_say_/2, view_serve_/5, view_shut_/1,
-                view_visit_/1 ]).
+              [ view_end_/2, view_frame_/5, view_hear_/3, view_leave_/1,
+                view_say_/2, view_serve_/5, view_shut_/1, view_visit_/1 ]).
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(hands, [hand_line/3]).
 :- use_module(known, [renew_kept/0]).
-:- use_module(log, [error_text/2, mark/1]).
+:- use_module(log, [error_text/2, log_commands/0, mark/1]).
 :- use_module(program,
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
@@ -28,10 +27,10 @@ else the page says is done meanwhile.
 
 :- dynamic
     porter/1,                           % Thread
-    settings/3,                         % Interval, Json, Goals
+    settings/3,                         % Interval, Rate, Goals
     files_directory/1.
 
-settings(0.05, "", false).
+settings(0.05, 20, false).
 
 :- prolog_load_context(directory, Here),
    atom_concat(Here, '/../../view', Directory),
@@ -44,9 +43,8 @@ settings(0.05, "", false).
 
 page_settings(Rate, Goals) :-
     Interval is 1.0 / Rate,
-    format(string(Json), "\"rate\":~w,\"goals\":~w", [Rate, Goals]),
     retractall(settings(_, _, _)),
-    assertz(settings(Interval, Json, Goals)).
+    assertz(settings(Interval, Rate, Goals)).
 
 %!  pages_serve(+Address, ?Port, +Token) is det.
 %
@@ -73,7 +71,7 @@ pages_serve(Address, Port, Token) :-
 %   Say good-bye to all pages, and end the server.
 
 pages_close :-
-    view_shut_("{\"type\":\"bye\",\"why\":\"stopped\"}"),
+    view_shut_(json([type=bye, why=stopped])),
     forall(retract(porter(Porter)),
            thread_join(Porter, _)).
 
@@ -149,11 +147,11 @@ due(Have, Last, Page, Wanted, Last1) :-
     ).
 
 frame_send(Page, Have) :-
-    settings(_, Settings, _),
+    settings(_, Rate, Goals),
     program_state(State),
     renew_kept,
-    view_frame_(Have, State, Settings, Text),
-    view_say_(Page, Text).
+    log_commands,
+    view_frame_(Page, Have, State, Rate, Goals).
 
 word_rest(Line, Word, Rest) :-
     (   sub_string(Line, Before, 1, After, " ")
@@ -203,18 +201,13 @@ line(Word, Rest, Page) :-
 
 done(Page, Word, More) :-
     (   More = [id(Id)]
-    ->  format(string(Text), "{\"type\":\"done\",\"what\":\"~w\",\"id\":~w}",
-               [Word, Id])
-    ;   format(string(Text), "{\"type\":\"done\",\"what\":\"~w\"}", [Word])
-    ),
-    view_say_(Page, Text).
+    ->  view_say_(Page, json([type=done, what=Word, id=Id]))
+    ;   view_say_(Page, json([type=done, what=Word]))
+    ).
 
 refused(Page, Word, Why0) :-
     (   string(Why0)
     ->  Why = Why0
     ;   error_text(Why0, Why)
     ),
-    view_json_(Why, Json),
-    format(string(Text),
-           "{\"type\":\"refused\",\"what\":\"~w\",\"why\":~w}", [Word, Json]),
-    view_say_(Page, Text).
+    view_say_(Page, json([type=refused, what=Word, why=Why])).

@@ -1,9 +1,8 @@
-//! What a page is told of the machine.
+//! What is shown of the machine to those who look on.
 
 use std::time::Duration;
 
-use ev3_json::Json;
-use ev3_sim::{Beside, Item, Machine, Options, Pose, WorldSpec};
+use ev3_sim::{Item, Machine, Options, Pose, Sample, Shown, Sight, WorldSpec};
 
 use crate::desk::furnished;
 use crate::robots::default_robot;
@@ -12,19 +11,17 @@ fn machine() -> Machine {
     Machine::new(&furnished(), &default_robot(), Options::default()).unwrap()
 }
 
-fn text(write: impl FnOnce(&mut Json)) -> String {
-    let mut json = Json::new();
-    write(&mut json);
-    json.into_text()
-}
-
-fn state(machine: &Machine) -> String {
-    text(|json| json.object(|json| machine.report_state(json, &Beside::default())))
-}
-
 fn drive(machine: &mut Machine) {
     machine.write_path("tacho-motor/motor1/speed_sp", "300").unwrap();
     machine.write_path("tacho-motor/motor1/command", "run-forever").unwrap();
+}
+
+fn look(machine: &Machine) -> String {
+    let ports = ev3_sim::Port::ALL.map(|port| machine.shown(port));
+    let sights: Vec<_> = machine.sights().collect();
+    let bulbs: Vec<_> = machine.bulbs().collect();
+    let brick = (machine.lights(), machine.battery(), machine.pixels(), machine.is_moving());
+    format!("{ports:?} {sights:?} {bulbs:?} {brick:?} {:?}", machine.frame())
 }
 
 #[test]
@@ -34,12 +31,7 @@ fn nothing_changes_by_looking() {
     drive(&mut watched);
     drive(&mut alone);
     for _ in 0..100 {
-        state(&watched);
-        text(|json| {
-            json.object(|json| watched.report_world(json));
-            watched.report_robot(json);
-            watched.report_screen(json);
-        });
+        assert_eq!(look(&watched), look(&watched));
         watched.step(Duration::from_millis(7));
         alone.step(Duration::from_millis(7));
         for machine in [&mut watched, &mut alone] {
@@ -55,64 +47,57 @@ fn nothing_changes_by_looking() {
 fn values_are_those_that_a_program_reads() {
     let mut machine = machine();
     machine.step(Duration::from_millis(100));
-    let shown = state(&machine);
+    let Shown::Sensor(sensor) = machine.shown("in1".parse().unwrap()) else { panic!() };
     let read = machine.read_path("lego-sensor/sensor0/value0").unwrap();
     let tenths: f64 = read.trim().parse().unwrap();
-    assert!(shown.contains(&format!("\"values\":[{}],\"units\":\"cm\"", tenths / 10.0)), "{shown}");
+    assert_eq!((sensor.values, sensor.units), (vec![tenths / 10.0], "cm"));
 }
 
 #[test]
 fn ports_say_what_is_plugged_in() {
     let mut machine = machine();
-    let beside = Beside { pulled: [Some("lego-ev3-us"), None, None, None, None, None, None, None] };
-    machine.unplug("in1".parse().unwrap());
-    machine.plug("outD".parse().unwrap(), "lego-ev3-m-motor").unwrap();
-    let shown = text(|json| json.object(|json| machine.report_state(json, &beside)));
-    assert!(shown.contains(r#"{"port":"outD","kind":"coming","driver":"lego-ev3-m-motor""#));
-    assert!(shown.contains(r#"{"port":"in1","kind":"gone","driver":"lego-ev3-us""#), "{shown}");
+    let [sensor, motor] = ["in1", "outD"].map(|port| port.parse().unwrap());
+    machine.unplug(sensor);
+    machine.plug(motor, "lego-ev3-m-motor").unwrap();
+    assert_eq!(machine.shown(motor), Shown::Coming("lego-ev3-m-motor"));
     machine.step(Duration::from_secs(2));
-    assert!(
-        state(&machine).contains(r#"{"port":"outD","kind":"motor","driver":"lego-ev3-m-motor""#)
-    );
-    assert!(state(&machine).contains(r#"{"port":"in1","kind":"empty"}"#));
+    assert!(matches!(machine.shown(motor), Shown::Motor(_)), "{:?}", machine.shown(motor));
+    assert_eq!(machine.shown(sensor), Shown::Nothing);
 }
 
 #[test]
 fn a_cone_ends_at_what_is_in_it() {
     let mut machine = machine();
     machine.place(Pose::new(60.0, 120.0, 0.0)).unwrap();
-    let shown = state(&machine);
-    let hit = shown.split("\"hit\":[").nth(1).and_then(|rest| rest.split(']').next()).unwrap();
-    let [x, y] = *hit.split(',').map(|n| n.parse::<f64>().unwrap()).collect::<Vec<_>>() else {
-        panic!("{hit}");
-    };
+    let hit = machine.sights().find_map(|(.., sight)| match sight {
+        Sight::Cone { hit, .. } => hit,
+        _ => None,
+    });
+    let [x, y] = hit.unwrap();
     // The box around 70, 155.
-    assert!((x - 70.0).hypot(y - 155.0) < 26.0, "{hit}");
+    assert!((x - 70.0).hypot(y - 155.0) < 26.0, "{x} {y}");
 }
 
 #[test]
 fn samples_are_a_film_of_the_run() {
     let mut machine = machine();
-    assert!(machine.samples_csv().is_none());
+    assert!(machine.samples(None).is_empty());
     machine.keep_samples(true);
     drive(&mut machine);
     machine.step(Duration::from_secs(1));
-    let csv = machine.samples_csv().unwrap();
-    let lines: Vec<_> = csv.lines().collect();
-    assert!(lines[0].starts_with("time,x,y,heading,outA.position,"), "{}", lines[0]);
-    assert_eq!(lines.len(), 22);
-    assert!(lines[1].starts_with("0,60,50,0,"), "{}", lines[1]);
-    assert!(lines[21].starts_with("1,"), "{}", lines[21]);
-    let mut last = None;
-    let mut report = |machine: &Machine, after| {
-        text(|json| json.object(|json| last = machine.report_samples(json, after, &mut |_| None)))
+    let times = |machine: &Machine, after| {
+        let samples = machine.samples(after).into_iter();
+        samples.map(|sample| sample.at.as_millis()).collect::<Vec<_>>()
     };
-    assert!(report(&machine, None).contains("[0.95,"));
-    assert_eq!(report(&machine, Some(Duration::from_secs(1))), "{}");
+    let all: Vec<_> = (0..=1000).step_by(50).collect();
+    assert_eq!(times(&machine, None), all);
+    let first: Sample = machine.samples(None)[0].clone();
+    assert_eq!(first.pose, Pose::new(60.0, 50.0, 0.0));
+    assert_eq!(first.values("outA".parse().unwrap()), [0.0; 3]);
+    let second = Some(Duration::from_secs(1));
+    assert!(times(&machine, second).is_empty());
     machine.step(Duration::from_millis(60));
-    let more = report(&machine, Some(Duration::from_secs(1)));
-    assert!(more.contains("\"rows\":[[1.05,"), "{more}");
-    assert_eq!(last, Some(Duration::from_millis(1050)));
+    assert_eq!(times(&machine, second), [1050]);
 }
 
 #[test]
@@ -120,10 +105,10 @@ fn samples_are_thinned_and_time_that_stands_takes_no_memory() {
     let mut machine = machine();
     machine.keep_samples(true);
     machine.step(Duration::from_secs(3600));
-    assert!(machine.samples_csv().unwrap().lines().count() < 10);
+    assert!(machine.samples(None).len() < 9);
     drive(&mut machine);
     machine.step(Duration::from_secs(600));
-    let count = machine.samples_csv().unwrap().lines().count();
+    let count = machine.samples(None).len();
     assert!((1000..2050).contains(&count), "{count}");
 }
 

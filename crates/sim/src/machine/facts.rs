@@ -1,0 +1,43 @@
+//! The world as a file of facts.
+
+use crate::machine::Machine;
+use crate::world::geometry::Pose;
+use crate::world::{Bounds, Item, Point};
+
+impl Machine {
+    /// The world as a file of facts. It starts where the robot is now.
+    #[must_use]
+    pub fn world_facts(&self) -> String {
+        let scene = &self.scene;
+        let mut facts = Vec::new();
+        if let Some(Bounds { low: [x1, y1], high: [x2, y2] }) = scene.bounds {
+            facts.push(format!("bounds({x1}, {y1}, {x2}, {y2})"));
+        }
+        facts.push(format!("floor('{}')", scene.floor));
+        facts.push(format!("ambient({})", scene.ambient));
+        facts.push(format!("temperature({})", scene.temperature));
+        facts.push(format!("loudness({})", scene.loudness));
+        let Pose { x, y, heading } = self.pose();
+        facts.push(format!("start({x:.2}, {y:.2}, {heading:.1})"));
+        facts.extend(scene.items().iter().map(|(_, item)| fact(item)));
+        facts.join(".\n") + ".\n"
+    }
+}
+
+/// An item as a fact that can be read back.
+fn fact(item: &Item) -> String {
+    let list = |points: &[Point]| {
+        // A minus before a number needs a space before it.
+        let place = |[x, y]: &Point| {
+            if y.is_sign_negative() { format!("{x} - {y}") } else { format!("{x}-{y}") }
+        };
+        points.iter().map(place).collect::<Vec<_>>().join(", ")
+    };
+    match item {
+        Item::Patch { corners, color } => format!("patch('{color}', [{}])", list(corners)),
+        Item::Line { points, width, color } => {
+            format!("line('{color}', {width}, [{}])", list(points))
+        }
+        item => item.to_string(),
+    }
+}
