@@ -21,7 +21,7 @@ pub(super) fn text(value: &dyn Report) -> String {
     json.into_text()
 }
 
-/// A number with at most so many decimals; what is no number is `null`.
+/// A number with at most `PLACES` decimals; what is no number is `null`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Decimal<const PLACES: u32>(pub(super) f64);
 
