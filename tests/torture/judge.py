@@ -27,8 +27,8 @@ LIMITS = {
     "cpu": (resource.RLIMIT_CPU, 1),
     "fsize": (resource.RLIMIT_FSIZE, 64 << 10),
 }
-PANIC = re.compile(rb".*(?:panicked at|core::panicking).*")
-CRASH = re.compile(rb".*(?:\[FATAL|fatal signal|ev3dev\.so).*")
+OURS = re.compile(rb".*(?:panicked at|core::panicking|ev3dev\.so).*")
+CRASH = re.compile(rb"\[FATAL|fatal signal")
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -418,17 +418,16 @@ class Run:
         return [pid for pid in self.stage.descendants() if pid not in known and OWN not in command_of(pid)]
 
     def read_output(self):
-        """Nothing of the pack panics, or crashes unless that was the aim."""
+        """Nothing of the pack panics or crashes."""
         self.look(0)
-        crash = self.program.signal in CRASHES or self.program.limit or self.program.ending == "Ctrl-\\"
-        for pattern in (PANIC,) if crash else (PANIC, CRASH):
-            if found := pattern.search(self.output):
-                self.add("crash", found[0].decode(errors="replace").strip()[:200])
+        if found := OURS.search(self.output):
+            self.add("crash", found[0].decode(errors="replace").strip()[:200])
 
     def crashed(self):
-        """Did it end by a crash that nobody sent?"""
-        code = self.popen.returncode if self.popen else 0
-        return -code in CRASHES and code != -(self.program.signal or 0)
+        """Did Prolog crash, though nobody sent a crash or took its memory?"""
+        program, code = self.program, self.popen.returncode if self.popen else 0
+        asked = program.signal in CRASHES or program.limit or program.ending == "Ctrl-\\"
+        return not asked and (-code in CRASHES or bool(CRASH.search(self.output)))
 
     def add(self, kind, text):
         """One more thing that is wrong."""

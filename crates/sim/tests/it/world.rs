@@ -172,7 +172,7 @@ fn collisions_and_events_are_recorded() {
     ] {
         assert!(svg.contains(part), "{part} in {svg}");
     }
-    desk.step(1_200_000);
+    desk.step(240_000);
     assert!(desk.0.trace().path().count() <= 2048, "memory stays flat");
 }
 
