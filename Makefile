@@ -69,6 +69,8 @@ check-all: lint check
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
 
+# A fifth of the random cases; check-torture has them all
+check-prolog: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
 check-prolog:
 	@tests/run.sh $(TESTS)
 
@@ -97,13 +99,12 @@ check-endings: build
 	@tests/torture/torture.py --self-test
 	@tests/torture/torture.py --count 300
 
-# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, and 1000
-# maps; `make check` has 300, and 150
+# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, 1000
+# maps, and all cases of which `make check` has a fifth
 check-torture: build
 	@tests/torture/torture.py --count 10000
-	@EV3DEV_TEST_SCHEDULES=1-10000 tests/run.sh tests/behavior/test_torture.pl \
-	    tests/behavior/test_motor_ramps.pl tests/behavior/test_odd_terms.pl \
-	    tests/behavior/test_rule_laws.pl tests/prolog/test_planners.pl
+	@EV3DEV_TEST_SCHEDULES=1-10000 \
+	    tests/run.sh $$(grep -lE 'support/(cases|robots)' tests/*/test_*.pl)
 
 # Changes of single clauses, each of which a test should notice, in FILES, in lines changed
 # SINCE a commit, or a SAMPLE of so many by a SEED; LEAST is the percentage that must be

@@ -1,3 +1,4 @@
+:- use_module('../support/cases').
 :- use_module('../support/trees').
 :- use_module('../support/odd_terms').
 :- use_module('../support/old_prolog').
@@ -212,7 +213,6 @@ call_of(port_device(lego_port, type)).
 call_of(ev3_dev(file)).
 call_of(button(button)).
 call_of(button_wait(button, event, at_once)).
-call_of(button_events(out)).
 call_of(play(file)).
 call_of(play(file, options)).
 call_of(sound_wait).
@@ -284,6 +284,7 @@ test(every_exported_predicate_is_called, true(Missing == [])) :-
 % These wait for as long as one likes, or write files of any name: see
 % test_buttons.pl, test_sound.pl, test_screen.pl, test_time.pl, test_motors.pl
 % and test_sensor_wait.pl.
+called_elsewhere(button_events/1).
 called_elsewhere(button_wait/2).
 called_elsewhere(motor_run_until_stalled/2).
 called_elsewhere(motor_run_until_stalled/3).
@@ -307,7 +308,7 @@ test(whatever_is_thrown_is_an_iso_error_that_names_what_was_called,
                       'lego-ev3-battery'-battery ],
               ( set_robot(5.6, 10.6, outB, outC),
                 findall(Goal-How,
-                        ( odd_call(Goal), ends_badly(Goal, How) ),
+                        ( some(odd_call(Goal)), ends_badly(Goal, How) ),
                         Bad) )),
     !.
 
@@ -738,9 +739,7 @@ test(a_reader_sees_either_text_and_nothing_between,
     with_tree(Tree, ( position(outB, 1),
                       meanwhile(alternate,
                                 ( sees(1000000),
-                                  findall(V,
-                                          ( between(1, 20000, _), position(outB, V) ),
-                                          Vs),
+                                  findall(V, ( case(20000, _), position(outB, V) ), Vs),
                                   sees(1) )),
                       subtract(Vs, [1, 1000000], Others) )).
 

@@ -8,8 +8,6 @@
 
 :- begin_tests(examples).
 
-test(loads_without_a_word, [forall(example(File)), true(Said-End == ""-exit(0))]) :-
-    loads(File, true, Said, End).
 test(loads_beside_any_library,
      [forall(example(File)), true(Said-End == ""-exit(0))]) :-
     loads(File, maplist(use_module, [ library(ev3dev/drive),
@@ -36,7 +34,7 @@ loads(File, Goal, Said, End) :-
     close(Out),
     process_wait(Id, End).
 
-test(make_demo_knows_its_start,
+test(loads_without_a_word_and_make_demo_knows_its_start,
      [ forall(example(File)),
        setup(load_files(demo_script:'tools/demo.pl', [if(not_loaded)])),
        true(Said-End == ""-exit(0))

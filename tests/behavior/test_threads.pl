@@ -1,6 +1,7 @@
 % Many threads at once: nothing is torn, nobody waits for ever, and on the virtual
 % clock each run is the same.
 
+:- use_module('../support/cases').
 :- use_module('../support/child').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
@@ -8,7 +9,8 @@
 :- begin_tests(threads).
 
 %   How long to go on, in seconds.
-lasts(10).
+lasts(Seconds) :-
+    cases(10, Seconds).
 
 test(eight_threads_call_everything_at_once,
      [forall(tree(Tree)), true(Ends == Fine)]) :-

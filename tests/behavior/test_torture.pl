@@ -335,7 +335,7 @@ hot(sim_snapshot(_)).
 % leaks does so each time; the collector of atoms may be late once.
 grows(Goal, Bytes) :-
     hot(Goal),
-    cases(10000, Count),
+    Count = 10000,
     with_sim([],
              ( set_robot(5.6, 10.6, outB, outC),
                repeated(Count, Goal),
@@ -394,8 +394,9 @@ test(worlds_are_built_or_refused, true(Wrongs == [])) :-
 
 test(world_files_are_read_or_refused, true(Wrongs == [])) :-
     all_wrong(world_text_wrong, Wrongs).
-% An emulator grows by itself.
-test(calls_leave_no_memory_behind, [condition(all_cases), true(Growing == [])]) :-
+% An emulator, on which a fiftieth of the cases is tried, grows by itself.
+test(calls_leave_no_memory_behind,
+     [condition(( cases(100, Used), Used >= 10 )), true(Growing == [])]) :-
     findall(Goal-Bytes, grows(Goal, Bytes), Growing).
 
 test(simulations_leave_nothing_open, true(After =< Before)) :-

@@ -1,6 +1,7 @@
 :- module(cases,
           [ case/2,                     % +Count, -Seed
             cases/2,                    % +Count, -Used
+            some/1,                     % :Goal
             case/3,                     % +Few, +Many, -Seed
             schedules/2,                % -First, -Last
             all_cases/0
@@ -44,6 +45,22 @@ case(Few, Many, Seed) :-
 cases(Count, Used) :-
     percent(Percent),
     Used is max(2, Count * Percent // 100).
+
+%!  some(:Goal) is nondet.
+%
+%   As Goal, without the solutions that are not tried. They are the same each time, and
+%   spread evenly.
+
+:- meta_predicate some(0).
+
+some(Goal) :-
+    percent(Percent),
+    State = count(0),
+    call(Goal),
+    State = count(Count0),
+    Count is Count0 + 1,
+    nb_setarg(1, State, Count),
+    Count0 * 2654435769 mod 4294967296 < Percent * 42949673.
 
 %!  schedules(-First, -Last) is det.
 %
