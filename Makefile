@@ -119,6 +119,8 @@ lint: build
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	tools/layers.py --self-test
 	tools/layers.py
+	tools/papers.py --self-test
+	tools/papers.py
 	$(SWIPL) -g main -t 'halt(1)' tests/support/lint.pl
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh tests/*/*.sh
