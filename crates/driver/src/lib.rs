@@ -8,6 +8,25 @@
 //! one read or write: run several motors at once, wait until they are done,
 //! read a sensor in a given mode, turn a robot by its gyro.
 //!
+//! ```no_run
+//! use ev3_driver::motor::{Extent, Move, MoveOptions, Speed, run_to};
+//! use ev3_driver::{Class, Registry, SysfsDir};
+//! use std::sync::Arc;
+//!
+//! let devices = Arc::new(Registry::new(Arc::new(SysfsDir::new("/sys/class"))));
+//! let interrupted = &mut || false; // asked every few milliseconds
+//! if let Some(motor) = devices.find(Class::TachoMotor, "outB")? {
+//!     println!("{} counts a turn", motor.number("count_per_rot")?);
+//! }
+//! // One turn at half speed, to its end; `None` if there is no such motor.
+//! let turn = Move { port: "outB", speed: Speed::Percent(50.0), extent: Extent::By(360.0) };
+//! match run_to(&devices, &[turn], &MoveOptions::default(), interrupted)? {
+//!     Some(reason) => println!("{}", reason.word()),
+//!     None => println!("no motor at outB"),
+//! }
+//! # Ok::<(), ev3_driver::Error>(())
+//! ```
+//!
 //! From the bottom up (`tools/layers.txt` says who may import whom):
 //!
 //! * [`sysfs`]: where the attribute files are: the kernel's, any directory

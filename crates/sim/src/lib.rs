@@ -87,7 +87,7 @@
 //! - `sense`: what the sensors notice of the world;
 //! - `log.rs`, `trace.rs`: what has happened;
 //! - `machine`: all of these as one value, its file tree, and time;
-//! - `shared.rs`, `clock.rs`: a machine that several threads use, and how time passes for it;
+//! - `shared.rs`, `clock`: a machine that several threads use, and how time passes for it;
 //! - `fuse`: the tree as real files.
 #![forbid(unsafe_code)]
 
