@@ -8,18 +8,6 @@
 
 :- begin_tests(examples).
 
-test(loads_beside_any_library,
-     [forall(example(File)), true(Said-End == ""-exit(0))]) :-
-    loads(File, maplist(use_module, [ library(ev3dev/drive),
-                                      library(ev3dev/golog),
-                                      library(ev3dev/rules),
-                                      library(ev3dev/plnxt),
-                                      library(ev3dev/grid),
-                                      library(ev3dev/planners),
-                                      library(ev3dev/roadmap),
-                                      library(ev3dev/sim) ]),
-          Said, End).
-
 loads(File, Goal, Said, End) :-
     format(atom(Text), "~q", [Goal]),
     (   getenv('SWIPL', Swipl)
@@ -34,7 +22,7 @@ loads(File, Goal, Said, End) :-
     close(Out),
     process_wait(Id, End).
 
-test(loads_without_a_word_and_make_demo_knows_its_start,
+test(loads_without_a_word_beside_any_library_and_has_its_start,
      [ forall(example(File)),
        setup(load_files(demo_script:'tools/demo.pl', [if(not_loaded)])),
        true(Said-End == ""-exit(0))
@@ -51,7 +39,17 @@ test(loads_without_a_word_and_make_demo_knows_its_start,
     ),
     strip_module(user:Goal, Module, Start),
     atomic_list_concat(['examples/', Program, '.pl'], Example),
-    loads(Example, predicate_property(Module:Start, defined), Said, End).
+    loads(Example,
+          ( maplist(use_module, [ library(ev3dev/drive),
+                                  library(ev3dev/golog),
+                                  library(ev3dev/rules),
+                                  library(ev3dev/plnxt),
+                                  library(ev3dev/grid),
+                                  library(ev3dev/planners),
+                                  library(ev3dev/roadmap),
+                                  library(ev3dev/sim) ]),
+            predicate_property(Module:Start, defined) ),
+          Said, End).
 
 %   At the toplevel it would wait for a key, and to the view a program would
 %   run. An example that does not end by itself is left.
