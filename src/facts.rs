@@ -162,7 +162,7 @@ fn read<'a, C: QueryableContextType>(
     Ok(Some(fact))
 }
 
-/// What a drawing adds to a world.
+/// The items that a drawing adds to a world.
 fn drawn<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     size: &Term<'a>,

@@ -88,7 +88,7 @@ natives! {
 /// How far `journal_new_` has come: in the journal of which devices, and how many entries.
 static SEEN: Mutex<(Weak<Registry>, u64)> = Mutex::new((Weak::new(), 0));
 
-/// What was done since the last call. Asks no device.
+/// The entries since the last call. Asks no device.
 fn new_entries() -> Vec<Entry> {
     let Some(devices) = chosen_devices() else { return Vec::new() };
     let mut seen = locked(&SEEN);

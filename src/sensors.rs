@@ -181,7 +181,7 @@ fn next_value<'a, C: QueryableContextType>(
     })
 }
 
-/// What to wait for.
+/// The condition to wait for.
 fn until<'a, C: QueryableContextType>(call: &Call<'a, C>, test: &Term<'a>) -> PrologResult<Until> {
     let Some([operator, number]) = attempt_opt(call.context.compound_terms::<2>(test))? else {
         return Ok(Until::Bumped);

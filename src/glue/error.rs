@@ -263,7 +263,7 @@ fn words(source: &str) -> &str {
     source.split_once(" (os error ").map_or(source, |(words, _)| words)
 }
 
-/// What an attribute takes whose driver lists that in a file beside it.
+/// The values that an attribute takes, if its driver lists them in a file beside it.
 fn allowed(error: &Error, devices: &Registry) -> String {
     let Some(path) = error.path().filter(|_| error.errno() == Some(Errno::INVAL)) else {
         return String::new();

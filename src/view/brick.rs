@@ -34,7 +34,7 @@ struct Read {
     samples: VecDeque<Sample>,
 }
 
-/// What there was at a moment of the tree's clock.
+/// The values at a moment of the tree's clock.
 struct Sample {
     at: Duration,
     pose: Option<[f64; 3]>,
@@ -130,7 +130,7 @@ fn screen(devices: &Registry) -> OrNull<Screen> {
     OrNull(shades.map(Screen::of_shades))
 }
 
-/// What a port has. Changes no mode.
+/// The device at a port. Changes no mode.
 fn port_of(devices: &Registry, name: &'static str) -> Port {
     let find = |class| devices.find(class, name).ok().flatten();
     let mut port = Port { port: name, kind: "empty", ..Port::default() };

@@ -13,7 +13,7 @@ use swipl::prelude::*;
 /// The server, if there is one.
 static DOOR: Mutex<Option<Arc<Door>>> = Mutex::new(None);
 
-/// What a page can save.
+/// The files that a page can save.
 const MADE: [Made; 2] = [
     Made {
         path: "/world.pl",

@@ -44,7 +44,7 @@ impl fmt::Display for Have {
     }
 }
 
-/// What all pages get alike, for a short while.
+/// The part of a frame that all pages get alike, for a short while.
 struct Shared {
     made: Instant,
     film: u64,

@@ -1,4 +1,4 @@
-//! What a person does on a page to the simulated world and its time.
+//! A person's acts on a page: they change the simulated world and its time.
 use super::reach::{outside, running_simulation};
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
@@ -96,7 +96,7 @@ fn simulation() -> PrologResult<Arc<Simulation>> {
     running_simulation().ok_or(PrologError::Failure)
 }
 
-/// What was pulled out of each port.
+/// The device that was pulled out of each port.
 pub(super) fn pulled() -> Pulled {
     let (of, pulled) = *locked(&PULLED);
     if of == film() { pulled } else { Pulled::default() }

@@ -4,7 +4,7 @@ use ev3_json::Json;
 use std::borrow::Cow;
 use std::time::Duration;
 
-/// What is written as JSON.
+/// A value that is written as JSON.
 pub(super) trait Report {
     fn report(&self, json: &mut Json);
 
@@ -233,7 +233,7 @@ objects! {
         thread: Option<Text>,
     }
 
-    /// What the robot is made of.
+    /// The parts of the robot.
     Spec {
         hull: Hull,
         left: Option<Wheel>,

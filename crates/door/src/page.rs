@@ -20,7 +20,7 @@ const CLOSE: u8 = 8;
 const PING: u8 = 9;
 const PONG: u8 = 10;
 
-/// What a page has said.
+/// The bytes that have come of a message.
 #[derive(Debug, Eq, PartialEq)]
 pub enum Heard {
     /// A line.
@@ -39,7 +39,7 @@ pub struct Page {
     reading: Mutex<Reading>,
 }
 
-/// What has come.
+/// A message that has come.
 #[derive(Debug)]
 struct Reading {
     bytes: Vec<u8>,
@@ -241,7 +241,7 @@ impl Reading {
     }
 }
 
-/// What a frame is answered with that closes the connection: it holds nothing, or a code that
+/// The answer to a frame that closes the connection: it holds nothing, or a code that
 /// may be sent, and a reason (RFC 6455, 5.5.1 and 7.4).
 fn closing(data: &[u8]) -> u16 {
     match data {

@@ -31,7 +31,7 @@ pub struct Made {
     pub kind: &'static str,
     /// Makes it.
     pub make: fn() -> Option<String>,
-    /// What is said if it cannot be made.
+    /// The message if it cannot be made.
     pub lacking: &'static str,
 }
 

@@ -388,7 +388,7 @@ impl Journal {
         }
     }
 
-    /// What was done, the last first.
+    /// The entries, the last first.
     #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
         let ring = locked(&self.0);

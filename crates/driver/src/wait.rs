@@ -31,7 +31,7 @@ impl<T> Look<T> {
 
 /// Something to wait for.
 pub trait Wait {
-    /// What is known at the end.
+    /// The result at the end.
     type End;
 
     /// Whether it is over.

@@ -1,4 +1,4 @@
-//! What is done while Prolog waits for input at its terminal.
+//! A hook for while Prolog waits for input at its terminal.
 //!
 //! There Prolog calls a hook again and again until there is input, in its main thread: while it
 //! reads from a pipe, at a terminal, and with a line half typed by the libraries that edit lines.

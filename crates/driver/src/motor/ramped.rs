@@ -57,7 +57,7 @@ impl<'a> Ramped<'a> {
         if self.target.is_some() { "run-to-abs-pos" } else { word }
     }
 
-    /// What comes before the command.
+    /// The writes before the command.
     pub(super) fn prepare(&mut self) -> Result<()> {
         let Some(target) = self.target else {
             return self.set("ramp_down_sp", 1);

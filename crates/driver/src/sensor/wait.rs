@@ -11,7 +11,7 @@ use std::time::Duration;
 /// The time between two samples. The EV3's sensors measure less often.
 const PERIOD: Duration = Duration::from_millis(10);
 
-/// What to wait for.
+/// The condition to wait for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Until {
     /// The value is below the number.

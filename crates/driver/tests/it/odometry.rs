@@ -225,7 +225,7 @@ proptest! {
         prop_assert!(near(whole.pose(), cut.pose(), 1e-6));
     }
 
-    /// What is rolled back is undone.
+    /// Rolling back undoes what rolling has done.
     #[test]
     fn ways_back_undo(steps in prop::collection::vec((way(), way()), 1..20)) {
         let mut estimate = Estimate::default();

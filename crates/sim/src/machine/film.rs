@@ -31,7 +31,7 @@ pub struct Sample {
     pub at: Duration,
     /// The true pose of the robot.
     pub pose: Pose,
-    /// What the devices showed, in the order of [`Port::ALL`].
+    /// The values of the devices, in the order of [`Port::ALL`].
     pub(super) ports: [Values; Port::ALL.len()],
 }
 

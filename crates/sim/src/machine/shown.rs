@@ -15,14 +15,14 @@ use crate::world::color::Color;
 use crate::world::geometry::Pose;
 use crate::world::{Bounds, Item, ItemId};
 
-/// What a port has.
+/// The device at a port.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shown {
     /// A tacho motor.
     Motor(ShownMotor),
     /// A DC motor.
     DcMotor {
-        /// What its bridge does, in percent.
+        /// The duty of its bridge, in percent.
         duty: i32,
         /// The words of `state`.
         state: String,
@@ -53,11 +53,11 @@ pub struct ShownMotor {
     pub max_speed: f64,
     /// A linear actuator.
     pub is_linear: bool,
-    /// What its bridge does, in percent.
+    /// The duty of its bridge, in percent.
     pub duty: i32,
     /// The words of `state`.
     pub state: String,
-    /// What it does at a stop.
+    /// Its stop action.
     pub stop_action: &'static str,
     /// A hand holds its shaft fast.
     pub is_held: bool,
@@ -109,7 +109,7 @@ impl Machine {
         self.scene.floor
     }
 
-    /// What a port has.
+    /// The device at a port.
     #[must_use]
     pub fn shown(&self, port: Port) -> Shown {
         let socket = &self.sockets[port as usize];
@@ -144,7 +144,7 @@ impl Machine {
         }
     }
 
-    /// What is plugged into a port, by the name of its driver.
+    /// The name of the driver of the device at a port.
     #[must_use]
     pub fn plugged(&self, port: Port) -> Option<&'static str> {
         self.sockets[port as usize].plug.map(Plug::driver)

@@ -83,7 +83,7 @@ impl Machine {
         svg
     }
 
-    /// What has everything in it, with a margin.
+    /// The rectangle around everything, with a margin.
     #[must_use]
     pub fn frame(&self) -> Bounds {
         let pose = self.pose();

@@ -103,7 +103,7 @@ struct Limit {
 }
 
 impl Limit {
-    /// What brings a speed to rest by at most this impulse.
+    /// The impulse that brings a speed to rest, at most this one.
     fn friction(gain: Speeds, most: f64) -> Limit {
         Limit { gain, target: 0.0, low: -most, high: most, impulse: 0.0 }
     }

@@ -38,7 +38,7 @@ impl Color {
         Color { red, green, blue }
     }
 
-    /// What COL-COLOR says: 1 black … 7 brown, the nearest of them.
+    /// The number that COL-COLOR reads: 1 black … 7 brown, the nearest of them.
     #[must_use]
     pub fn code(self) -> i32 {
         let away = |other: Color| {
