@@ -37,6 +37,23 @@ fn assert_near(pose: Pose, expected: Pose, cm: f64, degrees: f64) {
 }
 
 #[test]
+fn twice_the_speed_is_four_times_the_energy() {
+    let energy = |speed: i32| {
+        let mut desk = Desk::new();
+        for motor in [B, C] {
+            desk.put(&format!("{motor}speed_sp"), speed);
+            desk.put(&format!("{motor}command"), "run-forever");
+        }
+        desk.step(1000);
+        desk.0.kinetic_energy()
+    };
+    let (slow, fast) = (energy(200), energy(400));
+    assert!((fast / slow - 4.0).abs() < 0.1, "{slow} J and {fast} J");
+    // 0.75 kg at 9.8 cm/s are 3.6 mJ, and the rotors of two motors have five times as much.
+    assert!((0.01..0.04).contains(&slow), "{slow} J");
+}
+
+#[test]
 fn a_metre_is_a_metre() {
     let mut desk = Desk::new();
     move_both(&mut desk, 315, 100.0 * PER_CM, 100.0 * PER_CM);
