@@ -13,8 +13,8 @@ Of what stands in back quotes there
 What has a `<` is for the reader to fill in.
 """
 
+import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -22,8 +22,10 @@ ROOT = Path(__file__).resolve().parent.parent
 PAPERS = ("ARCHITECTURE.md", "CONTRIBUTING.md")
 CODE = re.compile(r"\.(?:pl|rs|js|mjs|py|sh|toml|c|h|css|html|txt)$|(?:^|/)Makefile$")
 PATH = re.compile(r"[\w.@*-]+(?:/[\w.@*-]+)*/?")
+# Not written by hand
+MADE = {".git", ".toolchain", "target", "lib", "dist", "doc", "compiled", "node_modules", "__pycache__"}
 # Beginnings of names, a name for any, and what is made
-OTHERS = re.compile(r"\w+_|p|(?:lib|doc|dist|compiled|target)/")
+OTHERS = re.compile(r"\w+_|p|(?:" + "|".join(MADE) + r")/")
 
 
 class House:
@@ -115,10 +117,12 @@ def main():
     """The command line."""
     if sys.argv[1:] == ["--self-test"]:
         return self_test()
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True,
-                            check=True).stdout.split()
+    listed = []
+    for folder, inner, names_there in os.walk(ROOT):
+        inner[:] = [name for name in inner if name not in MADE]
+        listed += [os.path.relpath(os.path.join(folder, name), ROOT) for name in names_there]
     files = {path: (ROOT / path).read_text(errors="replace") if CODE.search(path) else ""
-             for path in listed if (ROOT / path).is_file()}
+             for path in listed}
     make = set(re.findall(r"^([\w-]+):", files["Makefile"], flags=re.M))
     house = House(files)
     found = [f"{paper}:{line}: there is no {what}" for paper in PAPERS
