@@ -73,7 +73,7 @@ def is_path(word):
 
 def names(quoted):
     """The names in it: of `a::b`, `a/2`, `a(B, c)`, `a`."""
-    if found := re.fullmatch(r"(\w+(?:::\w+)*)(?:/\w+|\(.*\))?!?", quoted, flags=re.S):
+    if found := re.fullmatch(r"(\w+(?:::\w+)*)(?:/\w+|\(.*\))?!?", quoted):
         return [name for name in found[1].split("::") if not OTHERS.fullmatch(name)]
     return []
 
@@ -87,8 +87,9 @@ def wrong(text, house, make, walks=True):
         for line, quoted in quotes:
             for word in quoted.split():
                 if is_path(word) and not OTHERS.fullmatch(word):
-                    files += house.found(word)
-                    if not house.found(word):
+                    found = house.found(word)
+                    files += found
+                    if not found:
                         yield line, word
             for target in re.findall(r"\bmake ([\w-]+)", quoted):
                 if target not in make:

@@ -27,7 +27,8 @@ LIMITS = {
     "cpu": (resource.RLIMIT_CPU, 1),
     "fsize": (resource.RLIMIT_FSIZE, 64 << 10),
 }
-OURS = re.compile(rb".*(?:panicked at|core::panicking|ev3dev\.so).*")
+PANIC = re.compile(rb".*(?:panicked at|core::panicking).*")
+OURS = re.compile(rb".*ev3dev\.so.*")  # in the stack of a crash
 CRASH = re.compile(rb"\[FATAL|fatal signal")
 PR_SET_CHILD_SUBREAPER = 36
 
@@ -417,17 +418,22 @@ class Run:
         known = (self.leader, self.control and self.control[0].pid)
         return [pid for pid in self.stage.descendants() if pid not in known and OWN not in command_of(pid)]
 
+    def may_crash(self):
+        """Was a crash the aim, or can it come of what the program lacks?"""
+        program = self.program
+        return program.signal in CRASHES or program.limit or program.ending == "Ctrl-\\"
+
     def read_output(self):
-        """Nothing of the pack panics or crashes."""
+        """Nothing of the pack panics, or crashes unless that was the aim."""
         self.look(0)
-        if found := OURS.search(self.output):
-            self.add("crash", found[0].decode(errors="replace").strip()[:200])
+        for pattern in (PANIC,) if self.may_crash() else (PANIC, OURS):
+            if found := pattern.search(self.output):
+                self.add("crash", found[0].decode(errors="replace").strip()[:200])
 
     def crashed(self):
-        """Did Prolog crash, though nobody sent a crash or took its memory?"""
-        program, code = self.program, self.popen.returncode if self.popen else 0
-        asked = program.signal in CRASHES or program.limit or program.ending == "Ctrl-\\"
-        return not asked and (-code in CRASHES or bool(CRASH.search(self.output)))
+        """Did Prolog crash, though that was not the aim?"""
+        code = self.popen.returncode if self.popen else 0
+        return not self.may_crash() and (-code in CRASHES or bool(CRASH.search(self.output)))
 
     def add(self, kind, text):
         """One more thing that is wrong."""

@@ -13,14 +13,16 @@ a limit, at a terminal, or by a signal. Then
     its process is over, 2.5 s after a signal that asks for it at the latest;
     no motor runs 0.5 s after that;
     1 s after it nothing is there that it started, but a `sleep` of its own;
-    it printed no panic;
+    it printed no panic, nor the stack of a crash in the pack that nobody sent;
     while it stands by Ctrl-Z, no motor runs, and then it goes on.
 
 SWI-Prolog itself crashes now and then when it halts while another thread starts, waits with a
-time limit, or catches all that is to end it. That is counted apart, and may happen to a program in
-500, or to two. It drives a plain tree of files, or the mount of a simulation in another process, if there is
-FUSE. SWIPL names another Prolog. A busy machine, on which a `sleep 0.1` comes 0.25 s too late,
-measures nothing: such failures are counted apart.
+time limit, or catches all that is to end it. That is counted apart: it may happen to one program
+in 500, and to two of fewer.
+
+It drives a plain tree of files, or the mount of a simulation in another process, if there is FUSE.
+SWIPL names another Prolog. A busy machine, on which a `sleep 0.1` comes 0.25 s too late, measures
+nothing: such failures are counted apart.
 """
 
 import argparse
