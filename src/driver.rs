@@ -1,10 +1,14 @@
 //! `prolog/ev3dev/driver.pl`: devices and their attributes.
-use crate::glue::call::{Call, ListedDevices, Text};
+use crate::glue::call::{Call, ListedDevices, Text, start};
 use crate::glue::error::wrong_value;
+use crate::glue::interned::{handle, word_in};
+use crate::glue::known::{self, Look};
 use crate::glue::terms::{unify_atom, unify_value};
+use ev3_driver::attributes::Short;
 use ev3_driver::class::Detected;
 use ev3_driver::{Class, Device, Registry, attributes};
 use std::sync::Arc;
+use swipl::fli::Arguments;
 use swipl::prelude::*;
 
 natives! {
@@ -29,7 +33,7 @@ natives! {
             let mut found = found(context, class, port, kind)?;
             if let Some(path) = Call::of(context, "tacho_motor", 3).text_if_bound(path)? {
                 let is_it = |device: &Arc<Device>| *device.path().to_string_lossy() == *path;
-                found.devices = found.devices.filter(is_it).collect::<Vec<_>>().into_iter();
+                found.devices = found.devices.filter(is_it).collect();
             }
             Ok(Some(found))
         },
@@ -44,23 +48,23 @@ natives! {
     }
 
     /// attribute_(+Class, ?Port, +Attribute, ?Value)
-    nondet fn "attribute_"<AttributeReads>(context, class, port, attribute, value) {
+    nondet fn "attribute_"<AttributeReads>(context, class_term, port, attribute, value) {
         setup => {
-            let class = class_of(context, class)?;
+            let class = class_of(context, class_term)?;
             let call = Call::of(context, accessor(class), 3);
             let name = call.text(attribute)?;
             let devices = call.devices()?;
-            let (names_port, found) = (port.is_var(), call.listed(&devices, class, port)?);
-            Ok(Some(AttributeReads { devices, class, found, names_port, name }))
+            let (names_port, look) = (port.is_var(), Look::at(&devices, class));
+            let found = call.listed(&devices, class, port)?;
+            if let (false, Some(look), Some(device)) = (names_port, look, found.first()) {
+                keep(look, [class_term, port, attribute], &devices, device, &name);
+            }
+            let reads = AttributeReads { devices, found, names_port, name };
+            start(reads, |reads| &reads.found, |reads| reads.next(&call, port, value))
         },
         call(reads) => {
-            let AttributeReads { devices, class, found, names_port, name } = reads;
-            let call = Call::of(context, accessor(*class), 3);
-            let read = |device: &Arc<Device>| call.or_fail(attributes::read(devices, device, name));
-            call.next(found, read, |device, read| {
-                unify_value(value, read)?;
-                unify_asked(*names_port, port, device.port())
-            })
+            let class = class_of(context, class_term)?;
+            reads.next(&Call::of(context, accessor(class), 3), port, value)
         }
     }
 
@@ -75,6 +79,29 @@ natives! {
         let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
         call.or_absent(class, port, written)
     }
+}
+
+/// Keeps the device that a call of `attribute_` has found, if its atoms stay.
+fn keep(look: Look, terms: [&Term; 3], devices: &Arc<Registry>, device: &Arc<Device>, name: &Text) {
+    let [class, port, attribute] = terms.map(word_in);
+    if let (Some(class), Some(port), Some(attribute)) = (class, port, attribute) {
+        look.keep([class, port, attribute], devices, device, name.clone(), 0);
+    }
+}
+
+/// The call of `attribute_` with a device that is known.
+pub(crate) fn known_attribute(arguments: &Arguments) -> Option<bool> {
+    let key = [arguments.atom(0)?, arguments.atom(1)?, arguments.atom(2)?];
+    if !arguments.is_variable(3) {
+        return None;
+    }
+    known::with(key, |found| {
+        found.device.check_present_at(found.now).ok()?;
+        attributes::look(found.device, found.name, |shown| match shown {
+            Short::Integer(integer) => Some(arguments.unify_integer(3, integer)),
+            Short::Text(text) => Some(arguments.unify_atom(3, handle(text)?)),
+        })
+    })
 }
 
 /// The part of a device that the caller knows.
@@ -110,10 +137,25 @@ impl Bound {
 /// The devices whose attribute the call has not read yet.
 struct AttributeReads {
     devices: Arc<Registry>,
-    class: Class,
     found: ListedDevices,
     names_port: bool,
     name: Text,
+}
+
+impl AttributeReads {
+    fn next<'a, C: QueryableContextType>(
+        &mut self,
+        call: &Call<'a, C>,
+        port: &Term<'a>,
+        value: &Term<'a>,
+    ) -> PrologResult<bool> {
+        let Self { devices, found, names_port, name } = self;
+        let read = |device: &Arc<Device>| call.or_fail(attributes::read(devices, device, name));
+        call.next(found, read, |device, read| {
+            unify_value(value, read)?;
+            unify_asked(*names_port, port, device.port())
+        })
+    }
 }
 
 /// Devices that are still to be answered, and what is asked about them.
@@ -138,7 +180,7 @@ fn found<'a, C: QueryableContextType>(
     if let Some(kind) = &kind {
         devices.retain(|device| device.driver() == kind);
     }
-    let devices = devices.into_iter();
+    let devices = devices.into_iter().collect();
     Ok(Found { devices, names_port: port.is_none(), names_type: kind.is_none() })
 }
 

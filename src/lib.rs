@@ -39,6 +39,9 @@ mod view;
 #[unsafe(no_mangle)]
 pub extern "C" fn install() {
     glue::interned::register();
+    swipl::fli::answer_quickly("attribute_", 4, driver::known_attribute);
+    swipl::fli::answer_quickly("sensor_known_", 3, sensors::known_value);
+    swipl::fli::answer_quickly("motor_run_", 2, motors::known_run);
     driver::register();
     motors::register();
     dc_motors::register();

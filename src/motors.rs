@@ -1,11 +1,15 @@
 //! `prolog/ev3dev/motors.pl`, `motor_moves.pl`, `motor_settings.pl`: motors.
 use crate::driver::{class_of, unify_port};
-use crate::glue::call::{Call, ListedDevices};
+use crate::glue::call::{Call, ListedDevices, Text, has_prepared_motors};
+use crate::glue::due::has_guards;
 use crate::glue::error::wrong_value;
+use crate::glue::interned::word_in;
+use crate::glue::known::{self, Found, Look};
 use crate::glue::state::chosen_devices;
 use crate::glue::terms::{unify_atom, unify_value};
 use crate::glue::waiting;
 use ev3_driver::device::retry;
+use ev3_driver::journal;
 use ev3_driver::motor::wait::{self, UntilDone, UntilFlag};
 use ev3_driver::motor::{self, Extent, Move, MoveOptions, Moving, Run, Speed, StopAction};
 use ev3_driver::wait::Slices;
@@ -13,15 +17,21 @@ use ev3_driver::{Class, Device};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
+use swipl::fli::Arguments;
 use swipl::prelude::*;
 
 natives! {
     /// motor_run_(+Port, +Speed): a percentage, or dps(DegreesPerSecond).
     semidet fn "motor_run_"(context, port, percent) {
         let call = Call::of(context, "motor_run", 2);
-        let (port, speed) = (call.text(port)?, speed_of(&call, percent)?);
-        let (run, devices) = (Run { port: &port, speed }, call.devices_to_move()?);
+        let (name, speed) = (call.text(port)?, speed_of(&call, percent)?);
+        let (run, devices) = (Run { port: &name, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
+        if let (Some(look), Some(atom)) = (Look::at(&devices, Class::TachoMotor), word_in(port)) {
+            if let Ok(Some(motor)) = devices.find(Class::TachoMotor, &name) {
+                look.keep([atom, 0, 0], &devices, &motor, Text::Borrowed(""), 0);
+            }
+        }
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)
     }
 
@@ -223,6 +233,19 @@ natives! {
         let set = retry::with(&devices, Class::TachoMotor, &name, interrupted, set);
         into_prolog_result(call.or_absent(Class::TachoMotor, port, set)?)
     }
+}
+
+/// A call of `motor_run_` with a motor that is known.
+pub(crate) fn known_run(arguments: &Arguments) -> Option<bool> {
+    let (port, percent) = (arguments.atom(0)?, arguments.float(1)?);
+    if !has_prepared_motors() || has_guards() {
+        return None;
+    }
+    known::with([port, 0, 0], |Found { device, now, .. }| {
+        device.check_present_at(now).ok()?;
+        journal::set_called("motor_run", 2);
+        motor::run_one(device, Speed::Percent(percent)).ok()
+    })
 }
 
 /// The next motor's port, and an attribute of it in degrees or millimeters.

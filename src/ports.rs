@@ -21,7 +21,7 @@ natives! {
             let call = Call::of(context, "port_device", 2);
             let (bound, devices) = (call.text_if_bound(port)?, call.devices()?);
             let found = call.or_throw(lego_port::devices_at(&devices, bound.as_deref()))?;
-            Ok(Some(found.into_iter()))
+            Ok(Some(found.into_iter().collect()))
         },
         call(found) => {
             Call::of(context, "port_device", 2).next(found, |_| Ok(()), |device, ()| {

@@ -1,30 +1,42 @@
 //! `prolog/ev3dev/sensors.pl`: sensors.
 use crate::driver::unify_asked;
-use crate::glue::call::{Call, ListedDevices, Text};
-use crate::glue::error::wrong_value;
-use crate::glue::interned::words;
-use crate::glue::terms::{unify_atom, unify_value};
+use crate::glue::call::{Call, ListedDevices, Text, start};
+use crate::glue::error::{wrong_type, wrong_value};
+use crate::glue::interned::{handle, word_in};
+use crate::glue::known::{self, Found, Look};
+use crate::glue::terms::{Ask as _, unify_atom, unify_value};
+use crate::glue::waiting::is_serving;
+use ev3_driver::lock::locked;
 use ev3_driver::sensor::registers;
 use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
 use ev3_driver::wait::Slices;
 use ev3_driver::{Class, Device, Registry, Value, sensor};
 use std::cell::Cell;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
+use swipl::fli::{Arguments, atom_in};
 use swipl::prelude::*;
 
 natives! {
-    /// sensor_value_(?Port, +Types, +Mode, +Index, -Value)
+    /// sensor_known_(+Reading, ?Port, ?Value): succeeds at once if `sensor_value_` would, and
+    /// leave no choice, as one of the last calls has shown. Fails where that is not known.
+    semidet fn "sensor_known_"(_context, _reading, _port, _value) {
+        Err(PrologError::Failure)
+    }
+
+    /// sensor_value_(?Port, +Types, +Mode, +Index, -Value): Types is a list, or the name of a
+    /// reading that has one row in the table of `sensors.pl`, which has mode and index, too.
     nondet fn "sensor_value_"<Readings>(context, port, types, mode, index, value) {
         setup => {
             let call = Call::of(context, "sensor_value", 4);
             if call.serve_before("sensor_value_", [port, types, mode, index, value])? {
                 return Ok(None);
             }
-            let index = index_of(&call, index)?;
-            readings(&call, port, types, mode, index).map(Some)
+            let row = row(&call, types, mode, || index_of(&call, index))?;
+            let readings = readings(&call, port, types, row)?;
+            start(readings, |all| &all.sensors, |all| all.next_value(&call, port, value))
         },
         call(readings) => {
-            next_value(&Call::of(context, "sensor_value", 4), readings, port, value)
+            readings.next_value(&Call::of(context, "sensor_value", 4), port, value)
         }
     }
 
@@ -36,15 +48,15 @@ natives! {
             if call.serve_before("sensor_value_or_why_", [port, types, mode, index, value])? {
                 return Ok(None);
             }
-            let index = index_of(&call, index)?;
-            readings(&call, port, types, mode, index).map(Some)
+            let row = row(&call, types, mode, || index_of(&call, index))?;
+            let readings = readings(&call, port, types, row)?;
+            start(readings, |all| &all.sensors, |all| {
+                all.next_or_why(&call, [port, types, mode], value)
+            })
         },
         call(readings) => {
             let call = Call::of(context, "sensor_value", 4);
-            match next_value(&call, readings, port, value) {
-                Err(PrologError::Failure) if !readings.has_value => no_sensor(&call, port, types, mode),
-                next => next,
-            }
+            readings.next_or_why(&call, [port, types, mode], value)
         }
     }
 
@@ -56,17 +68,17 @@ natives! {
             if call.serve_before("sensor_values_", [port, types, mode, count, values])? {
                 return Ok(None);
             }
-            let count = usize::try_from(call.integer(count)?).unwrap_or_default();
-            let readings = readings(&call, port, types, mode, count)?;
+            let count = || Ok(usize::try_from(call.integer(count)?).unwrap_or_default());
+            let readings = readings(&call, port, types, row(&call, types, mode, count)?)?;
             if readings.sensors.len() == 0 { no_sensor(&call, port, types, mode) } else { Ok(Some(readings)) }
         },
         call(readings) => {
             let call = Call::of(context, "sensor_values", 3);
-            let Readings { devices, sensors, names_port, mode, index: count, .. } = readings;
-            let count = (*count > 0).then_some(*count);
+            let Readings { devices, sensors, names_port, row, .. } = readings;
+            let count = (row.index > 0).then_some(row.index);
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
-                let read = sensor::read_several(devices, device, mode, count, interrupted);
+                let read = sensor::read_several(devices, device, &row.mode, count, interrupted);
                 call.terms(&call.or_fail(read)?)
             };
             call.next(sensors, read, |device, read| {
@@ -80,12 +92,13 @@ natives! {
     semidet fn "sensor_restart_"(context, port, types, mode) {
         let call = Call::of(context, "gyro_reset", 1);
         call.text(port)?;
-        let Readings { devices, mut sensors, mode: name, .. } = readings(&call, port, types, mode, 0)?;
+        let row = row(&call, types, mode, || Ok(0))?;
+        let Readings { devices, mut sensors, row, .. } = readings(&call, port, types, row)?;
         let Some(sensor) = sensors.next() else {
             return no_sensor(&call, port, types, mode);
         };
         let interrupted = &mut call.interrupted();
-        call.or_fail(sensor::restart(&devices, &sensor, &name, interrupted))
+        call.or_fail(sensor::restart(&devices, &sensor, &row.mode, interrupted))
     }
 
     /// sensor_wait_(+Port, +Reading, +Test, +Timeout, -Ended): reading is
@@ -94,12 +107,11 @@ natives! {
         setup => {
             let call = Call::of(context, "sensor_wait", 2);
             let [types, mode, index] = call.arguments(reading)?;
-            let (index, until) = (index_of(&call, &index)?, until(&call, test)?);
-            let timeout = call.seconds(timeout)?;
-            let Readings { devices, mut sensors, mode, .. } =
-                readings(&call, port, &types, &mode, index)?;
+            let row = row(&call, &types, &mode, || index_of(&call, &index))?;
+            let (until, timeout) = (until(&call, test)?, call.seconds(timeout)?);
+            let Readings { devices, mut sensors, row, .. } = readings(&call, port, &types, row)?;
             let sensor = sensors.next().ok_or(PrologError::Failure)?;
-            Ok(Some(until_shown(&devices, &sensor, &mode, index, until, timeout)))
+            Ok(Some(until_shown(&devices, &sensor, &row.mode, row.index, until, timeout)))
         },
         call(waiting) => {
             let call = Call::of(context, "sensor_wait", 2);
@@ -147,37 +159,109 @@ fn byte<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<u8
     }
 }
 
+/// What sensors are to show.
+struct Row {
+    /// If there are none, any that has the mode.
+    types: Vec<Text>,
+    mode: Text,
+    /// The index of a value, or the number of values.
+    index: usize,
+}
+
+/// The rows of readings, by the atoms of their names, from Prolog's table.
+static ROWS: Mutex<Vec<(Atom, Arc<Row>)>> = Mutex::new(Vec::new());
+
+/// The row that is asked for: by its name, or by its columns.
+fn row<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    types: &Term<'a>,
+    mode: &Term<'a>,
+    index: impl FnOnce() -> PrologResult<usize>,
+) -> PrologResult<Arc<Row>> {
+    if types.is_atom() && types.term_type() != TermType::Nil {
+        return named_row(call, types);
+    }
+    let types = call.map_list(types, |kind| call.text(&kind))?;
+    Ok(Arc::new(Row { types, mode: call.text(mode)?, index: index()? }))
+}
+
+fn named_row<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    name: &Term<'a>,
+) -> PrologResult<Arc<Row>> {
+    let atom: Atom = name.get()?;
+    if let Some((_, row)) = locked(&ROWS).iter().find(|known| known.0 == atom) {
+        return Ok(Arc::clone(row));
+    }
+    let [types, mode, index] = call.context.new_term_refs();
+    let is_row = call.context.ask(pred!("ev3dev_sensors:known/4"), [name, &types, &mode, &index]);
+    if !attempt(is_row)? {
+        return wrong_type(call, "list", name);
+    }
+    let row = row(call, &types, &mode, || index_of(call, &index))?;
+    locked(&ROWS).push((atom, Arc::clone(&row)));
+    Ok(row)
+}
+
 /// The sensors that the call has not read yet.
 struct Readings {
     devices: Arc<Registry>,
     sensors: ListedDevices,
     names_port: bool,
-    mode: Text,
-    /// The index of a value, or the number of values.
-    index: usize,
+    row: Arc<Row>,
     /// Whether a sensor has shown a value.
     has_value: bool,
 }
 
-/// The next value that unifies.
-fn next_value<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    readings: &mut Readings,
-    port: &Term<'a>,
-    value: &Term<'a>,
-) -> PrologResult<bool> {
-    let Readings { devices, sensors, names_port, mode, index, has_value } = readings;
-    let has_value = Cell::from_mut(has_value);
-    let read = |device: &Arc<Device>| {
-        let interrupted = &mut call.interrupted();
-        let read = sensor::read(devices, device, Some(mode), *index, interrupted);
-        let read = call.or_fail(read)?;
-        has_value.set(true);
-        Ok(read)
-    };
-    call.next(sensors, read, |device, read| {
-        unify_value(value, read)?;
-        unify_asked(*names_port, port, device.port())
+impl Readings {
+    /// The next value that unifies.
+    fn next_value<'a, C: QueryableContextType>(
+        &mut self,
+        call: &Call<'a, C>,
+        port: &Term<'a>,
+        value: &Term<'a>,
+    ) -> PrologResult<bool> {
+        let Self { devices, sensors, names_port, row, has_value } = self;
+        let has_value = Cell::from_mut(has_value);
+        let read = |device: &Arc<Device>| {
+            let interrupted = &mut call.interrupted();
+            let read = sensor::read(devices, device, Some(&row.mode), row.index, interrupted);
+            let read = call.or_fail(read)?;
+            has_value.set(true);
+            Ok(read)
+        };
+        call.next(sensors, read, |device, read| {
+            unify_value(value, read)?;
+            unify_asked(*names_port, port, device.port())
+        })
+    }
+
+    /// The same, but explains it if no sensor has a value.
+    fn next_or_why<'a, C: QueryableContextType>(
+        &mut self,
+        call: &Call<'a, C>,
+        [port, types, mode]: [&Term<'a>; 3],
+        value: &Term<'a>,
+    ) -> PrologResult<bool> {
+        match self.next_value(call, port, value) {
+            Err(PrologError::Failure) if !self.has_value => no_sensor(call, port, types, mode),
+            next => next,
+        }
+    }
+}
+
+/// A call of `sensor_known_`.
+pub(crate) fn known_value(arguments: &Arguments) -> Option<bool> {
+    let (row, port) = (arguments.atom(0)?, arguments.atom(1));
+    if port.is_none() && !arguments.is_variable(1) || !arguments.is_variable(2) || is_serving() {
+        return None;
+    }
+    known::with([row, port.unwrap_or(0), 0], |found| {
+        let Found { registry, device, name, index, .. } = found;
+        // Where it would have to wait, the whole way is gone.
+        let read = sensor::read(registry, device, Some(name), index, &mut || true).ok()??;
+        let is_port = port.is_some() || arguments.unify_atom(1, handle(device.port())?);
+        Some(is_port && known::unify_value(arguments, 2, &read)?)
     })
 }
 
@@ -198,25 +282,30 @@ fn until<'a, C: QueryableContextType>(call: &Call<'a, C>, test: &Term<'a>) -> Pr
     })
 }
 
-/// The sensors of a call: at a port, or all; of the given types, or, if there are none,
+/// The sensors of a call: at a port, or all; of the types, or, if there are none,
 /// all sensors that have the mode.
 fn readings<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     port: &Term<'a>,
     types: &Term<'a>,
-    mode: &Term<'a>,
-    index: usize,
+    row: Arc<Row>,
 ) -> PrologResult<Readings> {
-    let mode = call.text(mode)?;
-    let (port, devices) = (call.text_if_bound(port)?, call.devices()?);
-    let found = with_types(call, types, |types| {
-        call.or_throw(match &port {
-            Some(port) => sensor::at(&devices, port, types),
-            None => sensor::with_mode(&devices, types, &mode),
-        })
+    let (name, devices) = (call.text_if_bound(port)?, call.devices()?);
+    let look = Look::at(&devices, Class::Sensor);
+    let found = call.or_throw(match &name {
+        Some(name) => sensor::at(&devices, name, &row.types),
+        None => sensor::with_mode(&devices, &row.types, &row.mode),
     })?;
-    let (sensors, names_port) = (found.into_iter(), port.is_none());
-    Ok(Readings { devices, sensors, names_port, mode, index, has_value: false })
+    let (sensors, names_port): (ListedDevices, _) = (found.into_iter().collect(), name.is_none());
+    if let (Some(look), Some(row_atom), 1, Some(sensor)) =
+        (look, atom_in!(types), sensors.len(), sensors.first())
+    {
+        let port = if names_port { handle(sensor.port()).map(|_| 0) } else { word_in(port) };
+        if let Some(port) = port {
+            look.keep([row_atom, port, 0], &devices, sensor, row.mode.clone(), row.index);
+        }
+    }
+    Ok(Readings { devices, sensors, names_port, row, has_value: false })
 }
 
 /// Fails because no sensor is of one of the types; or, if there are none, has the mode.
@@ -227,25 +316,16 @@ fn no_sensor<'a, C: QueryableContextType, T>(
     mode: &Term<'a>,
 ) -> PrologResult<T> {
     let context = call.context;
-    let kind = if types.term_type() == TermType::Nil {
-        term! {context: mode(#mode)}?
-    } else {
-        types.clone()
+    let kind = match types.term_type() {
+        TermType::Nil => term! {context: mode(#mode)}?,
+        TermType::Atom => {
+            let [row_types, mode, index] = context.new_term_refs();
+            context.ask(pred!("ev3dev_sensors:known/4"), [types, &row_types, &mode, &index])?;
+            row_types
+        }
+        _ => types.clone(),
     };
     call.fail_because(&term! {context: absent(#&kind, #port)}?)
-}
-
-/// Calls a closure with a list of types; the empty list admits all.
-fn with_types<'a, C: QueryableContextType, T>(
-    call: &Call<'a, C>,
-    types: &Term<'a>,
-    act: impl FnOnce(&[&str]) -> PrologResult<T>,
-) -> PrologResult<T> {
-    if let Some(words) = words(types) {
-        return act(&words);
-    }
-    let types = call.map_list(types, |kind| call.text(&kind))?;
-    act(&types.iter().map(AsRef::as_ref).collect::<Vec<_>>())
 }
 
 /// The number of a value: sensors have `value0` to `value7`.

@@ -38,7 +38,7 @@
 :- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(private/attributes,
               [ attribute/4, attribute_words/4, device_at/3,
-                value_attribute/2
+                goal_expansion/2, value_attribute/2
               ]).
 :- use_module(private/native,
               [attribute_/4, attribute_write_/4, device_/3, device_/4]).
@@ -206,7 +206,7 @@ max_speed(Port, CountsPerSecond) :-
 %   LEGO's motors have one count per degree.
 
 position(Port, Counts) :-
-    motor_attribute(Port, position, Counts).
+    attribute('tacho-motor', Port, position, Counts).
 
 %!  position_sp(?Port, ?Counts) is nondet.
 %

@@ -30,8 +30,8 @@
 :- use_module(driver, [lego_sensor/2]).
 :- use_module(private/sensor_type, [sensor_of/3]).
 :- use_module(private/native,
-              [ sensor_restart_/3, sensor_scale_/3, sensor_value_/5,
-                sensor_value_or_why_/5, sensor_values_/5 ]).
+              [ sensor_known_/3, sensor_restart_/3, sensor_scale_/3,
+                sensor_value_/5, sensor_value_or_why_/5, sensor_values_/5 ]).
 
 /** <module> Sensors
 
@@ -132,6 +132,9 @@ known(analog_voltage,
         'ev3-analog-10', 'ev3-analog-11', 'ev3-analog-12', 'ev3-analog-13',
         'ev3-analog-14' ], 'ANALOG', 0).
 
+% The native code asks for rows: its query would be shown in the tracer.
+:- '$hide'(known/4).
+
 %!  sensor_reading(+Reading, ?Port, -Value) is nondet.
 %
 %   True if the sensor at Port shows Value for a Reading of the table. Fails
@@ -167,15 +170,18 @@ ev3dev_explain:reading_types(Reading, Types) :-
     reading_of(Reading, Types, _, _).
 
 %   A lookup takes as long as reading a file does. So the clause of a reading
-%   that is known here gets its row when it is compiled. The table is asked if
-%   there is no such sensor at the port, or if a program has added rows.
+%   that is known here names its row, which the native code keeps. It asks
+%   first whether what the last calls have found answers this one, too. The
+%   table is asked if there is no such sensor at the port, or if a program has
+%   added rows.
 
 goal_expansion(sensor_reading(Reading, Port, Value), Goal) :-
     atom(Reading),
-    findall(Types-Mode-Index, known(Reading, Types, Mode, Index),
-            [Types-Mode-Index]),
-    Goal = (   nonvar(Port)
-           ->  (   sensor_value_(Port, Types, Mode, Index, Read)
+    findall(Mode, known(Reading, _, Mode, _), [_]),
+    Goal = (   sensor_known_(Reading, Port, Value)
+           ->  true
+           ;   nonvar(Port)
+           ->  (   sensor_value_(Port, Reading, row, row, Read)
                ->  (   Value = Read
                    ->  true
                    ;   other_value(Reading, Value)
@@ -187,7 +193,7 @@ goal_expansion(sensor_reading(Reading, Port, Value), Goal) :-
            ;   nonvar(Value),
                \+ number(Value)
            ->  other_value(Reading, Value)
-           ;   sensor_value_or_why_(Port, Types, Mode, Index, Value)
+           ;   sensor_value_or_why_(Port, Reading, row, row, Value)
            ).
 
 %   A sensor has another value, which is no news; or the program compares it

@@ -20,8 +20,66 @@ use swipl::prelude::*;
 /// The text of an atom or a string.
 pub(crate) type Text = Cow<'static, str>;
 
+/// What a call has not returned yet: most have one, and no memory is asked for.
+pub(crate) struct Left<T> {
+    one: Option<T>,
+    others: std::vec::IntoIter<T>,
+}
+
+impl<T> FromIterator<T> for Left<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(all: I) -> Self {
+        let mut all = all.into_iter();
+        let (one, others) = (all.next(), all.collect::<Vec<_>>());
+        Self { one, others: others.into_iter() }
+    }
+}
+
+impl<T> Iterator for Left<T> {
+    type Item = T;
+
+    fn next(&mut self) -> Option<T> {
+        self.one.take().or_else(|| self.others.next())
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let count = usize::from(self.one.is_some()) + self.others.len();
+        (count, Some(count))
+    }
+}
+
+impl<T> ExactSizeIterator for Left<T> {}
+
+impl<T> Left<T> {
+    /// What comes next.
+    pub(crate) fn first(&self) -> Option<&T> {
+        self.one.as_ref()
+    }
+}
+
+/// The state of a nondeterministic predicate that has these items left, for its setup. If
+/// there is one, `next` solves the call at once: then no state is needed.
+#[inline]
+pub(crate) fn start<S, T>(
+    mut state: S,
+    items: impl Fn(&S) -> &Left<T>,
+    next: impl FnOnce(&mut S) -> PrologResult<bool>,
+) -> PrologResult<Option<S>> {
+    if items(&state).len() > 1 {
+        return Ok(Some(state));
+    }
+    next(&mut state).map(|_| None)
+}
+
 /// The devices that the call has not returned yet.
-pub(crate) type ListedDevices = std::vec::IntoIter<Arc<Device>>;
+pub(crate) type ListedDevices = Left<Arc<Device>>;
+
+/// Whether signals stop motors, and Prolog has said whether a kill does.
+static IS_PREPARED: AtomicBool = AtomicBool::new(false);
+
+/// Whether motors may start, see [`Call::before_motors`].
+pub(crate) fn has_prepared_motors() -> bool {
+    IS_PREPARED.load(Ordering::Relaxed)
+}
 
 /// A call of a public predicate: the origin of errors, and access to the devices.
 pub(crate) struct Call<'a, C: QueryableContextType>(Origin<'a, C>);
@@ -83,8 +141,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// whether they are to be stopped when the process is killed.
     #[inline]
     pub(crate) fn before_motors(&self) -> PrologResult<()> {
-        static IS_ASKED: AtomicBool = AtomicBool::new(false);
-        if IS_ASKED.load(Ordering::Relaxed) {
+        if has_prepared_motors() {
             return Ok(());
         }
         self.or_throw(signals::watch(state::stop_started).map_err(|source| Error::Open {
@@ -94,7 +151,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         }))?;
         let survives = self.context.ask(pred!("ev3dev_halt:before_motors/0"), []);
         ev3_signals::survive(attempt(survives)?);
-        IS_ASKED.store(true, Ordering::Relaxed);
+        IS_PREPARED.store(true, Ordering::Relaxed);
         Ok(())
     }
 
@@ -229,11 +286,11 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         port: &Term,
     ) -> PrologResult<ListedDevices> {
         let name = self.text_if_bound(port)?;
-        let found: Vec<_> = self.or_throw(match name {
+        let found: ListedDevices = self.or_throw(match name {
             Some(name) => devices.find(class, &name).map(|device| device.into_iter().collect()),
-            None => devices.all(class).map(|all| all.to_vec()),
+            None => devices.all(class).map(|all| all.iter().cloned().collect()),
         })?;
-        if found.is_empty() { self.absent(class, port) } else { Ok(found.into_iter()) }
+        if found.len() == 0 { self.absent(class, port) } else { Ok(found) }
     }
 
     /// The elements of a list.
@@ -328,7 +385,7 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
     /// with the value. `true` if there may be more.
     pub(crate) fn next<T, V>(
         &self,
-        items: &mut std::vec::IntoIter<T>,
+        items: &mut impl ExactSizeIterator<Item = T>,
         read: impl Fn(&T) -> PrologResult<V>,
         unify: impl Fn(&T, &V) -> PrologResult<()>,
     ) -> PrologResult<bool> {

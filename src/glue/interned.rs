@@ -4,9 +4,8 @@
 //! sensor's file. So the atoms of the words below are made once and never released, and
 //! their handles stay valid. Any other text goes the long way.
 use std::borrow::Cow;
-use std::ops::Deref;
 use std::sync::OnceLock;
-use swipl::fli::{atom_in, for_each_atom};
+use swipl::fli::atom_in;
 use swipl::prelude::*;
 
 /// Ports, attributes, modes and types of the EV3's own devices, and of a few others.
@@ -20,7 +19,7 @@ const WORDS: &[&str] = &[
     "stop_action", "decimals", "mode", "num_values",
     "value0", "value1", "value2", "value3", "value4", "value5", "value6", "value7",
     "run-forever", "run-to-rel-pos", "stop", "coast", "brake", "hold",
-    "running", "holding", "reached",
+    "", "running", "holding", "reached",
     "lego-ev3-l-motor", "lego-ev3-m-motor", "lego-nxt-motor",
     "lego-ev3-color", "lego-ev3-us", "lego-ev3-gyro", "lego-ev3-touch", "lego-ev3-ir",
     "lego-nxt-us", "lego-nxt-touch", "lego-nxt-light", "lego-nxt-temp", "ht-nxt-compass",
@@ -60,31 +59,14 @@ pub(crate) fn atom_text(term: &Term) -> PrologResult<Option<Cow<'static, str>>> 
     }
 }
 
-/// A few words.
-#[derive(Default)]
-pub(crate) struct Words {
-    words: [&'static str; 8],
-    count: usize,
+/// The atom that a term is, if it is that of a word, and so never released.
+pub(crate) fn word_in(term: &Term) -> Option<usize> {
+    atom_in!(term).filter(|handle| word(*handle).is_some())
 }
 
-impl Deref for Words {
-    type Target = [&'static str];
-
-    fn deref(&self) -> &Self::Target {
-        self.words.get(..self.count).unwrap_or_default()
-    }
-}
-
-/// The texts of a list of a few atoms that are words; `None` for any other term.
-pub(crate) fn words(list: &Term) -> Option<Words> {
-    let mut words = Words::default();
-    for_each_atom!(list, |atom| {
-        let free = words.words.get_mut(words.count)?;
-        *free = word(atom)?;
-        words.count += 1;
-        Some(())
-    })?;
-    Some(words)
+/// The atom of a text, if it is a word.
+pub(crate) fn handle(text: &str) -> Option<usize> {
+    atom(text).map(Atom::atom_ptr)
 }
 
 /// Unifies with the atom of a text.

@@ -4,6 +4,7 @@ pub(crate) mod call;
 pub(crate) mod due;
 pub(crate) mod error;
 pub(crate) mod interned;
+pub(crate) mod known;
 #[macro_use]
 mod natives;
 pub(crate) mod places;

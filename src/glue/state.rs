@@ -6,6 +6,7 @@ use ev3_driver::drive::{Drive, Robot};
 use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{
     Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
     RwLockWriteGuard,
@@ -54,6 +55,7 @@ impl Brick {
     }
 
     fn change_files(&self) -> RwLockWriteGuard<'_, InUse> {
+        FILES_NUMBER.fetch_add(1, Ordering::AcqRel);
         self.files.write().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -75,6 +77,14 @@ static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
     frame: Mutex::default(),
     frames_aside: Mutex::default(),
 });
+
+/// Counts what may have changed the files in use.
+static FILES_NUMBER: AtomicU32 = AtomicU32::new(0);
+
+/// Another number than before, if other files may be in use.
+pub(crate) fn files_number() -> u32 {
+    FILES_NUMBER.load(Ordering::Acquire)
+}
 
 /// The devices of the tree in use.
 pub(crate) fn devices() -> Arc<Registry> {

@@ -76,6 +76,12 @@ fn note_serving() {
     IS_SERVING.set(NEXT_TICK.get().is_some() || is_in_branch);
 }
 
+/// Whether this thread serves events, or runs branches, so that others may go on before a read.
+#[inline]
+pub(crate) fn is_serving() -> bool {
+    IS_SERVING.get()
+}
+
 /// Branches run from now on.
 pub(crate) fn begin_branches(round: Round) {
     BRANCHES.with_borrow_mut(|rounds| rounds.push(round));
@@ -229,7 +235,7 @@ impl<C: QueryableContextType> Call<'_, C> {
         name: &'static str,
         arguments: [&Term; 5],
     ) -> PrologResult<bool> {
-        if IS_SERVING.get() { self.serve_before_read(name, arguments) } else { Ok(false) }
+        if is_serving() { self.serve_before_read(name, arguments) } else { Ok(false) }
     }
 
     #[cold]

@@ -8,37 +8,8 @@ use crate::device::Device;
 use crate::device::registry::Registry;
 use crate::device::retry;
 use crate::error::{Interrupted, Result};
-use crate::value::Value;
+use crate::value::{Value, holds_integer, integer};
 use crate::{motor, sensor};
-
-/// Attributes that hold an integer and nothing else.
-const INTEGERS: [&str; 25] = [
-    "count_per_m",
-    "count_per_rot",
-    "decimals",
-    "duty_cycle",
-    "duty_cycle_sp",
-    "full_travel_count",
-    "hold_pid/Kd",
-    "hold_pid/Ki",
-    "hold_pid/Kp",
-    "max_pulse_sp",
-    "max_speed",
-    "mid_pulse_sp",
-    "min_pulse_sp",
-    "num_values",
-    "position",
-    "position_sp",
-    "ramp_down_sp",
-    "ramp_up_sp",
-    "rate_sp",
-    "speed",
-    "speed_pid/Kd",
-    "speed_pid/Ki",
-    "speed_pid/Kp",
-    "speed_sp",
-    "time_sp",
-];
 
 /// Reads an attribute; `None` where the device is gone.
 ///
@@ -49,12 +20,34 @@ pub fn read(registry: &Registry, device: &Device, name: &str) -> Result<Option<V
     registry.read(device, |device| value(device, name))
 }
 
+/// What most attributes show.
+pub enum Short<'a> {
+    /// A number.
+    Integer(i64),
+    /// A short text, which may stand for a number, too.
+    Text(&'a str),
+}
+
+/// Calls `show` with an attribute of a device that is there. `None` where that answers so,
+/// or [`read`] is to be asked: it knows what else may be in the file.
+pub fn look<T>(device: &Device, name: &str, show: impl FnOnce(Short) -> Option<T>) -> Option<T> {
+    device.with_short(name, |text, holds_integer| match integer(text) {
+        Some(integer) => show(Short::Integer(integer)),
+        None if holds_integer => None,
+        None => show(Short::Text(std::str::from_utf8(text).ok()?)),
+    })
+}
+
 fn value(device: &Device, name: &str) -> Result<Value> {
-    let index = sensor::VALUES.iter().position(|value| *value == name);
-    match (device.class(), index) {
-        (Class::Sensor, Some(index)) => sensor::raw_value(device, index).map(Value::Integer),
-        _ if INTEGERS.contains(&name) => device.number(name).map(Value::Integer),
-        _ => device.text(name).map(Value::parse),
+    if device.class() == Class::Sensor {
+        if let Some(index) = sensor::VALUES.iter().position(|value| *value == name) {
+            return sensor::raw_value(device, index).map(Value::Integer);
+        }
+    }
+    if holds_integer(name) {
+        device.number(name).map(Value::Integer)
+    } else {
+        device.text(name).map(Value::parse)
     }
 }
 

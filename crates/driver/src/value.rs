@@ -1,5 +1,47 @@
 //! From an attribute's text to a value.
 
+/// Attributes that hold an integer and nothing else.
+const INTEGERS: [&str; 33] = [
+    "count_per_m",
+    "count_per_rot",
+    "decimals",
+    "duty_cycle",
+    "duty_cycle_sp",
+    "full_travel_count",
+    "hold_pid/Kd",
+    "hold_pid/Ki",
+    "hold_pid/Kp",
+    "max_pulse_sp",
+    "max_speed",
+    "mid_pulse_sp",
+    "min_pulse_sp",
+    "num_values",
+    "position",
+    "position_sp",
+    "ramp_down_sp",
+    "ramp_up_sp",
+    "rate_sp",
+    "speed",
+    "speed_pid/Kd",
+    "speed_pid/Ki",
+    "speed_pid/Kp",
+    "speed_sp",
+    "time_sp",
+    "value0",
+    "value1",
+    "value2",
+    "value3",
+    "value4",
+    "value5",
+    "value6",
+    "value7",
+];
+
+/// Whether an attribute of that name holds an integer and nothing else.
+pub(crate) fn holds_integer(name: &str) -> bool {
+    INTEGERS.contains(&name)
+}
+
 /// The content of an attribute file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {

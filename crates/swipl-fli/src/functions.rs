@@ -10,6 +10,7 @@ use crate::types::{
     control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
 };
 use crate::version::Version;
+use std::cell::Cell;
 use std::ffi::{c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
@@ -31,7 +32,6 @@ macro_rules! truth {
 }
 
 truth! {
-    PL_destroy_engine(engine: PL_engine_t);
     PL_get_arg(index: c_int, t: term_t, a: term_t);
     PL_get_atom(t: term_t, a: *mut atom_t);
     PL_get_blob(t: term_t, blob: *mut *mut c_void, len: *mut usize, kind: *mut *mut PL_blob_t);
@@ -182,24 +182,6 @@ pub unsafe fn PL_put_chars(t: term_t, flags: c_int, len: usize, s: *const c_char
     }
 }
 
-/// Calls `act` with each atom of a list, until it answers `None`; `None` then, and
-/// for what is no list of atoms. The two terms that this takes live as long as the
-/// others of the call.
-pub unsafe fn for_each_atom(list: term_t, mut act: impl FnMut(atom_t) -> Option<()>) -> Option<()> {
-    unsafe {
-        let head = PL_new_term_refs(2);
-        let (mut from, rest, mut atom) = (list, head + 1, 0);
-        while PL_get_list(from, head, rest) != 0 {
-            if PL_get_atom(head, &raw mut atom) == 0 {
-                return None;
-            }
-            act(atom)?;
-            from = rest;
-        }
-        (PL_get_nil(from) != 0).then_some(())
-    }
-}
-
 /// The atom that a term is, if it is one.
 pub unsafe fn atom_in(t: term_t) -> Option<atom_t> {
     let mut atom = 0;
@@ -249,20 +231,6 @@ macro_rules! list_end {
     }};
 }
 
-/// Calls a closure with each atom of a list, see [`for_each_atom`](fn@for_each_atom).
-/// The list is a term of `swipl`, which panics if it is not one of the engine that
-/// runs. With the functions of `swipl`, which make sure of that at each step, it takes
-/// four times as long.
-#[macro_export]
-macro_rules! for_each_atom {
-    ($list:expr, $act:expr) => {{
-        let (list, act) = ($list, $act);
-        list.assert_term_handling_possible();
-        // Safety: the term is one of the engine that runs, as was just made sure.
-        unsafe { $crate::functions::for_each_atom(list.term_ptr(), act) }
-    }};
-}
-
 unsafe extern "C" {
     // Atoms, functors, modules, predicates
     pub fn PL_register_atom(a: atom_t);
@@ -296,9 +264,7 @@ unsafe extern "C" {
     pub fn PL_foreign_control(control: control_t) -> c_int;
     pub fn PL_foreign_context_address(control: control_t) -> *mut c_void;
 
-    // Engines
-    pub fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
-    pub fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
+    // Threads
     pub fn PL_thread_attach_engine(attributes: *mut c_void) -> c_int;
     pub fn PL_thread_self() -> c_int;
     pub fn PL_unify_thread_id(t: term_t, thread: c_int) -> c_int;
@@ -311,6 +277,51 @@ unsafe extern "C" {
     pub fn Sfputs(q: *const c_char, s: *mut IOSTREAM) -> c_int;
     pub fn Sfread(data: *mut c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
     pub fn Sfwrite(data: *const c_void, size: usize, elems: usize, s: *mut IOSTREAM) -> usize;
+}
+
+/// Stands for whichever engine the thread has that asks.
+const CURRENT: PL_engine_t = 2 as PL_engine_t;
+
+/// How many engines of this library there are, each for the thread that has made it.
+static ENGINES: AtomicU32 = AtomicU32::new(0);
+
+thread_local! {
+    /// Whether this thread has made one.
+    static HAS_MADE_ENGINE: Cell<bool> = const { Cell::new(false) };
+}
+
+pub unsafe fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t {
+    unsafe extern "C" {
+        fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
+    }
+    ENGINES.fetch_add(1, Ordering::Relaxed);
+    HAS_MADE_ENGINE.set(true);
+    unsafe { PL_create_engine(attributes) }
+}
+
+pub unsafe fn PL_destroy_engine(engine: PL_engine_t) -> c_int {
+    unsafe extern "C" {
+        fn PL_destroy_engine(engine: PL_engine_t) -> u8;
+    }
+    let is_destroyed = unsafe { PL_destroy_engine(engine) };
+    HAS_MADE_ENGINE.set(false);
+    ENGINES.fetch_sub(1, Ordering::Relaxed);
+    c_int::from(is_destroyed)
+}
+
+/// Makes an engine that of this thread, or asks for it. `swipl` asks at each step, to make
+/// sure that a term is of the engine that runs. In a thread of Prolog's it always is, as no
+/// term goes to another thread: such a thread gets a name for its engine, the same in all.
+pub unsafe fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int {
+    unsafe extern "C" {
+        fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
+    }
+    let is_prologs = || ENGINES.load(Ordering::Relaxed) == 0 || !HAS_MADE_ENGINE.get();
+    if engine == CURRENT && !old.is_null() && is_prologs() {
+        unsafe { *old = CURRENT };
+        return 0; // PL_ENGINE_SET
+    }
+    unsafe { PL_set_engine(engine, old) }
 }
 
 /// The threads that [`has_other_threads`] passes over, by their numbers, as bits. Those with

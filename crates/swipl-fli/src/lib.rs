@@ -18,7 +18,7 @@
 //!   ones, a `usize` is passed: a callee that takes an `int` reads the low half
 //!   of the register, or, on 32 bit, the same word.
 //! * **One end.** Old versions end a predicate that throws twice; here the second
-//!   time is left out ([`pruned`]).
+//!   time is left out. And a predicate may answer the common calls at once ([`pruned`]).
 //! * **The prompt, and the end.** What is to be done while Prolog waits for input
 //!   ([`prompt`]), and when it halts ([`halt`]).
 //!
@@ -47,5 +47,5 @@ pub use functions::*;
 pub use halt::act_at_halt;
 pub use late::*;
 pub use prompt::{Act, act_without_input};
-pub use pruned::{_PL_retry_address, PL_register_foreign_in_module};
+pub use pruned::{_PL_retry_address, Arguments, PL_register_foreign_in_module, answer_quickly};
 pub use types::*;

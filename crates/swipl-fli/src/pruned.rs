@@ -1,16 +1,25 @@
-//! Nondeterministic predicates before SWI-Prolog 8.1.30.
+//! What is done before a predicate is called.
 //!
-//! There a predicate that throws, or fails, when it is called for another solution
-//! is called once more, to give up the context that it has given up already: a
-//! double free. So in those versions the contexts that Prolog has are known here, and
-//! a predicate is called through a function that leaves out the call for any other.
-use crate::functions::{PL_foreign_context_address, PL_foreign_control};
-use crate::types::{PL_FA_NONDETERMINISTIC, control_t, foreign_t, pl_function_t, term_t};
+//! *Nondeterministic predicates before SWI-Prolog 8.1.30.* There a predicate that throws,
+//! or fails, when it is called for another solution is called once more, to give up the
+//! context that it has given up already: a double free. So in those versions the contexts
+//! that Prolog has are known here, and a predicate is called through a function that
+//! leaves out the call for any other.
+//!
+//! *Answers at once.* The few predicates that a robot calls thousands of times a second may
+//! have a [`Quick`] function, which answers the common calls. It does without the care of
+//! `swipl`, which costs more than reading a sensor.
+use crate::functions::{
+    PL_foreign_context_address, PL_foreign_control, PL_get_float, PL_is_variable, PL_unify_atom,
+    PL_unify_float, PL_unify_int64, atom_in,
+};
+use crate::types::{PL_FA_NONDETERMINISTIC, atom_t, control_t, foreign_t, pl_function_t, term_t};
 use crate::version::{Version, bits};
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_int, c_void};
 use std::mem::transmute;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The ways to call a predicate, in the numbers of every version.
 const FIRST_CALL: c_int = 0;
@@ -21,9 +30,90 @@ type Predicate = unsafe extern "C" fn(term_t, c_int, control_t) -> foreign_t;
 /// The addresses of the contexts that Prolog has.
 static CONTEXTS: Mutex<Vec<usize>> = Mutex::new(Vec::new());
 
-/// How many predicates are called through [`THROUGH`], and which.
+/// A predicate that is called through one of [`THROUGH`].
+struct Called {
+    predicate: Predicate,
+    quick: Option<Quick>,
+    /// Whether it is nondeterministic, and Prolog's version one that prunes twice.
+    is_nondeterministic: bool,
+    prunes_twice: bool,
+}
+
 static COUNT: AtomicUsize = AtomicUsize::new(0);
-static PREDICATES: [AtomicUsize; THROUGH.len()] = [const { AtomicUsize::new(0) }; THROUGH.len()];
+static CALLED: [OnceLock<Called>; THROUGH.len()] = [const { OnceLock::new() }; THROUGH.len()];
+
+/// Answers a call, whether it succeeds; `None` where the predicate itself is to be called.
+pub type Quick = fn(&Arguments) -> Option<bool>;
+
+/// The quick functions, by name and arity.
+static QUICK: Mutex<Vec<(&str, usize, Quick)>> = Mutex::new(Vec::new());
+
+/// Has a function answer the calls of a predicate that is registered later.
+pub fn answer_quickly(name: &'static str, arity: usize, quick: Quick) {
+    QUICK.lock().unwrap_or_else(PoisonError::into_inner).push((name, arity, quick));
+}
+
+/// The arguments of a call, by their numbers from 0 on.
+pub struct Arguments {
+    first: term_t,
+    count: usize,
+}
+
+impl Arguments {
+    fn term(&self, number: usize) -> term_t {
+        assert!(number < self.count, "no such argument");
+        self.first + number
+    }
+
+    /// The atom that it is, by its handle.
+    #[inline]
+    #[must_use]
+    pub fn atom(&self, number: usize) -> Option<atom_t> {
+        // Safety: Prolog has passed that term to this thread.
+        unsafe { atom_in(self.term(number)) }
+    }
+
+    /// Whether it is unbound.
+    #[inline]
+    #[must_use]
+    pub fn is_variable(&self, number: usize) -> bool {
+        // Safety: as above.
+        unsafe { PL_is_variable(self.term(number)) != 0 }
+    }
+
+    /// The number that it is, if a float has it.
+    #[inline]
+    #[must_use]
+    pub fn float(&self, number: usize) -> Option<f64> {
+        let mut float = 0.0;
+        // Safety: as above.
+        (unsafe { PL_get_float(self.term(number), &raw mut float) } != 0).then_some(float)
+    }
+
+    /// Unifies it with an integer.
+    #[inline]
+    #[must_use]
+    pub fn unify_integer(&self, number: usize, integer: i64) -> bool {
+        // Safety: as above.
+        unsafe { PL_unify_int64(self.term(number), integer) != 0 }
+    }
+
+    /// Unifies it with a float.
+    #[inline]
+    #[must_use]
+    pub fn unify_float(&self, number: usize, float: f64) -> bool {
+        // Safety: as above.
+        unsafe { PL_unify_float(self.term(number), float) != 0 }
+    }
+
+    /// Unifies it with an atom that is there for good.
+    #[inline]
+    #[must_use]
+    pub fn unify_atom(&self, number: usize, atom: atom_t) -> bool {
+        // Safety: as above.
+        unsafe { PL_unify_atom(self.term(number), atom) != 0 }
+    }
+}
 
 macro_rules! functions {
     ($($number:literal)*) => { [$(through::<$number>),*] };
@@ -42,17 +132,28 @@ unsafe extern "C" fn through<const NUMBER: usize>(
     arity: c_int,
     control: control_t,
 ) -> foreign_t {
-    // Safety: Prolog passes what the predicate takes; its address was stored before.
+    let Some(called) = CALLED[NUMBER].get() else {
+        return 0;
+    };
+    // Safety: Prolog passes what the predicate takes.
     unsafe {
-        let kind = PL_foreign_control(control);
+        let is_nondeterministic = called.is_nondeterministic;
+        let kind = if is_nondeterministic { PL_foreign_control(control) } else { FIRST_CALL };
         if kind != FIRST_CALL {
-            let is_known = take(PL_foreign_context_address(control) as usize);
+            let is_known =
+                !called.prunes_twice || take(PL_foreign_context_address(control) as usize);
             if kind == PRUNED && !is_known {
                 return 1;
             }
+        } else if let Some(quick) = called.quick {
+            let arguments = Arguments { first: terms, count: arity.try_into().unwrap_or(0) };
+            // After a panic the predicate itself is called, which tells Prolog of its own.
+            let answer = catch_unwind(AssertUnwindSafe(|| quick(&arguments)));
+            if let Ok(Some(is_true)) = answer {
+                return is_true.into();
+            }
         }
-        let address = PREDICATES[NUMBER].load(Ordering::Acquire);
-        transmute::<usize, Predicate>(address)(terms, arity, control)
+        (called.predicate)(terms, arity, control)
     }
 }
 
@@ -76,23 +177,40 @@ pub unsafe fn PL_register_foreign_in_module(
         ) -> u8;
     }
     let is_nondeterministic = bits(flags) & PL_FA_NONDETERMINISTIC != 0;
-    let function = if is_nondeterministic { guarded(function) } else { function };
+    let quick = unsafe { quick_of(name, arity) };
+    let function = guarded(function, is_nondeterministic, quick);
     c_int::from(unsafe {
         PL_register_foreign_in_module(module, name, arity, function, flags, meta)
     })
 }
 
-/// What to register for a nondeterministic predicate of variable arity.
-fn guarded(function: pl_function_t) -> pl_function_t {
-    if !Version::running().prunes_twice() {
+/// The quick function of a predicate.
+unsafe fn quick_of(name: *const c_char, arity: c_int) -> Option<Quick> {
+    // Safety: a name as Prolog takes it.
+    let name = unsafe { CStr::from_ptr(name) }.to_str().ok()?;
+    let arity = usize::try_from(arity).ok()?;
+    let known = QUICK.lock().unwrap_or_else(PoisonError::into_inner);
+    known.iter().find(|quick| (quick.0, quick.1) == (name, arity)).map(|quick| quick.2)
+}
+
+/// What to register for a predicate of variable arity.
+fn guarded(
+    function: pl_function_t,
+    is_nondeterministic: bool,
+    quick: Option<Quick>,
+) -> pl_function_t {
+    let prunes_twice = is_nondeterministic && Version::running().prunes_twice();
+    if !prunes_twice && quick.is_none() {
         return function;
     }
-    let address = function? as usize;
+    // Safety: all predicates of `swipl` are called so.
+    let predicate =
+        unsafe { transmute::<unsafe extern "C" fn() -> foreign_t, Predicate>(function?) };
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let Some((slot, through)) = PREDICATES.get(number).zip(THROUGH.get(number)) else {
+    let Some((slot, through)) = CALLED.get(number).zip(THROUGH.get(number)) else {
         return function;
     };
-    slot.store(address, Ordering::Release);
+    let _ = slot.set(Called { predicate, quick, is_nondeterministic, prunes_twice });
     // Safety: Prolog calls it as the flags say that it is registered with.
     Some(unsafe { transmute::<Predicate, unsafe extern "C" fn() -> foreign_t>(*through) })
 }

@@ -1,5 +1,6 @@
 :- module(ev3dev_attributes,
           [ attribute/4,                % +Class, ?Port, +Attribute, ?Value
+            goal_expansion/2,           % +Goal, -Body
             attribute_words/4,          % +Class, ?Port, +Attribute, -Words
             value_attribute/2,          % +Index, -Attribute
             device_at/3,                % +Class, ?Port, -Path
@@ -24,6 +25,14 @@ attribute(Class, Port, Attribute, Value) :-
     ->  attribute_(Class, Port, Attribute, Value)
     ;   attribute_write_(Class, Port, Attribute, Value)
     ).
+
+%!  goal_expansion(+Goal, -Body) is semidet.
+%
+%   A module that imports this has the clause of attribute/4 in the place of
+%   its calls. A call takes as long as reading a file.
+
+goal_expansion(attribute(Class, Port, Attribute, Value), Body) :-
+    clause(attribute(Class, Port, Attribute, Value), Body).
 
 %!  attribute_words(+Class, ?Port, +Attribute, -Words) is nondet.
 %

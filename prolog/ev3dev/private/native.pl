@@ -50,6 +50,7 @@
             servo_set_position_/2,
             sensor_restart_/3,
             sensor_scale_/3,
+            sensor_known_/3,
             sensor_value_/5,
             sensor_value_or_why_/5,
             sensor_values_/5,
@@ -268,6 +269,7 @@ missing.
 
 %!  sensor_restart_(+Port, +Types, +Mode) is semidet.
 %!  sensor_scale_(+Port, +Raw, -Value) is semidet.
+%!  sensor_known_(+Reading, ?Port, ?Value) is semidet.
 %!  sensor_value_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_value_or_why_(?Port, +Types, +Mode, +Index, -Value) is nondet.
 %!  sensor_values_(?Port, +Types, +Mode, +Count, ?Values) is nondet.

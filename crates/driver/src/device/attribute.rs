@@ -1,7 +1,7 @@
 //! Attribute files: kept open, read whole, written in one go.
 use crate::error::{Access, Error, Result};
 use crate::sysfs::{AttributeFile, Sysfs};
-use crate::value::Value;
+use crate::value::{Value, holds_integer};
 use ev3_signals::latch;
 use std::path::{Path, PathBuf};
 use std::sync::{OnceLock, RwLock};
@@ -50,6 +50,8 @@ pub fn read_value(tree: &dyn Sysfs, path: &Path) -> Result<Value> {
 pub(crate) struct Attribute {
     pub(super) name: Box<str>,
     pub(super) path: PathBuf,
+    /// Whether it holds an integer and nothing else.
+    pub(super) holds_integer: bool,
     reader: OnceLock<Box<dyn AttributeFile>>,
     writer: OnceLock<Box<dyn AttributeFile>>,
     /// Keeps readers of a plain file from seeing half of a write.
@@ -61,6 +63,7 @@ impl Attribute {
         Self {
             name: name.into(),
             path: directory.join(name),
+            holds_integer: holds_integer(name),
             reader: OnceLock::new(),
             writer: OnceLock::new(),
             whole: RwLock::default(),

@@ -200,11 +200,19 @@ impl Device {
     /// # Errors
     /// ENODEV.
     pub fn check_present(&self) -> Result<()> {
+        if self.presence.is_plain() { self.check_present_at(self.tree.now()) } else { Ok(()) }
+    }
+
+    /// The same, when it is that time.
+    ///
+    /// # Errors
+    /// ENODEV.
+    pub fn check_present_at(&self, now: Duration) -> Result<()> {
         if !self.presence.is_plain() {
             return Ok(());
         }
         #[expect(clippy::cast_possible_truncation, reason = "only differences count")]
-        let now = self.tree.now().as_micros() as u32;
+        let now = now.as_micros() as u32;
         let checked = self.present_at_us.load(Ordering::Relaxed);
         if now.wrapping_sub(checked) < PRESENT_FOR_US {
             return Ok(());
@@ -425,6 +433,19 @@ impl Device {
         }
         let mut page = [0; PAGE + 1];
         text_of(&attribute.path, attribute.read(self.tree(), &mut page)?)
+    }
+
+    /// Calls `look` with the text of an attribute, and whether an integer belongs there.
+    /// `None` where it cannot be read, or is not short.
+    pub(crate) fn with_short<T>(
+        &self,
+        attribute: &str,
+        look: impl FnOnce(&[u8], bool) -> Option<T>,
+    ) -> Option<T> {
+        let attribute = self.attribute(attribute);
+        let mut buffer = [0; SHORT];
+        let text = attribute.read(self.tree(), &mut buffer).ok()?;
+        look(text.strip_suffix(b"\n").unwrap_or(text), attribute.holds_integer)
     }
 
     /// Writes an attribute.

@@ -13,9 +13,9 @@ use crate::lock::locked;
 use crate::port_name;
 use crate::sysfs::{Entry, Sysfs};
 use rustix::io::Errno;
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, Weak};
 use std::time::Duration;
 
@@ -26,9 +26,18 @@ pub const LISTING_AGE: Duration = Duration::from_millis(100);
 pub struct Registry {
     tree: Arc<dyn Sysfs>,
     listings: [Mutex<Listing>; Class::ALL.len()],
+    /// How often a listing got other devices, or was forgotten.
+    changes: AtomicU32,
     observer: Arc<Observer>,
     journal: Arc<Journal>,
     gears: Arc<Gears>,
+}
+
+/// When a class was last listed; see [`Registry::holds`].
+#[derive(Clone, Copy, Debug)]
+pub struct Listed {
+    made: Option<Duration>,
+    changes: u32,
 }
 
 /// The devices in a class directory when it was last listed.
@@ -40,26 +49,37 @@ struct Listing {
     by_port: ByPort,
 }
 
-/// Devices by their ports, which differ at their ends: so these are compared first.
+/// Devices by their ports. These differ at their ends: so the last eight bytes are compared
+/// first, as a number.
 #[derive(Default)]
-struct ByPort(Box<[(Box<str>, Arc<Device>)]>);
+struct ByPort(Box<[Port]>);
+
+/// The end of a port's name, its name, and the device there.
+type Port = (u64, Box<str>, Arc<Device>);
 
 impl ByPort {
     fn new(devices: BTreeMap<&str, &Arc<Device>>) -> Self {
-        let owned = devices.into_iter().map(|(port, it)| (port.into(), Arc::clone(it)));
-        let mut devices: Box<[(Box<str>, _)]> = owned.collect();
-        devices.sort_unstable_by(|(a, _), (b, _)| Self::order(a, b));
+        let owned =
+            |(port, it): (&str, &Arc<Device>)| -> Port { (end(port), port.into(), Arc::clone(it)) };
+        let mut devices: Box<[Port]> = devices.into_iter().map(owned).collect();
+        devices.sort_unstable_by(|a, b| (a.0, &a.1).cmp(&(b.0, &b.1)));
         Self(devices)
     }
 
     fn get(&self, port: &str) -> Option<&Arc<Device>> {
-        let at = self.0.binary_search_by(|(other, _)| Self::order(other, port)).ok()?;
-        self.0.get(at).map(|(_, device)| device)
+        let end = end(port);
+        let order =
+            |(other_end, other, _): &Port| other_end.cmp(&end).then_with(|| (**other).cmp(port));
+        let at = self.0.binary_search_by(order).ok()?;
+        self.0.get(at).map(|(_, _, device)| device)
     }
+}
 
-    fn order(a: &str, b: &str) -> Ordering {
-        a.bytes().rev().cmp(b.bytes().rev())
-    }
+/// The last eight bytes of a port's name, or all, as a number.
+fn end(port: &str) -> u64 {
+    let bytes = port.as_bytes();
+    let from = bytes.len().saturating_sub(8);
+    bytes.iter().skip(from).fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
 impl Registry {
@@ -69,6 +89,7 @@ impl Registry {
         Self {
             tree,
             listings: Default::default(),
+            changes: AtomicU32::default(),
             observer: Arc::default(),
             journal: Arc::default(),
             gears: Arc::default(),
@@ -97,6 +118,19 @@ impl Registry {
             self.list(class, &mut listing)?;
         }
         Ok(Arc::clone(&listing.devices))
+    }
+
+    /// When a class was last listed.
+    pub fn listed(&self, class: Class) -> Listed {
+        let changes = self.changes.load(Ordering::Acquire);
+        Listed { made: self.listing(class).made, changes }
+    }
+
+    /// Whether a listing is still believed at this time: then whatever was found by it is
+    /// found again.
+    #[must_use]
+    pub fn holds(&self, listed: Listed, now: Duration) -> bool {
+        listed.changes == self.changes.load(Ordering::Acquire) && is_fresh(listed.made, now)
     }
 
     /// The devices of a class at the last listing.
@@ -199,6 +233,7 @@ impl Registry {
 
     /// Makes each class be listed again when it is next asked for.
     pub fn forget_listings(&self) {
+        self.changes.fetch_add(1, Ordering::AcqRel);
         for class in Class::ALL {
             self.listing(class).made = None;
         }
@@ -253,8 +288,7 @@ impl Registry {
     }
 
     fn is_fresh(&self, listing: &Listing) -> bool {
-        let now = self.tree.now();
-        listing.made.is_some_and(|made| now.saturating_sub(made) < LISTING_AGE)
+        is_fresh(listing.made, self.tree.now())
     }
 
     /// Lists the class directory, keeping the devices that are still there.
@@ -274,6 +308,7 @@ impl Registry {
         if is_same {
             return Ok(());
         }
+        self.changes.fetch_add(1, Ordering::AcqRel);
         let mut devices = Vec::with_capacity(entries.len());
         for entry in entries {
             match listing.devices.iter().find(|device| device.is_at(&entry)) {
@@ -305,6 +340,10 @@ impl Registry {
         listing.devices = devices.into();
         Ok(())
     }
+}
+
+fn is_fresh(made: Option<Duration>, now: Duration) -> bool {
+    made.is_some_and(|made| now.saturating_sub(made) < LISTING_AGE)
 }
 
 /// Whether this process has run out of descriptors or memory.

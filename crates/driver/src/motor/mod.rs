@@ -182,6 +182,20 @@ fn run_forever_once(registry: &Registry, runs: &[Run]) -> Result<bool> {
     Ok(true)
 }
 
+/// Runs a motor until it is stopped, as [`run_forever`] does, if nothing has to be waited for.
+///
+/// # Errors
+/// The kernel's.
+pub fn run_one(motor: &Arc<Device>, speed: Speed) -> Result<bool> {
+    let Some(counts) = speed.in_counts(motor)? else {
+        return Ok(false);
+    };
+    let motors = std::slice::from_ref(motor);
+    prepare(motors)?;
+    run_at(motors, [counts])?;
+    Ok(true)
+}
+
 /// Runs motors at speeds in counts per second until they are stopped.
 pub(crate) fn run_at(motors: &[Arc<Device>], speeds: impl IntoIterator<Item = i64>) -> Result<()> {
     for (motor, speed) in motors.iter().zip(speeds) {

@@ -1,5 +1,6 @@
 //! Attribute files: texts, numbers, and what else is found in their place.
 use crate::files::PlainTree;
+use ev3_driver::attributes::Short;
 use ev3_driver::device::{read_file, read_value, write_file};
 use ev3_driver::error::Access;
 use ev3_driver::{Class, Device, Errno, Error, Registry, Sysfs, SysfsDir, Value, attributes};
@@ -325,4 +326,34 @@ fn writing_an_attribute_of_an_absent_device_writes_nothing() {
     assert_eq!(motor.number("speed_sp").unwrap(), 5);
     let absent = attributes::write(&devices, Class::Sensor, "in1", "mode", "TOUCH", &mut never);
     assert_eq!(absent.unwrap(), None);
+}
+
+#[test]
+fn a_look_shows_numbers_and_short_texts_and_leaves_the_rest() {
+    let tree = PlainTree::new();
+    let path = tree.motor("motor0", "outA");
+    let devices = tree.devices();
+    let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
+    let looked = |name: &str| {
+        attributes::look(&motor, name, |shown| {
+            Some(match shown {
+                Short::Integer(integer) => integer.to_string(),
+                Short::Text(text) => format!("'{text}'"),
+            })
+        })
+    };
+    fs::write(path.join("position"), "-12\n").unwrap();
+    fs::write(path.join("state"), "running\n").unwrap();
+    fs::write(path.join("stop_actions"), "7\n").unwrap();
+    fs::write(path.join("commands"), "x".repeat(100)).unwrap();
+    fs::write(path.join("driver_name"), b"\xff\n").unwrap();
+    assert_eq!(looked("position").as_deref(), Some("-12"));
+    assert_eq!(looked("state").as_deref(), Some("'running'"));
+    assert_eq!(looked("stop_actions").as_deref(), Some("7"));
+    for other in ["commands", "driver_name", "missing"] {
+        assert_eq!(looked(other), None, "{other}");
+    }
+    // What belongs there is a number: it may be about to be written.
+    fs::write(path.join("position"), "").unwrap();
+    assert_eq!(looked("position"), None);
 }

@@ -284,3 +284,43 @@ fn many_threads_share_the_devices() {
         }
     });
 }
+
+#[test]
+fn a_listing_holds_until_it_is_old_or_finds_other_devices_or_is_forgotten() {
+    let tree = PlainTree::new();
+    tree.motor("motor0", "outA");
+    let devices = tree.devices();
+    let now = || devices.tree().now();
+    let never = devices.listed(Class::TachoMotor);
+    assert!(!devices.holds(never, now()), "nothing was listed");
+
+    assert!(name_at(&devices, "outA").is_some());
+    let listed = devices.listed(Class::TachoMotor);
+    let made = now();
+    assert!(devices.holds(listed, made));
+    assert!(!devices.holds(listed, made + LISTING_AGE));
+
+    tree.motor("motor1", "outB");
+    assert!(name_at(&devices, "outB").is_some());
+    assert!(!devices.holds(listed, made), "there are other devices");
+
+    let listed = devices.listed(Class::TachoMotor);
+    assert!(devices.holds(listed, made));
+    devices.forget_listings();
+    assert!(!devices.holds(listed, made));
+}
+
+#[test]
+fn ports_that_end_alike_are_told_apart() {
+    let tree = PlainTree::new();
+    let ports = ["in1:i2c80:mux1", "in2:i2c80:mux1", "mux1", "1", "in1:i2c80:mux11"];
+    for (number, port) in ports.into_iter().enumerate() {
+        tree.plug(Class::Sensor, &format!("sensor{number}"), port, &[]);
+    }
+    let devices = tree.devices();
+    for port in ports {
+        let found = devices.find(Class::Sensor, port).unwrap();
+        assert_eq!(found.map(|found| found.port().to_owned()).as_deref(), Some(port));
+    }
+    assert!(devices.find(Class::Sensor, "in3:i2c80:mux1").unwrap().is_none());
+}

@@ -1,12 +1,14 @@
 //! Commands, moves of several motors at once, and what stops them.
 use crate::brick::{Brick, motors, ms};
+use crate::files::PlainTree;
 use ev3_driver::Class;
 use ev3_driver::motor::wait::{Reason, wait_for};
 use ev3_driver::motor::{
-    Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_to, stop,
-    stop_all, stop_connected, stop_started,
+    Extent, Move, MoveOptions, Run, Speed, StopAction, command, reset, run_forever, run_one,
+    run_to, stop, stop_all, stop_connected, stop_started,
 };
 use ev3_driver::{Errno, Error, attributes};
+use std::fs;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -556,4 +558,21 @@ fn absurd_positions_do_not_overflow() {
     let all: Vec<Arc<_>> = motors(&devices, &["outA"]);
     command(&all[0], "run-to-abs-pos").unwrap();
     let _ = wait_for(&devices, &all, Some(ms(100)), &mut brick.attentive());
+}
+
+#[test]
+fn one_motor_runs_as_several_do() {
+    let tree = PlainTree::new();
+    let files =
+        [("max_speed", "1050"), ("speed_sp", "0"), ("command", ""), ("stop_action", "coast")];
+    let path = tree.plug(Class::TachoMotor, "motor0", "outA", &files);
+    let devices = tree.devices();
+    let motor = devices.find(Class::TachoMotor, "outA").unwrap().unwrap();
+    let read = |name: &str| fs::read_to_string(path.join(name)).unwrap();
+    assert!(!run_one(&motor, Speed::Percent(100.1)).unwrap());
+    assert_eq!(read("command").trim(), "", "nothing has moved");
+    assert!(run_one(&motor, Speed::Percent(-50.0)).unwrap());
+    assert_eq!((read("speed_sp").trim(), read("command").trim()), ("-525", "run-forever"));
+    stop_started(&devices).unwrap();
+    assert_eq!(read("command").trim(), "stop", "it was recorded");
 }
