@@ -5,6 +5,7 @@
     benches/run.py --part view
     benches/run.py --part rules
     benches/run.py --table
+    benches/run.py --count
     benches/run.py --smoke
 
 Five implementations of the same jobs over the same plain tree of 4 motors and 4
@@ -21,13 +22,14 @@ measured once by everyone who does it, one after the other; what counts is the
 median over the rounds, and ratios of medians. Writes benches/results.json, and
 from that the tables of docs/performance.md; --table does the latter alone. What
 cannot take part ends the run: no column is left out in silence. --part measures
-one part again, and keeps the others.
+one part again, and keeps the others; --count counts instructions again, and writes
+benches/instructions.json.
 
 --smoke measures nothing: in seconds it has each worker do each job a few times,
 and makes sure that docs/performance.md has the figures of benches/results.json,
-if there is one.
-It says so, and goes on, where python-ev3dev2 cannot be installed or there is no
-FUSE.
+if there is one, and that no call takes 3 % more instructions than
+benches/instructions.json says. It says so, and goes on, where python-ev3dev2 cannot be
+installed, there is no FUSE, or instructions cannot be compared.
 """
 import argparse
 import json
@@ -46,6 +48,7 @@ import view
 TOP = Path(__file__).resolve().parent.parent
 WORK = TOP / "target" / "bench"
 RESULTS = TOP / "benches" / "results.json"
+INSTRUCTIONS = TOP / "benches" / "instructions.json"
 TABLES = TOP / "docs" / "performance.md"
 SWIPL = os.environ.get("SWIPL", "swipl")
 SWIPL_PACK = [SWIPL, "-p", f"library={TOP}/prolog"]
@@ -355,29 +358,66 @@ def loading(rounds):
             for name in goals}
 
 
-def instructions(root):
+# By how much the instructions of a call may grow unnoticed
+GROWTH = 1.03
+
+COUNTED = {
+    "loop": "true", "us_dist_cm": "us_dist_cm(_,_)", "col_ambient": "col_ambient(in2,_)",
+    "motor_run": "motor_run(outD,50)", "position": "position(outB,_)",
+    "state": "state(outB,_)"}
+
+
+def instructions(root, times=11, calls=200):
     """Instructions a call of the five hottest predicates, in the loop of
-    benches/calls.pl, and of that loop alone: callgrind's count of 2000 calls
-    less that of 1000. The same in every run, without the thread that collects
-    atoms."""
-    goals = {
-        "loop": "true", "us_dist_cm": "us_dist_cm(_,_)", "col_ambient": "col_ambient(in2,_)",
-        "motor_run": "motor_run(outD,50)", "position": "position(outB,_)",
-        "state": "state(outB,_)"}
-    result = {}
-    for job, goal in goals.items():
-        counts = []
-        for calls in (1000, 2000):
-            said = subprocess.run(
-                ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                 *SWIPL_PACK, "--no-threads", "-g", f"calls({calls},{goal})", "-t", "halt(1)",
-                 "-g", "halt", "benches/calls.pl"],
-                env={**os.environ, "EV3DEV_SYSFS": str(root)}, check=True,
-                cwd=TOP, capture_output=True, text=True).stderr
-            # The last is this process's: the one that outlives it is counted, too.
-            counts.append(int(said.split("Collected :")[-1].split()[0]))
-        result[job] = (counts[1] - counts[0]) / 1000
-    return result
+    benches/calls.pl, and of that loop alone, by callgrind: the median of so many loops.
+    What comes seldom is not in it: the collection of garbage, and the listing of
+    devices, which is made anew ten times a second."""
+    with tempfile.TemporaryDirectory() as directory:
+        subprocess.run(
+            ["valgrind", "--tool=callgrind", "--dump-before=getenv",
+             f"--callgrind-out-file={directory}/out", *SWIPL_PACK, "--no-threads",
+             "-g", f"count({times},{calls},[{','.join(COUNTED.values())}])",
+             "-t", "halt(1)", "-g", "halt", "benches/calls.pl"],
+            env={**os.environ, "EV3DEV_SYSFS": str(root)}, check=True,
+            cwd=TOP, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        parts = Path(directory).glob("out.*")
+        parts = sorted(parts, key=lambda part: int(part.suffix[1:]))
+        totals = [int(part.read_text().split("\ntotals: ")[1].split()[0]) for part in parts]
+    # Of the end, after the last mark, and of the way from a loop to the next
+    loops = totals[-2 * times * len(COUNTED) - 1:-1][1::2]
+    counts = [statistics.median(loops[n * times:(n + 1) * times]) / calls
+              for n in range(len(COUNTED))]
+    return dict(zip(COUNTED, counts))
+
+
+def counted_with():
+    """What counts depend on, besides this tree."""
+    version = [SWIPL, "-g", "current_prolog_flag(version,V),write(V)", "-t", "halt"]
+    said = [subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+            for command in (version, ["rustc", "--version"])]
+    return {"swipl": said[0], "rustc": said[1], "machine": platform.machine()}
+
+
+def write_instructions(root):
+    INSTRUCTIONS.write_text(json.dumps(
+        {"with": counted_with(), "counts": instructions(root)}, indent=2) + "\n")
+
+
+def compare_instructions(root):
+    """Ends the program where a call takes more instructions than were written down."""
+    if not shutil.which("valgrind"):
+        print("left out: instructions, there is no valgrind here")
+        return
+    kept = json.loads(INSTRUCTIONS.read_text())
+    if kept["with"] != counted_with():
+        print("left out: instructions, which were counted with", *kept["with"].values())
+        return
+    counts = instructions(root)
+    grown = [f"{job}: {counts[job]:.0f} instructions, not {known:.0f}"
+             for job, known in kept["counts"].items() if counts[job] > known * GROWTH]
+    if grown:
+        sys.exit("\n".join(grown) + "\nIf it is meant so: benches/run.py --count")
+    print("instructions as before:", *(f"{job} {count:.0f}" for job, count in counts.items()))
 
 
 CALLS = {
@@ -445,8 +485,8 @@ def tables(results):
             "second", "")]
     written["rules"] = rules_table(results["rules"])
     written["view"] = view_table(results["view"])
-    if "instructions" in results:
-        counts = results["instructions"]
+    if INSTRUCTIONS.exists():
+        counts = json.loads(INSTRUCTIONS.read_text())["counts"]
         written["instructions"] = [
             row("instructions a call, x86-64",
                 *(job if job == "loop" else f"`{job}`" for job in counts)),
@@ -512,6 +552,7 @@ def smoke():
         sys.exit("docs/performance.md has other figures than benches/results.json: "
                  "benches/run.py --table")
     print("the bench answers:", ", ".join(trees))
+    compare_instructions(plain_tree())
 
 
 def main():
@@ -520,12 +561,15 @@ def main():
     parser.add_argument("--no-callgrind", action="store_true")
     parser.add_argument("--part", choices=PARTS)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--count", action="store_true")
     parser.add_argument("--smoke", action="store_true")
     options = parser.parse_args()
     WORK.mkdir(parents=True, exist_ok=True)
     if options.smoke:
         return smoke()
-    if options.part:
+    if options.count:
+        write_instructions(plain_tree())
+    elif options.part:
         results = json.loads(RESULTS.read_text())
         results[options.part] = PARTS[options.part]()
         RESULTS.write_text(json.dumps(results, indent=2) + "\n")
@@ -562,7 +606,7 @@ def run(options):
     for name, part in PARTS.items():
         results[name] = part()
     if not options.no_callgrind:
-        results["instructions"] = instructions(root)
+        write_instructions(root)
     for tree in trees.values():
         shutil.rmtree(tree)
     RESULTS.write_text(json.dumps(results, indent=2) + "\n")

@@ -85,9 +85,10 @@ natives! {
         seconds.unify(look.saturating_sub(now).as_secs_f64())
     }
 
-    /// branches_end_: they pause.
+    /// branches_end_: they pause. An engine of theirs may be gone.
     semidet fn "branches_end_"(_context) {
         waiting::end_branches();
+        ev3_signals::own_handlers_stack();
         into_prolog_result(true)
     }
 

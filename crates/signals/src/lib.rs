@@ -16,11 +16,13 @@
 mod handlers;
 mod kept;
 pub mod latch;
+mod stack;
 mod survivor;
 mod watchdog;
 
 pub use kept::{Kept, leave};
 use latch::Reason;
+pub use stack::own_handlers_stack;
 pub use survivor::survive;
 pub use watchdog::{Asked, PATIENCE, halts, is_to_halt, watch};
 
