@@ -9,8 +9,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [ domain_error/2, evaluated/2, must_be/2, term_expansion/4,
-                throw_error/3
+              [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
+                term_expansion/4, throw_error/3
               ]).
 :- use_module(private/arguments, [must_be_options/3, option/3]).
 :- use_module(private/native,
@@ -381,7 +381,7 @@ attribute(sensor, value3, value3).
 view_value(Name, Number0) :-
     must_be(nonvar, Name),
     evaluated(Number0, Number),
-    format(string(Text), "~w", [Name]),
+    in_own_name(format(string(Text), "~w", [Name])),
     view_value_(Text, Number).
 
 :- initialization(at_halt(view_stop), now).

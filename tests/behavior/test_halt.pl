@@ -245,7 +245,8 @@ test(one_that_runs_with_the_last_descriptors_is_stopped_as_well,
                                      ;   Ss = [S|Ss1], close(S), started(Ss1).",
                                 Program, Options),
                 run_program(Program, [goal(main)|Options], Status, Output),
-                eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
+                eventually(( left(outB, command, Output, C),
+                             \+ memberchk(C, ['', 'run-forever']) )) )).
 test(a_copy_without_descriptors_does_not_keep_them_from_being_stopped,
      [ condition(catch(( use_module(library(unix)), predicate_property(fork(_), defined) ),
                        _, fail)),
@@ -267,7 +268,8 @@ test(a_copy_without_descriptors_does_not_keep_them_from_being_stopped,
                                  leaked.",
                                 Program, Options),
                 run_program(Program, [goal(main)|Options], Status, Output),
-                eventually(( left(outB, command, Output, C), C \== 'run-forever' )) )).
+                eventually(( left(outB, command, Output, C),
+                             \+ memberchk(C, ['', 'run-forever']) )) )).
 test(without_that_process_they_run_on,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(B-C == 'run-forever'-'run-forever') ]) :-

@@ -131,15 +131,21 @@ may_throw(public, _:Goal, error(Formal, context(Called, Message))) :-
     functor(Calls, Name, Arity),
     Called == Name/Arity,
     !,
-    atom(Message),
-    atom_length(Message, Length),
-    Length < 12000.
+    (   Formal = resource_error(_)     % its words are Prolog's
+    ->  true
+    ;   atom(Message),
+        atom_length(Message, Length),
+        Length < 12000
+    ).
 may_throw(public, _, error(_, fact(file(_), _))).
+may_throw(public, _, error(syntax_error(_), file(_, _, _, _))).
 may_throw(native, _, error(Formal, _)) :-
     nonvar(Formal),
     Formal \= rust_error(_).
 
 of_its_goal(error(existence_error(procedure, _), _)).
+of_its_goal(error(representation_error(max_procedure_arity), _)).
+of_its_goal(time_limit_exceeded).      % it waits as long as it is asked to
 of_its_goal(error(format(_), _)).
 
                 /*******************************
