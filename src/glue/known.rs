@@ -73,14 +73,13 @@ impl Look {
     ) {
         let Self { files, listed } = self;
         let (registry, device) = (Arc::downgrade(registry), Arc::downgrade(device));
-        KNOWN.with(|known| {
-            let Ok(mut known) = known.try_borrow_mut() else {
-                return;
-            };
+        // A thread that ends has none any more.
+        let _ = KNOWN.try_with(|known| {
+            let mut known = known.try_borrow_mut().ok()?;
             known.resize_with(SLOTS, || None);
-            if let Some(entry) = known.get_mut(slot(key)) {
-                *entry = Some(Entry { key, files, listed, registry, device, name, index });
-            }
+            *known.get_mut(slot(key))? =
+                Some(Entry { key, files, listed, registry, device, name, index });
+            Some(())
         });
     }
 }
@@ -91,7 +90,7 @@ pub(crate) fn with<T>(key: Key, act: impl FnOnce(Found) -> Option<T>) -> Option<
     if is_any_due() {
         return None;
     }
-    KNOWN.with(|known| {
+    let found = KNOWN.try_with(|known| {
         let known = known.try_borrow().ok()?;
         let entry = known.get(slot(key))?.as_ref()?;
         if entry.key != key || entry.files != state::files_number() {
@@ -103,7 +102,8 @@ pub(crate) fn with<T>(key: Key, act: impl FnOnce(Found) -> Option<T>) -> Option<
             return None;
         }
         act(Found { registry, device, name: &entry.name, index: entry.index, now })
-    })
+    });
+    found.ok()?
 }
 
 /// Unifies an argument with a number or a frequent word.

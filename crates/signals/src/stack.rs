@@ -34,7 +34,9 @@ impl Drop for Stack {
 /// Gives this thread a stack of its own for handlers. To be called when an engine that has run
 /// in it is gone.
 pub fn own_handlers_stack() {
-    STACK.with_borrow_mut(|stack| {
+    // A thread that ends needs none.
+    let _ = STACK.try_with(|stack| {
+        let mut stack = stack.borrow_mut();
         stack.get_or_insert_with(|| Stack(vec![0; SIZE].into_boxed_slice())).set(0);
     });
 }

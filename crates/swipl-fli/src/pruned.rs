@@ -132,28 +132,34 @@ unsafe extern "C" fn through<const NUMBER: usize>(
     arity: c_int,
     control: control_t,
 ) -> foreign_t {
-    let Some(called) = CALLED[NUMBER].get() else {
-        return 0;
-    };
     // Safety: Prolog passes what the predicate takes.
-    unsafe {
-        let is_nondeterministic = called.is_nondeterministic;
-        let kind = if is_nondeterministic { PL_foreign_control(control) } else { FIRST_CALL };
-        if kind != FIRST_CALL {
-            let is_known =
-                !called.prunes_twice || take(PL_foreign_context_address(control) as usize);
-            if kind == PRUNED && !is_known {
-                return 1;
+    CALLED[NUMBER].get().map_or(0, |called| unsafe { called.call(terms, arity, control) })
+}
+
+impl Called {
+    // Once, and not in each function of `THROUGH`
+    #[inline(never)]
+    unsafe fn call(&self, terms: term_t, arity: c_int, control: control_t) -> foreign_t {
+        // Safety: as in `through`.
+        unsafe {
+            let kind =
+                if self.is_nondeterministic { PL_foreign_control(control) } else { FIRST_CALL };
+            if kind != FIRST_CALL {
+                let is_known =
+                    !self.prunes_twice || take(PL_foreign_context_address(control) as usize);
+                if kind == PRUNED && !is_known {
+                    return 1;
+                }
+            } else if let Some(quick) = self.quick {
+                let arguments = Arguments { first: terms, count: arity.try_into().unwrap_or(0) };
+                // After a panic the predicate itself is called, which tells Prolog of its own.
+                let answer = catch_unwind(AssertUnwindSafe(|| quick(&arguments)));
+                if let Ok(Some(is_true)) = answer {
+                    return is_true.into();
+                }
             }
-        } else if let Some(quick) = called.quick {
-            let arguments = Arguments { first: terms, count: arity.try_into().unwrap_or(0) };
-            // After a panic the predicate itself is called, which tells Prolog of its own.
-            let answer = catch_unwind(AssertUnwindSafe(|| quick(&arguments)));
-            if let Ok(Some(is_true)) = answer {
-                return is_true.into();
-            }
+            (self.predicate)(terms, arity, control)
         }
-        (called.predicate)(terms, arity, control)
     }
 }
 
