@@ -181,8 +181,9 @@ fn row<'a, C: QueryableContextType>(
     if types.is_atom() && types.term_type() != TermType::Nil {
         return named_row(call, types);
     }
+    let index = index()?;
     let types = call.map_list(types, |kind| call.text(&kind))?;
-    Ok(Arc::new(Row { types, mode: call.text(mode)?, index: index()? }))
+    Ok(Arc::new(Row { types, mode: call.text(mode)?, index }))
 }
 
 fn named_row<'a, C: QueryableContextType>(
