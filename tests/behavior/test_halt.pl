@@ -221,6 +221,22 @@ test(a_crash_stops_the_motors,
                 member(Signal, [6, 11, 10, 30]) )) ]) :-
     % The process that stays writes again, and empties a plain file for that.
     signalled(Tree, Signal, "", [goal(main)], _, eventually, stop, stop).
+test(a_crash_whose_handler_hangs_ends_the_process,
+     [ forall(( tree(Tree), Tree \== simulator )),
+       true(Status-B-C == killed(11)-stop-stop) ]) :-
+    signalled(Tree, 11, ":- on_signal(segv, _, hangs).
+                         hangs(_) :- repeat, fail.",
+              [goal(main)], Status, eventually, B, C).
+test(one_that_goes_on_after_a_crash_drives_again,
+     [forall(( tree(Tree), Tree \== simulator )), true(Status == exit(5))]) :-
+    signalled(Tree, 8, ":- on_signal(fpe, _, survived).
+                        survived(_) :- throw(survived).
+                        wait :- catch(( repeat, sleep(0.01), fail ), survived, true),
+                                repeat,
+                                sleep(0.01),
+                                catch(motor_run(outB, 20), _, fail),
+                                halt(5).",
+              [goal(main)], Status, eventually, stop, stop).
 test(a_process_that_is_killed_has_one_that_stops_its_motors,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(Status == killed(9)) ]) :-

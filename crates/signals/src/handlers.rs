@@ -1,6 +1,6 @@
 //! What is done in the handlers of signals themselves.
 use crate::latch::{self, Reason};
-use crate::{kept, watchdog};
+use crate::{crash, kept, watchdog};
 use nix::errno::Errno;
 use nix::libc::{self, c_int, c_void, siginfo_t};
 use std::mem::zeroed;
@@ -67,11 +67,11 @@ pub(crate) fn take_all() {
     }
 }
 
-/// Takes signals again that Prolog has taken since, as its toplevel does when it begins, and
-/// shell/1 with Ctrl-Z. Prolog has one handler for all.
+/// Takes signals again that Prolog has taken since, as its toplevel does when it begins,
+/// on_signal/3, and shell/1 with Ctrl-Z. Prolog has one handler for all.
 pub(crate) fn take_again() {
     if let Some(prologs) = before(libc::SIGTERM) {
-        for signal in ASKING {
+        for signal in ASKING.into_iter().chain(CRASHES) {
             let now = action(signal);
             if now.sa_sigaction == prologs.sa_sigaction {
                 // The same, so that nothing has to be kept: the watchdog allocates nothing.
@@ -176,10 +176,13 @@ extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) 
         // Prolog's handler would make a copy of the program of what is to be another one.
         do_default(signal);
     } else {
+        let mark = AtomicU32::new(0);
+        crash::begins(signal, &mark);
         stop_for(Reason::Crashed);
         pass_on(signal, info, context);
         // The program goes on. Where Prolog does not come back to here, the watchdog lifts it.
         latch::lift(Reason::Crashed);
+        mark.store(0, Ordering::Relaxed);
     }
     errno.set();
 }

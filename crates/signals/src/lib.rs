@@ -13,6 +13,7 @@
 //!
 //! Prolog's own end, as by halt/0, is the affair of `prolog/ev3dev/private/halt.pl`.
 #![expect(unsafe_code, reason = "handlers of signals, and processes, are C's")]
+mod crash;
 mod handlers;
 mod kept;
 pub mod latch;

@@ -6,7 +6,7 @@
 //! if it will. Then Prolog gets the signal. Whatever Prolog and the asker do: two seconds
 //! after the signal the process has ended.
 use crate::latch::{self, Reason};
-use crate::{handlers, kept, survivor};
+use crate::{crash, handlers, kept, survivor};
 use nix::libc::{self, c_int, c_void};
 use nix::sys::signal::{SigSet, SigmaskHow};
 use std::io::{self, Read, Write};
@@ -175,8 +175,8 @@ struct Watchdog {
     end: Option<(c_int, Instant)>,
     /// Until when no motor starts, after the process was continued.
     stands_until: Option<Instant>,
-    /// Since when the program has crashed, as far as is known.
-    crashed: Option<Instant>,
+    /// The number of the last crash, and since when it is known.
+    crashed: Option<(u32, Instant)>,
     /// Whether the main thread has ended.
     is_main_over: bool,
     /// When Prolog, which has begun to halt, has taken too long.
@@ -325,12 +325,7 @@ impl Watchdog {
             self.stands_until = None;
             latch::lift(Reason::Standing);
         }
-        if !latch::is_set_as(Reason::Crashed) {
-            self.crashed = None;
-        } else if *self.crashed.get_or_insert(now) + PATIENCE <= now {
-            // It has survived that.
-            latch::lift(Reason::Crashed);
-        }
+        self.look_at_crash(now);
         handlers::take_again();
         if self.forks_until.is_some_and(|time| time <= now) {
             self.forks_until = None;
@@ -339,6 +334,26 @@ impl Watchdog {
             handlers::stop_for(Reason::Ending);
             // Safety: as at the end of the last thread.
             unsafe { libc::_exit(0) };
+        }
+    }
+
+    /// A crash from whose handler Prolog has not come back after [`PATIENCE`]: either it goes on
+    /// elsewhere, or the handler hangs, and nothing else would end the process.
+    fn look_at_crash(&mut self, now: Instant) {
+        let (number, signal) = crash::last();
+        if !latch::is_set_as(Reason::Crashed) {
+            self.crashed = None;
+            return;
+        }
+        let known = self.crashed.filter(|crashed| crashed.0 == number);
+        let (_, since) = *self.crashed.insert(known.unwrap_or((number, now)));
+        if since + PATIENCE > now {
+            return;
+        }
+        match crash::is_in_handler() {
+            Some(false) => latch::lift(Reason::Crashed),
+            None if since + 2 * PATIENCE > now => {}
+            _ => end_by(signal),
         }
     }
 }
