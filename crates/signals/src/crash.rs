@@ -145,7 +145,7 @@ mod tests {
 
     /// Deeper in the stack than the handler was.
     fn deeper(at: &Sender<()>, goes_on: &Receiver<()>) {
-        let room = black_box([0_u8; 64 * 1024]);
+        let room = black_box([0_u8; 8 * 1024]);
         at.send(()).unwrap();
         goes_on.recv().unwrap();
         black_box(room);

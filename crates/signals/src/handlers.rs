@@ -68,7 +68,7 @@ pub(crate) fn take_all() {
 }
 
 /// Takes signals again that Prolog has taken since, as its toplevel does when it begins,
-/// on_signal/3, and shell/1 with Ctrl-Z. Prolog has one handler for all.
+/// `on_signal/3`, and shell/1 with Ctrl-Z. Prolog has one handler for all.
 pub(crate) fn take_again() {
     if let Some(prologs) = before(libc::SIGTERM) {
         for signal in ASKING.into_iter().chain(CRASHES) {
