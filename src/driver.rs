@@ -57,7 +57,8 @@ natives! {
             let (names_port, look) = (port.is_var(), Look::at(&devices, class));
             let found = call.listed(&devices, class, port)?;
             if let (false, Some(look), Some(device)) = (names_port, look, found.first()) {
-                keep(look, [class_term, port, attribute], &devices, device, &name);
+                let atoms = [class_term, port, attribute].map(word_in);
+                look.keep(atoms, &devices, device, name.clone(), 0);
             }
             let reads = AttributeReads { devices, found, names_port, name };
             start(reads, |reads| &reads.found, |reads| reads.next(&call, port, value))
@@ -78,14 +79,6 @@ natives! {
         let (devices, interrupted) = (call.devices_to_command()?, &mut call.interrupted());
         let written = attributes::write(&devices, class, &socket, &name, &text, interrupted);
         call.or_absent(class, port, written)
-    }
-}
-
-/// Keeps the device that a call of `attribute_` has found, if its atoms stay.
-fn keep(look: Look, terms: [&Term; 3], devices: &Arc<Registry>, device: &Arc<Device>, name: &Text) {
-    let [class, port, attribute] = terms.map(word_in);
-    if let (Some(class), Some(port), Some(attribute)) = (class, port, attribute) {
-        look.keep([class, port, attribute], devices, device, name.clone(), 0);
     }
 }
 

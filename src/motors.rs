@@ -27,9 +27,10 @@ natives! {
         let (name, speed) = (call.text(port)?, speed_of(&call, percent)?);
         let (run, devices) = (Run { port: &name, speed }, call.devices_to_move()?);
         let interrupted = &mut call.interrupted();
-        if let (Some(look), Some(atom)) = (Look::at(&devices, Class::TachoMotor), word_in(port)) {
+        if let Some(look) = Look::at(&devices, Class::TachoMotor) {
             if let Ok(Some(motor)) = devices.find(Class::TachoMotor, &name) {
-                look.keep([atom, 0, 0], &devices, &motor, Text::Borrowed(""), 0);
+                let atoms = [word_in(port), Some(0), Some(0)];
+                look.keep(atoms, &devices, &motor, Text::Borrowed(""), 0);
             }
         }
         into_prolog_result(call.or_throw(motor::run_forever(&devices, &[run], interrupted))?)

@@ -194,14 +194,23 @@ fn named_row<'a, C: QueryableContextType>(
     if let Some((_, row)) = locked(&ROWS).iter().find(|known| known.0 == atom) {
         return Ok(Arc::clone(row));
     }
-    let [types, mode, index] = call.context.new_term_refs();
-    let is_row = call.context.ask(pred!("ev3dev_sensors:known/4"), [name, &types, &mode, &index]);
-    if !attempt(is_row)? {
-        return wrong_type(call, "list", name);
-    }
+    let [types, mode, index] = row_called(call, name)?;
     let row = row(call, &types, &mode, || index_of(call, &index))?;
     locked(&ROWS).push((atom, Arc::clone(&row)));
     Ok(row)
+}
+
+/// The columns of the row of that name: types, mode and index.
+fn row_called<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    name: &Term<'a>,
+) -> PrologResult<[Term<'a>; 3]> {
+    let row @ [types, mode, index] = &call.context.new_term_refs();
+    let is_row = call.context.ask(pred!("ev3dev_sensors:known/4"), [name, types, mode, index]);
+    if !attempt(is_row)? {
+        return wrong_type(call, "list", name);
+    }
+    Ok(row.clone())
 }
 
 /// The sensors that the call has not read yet.
@@ -298,13 +307,10 @@ fn readings<'a, C: QueryableContextType>(
         None => sensor::with_mode(&devices, &row.types, &row.mode),
     })?;
     let (sensors, names_port): (ListedDevices, _) = (found.into_iter().collect(), name.is_none());
-    if let (Some(look), Some(row_atom), 1, Some(sensor)) =
-        (look, atom_in!(types), sensors.len(), sensors.first())
-    {
+    if let (Some(look), 1, Some(sensor)) = (look, sensors.len(), sensors.first()) {
         let port = if names_port { handle(sensor.port()).map(|_| 0) } else { word_in(port) };
-        if let Some(port) = port {
-            look.keep([row_atom, port, 0], &devices, sensor, row.mode.clone(), row.index);
-        }
+        let atoms = [atom_in!(types), port, Some(0)];
+        look.keep(atoms, &devices, sensor, row.mode.clone(), row.index);
     }
     Ok(Readings { devices, sensors, names_port, row, has_value: false })
 }
@@ -319,11 +325,7 @@ fn no_sensor<'a, C: QueryableContextType, T>(
     let context = call.context;
     let kind = match types.term_type() {
         TermType::Nil => term! {context: mode(#mode)}?,
-        TermType::Atom => {
-            let [row_types, mode, index] = context.new_term_refs();
-            context.ask(pred!("ev3dev_sensors:known/4"), [types, &row_types, &mode, &index])?;
-            row_types
-        }
+        TermType::Atom => row_called(call, types)?[0].clone(),
         _ => types.clone(),
     };
     call.fail_because(&term! {context: absent(#&kind, #port)}?)

@@ -62,16 +62,19 @@ impl Look {
         keeps.then(|| Self { files, listed: registry.listed(class) })
     }
 
-    /// Keeps what was found.
+    /// Keeps what was found, if all atoms of the call stay: the others are `None`.
     pub(crate) fn keep(
         self,
-        key: Key,
+        atoms: [Option<usize>; 3],
         registry: &Arc<Registry>,
         device: &Arc<Device>,
         name: Text,
         index: usize,
     ) {
-        let Self { files, listed } = self;
+        let [Some(first), Some(second), Some(third)] = atoms else {
+            return;
+        };
+        let (key, Self { files, listed }) = ([first, second, third], self);
         let (registry, device) = (Arc::downgrade(registry), Arc::downgrade(device));
         // A thread that ends has none any more.
         let _ = KNOWN.try_with(|known| {

@@ -133,7 +133,7 @@ may_throw(public, _:Goal, error(Formal, context(Called, Message))) :-
     functor(Calls, Name, Arity),
     Called == Name/Arity,
     !,
-    (   Formal = resource_error(_)     % its words are Prolog's
+    (   Formal == resource_error(c_stack)       % its words are Prolog's
     ->  true
     ;   atom(Message),
         atom_length(Message, Length),
