@@ -227,6 +227,13 @@ test(a_crash_whose_handler_hangs_ends_the_process,
     signalled(Tree, 11, ":- on_signal(segv, _, hangs).
                          hangs(_) :- repeat, fail.",
               [goal(main)], Status, eventually, B, C).
+test(a_limit_stops_the_motors_of_a_program_that_goes_on,
+     [ forall(( tree(Tree), Tree \== simulator, member(Signal, [24, 25]) )),
+       true(Status-B-C == exit(0)-stop-stop) ]) :-
+    % Nothing else does.
+    signalled(Tree, Signal, ":- set_prolog_flag(ev3dev_stop_at_halt, false).
+                             wait :- catch(wait(60), _, true).",
+              [goal(main)], Status, eventually, B, C).
 test(one_that_goes_on_after_a_crash_drives_again,
      [forall(( tree(Tree), Tree \== simulator )), true(Status == exit(5))]) :-
     signalled(Tree, 8, ":- on_signal(fpe, _, survived).

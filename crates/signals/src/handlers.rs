@@ -27,6 +27,10 @@ const CRASHES: [c_int; 7] = [
     libc::SIGSYS,
 ];
 
+/// Those of which Prolog makes an exception. Older ones do so in the handler, which waits for
+/// ever if the thread has a lock that it needs.
+const THROWN: [c_int; 4] = [libc::SIGALRM, libc::SIGXCPU, libc::SIGXFSZ, libc::SIGVTALRM];
+
 /// Those that end nothing by themselves, and those that nobody can take. The C library has
 /// 32 and 33 for itself.
 const LEFT: [c_int; 8] = [
@@ -58,10 +62,14 @@ static STANDS: AtomicBool = AtomicBool::new(false);
 
 /// Takes all signals that end a process, or make it stand. Those that are ignored stay so.
 pub(crate) fn take_all() {
+    let prologs = action(libc::SIGTERM).sa_sigaction;
     for signal in (1..=LAST).filter(|signal| !LEFT.contains(signal)) {
         let before = action(signal);
-        let is_default = before.sa_sigaction == libc::SIG_DFL;
-        if is_default || ASKING.contains(&signal) || CRASHES.contains(&signal) {
+        let is_taken = before.sa_sigaction == libc::SIG_DFL
+            || ASKING.contains(&signal)
+            || CRASHES.contains(&signal)
+            || THROWN.contains(&signal) && before.sa_sigaction == prologs;
+        if is_taken {
             take(signal, &before);
         }
     }
@@ -71,7 +79,7 @@ pub(crate) fn take_all() {
 /// `on_signal/3`, and shell/1 with Ctrl-Z. Prolog has one handler for all.
 pub(crate) fn take_again() {
     if let Some(prologs) = before(libc::SIGTERM) {
-        for signal in ASKING.into_iter().chain(CRASHES) {
+        for signal in ASKING.into_iter().chain(CRASHES).chain(THROWN) {
             let now = action(signal);
             if now.sa_sigaction == prologs.sa_sigaction {
                 // The same, so that nothing has to be kept: the watchdog allocates nothing.
