@@ -40,6 +40,7 @@
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/rules)).
+:- use_module(library(ev3dev/sim_batch)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
@@ -53,7 +54,7 @@ task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Ask why it did that', [journal]).
-task('Try it without a robot', [sim, sim_hand, sim_time, sim_views]).
+task('Try it without a robot', [sim, sim_hand, sim_time, sim_views, sim_batch]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
 task('Plan, act and react', [golog]).

@@ -12,6 +12,7 @@
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
@@ -77,6 +78,8 @@ bad(view([]), [a-1, _-1, [port(0)]-1, [port(x)]-1, [address(all)]-1, [token(shor
 bad(view_mark(a), [_-1]).
 bad(view_watch(a, outA), [_-1, _-2, outE-2, outA-value0-2, 7-2]).
 bad(view_value(a, 1), [_-1, _-2, high-2]).
+bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
+bad(sim_batch(nofile, a, [1], _, []), [_-1, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
 bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
 bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).

@@ -1,0 +1,153 @@
+% library(ev3dev/sim_batch): a process for each run, the same scores with any number of
+% workers, and limits that no program escapes.
+
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/sim_batch)).
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+
+:- dynamic folder/1.
+
+with_program(File, Goal) :-
+    tmp_file(batch, Folder),
+    make_directory(Folder),
+    directory_file_path(Folder, 'robot.pl', File),
+    setup_call_cleanup(
+        ( asserta(folder(Folder)),
+          setup_call_cleanup(open(File, write, Out), program(Out), close(Out)) ),
+        call(Goal),
+        ( retract(folder(Folder)),
+          delete_directory_and_contents(Folder) )).
+
+program(Out) :-
+    forall(member(Line,
+                  [ ":- use_module(library(ev3dev)).",
+                    ":- use_module(library(ev3dev/sim)).",
+                    ":- dynamic before/1.",
+                    "drawn(N) :- random_between(1, 1000, N).",
+                    "driven(X-Y) :- for_seconds(5, (repeat, motors_run([run(outB, 40), run(outC, 30)]), wait(1), fail)), sim_pose(X, Y, _).",
+                    "again(Ns) :- sim_time(T), assertz(before(T)), flag(n, N, N+1), nb_getval_0(V), findall(M, before(M), Ms), length(Ms, L), Ns = [N, V, L].",
+                    "nb_getval_0(V) :- ( nb_current(here, V) -> true ; V = none ), nb_setval(here, seen).",
+                    "fails(_) :- fail.",
+                    "two(1). two(2).",
+                    "open(_).",
+                    "throws(_) :- atom_length(_, _).",
+                    "prints(ok) :- writeln('score(wrong)'), format(user_error, 'Oh~n', []), read(user_input, end_of_file).",
+                    "ends(_) :- halt.",
+                    "dies(_) :- current_prolog_flag(pid, Pid), Pid \\== 0, process_kill(Pid, kill), sleep(9).",
+                    "dies_once(File, ok) :- ( exists_file(File) -> true ; open(File, write, S), close(S), dies(_) ).",
+                    "waits(_) :- repeat, catch(sleep(1), _, true), fail.",
+                    "computes(_) :- repeat, catch(fail, _, true), fail.",
+                    "long(A) :- length(L, 50000), maplist(=(x), L), atomic_list_concat(L, A).",
+                    "odd(t('a b\nc', \"\\u20ac\", [f(0.1)])).",
+                    ":- use_module(library(process))." ]),
+           ( write(Out, Line), nl(Out) )).
+
+scores(File, Test, Seeds, Scores) :-
+    scores(File, Test, Seeds, [], Scores).
+
+scores(File, Test, Seeds, Options, Scores) :-
+    sim_batch(File, Test, Seeds, Scores, Options).
+
+%   Copies that were killed may take a moment.
+
+no_worker_is_left :-
+    between(1, 200, _),
+    (   no_worker
+    ->  true
+    ;   sleep(0.02),
+        fail
+    ),
+    !.
+
+no_worker :-
+    \+ ( catch(process_create(path(pgrep), ['-f', 'batch_worker[.]pl'],
+                              [stdout(null), process(Pid)]), _, fail),
+         process_wait(Pid, exit(0)) ).
+
+call_soon(Goal) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        thread_create(( sleep(1), thread_signal(Me, throw(over)) ), Id, []),
+        Goal,
+        thread_join(Id, _)).
+
+:- begin_tests(sim_batch).
+
+test(a_score_for_each_seed_in_their_order, Seeds == [5, 3, 5, 4]) :-
+    with_program(File, scores(File, drawn, [5, 3, 5, 4], Scores)),
+    Scores = [_-A, _-B, _-A, _-C],
+    sort([A, B, C], [_, _, _]),
+    findall(Seed, member(Seed-_, Scores), Seeds).
+test(the_same_with_any_number_of_workers) :-
+    numlist(1, 6, Seeds),
+    with_program(File, ( scores(File, driven, Seeds, [workers(1), noise(true)], One),
+                           scores(File, driven, Seeds, [workers(4), noise(true)], Four) )),
+    One == Four,
+    findall(Place, member(_-Place, One), Places),
+    sort(Places, [_, _|_]).
+test(the_same_as_in_a_simulation_here, Score == Here) :-
+    with_program(File, ( scores(File, driven, [7], [world(lights), noise(true)], [7-Score]),
+                           load_files(batch_here:File, []) )),
+    with_sim(lights, batch_here:driven(Here), [seed(7), noise(true)]).
+test(no_run_knows_of_another_one, Scores == [1-[0, none, 1], 2-[0, none, 1], 3-[0, none, 1]]) :-
+    with_program(File, scores(File, again, [1, 2, 3], [workers(1)], Scores)).
+test(a_simulation_of_the_caller_goes_on, X-Y == 40.0-30.0) :-
+    with_sim(room, ( sim_place(40, 30, 0),
+                     with_program(File, scores(File, fails, [1], _)),
+                     sim_pose(X, Y, _) )).
+test(what_is_no_score,
+     [ forall(member(Test-Score, [ fails-failed, two-1, ends-error(died), dies-error(died),
+                                   prints-ok,
+                                   odd-t('a b\nc', "\u20ac", [f(0.1)]) ])),
+       true(Found == Score) ]) :-
+    with_program(File, scores(File, Test, [1], [1-Found])).
+test(a_score_may_be_a_variable) :-
+    with_program(File, scores(File, open, [1], [1-Score])),
+    var(Score).
+test(a_score_may_be_long, Length == 50000) :-
+    with_program(File, scores(File, long, [1, 2], [_-Score, _-Score])),
+    atom_length(Score, Length).
+test(an_error_is_what_prolog_would_print) :-
+    with_program(File, scores(File, throws, [1], [1-error(Message)])),
+    once(sub_atom(Message, _, _, _, 'not sufficiently instantiated')).
+test(a_run_that_dies_once_is_made_again, Score == ok) :-
+    with_program(File, ( folder(Folder), directory_file_path(Folder, died, Died),
+                           scores(File, dies_once(Died), [1], [1-Score]) )).
+test(limits_that_no_program_escapes,
+     [ forall(member(Test-Option-Score, [ waits-wall(0.3)-limit(wall),
+                                          computes-cpu(0.3)-limit(cpu) ])),
+       true(Scores-Left == [1-Score, 2-Score]-true) ]) :-
+    with_program(File, scores(File, Test, [1, 2], [Option], Scores)),
+    ( no_worker_is_left -> Left = true ; Left = false ).
+test(no_seeds_no_scores, Scores == []) :-
+    with_program(File, scores(File, drawn, [], Scores)).
+test(an_error_leaves_nothing_behind, throws(over)) :-
+    with_program(File, catch(call_soon(scores(File, waits, [1, 2], _)), over,
+                               ( no_worker_is_left, throw(over) ))).
+test(what_is_wrong_with_the_call,
+     [ forall(member(Goal-Formal,
+                     [ sim_batch(File, drawn, [a], _)-type_error(integer, a),
+                       sim_batch(File, drawn, 1, _)-type_error(list, 1),
+                       sim_batch(File, _, [1], _)-instantiation_error,
+                       sim_batch(File, nothing, [1], _)-existence_error(procedure, nothing/1),
+                       sim_batch(nofile, drawn, [1], _)-existence_error(source_sink, nofile),
+                       sim_batch(File, drawn, [1], _, [seed(1)])
+                       -domain_error(sim_batch_option, seed(1)),
+                       sim_batch(File, drawn, [1], _, [world(mars)])
+                       -existence_error(world, mars),
+                       sim_batch(File, drawn, [1], _, [colour(red)])
+                       -domain_error(sim_option, colour(red)),
+                       sim_batch(File, drawn, [1], _, [workers(0)])
+                       -type_error(positive_integer, 0),
+                       sim_batch(File, drawn, [1], _, [wall(-1)])-domain_error(seconds, -1),
+                       sim_batch(File, drawn, [1], _, [cpu(-1)])-domain_error(seconds, -1) ])),
+       error(Formal) ]) :-
+    with_program(File, Goal).
+
+:- end_tests(sim_batch).
