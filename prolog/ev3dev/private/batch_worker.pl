@@ -62,7 +62,7 @@ reply(Out, Term) :-
 
 %!  begin(+Begin, -Test, -Start) is det.
 %
-%   Loads the program. Start is start(World, Options). A simulation must start.
+%   Loads the program. Start is start(World, Options). It is tried.
 
 begin(begin(File, Test0, World, Options), Module:Test0,
       start(World, Options)) :-
