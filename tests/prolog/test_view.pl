@@ -818,8 +818,6 @@ look_on(Page, Have) :-
 
 :- end_tests(view_same).
 
-:- begin_tests(view_stop).
-
 % A toplevel in a process of its own, with few descriptors, and a page of it.
 :- meta_predicate with_toplevel(?, 0).
 
@@ -867,16 +865,45 @@ seconds(Goal, Seconds) :-
     get_time(After),
     Seconds is After - Before.
 
-%   What it prints, up to a line with that text.
-printed(top(_, Out, _), Text) :-
-    read_line_to_string(Out, Line),
-    Line \== end_of_file,
-    (   sub_string(Line, _, _, _, Text)
+%   The same with a robot in the room, and the first frame of the page.
+:- meta_predicate in_room(?, ?, 0).
+
+in_room(Top, Frame, Goal) :-
+    with_toplevel(Top,
+        ( query(Top, "sim_start(room, [clock(virtual), seed(7)]), \c
+                      set_robot(5.6, 10.6, outB, outC)."),
+          Top = top(_, _, Page),
+          frame_with(Page, Frame, ( Frame.name == "room", ended(Frame) ), 2000),
+          call(Goal) )).
+
+done(Page, Line) :-
+    page_ask(Page, Line, Answer),
+    (   Answer.type == "done"
     ->  true
-    ;   printed(top(_, Out, _), Text)
+    ;   throw(answered(Line, Answer))
     ).
 
-runs(Frame) :-
+refused(Page, Line, Part) :-
+    page_ask(Page, Line, Answer),
+    (   Answer.type == "refused",
+        sub_string(Answer.why, _, _, _, Part)
+    ->  true
+    ;   throw(answered(Line, Answer))
+    ).
+
+%   What it prints, up to a line with that text.
+printed(Top, Text) :-
+    printed(Top, Text, _).
+
+printed(top(_, Out, _), Text, Line) :-
+    read_line_to_string(Out, Line0),
+    Line0 \== end_of_file,
+    (   sub_string(Line0, _, _, _, Text)
+    ->  Line = Line0
+    ;   printed(top(_, Out, _), Text, Line)
+    ).
+
+frame_runs(Frame) :-
     member(Port, Frame.ports),
     get_dict(state, Port, States),
     memberchk("running", States),
@@ -898,6 +925,8 @@ drives(Page, Y0, Left) :-
         drives(Page, Y0, Left1)
     ).
 
+:- begin_tests(view_stop).
+
 % Programs that must be stopped, whatever they do.
 program("motor_run(outA, 50), repeat, fail.").
 program("motor_run(outA, 50), repeat, position(outA, _), fail.").
@@ -914,15 +943,15 @@ test(program, [forall(program(Text))]) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, Text),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           page_ask(Page, "stop", Stopped),
           Stopped.what == "stop",
           frame_with(Page, Last, ended(Last), 5000),
-          \+ runs(Last),
+          \+ frame_runs(Last),
           query(Top, "writeln(alive)."),
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
-          \+ runs(Frame2) )).
+          \+ frame_runs(Frame2) )).
 test(a_program_that_begins_is_stopped) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
@@ -940,7 +969,7 @@ test(a_request_stops_the_program, true(Code == 200)) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "motor_run(outA, 50), repeat, wait(0.1), fail."),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           nb_getval(view_port, Port),
           token(Token),
           cookie(Port, Token, Cookie),
@@ -950,7 +979,7 @@ test(a_request_stops_the_program, true(Code == 200)) :-
           request(Port, [ "POST /stop HTTP/1.1", HostLine, Origin, Cookie,
                           "Connection: close", "Content-Length: 0" ], Code, _),
           frame_with(Page, Last, ended(Last), 5000),
-          \+ runs(Last) )).
+          \+ frame_runs(Last) )).
 test(strangers_delay_neither_a_page_nor_stop,
      [ forall(( member(Kind, [ silent, slow, endless, no_token, wrong_token,
                                websocket ]),
@@ -961,12 +990,12 @@ test(strangers_delay_neither_a_page_nor_stop,
         ( Top = top(_, _, Page),
           nb_getval(view_port, Port),
           query(Top, "motor_run(outA, 50)."),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           besieged(Port, Count, Kind,
                    ( seconds(get(Port, '/?t=test_token', [], Code, _), Visit),
                      seconds(page_ask(Page, "next", _), Next),
                      seconds(page_ask(Page, "stop", _), Stop),
-                     frame_with(Page, Last, ( ended(Last), \+ runs(Last) ),
+                     frame_with(Page, Last, ( ended(Last), \+ frame_runs(Last) ),
                                 2000) )) )),
     findall(Late0, ( member(Late0, [Visit, Next, Stop]), Late0 > 4 ), Late).
 test(strangers_leave_descriptors_for_the_motors) :-
@@ -997,33 +1026,101 @@ test(a_page_drives_while_no_program_runs) :-
           frame_with(Page, Frame, ended(Frame), 2000),
           Frame.robot.true = [_, Y0, _],
           drives(Page, Y0, 200),
-          frame_with(Page, Last, \+ runs(Last), 2000) )).
+          frame_with(Page, Last, \+ frame_runs(Last), 2000) )).
 test(at_the_prompt_nothing_is_aborted) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "motor_run(outA, 50), writeln(begun)."),
           printed(Top, "begun"),
-          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          frame_with(Page, Frame, ( frame_runs(Frame), ended(Frame) ), 2000),
           page_ask(Page, "stop", _),
           page_ask(Page, "stop", _),
           frame_with(Page, Last, ended(Last), 2000),
-          \+ runs(Last),
+          \+ frame_runs(Last),
           query(Top, "motor_run(outA, 30), writeln(again)."),
           printed(Top, "again"),
-          frame_with(Page, Again, runs(Again), 2000) )).
+          frame_with(Page, Again, frame_runs(Again), 2000) )).
 test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, [])."),
-          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          frame_with(Page, Frame, ( frame_runs(Frame), ended(Frame) ), 2000),
           page_ask(Page, "stop", _),
           frame_with(Page, Last, ended(Last), 2000),
           query(Top, "wait(1), writeln(alive)."),
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
-          \+ runs(Frame2) )).
+          \+ frame_runs(Frame2) )).
 
 :- end_tests(view_stop).
+
+:- begin_tests(view_worlds).
+
+test(a_reset_begins_the_world_again) :-
+    in_room(Top, Frame,
+        ( Top = top(_, _, Page),
+          once(( member(Box, Frame.world.items), Box.kind == "box" )),
+          format(string(Move), "move ~w 60 220", [Box.id]),
+          done(Page, Move),
+          query(Top, "sim_add(circle(20, 200, 5)), go_cm(30, 20), writeln(gone)."),
+          printed(Top, "gone"),
+          frame_with(Page, Gone, ( ended(Gone), Gone.clock.time > 0.5 ), 2000),
+          done(Page, "reset"),
+          frame(Page, Gone.have, Again),
+          Again.new == true,
+          Again.clock.time =:= 0,
+          Again.name == "room",
+          Again.robot.true == Frame.robot.true,
+          Again.world.items =@= Frame.world.items,
+          query(Top, "go_cm(30, 10), writeln(again)."),
+          printed(Top, "again"),
+          frame_with(Page, Last, Last.robot.believed \== null, 2000),
+          Last.robot.true = [X0, Y0, _],
+          Last.robot.believed.pose = [X, Y, _],
+          near(X, X0, 1), near(Y, Y0, 1) )).
+test(a_reset_stops_the_program) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "repeat, catch((go(20), wait(0.1)), _, true), fail."),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
+          done(Page, "reset"),
+          frame_with(Page, Last, ended(Last), 2000),
+          Last.clock.time =:= 0,
+          \+ frame_runs(Last),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive") )).
+test(after_a_reset_chance_is_as_before, true(First == Second)) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "X is random(1000000), writeln(drawn(X))."),
+          printed(Top, "drawn", First),
+          frame_with(Page, Frame, ended(Frame), 2000),
+          done(Page, "reset"),
+          query(Top, "X is random(1000000), writeln(drawn(X))."),
+          printed(Top, "drawn", Second) )).
+test(a_world_that_is_gone_is_not_begun_again) :-
+    tmp_file(world, Base),
+    atom_concat(Base, '.pl', File),
+    setup_call_cleanup(
+        ( open(File, write, Out), format(Out, "start(5, 6, 7).~n", []), close(Out) ),
+        in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Start), "sim_start(~q, [clock(virtual)]).", [File]),
+              query(Top, Start),
+              frame_with(Page, Frame, ( Frame.robot.true == [5, 6, 7], ended(Frame) ), 2000),
+              delete_file(File),
+              refused(Page, "reset", "there is no world"),
+              page_ask(Page, "next", Last),
+              Last.robot.true == [5, 6, 7] )),
+        catch(delete_file(File), _, true)).
+test(without_a_simulation_nothing_is_begun_again) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "sim_stop, writeln(over)."),
+          printed(Top, "over"),
+          refused(Page, "reset", "No simulation runs.") )).
+
+:- end_tests(view_worlds).
 
 :- begin_tests(view_brick).
 

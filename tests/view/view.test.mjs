@@ -243,6 +243,35 @@ group('time', ROOM, '', (it) => {
   });
 });
 
+group('a world that begins again', ROOM, '', (it) => {
+  test('has robot, boxes and time as at the start, and stops the program', async () => {
+    const first = await state(it.page);
+    const box = first.world.items.find((item) => item.kind === 'box');
+    await drag(it.page, [box.x, box.y], [box.x - 30, box.y + 30]);
+    await drag(it.page, first.robot.true, [250, 200]);
+    await shows(it.page, (s) => near(s.robot.true[0], 250, 2) && near(s.world.items.find((item) => item.id === box.id).x, box.x - 30, 2), 'another world');
+    it.session.type('repeat, go(20), fail');
+    await shows(it.page, (s) => s.program.state === 'running' && s.ports[1].state?.includes('running'), 'a program');
+    await it.page.click('#reset');
+    const again = await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched && near(s.robot.true[0], first.robot.true[0], 0.1), 'the start');
+    assert.deepEqual(again.world.items, first.world.items);
+    assert.equal(again.world.name, 'room');
+    assert.ok(again.age > first.age && again.ports.every((port) => !port.state?.includes('running')));
+    assert.match(again.notice, /start/);
+    assert.equal(await it.session.ask('X = 3, write(X)'), '3', 'the prompt answers');
+  });
+
+  test('does so by a key, and while time is paused', async () => {
+    await it.session.ask('go_cm(40, 10)');
+    await it.page.click('#pause');
+    const { age } = await shows(it.page, (s) => s.clock.paused && s.time > 0.2, 'a pause');
+    await it.page.focus('#world');
+    await it.page.keyboard.press('r');
+    await shows(it.page, (s) => s.age > age && near(s.robot.true[0], 40, 0.1) && !s.clock.paused, 'the start');
+    await it.session.ask('go_cm(40, 5)');
+  });
+});
+
 const LOOPS = {
   'that spins': 'repeat, fail',
   'that drives and never ends': 'repeat, go(20), fail',

@@ -19,6 +19,7 @@ export class Hands {
     }));
     $('speeds').append(...this.paces.values());
     $('stop').addEventListener('click', () => this.stop());
+    $('reset').addEventListener('click', () => this.reset());
     $('pause').addEventListener('click', () => this.pause());
     $('step').addEventListener('click', () => wire.send('step'));
     $('zoom-in').addEventListener('click', () => world.zoom(1.5));
@@ -92,6 +93,13 @@ export class Hands {
 
   pause() {
     this.wire.send(this.model?.frame.clock?.paused ? 'resume' : 'pause');
+  }
+
+  /** Robot, things and time as at the start of the world; a program that runs is stopped. */
+  reset() {
+    this.letGo();
+    this.ended = this.model?.frame.program?.state === 'running';
+    this.wire.send('reset');
   }
 
   follow() {
@@ -172,6 +180,7 @@ export class Hands {
       f: () => this.follow(),
       m: () => world.use('measure'),
       b: () => model?.simulated && world.use('add-box'),
+      r: () => model?.simulated && this.reset(),
       d: () => this.drive(!this.driving),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];
@@ -253,6 +262,7 @@ export class Hands {
   reply({ type, what, why, id }) {
     if (what === 'place') this.world.answered();
     if (type === 'refused') notice(sentence(why ?? `It cannot ${what}.`), { seconds: 6 });
+    else if (what === 'reset') notice(`${this.ended ? 'The program was stopped. ' : ''}Everything is as at the start.`, { seconds: 3 });
     else if (what === 'save') notice('The snapshot is taken.', { seconds: 3 });
     if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);
   }

@@ -141,6 +141,16 @@ fn things_move_but_not_into_the_robot() {
 }
 
 #[test]
+fn the_start_is_known_wherever_the_robot_is() {
+    let mut machine = machine();
+    let start = machine.start();
+    assert_eq!(start, machine.pose());
+    machine.place(Pose::new(150.0, 20.0, 90.0)).unwrap();
+    assert_eq!(machine.start(), start);
+    assert_eq!(machine.surroundings(), [2.0, 21.5, 0.0]);
+}
+
+#[test]
 fn the_world_is_written_as_facts() {
     let machine = Machine::new(
         &WorldSpec {

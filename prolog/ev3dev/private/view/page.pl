@@ -15,6 +15,7 @@
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
               ]).
+:- use_module(worlds, [world_line/3]).
 
 /** <module> The conversations with pages
 
@@ -191,7 +192,10 @@ line(Word, Rest, Page) :-
     ;   refused(Page, Word, "Goals are not allowed: view([goals(true)]).")
     ).
 line(Word, Rest, Page) :-
-    hand_line(Word, Rest, Answer),
+    (   world_line(Word, Rest, Answer)
+    ->  true
+    ;   hand_line(Word, Rest, Answer)
+    ),
     (   Answer = done(More)
     ->  done(Page, Word, More)
     ;   Answer = refused(Why)
