@@ -272,6 +272,92 @@ group('a world that begins again', ROOM, '', (it) => {
   });
 });
 
+group('a run that is over', ROOM, '', (it) => {
+  const to = (t) => it.page.evaluate((time) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: time } })), t);
+  const said = () => it.page.$eval('#time-slider', (slider) => [slider.getAttribute('aria-valuetext'), Number(slider.value), Number(slider.max)]);
+
+  test('is recorded while the page looks', async () => {
+    await it.session.ask('go_cm(30, 20), view_mark(half), turn(50, 90), go_cm(30, 20)');
+    const s = await shows(it.page, (t) => t.log.filter((line) => /reached/.test(line.text)).length === 3, 'the end of the run');
+    assert.ok(s.recorded > 20 && s.past === null, `${s.recorded}`);
+    const [words, value, max] = await said();
+    assert.match(words, /^now, /);
+    assert.ok(near(value, max, 0.05));
+  });
+
+  test('is gone back through by the slider, its keys and the event; now comes again', async () => {
+    const { robot: last } = await state(it.page);
+    const column = (name) => it.page.evaluate((n) => {
+      const [head, ...rows] = window.ev3view.csv().trim().split('\n').map((line) => line.split(','));
+      return rows.map((row) => [Number(row[0]), Number(row[head.indexOf(n)])]);
+    }, name);
+    const xs = await column('x');
+    const [t, x] = xs[Math.floor(xs.length / 3)];
+    await to(t);
+    const back = await shows(it.page, (s) => s.past, 'the past');
+    assert.ok(near(back.past.t, t, 1e-6) && near(back.past.robot.true[0], x, 0.02), JSON.stringify([t, x, back.past.robot]));
+    assert.ok(Math.hypot(back.past.robot.true[0] - last.true[0], back.past.robot.true[1] - last.true[1]) > 3);
+    assert.match(back.words, /^As it was at/);
+    const turned = (await column('outB.position')).find(([time]) => near(time, t, 1e-6))[1];
+    assert.ok(near(back.past.ports.find((port) => port.port === 'outB').position, turned, 0.1), 'motors as they were');
+    await it.page.focus('#time-slider');
+    await it.page.keyboard.press('ArrowLeft');
+    await shows(it.page, (s) => s.past && near(s.past.t, t - 0.05, 0.03), 'a moment before');
+    await it.page.keyboard.press('End');
+    await shows(it.page, (s) => s.past === null, 'now');
+    await it.page.keyboard.press('Home');
+    await shows(it.page, (s) => s.past && s.past.t < 3 && near(s.past.robot.true[0], 40, 0.01), 'the start');
+    await it.page.click('#time-live');
+    const now = await shows(it.page, (s) => s.past === null, 'now again');
+    assert.deepEqual(now.robot.true, last.true);
+  });
+
+  test('shows the world as it was', async () => {
+    const added = await it.session.ask('sim_add(circle(20, 220, 6)), go_cm(30, 5), sim_time(T), write(T)');
+    await shows(it.page, (s) => s.world.items.some((item) => item.r === 6) && s.time >= Number(added) - 0.01, 'the pillar');
+    await it.session.ask('sim_remove(circle(20, 220, 6)), go_cm(30, 5)');
+    await shows(it.page, (s) => !s.world.items.some((item) => item.r === 6), 'no pillar');
+    await to(Number(added));
+    await shows(it.page, (s) => s.past?.items.some((item) => item.r === 6), 'the pillar as it was');
+    await to(null);
+  });
+
+  test('goes where a line of the log is clicked, and shows the line of a time', async () => {
+    const row = await it.page.evaluateHandle(() => [...document.querySelectorAll('#log li.mark')].find((li) => /half/.test(li.textContent)));
+    const time = Number(await row.evaluate((li) => li.dataset.time));
+    await row.evaluate((li) => li.scrollIntoView());
+    await row.click();
+    await shows(it.page, (s) => s.past && near(s.past.t, time, 0.01), 'the time of the mark');
+    assert.ok(await row.evaluate((li) => li.getAttribute('aria-current') === 'time' || li.nextElementSibling?.dataset.time === li.dataset.time));
+    assert.deepEqual(await violations(it.page), []);
+    await to(null);
+  });
+
+  test('moves nothing, and STOP works all the same', async () => {
+    const before = await it.session.pose();
+    await to(0.5);
+    await shows(it.page, (s) => s.past, 'the past');
+    await drag(it.page, [40, 40], [150, 60]);
+    await it.page.keyboard.press('b');
+    await drag(it.page, [100, 200], [120, 220]);
+    it.session.type('repeat, motor_run(outA, 20), wait(0.1), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await shows(it.page, (s) => s.past?.t === 0.5, 'the past, whatever comes');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle', 'the prompt');
+    assert.deepEqual(await it.session.pose(), before);
+    assert.equal((await state(it.page)).world.items.length, 3);
+  });
+
+  test('ends with the world: another one is shown at once', async () => {
+    await to(0.5);
+    await shows(it.page, (s) => s.past, 'the past');
+    await it.session.ask('sim_start(maze)');
+    const s = await shows(it.page, (t) => t.world?.name === 'maze' && t.past === null, 'the maze');
+    assert.ok(s.recorded < 10);
+  });
+});
+
 const LOOPS = {
   'that spins': 'repeat, fail',
   'that drives and never ends': 'repeat, go(20), fail',
@@ -416,14 +502,14 @@ group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
     await free(page)();
   });
 
-  test('the page weighs less than 150 kB and asks nobody else', async () => {
+  test('the page weighs less than 240 kB and asks nobody else', async () => {
     const page = await open(browser, it.url);
     const origin = new URL(it.url).origin;
     assert.deepEqual(page.requests.filter((url) => !url.startsWith(origin) && !url.startsWith(origin.replace('http', 'ws'))), []);
     assert.ok(!page.url().includes('?'), 'the token left the address');
     const folder = path.join(home, 'prolog/ev3dev/view');
     const size = fs.readdirSync(folder).reduce((sum, file) => sum + fs.statSync(path.join(folder, file)).size, 0);
-    assert.ok(size < 150000, `${size} bytes`);
+    assert.ok(size < 240000, `${size} bytes`);
     await free(page)();
   });
 });

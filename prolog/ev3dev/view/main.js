@@ -5,8 +5,9 @@ import { Brick } from './brick.js';
 import { Charts } from './charts.js';
 import { Hands } from './hands.js';
 import { Log } from './log.js';
-import { Model } from './model.js';
+import { KEPT, Model } from './model.js';
 import { Ports } from './ports.js';
+import { Timeline } from './timeline.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
 
@@ -32,7 +33,10 @@ const brick = new Brick(send);
 const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
-const panels = [ports, brick, hands, log, charts];
+const timeline = new Timeline(show);
+/** Those that go back with the timeline, and those that are always of now. */
+const scenes = [ports, brick];
+const panels = [hands, log, charts];
 
 // ----------------------------------------------------------------- the line
 
@@ -59,11 +63,21 @@ function frame(next) {
   arrived = now;
   const came = model.take(next);
   for (const panel of panels) panel.take(model, came);
-  world.take(model, came, interval);
+  timeline.take(model);
+  if (!timeline.past) {
+    for (const scene of scenes) scene.take(model, came);
+    world.take(model, came, interval);
+  }
   heading();
   if (came.has('world')) layout();
   waiting = true;
   if (!animation) animation = requestAnimationFrame(draw);
+}
+
+/** Another moment of the run, or now again. */
+function show(moment) {
+  for (const scene of scenes) scene.take(moment, new Set(KEPT));
+  world.show(moment);
 }
 
 /** A hidden page draws nothing, and so asks for nothing. */
@@ -118,7 +132,7 @@ function layout() {
   const main = $('main').getBoundingClientRect();
   const free = world.margins;
   const [sides, ends] = [free.left + free.right, free.top + free.bottom];
-  const tall = main.height - pad;
+  const tall = main.height - pad - gap - 44;
   const most = main.width - 2 * pad - 2 * gap - 276 - 340;
   const tallest = Math.max(300, tall - gap - (tall > 900 ? 280 : 228));
   const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
@@ -163,6 +177,8 @@ function shown() {
     tool: world.tool,
     following: world.following,
     driving: hands.driving === true,
+    past: timeline.past && { t: timeline.t, robot: timeline.past.frame.robot, items: timeline.past.world?.items ?? [], ports: timeline.past.frame.ports },
+    recorded: timeline.kept.length,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,
     words: world.words ?? '',

@@ -223,6 +223,17 @@ export class World {
     this.describe();
   }
 
+  /** Another moment, at once. */
+  show(model) {
+    this.model = model;
+    this.motion = this.now = null;
+    if (!model.simulated) this.selected = this.drag = null;
+    this.told();
+    this.legend();
+    this.describe();
+    this.draw();
+  }
+
   /** What is drawn now, so that the next frame can begin there. */
   still() {
     const { frame } = this.model ?? {};
@@ -262,7 +273,7 @@ export class World {
 
   describe() {
     const { frame, world } = this.model;
-    const parts = [];
+    const parts = this.model.until === undefined ? [] : [`As it was at ${num(this.model.time, 2)} s.`];
     if (world) {
       const things = (world.items ?? []).filter((item) => ['wall', 'box', 'circle'].includes(item.kind)).length;
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
@@ -450,17 +461,19 @@ export class World {
 
   /** The whole way faintly, the last of it clearly. */
   drawTrails(c, robot) {
-    const { samples, age, thinned } = this.model;
+    const { samples, age, thinned, until } = this.model;
+    const end = until ?? samples.time.length;
     if (this.trail.age !== age || this.trail.thinned !== thinned) {
       this.trail = { age, thinned, true: { path: new Path2D(), from: 0 }, believed: { path: new Path2D(), from: 0 } };
     }
     const lines = [['true', 'x', 'y', robot.true, this.dark ? '#dcb400' : '#9a7400', 1.8, []]];
     if (this.shown.believed) lines.push(['believed', 'bx', 'by', robot.pose, this.paint.blue, 1.4, [1, 4]]);
-    for (const [name, xs, ys, end, color, width, dash] of lines) {
-      const line = this.trail[name];
+    for (const [name, xs, ys, here, color, width, dash] of lines) {
+      // The way up to a moment of the past is not kept.
+      const line = until === undefined ? this.trail[name] : { path: new Path2D(), from: 0 };
       const [x, y] = [samples.columns.get(xs), samples.columns.get(ys)];
       if (!x || !y) continue;
-      for (; line.from < samples.time.length; line.from += 1) this.extend(line, line.path, x, y, line.from);
+      for (; line.from < end; line.from += 1) this.extend(line, line.path, x, y, line.from);
       c.strokeStyle = color;
       c.lineWidth = width * this.dot;
       c.globalAlpha = 0.3;
@@ -468,8 +481,8 @@ export class World {
       c.globalAlpha = 1;
       const recent = { last: null };
       const path = new Path2D();
-      for (let i = after(samples.time, this.model.time - CLEAR); i < samples.time.length; i += 1) this.extend(recent, path, x, y, i);
-      if (end && recent.last && Math.hypot(end[0] - recent.last[0], end[1] - recent.last[1]) < 12) path.lineTo(end[0], end[1]);
+      for (let i = after(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
+      if (here && recent.last && Math.hypot(here[0] - recent.last[0], here[1] - recent.last[1]) < 12) path.lineTo(here[0], here[1]);
       c.setLineDash(dash.map((n) => n * this.dot));
       c.stroke(path);
       c.setLineDash([]);
@@ -847,7 +860,7 @@ export class World {
     if (this.tool === 'measure') {
       this.measured = this.measured && !this.measured[1] ? [this.measured[0], place] : [place, null];
       this.told();
-    } else if (this.tool === 'add-box') {
+    } else if (this.tool === 'add-box' && this.model.simulated) {
       this.drag = { kind: 'box', from: place, to: place };
     } else {
       const found = this.at(place);
