@@ -10,6 +10,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/rules),
               [after/2, after/3, behave/2, op(1150, xfx, ~>), op(1160, xfx, ::)]).
+:- use_module(library(filesex)).
 :- use_module(library(process)).
 :- use_module(library(readutil)).
 
@@ -368,6 +369,13 @@ no_line("move 1.5 2 3").
 no_line("save ../x").
 no_line("jog 101 0").
 no_line("jog 10").
+no_line("reset now").
+no_line("choose room").
+no_line("choose world room").
+no_line("choose lamp pack room").
+no_line("begin room").
+no_line("write ../x floor(red).").
+no_line("worlds 1").
 
 test(no_line, [forall(no_line(Line)), true(Answer == close(1008))]) :-
     paged(Page, no_messages(page_ask(Page, Line, Answer))).
@@ -1054,6 +1062,22 @@ test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
 
 :- end_tests(view_stop).
 
+%   A folder of its own, and files in it.
+:- meta_predicate in_folder(-, 0).
+
+in_folder(Folder, Goal) :-
+    tmp_file(worlds, Folder),
+    make_directory(Folder),
+    setup_call_cleanup(true, once(Goal), delete_directory_and_contents(Folder)).
+
+file_with(Folder, Name, Text) :-
+    atomic_list_concat([Folder, /, Name], File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+
+file_text(Folder, Name, Text) :-
+    atomic_list_concat([Folder, /, Name], File),
+    setup_call_cleanup(open(File, read, In), read_string(In, _, Text), close(In)).
+
 :- begin_tests(view_worlds).
 
 test(a_reset_begins_the_world_again) :-
@@ -1119,6 +1143,123 @@ test(without_a_simulation_nothing_is_begun_again) :-
           query(Top, "sim_stop, writeln(over)."),
           printed(Top, "over"),
           refused(Page, "reset", "No simulation runs.") )).
+
+test(a_world_and_a_robot_are_chosen) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          page_ask(Page, "worlds", Choices),
+          once(( member(World, Choices.worlds), World.name == "maze", World.from == "pack" )),
+          once(( member(Robot, Choices.robots), Robot.name == "touch" )),
+          Choices.robot == "default",
+          done(Page, "choose world pack maze"),
+          frame_with(Page, Maze, Maze.name == "maze", 500),
+          Maze.clock.kind == "virtual",
+          done(Page, "choose robot pack touch"),
+          page_ask(Page, "next", Frame),
+          Frame.name == "maze",
+          last(Frame.ports, Bumper),
+          Bumper.driver == "lego-ev3-touch",
+          page_ask(Page, "worlds", After),
+          After.robot == "touch",
+          refused(Page, "choose world pack moon", "There is no world moon."),
+          refused(Page, "choose world file ../room", "There is no world ../room."),
+          page_ask(Page, "next", Last),
+          Last.have == Frame.have )).
+test(files_beside_the_program_are_chosen_and_written) :-
+    in_folder(Folder,
+        ( file_with(Folder, 'mine.pl', "bounds(0, 0, 90, 90).\nstart(45, 45, 0).\n"),
+          file_with(Folder, 'small.pl', "hull(circle(3)).\nmotor(outA, 'lego-ev3-m-motor').\n"),
+          file_with(Folder, 'program.pl', "start :- true.\n"),
+          in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Load), "consult(~q), writeln(loaded).", ['program.pl']),
+              format(string(Go), "working_directory(_, ~q).", [Folder]),
+              query(Top, Go),
+              query(Top, Load),
+              printed(Top, "loaded"),
+              query(Top, "working_directory(_, '/'), writeln(there)."),
+              printed(Top, "there"),
+              page_ask(Page, "worlds", Choices),
+              findall(Name, ( member(World, Choices.worlds), World.from == "file",
+                              Name = World.name ), Names),
+              Names == ["mine.pl"],
+              findall(Name, ( member(Robot, Choices.robots), Robot.from == "file",
+                              Name = Robot.name ), Robots),
+              Robots == ["small.pl"],
+              done(Page, "choose world file mine.pl"),
+              frame_with(Page, Frame, Frame.world.bounds == [0, 0, 90, 90], 500),
+              done(Page, "choose robot file small.pl"),
+              done(Page, "write own floor(red).\nstart(1, 2, 3).\n"),
+              file_text(Folder, 'own.pl', "floor(red).\nstart(1, 2, 3).\n"),
+              page_ask(Page, "write own floor(blue).", Again),
+              Again.type == "refused", Again.exists == true,
+              file_text(Folder, 'own.pl', "floor(red).\nstart(1, 2, 3).\n"),
+              done(Page, "rewrite own floor(blue)."),
+              file_text(Folder, 'own.pl', "floor(blue)."),
+              refused(Page, "rewrite program floor(blue).", "program.pl is no world"),
+              refused(Page, "rewrite own go(1).", "go"),
+              refused(Page, "rewrite own :- halt.", ""),
+              file_text(Folder, 'own.pl', "floor(blue)."),
+              directory_files(Folder, Files0),
+              msort(Files0, Files),
+              Files == ['.', '..', 'mine.pl', 'own.pl', 'program.pl', 'small.pl'] )) )).
+test(pages_of_other_computers_write_nothing) :-
+    in_folder(Folder,
+        in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Go), "ev3dev_view_worlds:worlds_settings(any), \c
+                                  working_directory(_, ~q), writeln(there).", [Folder]),
+              query(Top, Go),
+              printed(Top, "there"),
+              refused(Page, "write own floor(red).", "Only pages of this"),
+              directory_files(Folder, Files),
+              length(Files, 2) ))).
+% What a world cannot be, and what is said of it; nothing changes then.
+impossible("bounds(0, 0, 100, 100).\nstart(50, 50, 0).\nbox(50, 50, 10, 10).", "robot at 50, 50 is inside box(50,").
+impossible("bounds(0, 0, 100, 100).\nstart(2, 50, 0).", "").
+impossible("bounds(0, 0, 0, 100).", "").
+impossible("wall(1, 2, 1, 2).", "").
+impossible("circle(1, 2, -3).", "").
+impossible("patch(red, [1-2, 3-4]).", "").
+impossible("lamp(1, 2, -1).", "").
+impossible("box(1, 2).", "").
+impossible("go(30).", "go").
+impossible("floor(pink).", "pink").
+impossible("box(1, 2, 3", "yntax").
+impossible(":- halt.", "").
+
+test(a_world_that_cannot_be_is_refused, [forall(impossible(Text, Part))]) :-
+    in_room(Top, First,
+        ( Top = top(_, _, Page),
+          string_concat("check ", Text, Check),
+          string_concat("begin x ", Text, Begin),
+          refused(Page, Check, Part),
+          refused(Page, Begin, Part),
+          page_ask(Page, Check, Answer),
+          split_string(Text, "\n", "", Lines),
+          length(Lines, Count),
+          between(1, Count, Answer.line),
+          frame(Page, First.have, Frame),
+          \+ get_dict(new, Frame, _),
+          Frame.program.latched == false )).
+test(a_world_begins_from_its_text) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          Facts = "bounds(0, 0, 100, 80).\nfloor(green).\nambient(7).\nstart(50, 40, 90).\nbox(10, 10, 5, 5).\n",
+          string_concat("check ", Facts, Check),
+          done(Page, Check),
+          string_concat("begin mine ", Facts, Begin),
+          done(Page, Begin),
+          frame_with(Page, Frame, Frame.name == "mine", 500),
+          Frame.world.bounds == [0, 0, 100, 80],
+          Frame.world.start == [50, 40, 90],
+          Frame.world.ambient == 7,
+          Frame.robot.true == [50, 40, 90],
+          done(Page, "place 70 40 0"),
+          done(Page, "reset"),
+          page_ask(Page, "next", Last),
+          Last.name == "mine",
+          Last.robot.true == [50, 40, 90] )).
 
 :- end_tests(view_worlds).
 

@@ -4,6 +4,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
+import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { Session, browse, drag, home, open, pixel, request, shows, state, until, violations } from './session.mjs';
@@ -13,6 +14,7 @@ before(async () => { browser = await browse(); });
 after(async () => { await browser?.close(); });
 
 const ROOM = ['sim_start(room)', 'set_robot(5.6, 10.6, outB, outC)'];
+const files = fs.mkdtempSync(path.join(os.tmpdir(), 'worlds-'));
 const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
 const free = (page) => async () => {
   assert.deepEqual(page.said, []);
@@ -355,6 +357,201 @@ group('a run that is over', ROOM, '', (it) => {
     await it.session.ask('sim_start(maze)');
     const s = await shows(it.page, (t) => t.world?.name === 'maze' && t.past === null, 'the maze');
     assert.ok(s.recorded < 10);
+  });
+});
+
+group('the editor', ROOM, '', (it) => {
+  const edits = (test, what) => shows(it.page, (s) => s.edits && s.edits.waits === 0 && test(s.edits), what);
+  const draw = async (tool, from, to) => {
+    await it.page.evaluate((words) => [...document.querySelectorAll('.kinds button')].find((b) => b.textContent === words).dispatchEvent(new MouseEvent('click', { detail: 1 })), tool);
+    await drag(it.page, from, to);
+  };
+  const press = async (words) => it.page.evaluate((text) => [...document.querySelectorAll('#editor button')].find((b) => b.textContent === text || b.title.startsWith(text)).click(), words);
+  const field = async (words, value) => {
+    const input = await it.page.evaluateHandle((text) => [...document.querySelectorAll('.field')].find((row) => row.querySelector('label').textContent === text).querySelector('input, select'), words);
+    if (await input.evaluate((each) => each.tagName === 'SELECT')) await input.select(value);
+    else {
+      await input.click({ clickCount: 3 });
+      await it.page.keyboard.type(value);
+      await it.page.keyboard.press('Tab');
+    }
+  };
+  const items = (draft) => draft.items.map(({ id, ...item }) => item);
+
+  test('begins with the world that is simulated, and leaves it alone', async () => {
+    await it.page.click('#edit');
+    const { edits: { draft } } = await edits((e) => e.draft.items.length === 3, 'the room');
+    assert.deepEqual(draft.around.bounds, [0, 0, 300, 250]);
+    assert.deepEqual(draft.start, { kind: 'start', x: 40, y: 40, h: 40 });
+    assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('draws each kind of thing', async () => {
+    await draw('Wall', [20, 240], [120, 240]);
+    await draw('Box', [200, 200], [240, 220]);
+    await draw('Circle', [40, 150], [52, 150]);
+    await draw('Patch', [240, 20], [280, 60]);
+    await draw('Lamp', [270, 230], [270, 230]);
+    await draw('Line', [60, 20], [160, 20]);
+    const { edits: { draft } } = await edits((e) => e.draft.items.length === 9, 'six things more');
+    const [wall, box, circle, patch, lamp, line] = items(draft).slice(3);
+    assert.ok(near(wall.from[0], 20, 1) && near(wall.to[0], 120, 1) && near(wall.to[1], 240, 1), JSON.stringify(wall));
+    assert.ok(near(box.x, 220, 1) && near(box.w, 40, 2) && near(box.d, 20, 2));
+    assert.ok(near(circle.r, 12, 1) && near(circle.x, 40, 1));
+    assert.equal(patch.points.length, 4);
+    assert.ok(near(lamp.x, 270, 1));
+    assert.equal(line.points.length, 2);
+  });
+
+  test('draws a line place by place', async () => {
+    await it.page.evaluate(() => [...document.querySelectorAll('.kinds button')].find((b) => b.textContent === 'Line').dispatchEvent(new MouseEvent('click', { detail: 1 })));
+    for (const place of [[60, 230], [100, 230], [100, 200], [100, 200]]) await it.page.mouse.click(...await pixel(it.page, ...place));
+    const { edits: { draft, tool } } = await edits((e) => e.draft.items.length === 10, 'a line');
+    assert.equal(draft.items[9].points.length, 3);
+    assert.equal(tool, null);
+    await it.page.keyboard.press('Delete');
+    await edits((e) => e.draft.items.length === 9, 'no line');
+  });
+
+  test('moves, turns, resizes and deletes by hand', async () => {
+    await it.page.mouse.click(...await pixel(it.page, 220, 210));
+    await edits((e) => e.selected.kind === 'box', 'the box');
+    await drag(it.page, [220, 210], [220, 180]);
+    const { edits: { selected } } = await edits((e) => near(e.selected.y, 180, 2), 'the box over there');
+    await drag(it.page, [selected.x + selected.w / 2, selected.y + selected.d / 2], [selected.x + selected.w / 2 + 20, selected.y + selected.d / 2 + 10]);
+    const wide = await edits((e) => near(e.selected.w, 60, 3) && near(e.selected.d, 30, 3), 'a larger box');
+    assert.ok(near(wide.edits.selected.x - wide.edits.selected.w / 2, selected.x - selected.w / 2, 2), 'the other corner stays');
+    await it.page.keyboard.press(']');
+    await edits((e) => e.selected.h === 15, 'turned by 15 degrees');
+    await it.page.keyboard.press('Delete');
+    await edits((e) => e.draft.items.length === 8, 'no box');
+    await drag(it.page, [40, 40], [60, 60]);
+    await edits((e) => near(e.draft.start.x, 60, 2) && near(e.draft.start.y, 60, 2), 'another start');
+  });
+
+  test('undoes and does again, each step', async () => {
+    const { edits: { draft, undo } } = await state(it.page);
+    await it.page.keyboard.down('Control');
+    for (let i = 0; i < undo; i += 1) await it.page.keyboard.press('z');
+    const { edits: first } = await edits((e) => e.undo === 0, 'the first draft');
+    assert.equal(first.draft.items.length, 3);
+    assert.equal(first.redo, undo);
+    for (let i = 0; i < undo; i += 1) await it.page.keyboard.press('y');
+    await it.page.keyboard.up('Control');
+    const { edits: last } = await edits((e) => e.redo === 0, 'the last draft');
+    assert.deepEqual(last.draft, draft);
+  });
+
+  test('refuses what does not fit, says why, and keeps all', async () => {
+    const { edits: { draft, undo } } = await state(it.page);
+    const refuses = async (pattern) => {
+      const s = await shows(it.page, (t) => pattern.test(t.notice) && t.edits.waits === 0, `${pattern}`);
+      assert.deepEqual(s.edits.draft, draft);
+      assert.equal(s.edits.undo, undo);
+    };
+    await drag(it.page, [60, 60], [90, 165]);
+    await refuses(/^Robot at 90, 165 is inside box/);
+    await draw('Box', [50, 50], [70, 70]);
+    await refuses(/^Robot at 60, 60 is inside box/);
+    await it.page.mouse.click(...await pixel(it.page, 150, 125));
+    await field('x', '500');
+    await refuses(/outside of the world, which goes from 0, 0 to 300, 250/);
+    await field('Radius', '0');
+    await refuses(/radius/i);
+    await field('Radius', 'large');
+    await refuses(/Radius is a number/);
+  });
+
+  test('takes numbers, colors and places', async () => {
+    await field('Radius', '11');
+    await edits((e) => e.draft.items[2].r === 11, 'a radius');
+    await it.page.evaluate(() => [...document.querySelectorAll('.things button')].find((b) => / patch, /.test(b.textContent)).click());
+    await field('Color', '#143c96');
+    await field('Places', '240 20, 290 20, 290 80');
+    const { edits: { selected } } = await edits((e) => e.selected.points.length === 3, 'three corners');
+    assert.equal(selected.color, '#143c96');
+    await it.page.evaluate(() => document.querySelector('.things button').click());
+    await field('Top', '260');
+    await field('Light', '9');
+    await edits((e) => e.draft.around.bounds[3] === 260 && e.draft.around.ambient === 9, 'a larger, lighter world');
+  });
+
+  test('works by the keyboard alone', async () => {
+    await it.page.evaluate(() => [...document.querySelectorAll('.kinds button')].find((b) => b.textContent === 'Circle').focus());
+    await it.page.keyboard.press('Enter');
+    const { edits: { selected: at } } = await edits((e) => e.selected.kind === 'circle' && e.draft.items.length === 9, 'a circle');
+    await it.page.focus('#world');
+    await it.page.keyboard.press('ArrowRight');
+    await it.page.keyboard.down('Shift');
+    await it.page.keyboard.press('ArrowUp');
+    await it.page.keyboard.up('Shift');
+    await edits((e) => e.selected.x === at.x + 1 && e.selected.y === at.y + 10, 'it moved');
+    await it.page.keyboard.press('Delete');
+    await edits((e) => e.draft.items.length === 8, 'no circle');
+  });
+
+  test('keeps the draft while one looks at the robot', async () => {
+    const { edits: { draft } } = await state(it.page);
+    await press('Back to the robot');
+    const live = await shows(it.page, (s) => s.edits === null, 'the robot');
+    assert.equal(live.world.items.length, 3);
+    assert.deepEqual(await it.session.pose(), [40, 40, 40]);
+    await it.page.click('#edit');
+    const { edits: again } = await edits((e) => e.draft.items.length === 8, 'the draft');
+    assert.deepEqual(again.draft, draft);
+  });
+
+  test('starts the world, with the robot at its start, and a program stopped', async () => {
+    const { edits: { draft } } = await state(it.page);
+    it.session.type('repeat, go(20), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await it.page.click('#edit-name', { clickCount: 3 });
+    await it.page.keyboard.type('my room');
+    await press('Start this world');
+    const s = await shows(it.page, (t) => t.edits === null && t.world.name === 'my_room' && t.program.state === 'idle', 'the new world');
+    assert.deepEqual(s.world.items.map(({ id, ...item }) => item), items(draft));
+    assert.ok(near(s.robot.true[0], draft.start.x, 0.01) && near(s.robot.true[1], draft.start.y, 0.01));
+    assert.match(await it.session.ask('us_dist_cm(_, D), write(D)'), /\d/);
+  });
+});
+
+group('files of worlds', [`working_directory(_, '${files}')`, ...ROOM], '', (it) => {
+  const press = async (words) => it.page.evaluate((text) => [...document.querySelectorAll('#editor button')].find((b) => b.textContent === text).click(), words);
+  const open1 = async (name, text) => {
+    fs.writeFileSync(path.join(files, name), text);
+    await (await it.page.$('#editor input[type=file]')).uploadFile(path.join(files, name));
+    fs.unlinkSync(path.join(files, name));
+  };
+  after(() => fs.rmSync(files, { recursive: true }));
+
+  test('are saved beside the program, by a click only, and replaced only if one says so', async () => {
+    await it.page.click('#edit');
+    await shows(it.page, (s) => s.edits?.folder && fs.realpathSync(s.edits.folder) === fs.realpathSync(files), 'the folder');
+    assert.deepEqual(fs.readdirSync(files), []);
+    await press('Save');
+    await shows(it.page, (s) => /^Saved as .*room\.pl/.test(s.notice), 'a file');
+    const saved = fs.readFileSync(path.join(files, 'room.pl'), 'utf8');
+    assert.match(saved, /^bounds\(0, 0, 300, 250\)\.\nstart\(40, 40, 40\)\.\nbox\(90, 165, 40, 25, 20\)\./);
+    fs.writeFileSync(path.join(files, 'room.pl'), 'floor(red).\n');
+    await press('Save');
+    await shows(it.page, (s) => /There is a file room\.pl already/.test(s.notice), 'a question');
+    assert.equal(fs.readFileSync(path.join(files, 'room.pl'), 'utf8'), 'floor(red).\n');
+    await it.page.click('#notice-act');
+    await shows(it.page, (s) => /^Saved as/.test(s.notice), 'the file again');
+    assert.equal(fs.readFileSync(path.join(files, 'room.pl'), 'utf8'), saved);
+  });
+
+  test('are opened and started, and what is wrong with one is said with its line', async () => {
+    await open1('bad.pl', 'bounds(0, 0, 100, 100).\nstart(50, 50, 0).\nbax(1, 2, 3, 4).\n');
+    const bad = await shows(it.page, (s) => /^Line 3: bax/.test(s.notice), 'what is wrong');
+    assert.ok(bad.world.name === 'room' && bad.edits.draft.items.length === 3);
+    await open1('good.pl', '% a map\nmap(20, ["#####", "#^ k#", "#####"]).\nlamp(50, 30, 10, outA).\nbeacon(30, 30, 2).\nambient(4).\n');
+    const s = await shows(it.page, (t) => t.world?.name === 'good' && t.edits?.draft.items.length > 5, 'the map');
+    assert.equal(s.edits.draft.around.ambient, 4);
+    assert.ok(s.edits.draft.items.some((item) => item.kind === 'lamp' && item.port === 'outA') && s.edits.draft.items.some((item) => item.channel === 2));
+    await press('Start');
+    const again = await shows(it.page, (t) => t.edits === null && t.world.items.length === s.edits.draft.items.length, 'the same world');
+    assert.deepEqual(again.robot.true, s.robot.true);
   });
 });
 

@@ -181,6 +181,7 @@ export class Hands {
       m: () => world.use('measure'),
       b: () => model?.simulated && world.use('add-box'),
       r: () => model?.simulated && this.reset(),
+      e: () => $('edit').click(),
       d: () => this.drive(!this.driving),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];

@@ -3,11 +3,12 @@
 import { $, clock, notice, text, toggle } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
+import { Editor } from './editor.js';
 import { Hands } from './hands.js';
 import { Log } from './log.js';
 import { KEPT, Model } from './model.js';
 import { Ports } from './ports.js';
-import { Timeline } from './timeline.js';
+import { Timeline, goTo } from './timeline.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
 
@@ -34,6 +35,7 @@ const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
 const timeline = new Timeline(show);
+const editor = new Editor(send, world, edited);
 /** Those that go back with the timeline, and those that are always of now. */
 const scenes = [ports, brick];
 const panels = [hands, log, charts];
@@ -53,6 +55,7 @@ function state(name) {
 
 function reply(message) {
   if (message.type === 'answer') log.answer(message);
+  else if (editor.reply(message)) return;
   else hands.reply(message);
 }
 
@@ -64,7 +67,8 @@ function frame(next) {
   const came = model.take(next);
   for (const panel of panels) panel.take(model, came);
   timeline.take(model);
-  if (!timeline.past) {
+  editor.take(model);
+  if (!timeline.past && !editor.open) {
     for (const scene of scenes) scene.take(model, came);
     world.take(model, came, interval);
   }
@@ -76,9 +80,28 @@ function frame(next) {
 
 /** Another moment of the run, or now again. */
 function show(moment) {
+  if (editor.open) return;
   for (const scene of scenes) scene.take(moment, new Set(KEPT));
   world.show(moment);
 }
+
+/** The editor was opened or closed. */
+function edited() {
+  $('editor').hidden = !editor.open;
+  if (!editor.open) {
+    show(model);
+    world.unfollow(() => world.fit());
+  }
+}
+
+$('edit').addEventListener('click', () => {
+  if (editor.open) editor.leave();
+  else if (model.simulated) {
+    goTo(null);
+    world.unfollow(() => world.fit());
+    editor.enter(model);
+  }
+});
 
 /** A hidden page draws nothing, and so asks for nothing. */
 function draw(time) {
@@ -179,6 +202,7 @@ function shown() {
     driving: hands.driving === true,
     past: timeline.past && { t: timeline.t, robot: timeline.past.frame.robot, items: timeline.past.world?.items ?? [], ports: timeline.past.frame.ports },
     recorded: timeline.kept.length,
+    edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,
     words: world.words ?? '',

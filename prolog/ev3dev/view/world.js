@@ -45,6 +45,8 @@ export class World {
     this.trail = { age: -1 };
     this.motion = null;
     this.model = null;
+    /** An editor, while it has the world. */
+    this.editing = null;
     this.colors();
     this.calm = matchMedia('(prefers-reduced-motion: reduce)');
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
@@ -227,7 +229,10 @@ export class World {
   show(model) {
     this.model = model;
     this.motion = this.now = null;
-    if (!model.simulated) this.selected = this.drag = null;
+    if (!model.simulated) {
+      this.selected = null;
+      if (['robot', 'item', 'box'].includes(this.drag?.kind)) this.drag = null;
+    }
     this.told();
     this.legend();
     this.describe();
@@ -741,6 +746,7 @@ export class World {
 
   drawHands(c) {
     const { dot } = this;
+    this.editing?.draw(c, this);
     if (this.selected === 'robot' && !this.drag) {
       const handle = this.handle();
       if (handle) {
@@ -821,7 +827,7 @@ export class World {
       event.preventDefault();
       if (this.width) this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), [event.offsetX, event.offsetY]);
     }, { passive: false });
-    canvas.addEventListener('dblclick', () => { if (this.tool === 'move') this.unfollow(() => this.fit()); });
+    canvas.addEventListener('dblclick', () => { if (this.tool === 'move' && !this.editing) this.unfollow(() => this.fit()); });
   }
 
   unfollow(act) {
@@ -838,11 +844,22 @@ export class World {
     const near = (point, reach) => point && Math.hypot(place[0] - point[0], place[1] - point[1]) <= reach;
     if (this.selected === 'robot' && near(this.handle(), GRAB * this.dot)) return { kind: 'turn' };
     if (near(frame.robot?.true, Math.max(this.reach(), GRAB * this.dot))) return { kind: 'robot' };
-    for (const item of [...(world?.items ?? [])].reverse()) {
-      if (!['box', 'circle', 'lamp', 'beacon'].includes(item.kind)) continue;
-      if (flat().isPointInPath(this.shape(item), place[0], place[1])) return { kind: 'item', item };
+    const item = [...(world?.items ?? [])].reverse().find((each) => ['box', 'circle', 'lamp', 'beacon'].includes(each.kind) && this.covers(each, place));
+    return item ? { kind: 'item', item } : null;
+  }
+
+  /** Whether a thing is at a place; what is thin is so within a reach. */
+  covers(item, [x, y], reach = 0) {
+    const context = flat();
+    if (item.kind !== 'line' && item.kind !== 'patch') {
+      context.lineWidth = 2 * reach;
+      const path = this.shape(item);
+      return context.isPointInPath(path, x, y) || (reach > 0 && context.isPointInStroke(path, x, y));
     }
-    return null;
+    const path = new Path2D();
+    item.points.forEach(([px, py], i) => (i ? path.lineTo(px, py) : path.moveTo(px, py)));
+    context.lineWidth = Math.max(item.width ?? 0, 2 * reach);
+    return item.kind === 'patch' ? context.isPointInPath(path, x, y) : context.isPointInStroke(path, x, y);
   }
 
   down(event) {
@@ -860,6 +877,8 @@ export class World {
     if (this.tool === 'measure') {
       this.measured = this.measured && !this.measured[1] ? [this.measured[0], place] : [place, null];
       this.told();
+    } else if (this.editing?.down(place)) {
+      this.drag = { kind: 'edit' };
     } else if (this.tool === 'add-box' && this.model.simulated) {
       this.drag = { kind: 'box', from: place, to: place };
     } else {
@@ -899,6 +918,7 @@ export class World {
         toggle(this.canvas, 'over-box', kind === 'item');
       }
       if (this.measured && !this.measured[1]) this.draw();
+      this.editing?.move(place);
       return;
     }
     if (this.start && Math.hypot(pixel[0] - this.start[0], pixel[1] - this.start[1]) > 3) this.moved = true;
@@ -918,6 +938,9 @@ export class World {
       this.camera.y += drag.place[1] - place[1];
       this.camera.own = true;
       this.changed?.();
+    } else if (drag.kind === 'edit') {
+      this.editing?.move(place);
+      return;
     } else if (drag.kind === 'box') drag.to = place;
     else if (drag.turn) drag.at[2] = Math.round(Math.atan2(place[0] - drag.at[0], place[1] - drag.at[1]) / TURN);
     else if (drag.kind === 'robot') [drag.at[0], drag.at[1]] = [place[0] + drag.off[0], place[1] + drag.off[1]];
@@ -932,6 +955,7 @@ export class World {
     if (drag?.kind === 'pinch' && this.pointers.size) return;
     this.drag = null;
     toggle(this.canvas, 'grabbing', false);
+    if (drag?.kind === 'edit') return this.editing?.up(canceled);
     if (!drag || canceled) return this.draw();
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);

@@ -200,18 +200,20 @@ line(Word, Rest, Page) :-
     ->  done(Page, Word, More)
     ;   Answer = refused(Why)
     ->  refused(Page, Word, Why)
+    ;   Answer = refused(Why, More)
+    ->  refused(Page, Word, Why, More)
     ;   true
     ).
 
 done(Page, Word, More) :-
-    (   More = [id(Id)]
-    ->  view_say_(Page, json([type=done, what=Word, id=Id]))
-    ;   view_say_(Page, json([type=done, what=Word]))
-    ).
+    view_say_(Page, json([type=done, what=Word|More])).
 
-refused(Page, Word, Why0) :-
+refused(Page, Word, Why) :-
+    refused(Page, Word, Why, []).
+
+refused(Page, Word, Why0, More) :-
     (   string(Why0)
     ->  Why = Why0
     ;   error_text(Why0, Why)
     ),
-    view_say_(Page, json([type=refused, what=Word, why=Why])).
+    view_say_(Page, json([type=refused, what=Word, why=Why|More])).
