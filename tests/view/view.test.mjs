@@ -15,6 +15,7 @@ after(async () => { await browser?.close(); });
 
 const ROOM = ['sim_start(room)', 'set_robot(5.6, 10.6, outB, outC)'];
 const files = fs.mkdtempSync(path.join(os.tmpdir(), 'worlds-'));
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'choices-'));
 const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
 const free = (page) => async () => {
   assert.deepEqual(page.said, []);
@@ -552,6 +553,61 @@ group('files of worlds', [`working_directory(_, '${files}')`, ...ROOM], '', (it)
     await press('Start');
     const again = await shows(it.page, (t) => t.edits === null && t.world.items.length === s.edits.draft.items.length, 'the same world');
     assert.deepEqual(again.robot.true, s.robot.true);
+  });
+});
+
+group('other worlds and robots', [`working_directory(_, '${folder}')`, ...ROOM], '', (it) => {
+  before(() => {
+    fs.writeFileSync(path.join(folder, 'mine.pl'), 'bounds(0, 0, 90, 90).\nstart(45, 45, 0).\n');
+    fs.writeFileSync(path.join(folder, 'blocked.pl'), 'box(0, 0, 10, 10).\n');
+    fs.writeFileSync(path.join(folder, 'program.pl'), 'start :- go(30).\n');
+  });
+  after(() => fs.rmSync(folder, { recursive: true }));
+  const click = (selector, words) => it.page.evaluate((all, text) => [...document.querySelectorAll(all)].find((b) => b.textContent.startsWith(text)).click(), selector, words);
+  const choose = async (kind, name) => {
+    await it.page.click('#more');
+    await click('#more-menu button', `Another ${kind}`);
+    await it.page.waitForSelector('#more-menu [role=radio]');
+    const [names, now] = await it.page.$$eval('#more-menu [role=radio]', (all) => [all.map((b) => b.textContent), all.find((b) => b.ariaChecked === 'true')?.textContent]);
+    if (!name) assert.deepEqual(await violations(it.page), []);
+    if (name) await click('#more-menu [role=radio]', name);
+    else await it.page.click('#more');
+    return [names, now];
+  };
+
+  test('are listed: those of the pack and files of facts, with what is in use', async () => {
+    const [worlds, now] = await choose('world');
+    assert.deepEqual(worlds.slice(0, 3), ['blocked.pl', 'mine.pl', 'delivery']);
+    assert.equal(now, 'room');
+    const [robots, robot] = await choose('robot');
+    assert.deepEqual(robots, ['default', 'touch']);
+    assert.equal(robot, 'default');
+  });
+
+  test('are begun by a click; the other one stays', async () => {
+    await choose('robot', 'touch');
+    await shows(it.page, (s) => s.ports.find((port) => port.port === 'in4').driver === 'lego-ev3-touch' && s.world.name === 'room', 'a bumper');
+    await choose('world', 'mine');
+    const mine = await shows(it.page, (s) => s.world.name === 'mine' && s.world.bounds[2] === 90, 'a small world');
+    assert.equal(mine.ports.find((port) => port.port === 'in4').driver, 'lego-ev3-touch');
+    assert.equal((await choose('robot'))[1], 'touch');
+  });
+
+  test('stop the program, but not if they cannot be', async () => {
+    it.session.type('repeat, go(20), wait(0.1), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await choose('world', 'blocked');
+    const s = await shows(it.page, (t) => /inside box/.test(t.notice), 'why not');
+    assert.ok(s.program.state === 'running' && s.world.name === 'mine');
+    await choose('world', 'maze');
+    await shows(it.page, (t) => t.world.name === 'maze' && t.program.state === 'idle', 'the maze');
+  });
+
+  test('are begun where no simulation runs', async () => {
+    await it.session.ask('sim_stop');
+    await shows(it.page, (s) => s.source === 'none', 'nothing');
+    await choose('world', 'grid');
+    await shows(it.page, (s) => s.source === 'sim' && s.world.name === 'grid', 'a simulation');
   });
 });
 

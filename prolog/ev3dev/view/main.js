@@ -138,7 +138,7 @@ function heading() {
 function emptiness() {
   const { frame: now } = model;
   const known = now?.robot?.true || now?.robot?.believed;
-  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one.'
+  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one; the three dots begin a simulation.'
     : !known && !model.world ? 'Where the robot is, is not known. set_robot/4 and pose/3 say it.' : '';
   $('world-empty').hidden = !words;
   text($('world-empty'), words);
