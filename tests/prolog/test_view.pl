@@ -812,6 +812,8 @@ looks(Port, Token) :-
     ev3dev_native:view_thread_(true),
     page_open(Port, Token, Page),
     page_ask(Page, "next", Frame),
+    page_ask(Page, "program", Text),
+    Text.type == "done",
     thread_send_message(main, looks),
     look_on(Page, Frame.have),
     page_close(Page),
@@ -1077,6 +1079,105 @@ file_with(Folder, Name, Text) :-
 file_text(Folder, Name, Text) :-
     atomic_list_concat([Folder, /, Name], File),
     setup_call_cleanup(open(File, read, In), read_string(In, _, Text), close(In)).
+
+:- begin_tests(view_source).
+
+%   A toplevel in the room that has loaded a program, and its lines.
+:- meta_predicate with_program(?, +, -, 0).
+
+with_program(Top, Text, File, Goal) :-
+    in_folder(Folder,
+        ( file_with(Folder, 'program.pl', Text),
+          atomic_list_concat([Folder, '/program.pl'], File),
+          in_room(Top, _,
+            ( format(string(Load), "consult(~q), writeln(loaded).", [File]),
+              query(Top, Load),
+              printed(Top, "loaded"),
+              call(Goal) )) )).
+
+square("start :-\n    side(4).\n\nside(0) :- !.\nside(N) :-\n    wait_a_little,\n    turn(30, 90),\n    N1 is N-1,\n    side(N1).\n\nwait_a_little :-\n    repeat, wait(0.01), fail.\n").
+
+test(without_a_program_there_is_no_text) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          refused(Page, "program", "No program is loaded."),
+          refused(Page, "program /etc/passwd", "no file of the program"),
+          done(Page, "program off") )).
+test(the_text_of_the_program_and_where_it_is) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          page_ask(Page, "program", Answer),
+          Answer.type == "done",
+          Answer.text == Text,
+          atom_string(File, Answer.file),
+          Answer.files == [Answer.file],
+          Answer.older == false,
+          query(Top, "start."),
+          frame_with(Page, Frame, ( get_dict(active, Frame, [_, _]) ), 200),
+          findall(Line-Goal, ( member(Mark, Frame.active), Line = Mark.line, Goal = Mark.goal ), Marks),
+          Marks == [11-"wait", 5-"wait_a_little"],
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ( ended(Last), Last.active == [] ), 2000),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive") )).
+test(the_rule_that_is_active) :-
+    Text = ":- use_module(library(ev3dev/rules)).\n\nnear :: us_dist_cm(_, D), D < 5 ~> turn(30).\nwander ::\n    true ~>\n    go(10).\nstart :- behave([near, wander]), true.\n",
+    with_program(Top, Text, _,
+        ( Top = top(_, _, Page),
+          done(Page, "program"),
+          query(Top, "start."),
+          frame_with(Page, Frame, ( get_dict(active, Frame, [Rule|_]), get_dict(rule, Rule, true) ), 200),
+          Rule.line =:= 4,
+          once(( member(Mark, Frame.active), Mark.line =:= 7, Mark.goal == "behave" )),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000) )).
+test(nobody_asks_the_program_unless_a_page_shows_it) :-
+    square(Text),
+    with_program(Top, Text, _,
+        ( Top = top(_, _, Page),
+          query(Top, "wrap_predicate(ev3dev_view_source:look, count, W, (flag(looks, N, N+1), W))."),
+          query(Top, "start."),
+          frame_with(Page, Frame, Frame.program.state == "running", 2000),
+          forall(between(1, 30, _), page_ask(Page, "next", _)),
+          done(Page, "program"),
+          frame_with(Page, Seen, get_dict(active, Seen, [_|_]), 200),
+          done(Page, "program off"),
+          frame_with(Page, Off, Off.active == [], 500),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          query(Top, "flag(looks, N, N), ( N > 0, N < 10 -> writeln(few) ; writeln(many(N)) )."),
+          printed(Top, "few") )).
+test(a_file_that_is_loaded_again_is_read_again) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          done(Page, "program"),
+          frame_with(Page, First, get_dict(loaded, First, Hash), 200),
+          string_concat(Text, "more.\n", More),
+          setup_call_cleanup(open(File, write, Out), write(Out, More), close(Out)),
+          get_time(Now),
+          Later is Now + 3,
+          set_time_file(File, _, [modified(Later)]),
+          query(Top, "make, writeln(made)."),
+          printed(Top, "made"),
+          frame_with(Page, Last, Last.loaded =\= Hash, 200),
+          page_ask(Page, "program", Answer),
+          Answer.text == More,
+          Answer.older == false )).
+test(a_file_that_was_changed_is_newer_than_what_runs) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          get_time(Now),
+          Later is Now + 100,
+          set_time_file(File, _, [modified(Later)]),
+          page_ask(Page, "program", Answer),
+          Answer.older == true,
+          delete_file(File),
+          refused(Page, "program", "not there any more") )).
+
+:- end_tests(view_source).
 
 :- begin_tests(view_worlds).
 

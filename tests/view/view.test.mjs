@@ -16,6 +16,7 @@ after(async () => { await browser?.close(); });
 const ROOM = ['sim_start(room)', 'set_robot(5.6, 10.6, outB, outC)'];
 const files = fs.mkdtempSync(path.join(os.tmpdir(), 'worlds-'));
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'choices-'));
+const sources = fs.mkdtempSync(path.join(os.tmpdir(), 'sources-'));
 const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
 const free = (page) => async () => {
   assert.deepEqual(page.said, []);
@@ -608,6 +609,95 @@ group('other worlds and robots', [`working_directory(_, '${folder}')`, ...ROOM],
     await shows(it.page, (s) => s.source === 'none', 'nothing');
     await choose('world', 'grid');
     await shows(it.page, (s) => s.source === 'sim' && s.world.name === 'grid', 'a simulation');
+  });
+});
+
+group('the text of the program', ROOM, '', (it) => {
+  const file = path.join(sources, 'square.pl');
+  const marks = (selector) => it.page.$$eval(`.code li${selector}`, (all) => all.map((li) => [...li.parentElement.children].indexOf(li) + 1));
+  before(() => fs.writeFileSync(file, `:- use_module(library(ev3dev/rules)).
+
+% A square.
+start :-
+    side(4),
+    stop.
+
+side(0) :- !.
+side(N) :-
+    go_cm(30, 20),     % ahead
+    turn(30, 90),
+    N1 is N-1,
+    side(N1).
+
+near :: us_dist_cm(_, D), D < 5 ~> turn(30).
+wander ::
+    true ~> go(10).
+react :- behave([near, wander]), true.
+`));
+  after(() => fs.rmSync(sources, { recursive: true }));
+
+  test('is not there without a program, and says so', async () => {
+    await it.page.click('#program-open');
+    await shows(it.page, (s) => /No program is loaded/.test(s.notice), 'why');
+    assert.ok(await it.page.$eval('#program', (card) => card.hidden));
+  });
+
+  test('stands beside the world, with the clauses that are active', async () => {
+    await it.session.ask(`consult('${file}')`);
+    await it.page.click('#program-open');
+    await it.page.waitForSelector('.code li');
+    assert.equal(await it.page.$$eval('.code li', (all) => all.map((li) => li.textContent).join('\n')), fs.readFileSync(file, 'utf8').trimEnd().replace(/\n\n/g, '\n \n'));
+    assert.deepEqual(await violations(it.page), []);
+    it.session.type('start');
+    await until(async () => (await marks('.active.called'))[0] === 10, 'the drive ahead');
+    assert.deepEqual(await marks('.active'), [9, 10, 11, 12, 13]);
+    assert.deepEqual(await marks('.outer'), [4, 5, 6]);
+    assert.deepEqual(await violations(it.page), []);
+    await until(async () => (await marks('.active.called'))[0] === 11, 'the turn');
+    await it.page.click('#stop');
+    await until(async () => (await marks('[aria-current]')).length === 0, 'no mark at the end');
+  });
+
+  test('shows what was active at a moment of the past', async () => {
+    const t = await it.page.evaluate(() => Number([...document.querySelectorAll('#log li')].find((li) => /goes 20 cm/.test(li.textContent)).dataset.time));
+    await it.page.evaluate((time) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: time + 0.8 } })), t);
+    await until(async () => (await marks('.active.called'))[0] === 10, 'the drive ahead');
+    await it.page.click('#time-live');
+    await until(async () => (await marks('[aria-current]')).length === 0, 'now');
+  });
+
+  test('is read again when it was loaded again', async () => {
+    fs.appendFileSync(file, 'more :- true.\n');
+    await it.session.ask(`consult('${file}')`);
+    await until(async () => /more :- true/.test(await it.page.$eval('.code', (list) => list.textContent)), 'the new text');
+  });
+
+  test('shows the rule that is active', async () => {
+    it.session.type('react');
+    await until(async () => (await marks('.rule')).join() === '16,17', 'the rule');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && s.active.length === 0, 'the end');
+  });
+
+  test('is asked for by a page that shows it only, and by one that comes again', async () => {
+    const { port } = new URL(it.url);
+    await it.session.ask('view_stop');
+    await it.session.ask(`view([open(false), port(${port}), token('a-token-for-text')])`);
+    await it.page.goto(await it.session.url());
+    await shows(it.page, (s) => s.phase === 'live', 'a page that lives');
+    it.page.said.length = 0;
+    it.session.type('start');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    const { frames } = await state(it.page);
+    await shows(it.page, (s) => s.frames > frames + 20, 'frames');
+    assert.deepEqual((await state(it.page)).active, []);
+    await it.page.focus('#world');
+    await it.page.keyboard.press('p');
+    await shows(it.page, (s) => s.active.length > 0, 'what is active');
+    await it.page.click('#stop');
+    await it.page.evaluate(() => document.querySelector('#program .actions button:last-child').click());
+    assert.ok(await it.page.$eval('#program', (card) => card.hidden));
+    await shows(it.page, (s) => s.program.state === 'idle', 'the prompt');
   });
 });
 

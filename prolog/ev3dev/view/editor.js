@@ -425,7 +425,7 @@ export class Editor {
     else if (key === 'Delete' || key === 'Backspace') act = () => this.remove();
     else if (key === 'Enter' && this.drawing) act = () => this.finish();
     // These are of the robot's world.
-    else if ('bdfr'.includes(lower)) act = () => {};
+    else if ('bdfpr'.includes(lower)) act = () => {};
     if (!act) return;
     act();
     event.preventDefault();

@@ -186,6 +186,7 @@ export class Hands {
       b: () => model?.simulated && world.use('add-box'),
       r: () => model?.simulated && this.reset(),
       e: () => $('edit').click(),
+      p: () => $('program-open').click(),
       d: () => this.drive(!this.driving),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];

@@ -8,6 +8,7 @@ import { Hands } from './hands.js';
 import { Log } from './log.js';
 import { KEPT, Model } from './model.js';
 import { Ports } from './ports.js';
+import { Program } from './program.js';
 import { Timeline, goTo } from './timeline.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
@@ -31,13 +32,14 @@ const world = new World(send);
 const charts = new Charts(() => model.frame && ports.take(model));
 const ports = new Ports(send, (column) => charts.plot(column), (column) => charts.plotted(column));
 const brick = new Brick(send);
+const program = new Program(send);
 const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
 const timeline = new Timeline(show);
 const editor = new Editor(send, world, edited);
 /** Those that go back with the timeline, and those that are always of now. */
-const scenes = [ports, brick];
+const scenes = [ports, brick, program];
 const panels = [hands, log, charts];
 
 // ----------------------------------------------------------------- the line
@@ -55,8 +57,7 @@ function state(name) {
 
 function reply(message) {
   if (message.type === 'answer') log.answer(message);
-  else if (editor.reply(message)) return;
-  else hands.reply(message);
+  else if (!editor.reply(message) && !program.reply(message)) hands.reply(message);
 }
 
 function frame(next) {
@@ -202,6 +203,7 @@ function shown() {
     driving: hands.driving === true,
     past: timeline.past && { t: timeline.t, robot: timeline.past.frame.robot, items: timeline.past.world?.items ?? [], ports: timeline.past.frame.ports },
     recorded: timeline.kept.length,
+    active: model.active ?? [],
     edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,

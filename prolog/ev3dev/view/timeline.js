@@ -12,7 +12,7 @@ const APART = 0.04;
 /** What sensors see is shown at moments so near to a frame. */
 const SEEN_WITHIN = 0.06;
 const STEP = 0.05;
-const KEPT = ['name', 'world', 'spec', 'path', 'grid', 'screen'];
+const KEPT = ['name', 'world', 'spec', 'path', 'grid', 'screen', 'active'];
 
 export const goTo = (t) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
 
