@@ -348,6 +348,20 @@ deadline(Options, Deadline) :-
 active(Behavior, Active) :-
     arg(4, Behavior, Active).
 
+%   That of the active rule, if it stands in a file.
+
+:- multifile ev3dev_causes:active_clause/1.
+
+ev3dev_causes:active_clause(Clause) :-
+    nb_current(ev3dev_behavior, Behavior),
+    Behavior \== [],
+    active(Behavior, active(Index, _, _)),
+    arg(2, Behavior, Rules),
+    arg(Index, Rules, rule(_, Name, Module:_, _, _, _)),
+    catch(clause(Module:'$ev3dev rule'(Name, _, _, _), true, Clause),
+          error(_, _), fail),
+    !.
+
 run(Behavior, Reason) :-
     repeat,
     step(Behavior, Step),

@@ -15,14 +15,14 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
 :- use_module(private/brick, [end_brick/1, new_brick/1]).
-:- use_module(private/chance, [begin_chance/1, end_chance/0]).
+:- use_module(private/chance, [begin_chance_of/1, end_chance/0]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(private/limits, [clock_changes/1, forget_plans/0]).
 :- use_module(private/plans, [run_due_goals/0]).
 :- use_module(private/turn, []).
 :- use_module(private/waits, [event_period/2]).
-:- use_module(private/world_name, [note_world/1]).
+:- use_module(private/world_name, [note_world/2]).
 :- use_module(sim_hand, [set_added_facts/1]).
 :- reexport(sim_hand, except([added_facts/1, set_added_facts/1])).
 :- reexport(sim_time).
@@ -251,14 +251,7 @@ sim_start(World, Options) :-
     must_be_built,
     must_be_options(sim_option, [clock, robot, noise, screen, seed], Options),
     option(clock(Clock), Options, realtime),
-    (   option(seed(Seed), Options)
-    ->  Chance = Seed
-    ;   Seed = 1,
-        (   Clock == virtual
-        ->  Chance = Seed
-        ;   Chance = none
-        )
-    ),
+    option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
     option(robot(Robot), Options, default),
     option(screen(Bits), Options, 32),
@@ -277,11 +270,8 @@ sim_start(World, Options) :-
     must_be_faultless(Fault, world(World, LocatedWorld),
                       robot(Robot, LocatedRobot)),
     set_added_facts([]),
-    (   Chance == none
-    ->  end_chance
-    ;   begin_chance(Chance)
-    ),
-    note_world(World).
+    begin_chance_of(Options),
+    note_world(World, Options).
 
 forget_plans_if(Fault) :-
     (   Fault == none

@@ -23,6 +23,7 @@
 :- use_module(private/view/page,
               [page_settings/2, pages_close/0, pages_serve/3]).
 :- use_module(private/view/program, [leave_program/0, watch_program/0]).
+:- use_module(private/view/worlds, [worlds_settings/1]).
 
 /** <module> The robot in a browser
 
@@ -186,6 +187,7 @@ ensure_served(Port, _, _, _, _, Url) :-
 ensure_served(Port, Address, Token0, Rate, Goals, Url) :-
     token(Token0, Token),
     page_settings(Rate, Goals),
+    worlds_settings(Address),
     start(Port, Address, Token, Served),
     watch_messages,
     watch_program,

@@ -82,11 +82,17 @@ natives! {
                 start(&call, machine, clock_of(&call, &clock)?)?;
                 unify_atom(fault, "none")
             }
-            Err((subject, index, error)) => {
-                let index = index.map_or(0, |index| index as u64 + 1);
-                let (subject, why) = (atomable(subject), atomable(error.to_string()));
-                fault.unify(&term! {context: fault(#subject, #index, #why)}?)
-            }
+            Err(error) => unify_fault(&call, fault, error),
+        }
+    }
+
+    /// sim_fault_(+WorldFacts, +RobotFacts, -Fault): the fault with which they cannot start.
+    semidet fn "sim_fault_"(context, world, robot, fault) {
+        let call = Call::of(context, "sim_start", 2);
+        let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
+        match built(&world, &robot, false, Options::default()) {
+            Ok(_) => unify_atom(fault, "none"),
+            Err(error) => unify_fault(&call, fault, error),
         }
     }
 
@@ -381,6 +387,18 @@ fn built(world: &[Fact], robot: &[Fact], noise: bool, options: Options) -> Resul
     let spec = if noise { spec.with_typical_noise() } else { spec };
     let in_world = |error: SpecError| ("world", culprit(world, &error), error);
     Machine::new(&WorldSpec::from_facts(world), &spec, options).map_err(in_world)
+}
+
+/// fault(Subject, Index, Why).
+fn unify_fault<C: QueryableContextType>(
+    call: &Call<C>,
+    fault: &Term,
+    (subject, index, error): Fault,
+) -> PrologResult<()> {
+    let context = call.context;
+    let index = index.map_or(0, |index| index as u64 + 1);
+    let (subject, why) = (atomable(subject), atomable(error.to_string()));
+    fault.unify(&term! {context: fault(#subject, #index, #why)}?)
 }
 
 /// `realtime`, `scaled(Factor)` or `virtual`.

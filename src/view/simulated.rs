@@ -196,10 +196,15 @@ fn spec(machine: &Machine) -> Spec {
 
 fn world_of(machine: &Machine) -> World {
     let corners = |Bounds { low: [x1, y1], high: [x2, y2] }| [x1, y1, x2, y2];
+    let [ambient, temperature, loudness] = fine(machine.surroundings());
     World {
         bounds: OrNull(machine.bounds().map(|bounds| fine(corners(bounds)))),
         view: corners(machine.frame()).map(Decimal),
         floor: machine.floor().to_string().into(),
+        ambient,
+        temperature,
+        loudness,
+        start: parts(machine.start()),
         items: machine.items().iter().map(|(id, item)| item_of(*id, item)).collect(),
     }
 }

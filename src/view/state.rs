@@ -274,6 +274,10 @@ objects! {
         bounds: OrNull<[Fine; 4]>,
         view: [Decimal<1>; 4],
         floor: Text,
+        ambient: Fine,
+        temperature: Fine,
+        loudness: Fine,
+        start: [Fine; 3],
         items: Vec<Item>,
     }
 

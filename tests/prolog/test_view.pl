@@ -10,6 +10,7 @@
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/rules),
               [after/2, after/3, behave/2, op(1150, xfx, ~>), op(1160, xfx, ::)]).
+:- use_module(library(filesex)).
 :- use_module(library(process)).
 :- use_module(library(readutil)).
 
@@ -368,6 +369,13 @@ no_line("move 1.5 2 3").
 no_line("save ../x").
 no_line("jog 101 0").
 no_line("jog 10").
+no_line("reset now").
+no_line("choose room").
+no_line("choose world room").
+no_line("choose lamp pack room").
+no_line("begin room").
+no_line("write ../x floor(red).").
+no_line("worlds 1").
 
 test(no_line, [forall(no_line(Line)), true(Answer == close(1008))]) :-
     paged(Page, no_messages(page_ask(Page, Line, Answer))).
@@ -804,6 +812,8 @@ looks(Port, Token) :-
     ev3dev_native:view_thread_(true),
     page_open(Port, Token, Page),
     page_ask(Page, "next", Frame),
+    page_ask(Page, "program", Text),
+    Text.type == "done",
     thread_send_message(main, looks),
     look_on(Page, Frame.have),
     page_close(Page),
@@ -817,8 +827,6 @@ look_on(Page, Have) :-
     ).
 
 :- end_tests(view_same).
-
-:- begin_tests(view_stop).
 
 % A toplevel in a process of its own, with few descriptors, and a page of it.
 :- meta_predicate with_toplevel(?, 0).
@@ -867,16 +875,45 @@ seconds(Goal, Seconds) :-
     get_time(After),
     Seconds is After - Before.
 
-%   What it prints, up to a line with that text.
-printed(top(_, Out, _), Text) :-
-    read_line_to_string(Out, Line),
-    Line \== end_of_file,
-    (   sub_string(Line, _, _, _, Text)
+%   The same with a robot in the room, and the first frame of the page.
+:- meta_predicate in_room(?, ?, 0).
+
+in_room(Top, Frame, Goal) :-
+    with_toplevel(Top,
+        ( query(Top, "sim_start(room, [clock(virtual), seed(7)]), \c
+                      set_robot(5.6, 10.6, outB, outC)."),
+          Top = top(_, _, Page),
+          frame_with(Page, Frame, ( Frame.name == "room", ended(Frame) ), 2000),
+          call(Goal) )).
+
+done(Page, Line) :-
+    page_ask(Page, Line, Answer),
+    (   Answer.type == "done"
     ->  true
-    ;   printed(top(_, Out, _), Text)
+    ;   throw(answered(Line, Answer))
     ).
 
-runs(Frame) :-
+refused(Page, Line, Part) :-
+    page_ask(Page, Line, Answer),
+    (   Answer.type == "refused",
+        sub_string(Answer.why, _, _, _, Part)
+    ->  true
+    ;   throw(answered(Line, Answer))
+    ).
+
+%   What it prints, up to a line with that text.
+printed(Top, Text) :-
+    printed(Top, Text, _).
+
+printed(top(_, Out, _), Text, Line) :-
+    read_line_to_string(Out, Line0),
+    Line0 \== end_of_file,
+    (   sub_string(Line0, _, _, _, Text)
+    ->  Line = Line0
+    ;   printed(top(_, Out, _), Text, Line)
+    ).
+
+frame_runs(Frame) :-
     member(Port, Frame.ports),
     get_dict(state, Port, States),
     memberchk("running", States),
@@ -898,6 +935,8 @@ drives(Page, Y0, Left) :-
         drives(Page, Y0, Left1)
     ).
 
+:- begin_tests(view_stop).
+
 % Programs that must be stopped, whatever they do.
 program("motor_run(outA, 50), repeat, fail.").
 program("motor_run(outA, 50), repeat, position(outA, _), fail.").
@@ -914,15 +953,15 @@ test(program, [forall(program(Text))]) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, Text),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           page_ask(Page, "stop", Stopped),
           Stopped.what == "stop",
           frame_with(Page, Last, ended(Last), 5000),
-          \+ runs(Last),
+          \+ frame_runs(Last),
           query(Top, "writeln(alive)."),
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
-          \+ runs(Frame2) )).
+          \+ frame_runs(Frame2) )).
 test(a_program_that_begins_is_stopped) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
@@ -940,7 +979,7 @@ test(a_request_stops_the_program, true(Code == 200)) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "motor_run(outA, 50), repeat, wait(0.1), fail."),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           nb_getval(view_port, Port),
           token(Token),
           cookie(Port, Token, Cookie),
@@ -950,7 +989,7 @@ test(a_request_stops_the_program, true(Code == 200)) :-
           request(Port, [ "POST /stop HTTP/1.1", HostLine, Origin, Cookie,
                           "Connection: close", "Content-Length: 0" ], Code, _),
           frame_with(Page, Last, ended(Last), 5000),
-          \+ runs(Last) )).
+          \+ frame_runs(Last) )).
 test(strangers_delay_neither_a_page_nor_stop,
      [ forall(( member(Kind, [ silent, slow, endless, no_token, wrong_token,
                                websocket ]),
@@ -961,12 +1000,12 @@ test(strangers_delay_neither_a_page_nor_stop,
         ( Top = top(_, _, Page),
           nb_getval(view_port, Port),
           query(Top, "motor_run(outA, 50)."),
-          frame_with(Page, Frame, runs(Frame), 2000),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
           besieged(Port, Count, Kind,
                    ( seconds(get(Port, '/?t=test_token', [], Code, _), Visit),
                      seconds(page_ask(Page, "next", _), Next),
                      seconds(page_ask(Page, "stop", _), Stop),
-                     frame_with(Page, Last, ( ended(Last), \+ runs(Last) ),
+                     frame_with(Page, Last, ( ended(Last), \+ frame_runs(Last) ),
                                 2000) )) )),
     findall(Late0, ( member(Late0, [Visit, Next, Stop]), Late0 > 4 ), Late).
 test(strangers_leave_descriptors_for_the_motors) :-
@@ -997,33 +1036,333 @@ test(a_page_drives_while_no_program_runs) :-
           frame_with(Page, Frame, ended(Frame), 2000),
           Frame.robot.true = [_, Y0, _],
           drives(Page, Y0, 200),
-          frame_with(Page, Last, \+ runs(Last), 2000) )).
+          frame_with(Page, Last, \+ frame_runs(Last), 2000) )).
 test(at_the_prompt_nothing_is_aborted) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "motor_run(outA, 50), writeln(begun)."),
           printed(Top, "begun"),
-          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          frame_with(Page, Frame, ( frame_runs(Frame), ended(Frame) ), 2000),
           page_ask(Page, "stop", _),
           page_ask(Page, "stop", _),
           frame_with(Page, Last, ended(Last), 2000),
-          \+ runs(Last),
+          \+ frame_runs(Last),
           query(Top, "motor_run(outA, 30), writeln(again)."),
           printed(Top, "again"),
-          frame_with(Page, Again, runs(Again), 2000) )).
+          frame_with(Page, Again, frame_runs(Again), 2000) )).
 test(a_thread_that_drives_is_stopped_at_the_prompt, true) :-
     with_toplevel(Top,
         ( Top = top(_, _, Page),
           query(Top, "thread_create((repeat, motor_run(outA, 50), wait(0.1), fail), _, [])."),
-          frame_with(Page, Frame, ( runs(Frame), ended(Frame) ), 2000),
+          frame_with(Page, Frame, ( frame_runs(Frame), ended(Frame) ), 2000),
           page_ask(Page, "stop", _),
           frame_with(Page, Last, ended(Last), 2000),
           query(Top, "wait(1), writeln(alive)."),
           printed(Top, "alive"),
           page_ask(Page, "next", Frame2),
-          \+ runs(Frame2) )).
+          \+ frame_runs(Frame2) )).
 
 :- end_tests(view_stop).
+
+%   A folder of its own, and files in it.
+:- meta_predicate in_folder(-, 0).
+
+in_folder(Folder, Goal) :-
+    tmp_file(worlds, Folder),
+    make_directory(Folder),
+    setup_call_cleanup(true, once(Goal), delete_directory_and_contents(Folder)).
+
+file_with(Folder, Name, Text) :-
+    atomic_list_concat([Folder, /, Name], File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+
+file_text(Folder, Name, Text) :-
+    atomic_list_concat([Folder, /, Name], File),
+    setup_call_cleanup(open(File, read, In), read_string(In, _, Text), close(In)).
+
+:- begin_tests(view_source).
+
+%   A toplevel in the room that has loaded a program, and its lines.
+:- meta_predicate with_program(?, +, -, 0).
+
+with_program(Top, Text, File, Goal) :-
+    in_folder(Folder,
+        ( file_with(Folder, 'program.pl', Text),
+          atomic_list_concat([Folder, '/program.pl'], File),
+          in_room(Top, _,
+            ( format(string(Load), "consult(~q), writeln(loaded).", [File]),
+              query(Top, Load),
+              printed(Top, "loaded"),
+              call(Goal) )) )).
+
+square("start :-\n    side(4).\n\nside(0) :- !.\nside(N) :-\n    wait_a_little,\n    turn(30, 90),\n    N1 is N-1,\n    side(N1).\n\nwait_a_little :-\n    repeat, wait(0.01), fail.\n").
+
+test(without_a_program_there_is_no_text) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          refused(Page, "program", "No program is loaded."),
+          refused(Page, "program /etc/passwd", "no file of the program"),
+          done(Page, "program off") )).
+test(the_text_of_the_program_and_where_it_is) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          page_ask(Page, "program", Answer),
+          Answer.type == "done",
+          Answer.text == Text,
+          atom_string(File, Answer.file),
+          Answer.files == [Answer.file],
+          Answer.older == false,
+          query(Top, "start."),
+          frame_with(Page, Frame, ( get_dict(active, Frame, [_, _]) ), 200),
+          findall(Line-Goal, ( member(Mark, Frame.active), Line = Mark.line, Goal = Mark.goal ), Marks),
+          Marks == [11-"wait", 5-"wait_a_little"],
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ( ended(Last), Last.active == [] ), 2000),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive") )).
+test(the_rule_that_is_active) :-
+    Text = ":- use_module(library(ev3dev/rules)).\n\nnear :: us_dist_cm(_, D), D < 5 ~> turn(30).\nwander ::\n    true ~>\n    go(10).\nstart :- behave([near, wander]), true.\n",
+    with_program(Top, Text, _,
+        ( Top = top(_, _, Page),
+          done(Page, "program"),
+          query(Top, "start."),
+          frame_with(Page, Frame, ( get_dict(active, Frame, [Rule|_]), get_dict(rule, Rule, true) ), 200),
+          Rule.line =:= 4,
+          once(( member(Mark, Frame.active), Mark.line =:= 7, Mark.goal == "behave" )),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000) )).
+test(nobody_asks_the_program_unless_a_page_shows_it) :-
+    square(Text),
+    with_program(Top, Text, _,
+        ( Top = top(_, _, Page),
+          query(Top, "wrap_predicate(ev3dev_view_source:look, count, W, (flag(looks, N, N+1), W))."),
+          query(Top, "start."),
+          frame_with(Page, Frame, Frame.program.state == "running", 2000),
+          forall(between(1, 30, _), page_ask(Page, "next", _)),
+          done(Page, "program"),
+          frame_with(Page, Seen, get_dict(active, Seen, [_|_]), 200),
+          done(Page, "program off"),
+          frame_with(Page, Off, Off.active == [], 500),
+          page_ask(Page, "stop", _),
+          frame_with(Page, Last, ended(Last), 2000),
+          query(Top, "flag(looks, N, N), ( N > 0, N < 10 -> writeln(few) ; writeln(many(N)) )."),
+          printed(Top, "few") )).
+test(a_file_that_is_loaded_again_is_read_again) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          done(Page, "program"),
+          frame_with(Page, First, get_dict(loaded, First, Hash), 200),
+          string_concat(Text, "more.\n", More),
+          setup_call_cleanup(open(File, write, Out), write(Out, More), close(Out)),
+          get_time(Now),
+          Later is Now + 3,
+          set_time_file(File, _, [modified(Later)]),
+          query(Top, "make, writeln(made)."),
+          printed(Top, "made"),
+          frame_with(Page, Last, Last.loaded =\= Hash, 200),
+          page_ask(Page, "program", Answer),
+          Answer.text == More,
+          Answer.older == false )).
+test(a_file_that_was_changed_is_newer_than_what_runs) :-
+    square(Text),
+    with_program(Top, Text, File,
+        ( Top = top(_, _, Page),
+          get_time(Now),
+          Later is Now + 100,
+          set_time_file(File, _, [modified(Later)]),
+          page_ask(Page, "program", Answer),
+          Answer.older == true,
+          delete_file(File),
+          refused(Page, "program", "not there any more") )).
+
+:- end_tests(view_source).
+
+:- begin_tests(view_worlds).
+
+test(a_reset_begins_the_world_again) :-
+    in_room(Top, Frame,
+        ( Top = top(_, _, Page),
+          once(( member(Box, Frame.world.items), Box.kind == "box" )),
+          format(string(Move), "move ~w 60 220", [Box.id]),
+          done(Page, Move),
+          query(Top, "sim_add(circle(20, 200, 5)), go_cm(30, 20), writeln(gone)."),
+          printed(Top, "gone"),
+          frame_with(Page, Gone, ( ended(Gone), Gone.clock.time > 0.5 ), 2000),
+          done(Page, "reset"),
+          frame(Page, Gone.have, Again),
+          Again.new == true,
+          Again.clock.time =:= 0,
+          Again.name == "room",
+          Again.robot.true == Frame.robot.true,
+          Again.world.items =@= Frame.world.items,
+          query(Top, "go_cm(30, 10), writeln(again)."),
+          printed(Top, "again"),
+          frame_with(Page, Last, Last.robot.believed \== null, 2000),
+          Last.robot.true = [X0, Y0, _],
+          Last.robot.believed.pose = [X, Y, _],
+          near(X, X0, 1), near(Y, Y0, 1) )).
+test(a_reset_stops_the_program) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "repeat, catch((go(20), wait(0.1)), _, true), fail."),
+          frame_with(Page, Frame, frame_runs(Frame), 2000),
+          done(Page, "reset"),
+          frame_with(Page, Last, ended(Last), 2000),
+          Last.clock.time =:= 0,
+          \+ frame_runs(Last),
+          query(Top, "writeln(alive)."),
+          printed(Top, "alive") )).
+test(after_a_reset_chance_is_as_before, true(First == Second)) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "X is random(1000000), writeln(drawn(X))."),
+          printed(Top, "drawn", First),
+          frame_with(Page, Frame, ended(Frame), 2000),
+          done(Page, "reset"),
+          query(Top, "X is random(1000000), writeln(drawn(X))."),
+          printed(Top, "drawn", Second) )).
+test(a_world_that_is_gone_is_not_begun_again) :-
+    tmp_file(world, Base),
+    atom_concat(Base, '.pl', File),
+    setup_call_cleanup(
+        ( open(File, write, Out), format(Out, "start(5, 6, 7).~n", []), close(Out) ),
+        in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Start), "sim_start(~q, [clock(virtual)]).", [File]),
+              query(Top, Start),
+              frame_with(Page, Frame, ( Frame.robot.true == [5, 6, 7], ended(Frame) ), 2000),
+              delete_file(File),
+              refused(Page, "reset", "there is no world"),
+              page_ask(Page, "next", Last),
+              Last.robot.true == [5, 6, 7] )),
+        catch(delete_file(File), _, true)).
+test(without_a_simulation_nothing_is_begun_again) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          query(Top, "sim_stop, writeln(over)."),
+          printed(Top, "over"),
+          refused(Page, "reset", "No simulation runs.") )).
+
+test(a_world_and_a_robot_are_chosen) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          page_ask(Page, "worlds", Choices),
+          once(( member(World, Choices.worlds), World.name == "maze", World.from == "pack" )),
+          once(( member(Robot, Choices.robots), Robot.name == "touch" )),
+          Choices.robot == "default",
+          done(Page, "choose world pack maze"),
+          frame_with(Page, Maze, Maze.name == "maze", 500),
+          Maze.clock.kind == "virtual",
+          done(Page, "choose robot pack touch"),
+          page_ask(Page, "next", Frame),
+          Frame.name == "maze",
+          last(Frame.ports, Bumper),
+          Bumper.driver == "lego-ev3-touch",
+          page_ask(Page, "worlds", After),
+          After.robot == "touch",
+          refused(Page, "choose world pack moon", "There is no world moon."),
+          refused(Page, "choose world file ../room", "There is no world ../room."),
+          page_ask(Page, "next", Last),
+          Last.have == Frame.have )).
+test(files_beside_the_program_are_chosen_and_written) :-
+    in_folder(Folder,
+        ( file_with(Folder, 'mine.pl', "bounds(0, 0, 90, 90).\nstart(45, 45, 0).\n"),
+          file_with(Folder, 'small.pl', "hull(circle(3)).\nmotor(outA, 'lego-ev3-m-motor').\n"),
+          file_with(Folder, 'program.pl', "start :- true.\n"),
+          in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Load), "consult(~q), writeln(loaded).", ['program.pl']),
+              format(string(Go), "working_directory(_, ~q).", [Folder]),
+              query(Top, Go),
+              query(Top, Load),
+              printed(Top, "loaded"),
+              query(Top, "working_directory(_, '/'), writeln(there)."),
+              printed(Top, "there"),
+              page_ask(Page, "worlds", Choices),
+              findall(Name, ( member(World, Choices.worlds), World.from == "file",
+                              Name = World.name ), Names),
+              Names == ["mine.pl"],
+              findall(Name, ( member(Robot, Choices.robots), Robot.from == "file",
+                              Name = Robot.name ), Robots),
+              Robots == ["small.pl"],
+              done(Page, "choose world file mine.pl"),
+              frame_with(Page, Frame, Frame.world.bounds == [0, 0, 90, 90], 500),
+              done(Page, "choose robot file small.pl"),
+              done(Page, "write own floor(red).\nstart(1, 2, 3).\n"),
+              file_text(Folder, 'own.pl', "floor(red).\nstart(1, 2, 3).\n"),
+              page_ask(Page, "write own floor(blue).", Again),
+              Again.type == "refused", Again.exists == true,
+              file_text(Folder, 'own.pl', "floor(red).\nstart(1, 2, 3).\n"),
+              done(Page, "rewrite own floor(blue)."),
+              file_text(Folder, 'own.pl', "floor(blue)."),
+              refused(Page, "rewrite program floor(blue).", "program.pl is no world"),
+              refused(Page, "rewrite own go(1).", "go"),
+              refused(Page, "rewrite own :- halt.", ""),
+              file_text(Folder, 'own.pl', "floor(blue)."),
+              directory_files(Folder, Files0),
+              msort(Files0, Files),
+              Files == ['.', '..', 'mine.pl', 'own.pl', 'program.pl', 'small.pl'] )) )).
+test(pages_of_other_computers_write_nothing) :-
+    in_folder(Folder,
+        in_room(Top, _,
+            ( Top = top(_, _, Page),
+              format(string(Go), "ev3dev_view_worlds:worlds_settings(any), \c
+                                  working_directory(_, ~q), writeln(there).", [Folder]),
+              query(Top, Go),
+              printed(Top, "there"),
+              refused(Page, "write own floor(red).", "Only pages of this"),
+              directory_files(Folder, Files),
+              length(Files, 2) ))).
+% What a world cannot be, and what is said of it; nothing changes then.
+impossible("bounds(0, 0, 100, 100).\nstart(50, 50, 0).\nbox(50, 50, 10, 10).", "robot at 50, 50 is inside box(50,").
+impossible("bounds(0, 0, 100, 100).\nstart(2, 50, 0).", "").
+impossible("bounds(0, 0, 0, 100).", "").
+impossible("wall(1, 2, 1, 2).", "").
+impossible("circle(1, 2, -3).", "").
+impossible("patch(red, [1-2, 3-4]).", "").
+impossible("lamp(1, 2, -1).", "").
+impossible("box(1, 2).", "").
+impossible("go(30).", "go").
+impossible("floor(pink).", "pink").
+impossible("box(1, 2, 3", "yntax").
+impossible(":- halt.", "").
+
+test(a_world_that_cannot_be_is_refused, [forall(impossible(Text, Part))]) :-
+    in_room(Top, First,
+        ( Top = top(_, _, Page),
+          string_concat("check ", Text, Check),
+          string_concat("begin x ", Text, Begin),
+          refused(Page, Check, Part),
+          refused(Page, Begin, Part),
+          page_ask(Page, Check, Answer),
+          split_string(Text, "\n", "", Lines),
+          length(Lines, Count),
+          between(1, Count, Answer.line),
+          frame(Page, First.have, Frame),
+          \+ get_dict(new, Frame, _),
+          Frame.program.latched == false )).
+test(a_world_begins_from_its_text) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          Facts = "bounds(0, 0, 100, 80).\nfloor(green).\nambient(7).\nstart(50, 40, 90).\nbox(10, 10, 5, 5).\n",
+          string_concat("check ", Facts, Check),
+          done(Page, Check),
+          string_concat("begin mine ", Facts, Begin),
+          done(Page, Begin),
+          frame_with(Page, Frame, Frame.name == "mine", 500),
+          Frame.world.bounds == [0, 0, 100, 80],
+          Frame.world.start == [50, 40, 90],
+          Frame.world.ambient == 7,
+          Frame.robot.true == [50, 40, 90],
+          done(Page, "place 70 40 0"),
+          done(Page, "reset"),
+          page_ask(Page, "next", Last),
+          Last.name == "mine",
+          Last.robot.true == [50, 40, 90] )).
+
+:- end_tests(view_worlds).
 
 :- begin_tests(view_brick).
 

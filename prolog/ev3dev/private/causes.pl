@@ -3,7 +3,8 @@
             begins/1,                   % +Cause
             follow/1,                   % +Closure
             follow_no_more/0,
-            causes/2                    % +Number, -Causes
+            causes/2,                   % +Number, -Causes
+            active_clause/1             % -Clause
           ]).
 :- use_module(errors, [in_own_name/1]).
 :- use_module(native, [cause_/2, cause_active_/1]).
@@ -58,6 +59,13 @@ begins(Cause) :-
     ->  ignore(call(Closure, Cause))
     ;   true
     ).
+
+%!  active_clause(-Clause) is nondet.
+%
+%   This thread acts for Clause of the program now, though it is in none of
+%   its frames. A library that knows adds a clause.
+
+:- multifile active_clause/1.
 
 note(Number, Former, Cause) :-
     in_own_name(assertz(cause(Number, Former, Cause))),  % none that is cyclic

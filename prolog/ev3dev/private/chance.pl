@@ -1,5 +1,6 @@
 :- module(ev3dev_chance,
-          [ begin_chance/1,             % +Seed
+          [ begin_chance_of/1,          % +Options
+            begin_chance/1,             % +Seed
             end_chance/0,
             branch_seed/1,              % -Seed
             seed_branch/1               % +Seed
@@ -11,6 +12,21 @@ Prolog has a generator for each thread, and for each engine; library(random)
 draws from it, too, and need not be loaded here. So what was before is a
 global variable, which each of them has for itself.
 */
+
+:- use_module(arguments, [option/2]).
+
+%!  begin_chance_of(+Options) is det.
+%
+%   Draw the numbers that the Options of sim_start/2 ask for: by the virtual
+%   clock those of 1, if there is no other seed.
+
+begin_chance_of(Options) :-
+    (   option(seed(Seed), Options)
+    ->  begin_chance(Seed)
+    ;   option(clock(virtual), Options)
+    ->  begin_chance(1)
+    ;   end_chance
+    ).
 
 %!  begin_chance(+Seed) is det.
 %!  end_chance is det.

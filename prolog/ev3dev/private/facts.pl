@@ -1,5 +1,7 @@
 :- module(ev3dev_facts,
           [ located_facts/3,            % +Kind, +Source, -Located
+            facts_of_text/3,            % +Kind, +Text, -Located
+            shipped/2,                  % +Kind, -Name
             source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
@@ -36,6 +38,16 @@ located_facts(Kind, Source, Located) :-
     setup_call_cleanup(
         open(File, read, Stream, [encoding(utf8)]),
         read_facts(Stream, Kind, File, Located),
+        close(Stream)).
+
+%!  facts_of_text(+Kind, +Text, -Located) is det.
+%
+%   The same for what would stand in a file.
+
+facts_of_text(Kind, Text, Located) :-
+    setup_call_cleanup(
+        open_string(Text, Stream),
+        read_facts(Stream, Kind, text, Located),
         close(Stream)).
 
 %!  source_location(+Kind, +Source, -Location) is det.
@@ -76,6 +88,10 @@ shipped(Kind, Name, File) :-
     shipped_path(Kind, Name, Path),
     absolute_file_name(Path, File),
     exists_file(File).
+
+%!  shipped(+Kind, -Name) is nondet.
+%
+%   The pack has a `world` or a `robot` called Name.
 
 shipped(Kind, Name) :-
     shipped_path(Kind, *, Pattern),

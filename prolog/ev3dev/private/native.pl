@@ -117,6 +117,7 @@
             sim_clock_/1,
             sim_collisions_/1,
             sim_detecting_/1,
+            sim_fault_/3,
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
@@ -396,6 +397,7 @@ missing.
 %!  sim_clock_(-Seconds) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
 %!  sim_detecting_(+Port) is semidet.
+%!  sim_fault_(+World, +Robot, -Fault) is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.
 %!  sim_mount_(+Directory, ?DevDirectory) is semidet.
 %!  sim_place_(+X, +Y, +Heading) is semidet.

@@ -1,6 +1,7 @@
 // STOP, time, driving with the arrow keys, and the menus.
 
 import { $, attribute, el, notice, pressed, toggle } from './dom.js';
+import { Choices } from './choices.js';
 import { LAYERS } from './world.js';
 
 const PACES = [['x1', '×1'], ['x2', '×2'], ['x10', '×10'], ['max', 'max']];
@@ -12,6 +13,7 @@ export class Hands {
   constructor(wire, world, charts, log, ports) {
     Object.assign(this, { wire, world, charts, log, ports });
     this.held = new Set();
+    this.choices = new Choices((line) => wire.send(line), this);
     this.paces = new Map(PACES.map(([pace, name]) => {
       const button = el('button', { type: 'button', 'aria-pressed': 'false', title: pace === 'max' ? 'As fast as possible' : `${name.slice(1)} times as fast as real` }, name);
       button.addEventListener('click', () => wire.send(`pace ${pace}`));
@@ -19,6 +21,7 @@ export class Hands {
     }));
     $('speeds').append(...this.paces.values());
     $('stop').addEventListener('click', () => this.stop());
+    $('reset').addEventListener('click', () => this.reset());
     $('pause').addEventListener('click', () => this.pause());
     $('step').addEventListener('click', () => wire.send('step'));
     $('zoom-in').addEventListener('click', () => world.zoom(1.5));
@@ -59,11 +62,13 @@ export class Hands {
 
   take(model) {
     this.model = model;
+    this.choices.take(model);
     const { clock } = model.frame;
     const { simulated } = model;
     this.latch(model.frame.program?.latched === true);
     $('transport').hidden = !simulated;
     toggle(document.body, 'real', !simulated);
+    toggle(document.body, 'nothing', model.frame.source === 'none');
     if (simulated && clock) {
       pressed($('pause'), clock.paused);
       const words = clock.paused ? 'Go on' : 'Pause';
@@ -92,6 +97,13 @@ export class Hands {
 
   pause() {
     this.wire.send(this.model?.frame.clock?.paused ? 'resume' : 'pause');
+  }
+
+  /** Robot, things and time as at the start of the world; a program that runs is stopped. */
+  reset() {
+    this.letGo();
+    this.ended = this.model?.frame.program?.state === 'running';
+    this.wire.send('reset');
   }
 
   follow() {
@@ -172,6 +184,9 @@ export class Hands {
       f: () => this.follow(),
       m: () => world.use('measure'),
       b: () => model?.simulated && world.use('add-box'),
+      r: () => model?.simulated && this.reset(),
+      e: () => $('edit').click(),
+      p: () => $('program-open').click(),
       d: () => this.drive(!this.driving),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];
@@ -241,7 +256,10 @@ export class Hands {
     const taken = this.model.snapshots ?? [];
     let n = 1;
     while (taken.includes(`snapshot-${n}`)) n += 1;
+    // Without a robot one can only begin a simulation.
+    if (!this.model.simulated) return this.choices.entries();
     return [
+      ...this.choices.entries(),
       entry('Take a snapshot', () => this.wire.send(`save snapshot-${n}`)),
       ...taken.map((name) => entry(`Go back to ${name}`, () => this.wire.send(`restore ${name}`))),
       entry('Save the world as facts', () => el('a', { href: 'world.pl', download: 'world.pl' }).click()),
@@ -250,9 +268,12 @@ export class Hands {
   }
 
   /** What the program answered to a hand. */
-  reply({ type, what, why, id }) {
+  reply(message) {
+    if (this.choices.reply(message)) return;
+    const { type, what, why, id } = message;
     if (what === 'place') this.world.answered();
     if (type === 'refused') notice(sentence(why ?? `It cannot ${what}.`), { seconds: 6 });
+    else if (what === 'reset') notice(`${this.ended ? 'The program was stopped. ' : ''}Everything is as at the start.`, { seconds: 3 });
     else if (what === 'save') notice('The snapshot is taken.', { seconds: 3 });
     if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);
   }

@@ -97,6 +97,7 @@ export class Log {
     };
     row.box = el('li', { class: line.kind, hidden: this.hidden.has(group(line.kind)) },
       row.time, el('span', { class: 'kind', title: line.kind }), el('span', { class: 'text' }, row.words, row.times, row.why));
+    if (Number.isFinite(line.time)) row.box.dataset.time = line.time;
     this.fill(row, line);
     this.list.append(row.box);
     return row;

@@ -3,10 +3,13 @@
 import { $, clock, notice, text, toggle } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
+import { Editor } from './editor.js';
 import { Hands } from './hands.js';
 import { Log } from './log.js';
-import { Model } from './model.js';
+import { KEPT, Model } from './model.js';
 import { Ports } from './ports.js';
+import { Program } from './program.js';
+import { Timeline, goTo } from './timeline.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
 
@@ -29,10 +32,15 @@ const world = new World(send);
 const charts = new Charts(() => model.frame && ports.take(model));
 const ports = new Ports(send, (column) => charts.plot(column), (column) => charts.plotted(column));
 const brick = new Brick(send);
+const program = new Program(send);
 const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
-const panels = [ports, brick, hands, log, charts];
+const timeline = new Timeline(show);
+const editor = new Editor(send, world, edited);
+/** Those that go back with the timeline, and those that are always of now. */
+const scenes = [ports, brick, program];
+const panels = [hands, log, charts];
 
 // ----------------------------------------------------------------- the line
 
@@ -49,7 +57,7 @@ function state(name) {
 
 function reply(message) {
   if (message.type === 'answer') log.answer(message);
-  else hands.reply(message);
+  else if (!editor.reply(message) && !program.reply(message)) hands.reply(message);
 }
 
 function frame(next) {
@@ -59,12 +67,42 @@ function frame(next) {
   arrived = now;
   const came = model.take(next);
   for (const panel of panels) panel.take(model, came);
-  world.take(model, came, interval);
+  timeline.take(model);
+  editor.take(model);
+  if (!timeline.past && !editor.open) {
+    for (const scene of scenes) scene.take(model, came);
+    world.take(model, came, interval);
+  }
   heading();
   if (came.has('world')) layout();
   waiting = true;
   if (!animation) animation = requestAnimationFrame(draw);
 }
+
+/** Another moment of the run, or now again. */
+function show(moment) {
+  if (editor.open) return;
+  for (const scene of scenes) scene.take(moment, new Set(KEPT));
+  world.show(moment);
+}
+
+/** The editor was opened or closed. */
+function edited() {
+  $('editor').hidden = !editor.open;
+  if (!editor.open) {
+    show(model);
+    world.unfollow(() => world.fit());
+  }
+}
+
+$('edit').addEventListener('click', () => {
+  if (editor.open) editor.leave();
+  else if (model.simulated) {
+    goTo(null);
+    world.unfollow(() => world.fit());
+    editor.enter(model);
+  }
+});
 
 /** A hidden page draws nothing, and so asks for nothing. */
 function draw(time) {
@@ -101,7 +139,7 @@ function heading() {
 function emptiness() {
   const { frame: now } = model;
   const known = now?.robot?.true || now?.robot?.believed;
-  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one.'
+  const words = now?.source === 'none' ? 'No robot and no simulation yet. The first use of a motor or sensor chooses one; the three dots begin a simulation.'
     : !known && !model.world ? 'Where the robot is, is not known. set_robot/4 and pose/3 say it.' : '';
   $('world-empty').hidden = !words;
   text($('world-empty'), words);
@@ -118,7 +156,7 @@ function layout() {
   const main = $('main').getBoundingClientRect();
   const free = world.margins;
   const [sides, ends] = [free.left + free.right, free.top + free.bottom];
-  const tall = main.height - pad;
+  const tall = main.height - pad - gap - 44;
   const most = main.width - 2 * pad - 2 * gap - 276 - 340;
   const tallest = Math.max(300, tall - gap - (tall > 900 ? 280 : 228));
   const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
@@ -163,6 +201,10 @@ function shown() {
     tool: world.tool,
     following: world.following,
     driving: hands.driving === true,
+    past: timeline.past && { t: timeline.t, robot: timeline.past.frame.robot, items: timeline.past.world?.items ?? [], ports: timeline.past.frame.ports },
+    recorded: timeline.kept.length,
+    active: model.active ?? [],
+    edits: editor.open ? { draft: editor.draft, selected: editor.thing(), tool: editor.tool, undo: editor.past.length, redo: editor.future.length, waits: editor.pending.length, folder: editor.folder } : null,
     selected: world.selected === null ? null : world.selected.kind ?? world.selected,
     measured: world.measured?.[1] ? Math.hypot(world.measured[1][0] - world.measured[0][0], world.measured[1][1] - world.measured[0][1]) : null,
     words: world.words ?? '',

@@ -45,6 +45,8 @@ export class World {
     this.trail = { age: -1 };
     this.motion = null;
     this.model = null;
+    /** An editor, while it has the world. */
+    this.editing = null;
     this.colors();
     this.calm = matchMedia('(prefers-reduced-motion: reduce)');
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
@@ -223,6 +225,20 @@ export class World {
     this.describe();
   }
 
+  /** Another moment, at once. */
+  show(model) {
+    this.model = model;
+    this.motion = this.now = null;
+    if (!model.simulated) {
+      this.selected = null;
+      if (['robot', 'item', 'box'].includes(this.drag?.kind)) this.drag = null;
+    }
+    this.told();
+    this.legend();
+    this.describe();
+    this.draw();
+  }
+
   /** What is drawn now, so that the next frame can begin there. */
   still() {
     const { frame } = this.model ?? {};
@@ -262,7 +278,7 @@ export class World {
 
   describe() {
     const { frame, world } = this.model;
-    const parts = [];
+    const parts = this.model.until === undefined ? [] : [`As it was at ${num(this.model.time, 2)} s.`];
     if (world) {
       const things = (world.items ?? []).filter((item) => ['wall', 'box', 'circle'].includes(item.kind)).length;
       const size = world.bounds ? `, ${num(world.bounds[2] - world.bounds[0])} by ${num(world.bounds[3] - world.bounds[1])} cm` : '';
@@ -450,17 +466,19 @@ export class World {
 
   /** The whole way faintly, the last of it clearly. */
   drawTrails(c, robot) {
-    const { samples, age, thinned } = this.model;
+    const { samples, age, thinned, until } = this.model;
+    const end = until ?? samples.time.length;
     if (this.trail.age !== age || this.trail.thinned !== thinned) {
       this.trail = { age, thinned, true: { path: new Path2D(), from: 0 }, believed: { path: new Path2D(), from: 0 } };
     }
     const lines = [['true', 'x', 'y', robot.true, this.dark ? '#dcb400' : '#9a7400', 1.8, []]];
     if (this.shown.believed) lines.push(['believed', 'bx', 'by', robot.pose, this.paint.blue, 1.4, [1, 4]]);
-    for (const [name, xs, ys, end, color, width, dash] of lines) {
-      const line = this.trail[name];
+    for (const [name, xs, ys, here, color, width, dash] of lines) {
+      // The way up to a moment of the past is not kept.
+      const line = until === undefined ? this.trail[name] : { path: new Path2D(), from: 0 };
       const [x, y] = [samples.columns.get(xs), samples.columns.get(ys)];
       if (!x || !y) continue;
-      for (; line.from < samples.time.length; line.from += 1) this.extend(line, line.path, x, y, line.from);
+      for (; line.from < end; line.from += 1) this.extend(line, line.path, x, y, line.from);
       c.strokeStyle = color;
       c.lineWidth = width * this.dot;
       c.globalAlpha = 0.3;
@@ -468,8 +486,8 @@ export class World {
       c.globalAlpha = 1;
       const recent = { last: null };
       const path = new Path2D();
-      for (let i = after(samples.time, this.model.time - CLEAR); i < samples.time.length; i += 1) this.extend(recent, path, x, y, i);
-      if (end && recent.last && Math.hypot(end[0] - recent.last[0], end[1] - recent.last[1]) < 12) path.lineTo(end[0], end[1]);
+      for (let i = after(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
+      if (here && recent.last && Math.hypot(here[0] - recent.last[0], here[1] - recent.last[1]) < 12) path.lineTo(here[0], here[1]);
       c.setLineDash(dash.map((n) => n * this.dot));
       c.stroke(path);
       c.setLineDash([]);
@@ -728,6 +746,7 @@ export class World {
 
   drawHands(c) {
     const { dot } = this;
+    this.editing?.draw(c, this);
     if (this.selected === 'robot' && !this.drag) {
       const handle = this.handle();
       if (handle) {
@@ -808,7 +827,7 @@ export class World {
       event.preventDefault();
       if (this.width) this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), [event.offsetX, event.offsetY]);
     }, { passive: false });
-    canvas.addEventListener('dblclick', () => { if (this.tool === 'move') this.unfollow(() => this.fit()); });
+    canvas.addEventListener('dblclick', () => { if (this.tool === 'move' && !this.editing) this.unfollow(() => this.fit()); });
   }
 
   unfollow(act) {
@@ -825,11 +844,22 @@ export class World {
     const near = (point, reach) => point && Math.hypot(place[0] - point[0], place[1] - point[1]) <= reach;
     if (this.selected === 'robot' && near(this.handle(), GRAB * this.dot)) return { kind: 'turn' };
     if (near(frame.robot?.true, Math.max(this.reach(), GRAB * this.dot))) return { kind: 'robot' };
-    for (const item of [...(world?.items ?? [])].reverse()) {
-      if (!['box', 'circle', 'lamp', 'beacon'].includes(item.kind)) continue;
-      if (flat().isPointInPath(this.shape(item), place[0], place[1])) return { kind: 'item', item };
+    const item = [...(world?.items ?? [])].reverse().find((each) => ['box', 'circle', 'lamp', 'beacon'].includes(each.kind) && this.covers(each, place));
+    return item ? { kind: 'item', item } : null;
+  }
+
+  /** Whether a thing is at a place; what is thin is so within a reach. */
+  covers(item, [x, y], reach = 0) {
+    const context = flat();
+    if (item.kind !== 'line' && item.kind !== 'patch') {
+      context.lineWidth = 2 * reach;
+      const path = this.shape(item);
+      return context.isPointInPath(path, x, y) || (reach > 0 && context.isPointInStroke(path, x, y));
     }
-    return null;
+    const path = new Path2D();
+    item.points.forEach(([px, py], i) => (i ? path.lineTo(px, py) : path.moveTo(px, py)));
+    context.lineWidth = Math.max(item.width ?? 0, 2 * reach);
+    return item.kind === 'patch' ? context.isPointInPath(path, x, y) : context.isPointInStroke(path, x, y);
   }
 
   down(event) {
@@ -847,7 +877,9 @@ export class World {
     if (this.tool === 'measure') {
       this.measured = this.measured && !this.measured[1] ? [this.measured[0], place] : [place, null];
       this.told();
-    } else if (this.tool === 'add-box') {
+    } else if (this.editing?.down(place)) {
+      this.drag = { kind: 'edit' };
+    } else if (this.tool === 'add-box' && this.model.simulated) {
       this.drag = { kind: 'box', from: place, to: place };
     } else {
       const found = this.at(place);
@@ -886,6 +918,7 @@ export class World {
         toggle(this.canvas, 'over-box', kind === 'item');
       }
       if (this.measured && !this.measured[1]) this.draw();
+      this.editing?.move(place);
       return;
     }
     if (this.start && Math.hypot(pixel[0] - this.start[0], pixel[1] - this.start[1]) > 3) this.moved = true;
@@ -905,6 +938,9 @@ export class World {
       this.camera.y += drag.place[1] - place[1];
       this.camera.own = true;
       this.changed?.();
+    } else if (drag.kind === 'edit') {
+      this.editing?.move(place);
+      return;
     } else if (drag.kind === 'box') drag.to = place;
     else if (drag.turn) drag.at[2] = Math.round(Math.atan2(place[0] - drag.at[0], place[1] - drag.at[1]) / TURN);
     else if (drag.kind === 'robot') [drag.at[0], drag.at[1]] = [place[0] + drag.off[0], place[1] + drag.off[1]];
@@ -919,6 +955,7 @@ export class World {
     if (drag?.kind === 'pinch' && this.pointers.size) return;
     this.drag = null;
     toggle(this.canvas, 'grabbing', false);
+    if (drag?.kind === 'edit') return this.editing?.up(canceled);
     if (!drag || canceled) return this.draw();
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);

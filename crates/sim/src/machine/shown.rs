@@ -109,6 +109,19 @@ impl Machine {
         self.scene.floor
     }
 
+    /// Light from everywhere, temperature and loudness, as in the facts of a world.
+    #[must_use]
+    pub fn surroundings(&self) -> [f64; 3] {
+        let scene = &self.scene;
+        [scene.ambient, scene.temperature, scene.loudness]
+    }
+
+    /// Where the robot starts in this world.
+    #[must_use]
+    pub fn start(&self) -> Pose {
+        self.scene.start
+    }
+
     /// The device at a port.
     #[must_use]
     pub fn shown(&self, port: Port) -> Shown {

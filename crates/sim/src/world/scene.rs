@@ -24,6 +24,8 @@ pub(crate) struct Scene {
     pub(crate) ambient: f64,
     pub(crate) temperature: f64,
     pub(crate) loudness: f64,
+    /// Where the robot starts.
+    pub(crate) start: Pose,
     /// What is held down on each channel of remote controls.
     pub(crate) remotes: [Remote; CHANNELS],
     next_id: u32,
@@ -40,6 +42,7 @@ impl Scene {
             ambient: spec.ambient,
             temperature: spec.temperature,
             loudness: spec.loudness,
+            start: spec.start,
             remotes: [Remote::NONE; CHANNELS],
             next_id: 1,
         };

@@ -141,6 +141,15 @@ fn things_move_but_not_into_the_robot() {
 }
 
 #[test]
+fn the_start_is_known_wherever_the_robot_is() {
+    let mut machine = machine();
+    let start = machine.start();
+    assert_eq!(start, machine.pose());
+    machine.place(Pose::new(150.0, 20.0, 90.0)).unwrap();
+    assert_eq!(machine.start(), start);
+}
+
+#[test]
 fn the_world_is_written_as_facts() {
     let machine = Machine::new(
         &WorldSpec {

@@ -1,5 +1,6 @@
 :- module(ev3dev_view_hands,
           [ hand_line/3,                % +Word, +Rest, -Answer
+            name_of/2,                  % +Text, -Name
             hands_end/0
           ]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -158,7 +159,10 @@ digit(Code) :-
     Code >= 0'0,
     Code =< 0'9.
 
+%!  name_of(+Text, -Name) is semidet.
+%
 %   Letters, digits, `_` and `-`.
+
 name_of(Text, Name) :-
     string_length(Text, Length),
     between(1, 32, Length),
@@ -211,11 +215,11 @@ hand(plug(Port, Type), done([])) :-
     sim_plug_(Port, Type).
 hand(hold(Port, Holds), done([])) :-
     sim_jam_(Port, Holds).
-hand(add(Fact), done([id(Id)])) :-
+hand(add(Fact), done([id=Id])) :-
     sim_add_(Fact, Id),
     added_facts(Added),
     set_added_facts([Fact-Id|Added]).
-hand(move(Id, X, Y, H), done([id(Id)])) :-
+hand(move(Id, X, Y, H), done([id=Id])) :-
     view_move_(Id, X, Y, H),
     moved(Id, X, Y, H).
 hand(remove(Id), done([])) :-

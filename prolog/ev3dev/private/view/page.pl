@@ -15,6 +15,8 @@
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
               ]).
+:- use_module(source, [renew_active/0, source_leave/1, source_line/4]).
+:- use_module(worlds, [world_line/3]).
 
 /** <module> The conversations with pages
 
@@ -99,7 +101,7 @@ page_serve(Page) :-
     setup_call_cleanup(
         true,
         ignore(catch(( probe_program, converse(Page, none, 0) ), _, true)),
-        ( goals_end(Page), view_leave_(Page) )).
+        ( goals_end(Page), source_leave(Page), view_leave_(Page) )).
 
 %   Wanted is what the page has that wants a frame, or `none`; Last is when it
 %   got the last one.
@@ -150,6 +152,7 @@ frame_send(Page, Have) :-
     settings(_, Rate, Goals),
     program_state(State),
     renew_kept,
+    renew_active,
     log_commands,
     view_frame_(Page, Have, State, Rate, Goals).
 
@@ -191,23 +194,30 @@ line(Word, Rest, Page) :-
     ;   refused(Page, Word, "Goals are not allowed: view([goals(true)]).")
     ).
 line(Word, Rest, Page) :-
-    hand_line(Word, Rest, Answer),
+    (   world_line(Word, Rest, Answer)
+    ->  true
+    ;   source_line(Word, Rest, Page, Answer)
+    ->  true
+    ;   hand_line(Word, Rest, Answer)
+    ),
     (   Answer = done(More)
     ->  done(Page, Word, More)
     ;   Answer = refused(Why)
     ->  refused(Page, Word, Why)
+    ;   Answer = refused(Why, More)
+    ->  refused(Page, Word, Why, More)
     ;   true
     ).
 
 done(Page, Word, More) :-
-    (   More = [id(Id)]
-    ->  view_say_(Page, json([type=done, what=Word, id=Id]))
-    ;   view_say_(Page, json([type=done, what=Word]))
-    ).
+    view_say_(Page, json([type=done, what=Word|More])).
 
-refused(Page, Word, Why0) :-
+refused(Page, Word, Why) :-
+    refused(Page, Word, Why, []).
+
+refused(Page, Word, Why0, More) :-
     (   string(Why0)
     ->  Why = Why0
     ;   error_text(Why0, Why)
     ),
-    view_say_(Page, json([type=refused, what=Word, why=Why])).
+    view_say_(Page, json([type=refused, what=Word, why=Why|More])).

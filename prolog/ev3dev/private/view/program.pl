@@ -4,6 +4,7 @@
             program_state/1,            % -State
             probe_program/0,
             stop_program/0,
+            end_program/1,              % +Seconds
             lift_latch/0,
             view_thread/0
           ]).
@@ -144,14 +145,33 @@ stop_program :-
     stop_motors,
     with_mutex(ev3dev_view_stop, begin_to_stop).
 
+%!  end_program(+Seconds) is semidet.
+%
+%   The same, and wait for the end of the program. Fails if it has not ended
+%   after so long.
+
+end_program(Seconds) :-
+    stop_program,
+    get_time(Now),
+    End is Now + Seconds,
+    until_stopped(End).
+
+until_stopped(End) :-
+    (   is_stopping
+    ->  get_time(Now),
+        Now < End,
+        sleep(0.01),
+        until_stopped(End)
+    ;   true
+    ).
+
 stop_motors :-
     catch(view_stop_motors_, _, true),
     !.
 stop_motors.
 
 begin_to_stop :-
-    stopping(Thread),
-    catch(thread_property(Thread, status(running)), _, fail),
+    is_stopping,
     !.
 begin_to_stop :-
     retractall(stopping(_)),
@@ -258,11 +278,15 @@ until_over(Thread, Seconds) :-
 
 lift_latch :-
     with_mutex(ev3dev_view_stop,
-               (   stopping(Thread),
-                   catch(thread_property(Thread, status(running)), _, fail)
+               (   is_stopping
                ->  true
                ;   view_lift_
                )).
+
+is_stopping :-
+    stopping(Thread),
+    catch(thread_property(Thread, status(running)), _, fail),
+    !.
 
 %!  view_thread is det.
 %

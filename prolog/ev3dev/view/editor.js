@@ -1,0 +1,539 @@
+// The editor of a world. It works on a draft, so the world that is simulated stays as it is
+// until the draft is started in its place. Each change is checked by the program, which knows
+// where the robot can stand; one that is refused is undone.
+
+import { $, attribute, download, el, icon, notice, pressed, text, toggle } from './dom.js';
+import { COLORS, EMPTY, KINDS, draftOf, factsOf, named, outside, worldOf } from './things.js';
+
+const TOOLS = [['wall', 'Wall'], ['box', 'Box'], ['circle', 'Circle'], ['line', 'Line'], ['patch', 'Patch'], ['lamp', 'Lamp']];
+const NEAR = 12;
+/** A line to the program has at most 64 kB. */
+const LONGEST = 60000;
+const ARROWS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
+const round = (place) => place.map(Math.round);
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+export class Editor {
+  /** `changed` is called when the editor opens or closes. */
+  constructor(send, world, changed) {
+    Object.assign(this, { send, world, changed, open: false, draft: null, past: [], future: [], pending: [], ignored: 0, selected: null });
+    this.tool = null;
+    this.folder = null;
+    this.build();
+    document.addEventListener('keydown', (event) => { if (this.open) this.key(event); }, true);
+  }
+
+  build() {
+    const button = (words, act, props = {}) => {
+      const made = el('button', { type: 'button', class: 'tool text', ...props }, words);
+      made.addEventListener('click', act);
+      return made;
+    };
+    const sign = (name, words, act) => button(icon(name), act, { class: 'tool', title: words, 'aria-label': words });
+    this.undoing = sign('undo', 'Undo (Ctrl Z)', () => this.undo());
+    this.redoing = sign('redo', 'Do it again (Ctrl Y)', () => this.redo());
+    this.tools = new Map(TOOLS.map(([kind, words]) => [kind, button(words, (event) => this.pick(kind, event.detail === 0), { 'aria-pressed': 'false', title: `Draw: ${words.toLowerCase()}` })]));
+    this.hint = el('p', { class: 'hint-text', role: 'status' });
+    this.fields = el('form', { class: 'fields' });
+    this.fields.addEventListener('submit', (event) => event.preventDefault());
+    this.list = el('ul', { class: 'things', 'aria-label': 'What is in the world' });
+    this.name = el('input', { type: 'text', maxLength: 32, spellcheck: false, autocomplete: 'off', id: 'edit-name' });
+    this.file = el('input', { type: 'file', accept: '.pl', hidden: true, 'aria-label': 'A world to open' });
+    this.file.addEventListener('change', () => this.opened());
+    this.saving = button('Save', () => this.save('write'));
+    $('editor').append(
+      el('header', {}, el('h2', { id: 'editor-title' }, 'Edit the world'), el('div', { class: 'actions' }, this.undoing, this.redoing, sign('close', 'Back to the robot', () => this.leave()))),
+      el('div', { class: 'kinds', role: 'group', 'aria-label': 'Draw' }, ...this.tools.values()),
+      this.hint, this.fields, this.list,
+      el('div', { class: 'files' },
+        el('label', { for: 'edit-name' }, 'Name'), this.name,
+        button('Start', () => this.begin(), { class: 'tool text main', title: 'Start this world: the robot stands at its start, a program that runs is stopped' }),
+        this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts: it is started' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
+    );
+  }
+
+  // ------------------------------------------------------------- open and close
+
+  enter(model) {
+    this.model = model;
+    if (!this.draft || this.base !== model.world) {
+      this.name.value = plain(model.name) || 'my_world';
+      this.begins(draftOf(model.world));
+    }
+    this.send('worlds');
+    this.turn(true);
+    this.render();
+  }
+
+  leave() {
+    this.stopDrawing();
+    this.turn(false);
+    $('edit').focus();
+  }
+
+  turn(open) {
+    this.open = open;
+    this.world.editing = open ? this : null;
+    toggle(document.body, 'editing', open);
+    toggle(this.world.canvas, 'adding', false);
+    pressed($('edit'), open);
+    this.changed();
+  }
+
+  /** Another world; a draft that was not started is there by undo. */
+  begins(draft) {
+    if (this.past.length && factsOf(draft) !== factsOf(this.draft)) this.past.push(this.draft);
+    else this.past = [];
+    Object.assign(this, { draft, base: this.model.world, future: [], pending: [], selected: 'around' });
+  }
+
+  /** Frames of the world that runs: only one that was opened here matters. */
+  take(model) {
+    this.model = model;
+    if (!this.open || !this.opening || !model.frame.new) return;
+    this.opening = false;
+    this.begins(draftOf(model.world));
+    this.name.value = plain(model.name) || this.name.value;
+    this.world.camera.own = false;
+    this.render();
+  }
+
+  /** The draft, as the world shows a model. */
+  get picture() {
+    const { model } = this;
+    const draft = this.drawn ?? this.draft;
+    const { x, y, h } = draft.start;
+    const picture = Object.create(model);
+    Object.assign(picture, {
+      world: worldOf(draft, model.world?.view ?? [-50, -50, 250, 200]), path: null, grid: null, log: [], name: this.name.value,
+      samples: { time: [], columns: new Map(), units: new Map() }, age: -1,
+      frame: { ...model.frame, robot: { true: [x, y, h], believed: null }, see: [], beams: draft.items.map(({ id }) => ({ id, power: 1 })) },
+    });
+    Object.defineProperty(picture, 'simulated', { value: false });
+    return picture;
+  }
+
+  // ------------------------------------------------------------- changes
+
+  thing(which = this.selected, draft = this.drawn ?? this.draft) {
+    if (which === 'around' || which === 'start') return draft[which];
+    return draft.items.find((item) => item.id === which);
+  }
+
+  /** The draft with a thing in the place of another. */
+  with(which, thing) {
+    if (which === 'around' || which === 'start') return { ...this.draft, [which]: thing };
+    return { ...this.draft, items: this.draft.items.map((item) => (item.id === which ? thing : item)) };
+  }
+
+  put(which, thing) {
+    if (!same(thing, this.thing(which, this.draft))) this.change(this.with(which, thing), thing);
+    else this.render();
+  }
+
+  add(thing) {
+    const id = Math.max(0, ...this.draft.items.map((item) => item.id)) + 1;
+    const added = { ...thing, id };
+    if (this.change({ ...this.draft, items: [...this.draft.items, added] }, added)) this.select(id);
+  }
+
+  remove() {
+    const { selected } = this;
+    if (typeof selected !== 'number') return;
+    this.selected = 'around';
+    this.change({ ...this.draft, items: this.draft.items.filter((item) => item.id !== selected) });
+  }
+
+  /** Another draft; answers whether it may be. */
+  change(draft, thing = null) {
+    const why = (thing && outside(thing, draft.around)) ?? [draft.start, ...draft.items].map((each) => (same(draft.around.bounds, this.draft.around.bounds) ? null : outside(each, draft.around))).find(Boolean);
+    if (why) {
+      notice(why, { seconds: 6 });
+      this.render();
+      return false;
+    }
+    const facts = factsOf(draft);
+    if (!this.fits(facts)) return false;
+    this.pending.push(this.past.length);
+    this.past.push(this.draft);
+    this.future = [];
+    this.draft = draft;
+    this.send(`check ${facts}`);
+    this.render();
+    return true;
+  }
+
+  fits(facts) {
+    const size = new TextEncoder().encode(facts).length;
+    if (size > LONGEST) notice(`The world has ${size} bytes of facts. The page can send ${LONGEST}.`, { seconds: 6 });
+    return size <= LONGEST;
+  }
+
+  undo() {
+    if (!this.past.length || this.pending.length) return;
+    this.future.push(this.draft);
+    this.draft = this.past.pop();
+    this.render();
+  }
+
+  redo() {
+    if (!this.future.length || this.pending.length) return;
+    this.past.push(this.draft);
+    this.draft = this.future.pop();
+    this.render();
+  }
+
+  /** What the program answered; whether it was a question of ours. */
+  reply({ type, what, why, line, ...more }) {
+    const refused = type === 'refused';
+    if (what === 'check') {
+      if (this.ignored) this.ignored -= 1;
+      else if (this.pending.length && refused) this.refuse(why);
+      else this.pending.shift();
+    } else if (what === 'begin') {
+      if (refused) {
+        notice(line && this.opening ? `Line ${line}: ${why}` : sentence(why), { seconds: 8 });
+        this.opening = false;
+      } else if (!this.opening) {
+        this.past = [];
+        this.leave();
+        notice('The robot stands at the start of this world.', { seconds: 3 });
+      }
+    } else if (what === 'write' || what === 'rewrite') {
+      if (more.exists) notice(why, { act: ['Replace it', () => this.save('rewrite')] });
+      else notice(refused ? sentence(why) : `Saved as ${more.file}.`, { seconds: 6 });
+    } else if (what === 'worlds') {
+      this.folder = more.writes ? more.directory : null;
+      this.saving.hidden = !this.folder;
+      if (this.folder) this.saving.title = `Save in ${this.folder}`;
+      return false;
+    } else return false;
+    return true;
+  }
+
+  /** The first change that is refused goes, and what was built on it. */
+  refuse(why) {
+    const [to] = this.pending;
+    this.ignored = this.pending.length - 1;
+    this.pending = [];
+    this.draft = this.past[to];
+    this.past.length = to;
+    if (!this.thing()) this.selected = 'around';
+    notice(sentence(why), { seconds: 6 });
+    this.render();
+  }
+
+  // ------------------------------------------------------------- files
+
+  named() {
+    const name = plain(this.name.value);
+    if (!name) {
+      notice('A name has letters, digits, _ and -, at most 32.', { seconds: 6 });
+      this.name.focus();
+    }
+    return name;
+  }
+
+  begin() {
+    const name = this.named();
+    const facts = factsOf(this.draft);
+    if (name && this.fits(facts)) this.send(`begin ${name} ${facts}`);
+  }
+
+  save(word) {
+    const name = this.named();
+    if (name) this.send(`${word} ${name} ${factsOf(this.draft)}`);
+  }
+
+  download() {
+    const name = this.named();
+    if (name) download(`${name}.pl`, factsOf(this.draft), 'text/plain');
+  }
+
+  async opened() {
+    const [file] = this.file.files;
+    if (!file) return;
+    const facts = await file.text();
+    this.file.value = '';
+    if (!this.fits(facts)) return;
+    this.opening = true;
+    this.send(`begin ${plain(file.name.replace(/\.pl$/, '')) || 'world'} ${facts}`);
+  }
+
+  // ------------------------------------------------------------- the canvas
+
+  pick(kind, byKey) {
+    this.stopDrawing();
+    if (byKey && kind) {
+      // By the keyboard it appears in the middle of what is seen.
+      const { camera } = this.world;
+      const [x, y] = round([camera.x, camera.y]);
+      const half = Math.max(2, Math.round(Math.min(20, 60 / camera.scale) / 2));
+      this.add(KINDS[kind].between([x - half, y - half], [x + half, y + half]));
+      this.fields.querySelector('input')?.focus();
+      return;
+    }
+    this.tool = this.tool === kind ? null : kind;
+    this.render();
+  }
+
+  stopDrawing() {
+    this.tool = this.drawing = this.drawn = null;
+  }
+
+  /** What is at a place: a handle of what is selected, the start, a thing. */
+  at(place) {
+    const { world } = this;
+    const reach = NEAR * world.dot;
+    const near = (point) => Math.hypot(point[0] - place[0], point[1] - place[1]) <= reach;
+    const thing = this.thing();
+    const handle = thing && this.handles(thing).findIndex(near);
+    if (handle >= 0) return { which: this.selected, handle };
+    const { start } = this.draft;
+    if (Math.hypot(start.x - place[0], start.y - place[1]) <= Math.max(world.reach(), reach)) return { which: 'start' };
+    const found = [...this.draft.items].reverse().find((item) => world.covers(item, place, reach / 2));
+    return found ? { which: found.id } : null;
+  }
+
+  handles(thing) {
+    if (!KINDS[thing.kind].handles) return [];
+    const { world } = this;
+    return KINDS[thing.kind].handles(thing, 24 * world.dot, Math.max(world.reach(), 13 * world.dot));
+  }
+
+  /** A finger or the mouse goes down; answers whether that is for the editor. */
+  down(place) {
+    if (this.tool) {
+      const at = round(place);
+      if (this.tool !== 'line') this.drawing = { from: at, to: at };
+      else if (!this.drawing) this.drawing = { points: [at], from: at, to: at };
+      else if (same(at, this.drawing.points[this.drawing.points.length - 1])) this.finish();
+      else this.drawing.points.push(at);
+      return true;
+    }
+    const found = this.at(place);
+    this.select(found?.which ?? 'around');
+    if (!found) return false;
+    this.grabbed = { ...found, thing: this.thing(found.which), place };
+    return true;
+  }
+
+  move(place) {
+    const at = round(place);
+    if (this.drawing) this.drawing.to = at;
+    else if (this.grabbed) {
+      const { which, handle, thing, place: from } = this.grabbed;
+      const kind = KINDS[thing.kind];
+      const next = handle >= 0 ? kind.take(thing, handle, at) : kind.move(thing, round([place[0] - from[0], place[1] - from[1]]));
+      this.drawn = this.with(which, next);
+      this.said(next);
+    } else return;
+    this.world.show(this.picture);
+  }
+
+  up(canceled) {
+    const { drawing, grabbed, tool } = this;
+    if (drawing) {
+      const { from, to } = drawing;
+      const dragged = Math.hypot(to[0] - from[0], to[1] - from[1]) > 1;
+      if (canceled) this.stopDrawing();
+      else if (tool === 'line') {
+        if (drawing.points.length === 1 && dragged) {
+          drawing.points.push(to);
+          this.finish();
+        }
+      } else {
+        this.stopDrawing();
+        this.add(KINDS[tool].between(from, dragged || tool === 'lamp' ? to : [from[0] + 20, from[1] + 20]));
+      }
+    }
+    this.grabbed = null;
+    const { drawn } = this;
+    this.drawn = null;
+    if (drawn && grabbed && !canceled) this.put(grabbed.which, this.thing(grabbed.which, drawn));
+    else this.render();
+  }
+
+  /** The end of a line of several places. */
+  finish() {
+    const points = this.drawing?.points ?? [];
+    this.stopDrawing();
+    if (points.length > 1) this.add({ ...KINDS.line.between(points[0], points[1]), points });
+    else this.render();
+  }
+
+  /** What is being drawn, and the handles. */
+  draw(c, { dot, paint }) {
+    const thing = this.thing();
+    if (this.drawing) {
+      const { from, to, points } = this.drawing;
+      const tool = KINDS[this.tool];
+      const ghost = points ? { ...tool.between(from, to), points: [...points, to] } : tool.between(from, to);
+      const outline = ghost.kind === 'circle' || ghost.kind === 'lamp' ? null : ghost.points ?? (ghost.kind === 'box' ? tool.handles(ghost, 0).slice(0, 4) : [from, to]);
+      c.beginPath();
+      if (outline) outline.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+      else c.arc(ghost.x, ghost.y, ghost.r ?? 4 * dot, 0, 7);
+      if (ghost.kind === 'box' || ghost.kind === 'patch') c.closePath();
+      c.strokeStyle = paint.blue;
+      c.lineWidth = Math.max(2 * dot, ghost.width ?? ghost.thickness ?? 0);
+      c.globalAlpha = 0.7;
+      c.stroke();
+      c.globalAlpha = 1;
+      return;
+    }
+    if (!thing || thing.kind === 'around') return;
+    c.strokeStyle = paint.blue;
+    c.lineWidth = 2 * dot;
+    if (thing.kind !== 'start') {
+      c.beginPath();
+      if (thing.points || thing.from) (thing.points ?? [thing.from, thing.to]).forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+      if (thing.kind === 'patch') c.closePath();
+      c.stroke();
+      if (!thing.points && !thing.from) c.stroke(this.world.shape(thing));
+    }
+    for (const [x, y] of this.handles(thing)) {
+      c.beginPath();
+      c.arc(x, y, 6 * dot, 0, 7);
+      c.fillStyle = paint.card;
+      c.fill();
+      c.stroke();
+    }
+  }
+
+  // ------------------------------------------------------------- the keyboard
+
+  key(event) {
+    const { key, target } = event;
+    const ctrl = event.ctrlKey || event.metaKey;
+    if (key === 'Escape') {
+      // STOP gets it, too.
+      this.stopDrawing();
+      this.render();
+      return;
+    }
+    if (target.closest('input, select, textarea')) return;
+    const step = event.shiftKey ? 10 : 1;
+    const lower = key.toLowerCase();
+    const thing = this.thing();
+    const kind = thing && KINDS[thing.kind];
+    let act = null;
+    if (ctrl && lower === 'z') act = event.shiftKey ? () => this.redo() : () => this.undo();
+    else if (ctrl && lower === 'y') act = () => this.redo();
+    else if (ctrl || event.altKey) return;
+    else if (ARROWS[key] && kind?.move && !target.closest('#time-slider, .charts, .log')) act = () => this.put(this.selected, kind.move(thing, ARROWS[key].map((n) => n * step)));
+    else if ((key === '[' || key === ']') && kind?.turn) act = () => this.put(this.selected, kind.turn(thing, key === '[' ? -15 : 15));
+    else if (key === 'Delete' || key === 'Backspace') act = () => this.remove();
+    else if (key === 'Enter' && this.drawing) act = () => this.finish();
+    // These are of the robot's world.
+    else if ('bdfpr'.includes(lower)) act = () => {};
+    if (!act) return;
+    act();
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  // ------------------------------------------------------------- the card
+
+  select(which) {
+    if (this.selected === which) return;
+    this.selected = which;
+    this.render();
+  }
+
+  render() {
+    if (!this.open) return;
+    if (!this.thing()) this.selected = 'around';
+    this.undoing.disabled = !this.past.length;
+    this.redoing.disabled = !this.future.length;
+    for (const [kind, button] of this.tools) pressed(button, this.tool === kind);
+    toggle(this.world.canvas, 'adding', this.tool !== null);
+    this.said(this.thing());
+    this.renderFields();
+    this.renderList();
+    const { camera } = this.world;
+    this.world.show(this.picture);
+    if (!camera.own) {
+      this.world.fit();
+      this.world.draw();
+    }
+  }
+
+  said(thing) {
+    const drawing = { line: 'Click place by place; click the last one twice, or Enter. Or drag.', lamp: 'Click where it is.' };
+    const words = this.tool ? drawing[this.tool] ?? 'Drag it in the world.' : KINDS[thing.kind].words(thing);
+    text(this.hint, words);
+  }
+
+  renderFields() {
+    const thing = this.thing();
+    const key = `${this.selected} ${JSON.stringify(thing)}`;
+    if (key === this.fieldsKey) return;
+    this.fieldsKey = key;
+    const at = this.fields.contains(document.activeElement) ? [...this.fields.elements].indexOf(document.activeElement) : -1;
+    const rows = KINDS[thing.kind].fields.filter((field) => thing.bounds !== null || !/Left|Bottom|Right|Top/.test(field.words)).map((field, i) => this.row(field, thing, i));
+    if (typeof this.selected === 'number') {
+      const remove = el('button', { type: 'button', class: 'tool text', title: 'Delete (Delete)' }, 'Delete');
+      remove.addEventListener('click', () => this.remove());
+      rows.push(remove);
+    }
+    this.fields.replaceChildren(...rows);
+    attribute(this.fields, 'aria-label', KINDS[thing.kind].words(thing));
+    if (at >= 0) this.fields.elements[Math.min(at, this.fields.elements.length - 1)]?.focus();
+  }
+
+  row(field, thing, i) {
+    const id = `edit-${i}`;
+    const value = field.get(thing);
+    const input = field.kind === 'color'
+      ? el('select', { id }, ...[...new Set([...COLORS.keys(), named(value)])].map((name) => el('option', { value: COLORS.get(name) ?? name, selected: named(value) === name }, name)))
+      : el('input', { id, type: 'text', inputMode: field.kind === 'places' ? 'text' : 'decimal', autocomplete: 'off', spellcheck: false, value: field.kind === 'places' ? value.map((place) => place.join(' ')).join(', ') : String(value ?? '') });
+    input.addEventListener('change', () => {
+      const next = read(field.kind, input.value);
+      this.fieldsKey = '';
+      if (next === null) {
+        notice(field.kind === 'places' ? 'Places are pairs of numbers: 0 0, 100 50' : `${field.words} is a number.`, { seconds: 6 });
+        this.render();
+      } else this.put(this.selected, field.set(thing, next));
+    });
+    return el('div', { class: `field ${field.kind}` }, el('label', { for: id }, field.words), input, el('span', { class: 'unit' }, field.unit ?? ''));
+  }
+
+  renderList() {
+    const things = [['around', this.draft.around], ['start', this.draft.start], ...this.draft.items.map((item) => [item.id, item])];
+    const key = JSON.stringify([this.selected, things]);
+    if (key === this.listKey) return;
+    this.listKey = key;
+    const focused = this.list.contains(document.activeElement);
+    this.list.replaceChildren(...things.map(([which, thing]) => {
+      const button = el('button', { type: 'button', 'aria-pressed': String(which === this.selected) }, KINDS[thing.kind].words(thing));
+      button.addEventListener('click', () => this.select(which));
+      return el('li', {}, button);
+    }));
+    const chosen = this.list.querySelector('[aria-pressed=true]');
+    if (focused) chosen?.focus();
+    if (chosen) {
+      const top = chosen.offsetTop - this.list.offsetTop;
+      this.list.scrollTop = Math.max(top + chosen.offsetHeight - this.list.clientHeight, Math.min(this.list.scrollTop, top));
+    }
+  }
+}
+
+/** What was typed, or null. */
+function read(kind, typed) {
+  if (kind === 'color') return typed;
+  const numbers = (words) => words.trim().split(/\s+/).map((word) => Number(word.replace('−', '-').replace(',', '.')));
+  if (kind === 'number') {
+    const [n, ...rest] = numbers(typed);
+    return typed.trim() && !rest.length && Number.isFinite(n) ? n : null;
+  }
+  const places = typed.split(',').map(numbers);
+  return places.every((place) => place.length === 2 && place.every(Number.isFinite)) ? places : null;
+}
+
+/** A name as the program takes it. */
+const plain = (name) => (name ?? '').replace(/[^A-Za-z0-9_-]+/g, '_').slice(0, 32);
+
+function sentence(words) {
+  const first = words[0].toUpperCase() + words.slice(1);
+  return /[.!?]$/.test(first) ? first : `${first}.`;
+}
