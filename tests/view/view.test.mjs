@@ -325,20 +325,167 @@ group('charts and log', ROOM, '', (it) => {
   });
 });
 
+/** The rows of the log that can be seen. */
+const rows = (page) => page.$$eval('#log li', (all) => all.filter((row) => !row.hidden).map((row) => ({
+  kind: row.className.split(' ')[0], text: row.querySelector('.text').innerText, at: Number(row.querySelector('time')?.textContent),
+})));
+const row = (page, pattern, what = String(pattern)) => until(async () => (await rows(page)).find(({ text }) => pattern.test(text)), what);
+const choose = (page, source) => page.evaluate((pattern) => [...document.querySelectorAll('#log li')].find((each) => new RegExp(pattern).test(each.textContent)).click(), source);
+
+group('the log', [...ROOM, 'use_module(library(ev3dev/rules))', 'use_module(library(ev3dev/journal))'], '', (it) => {
+  test('has what the program prints, between what it does, and not what the toplevel says', async () => {
+    it.session.type('writeln(before), go_cm(30, 3), format("~w~n~w~n", [lines, two]), write(\'no end of line\'), T = secret');
+    await row(it.page, /no end of line/);
+    const { log } = await state(it.page);
+    const of = (pattern) => log.findIndex(({ text }) => pattern.test(text));
+    const places = [/^before$/, /^the robot goes 3 cm/, /^the robot rests/, /^lines\ntwo\nno end of line$/].map(of);
+    assert.ok(places.every((place, i) => place >= 0 && place > (places[i - 1] ?? -1)), JSON.stringify([places, log]));
+    assert.ok(log.every(({ text }) => !/secret|T =/.test(text)), JSON.stringify(log));
+    assert.ok((await rows(it.page)).some(({ kind }) => kind === 'output'));
+  });
+
+  test('has what was asked for, as by why/1', async () => {
+    await it.session.ask('why(robot)');
+    await shows(it.page, (s) => s.log.some(({ kind, text }) => kind === 'output' && /^the robot rests/.test(text)), 'the answer of why/1');
+  });
+
+  test('has STOP in it', async () => {
+    it.session.type('repeat, go(20), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await it.page.click('#stop');
+    await row(it.page, /^STOP: all motors brake, and the program ends$/);
+    await shows(it.page, (s) => s.program.state === 'idle', 'the prompt');
+  });
+
+  test('is chosen by part and by rule, and says why of a line that is clicked', async () => {
+    await it.session.ask('catch(behave([(left :: us_dist_cm(_, D), D > 1 ~> motor_run(outA, 20))], [timeout(0.5)]), _, true), motor_run(outB, 10), motor_stop(outB)');
+    await row(it.page, /^outB was stopped/);
+    const options = await it.page.$$eval('#log-about option', (all) => all.map((option) => option.value));
+    assert.deepEqual(options, ['', 'outA', 'outB', 'outC', 'robot', 'rule left']);
+    await it.page.select('#log-about', 'rule left');
+    const ruled = await rows(it.page);
+    assert.ok(ruled.some(({ text }) => /^outA runs at 20 %/.test(text)) && ruled.every(({ text }) => /outA|rule left/.test(text)), JSON.stringify(ruled));
+    assert.ok(ruled.every(({ text }) => !/why: /.test(text)), 'nothing says why unasked');
+    await it.page.evaluate(() => document.addEventListener('ev3dev-time', (event) => { window.asked = event.detail.t; }));
+    await choose(it.page, '^[^a-z]*outA runs at 20');
+    const { text, at } = await row(it.page, /^outA runs at 20 %/);
+    assert.match(text, /why: rule left, us_dist_cm .* > 1/);
+    assert.ok(near(await it.page.evaluate(() => window.asked), at, 0.006));
+    await it.page.keyboard.press('Tab');
+    await it.page.focus('#log');
+    await it.page.keyboard.press('ArrowUp');
+    assert.ok((await rows(it.page)).every(({ text: words }) => !/^outA runs.*why: /.test(words)), 'another line is chosen');
+    await it.page.select('#log-about', '');
+  });
+
+  test('is kept when another simulation begins', async () => {
+    await it.session.ask('sim_start(room)');
+    await row(it.page, /^Another run begins\.$/);
+    await row(it.page, /^STOP: /);
+    await it.page.evaluate(() => { window.asked = 'nothing'; });
+    await choose(it.page, 'STOP: ');
+    assert.equal(await it.page.evaluate(() => window.asked), 'nothing', 'its time is over');
+  });
+});
+
 group('goals', ROOM, 'goals(true)', (it) => {
-  const ask = async (goal, pattern) => {
+  const type = async (goal) => {
+    await it.page.$eval('#goal-text', (input) => { input.value = ''; });
     await it.page.type('#goal-text', goal);
     await it.page.keyboard.press('Enter');
-    await until(() => it.page.$eval('#log', (list, source) => new RegExp(source).test(list.textContent), pattern), pattern);
   };
+  const ask = async (goal, pattern) => {
+    await type(goal);
+    return row(it.page, pattern);
+  };
+  const why = () => it.page.$eval('#goal-why', (line) => (line.hidden ? '' : line.textContent));
+
   test('are answered as at the toplevel', async () => {
     await shows(it.page, (s) => s.goals, 'goals');
-    await ask('X is 6 * 7.', 'X = 42');
-    await ask('fail.', 'false\\.');
-    await ask('nothing_such.', 'nothing_such/0');
-    await ask('member(X, [apple, pear]).', 'X = apple');
-    await it.page.evaluate(() => [...document.querySelectorAll('#log button')].find((b) => b.textContent === 'More').click());
-    await until(() => it.page.$eval('#log', (list) => /X = pear/.test(list.textContent)), 'the next answer');
+    await ask('X is 6 * 7.', /^X = 42\.$/);
+    await ask('fail.', /^false\.$/);
+    await ask('nothing_such.', /nothing_such\/0/);
+    await ask('member(X, [apple, pear]).', /^X = apple$/);
+    await it.page.waitForSelector('#goal-more', { visible: true });
+    await it.page.click('#goal-more');
+    await row(it.page, /^X = pear\.$/);
+    await until(() => it.page.$eval('#goal-more', (button) => button.hidden), 'no more answers');
+    await ask('member(X, [fig, plum]).', /^X = fig$/);
+    await it.page.waitForSelector('#goal-more', { visible: true });
+    await ask(';', /^X = plum\.$/);
+  });
+
+  test('end one of before that has more answers', async () => {
+    await ask('setup_call_cleanup(true, member(X, [one, two]), writeln(\'cleaned up\')).', /^X = one$/);
+    await ask('X is 5 + 6.', /^X = 11\.$/);
+    await row(it.page, /^cleaned up$/);
+    assert.equal(await why(), '');
+    assert.ok((await rows(it.page)).every(({ text }) => !/X = two/.test(text)));
+  });
+
+  test('have what they print before their answer', async () => {
+    await ask('writeln(hello), write(there), Y = 1.', /^Y = 1\.$/);
+    const all = (await rows(it.page)).map(({ text }) => text);
+    assert.deepEqual(all.slice(-3), ['?- writeln(hello), write(there), Y = 1.', 'hello\nthere', 'Y = 1.']);
+  });
+
+  test('that are no goals are refused in words', async () => {
+    const { text } = await ask('go_cm 30, 20.', /Syntax error/);
+    assert.match(text, /operator expected/i);
+    assert.doesNotMatch(text, /operator_expected|stream/);
+    await ask('X = "abc.', /Syntax error: .*string/i);
+  });
+
+  test('show that they run, and are ended by STOP', async () => {
+    await type('go(20), wait(1), repeat, wait(0.1), fail.');
+    await shows(it.page, (s) => s.program.state === 'running' && s.ports[1].state?.includes('running'), 'a goal that runs');
+    await until(() => it.page.$eval('#place-doing', (words) => /a program runs/.test(words.textContent)), 'the words');
+    await type('X = 77.');
+    await until(async () => /A program runs/.test(await why()), 'why not');
+    assert.equal(await it.page.$eval('#goal-text', (input) => input.value), 'X = 77.', 'what was typed is kept');
+    assert.equal((await state(it.page)).notice, '');
+    await it.page.keyboard.press('Escape');
+    await row(it.page, /^stopped\.$/);
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'the prompt');
+    await ask('repeat, fail.', /^\?- repeat, fail\.$/);
+    await shows(it.page, (s) => s.program.state === 'running', 'a goal that spins');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'its end');
+    await type('X = 78.');
+    await row(it.page, /^X = 78\.$/);
+    assert.doesNotMatch(it.session.output, /died on|\[Thread/, 'nothing of threads on the terminal');
+  });
+
+  test('are refused while a program runs at the toplevel', async () => {
+    it.session.type('go(20), repeat, wait(0.1), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await type('X = 79.');
+    await until(async () => /A program runs/.test(await why()), 'why not');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'the prompt');
+    await it.page.focus('#goal-text');
+    await it.page.keyboard.press('Enter');
+    await row(it.page, /^X = 79\.$/);
+    assert.equal(await why(), '');
+  });
+
+  test('find nothing to read, and do not wait for it', async () => {
+    await ask('read(X).', /^X = end_of_file\.$/);
+    await row(it.page, /has nothing to read/);
+    await ask('consult(user), Y = consulted.', /^Y = consulted\.$/);
+    assert.equal(await it.session.ask('X = 3, write(X)'), '3', 'the terminal is the toplevel\'s');
+  });
+
+  test('end with their page', async () => {
+    const page = await open(browser, it.url);
+    await page.type('#goal-text', 'go(20), repeat, wait(0.1), fail.');
+    await page.keyboard.press('Enter');
+    await shows(page, (s) => s.program.state === 'running', 'a goal');
+    await page.close();
+    await it.page.bringToFront();
+    await shows(it.page, (s) => s.program.state === 'idle', 'its end');
+    await it.session.ask('stop');
+    assert.doesNotMatch(it.session.output, /died on|\[Thread/);
   });
 });
 
