@@ -220,6 +220,71 @@ group('a simulated robot', ROOM, '', (it) => {
   });
 });
 
+group('what lies over the world', ROOM, '', (it) => {
+  const apart = async (page, id) => {
+    const { robot, robotPixels } = await state(page);
+    const [x, y] = await pixel(page, ...robot.true);
+    const box = await (await page.$(id)).boundingBox();
+    const far = robotPixels / 2;
+    return x < box.x - far || x > box.x + box.width + far || y < box.y - far || y > box.y + box.height + far;
+  };
+  for (const [name, size] of [['a screen', {}], ['a phone', { width: 390, height: 844, phone: true }]]) {
+    test(`does not hide a robot that is dropped there on ${name}`, async () => {
+      const page = await open(browser, it.url, size);
+      await page.bringToFront();
+      for (const to of [[285, 12], [285, 236], [14, 14], [40, 40]]) {
+        await drag(page, (await state(page)).robot.true, to);
+        await shows(page, (s) => near(s.robot.true[0], to[0], 2) && near(s.robot.true[1], to[1], 2) && s.selected === 'robot', 'the robot there');
+        await until(() => apart(page, '#inspector'), `the robot at ${to} to be seen`);
+        await page.click('#drive');
+        await until(() => apart(page, '#pad'), `the robot at ${to} to be seen beside the pad`);
+        await page.click('#drive');
+      }
+      await page.close();
+    });
+  }
+
+  test('goes away by a click beside it', async () => {
+    const { robot } = await state(it.page);
+    await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+    await it.page.click('#drive');
+    await shows(it.page, (s) => s.selected === 'robot' && s.driving, 'both');
+    await it.page.mouse.click(...await pixel(it.page, 150, 200));
+    await shows(it.page, (s) => s.selected === null && !s.driving, 'none');
+    await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+    await it.page.click('#drive');
+    await it.page.click('#log-title');
+    await shows(it.page, (s) => s.selected === null && !s.driving, 'none again');
+  });
+
+  test('is closed by Escape, which stops the program only if no menu is open', async () => {
+    it.session.type('repeat, wait(0.05), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    for (const open of ['#layers', '[data-port=outB] button']) {
+      await it.page.click(open);
+      await it.page.keyboard.press('Escape');
+      assert.equal(await it.page.$$eval('.menu', (menus) => menus.filter((menu) => !menu.hidden).length), 0);
+    }
+    const { frames } = await state(it.page);
+    await shows(it.page, (s) => s.frames > frames + 4, 'more frames');
+    assert.equal((await state(it.page)).program.state, 'running');
+    await it.page.keyboard.press('Escape');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'STOP');
+    const stops = async () => (await state(it.page)).log.filter(({ kind }) => kind === 'stop').length;
+    const before = await stops();
+    await it.page.click('#drive');
+    await it.page.keyboard.press('Escape');
+    const after = await shows(it.page, (s) => !s.driving, 'no pad');
+    await shows(it.page, (s) => s.frames > after.frames + 4, 'more frames');
+    assert.equal(await stops(), before, 'nothing ran');
+    it.session.type('go(20), repeat, wait(0.05), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await it.page.mouse.click(...await pixel(it.page, ...(await state(it.page)).robot.true));
+    await it.page.keyboard.press('Escape');
+    await shows(it.page, (s) => s.program.state === 'idle' && s.selected === null, 'STOP, though the robot is selected');
+  });
+});
+
 group('time', ROOM, '', (it) => {
   test('stands, goes by steps, and at another pace', async () => {
     it.session.type('go(20)');

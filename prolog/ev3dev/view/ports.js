@@ -188,11 +188,13 @@ export class Ports {
     menu.querySelector('button').focus();
   }
 
+  /** Answers whether it was open. */
   close() {
-    if (!this.menu) return;
+    if (!this.menu) return false;
     this.menu.menu.remove();
     attribute(this.menu.button, 'aria-expanded', false);
     this.menu = null;
+    return true;
   }
 }
 

@@ -304,6 +304,20 @@ export class World {
     if (this.shown.sensors) this.drawSeen(c, true);
     this.drawRobots(c, robot);
     this.drawHands(c);
+    this.dodge(this.drag?.kind === 'robot' ? this.drag.at : robot.true ?? robot.pose);
+  }
+
+  /** What lies over the world goes to its other end where it hides the robot. */
+  dodge(pose) {
+    if (!pose) return;
+    const [x, y] = this.pixel(pose);
+    const far = Math.max(13, this.reach() * this.camera.scale) + 6;
+    const hides = ({ offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height }) => x > left - far && x < left + width + far && y > top - far && y < top + height + far;
+    for (const box of [$('inspector'), $('pad')]) {
+      if (box.hidden || !hides(box)) continue;
+      box.classList.toggle('high');
+      if (hides(box)) box.classList.toggle('high');
+    }
   }
 
   drawFloor(c) {
@@ -920,6 +934,7 @@ export class World {
     this.drag = null;
     toggle(this.canvas, 'grabbing', false);
     if (!drag || canceled) return this.draw();
+    if (drag.kind === 'pan' && !this.moved) this.beside?.();
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];
