@@ -115,6 +115,15 @@ group('a simulated robot', ROOM, '', (it) => {
     await shows(it.page, (s) => near(s.robot.true[0], 250, 2), 'the robot where it was');
   });
 
+  test('is not put outside of the world', async () => {
+    for (const to of [[318, 100], [-9, 240], [100, 262]]) {
+      await it.page.evaluate(() => { document.getElementById('notice-text').textContent = ''; });
+      await drag(it.page, [250, 200], to);
+      await shows(it.page, (s) => /outside of the world|inside the walls/.test(s.notice), 'why not');
+      await shows(it.page, (s) => near(s.robot.true[0], 250, 2) && near(s.robot.true[1], 200, 2), 'the robot where it was');
+    }
+  });
+
   test('shows keys that a hand presses', async () => {
     const key = await it.page.$('[data-key=enter]');
     const box = await key.boundingBox();
