@@ -39,6 +39,10 @@ function group(name, queries, options, tests) {
 }
 
 group('a simulated robot', ROOM, '', (it) => {
+  test('has an address that is said, even by swipl -q', () => {
+    assert.ok(it.session.output.includes(`The robot is at ${it.url}`), it.session.output);
+  });
+
   test('is drawn where it is', async () => {
     const [x, y, heading] = await it.session.pose();
     const shown = await shows(it.page, (s) => s.robot?.true, 'the robot');
@@ -181,6 +185,16 @@ group('a simulated robot', ROOM, '', (it) => {
     await shows(it.page, (s) => s.world.items.length === count, 'no box');
   });
 
+  test('loses a box that is selected by the key Delete', async () => {
+    const count = (await state(it.page)).world.items.length;
+    await it.session.ask('sim_add(box(60, 200, 20, 20))');
+    await shows(it.page, (s) => s.world.items.length === count + 1, 'a box');
+    await it.page.mouse.click(...await pixel(it.page, 60, 200));
+    await shows(it.page, (s) => s.selected === 'box', 'it is selected');
+    await it.page.keyboard.press('Delete');
+    await shows(it.page, (s) => s.world.items.length === count && s.selected === null, 'no box');
+  });
+
   test('goes back to a snapshot', async () => {
     const pick = async (pattern) => {
       await it.page.click('#more');
@@ -291,6 +305,45 @@ group('what lies over the world', ROOM, '', (it) => {
     await it.page.mouse.click(...await pixel(it.page, ...(await state(it.page)).robot.true));
     await it.page.keyboard.press('Escape');
     await shows(it.page, (s) => s.program.state === 'idle' && s.selected === null, 'STOP, though the robot is selected');
+  });
+});
+
+/** Colors of the world's canvas at places in cm. */
+const colors = (page, places) => page.evaluate((all) => {
+  const canvas = document.getElementById('world');
+  const box = canvas.getBoundingClientRect();
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  return all.map(([x, y]) => {
+    const [px, py] = window.ev3view.pixel(x, y);
+    const [sx, sy] = [(px - box.left) * canvas.width / box.width, (py - box.top) * canvas.height / box.height];
+    return [...copy.getImageData(Math.round(sx), Math.round(sy), 1, 1).data].slice(0, 3);
+  });
+}, places);
+
+group('a robot that has lost its way', ['sim_start([bounds(0, 0, 120, 120), start(60, 60, 0)], [clock(virtual)])', 'set_robot(5.6, 10.6, outB, outC)', 'use_module(library(ev3dev/drive))', 'drive_option(use_gyro, false)'], '', (it) => {
+  test('is uncertain within the world only, and faintly', async () => {
+    await it.session.ask('pose(_, _, _), forall(between(1, 12, _), turn(60, 360)), catch(for_seconds(20, ( go(50), wait(30) )), _, true)');
+    const { robot, world } = await shows(it.page, (s) => s.time > 20, 'a while');
+    assert.ok(robot.believed.ellipse[0] > 100, `an ellipse of ${robot.believed.ellipse}`);
+    await it.page.click('#zoom-out');
+    const [x1, y1, x2, y2] = world.bounds;
+    const around = [];
+    for (let share = 0.05; share < 1; share += 0.1) {
+      for (const off of [8, 16, 24]) {
+        around.push([x1 - off, y1 + share * (y2 - y1)], [x2 + off, y1 + share * (y2 - y1)], [x1 + share * (x2 - x1), y1 - off], [x1 + share * (x2 - x1), y2 + off]);
+      }
+    }
+    const outside = new Set((await colors(it.page, around)).map(String));
+    assert.equal(outside.size, 1, [...outside].join(' '));
+    await it.page.click('#fit');
+  });
+
+  test('has wheels that slow down, as time stands after the end', async () => {
+    await it.session.ask('motor_run(outA, 40), wait(1), motor_stop(outA, coast)');
+    await shows(it.page, ({ ports: [port] }) => port.speed > 300 && !port.state.length, 'a wheel');
+    const text = await it.page.$eval('[data-port=outA]', (row) => row.innerText.replace(/\s+/g, ' '));
+    assert.match(text, /\d+ ?% slows down · \d+°\/s · \d+°/, 'in the units of commands and of charts');
   });
 });
 
@@ -584,6 +637,42 @@ group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
       .map((b) => [b.id || b.textContent, b.getBoundingClientRect()])
       .filter(([, box]) => box.height < 43.5 || box.width < 43.5).map(([name, box]) => `${name} ${box.width} x ${box.height}`));
     assert.deepEqual(small, []);
+    await free(page)();
+  });
+
+  test('the page says on a phone that a program runs', async () => {
+    const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
+    it.session.type('repeat, wait(0.05), fail');
+    await shows(page, (s) => s.program.state === 'running', 'a program');
+    await until(() => page.$eval('#place-text', (words) => /a program runs/.test(words.innerText)), 'the words');
+    const hidden = await page.$eval('#place-text', (words) => [words.scrollWidth - words.clientWidth, words.scrollHeight - words.clientHeight]);
+    assert.ok(hidden.every((length) => length <= 0), `${hidden} pixels cannot be seen`);
+    await page.tap('#stop');
+    await shows(page, (s) => s.program.state === 'idle', 'the prompt');
+    await free(page)();
+  });
+
+  test('a tablet has no void', async () => {
+    const page = await open(browser, it.url, { width: 820, height: 1180, phone: true });
+    const cards = await page.$$eval('.card', (all) => all.map((card) => {
+      const { left, top, width, height } = card.getBoundingClientRect();
+      return { left, top, width, height, used: [...card.children].filter((child) => child.offsetParent && getComputedStyle(child).position !== 'absolute').reduce((sum, child) => sum + child.getBoundingClientRect().height, 0), name: card.className };
+    }));
+    const main = await page.$eval('main', (box) => box.getBoundingClientRect().width * box.getBoundingClientRect().height);
+    const area = cards.reduce((sum, { width, height }) => sum + width * height, 0);
+    assert.ok(area > 0.9 * main, `${area / main} is covered by cards`);
+    for (const { name, height, used } of cards) if (!/world/.test(name)) assert.ok(height - used < 40, `${name} is empty for ${height - used} pixels`);
+    await free(page)();
+  });
+
+  test('boxes stand out from the floor in the dark', async () => {
+    const page = await open(browser, it.url, { scheme: 'dark' });
+    const box = (await state(page)).world.items.find((item) => item.kind === 'box');
+    const [inside, floor] = (await colors(page, [[box.x, box.y], [295, 245]])).map((color) => {
+      const [r, g, b] = color.map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    });
+    assert.ok((inside + 0.05) / (floor + 0.05) > 2.5, `a contrast of ${(inside + 0.05) / (floor + 0.05)}`);
     await free(page)();
   });
 

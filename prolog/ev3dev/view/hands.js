@@ -174,6 +174,8 @@ export class Hands {
       m: () => world.use('measure'),
       b: () => model?.simulated && world.use('add-box'),
       d: () => this.drive(!this.driving),
+      delete: () => this.remove(),
+      backspace: () => this.remove(),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];
     if (!act) return;
@@ -198,6 +200,13 @@ export class Hands {
     if (world.tool !== 'move') world.use('move');
     if (world.selected !== null) world.select(null);
     return was;
+  }
+
+  remove() {
+    const { selected } = this.world;
+    if (!Number.isFinite(selected?.id)) return;
+    this.wire.send(`remove ${selected.id}`);
+    this.world.select(null);
   }
 
   pan(key) {

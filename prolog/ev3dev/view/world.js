@@ -637,19 +637,29 @@ export class World {
     if (robot.pose && (this.shown.believed || !truly)) this.drawRobot(c, robot.pose, truly ? 'believed' : 'real');
   }
 
+  /** Within the world, and the fainter the less it says. */
   drawEllipse(c, [x, y], [a, b, h]) {
     if (a * SIGMAS < 2 * this.dot) return;
+    const [left, bottom, right, top] = this.view;
+    const clear = Math.min(1, Math.max(0.15, (0.25 * Math.min(right - left, top - bottom)) / (a * SIGMAS)));
+    c.save();
+    if (this.model.world?.bounds) {
+      const [x1, y1, x2, y2] = this.model.world.bounds;
+      c.beginPath();
+      c.rect(x1, y1, x2 - x1, y2 - y1);
+      c.clip();
+    }
     c.beginPath();
     // Its long axis along the heading h, which is clockwise from y.
     c.ellipse(x, y, a * SIGMAS, Math.max(b * SIGMAS, this.dot), (90 - h) * TURN, 0, 7);
-    c.globalAlpha = 0.16;
+    c.globalAlpha = 0.16 * clear;
     c.fillStyle = this.paint.blue;
     c.fill();
-    c.globalAlpha = 0.9;
+    c.globalAlpha = 0.9 * clear;
     c.strokeStyle = this.paint.blue;
     c.lineWidth = 1.2 * this.dot;
     c.stroke();
-    c.globalAlpha = 1;
+    c.restore();
   }
 
   drawRobot(c, [x, y, h], kind) {

@@ -56,7 +56,8 @@ message_kind(warning, _, warning).
 message_kind(error, _, error).
 %   What was asked for, as by why/1. Golog's history says what it executes.
 message_kind(help, Message, output) :-
-    Message \= golog(executing(_)).
+    Message \= golog(executing(_)),
+    Message \= ev3dev(view(_)).
 
 :- public begun/1.
 
