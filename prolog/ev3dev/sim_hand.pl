@@ -42,7 +42,8 @@ presses buttons. All predicates fail if no simulation runs.
 %   Lift the robot to another place, where it stands still. All three
 %   arguments may be arithmetic expressions.
 %
-%   @error domain_error(possible_geometry, Item) if an obstacle stands there
+%   @error domain_error(possible_geometry, Item) if an obstacle stands there,
+%          or the world ends before
 
 sim_place(X0, Y0, Heading0) :-
     number_value(X0, X),

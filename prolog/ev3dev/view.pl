@@ -104,7 +104,11 @@ view(Options) :-
     with_mutex(ev3dev_view,
                ensure_served(Port, Address, Token0, Rate, Goals, Url)),
     !,
-    print_message(informational, ev3dev(view(Url))),
+    (   current_prolog_flag(verbose, silent)
+    ->  % Nobody can guess it.
+        print_message(help, ev3dev(view(Url)))
+    ;   print_message(informational, ev3dev(view(Url)))
+    ),
     open_browser(Open, Url).
 
 %   A variable stays one: a default must not be taken for it.

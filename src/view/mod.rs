@@ -8,6 +8,7 @@ pub(crate) mod door;
 mod frame;
 pub(crate) mod hand;
 mod notes;
+mod printed;
 mod reach;
 mod simulated;
 mod state;
@@ -30,6 +31,7 @@ natives! {
     semidet fn "view_open_"(_context) {
         watch::set_watched(true);
         keep_samples(true);
+        swipl::fli::see_output(printed::written);
         into_prolog_result(true)
     }
 
@@ -37,6 +39,8 @@ natives! {
     semidet fn "view_close_"(_context) {
         watch::set_watched(false);
         keep_samples(false);
+        printed::keep(false);
+        swipl::fli::see_output_no_more();
         if let Some(simulation) = running_simulation() {
             simulation.set_pace(None);
             simulation.set_paused(false);
@@ -68,16 +72,21 @@ natives! {
         Ok(())
     }
 
-    /// view_log_(+Time, +Kind, +Text, +Causes, +Thread): Time is in seconds, or `now`.
-    semidet fn "view_log_"(context, time, kind, text, causes, thread) {
+    /// view_log_(+Time, +Kind, +Text, +Causes, +About, +Thread): Time is in seconds, or `now`.
+    semidet fn "view_log_"(context, time, kind, text, causes, about, thread) {
         let call = Call::of(context, "view_mark", 1);
         let owned = |term: &Term| Ok(call.text(term)?.into_owned().into());
+        let some = |list: &Term| -> PrologResult<_> {
+            let texts: Vec<state::Text> = call.map_list(list, |text| owned(&text))?;
+            Ok(Some(texts).filter(|all| !all.is_empty()))
+        };
         let entry = Entry {
             n: 0,
             time: Decimal(if time.is_atom() { seconds() } else { call.float(time)? }),
             kind: owned(kind)?,
             text: owned(text)?,
-            causes: Some(call.map_list(causes, |cause| owned(&cause))?).filter(|all| !all.is_empty()),
+            causes: some(causes)?,
+            about: some(about)?,
             thread: Some(owned(thread)?).filter(|name: &state::Text| !name.is_empty()),
         };
         notes().log(entry);
@@ -90,6 +99,21 @@ natives! {
         let (name, number, time) = (call.text(name)?, call.float(number)?, seconds());
         notes().value(&name, time, number);
         Ok(())
+    }
+
+    /// view_prints_(+Keeps): whether the program prints, so that what is written to the standard
+    /// output is kept.
+    semidet fn "view_prints_"(_context, keeps) {
+        printed::keep(keeps.get_ex()?);
+        Ok(())
+    }
+
+    /// view_printed_(+Ended, -Times, -Texts): what was printed since the last call, and when. The
+    /// beginning of a line is held back, unless Ended.
+    semidet fn "view_printed_"(_context, ended, times, texts) {
+        let (when, what) = printed::take(ended.get_ex()?);
+        times.unify(when.as_slice())?;
+        texts.unify(what.iter().map(String::as_str).collect::<Vec<_>>().as_slice())
     }
 
     /// view_latch_: no motor starts from now on.
@@ -128,6 +152,12 @@ natives! {
         world_x.unify(x)?;
         world_y.unify(y)?;
         turn.unify(to_world.turn())
+    }
+
+    /// view_part_: this thread is a part of the program, before it uses a device.
+    semidet fn "view_part_"(_context) {
+        watch::note_user();
+        into_prolog_result(true)
     }
 
     /// view_source_(-Source): `sim`, `brick` or `none`.

@@ -230,6 +230,7 @@ objects! {
         kind: Text,
         text: Text,
         causes: Option<Vec<Text>>,
+        about: Option<Vec<Text>>,
         thread: Option<Text>,
     }
 

@@ -235,6 +235,12 @@ sentence(because(turn(30, 90, [wait(false)]), rule(x, true)), outB,
          "outB drives the robot since 2.02 s: it turns by 90 degrees at 30 %; rule x").
 sentence(because(motor_run(outB, 30), rule(r, (\+ touch(in4, 1), (light(9) ; a)))), outB,
          "outB runs at 30 % since 2.01 s: rule r, not touch in4 1, light 9 or a").
+sentence(go_to(10, 20, [wait(false)]), robot,
+         "the robot goes to (10, 20) at 40 % since 2.02 s").
+sentence(go_to(0, 20.123, 0, [wait(false), speed(30)]), robot,
+         "the robot goes to (0, 20.12), turns to heading 0 at 30 % since 2.02 s").
+sentence(face(887.4567, [wait(false), speed(30)]), robot,
+         "the robot turns to heading 167.46 at 30 % since 2.02 s").
 sentence(motor_stop(outB, hold), stop,
          "outB was stopped (hold) at 2.01 s: motor_stop/2 was called").
 sentence(( go(20), wait(1), because(stop, halt) ), stop,

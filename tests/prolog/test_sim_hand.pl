@@ -9,6 +9,16 @@ test(place_moves_the_robot) :-
     with_sim([], ( sim_place(10*2, 5, 90), sim_pose(20.0, 5.0, 90.0) )).
 test(place_inside_something, error(domain_error(possible_geometry, _), _)) :-
     with_sim([box(50, 50, 10, 10)], sim_place(50, 50, 0)).
+test(place_outside_of_the_world, true(Pose-Text == [40, 40]-Expected)) :-
+    Expected = 'is outside of the world',
+    with_sim([bounds(0, 0, 300, 200), start(40, 40, 0)],
+             ( catch(sim_place(500, 500, 0),
+                     error(domain_error(possible_geometry, _),
+                           context(_, Text)), true),
+               sim_pose(X0, Y0, _) )),
+    Pose = [X1, Y1],
+    X1 is round(X0),
+    Y1 is round(Y0).
 test(add_puts_something_in_the_way) :-
     with_sim([],
              ( us_dist_cm(in1, 255.0),

@@ -22,6 +22,9 @@ export async function until(ask, what, seconds = 20) {
   }
 }
 
+const sessions = new Set();
+process.on('exit', () => sessions.forEach((session) => session.prolog.kill('SIGKILL')));
+
 /** A toplevel that reads its queries from a pipe. */
 export class Session {
   static async start(...queries) {
@@ -31,13 +34,14 @@ export class Session {
   }
 
   constructor() {
-    this.prolog = spawn(process.env.SWIPL ?? 'swipl',
-      ['-q', '-f', 'none', '-p', 'library=prolog', '-g', 'set_prolog_flag(toplevel_prompt, \'\'),set_prolog_flag(ev3dev_hints, off)'],
-      { cwd: home, stdio: ['pipe', 'pipe', 'pipe'] });
+    // Both outputs are one, so that all comes in its order.
+    this.prolog = spawn('sh', ['-c', 'exec "$0" "$@" 2>&1', process.env.SWIPL ?? 'swipl',
+      '-q', '-f', 'none', '-p', 'library=prolog', '-g', 'set_prolog_flag(toplevel_prompt, \'\'),set_prolog_flag(ev3dev_hints, off)'],
+      { cwd: home, stdio: ['pipe', 'pipe', 'inherit'] });
     this.output = '';
     this.asked = 0;
-    for (const stream of [this.prolog.stdout, this.prolog.stderr]) stream.on('data', (data) => { this.output += data; });
-    process.on('exit', () => this.prolog.kill('SIGKILL'));
+    this.prolog.stdout.on('data', (data) => { this.output += data; });
+    sessions.add(this);
     this.ended = new Promise((resolve) => { this.prolog.on('exit', resolve); });
   }
 
@@ -51,7 +55,9 @@ export class Session {
     this.asked += 1;
     const [begin, end] = [`<<${this.asked}>>`, `<</${this.asked}>>`];
     const from = this.output.length;
-    this.type(`format("~n<<~d>>", [${this.asked}]), ( catch((${query}), E, (print_message(error, E), fail)) -> true ; write(failed) ), format("<</~d>>~n", [${this.asked}])`);
+    // The marks are no output of the program.
+    const mark = (text) => `flush_output, format(user_error, "${text}", [${this.asked}])`;
+    this.type(`${mark('~n<<~d>>')}, ( catch((${query}), E, (print_message(error, E), fail)) -> true ; write(failed) ), ${mark('<</~d>>~n')}`);
     await until(() => this.output.indexOf(end, from) >= 0, `the end of ${query} in ${this.output.slice(from)}`, seconds);
     const start = this.output.indexOf(begin, from) + begin.length;
     return this.output.slice(start, this.output.indexOf(end, from));
@@ -64,7 +70,7 @@ export class Session {
   }
 
   async url() {
-    return (await this.ask('view_url(U), write(U)')).trim();
+    return (await this.ask('view_url(U), write(user_error, U)')).trim();
   }
 
   async numbers(query) {
@@ -80,6 +86,7 @@ export class Session {
     const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, 5000, false); })]);
     if (!ended) this.prolog.kill('SIGKILL');
     await this.ended;
+    sessions.delete(this);
   }
 }
 

@@ -43,6 +43,10 @@ function group(name, queries, options, tests) {
 }
 
 group('a simulated robot', ROOM, '', (it) => {
+  test('has an address that is said, even by swipl -q', () => {
+    assert.ok(it.session.output.includes(`The robot is at ${it.url}`), it.session.output);
+  });
+
   test('is drawn where it is', async () => {
     const [x, y, heading] = await it.session.pose();
     const shown = await shows(it.page, (s) => s.robot?.true, 'the robot');
@@ -119,6 +123,15 @@ group('a simulated robot', ROOM, '', (it) => {
     await shows(it.page, (s) => near(s.robot.true[0], 250, 2), 'the robot where it was');
   });
 
+  test('is not put outside of the world', async () => {
+    for (const to of [[318, 100], [-9, 240], [100, 262]]) {
+      await it.page.evaluate(() => { document.getElementById('notice-text').textContent = ''; });
+      await drag(it.page, [250, 200], to);
+      await shows(it.page, (s) => /outside of the world|inside the walls/.test(s.notice), 'why not');
+      await shows(it.page, (s) => near(s.robot.true[0], 250, 2) && near(s.robot.true[1], 200, 2), 'the robot where it was');
+    }
+  });
+
   test('shows keys that a hand presses', async () => {
     const key = await it.page.$('[data-key=enter]');
     const box = await key.boundingBox();
@@ -176,6 +189,16 @@ group('a simulated robot', ROOM, '', (it) => {
     await shows(it.page, (s) => s.world.items.length === count, 'no box');
   });
 
+  test('loses a box that is selected by the key Delete', async () => {
+    const count = (await state(it.page)).world.items.length;
+    await it.session.ask('sim_add(box(60, 200, 20, 20))');
+    await shows(it.page, (s) => s.world.items.length === count + 1, 'a box');
+    await it.page.mouse.click(...await pixel(it.page, 60, 200));
+    await shows(it.page, (s) => s.selected === 'box', 'it is selected');
+    await it.page.keyboard.press('Delete');
+    await shows(it.page, (s) => s.world.items.length === count && s.selected === null, 'no box');
+  });
+
   test('goes back to a snapshot', async () => {
     const pick = async (pattern) => {
       await it.page.click('#more');
@@ -221,6 +244,110 @@ group('a simulated robot', ROOM, '', (it) => {
     await it.page.keyboard.up('ArrowUp');
     await shows(it.page, (s) => s.ports.every((port) => !port.state?.includes('running')), 'motors that stand');
     await it.page.click('#drive');
+  });
+});
+
+group('what lies over the world', ROOM, '', (it) => {
+  const apart = async (page, id) => {
+    const { robot, robotPixels } = await state(page);
+    const [x, y] = await pixel(page, ...robot.true);
+    const box = await (await page.$(id)).boundingBox();
+    const far = robotPixels / 2;
+    return x < box.x - far || x > box.x + box.width + far || y < box.y - far || y > box.y + box.height + far;
+  };
+  for (const [name, size] of [['a screen', {}], ['a phone', { width: 390, height: 844, phone: true }]]) {
+    test(`does not hide a robot that is dropped there on ${name}`, async () => {
+      const page = await open(browser, it.url, size);
+      await page.bringToFront();
+      for (const to of [[285, 12], [285, 236], [14, 14], [40, 40]]) {
+        await drag(page, (await state(page)).robot.true, to);
+        await shows(page, (s) => near(s.robot.true[0], to[0], 2) && near(s.robot.true[1], to[1], 2) && s.selected === 'robot', 'the robot there');
+        await until(() => apart(page, '#inspector'), `the robot at ${to} to be seen`);
+        await page.click('#drive');
+        await until(() => apart(page, '#pad'), `the robot at ${to} to be seen beside the pad`);
+        await page.click('#drive');
+      }
+      await page.close();
+    });
+  }
+
+  test('goes away by a click beside it', async () => {
+    const { robot } = await state(it.page);
+    await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+    await it.page.click('#drive');
+    await shows(it.page, (s) => s.selected === 'robot' && s.driving, 'both');
+    await it.page.mouse.click(...await pixel(it.page, 150, 200));
+    await shows(it.page, (s) => s.selected === null && !s.driving, 'none');
+    await it.page.mouse.click(...await pixel(it.page, ...robot.true));
+    await it.page.click('#drive');
+    await it.page.click('#log-title');
+    await shows(it.page, (s) => s.selected === null && !s.driving, 'none again');
+  });
+
+  test('is closed by Escape, which stops the program only if no menu is open', async () => {
+    it.session.type('repeat, wait(0.05), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    for (const open of ['#layers', '[data-port=outB] button']) {
+      await it.page.click(open);
+      await it.page.keyboard.press('Escape');
+      assert.equal(await it.page.$$eval('.menu', (menus) => menus.filter((menu) => !menu.hidden).length), 0);
+    }
+    const { frames } = await state(it.page);
+    await shows(it.page, (s) => s.frames > frames + 4, 'more frames');
+    assert.equal((await state(it.page)).program.state, 'running');
+    await it.page.keyboard.press('Escape');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'STOP');
+    const stops = async () => (await state(it.page)).log.filter(({ kind }) => kind === 'stop').length;
+    const before = await stops();
+    await it.page.click('#drive');
+    await it.page.keyboard.press('Escape');
+    const after = await shows(it.page, (s) => !s.driving, 'no pad');
+    await shows(it.page, (s) => s.frames > after.frames + 4, 'more frames');
+    assert.equal(await stops(), before, 'nothing ran');
+    it.session.type('go(20), repeat, wait(0.05), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await it.page.mouse.click(...await pixel(it.page, ...(await state(it.page)).robot.true));
+    await it.page.keyboard.press('Escape');
+    await shows(it.page, (s) => s.program.state === 'idle' && s.selected === null, 'STOP, though the robot is selected');
+  });
+});
+
+/** Colors of the world's canvas at places in cm. */
+const colors = (page, places) => page.evaluate((all) => {
+  const canvas = document.getElementById('world');
+  const box = canvas.getBoundingClientRect();
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  return all.map(([x, y]) => {
+    const [px, py] = window.ev3view.pixel(x, y);
+    const [sx, sy] = [(px - box.left) * canvas.width / box.width, (py - box.top) * canvas.height / box.height];
+    return [...copy.getImageData(Math.round(sx), Math.round(sy), 1, 1).data].slice(0, 3);
+  });
+}, places);
+
+group('a robot that has lost its way', ['sim_start([bounds(0, 0, 120, 120), start(60, 60, 0)], [clock(virtual)])', 'set_robot(5.6, 10.6, outB, outC)', 'use_module(library(ev3dev/drive))', 'drive_option(use_gyro, false)'], '', (it) => {
+  test('is uncertain within the world only, and faintly', async () => {
+    await it.session.ask('pose(_, _, _), forall(between(1, 12, _), turn(60, 360)), catch(for_seconds(20, ( go(50), wait(30) )), _, true)');
+    const { robot, world } = await shows(it.page, (s) => s.time > 20, 'a while');
+    assert.ok(robot.believed.ellipse[0] > 100, `an ellipse of ${robot.believed.ellipse}`);
+    await it.page.click('#zoom-out');
+    const [x1, y1, x2, y2] = world.bounds;
+    const around = [];
+    for (let share = 0.05; share < 1; share += 0.1) {
+      for (const off of [8, 16, 24]) {
+        around.push([x1 - off, y1 + share * (y2 - y1)], [x2 + off, y1 + share * (y2 - y1)], [x1 + share * (x2 - x1), y1 - off], [x1 + share * (x2 - x1), y2 + off]);
+      }
+    }
+    const outside = new Set((await colors(it.page, around)).map(String));
+    assert.equal(outside.size, 1, [...outside].join(' '));
+    await it.page.click('#fit');
+  });
+
+  test('has wheels that slow down, as time stands after the end', async () => {
+    await it.session.ask('motor_run(outA, 40), wait(1), motor_stop(outA, coast)');
+    await shows(it.page, ({ ports: [port] }) => port.speed > 300 && !port.state.length, 'a wheel');
+    const text = await it.page.$eval('[data-port=outA]', (row) => row.innerText.replace(/\s+/g, ' '));
+    assert.match(text, /\d+ ?% slows down · \d+°\/s · \d+°/, 'in the units of commands and of charts');
   });
 });
 
@@ -783,20 +910,167 @@ group('charts and log', ROOM, '', (it) => {
   });
 });
 
+/** The rows of the log that can be seen. */
+const rows = (page) => page.$$eval('#log li', (all) => all.filter((row) => !row.hidden).map((row) => ({
+  kind: row.className.split(' ')[0], text: row.querySelector('.text').innerText, at: Number(row.querySelector('time')?.textContent),
+})));
+const row = (page, pattern, what = String(pattern)) => until(async () => (await rows(page)).find(({ text }) => pattern.test(text)), what);
+const choose = (page, source) => page.evaluate((pattern) => [...document.querySelectorAll('#log li')].find((each) => new RegExp(pattern).test(each.textContent)).click(), source);
+
+group('the log', [...ROOM, 'use_module(library(ev3dev/rules))', 'use_module(library(ev3dev/journal))'], '', (it) => {
+  test('has what the program prints, between what it does, and not what the toplevel says', async () => {
+    it.session.type('writeln(before), go_cm(30, 3), format("~w~n~w~n", [lines, two]), write(\'no end of line\'), T = secret');
+    await row(it.page, /no end of line/);
+    const { log } = await state(it.page);
+    const of = (pattern) => log.findIndex(({ text }) => pattern.test(text));
+    const places = [/^before$/, /^the robot goes 3 cm/, /^the robot rests/, /^lines\ntwo\nno end of line$/].map(of);
+    assert.ok(places.every((place, i) => place >= 0 && place > (places[i - 1] ?? -1)), JSON.stringify([places, log]));
+    assert.ok(log.every(({ text }) => !/secret|T =/.test(text)), JSON.stringify(log));
+    assert.ok((await rows(it.page)).some(({ kind }) => kind === 'output'));
+  });
+
+  test('has what was asked for, as by why/1', async () => {
+    await it.session.ask('why(robot)');
+    await shows(it.page, (s) => s.log.some(({ kind, text }) => kind === 'output' && /^the robot rests/.test(text)), 'the answer of why/1');
+  });
+
+  test('has STOP in it', async () => {
+    it.session.type('repeat, go(20), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await it.page.click('#stop');
+    await row(it.page, /^STOP: all motors brake, and the program ends$/);
+    await shows(it.page, (s) => s.program.state === 'idle', 'the prompt');
+  });
+
+  test('is chosen by part and by rule, and says why of a line that is clicked', async () => {
+    await it.session.ask('catch(behave([(left :: us_dist_cm(_, D), D > 1 ~> motor_run(outA, 20))], [timeout(0.5)]), _, true), motor_run(outB, 10), motor_stop(outB)');
+    await row(it.page, /^outB was stopped/);
+    const options = await it.page.$$eval('#log-about option', (all) => all.map((option) => option.value));
+    assert.deepEqual(options, ['', 'outA', 'outB', 'outC', 'robot', 'rule left']);
+    await it.page.select('#log-about', 'rule left');
+    const ruled = await rows(it.page);
+    assert.ok(ruled.some(({ text }) => /^outA runs at 20 %/.test(text)) && ruled.every(({ text }) => /outA|rule left/.test(text)), JSON.stringify(ruled));
+    assert.ok(ruled.every(({ text }) => !/why: /.test(text)), 'nothing says why unasked');
+    await it.page.evaluate(() => document.addEventListener('ev3dev-time', (event) => { window.asked = event.detail.t; }));
+    await choose(it.page, '^[^a-z]*outA runs at 20');
+    const { text, at } = await row(it.page, /^outA runs at 20 %/);
+    assert.match(text, /why: rule left, us_dist_cm .* > 1/);
+    assert.ok(near(await it.page.evaluate(() => window.asked), at, 0.006));
+    await it.page.keyboard.press('Tab');
+    await it.page.focus('#log');
+    await it.page.keyboard.press('ArrowUp');
+    assert.ok((await rows(it.page)).every(({ text: words }) => !/^outA runs.*why: /.test(words)), 'another line is chosen');
+    await it.page.select('#log-about', '');
+  });
+
+  test('is kept when another simulation begins', async () => {
+    await it.session.ask('sim_start(room)');
+    await row(it.page, /^Another run begins\.$/);
+    await row(it.page, /^STOP: /);
+    await it.page.evaluate(() => { window.asked = 'nothing'; });
+    await choose(it.page, 'STOP: ');
+    assert.equal(await it.page.evaluate(() => window.asked), 'nothing', 'its time is over');
+  });
+});
+
 group('goals', ROOM, 'goals(true)', (it) => {
-  const ask = async (goal, pattern) => {
+  const type = async (goal) => {
+    await it.page.$eval('#goal-text', (input) => { input.value = ''; });
     await it.page.type('#goal-text', goal);
     await it.page.keyboard.press('Enter');
-    await until(() => it.page.$eval('#log', (list, source) => new RegExp(source).test(list.textContent), pattern), pattern);
   };
+  const ask = async (goal, pattern) => {
+    await type(goal);
+    return row(it.page, pattern);
+  };
+  const why = () => it.page.$eval('#goal-why', (line) => (line.hidden ? '' : line.textContent));
+
   test('are answered as at the toplevel', async () => {
     await shows(it.page, (s) => s.goals, 'goals');
-    await ask('X is 6 * 7.', 'X = 42');
-    await ask('fail.', 'false\\.');
-    await ask('nothing_such.', 'nothing_such/0');
-    await ask('member(X, [apple, pear]).', 'X = apple');
-    await it.page.evaluate(() => [...document.querySelectorAll('#log button')].find((b) => b.textContent === 'More').click());
-    await until(() => it.page.$eval('#log', (list) => /X = pear/.test(list.textContent)), 'the next answer');
+    await ask('X is 6 * 7.', /^X = 42\.$/);
+    await ask('fail.', /^false\.$/);
+    await ask('nothing_such.', /nothing_such\/0/);
+    await ask('member(X, [apple, pear]).', /^X = apple$/);
+    await it.page.waitForSelector('#goal-more', { visible: true });
+    await it.page.click('#goal-more');
+    await row(it.page, /^X = pear\.$/);
+    await until(() => it.page.$eval('#goal-more', (button) => button.hidden), 'no more answers');
+    await ask('member(X, [fig, plum]).', /^X = fig$/);
+    await it.page.waitForSelector('#goal-more', { visible: true });
+    await ask(';', /^X = plum\.$/);
+  });
+
+  test('end one of before that has more answers', async () => {
+    await ask('setup_call_cleanup(true, member(X, [one, two]), writeln(\'cleaned up\')).', /^X = one$/);
+    await ask('X is 5 + 6.', /^X = 11\.$/);
+    await row(it.page, /^cleaned up$/);
+    assert.equal(await why(), '');
+    assert.ok((await rows(it.page)).every(({ text }) => !/X = two/.test(text)));
+  });
+
+  test('have what they print before their answer', async () => {
+    await ask('writeln(hello), write(there), Y = 1.', /^Y = 1\.$/);
+    const all = (await rows(it.page)).map(({ text }) => text);
+    assert.deepEqual(all.slice(-3), ['?- writeln(hello), write(there), Y = 1.', 'hello\nthere', 'Y = 1.']);
+  });
+
+  test('that are no goals are refused in words', async () => {
+    const { text } = await ask('go_cm 30, 20.', /Syntax error/);
+    assert.match(text, /operator expected/i);
+    assert.doesNotMatch(text, /operator_expected|stream/);
+    await ask('X = "abc.', /Syntax error: .*string/i);
+  });
+
+  test('show that they run, and are ended by STOP', async () => {
+    await type('go(20), wait(1), repeat, wait(0.1), fail.');
+    await shows(it.page, (s) => s.program.state === 'running' && s.ports[1].state?.includes('running'), 'a goal that runs');
+    await until(() => it.page.$eval('#place-doing', (words) => /a program runs/.test(words.textContent)), 'the words');
+    await type('X = 77.');
+    await until(async () => /A program runs/.test(await why()), 'why not');
+    assert.equal(await it.page.$eval('#goal-text', (input) => input.value), 'X = 77.', 'what was typed is kept');
+    assert.equal((await state(it.page)).notice, '');
+    await it.page.keyboard.press('Escape');
+    await row(it.page, /^stopped\.$/);
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'the prompt');
+    await ask('repeat, fail.', /^\?- repeat, fail\.$/);
+    await shows(it.page, (s) => s.program.state === 'running', 'a goal that spins');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'its end');
+    await type('X = 78.');
+    await row(it.page, /^X = 78\.$/);
+    assert.doesNotMatch(it.session.output, /died on|\[Thread/, 'nothing of threads on the terminal');
+  });
+
+  test('are refused while a program runs at the toplevel', async () => {
+    it.session.type('go(20), repeat, wait(0.1), fail');
+    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await type('X = 79.');
+    await until(async () => /A program runs/.test(await why()), 'why not');
+    await it.page.click('#stop');
+    await shows(it.page, (s) => s.program.state === 'idle' && !s.program.latched, 'the prompt');
+    await it.page.focus('#goal-text');
+    await it.page.keyboard.press('Enter');
+    await row(it.page, /^X = 79\.$/);
+    assert.equal(await why(), '');
+  });
+
+  test('find nothing to read, and do not wait for it', async () => {
+    await ask('read(X).', /^X = end_of_file\.$/);
+    await row(it.page, /has nothing to read/);
+    await ask('consult(user), Y = consulted.', /^Y = consulted\.$/);
+    assert.equal(await it.session.ask('X = 3, write(X)'), '3', 'the terminal is the toplevel\'s');
+  });
+
+  test('end with their page', async () => {
+    const page = await open(browser, it.url);
+    await page.type('#goal-text', 'go(20), repeat, wait(0.1), fail.');
+    await page.keyboard.press('Enter');
+    await shows(page, (s) => s.program.state === 'running', 'a goal');
+    await page.close();
+    await it.page.bringToFront();
+    await shows(it.page, (s) => s.program.state === 'idle', 'its end');
+    await it.session.ask('stop');
+    assert.doesNotMatch(it.session.output, /died on|\[Thread/);
   });
 });
 
@@ -821,6 +1095,42 @@ group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
       .map((b) => [b.id || b.textContent, b.getBoundingClientRect()])
       .filter(([, box]) => box.height < 43.5 || box.width < 43.5).map(([name, box]) => `${name} ${box.width} x ${box.height}`));
     assert.deepEqual(small, []);
+    await free(page)();
+  });
+
+  test('the page says on a phone that a program runs', async () => {
+    const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
+    it.session.type('repeat, wait(0.05), fail');
+    await shows(page, (s) => s.program.state === 'running', 'a program');
+    await until(() => page.$eval('#place-text', (words) => /a program runs/.test(words.innerText)), 'the words');
+    const hidden = await page.$eval('#place-text', (words) => [words.scrollWidth - words.clientWidth, words.scrollHeight - words.clientHeight]);
+    assert.ok(hidden.every((length) => length <= 0), `${hidden} pixels cannot be seen`);
+    await page.tap('#stop');
+    await shows(page, (s) => s.program.state === 'idle', 'the prompt');
+    await free(page)();
+  });
+
+  test('a tablet has no void', async () => {
+    const page = await open(browser, it.url, { width: 820, height: 1180, phone: true });
+    const cards = await page.$$eval('.card', (all) => all.map((card) => {
+      const { left, top, width, height } = card.getBoundingClientRect();
+      return { left, top, width, height, used: [...card.children].filter((child) => child.offsetParent && getComputedStyle(child).position !== 'absolute').reduce((sum, child) => sum + child.getBoundingClientRect().height, 0), name: card.className };
+    }));
+    const main = await page.$eval('main', (box) => box.getBoundingClientRect().width * box.getBoundingClientRect().height);
+    const area = cards.reduce((sum, { width, height }) => sum + width * height, 0);
+    assert.ok(area > 0.9 * main, `${area / main} is covered by cards`);
+    for (const { name, height, used } of cards) if (!/world/.test(name)) assert.ok(height - used < 40, `${name} is empty for ${height - used} pixels`);
+    await free(page)();
+  });
+
+  test('boxes stand out from the floor in the dark', async () => {
+    const page = await open(browser, it.url, { scheme: 'dark' });
+    const box = (await state(page)).world.items.find((item) => item.kind === 'box');
+    const [inside, floor] = (await colors(page, [[box.x, box.y], [295, 245]])).map((color) => {
+      const [r, g, b] = color.map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    });
+    assert.ok((inside + 0.05) / (floor + 0.05) > 2.5, `a contrast of ${(inside + 0.05) / (floor + 0.05)}`);
     await free(page)();
   });
 

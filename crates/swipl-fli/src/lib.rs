@@ -19,8 +19,8 @@
 //!   of the register, or, on 32 bit, the same word.
 //! * **One end.** Old versions end a predicate that throws twice; here the second
 //!   time is left out. And a predicate may answer the common calls at once ([`pruned`]).
-//! * **The prompt, and the end.** What is to be done while Prolog waits for input
-//!   ([`prompt`]), and when it halts ([`halt`]).
+//! * **The prompt, the output, and the end.** What is to be done while Prolog waits for input
+//!   ([`prompt`]), when it writes ([`output`]), and when it halts ([`halt`]).
 //!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
@@ -38,6 +38,7 @@
 pub mod functions;
 pub mod halt;
 pub mod late;
+pub mod output;
 pub mod prompt;
 pub mod pruned;
 pub mod types;
@@ -46,6 +47,7 @@ mod version;
 pub use functions::*;
 pub use halt::act_at_halt;
 pub use late::*;
+pub use output::{see_output, see_output_no_more};
 pub use prompt::{Act, act_without_input};
 pub use pruned::{_PL_retry_address, Arguments, PL_register_foreign_in_module, answer_quickly};
 pub use types::*;

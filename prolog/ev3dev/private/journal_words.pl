@@ -234,6 +234,13 @@ cruise(Speed0, Turn0) -->
 
 legs([]) -->
     [ 'goes nowhere'-[] ].
+%   To turn there is a part of the way.
+legs([towards(_, _), To|Legs]) -->
+    { functor(To, Name, _),
+      memberchk(Name, [to, reach])
+    },
+    !,
+    legs([To|Legs]).
 legs([Leg]) -->
     !,
     leg(Leg).
@@ -271,7 +278,8 @@ leg(reach(X, Y)) -->
     at_place('goes to', X, Y).
 leg(Face) -->
     { Face =.. [_, Heading0],
-      number_text(Heading0, Heading)
+      Wrapped is Heading0 - 360*round(Heading0/360),
+      number_text(Wrapped, Heading)
     },
     [ 'turns to heading ~w'-[Heading] ].
 
@@ -279,7 +287,7 @@ at_place(Verb, X0, Y0) -->
     { number_text(X0, X),
       number_text(Y0, Y)
     },
-    [ '~w ~w-~w'-[Verb, X, Y] ].
+    [ '~w (~w, ~w)'-[Verb, X, Y] ].
 
 %   At most two decimals.
 

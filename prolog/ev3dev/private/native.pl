@@ -154,11 +154,14 @@
             view_latch_/0,
             view_leave_/1,
             view_lift_/0,
-            view_log_/5,
+            view_log_/6,
             view_move_/4,
             view_open_/0,
             view_pace_/1,
+            view_part_/0,
             view_pause_/1,
+            view_printed_/3,
+            view_prints_/1,
             view_pull_/1,
             view_put_back_/2,
             view_say_/2,
@@ -430,8 +433,11 @@ missing.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
-%!  view_log_(+Time, +Kind, +Text, +Causes, +Thread) is det.
+%!  view_log_(+Time, +Kind, +Text, +Causes, +About, +Thread) is det.
 %!  view_open_ is det.
+%!  view_part_ is det.
+%!  view_printed_(+Ended, -Times, -Texts) is det.
+%!  view_prints_(+Keeps) is det.
 %!  view_serves_ is semidet.
 %!  view_source_(-Source) is det.
 %!  view_stop_motors_ is det.

@@ -34,6 +34,7 @@ export class Hands {
     $('layers').addEventListener('click', () => this.menu('layers'));
     $('more').addEventListener('click', () => this.menu('more'));
     world.changed = () => this.tools();
+    world.beside = () => this.drive(false);
     for (const button of $('pad').querySelectorAll('[data-jog]')) {
       const way = button.dataset.jog;
       button.addEventListener('pointerdown', (event) => {
@@ -49,6 +50,7 @@ export class Hands {
     addEventListener('blur', () => this.letGo());
     document.addEventListener('pointerdown', (event) => {
       if (!event.target.closest('.menu, [aria-expanded=true]')) this.close();
+      if (!event.target.closest('.world-card, .top')) this.putAway();
     });
     this.tools();
   }
@@ -155,9 +157,8 @@ export class Hands {
 
   key(event) {
     if (event.key === 'Escape') {
-      this.close();
-      this.stop();
       event.preventDefault();
+      this.escape();
       return;
     }
     const { target } = event;
@@ -188,11 +189,39 @@ export class Hands {
       e: () => $('edit').click(),
       p: () => $('program-open').click(),
       d: () => this.drive(!this.driving),
+      delete: () => this.remove(),
+      backspace: () => this.remove(),
       h: () => this.charts.hold(this.charts.held === null),
     }[event.key.toLowerCase()];
     if (!act) return;
     act();
     event.preventDefault();
+  }
+
+  /** A menu that is open is closed; else all stops, unless there was just something to put away. */
+  escape() {
+    if (this.close()) return;
+    const { program, ports } = this.model?.frame ?? {};
+    const runs = program?.state === 'running' || ports?.some((port) => port.state?.includes('running'));
+    const away = this.putAway();
+    if (runs || !away) this.stop();
+  }
+
+  /** Nothing is selected or in hand any more; answers whether something was. */
+  putAway() {
+    const { world } = this;
+    const was = this.driving || world.tool !== 'move' || world.selected !== null;
+    if (this.driving) this.drive(false);
+    if (world.tool !== 'move') world.use('move');
+    if (world.selected !== null) world.select(null);
+    return was;
+  }
+
+  remove() {
+    const { selected } = this.world;
+    if (!Number.isFinite(selected?.id)) return;
+    this.wire.send(`remove ${selected.id}`);
+    this.world.select(null);
   }
 
   pan(key) {
@@ -219,15 +248,17 @@ export class Hands {
     menu.querySelector('button')?.focus();
   }
 
+  /** Closes what is open; answers whether something was. */
   close() {
-    this.ports.close();
-    if (!this.opened) return;
+    const was = this.ports.close();
+    if (!this.opened) return was;
     const menu = $(`${this.opened}-menu`);
     const inside = menu.contains(document.activeElement);
     menu.hidden = true;
     attribute($(this.opened), 'aria-expanded', false);
     if (inside) $(this.opened).focus();
     this.opened = null;
+    return true;
   }
 
   layers() {

@@ -1,9 +1,9 @@
-// What happened: commands with their causes, rules, marks, warnings; and a
-// line for goals.
+// What happened: commands with their causes, rules, what the program prints,
+// marks, warnings, goals; and a line for goals.
 
-import { $, clock, download, el, pressed, text } from './dom.js';
+import { $, clock, download, el, pressed, text, toggle } from './dom.js';
 
-const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['mark', 'Marks'], ['warning', 'Warnings']];
+const KINDS = [['command', 'Commands'], ['rule', 'Rules'], ['golog', 'Golog'], ['output', 'Output'], ['goal', 'Goals'], ['mark', 'Marks'], ['warning', 'Warnings']];
 const MOST = 300;
 /** Equal lines that come in turn, as those of two wheels, become one, at the time of the first:
     each at most so many lines and so many seconds after the one before. */
@@ -15,23 +15,31 @@ export class Log {
     this.send = send;
     this.list = $('log');
     this.hidden = new Set();
-    this.counts = new Map();
-    this.rows = [];
-    this.goals = new Map();
-    this.next = 1;
     this.history = [];
+    this.next = 1;
     this.chips = new Map(KINDS.map(([kind, name]) => {
       const chip = el('button', { type: 'button', 'aria-pressed': 'true', hidden: true }, name);
-      chip.addEventListener('click', () => this.filter(kind));
+      chip.addEventListener('click', () => {
+        if (!this.hidden.delete(kind)) this.hidden.add(kind);
+        pressed(chip, !this.hidden.has(kind));
+        this.filter();
+      });
       return [kind, chip];
     }));
     $('log-kinds').append(...this.chips.values());
     this.empty = el('li', { class: 'none' }, el('span'), el('span'), el('span', { class: 'text' }, 'Nothing has happened yet.'));
     this.clear();
+    $('log-about').addEventListener('change', () => this.filter());
+    this.list.addEventListener('click', (event) => {
+      const box = event.target.closest('li');
+      if (box && getSelection().isCollapsed) this.choose(this.rows.find((row) => row.box === box));
+    });
+    this.list.addEventListener('keydown', (event) => this.key(event));
     $('goal').addEventListener('submit', (event) => {
       event.preventDefault();
       this.ask($('goal-text').value.trim());
     });
+    for (const word of ['more', 'enough']) $(`goal-${word}`).addEventListener('click', () => this.another(word));
     $('goal-text').addEventListener('keydown', (event) => {
       if (event.key !== 'ArrowUp' && event.key !== 'ArrowDown') return;
       this.at = Math.max(0, Math.min(this.history.length, (this.at ?? this.history.length) + (event.key === 'ArrowUp' ? -1 : 1)));
@@ -42,25 +50,27 @@ export class Log {
 
   clear() {
     this.rows = [];
-    this.counts.clear();
+    this.chosen = null;
+    this.abouts = new Map();
+    this.age = 0;
     for (const chip of this.chips.values()) chip.hidden = true;
+    $('log-about').replaceChildren(el('option', { value: '' }, 'All parts'));
+    $('log-about').hidden = true;
     this.list.replaceChildren(this.empty);
-  }
-
-  filter(kind) {
-    if (this.hidden.has(kind)) this.hidden.delete(kind);
-    else this.hidden.add(kind);
-    pressed(this.chips.get(kind), !this.hidden.has(kind));
-    for (const row of this.rows) row.box.hidden = this.hidden.has(group(row.kind));
-    this.list.scrollTop = this.list.scrollHeight;
   }
 
   take(model) {
     const { frame } = model;
-    if (frame.new) this.clear();
+    if (frame.new && this.rows.length) this.begins();
     if (frame.goals !== undefined && $('goal').hidden === Boolean(frame.goals)) $('goal').hidden = !frame.goals;
-    if (!model.fresh.length) return;
-    this.add(model.fresh.map((line) => ({ ...line, key: similar(line) })));
+    if (model.fresh.length) this.add(model.fresh.map((line) => ({ ...line, key: similar(line) })));
+  }
+
+  /** Another simulation, or another time of it: what was before stays, but cannot be gone to. */
+  begins() {
+    this.age += 1;
+    for (const row of this.rows) row.box.classList.add('past');
+    this.add([{ kind: 'begin', text: 'Another run begins.' }]);
   }
 
   /** Lines at the end; the list stays where it is if somebody reads above. */
@@ -69,10 +79,9 @@ export class Log {
     const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
     this.empty.remove();
     for (const line of lines) {
-      const kind = group(line.kind);
-      this.counts.set(kind, (this.counts.get(kind) ?? 0) + 1);
-      const chip = this.chips.get(kind);
+      const chip = this.chips.get(group(line.kind));
       if (chip?.hidden) chip.hidden = false;
+      for (const about of line.about ?? []) this.offer(about);
       const same = this.same(line);
       if (same) {
         same.count += 1;
@@ -87,16 +96,17 @@ export class Log {
   same({ key, time }) {
     const recent = this.rows.slice(-LOOK_BACK);
     const last = recent[recent.length - 1];
-    return key && recent.find((row) => row.key === key && (row === last || time - row.at < IN_TURN));
+    return key && recent.find((row) => row.key === key && row.age === this.age && (row === last || time - row.at < IN_TURN));
   }
 
   row(line) {
     const row = {
-      key: line.key, kind: line.kind, count: 1, time: el('time', {}, Number.isFinite(line.time) ? clock(line.time) : ''), words: el('span'), times: el('span', { class: 'times', hidden: true }),
-      why: el('span', { class: 'why', hidden: true }),
+      key: line.key, kind: line.kind, about: line.about, age: this.age, start: line.time, count: 1,
+      words: el('span'), times: el('span', { class: 'times', hidden: true }), why: el('span', { class: 'why' }),
     };
-    row.box = el('li', { class: line.kind, hidden: this.hidden.has(group(line.kind)) },
-      row.time, el('span', { class: 'kind', title: line.kind }), el('span', { class: 'text' }, row.words, row.times, row.why));
+    row.box = el('li', { class: line.kind, tabIndex: -1, hidden: !this.passes(row) },
+      el('time', {}, Number.isFinite(line.time) ? clock(line.time) : ''), el('span', { class: 'kind', title: line.kind }),
+      el('span', { class: 'text' }, row.words, row.times, row.why));
     if (Number.isFinite(line.time)) row.box.dataset.time = line.time;
     this.fill(row, line);
     this.list.append(row.box);
@@ -109,53 +119,115 @@ export class Log {
     row.line = line.text;
     if (row.count > 1) {
       row.times.hidden = false;
-      const until = Number.isFinite(line.time) ? clock(line.time) : '';
-      text(row.times, until === row.time.textContent ? `×${row.count}` : `×${row.count} until ${until}`);
+      const [from, until] = [row.start, line.time].map((time) => (Number.isFinite(time) ? clock(time) : ''));
+      text(row.times, until === from ? `×${row.count}` : `×${row.count} until ${until}`);
     }
-    const causes = line.causes ?? [];
-    row.why.hidden = !causes.length;
-    if (causes.length) text(row.why, `why: ${causes.join(', ')}`);
+    row.causes = line.causes ?? [];
+    this.because(row);
+  }
+
+  /** Why: the causes of the line that is chosen, the nearest first. */
+  because(row) {
+    row.why.hidden = !row.causes.length;
+    if (row.causes.length) text(row.why, row === this.chosen ? `why: ${row.causes.join('\nwhich was for: ')}` : 'why?');
+  }
+
+  // ------------------------------------------------------------- the filter
+
+  passes(row) {
+    const about = $('log-about').value;
+    return !this.hidden.has(group(row.kind)) && (!about || Boolean(row.about?.includes(about)));
+  }
+
+  filter() {
+    for (const row of this.rows) row.box.hidden = !this.passes(row);
+    this.list.scrollTop = this.list.scrollHeight;
+  }
+
+  /** A motor or a rule that lines can be chosen by; they stand in the order of their names. */
+  offer(about) {
+    if (this.abouts.has(about)) return;
+    const option = el('option', { value: about }, about);
+    const after = [...this.abouts.keys()].filter((other) => other > about).sort()[0];
+    $('log-about').insertBefore(option, this.abouts.get(after) ?? null);
+    this.abouts.set(about, option);
+    $('log-about').hidden = false;
+  }
+
+  // ------------------------------------------------------------- one line
+
+  /** Chooses a line, or none: it says why, and when it was. */
+  choose(row) {
+    const former = this.chosen;
+    this.chosen = row === former ? null : row ?? null;
+    for (const each of [former, this.chosen]) {
+      if (!each) continue;
+      toggle(each.box, 'chosen', each === this.chosen);
+      this.because(each);
+    }
+    const t = this.chosen?.start;
+    if (Number.isFinite(t) && this.chosen.age === this.age) this.list.dispatchEvent(new CustomEvent('ev3dev-time', { bubbles: true, detail: { t } }));
+  }
+
+  key(event) {
+    const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+    if (!step) return;
+    const rows = this.rows.filter((row) => !row.box.hidden);
+    const at = rows.indexOf(this.chosen);
+    const row = at < 0 ? rows[rows.length - 1] : rows[at + step];
+    event.preventDefault();
+    if (!row) return;
+    this.choose(row);
+    row.box.focus();
   }
 
   // ------------------------------------------------------------- goals
 
+  /** A goal is typed; what becomes of it comes in the log. */
   ask(goal) {
-    if (!goal) return;
-    const n = this.next;
-    this.next += 1;
-    this.history.push(goal);
+    if (goal === ';' && this.waits) this.another('more');
+    else if (goal) {
+      if (!this.send(`goal ${this.next} ${goal}`)) return this.refused('The program does not answer.');
+      this.next += 1;
+      this.history.push(goal);
+    } else return;
     this.at = this.history.length;
-    if (!this.send(`goal ${n} ${goal}`)) return;
-    this.add([{ kind: 'goal', text: `?- ${goal}` }]);
     $('goal-text').value = '';
+    this.refused('');
+    this.wait(null);
   }
 
-  answer({ n, state, text: words }) {
-    const shown = { false: 'false.', stopped: 'stopped.' }[state] ?? `${words || 'true'}${state === 'last' ? '.' : ''}`;
-    this.add([{ kind: state === 'error' ? 'error' : 'answer', text: shown }]);
-    if (state !== 'more') return;
-    const last = this.rows[this.rows.length - 1];
-    const buttons = ['More', 'Enough'].map((name) => {
-      const button = el('button', { type: 'button', class: 'tool text' }, name);
-      button.addEventListener('click', () => {
-        this.send(`${name.toLowerCase()} ${n}`);
-        for (const each of buttons) each.remove();
-        $('goal-text').focus();
-      });
-      return button;
-    });
-    last.box.querySelector('.text').append(...buttons);
-    this.list.scrollTop = this.list.scrollHeight;
+  another(word) {
+    this.send(`${word} ${this.waits}`);
+    this.wait(null);
+    $('goal-text').focus();
+  }
+
+  answer({ n, state }) {
+    if (n === this.next - 1) this.wait(state === 'more' ? n : null);
+  }
+
+  wait(n) {
+    this.waits = n;
+    for (const word of ['more', 'enough']) $(`goal-${word}`).hidden = n === null;
+  }
+
+  /** It stays in its line, and beside it stands why it was not done. */
+  refused(why) {
+    text($('goal-why'), why);
+    $('goal-why').hidden = !why;
+    if (why && !$('goal-text').value) $('goal-text').value = this.history[this.history.length - 1];
   }
 
   save() {
-    download('log.txt', this.rows.map((row) => `${row.time.textContent}\t${row.kind}\t${row.line}`).join('\n'), 'text/plain');
+    const time = ({ start }) => (Number.isFinite(start) ? clock(start) : '');
+    download('log.txt', this.rows.map((row) => `${time(row)}\t${row.kind}\t${row.line}`).join('\n'), 'text/plain');
   }
 }
 
-/** Errors are shown with warnings; other kinds alone. */
+/** Errors are shown with warnings, answers with goals; other kinds alone. */
 function group(kind) {
-  return kind === 'error' ? 'warning' : kind;
+  return { error: 'warning', answer: 'goal' }[kind] ?? kind;
 }
 
 /** Commands that differ by a number only are alike. */

@@ -48,7 +48,11 @@ function state(name) {
   if (name === 'lost' && phase === 'refused') return;
   phase = name;
   for (const each of PHASES) toggle(document.body, each, each === name);
-  if (name === 'live') notice('');
+  if (name === 'live') {
+    // It is told everything again.
+    log.clear();
+    notice('');
+  }
   else if (name === 'refused') notice(REFUSED, { bad: true });
   else if (model.frame) notice(LOST, { bad: true });
   else notice('The program does not answer. The page goes on when it does.', { bad: true });
@@ -57,6 +61,7 @@ function state(name) {
 
 function reply(message) {
   if (message.type === 'answer') log.answer(message);
+  else if (message.type === 'refused' && ['goal', 'more', 'enough'].includes(message.what)) log.refused(message.why);
   else if (!editor.reply(message) && !program.reply(message)) hands.reply(message);
 }
 

@@ -84,8 +84,12 @@ export class Ports {
     text(row.unit, '%');
     const said = states.map((word) => WORDS[word] ?? word);
     if (port.held) said.push('held');
+    // Its speed in the chart's unit, too; without a command it goes on for a moment.
+    const moves = Math.abs(port.speed ?? 0) >= 1;
+    if (!said.length) said.push(moves ? 'slows down' : 'rests');
+    const speed = moves ? ` · ${num(port.speed)}${unit('deg/s')}` : '';
     const position = port.position !== undefined ? ` · ${num(port.position)} ${unit(port.unit ?? 'deg')}`.replace(' °', '°') : '';
-    text(row.detail, (said.length ? said.join(', ') : 'rests') + position);
+    text(row.detail, said.join(', ') + speed + position);
     this.bar(row, share, true);
     this.dot(row, port);
   }
@@ -188,11 +192,13 @@ export class Ports {
     menu.querySelector('button').focus();
   }
 
+  /** Answers whether it was open. */
   close() {
-    if (!this.menu) return;
+    if (!this.menu) return false;
     this.menu.menu.remove();
     attribute(this.menu.button, 'aria-expanded', false);
     this.menu = null;
+    return true;
   }
 }
 

@@ -26,10 +26,6 @@ export class Timeline {
     this.slider = $('time-slider');
     this.slider.addEventListener('input', () => goTo(this.atEnd() ? null : Number(this.slider.value)));
     $('time-live').addEventListener('click', () => goTo(null));
-    $('log').addEventListener('click', (event) => {
-      const time = event.target.closest('li')?.dataset.time;
-      if (time && !event.target.closest('button') && getSelection().isCollapsed) goTo(Number(time));
-    });
     document.addEventListener('ev3dev-time', (event) => this.go(event.detail.t));
   }
 

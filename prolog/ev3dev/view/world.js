@@ -320,6 +320,20 @@ export class World {
     if (this.shown.sensors) this.drawSeen(c, true);
     this.drawRobots(c, robot);
     this.drawHands(c);
+    this.dodge(this.drag?.kind === 'robot' ? this.drag.at : robot.true ?? robot.pose);
+  }
+
+  /** What lies over the world goes to its other end where it hides the robot. */
+  dodge(pose) {
+    if (!pose) return;
+    const [x, y] = this.pixel(pose);
+    const far = Math.max(13, this.reach() * this.camera.scale) + 6;
+    const hides = ({ offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height }) => x > left - far && x < left + width + far && y > top - far && y < top + height + far;
+    for (const box of [$('inspector'), $('pad')]) {
+      if (box.hidden || !hides(box)) continue;
+      box.classList.toggle('high');
+      if (hides(box)) box.classList.toggle('high');
+    }
   }
 
   drawFloor(c) {
@@ -641,19 +655,29 @@ export class World {
     if (robot.pose && (this.shown.believed || !truly)) this.drawRobot(c, robot.pose, truly ? 'believed' : 'real');
   }
 
+  /** Within the world, and the fainter the less it says. */
   drawEllipse(c, [x, y], [a, b, h]) {
     if (a * SIGMAS < 2 * this.dot) return;
+    const [left, bottom, right, top] = this.view;
+    const clear = Math.min(1, Math.max(0.15, (0.25 * Math.min(right - left, top - bottom)) / (a * SIGMAS)));
+    c.save();
+    if (this.model.world?.bounds) {
+      const [x1, y1, x2, y2] = this.model.world.bounds;
+      c.beginPath();
+      c.rect(x1, y1, x2 - x1, y2 - y1);
+      c.clip();
+    }
     c.beginPath();
     // Its long axis along the heading h, which is clockwise from y.
     c.ellipse(x, y, a * SIGMAS, Math.max(b * SIGMAS, this.dot), (90 - h) * TURN, 0, 7);
-    c.globalAlpha = 0.16;
+    c.globalAlpha = 0.16 * clear;
     c.fillStyle = this.paint.blue;
     c.fill();
-    c.globalAlpha = 0.9;
+    c.globalAlpha = 0.9 * clear;
     c.strokeStyle = this.paint.blue;
     c.lineWidth = 1.2 * this.dot;
     c.stroke();
-    c.globalAlpha = 1;
+    c.restore();
   }
 
   drawRobot(c, [x, y, h], kind) {
@@ -957,6 +981,7 @@ export class World {
     toggle(this.canvas, 'grabbing', false);
     if (drag?.kind === 'edit') return this.editing?.up(canceled);
     if (!drag || canceled) return this.draw();
+    if (drag.kind === 'pan' && !this.moved) this.beside?.();
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];

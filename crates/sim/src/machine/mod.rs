@@ -173,7 +173,7 @@ impl Machine {
     /// Lifts the robot to another place, where it stands still. Its gyro does not notice.
     ///
     /// # Errors
-    /// If something is in the way there.
+    /// If something is in the way there, or the world ends before.
     pub fn place(&mut self, pose: Pose) -> Result<(), SpecError> {
         if !pose.is_in_range() {
             return Err(SpecError::new("robot", OUT_OF_RANGE));
@@ -202,18 +202,21 @@ impl Machine {
     }
 
     fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
-        let Some(id) = self.scene.overlap(self.robot.hull, pose) else {
-            return Ok(());
-        };
-        let items = self.scene.items();
-        let index = items.iter().position(|(other, _)| *other == id);
-        let (name, part) = match index {
-            Some(index) => (items[index].1.to_string(), Part::Item(index)),
-            None => ("the walls of the bounds".to_owned(), Part::Bounds),
-        };
-        let item = format!("robot at {}, {}", pose.x, pose.y);
-        let error = SpecError::new(item, format!("is inside {name}"));
-        Err(error.in_part(Part::Start).in_part(part))
+        let robot = |is: String| SpecError::new(format!("robot at {}, {}", pose.x, pose.y), is);
+        if let Some(id) = self.scene.overlap(self.robot.hull, pose) {
+            let items = self.scene.items();
+            let index = items.iter().position(|(other, _)| *other == id);
+            let (name, part) = match index {
+                Some(index) => (items[index].1.to_string(), Part::Item(index)),
+                None => ("the walls of the bounds".to_owned(), Part::Bounds),
+            };
+            return Err(robot(format!("is inside {name}")).in_part(Part::Start).in_part(part));
+        }
+        if self.scene.bounds.is_some_and(|bounds| !bounds.contain([pose.x, pose.y])) {
+            let error = robot("is outside of the world".to_owned());
+            return Err(error.in_part(Part::Start).in_part(Part::Bounds));
+        }
+        Ok(())
     }
 
     /// Everything in the world, with the numbers under which it can be removed.

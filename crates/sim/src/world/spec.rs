@@ -29,6 +29,11 @@ impl Bounds {
         }
         Err(SpecError::new("bounds", "must have an inside").in_part(Part::Bounds))
     }
+
+    /// Whether a place is within.
+    pub(crate) fn contain(&self, place: Point) -> bool {
+        (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&place[axis]))
+    }
 }
 
 /// A world.

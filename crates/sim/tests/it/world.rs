@@ -26,6 +26,8 @@ fn impossible_worlds_and_robots_are_named() {
     let mut world = furnished();
     world.start = Pose::new(3.0, 3.0, 0.0);
     assert!(build(&world, &robot).contains("inside the walls"), "{}", build(&world, &robot));
+    world.start = Pose::new(0.0, 9000.0, 0.0);
+    assert!(build(&world, &robot).contains("outside of the world"), "{}", build(&world, &robot));
 
     let world = WorldSpec::default();
     let mut robot = default_robot();

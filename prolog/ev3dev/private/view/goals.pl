@@ -3,22 +3,24 @@
             goals_end/1                 % +Page
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../native', [view_say_/2]).
-:- use_module(log, [error_text/2]).
-:- use_module(program, [program_state/1]).
+:- use_module('../native', [view_part_/0, view_say_/2]).
+:- use_module(log, [error_text/2, note/2]).
+:- use_module(program, [part_begins/1, part_ends/1, program_state/1]).
 
 /** <module> Goals that are typed into a page
 
 Only with the option `goals(true)`, and only at localhost. A goal runs in a
-thread of its own, as a part of the program.
+thread of its own, as a part of the program. It stands in the log, with what
+it prints and its answers. There is nothing for it to read.
 */
 
 :- dynamic running/3.                   % Page, Number, Thread
 
 %!  goal_line(+Word, +Rest, +Page, -Refused) is semidet.
 %
-%   Start a goal, ask for its next answer, or end it. Fails if that is no
-%   line; Refused is bound to a text if it is not the time for it.
+%   Start a goal, ask for its next answer, or end it. A new goal ends one that
+%   waits to be asked. Fails if that is no line; Refused is bound to a text if
+%   it is not the time for it.
 
 goal_line(goal, Rest, Page, Refused) :-
     sub_string(Rest, Before, 1, After, " "),
@@ -26,25 +28,32 @@ goal_line(goal, Rest, Page, Refused) :-
     sub_string(Rest, 0, Before, _, Number0),
     sub_string(Rest, _, After, 0, Text),
     number_of(Number0, Number),
-    (   running(Page, _, Thread),
-        catch(thread_property(Thread, status(running)), _, fail)
-    ->  Refused = "Another goal is not finished."
-    ;   program_state(State),
-        State \== idle
-    ->  Refused = "A program runs."
-    ;   retractall(running(Page, _, _)),
-        thread_create(ev3dev_view_goals:solve(Text, Number, Page), Thread,
-                      [detached(true)]),
-        assertz(running(Page, Number, Thread)),
-        thread_send_message(Thread, ev3dev_view_goal(begin))
-    ).
+    with_mutex(ev3dev_view_goals, begin(Text, Number, Page, Refused)).
 goal_line(Word, Rest, Page, _) :-
     memberchk(Word, [more, enough]),
     number_of(Rest, Number),
     (   running(Page, Number, Thread)
-    ->  catch(thread_send_message(Thread, ev3dev_view_goal(Word)), _, true)
+    ->  send(Thread, Word)
     ;   true
     ).
+
+begin(Text, Number, Page, Refused) :-
+    (   program_state(State),
+        State \== idle
+    ->  Refused = "A program runs. STOP ends it."
+    ;   (   retract(running(Page, _, Former))
+        ->  send(Former, enough)
+        ;   Former = none
+        ),
+        thread_create(ev3dev_view_goals:solve(Text, Number, Page, Former),
+                      Thread, []),
+        assertz(running(Page, Number, Thread)),
+        part_begins(Thread),
+        send(Thread, begin)
+    ).
+
+send(Thread, Word) :-
+    catch(thread_send_message(Thread, ev3dev_view_goal(Word)), _, true).
 
 number_of(Text, Number) :-
     string_length(Text, Length),
@@ -56,40 +65,81 @@ number_of(Text, Number) :-
 
 %!  goals_end(+Page) is det.
 %
-%   End the goals of this page.
+%   End the goal of this page. Waits for that.
 
 goals_end(Page) :-
-    forall(running(Page, _, Thread),
-           catch(thread_signal(Thread, abort), _, true)),
-    retractall(running(Page, _, _)).
+    forall(retract(running(Page, _, Thread)),
+           ( catch(thread_signal(Thread, abort), _, true),
+             ended(Thread) )).
 
-solve(Text, Number, Page) :-
-    thread_get_message(ev3dev_view_goal(begin)),
-    catch(solve_(Text, Number, Page), Error, true),
-    (   var(Error)
+%   Prolog warns of a thread that is aborted, unless another one joins it.
+ended(Thread) :-
+    (   Thread == none
     ->  true
-    ;   Error = error(syntax_error(What), _)
-    ->  format(string(Why), "Syntax error: ~w", [What]),
-        answer(Page, Number, error, Why)
-    ;   Error = error(_, _)
-    ->  error_text(Error, Why),
-        answer(Page, Number, error, Why)
-    ;   format(string(Why), "~p", [Error]),
-        answer(Page, Number, stopped, Why)
+    ;   catch(thread_join(Thread, _), _, true)
     ).
 
-solve_(Text, Number, Page) :-
+%   An abort is thrown again after what is done here.
+solve(Text, Number, Page, Former) :-
+    thread_get_message(ev3dev_view_goal(begin)),
+    view_part_,
+    ended(Former),
+    format(string(Line), "?- ~w", [Text]),
+    note(goal, Line),
+    thread_self(Me),
+    catch(setup_call_cleanup(
+              open_string("\n", In),
+              setup_call_cleanup(
+                  true,
+                  solve_(Text, Number, Page, In),
+                  part_ends(Me)),
+              close(In)),
+          Error, unsolved(Error, Text, Page, Number)).
+
+unsolved(error(syntax_error(What), Context), Text, Page, Number) :-
+    !,
+    (   nonvar(Context),
+        Context = stream(_, _, _, Place)
+    ->  Error = error(syntax_error(What), string(Text, Place))
+    ;   Error = error(syntax_error(What), _)
+    ),
+    error_text(Error, Why),
+    answer(Page, Number, error, Why).
+unsolved(Error, _, Page, Number) :-
+    Error = error(_, _),
+    !,
+    error_text(Error, Why),
+    answer(Page, Number, error, Why).
+unsolved(Ball, _, Page, Number) :-
+    (   is_abort(Ball)
+    ->  answer(Page, Number, stopped, "stopped")
+    ;   format(string(Why), "Unknown exception: ~p", [Ball]),
+        answer(Page, Number, error, Why)
+    ).
+
+is_abort('$aborted').
+is_abort(unwind(abort)).
+
+solve_(Text, Number, Page, In) :-
+    set_stream(In, alias(user_input)),
+    set_input(In),
+    thread_self(Me),
     term_string_with_names(Text, Goal, Names),
     (   solution(Goal, Last),
+        part_ends(Me),
+        say_of_input(In),
         bindings_text(Names, Answer),
         (   Last == true
         ->  answer(Page, Number, last, Answer)
         ;   answer(Page, Number, more, Answer),
             thread_get_message(ev3dev_view_goal(Word)),
+            part_begins(Me),
             Word == enough
         )
     ->  true
-    ;   answer(Page, Number, false, "false")
+    ;   part_ends(Me),
+        say_of_input(In),
+        answer(Page, Number, false, "false")
     ).
 
 solution(Goal, Last) :-
@@ -97,6 +147,14 @@ solution(Goal, Last) :-
     (   Deterministic == true
     ->  Last = true
     ;   Last = false
+    ).
+
+say_of_input(In) :-
+    (   character_count(In, Count),
+        Count > 0
+    ->  note(warning, "A goal of a page has nothing to read: \c
+                       there is no terminal.")
+    ;   true
     ).
 
 term_string_with_names(Text, Goal, Names) :-
@@ -128,12 +186,18 @@ bindings_text(Names, Text) :-
         atom_string(Text0, Text)
     ).
 
-%   After all but `more` the page may send another goal at once.
+%   The log has it, too, after what the goal printed.
 answer(Page, Number, State, Text) :-
-    (   State == more
-    ->  true
-    ;   thread_self(Me),
-        retractall(running(_, _, Me))
+    (   State == error
+    ->  note(error, Text)
+    ;   note(answer, Text, State)
     ),
     atom_string(State, Word),
     view_say_(Page, json([type=answer, n=Number, state=Word, text=Text])).
+
+note(Kind, Text, State) :-
+    (   State == more
+    ->  note(Kind, Text)
+    ;   string_concat(Text, ".", Ended),
+        note(Kind, Ended)
+    ).

@@ -2,18 +2,22 @@
           [ watch_messages/0,
             leave_messages/0,
             mark/1,                     % +Term
-            log_commands/0,
+            log_commands/1,             % +Ended
+            note/2,                     % +Kind, +Text
             error_text/2                % +Error, -Text
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../journal_words', [cause_words//1, command_words//2]).
 :- use_module('../causes', [causes/2, follow/1, follow_no_more/0]).
-:- use_module('../native', [journal_new_/1, view_log_/5, view_serves_/0]).
+:- use_module('../native',
+              [ journal_new_/1, view_log_/6, view_printed_/3,
+                view_serves_/0 ]).
 :- use_module('../uncaught', [in_words//1]).
 
 /** <module> What the page's log is told
 
-Commands, warnings and errors of the program, its marks, rules that become
-active, events that happen and Golog's history.
+Commands, warnings and errors of the program, what it prints, its marks, rules
+that become active, events that happen and Golog's history.
 */
 
 :- multifile user:message_hook/3.
@@ -28,8 +32,8 @@ active, events that happen and Golog's history.
 
 watch_messages :-
     leave_messages,
-    asserta((user:message_hook(_, Kind, Lines) :-
-                 ev3dev_view_log:seen(Kind, Lines),
+    asserta((user:message_hook(Message, Kind, Lines) :-
+                 ev3dev_view_log:seen(Kind, Message, Lines),
                  fail),
             Hook),
     assertz(hook(Hook)),
@@ -40,13 +44,20 @@ leave_messages :-
     forall(retract(hook(Hook)),
            erase(Hook)).
 
-seen(Kind, Lines) :-
-    (   memberchk(Kind, [warning, error]),
+seen(Kind0, Message, Lines) :-
+    (   message_kind(Kind0, Message, Kind),
         \+ view_serves_
     ->  lines_text(Lines, Text),
         note(Kind, Text)
     ;   true
     ).
+
+message_kind(warning, _, warning).
+message_kind(error, _, error).
+%   What was asked for, as by why/1. Golog's history says what it executes.
+message_kind(help, Message, output) :-
+    Message \= golog(executing(_)),
+    Message \= ev3dev(view(_)).
 
 :- public begun/1.
 
@@ -54,7 +65,8 @@ begun(Cause) :-
     functor(Cause, Kind0, _),
     log_kind(Kind0, Kind),
     texts_of([Cause], [Text]),
-    note(Kind, Text).
+    about([Cause], About),
+    note(Kind, Text, About).
 
 log_kind(rule, rule).
 log_kind(event, rule).
@@ -65,11 +77,20 @@ lines_text(Lines, Text) :-
                    print_message_lines(current_output, '', Lines)),
     split_string(Text0, "", "\n ", [Text]).
 
+%!  note(+Kind, +Text) is det.
+%
+%   A line in the log, after what was commanded and printed before.
+
 note(Kind, Text) :-
+    note(Kind, Text, []).
+
+note(Kind, Text, About) :-
     thread_name(Thread),
-    % What was commanded before stands before it.
-    log_commands,
-    view_log_(now, Kind, Text, [], Thread).
+    (   memberchk(Kind, [answer, error, stop])
+    ->  log_commands(true)
+    ;   log_commands(false)
+    ),
+    view_log_(now, Kind, Text, [], About, Thread).
 
 thread_name(page) :-
     view_serves_,
@@ -107,16 +128,31 @@ mark(Term) :-
     ),
     note(mark, Text).
 
-%!  log_commands is det.
+%!  log_commands(+Ended) is det.
 %
-%   Add what the program has commanded meanwhile. Asks no device.
+%   Add what the program has commanded and printed meanwhile. Asks no device.
+%   The beginning of a line is held back, unless Ended.
 
-log_commands :-
+log_commands(Ended) :-
     journal_new_(Done),
-    log_each(Done).
+    view_printed_(Ended, Times, Texts),
+    log_each(Done, Times, Texts).
 
-log_each([]).
-log_each([done(Time, What-Command0, Cause)|Done]) :-
+log_each([done(At, What-Command, Cause)|Done], Times, Texts) :-
+    (   Times = [Time|_]
+    ->  At =< Time
+    ;   true
+    ),
+    !,
+    log_command(Command, What, At, Cause),
+    log_each(Done, Times, Texts).
+log_each(Done, [Time|Times], [Text|Texts]) :-
+    !,
+    view_log_(Time, output, Text, [], [], ''),
+    log_each(Done, Times, Texts).
+log_each([], [], []).
+
+log_command(Command0, What, Time, Cause) :-
     (   Command0 = ended(Reason, _)
     ->  Command = ended(Reason)
     ;   Command = Command0
@@ -125,10 +161,28 @@ log_each([done(Time, What-Command0, Cause)|Done]) :-
     ->  lines_text(Lines, Text),
         causes(Cause, Causes),
         texts_of(Causes, Texts),
-        view_log_(Time, command, Text, Texts, '')
+        about([What|Causes], About),
+        view_log_(Time, command, Text, Texts, About, '')
     ;   true
-    ),
-    log_each(Done).
+    ).
+
+%   What a line is about, for the page's filter: `robot`, ports of motors,
+%   rules and events.
+
+about([], []).
+about([Term|Terms], About) :-
+    findall(Text, concerned(Term, Text), About, About1),
+    about(Terms, About1).
+
+concerned(robot(Left, Right), Text) :-
+    member(Text, [robot, Left, Right]).
+concerned(Port, Port) :-
+    atom(Port),
+    sub_atom(Port, 0, _, _, out).
+concerned(rule(Name, _), Text) :-
+    format(string(Text), "rule ~p", [Name]).
+concerned(event(Id, _), Text) :-
+    format(string(Text), "event ~p", [Id]).
 
 texts_of([], []).
 texts_of([Cause|Causes], [Text|Texts]) :-

@@ -10,7 +10,7 @@
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(hands, [hand_line/3]).
 :- use_module(known, [renew_kept/0]).
-:- use_module(log, [error_text/2, log_commands/0, mark/1]).
+:- use_module(log, [error_text/2, log_commands/1, mark/1, note/2]).
 :- use_module(program,
               [ lift_latch/0, probe_program/0, program_state/1,
                 stop_program/0, view_thread/0
@@ -88,7 +88,7 @@ receive_visitors :-
 
 receive(stop) :-
     !,
-    stop_program.
+    stop.
 %   While Prolog halts, version 10 creates no thread.
 receive(Page) :-
     catch(thread_create(ev3dev_view_page:page_serve(Page), _,
@@ -101,7 +101,7 @@ page_serve(Page) :-
     setup_call_cleanup(
         true,
         ignore(catch(( probe_program, converse(Page, none, 0) ), _, true)),
-        ( goals_end(Page), source_leave(Page), view_leave_(Page) )).
+        ( view_leave_(Page), goals_end(Page), source_leave(Page) )).
 
 %   Wanted is what the page has that wants a frame, or `none`; Last is when it
 %   got the last one.
@@ -153,7 +153,10 @@ frame_send(Page, Have) :-
     program_state(State),
     renew_kept,
     renew_active,
-    log_commands,
+    (   State == idle
+    ->  log_commands(true)
+    ;   log_commands(false)
+    ),
     view_frame_(Page, Have, State, Rate, Goals).
 
 word_rest(Line, Word, Rest) :-
@@ -167,7 +170,7 @@ word_rest(Line, Word, Rest) :-
 %   What a page says is one of these; nothing of it is ever called.
 line(stop, "", Page) :-
     !,
-    stop_program,
+    stop,
     done(Page, stop, []).
 line(go, "", Page) :-
     !,
@@ -207,6 +210,15 @@ line(Word, Rest, Page) :-
     ;   Answer = refused(Why, More)
     ->  refused(Page, Word, Why, More)
     ;   true
+    ).
+
+%   First it stops, then it says so.
+stop :-
+    program_state(State),
+    stop_program,
+    (   State == idle
+    ->  note(stop, "STOP: all motors brake")
+    ;   note(stop, "STOP: all motors brake, and the program ends")
     ).
 
 done(Page, Word, More) :-

@@ -2,6 +2,9 @@
           [ watch_program/0,
             leave_program/0,
             program_state/1,            % -State
+            part_begins/1,              % +Thread
+            part_ends/1,                % +Thread
+            prints/0,
             probe_program/0,
             stop_program/0,
             end_program/1,              % +Seconds
@@ -10,8 +13,8 @@
           ]).
 :- use_module(library(lists), [delete/3, member/2]).
 :- use_module('../native',
-              [ view_latch_/0, view_lift_/0, view_stop_motors_/0,
-                view_thread_/1, view_users_/1 ]).
+              [ view_latch_/0, view_lift_/0, view_prints_/1,
+                view_stop_motors_/0, view_thread_/1, view_users_/1 ]).
 :- use_module('../prompt', [reads_query/0]).
 
 /** <module> The program that is watched
@@ -23,6 +26,7 @@ Whether a program runs at the toplevel, and how it is stopped.
     queries/1,                          % how many there were
     stopping/1,                         % the thread that does it
     asked/1,                            % a thread that is to be interrupted
+    part/1,                             % a thread with a goal of a page
     next_probe/2,                       % Time, Pause
     hook/1.                             % a clause
 
@@ -30,9 +34,16 @@ queries(0).
 
 %!  program_state(-State) is det.
 %
-%   State is `idle` while the toplevel waits for a query, else `running`.
+%   State is `idle` while the toplevel waits for a query and no goal of a page
+%   runs, else `running`.
 
 program_state(State) :-
+    (   part(_)
+    ->  State = running
+    ;   main_state(State)
+    ).
+
+main_state(State) :-
     flag(ev3dev_view_idle, Idle, Idle),
     (   Idle =:= 1
     ->  State = idle
@@ -46,7 +57,32 @@ set_state(State) :-
     ->  Idle = 1
     ;   Idle = 0
     ),
-    flag(ev3dev_view_idle, _, Idle).
+    flag(ev3dev_view_idle, _, Idle),
+    prints.
+
+%   What is written from now on is the program's, or the toplevel's.
+prints :-
+    program_state(State),
+    (   State == running
+    ->  view_prints_(true)
+    ;   catch(flush_output(user_output), _, true),
+        view_prints_(false)
+    ).
+
+%!  part_begins(+Thread) is det.
+%!  part_ends(+Thread) is det.
+%
+%   A thread solves a goal of a page, as a part of the program; or it waits to
+%   be asked for another answer, or has ended.
+
+part_begins(Thread) :-
+    part_ends(Thread),
+    assertz(part(Thread)),
+    prints.
+
+part_ends(Thread) :-
+    retractall(part(Thread)),
+    prints.
 
 %!  watch_program is det.
 %!  leave_program is det.
@@ -71,7 +107,8 @@ watch_program :-
                  fail),
             Hook2),
     assertz(hook(Hook1)),
-    assertz(hook(Hook2)).
+    assertz(hook(Hook2)),
+    prints.
 
 leave_program :-
     forall(retract(hook(Hook)),
@@ -213,7 +250,7 @@ asked_main(Question, Seconds, Me, Answer) :-
     ;   thread_get_message(Me, answer(Answer0), [timeout(Seconds)])
     ->  Answer = Answer0
     ;   Question = ended_since(_, _),
-        program_state(idle)
+        main_state(idle)
     ->  Answer = ended
     ;   Longer is min(1, Seconds*2),
         asked_main(Question, Longer, Me, Answer)
@@ -256,7 +293,7 @@ until_ended(ended, _) :-
     set_state(idle).
 until_ended(interrupted(Count), Me) :-
     sleep(0.02),
-    (   program_state(idle)
+    (   main_state(idle)
     ->  true
     ;   asked_main(ended_since(Count, Me), 0.05, Me, Answer),
         until_ended(Answer, Me)
