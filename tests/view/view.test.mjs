@@ -649,7 +649,6 @@ group('files of worlds', [`working_directory(_, '${files}')`, ...ROOM], '', (it)
   const open1 = async (name, text) => {
     fs.writeFileSync(path.join(files, name), text);
     await (await it.page.$('#editor input[type=file]')).uploadFile(path.join(files, name));
-    fs.unlinkSync(path.join(files, name));
   };
   after(() => fs.rmSync(files, { recursive: true }));
 
