@@ -332,7 +332,7 @@ group('a run that is over', ROOM, '', (it) => {
     await shows(it.page, (s) => s.past && s.past.t < 3 && near(s.past.robot.true[0], 40, 0.01), 'the start');
     await it.page.click('#time-live');
     const now = await shows(it.page, (s) => s.past === null, 'now again');
-    assert.deepEqual(now.robot.true, last.true);
+    assert.ok(now.robot.true.every((n, i) => near(n, last.true[i], 0.5)));
   });
 
   test('shows the world as it was', async () => {
@@ -541,7 +541,6 @@ group('files of worlds', [`working_directory(_, '${files}')`, ...ROOM], '', (it)
   const open1 = async (name, text) => {
     fs.writeFileSync(path.join(files, name), text);
     await (await it.page.$('#editor input[type=file]')).uploadFile(path.join(files, name));
-    fs.unlinkSync(path.join(files, name));
   };
   after(() => fs.rmSync(files, { recursive: true }));
 
