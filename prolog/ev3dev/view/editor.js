@@ -253,9 +253,10 @@ export class Editor {
   async opened() {
     const [file] = this.file.files;
     if (!file) return;
-    const facts = await file.text();
+    const facts = await file.text().catch(() => null);
     this.file.value = '';
-    if (!this.fits(facts)) return;
+    if (facts === null) notice(`${file.name} cannot be read.`, { seconds: 6 });
+    if (facts === null || !this.fits(facts)) return;
     this.opening = true;
     this.send(`begin ${plain(file.name.replace(/\.pl$/, '')) || 'world'} ${facts}`);
   }

@@ -1,0 +1,591 @@
+// The world on the canvas: floor, things, trails, what sensors see, robots, and what hands do.
+
+import { Camera } from './camera.js';
+import { $, el, nice, num } from './dom.js';
+
+export const TURN = Math.PI / 180;
+/** Two dimensions: 95 % of all cases lie within this many standard deviations. */
+const SIGMAS = 2.45;
+/** The seconds of the trail that are drawn clearly. */
+const CLEAR = 30;
+
+const ahead = (h) => [Math.sin(h * TURN), Math.cos(h * TURN)];
+
+/** A pose between two, for smooth motion. */
+export function between(a, b, share) {
+  return a.map((n, i) => n + (b[i] - n) * share);
+}
+
+export class Picture extends Camera {
+  colors() {
+    const style = getComputedStyle(document.documentElement);
+    const color = (name) => style.getPropertyValue(`--${name}`).trim();
+    this.dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    this.paint = Object.fromEntries(['ground', 'outside', 'card', 'ink', 'soft', 'line', 'wall', 'block', 'block-edge',
+      'beam', 'yellow', 'blue', 'red', 'violet', 'off'].map((name) => [name, color(name)]));
+    this.font = style.getPropertyValue('--sans');
+  }
+
+  /** The floor's colors. White tape reflects 92 %, and looks white here. In
+      the dark colors are dimmed, but stay apart. */
+  tone(color) {
+    const parts = [1, 3, 5].map((i) => Math.min(255, 1.085 * parseInt(color.slice(i, i + 2), 16)));
+    if (!this.dark) return `rgb(${parts.map(Math.round).join(' ')})`;
+    const light = 0.3 * parts[0] + 0.59 * parts[1] + 0.11 * parts[2];
+    const dim = (c) => Math.round(Math.max(0, Math.min(255, 12 + 0.2 * light + 0.6 * (c - light))));
+    return `rgb(${parts.map(dim).join(' ')})`;
+  }
+
+  legend() {
+    const robot = this.model?.frame?.robot;
+    const entries = [];
+    if (robot?.true) entries.push(['true', 'robot']);
+    if (robot?.believed && this.shown.believed) entries.push(['believed', robot.true ? 'believed' : 'robot, as it believes']);
+    if (this.model?.path && this.shown.path) entries.push(['planned', 'planned']);
+    if (this.model?.grid?.plan?.length && this.shown.map && !this.model.path) entries.push(['planned', 'planned']);
+    const key = entries.join();
+    if (key !== this.legendKey) {
+      this.legendKey = key;
+      $('legend').replaceChildren(...entries.map(([kind, words]) => el('span', { class: kind }, el('i'), words)));
+    }
+  }
+
+  draw() {
+    if (!this.model?.frame || !this.width) return;
+    const { context: c, camera, ratio } = this;
+    const robot = this.now ?? { true: this.model.frame.robot?.true, pose: this.model.frame.robot?.believed?.pose };
+    if (this.following && (robot.true || robot.pose)) [camera.x, camera.y] = robot.true ?? robot.pose;
+    c.setTransform(1, 0, 0, 1, 0, 0);
+    c.fillStyle = this.paint.outside;
+    c.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    const s = camera.scale * ratio;
+    c.setTransform(s, 0, 0, -s, (this.width / 2) * ratio - camera.x * s, (this.height / 2) * ratio + camera.y * s);
+    this.dot = 1 / camera.scale;
+    c.lineJoin = 'round';
+    c.lineCap = 'round';
+    this.drawFloor(c);
+    if (this.shown.map && this.model.grid) this.drawGrid(c, this.model.grid);
+    if (this.shown.sensors) this.drawSeen(c, false);
+    this.drawItems(c);
+    if (this.shown.trail) this.drawTrails(c, robot);
+    if (this.shown.path && this.model.path) this.drawPath(c, this.model.path);
+    if (this.shown.sensors) this.drawSeen(c, true);
+    this.drawRobots(c, robot);
+    this.drawHands(c);
+    this.drawn(robot);
+  }
+
+  drawFloor(c) {
+    const { world } = this.model;
+    const { dot, camera } = this;
+    const [left, top] = this.place([0, 0]);
+    const [right, bottom] = this.place([this.width, this.height]);
+    const bounds = world ? world.bounds ?? [left, bottom, right, top] : [left, bottom, right, top];
+    c.fillStyle = world ? this.tone(world.floor ?? '#ffffff') : this.paint.card;
+    c.fillRect(bounds[0], bounds[1], bounds[2] - bounds[0], bounds[3] - bounds[1]);
+    if (this.shown.floor) {
+      const step = nice(34 / camera.scale);
+      c.beginPath();
+      const [x1, y1, x2, y2] = [Math.max(left, bounds[0]), Math.max(bottom, bounds[1]), Math.min(right, bounds[2]), Math.min(top, bounds[3])];
+      for (let x = Math.ceil(x1 / step) * step; x < x2; x += step) { c.moveTo(x, y1); c.lineTo(x, y2); }
+      for (let y = Math.ceil(y1 / step) * step; y < y2; y += step) { c.moveTo(x1, y); c.lineTo(x2, y); }
+      c.strokeStyle = this.dark ? 'rgb(255 255 255 / .045)' : 'rgb(20 20 10 / .055)';
+      c.lineWidth = dot;
+      c.stroke();
+    }
+    for (const item of world?.items ?? []) {
+      if (item.kind === 'patch') {
+        this.outline(c, item.points);
+        c.fillStyle = this.tone(item.color);
+        c.fill();
+      } else if (item.kind === 'line') {
+        c.beginPath();
+        item.points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+        c.strokeStyle = this.tone(item.color);
+        c.lineWidth = item.width;
+        c.stroke();
+      }
+    }
+    if (world?.bounds) {
+      const thick = Math.max(1, 3 * dot);
+      c.strokeStyle = this.paint.wall;
+      c.lineJoin = 'miter';
+      c.lineWidth = thick;
+      c.strokeRect(bounds[0] - thick / 2, bounds[1] - thick / 2, bounds[2] - bounds[0] + thick, bounds[3] - bounds[1] + thick);
+      c.lineJoin = 'round';
+    }
+  }
+
+  outline(c, points) {
+    c.beginPath();
+    points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+    c.closePath();
+  }
+
+  /** The path of an item, for drawing and for finding what is pointed at. */
+  shape(item, at = item) {
+    const path = new Path2D();
+    if (item.kind === 'circle') path.arc(at.x, at.y, item.r, 0, 7);
+    else if (item.kind === 'box') {
+      const turned = new Path2D();
+      turned.rect(-item.w / 2, -item.d / 2, item.w, item.d);
+      path.addPath(turned, new DOMMatrix().translateSelf(at.x, at.y).rotateSelf(-(item.h ?? 0)));
+    } else if (item.kind === 'wall') {
+      const [[x1, y1], [x2, y2]] = [item.from, item.to];
+      const length = Math.hypot(x2 - x1, y2 - y1) || 1;
+      const half = Math.max(item.thickness, 1.5 * this.dot) / 2 / length;
+      const [nx, ny] = [(y2 - y1) * half, (x1 - x2) * half];
+      path.moveTo(x1 + nx, y1 + ny); path.lineTo(x2 + nx, y2 + ny);
+      path.lineTo(x2 - nx, y2 - ny); path.lineTo(x1 - nx, y1 - ny);
+      path.closePath();
+    } else path.arc(at.x, at.y, Math.max(4, 10 * this.dot), 0, 7);
+    return path;
+  }
+
+  drawItems(c) {
+    const { frame, world } = this.model;
+    for (const item of world?.items ?? []) {
+      if (item.kind === 'patch' || item.kind === 'line') continue;
+      const moving = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
+      if (item.kind === 'lamp') this.drawLamp(c, item, moving, frame);
+      else if (item.kind === 'beacon') this.drawBeacon(c, item, moving);
+      else {
+        const path = this.shape(item, moving);
+        c.save();
+        c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
+        c.shadowBlur = 7 * this.ratio;
+        c.shadowOffsetY = 2.5 * this.ratio;
+        c.fillStyle = item.kind === 'wall' ? this.paint.wall : this.paint.block;
+        c.fill(path);
+        c.restore();
+        if (item.kind !== 'wall') {
+          c.strokeStyle = this.selected?.id === item.id ? this.paint.ink : this.paint['block-edge'];
+          c.lineWidth = (this.selected?.id === item.id ? 2 : 1) * this.dot;
+          c.stroke(path);
+        }
+      }
+    }
+  }
+
+  drawLamp(c, item, at, frame) {
+    const power = item.port ? frame.beams?.find((beam) => beam.id === item.id)?.power ?? 0 : 1;
+    const reach = Math.max(24 * this.dot, Math.min(90, 8 * Math.sqrt(item.intensity)));
+    if (power > 0.01) {
+      const glow = c.createRadialGradient(at.x, at.y, 0, at.x, at.y, reach);
+      const strength = (this.dark ? 0.5 : 0.75) * power;
+      glow.addColorStop(0, `rgb(255 200 40 / ${strength})`);
+      glow.addColorStop(0.4, `rgb(255 205 60 / ${strength * 0.3})`);
+      glow.addColorStop(1, 'rgb(255 210 80 / 0)');
+      c.fillStyle = glow;
+      c.beginPath();
+      c.arc(at.x, at.y, reach, 0, 7);
+      c.fill();
+    }
+    const r = Math.max(2.2, 6 * this.dot);
+    c.beginPath();
+    c.arc(at.x, at.y, r, 0, 7);
+    c.fillStyle = power > 0.01 ? '#fff3c4' : this.paint.off;
+    c.fill();
+    c.lineWidth = 1.5 * this.dot;
+    c.strokeStyle = power > 0.01 ? '#b98900' : this.paint['block-edge'];
+    c.stroke();
+    if (item.port) this.label(c, item.port, at.x, at.y - r - 9 * this.dot);
+  }
+
+  drawBeacon(c, item, at) {
+    c.strokeStyle = this.paint.violet;
+    for (const [radius, alpha] of [[6, 1], [11, 0.5], [16, 0.25]]) {
+      c.globalAlpha = alpha;
+      c.lineWidth = 1.5 * this.dot;
+      c.beginPath();
+      c.arc(at.x, at.y, radius * this.dot, 0, 7);
+      c.stroke();
+    }
+    c.globalAlpha = 1;
+    this.label(c, String(item.channel), at.x, at.y, this.paint.violet, 700);
+  }
+
+  label(c, words, x, y, color = this.paint.soft, weight = 500) {
+    c.save();
+    c.translate(x, y);
+    c.scale(this.dot, -this.dot);
+    c.font = `${weight} 11px ${this.font}`;
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    c.fillStyle = color;
+    c.fillText(words, 0, 0);
+    c.restore();
+  }
+
+  /** The whole way faintly, the last of it clearly. */
+  drawTrails(c, robot) {
+    const { samples, age, thinned, until } = this.model;
+    const end = until ?? samples.time.length;
+    if (this.trail.age !== age || this.trail.thinned !== thinned) {
+      this.trail = { age, thinned, true: { path: new Path2D(), from: 0 }, believed: { path: new Path2D(), from: 0 } };
+    }
+    const lines = [['true', 'x', 'y', robot.true, this.dark ? '#dcb400' : '#9a7400', 1.8, []]];
+    if (this.shown.believed) lines.push(['believed', 'bx', 'by', robot.pose, this.paint.blue, 1.4, [1, 4]]);
+    for (const [name, xs, ys, here, color, width, dash] of lines) {
+      // The way up to a moment of the past is not kept.
+      const line = until === undefined ? this.trail[name] : { path: new Path2D(), from: 0 };
+      const [x, y] = [samples.columns.get(xs), samples.columns.get(ys)];
+      if (!x || !y) continue;
+      for (; line.from < end; line.from += 1) this.extend(line, line.path, x, y, line.from);
+      c.strokeStyle = color;
+      c.lineWidth = width * this.dot;
+      c.globalAlpha = 0.3;
+      c.stroke(line.path);
+      c.globalAlpha = 1;
+      const recent = { last: null };
+      const path = new Path2D();
+      for (let i = after(samples.time, this.model.time - CLEAR); i < end; i += 1) this.extend(recent, path, x, y, i);
+      if (here && recent.last && Math.hypot(here[0] - recent.last[0], here[1] - recent.last[1]) < 12) path.lineTo(here[0], here[1]);
+      c.setLineDash(dash.map((n) => n * this.dot));
+      c.stroke(path);
+      c.setLineDash([]);
+    }
+  }
+
+  /** A sample more; no line is drawn where somebody lifted the robot. */
+  extend(line, path, x, y, i) {
+    if (x[i] === null || y[i] === null) {
+      line.last = null;
+      return;
+    }
+    const time = this.model.samples.time[i];
+    const way = line.last && Math.hypot(x[i] - line.last[0], y[i] - line.last[1]);
+    if (!line.last || way > 6 + 90 * (time - line.last[2])) path.moveTo(x[i], y[i]);
+    else if (way > 0.05) path.lineTo(x[i], y[i]);
+    else return;
+    line.last = [x[i], y[i], time];
+  }
+
+  drawPath(c, points) {
+    if (points.length < 2) return;
+    const { dot } = this;
+    c.beginPath();
+    points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+    c.strokeStyle = this.paint.violet;
+    c.lineWidth = 2 * dot;
+    c.setLineDash([7 * dot, 5 * dot]);
+    c.stroke();
+    c.setLineDash([]);
+    const [x, y] = points[points.length - 1];
+    c.beginPath();
+    c.arc(x, y, 5 * dot, 0, 7);
+    c.fillStyle = this.paint.card;
+    c.fill();
+    c.stroke();
+    c.beginPath();
+    c.arc(x, y, 2 * dot, 0, 7);
+    c.fillStyle = this.paint.violet;
+    c.fill();
+  }
+
+  drawGrid(c, grid) {
+    const { dot } = this;
+    const { cell, cols, rows } = grid;
+    // In a frame of its own: turned clockwise about its origin.
+    c.save();
+    c.translate(...grid.origin);
+    c.rotate(-(grid.h ?? 0) * TURN);
+    const each = (cells, inset, fill) => {
+      c.fillStyle = fill;
+      for (const [i, j] of cells ?? []) c.fillRect(i * cell + inset, j * cell + inset, cell - 2 * inset, cell - 2 * inset);
+    };
+    each(grid.free, 0.5 * dot, this.dark ? 'rgb(111 177 255 / .10)' : 'rgb(11 98 196 / .07)');
+    c.beginPath();
+    for (let i = 0; i <= cols; i += 1) { c.moveTo(i * cell, 0); c.lineTo(i * cell, rows * cell); }
+    for (let j = 0; j <= rows; j += 1) { c.moveTo(0, j * cell); c.lineTo(cols * cell, j * cell); }
+    c.strokeStyle = this.paint.blue;
+    c.globalAlpha = 0.28;
+    c.lineWidth = dot;
+    c.stroke();
+    // An obstacle that the robot knows of: its cell is crossed out.
+    c.globalAlpha = 0.9;
+    c.lineWidth = 1.5 * dot;
+    c.beginPath();
+    for (const [i, j] of grid.blocked ?? []) {
+      const [x, y] = [i * cell, j * cell];
+      c.rect(x + 1.5 * dot, y + 1.5 * dot, cell - 3 * dot, cell - 3 * dot);
+      for (let k = 1; k < 4; k += 1) {
+        c.moveTo(x + 1.5 * dot, y + (cell * k) / 4); c.lineTo(x + cell - (cell * k) / 4, y + cell - 1.5 * dot);
+        if (k > 1) { c.moveTo(x + (cell * (k - 1)) / 4, y + 1.5 * dot); c.lineTo(x + cell - 1.5 * dot, y + cell - (cell * (k - 1)) / 4); }
+      }
+    }
+    c.stroke();
+    c.globalAlpha = 1;
+    if (grid.plan?.length > 1 && this.shown.path) this.drawPath(c, grid.plan.map(([i, j]) => [(i + 0.5) * cell, (j + 0.5) * cell]));
+    c.restore();
+  }
+
+  /** Cones lie under the boxes, spots and touches above. */
+  drawSeen(c, above) {
+    const { dot } = this;
+    const { see = [] } = this.model.frame;
+    const old = this.now?.before?.see;
+    for (const [index, seen] of see.entries()) {
+      const was = old?.[index]?.kind === seen.kind ? old[index] : null;
+      const at = (name) => (was ? seen[name] + (was[name] - seen[name]) * (1 - this.now.share) : seen[name]);
+      if (seen.kind === 'cone' && seen.fan?.length) {
+        const fan = was?.fan?.length === seen.fan.length ? seen.fan.map((p, i) => between(was.fan[i], p, this.now.share)) : seen.fan;
+        const [x, y] = [at('x'), at('y')];
+        if (above) {
+          if (!seen.hit) continue;
+          const hit = was?.hit ? between(was.hit, seen.hit, this.now.share) : seen.hit;
+          c.beginPath();
+          c.arc(hit[0], hit[1], 3 * dot, 0, 7);
+          c.fillStyle = this.paint.beam;
+          c.fill();
+          c.lineWidth = 1.5 * dot;
+          c.strokeStyle = this.paint.card;
+          c.stroke();
+          continue;
+        }
+        this.outline(c, [[x, y], ...fan]);
+        const reach = Math.max(1, ...fan.map((p) => Math.hypot(p[0] - x, p[1] - y)));
+        const fade = c.createRadialGradient(x, y, 0, x, y, reach);
+        c.globalAlpha = this.dark ? 0.34 : 0.26;
+        fade.addColorStop(0, this.paint.beam);
+        fade.addColorStop(1, `color-mix(in srgb, ${this.paint.beam} 30%, transparent)`);
+        c.fillStyle = fade;
+        c.fill();
+        c.globalAlpha = this.dark ? 0.5 : 0.4;
+        c.lineWidth = dot;
+        c.strokeStyle = this.paint.beam;
+        c.stroke();
+        c.globalAlpha = 1;
+      } else if (seen.kind === 'beacon' && seen.at && !above) {
+        c.beginPath();
+        c.moveTo(at('x'), at('y'));
+        c.lineTo(seen.at[0], seen.at[1]);
+        c.strokeStyle = this.paint.violet;
+        c.lineWidth = dot;
+        c.setLineDash([2 * dot, 4 * dot]);
+        c.stroke();
+        c.setLineDash([]);
+      }
+    }
+  }
+
+  hull() {
+    return this.model.spec?.hull ?? { kind: 'circle', r: 8 };
+  }
+
+  hullPath() {
+    const hull = this.hull();
+    const path = new Path2D();
+    if (hull.kind === 'circle') path.arc(0, 0, hull.r, 0, 7);
+    else path.roundRect(-hull.w / 2, hull.offset - hull.l / 2, hull.w, hull.l, Math.min(hull.w, hull.l) * 0.18);
+    return path;
+  }
+
+  reach() {
+    const hull = this.hull();
+    return hull.kind === 'circle' ? hull.r : Math.max(hull.w / 2, hull.l / 2 + Math.abs(hull.offset));
+  }
+
+  drawRobots(c, robot) {
+    const { believed } = this.model.frame.robot ?? {};
+    const truly = this.drag?.kind === 'robot' ? this.drag.at : robot.true;
+    if (believed?.ellipse && robot.pose && this.shown.believed) this.drawEllipse(c, robot.pose, believed.ellipse);
+    if (truly) this.drawRobot(c, truly, this.drag?.kind === 'robot' ? 'ghost' : 'true');
+    if (robot.pose && (this.shown.believed || !truly)) this.drawRobot(c, robot.pose, truly ? 'believed' : 'real');
+  }
+
+  /** Within the world, and the fainter the less it says. */
+  drawEllipse(c, [x, y], [a, b, h]) {
+    if (a * SIGMAS < 2 * this.dot) return;
+    const [left, bottom, right, top] = this.view;
+    const clear = Math.min(1, Math.max(0.15, (0.25 * Math.min(right - left, top - bottom)) / (a * SIGMAS)));
+    c.save();
+    if (this.model.world?.bounds) {
+      const [x1, y1, x2, y2] = this.model.world.bounds;
+      c.beginPath();
+      c.rect(x1, y1, x2 - x1, y2 - y1);
+      c.clip();
+    }
+    c.beginPath();
+    // Its long axis along the heading h, which is clockwise from y.
+    c.ellipse(x, y, a * SIGMAS, Math.max(b * SIGMAS, this.dot), (90 - h) * TURN, 0, 7);
+    c.globalAlpha = 0.16 * clear;
+    c.fillStyle = this.paint.blue;
+    c.fill();
+    c.globalAlpha = 0.9 * clear;
+    c.strokeStyle = this.paint.blue;
+    c.lineWidth = 1.2 * this.dot;
+    c.stroke();
+    c.restore();
+  }
+
+  drawRobot(c, [x, y, h], kind) {
+    const { dot } = this;
+    const { spec } = this.model;
+    const reach = this.reach();
+    const path = this.hullPath();
+    c.save();
+    c.translate(x, y);
+    c.rotate(-h * TURN);
+    // Far away, it is drawn larger than it is, on a disc that says so.
+    const small = reach * this.camera.scale < 13;
+    if (small && kind !== 'believed') {
+      c.beginPath();
+      c.arc(0, 0, 17 * dot, 0, 7);
+      c.fillStyle = this.dark ? 'rgb(245 196 0 / .2)' : 'rgb(245 196 0 / .34)';
+      c.fill();
+    }
+    if (small) c.scale((13 * dot) / reach, (13 * dot) / reach);
+    const line = small ? (dot * reach) / (13 * dot) : dot;
+    if (kind === 'believed') {
+      c.strokeStyle = this.paint.blue;
+      c.lineWidth = 1.6 * line;
+      c.setLineDash([4 * line, 3 * line]);
+      c.stroke(path);
+      c.setLineDash([]);
+      if (this.apart(x, y, h)) this.nose(c, reach * 0.8, 1.6 * line, this.paint.blue);
+      c.restore();
+      return;
+    }
+    const ink = '#1c1e22';
+    const axle = spec?.axle ?? reach * 1.3;
+    const wheels = new Path2D();
+    for (const [side, wheel] of spec && !spec.left ? [] : [[-1, spec?.left], [1, spec?.right]]) {
+      const d = wheel?.d ?? reach * 0.7;
+      wheels.roundRect((side * axle) / 2 - 1.2, -d / 2, 2.4, d, 0.8);
+    }
+    c.fillStyle = this.dark ? '#8b9096' : '#3a3d42';
+    c.fill(wheels);
+    if (kind === 'ghost') c.globalAlpha = 0.75;
+    c.shadowColor = 'rgb(0 0 0 / .25)';
+    c.shadowBlur = 6 * this.ratio;
+    c.shadowOffsetY = 1.5 * this.ratio;
+    c.fillStyle = kind === 'real' ? this.paint.blue : this.paint.yellow;
+    c.fill(path);
+    c.shadowColor = 'transparent';
+    c.strokeStyle = ink;
+    c.lineWidth = 1.4 * line;
+    c.stroke(path);
+    c.fillStyle = 'rgb(28 30 34 / .42)';
+    c.fill(wheels);
+    for (const sensor of spec?.sensors ?? []) {
+      const at = this.model.port(sensor.port);
+      if (at && at.kind !== 'sensor') continue;
+      const spot = this.model.frame.see?.find((seen) => seen.port === sensor.port && seen.kind === 'spot');
+      const touch = this.model.frame.see?.find((seen) => seen.port === sensor.port && seen.kind === 'touch');
+      c.beginPath();
+      if (touch) c.roundRect(sensor.x - 4, sensor.y - 0.6, 8, 1.2, 0.6);
+      else c.arc(sensor.x, sensor.y, 1.1, 0, 7);
+      c.fillStyle = touch ? (touch.on ? this.paint.red : ink) : spot ? this.tone(spot.color) : ink;
+      c.fill();
+      if (spot) {
+        c.lineWidth = Math.min(0.5, 1.4 * line);
+        c.strokeStyle = ink;
+        c.stroke();
+      }
+    }
+    this.nose(c, reach, Math.max(1.6 * line, 0.13 * reach), kind === 'real' ? this.paint.card : ink);
+    c.restore();
+  }
+
+  /** Whether a believed pose differs visibly from the true one. */
+  apart(x, y, h) {
+    const truly = this.model.frame.robot?.true;
+    return !truly || Math.hypot(x - truly[0], y - truly[1]) > 0.4 * this.reach() || Math.abs(h - truly[2]) > 8;
+  }
+
+  /** An arrow that says where ahead is. */
+  nose(c, reach, width, color) {
+    c.beginPath();
+    c.moveTo(0, -reach * 0.42);
+    c.lineTo(0, reach * 0.52);
+    c.moveTo(-reach * 0.3, reach * 0.2);
+    c.lineTo(0, reach * 0.54);
+    c.lineTo(reach * 0.3, reach * 0.2);
+    c.strokeStyle = color;
+    c.lineWidth = width;
+    c.stroke();
+  }
+
+  drawHands(c) {
+    const { dot } = this;
+    this.editing?.draw(c, this);
+    if (this.selected === 'robot' && !this.drag) {
+      const handle = this.handle();
+      if (handle) {
+        const pose = this.model.frame.robot.true;
+        c.beginPath();
+        c.moveTo(pose[0], pose[1]);
+        c.lineTo(handle[0], handle[1]);
+        c.strokeStyle = this.paint.ink;
+        c.globalAlpha = 0.5;
+        c.lineWidth = dot;
+        c.stroke();
+        c.globalAlpha = 1;
+        c.beginPath();
+        c.arc(handle[0], handle[1], 6 * dot, 0, 7);
+        c.fillStyle = this.paint.card;
+        c.fill();
+        c.lineWidth = 2 * dot;
+        c.stroke();
+      }
+    }
+    if (this.drag?.kind === 'box') {
+      const { from, to } = this.drag;
+      c.fillStyle = this.paint.block;
+      c.globalAlpha = 0.7;
+      c.fillRect(Math.min(from[0], to[0]), Math.min(from[1], to[1]), Math.abs(to[0] - from[0]), Math.abs(to[1] - from[1]));
+      c.globalAlpha = 1;
+    }
+    if (this.measured) {
+      const [a, b] = this.measured;
+      const end = b ?? this.pointer ?? a;
+      c.strokeStyle = c.fillStyle = this.paint.ink;
+      c.lineWidth = 1.5 * dot;
+      c.beginPath();
+      c.moveTo(a[0], a[1]);
+      c.lineTo(end[0], end[1]);
+      c.stroke();
+      for (const [x, y] of [a, end]) {
+        c.beginPath();
+        c.arc(x, y, 3 * dot, 0, 7);
+        c.fill();
+      }
+      const words = `${num(Math.hypot(end[0] - a[0], end[1] - a[1]), 1)} cm`;
+      c.save();
+      c.translate((a[0] + end[0]) / 2, (a[1] + end[1]) / 2);
+      c.scale(dot, -dot);
+      c.font = `600 13px ${this.font}`;
+      c.textAlign = 'center';
+      c.textBaseline = 'middle';
+      const width = c.measureText(words).width + 16;
+      c.beginPath();
+      c.roundRect(-width / 2, -12, width, 24, 12);
+      c.fillStyle = this.paint.ink;
+      c.fill();
+      c.fillStyle = this.paint.card;
+      c.fillText(words, 0, 1);
+      c.restore();
+    }
+  }
+
+  /** Where the robot is taken to be turned. */
+  handle() {
+    const pose = this.model?.frame?.robot?.true;
+    if (!pose) return null;
+    const far = Math.max(this.reach(), 13 * this.dot) + 18 * this.dot;
+    const [dx, dy] = ahead(pose[2]);
+    return [pose[0] + dx * far, pose[1] + dy * far];
+  }
+}
+
+/** The first of the sorted times that is not before a moment. */
+function after(times, moment) {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] < moment) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
