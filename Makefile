@@ -82,7 +82,7 @@ check-sessions: build
 check-clients: build
 	@tests/clients/run.sh
 
-# The page of library(ev3dev/view) in a headless Chromium, where there is one
+# The page of library(ev3dev/view) in a headless Chromium and in Firefox, where there are
 check-view: build
 	@tests/view/run.sh
 

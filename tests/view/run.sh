@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# The page of library(ev3dev/view), driven in a headless Chromium.
+# The page of library(ev3dev/view), driven in a headless Chromium; and what the
+# tests name IN_FIREFOX in Firefox, which takes a minute.
 #
-#   tests/view/run.sh [--pictures | --figures] [ARGUMENT...]
+#   tests/view/run.sh [--pictures | --figures | --firefox] [ARGUMENT...]
 #
-# Arguments go to `node --test`, as --test-name-pattern=STOP. With --pictures
-# it makes the pictures of docs/pictures instead, with --figures it prints how
-# long things take.
+# Arguments go to `node --test`, as --test-name-pattern=STOP, in Chromium alone;
+# with --firefox in Firefox alone. With --pictures it makes the pictures of
+# docs/pictures instead, with --figures it prints how long things take.
 #
-# Skips, and says so, where there is no Chromium, no node 18, or where npm
-# cannot install the two packages that package-lock.json names; with
-# EV3DEV_BROWSER=required that is an error. CHROMIUM names another browser of
-# its kind.
+# Skips, and says so, where there is no Chromium, no Firefox, no node 18, or
+# where npm cannot install the two packages that package-lock.json names; with
+# EV3DEV_BROWSER=required that is an error. CHROMIUM and FIREFOX name other
+# browsers of their kinds.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -20,8 +21,10 @@ skip() {
     exit
 }
 
+firefox=${FIREFOX:-$(command -v firefox-esr || command -v firefox || true)}
+unset FIREFOX # which says to the tests in what they run
 browser=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)}
-[ -n "$browser" ] || skip "there is no Chromium (Debian's package: chromium)"
+[ -n "$browser" ] || [ "${1:-}" = --firefox ] || skip "there is no Chromium (Debian's package: chromium)"
 for program in node npm; do
     command -v "$program" >/dev/null || skip "there is no $program (Debian's packages: nodejs npm)"
 done
@@ -37,9 +40,19 @@ if ! cmp -s tests/view/package-lock.json "$modules/installed.json"; then
     cp tests/view/package-lock.json "$modules/installed.json"
 fi
 
+in_firefox() {
+    [ -n "$firefox" ] || skip "there is no Firefox (Debian's package: firefox-esr)"
+    FIREFOX=$firefox node --test --test-reporter=spec "$@" tests/view/view.test.mjs
+}
+
 export CHROMIUM=$browser EV3DEV_NODE_MODULES=$PWD/$modules
 case ${1:-} in
     --pictures) exec node tests/view/pictures.mjs "${@:2}" ;;
     --figures) exec node tests/view/figures.mjs "${@:2}" ;;
+    --firefox)
+        in_firefox "${@:2}"
+        exit
+        ;;
 esac
-exec node --test --test-reporter=spec "$@" tests/view/view.test.mjs
+node --test --test-reporter=spec "$@" tests/view/view.test.mjs
+[ $# -gt 0 ] || in_firefox

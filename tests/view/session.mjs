@@ -90,7 +90,12 @@ export class Session {
   }
 }
 
+/** Else it is Chromium. */
+export const isFirefox = Boolean(process.env.FIREFOX);
+
 export async function browse() {
+  // By WebDriver BiDi, which cannot say what colors one page has: all are light.
+  if (isFirefox) return puppeteer.launch({ browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': 1 } });
   return puppeteer.launch({
     executablePath: process.env.CHROMIUM, headless: true,
     args: [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--font-render-hinting=none'],
@@ -107,8 +112,8 @@ export async function open(browser, url, { width = 1280, height = 800, scheme = 
   page.on('console', (message) => page.said.push(`${message.type()}: ${message.text()}`));
   page.on('pageerror', (error) => page.said.push(`error: ${error.message}`));
   page.on('request', (request) => page.requests.push(request.url()));
-  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
-  await page.setViewport({ width, height, deviceScaleFactor: scale, isMobile: phone, hasTouch: phone });
+  if (!isFirefox) await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  await page.setViewport({ width, height, deviceScaleFactor: scale, isMobile: phone && !isFirefox, hasTouch: phone && !isFirefox });
   await page.goto(url);
   await shows(page, (state) => state.phase === 'live' && state.frames > 1, 'a live page');
   return page;

@@ -6,8 +6,8 @@ import fs from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
-import { after, before, describe, test } from 'node:test';
-import { Session, browse, drag, home, open, pixel, request, shows, state, until, violations } from './session.mjs';
+import { after, before, describe, test as testOf } from 'node:test';
+import { Session, browse, drag, home, isFirefox, open, pixel, request, shows, state, until, violations } from './session.mjs';
 
 let browser;
 before(async () => { browser = await browse(); });
@@ -23,10 +23,25 @@ const free = (page) => async () => {
   await page.close();
 };
 
+/** What is tried in Firefox, too: something of each part of the page, and what browsers do each
+    in its own way. All of it has one page in front and no finger, which BiDi does not have. */
+const IN_FIREFOX = new RegExp(['is drawn where', 'is seen to move', 'is dragged by', 'shows keys', 'lights and screen', 'loses a wire',
+  'boxes are added', 'key Delete', 'is measured', 'is followed', 'by the arrow keys', 'beside it', 'by Escape', 'by steps', 'never ends$', 'alone, pressed',
+  'a program names', 'held, read off', 'what the program prints', 'chosen by part', 'as at the toplevel', 'show that they run', 'on a screen, light',
+  'by its files', 'a foreign Host', 'another token'].join('|'));
+
+let wanted = [];
+function test(name, act) {
+  if (!isFirefox || IN_FIREFOX.test(name)) wanted.push([name, act]);
+}
+
 /** A session with a page, for all tests of a group. */
 function group(name, queries, options, tests) {
-  describe(name, () => {
-    const it = {};
+  const it = {};
+  wanted = [];
+  tests(it);
+  const mine = wanted;
+  if (mine.length) describe(name, () => {
     before(async () => {
       it.session = await Session.start(...queries);
       it.url = await it.session.view(options);
@@ -38,7 +53,7 @@ function group(name, queries, options, tests) {
       await it.session?.end();
       assert.deepEqual(said, [], 'nothing on the console');
     });
-    tests(it);
+    for (const [title, act] of mine) testOf(title, act);
   });
 }
 
@@ -386,7 +401,7 @@ group('time', ROOM, '', (it) => {
     }
     await it.page.evaluate(() => document.querySelectorAll('#speeds button')[0].click());
     await it.page.focus('#world');
-    await it.page.keyboard.press('Space');
+    await it.page.keyboard.press(' ');
     await shows(it.page, (s) => !s.clock.paused && s.time > stepped.time, 'time');
     await it.page.click('#stop');
     await shows(it.page, (s) => !s.ports[1].state?.includes('running'), 'a stop');
@@ -1092,12 +1107,14 @@ group('goals', ROOM, 'goals(true)', (it) => {
   });
 });
 
-group('for everybody', [...ROOM, 'go_cm(30, 10)'], 'goals(true)', (it) => {
+group('for everybody', [...ROOM, 'use_module(library(ev3dev/journal))', 'because(go_cm(30, 10), curious)'], 'goals(true)', (it) => {
   for (const scheme of ['light', 'dark']) {
-    for (const [name, size] of [['a screen', {}], ['a wide screen', { width: 1920, height: 1080 }], ['a phone', { width: 390, height: 844, phone: true }]]) {
+    for (const [name, size] of [['a screen', {}], ['a wide screen', { width: 1920, height: 1080 }], ['a tablet', { width: 820, height: 1180, phone: true }], ['a phone', { width: 390, height: 844, phone: true }]]) {
       test(`nothing is wrong for axe on ${name}, ${scheme}`, async () => {
         const page = await open(browser, it.url, { ...size, scheme });
         assert.deepEqual(await violations(page), []);
+        await choose(page, 'the robot goes');
+        await page.$eval('#goal-why', (line) => { line.hidden = false; line.textContent = 'A program runs.'; });
         await page.click('#layers');
         assert.deepEqual(await violations(page), []);
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
