@@ -120,7 +120,7 @@ function layout() {
   const [sides, ends] = [free.left + free.right, free.top + free.bottom];
   const tall = main.height - pad;
   const most = main.width - 2 * pad - 2 * gap - 276 - 340;
-  const tallest = Math.max(300, tall - gap - (tall > 900 ? 280 : 228));
+  const tallest = Math.max(300, tall - gap - (tall > 900 ? 320 : 256));
   const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
   const height = Math.min(tallest, Math.max(432, (width - sides) / aspect + ends));
   style.setProperty('--world', `${Math.round(width)}px`);
@@ -151,11 +151,10 @@ function shown() {
     grid: model.grid,
     snapshots: model.snapshots ?? [],
     samples: model.samples.time.length,
-    charts: (charts.shown ?? []).map((strip) => ({
-      title: strip.title, unit: strip.unit,
-      series: strip.series.map((series) => ({ label: series.label, value: charts.valueAt(series, null) })),
-    })),
+    charts: charts.state(),
     chartHeld: charts.held !== null,
+    chartRange: charts.model ? charts.range : null,
+    chartMoment: charts.moment,
     log: model.log.map(({ kind, text: words }) => ({ kind, text: words })),
     goals: now?.goals ?? false,
     camera: { ...world.camera, pixels: [world.width, world.height] },
