@@ -454,6 +454,96 @@ group('charts', ['sim_start(line)'], '', (it) => {
   });
 });
 
+group('panels', ROOM, '', (it) => {
+  const size = (selector) => it.page.$eval(selector, (box) => [box.offsetWidth, box.offsetHeight]);
+  const bar = (words) => it.page.$(`[role=separator][aria-label="${words}"]`);
+  const again = async () => {
+    await it.page.reload();
+    await shows(it.page, (s) => s.phase === 'live' && s.frames > 2, 'the page again');
+  };
+
+  test('are made larger by a drag and by keys, and stay so when the page is loaded again', async () => {
+    await shows(it.page, (s) => s.charts.length > 0, 'charts');
+    const [, before] = await size('.charts-card');
+    const box = await (await bar('Height of the charts')).boundingBox();
+    await it.page.mouse.move(box.x + 50, box.y + 6);
+    await it.page.mouse.down();
+    await it.page.mouse.move(box.x + 50, box.y - 94, { steps: 4 });
+    await it.page.mouse.up();
+    assert.ok(near((await size('.charts-card'))[1], before + 100, 2));
+    for (const [words, panel, key] of [['Width of the world', '.world-card', 'ArrowLeft'], ['Width of brick and log', '.side', 'ArrowLeft'], ['Height of the brick', '.brick-card', 'ArrowUp']]) {
+      const way = panel === '.brick-card' ? 1 : 0;
+      const sign = panel === '.side' ? 1 : -1;
+      const old = (await size(panel))[way];
+      await (await bar(words)).focus();
+      await it.page.keyboard.press(key);
+      await it.page.keyboard.press(key);
+      assert.ok(near((await size(panel))[way], old + sign * 32, 2), words);
+      assert.equal(await (await bar(words)).evaluate((each) => Number(each.ariaValueNow)), (await size(panel))[way]);
+    }
+    const all = ['.world-card', '.side', '.brick-card', '.charts-card'];
+    const sizes = await Promise.all(all.map(size));
+    await again();
+    assert.deepEqual(await Promise.all(all.map(size)), sizes);
+    assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('are as before after a double click, and never larger than the screen', async () => {
+    await (await bar('Width of the world')).focus();
+    await it.page.keyboard.press('End');
+    await it.page.setViewport({ width: 1010, height: 700 });
+    await until(() => it.page.evaluate(() => document.querySelector('.side').getBoundingClientRect().right <= innerWidth - 8), 'all on the screen');
+    await it.page.setViewport({ width: 1280, height: 800 });
+    await until(async () => (await size('.world-card'))[0] > 500, 'a wide world');
+    await (await bar('Width of the world')).focus();
+    await it.page.keyboard.press('Home');
+    assert.equal((await size('.world-card'))[0], 300);
+    const box = await (await bar('Width of the world')).boundingBox();
+    await it.page.mouse.click(box.x + 6, box.y + 60, { clickCount: 2 });
+    assert.ok((await size('.world-card'))[0] > 500);
+  });
+
+  test('are folded, what they leave is for others, and stay so when the page is loaded again', async () => {
+    const fold = (name) => it.page.click(`.${name}-card .fold`);
+    const [charts] = await size('.charts-card');
+    const [, log] = await size('.log-card');
+    await fold('brick');
+    assert.ok((await size('.log-card'))[1] > log + 100);
+    await fold('log');
+    assert.ok((await size('.charts-card'))[0] > charts + 200, 'charts below a folded log');
+    await fold('ports');
+    assert.ok((await size('.ports-card'))[0] < 60);
+    await fold('charts');
+    assert.ok((await size('.charts-card'))[1] < 60);
+    await fold('world');
+    await again();
+    assert.deepEqual(await it.page.$$eval('.folded', (cards) => cards.length), 5);
+    for (const id of ['world', 'ports', 'charts', 'brick', 'log']) assert.equal(await it.page.$eval(`#${id}`, (part) => part.offsetParent), null, id);
+    assert.deepEqual(await violations(it.page), []);
+    for (const name of ['world', 'ports', 'charts', 'brick', 'log']) {
+      await it.page.focus(`.${name}-card .fold`);
+      await it.page.keyboard.press('Enter');
+      assert.equal(await it.page.$eval(`.${name}-card .fold`, (button) => button.ariaExpanded), 'true');
+    }
+    await shows(it.page, (s) => s.camera.pixels[0] > 300, 'the world');
+    assert.ok(near((await size('.charts-card'))[0], charts, 2));
+  });
+
+  test('are folded on a phone, and come in any shape from the browser\'s memory', async () => {
+    for (const odd of ['7', '{"sizes":{"world":"wide","row":-5},"folded":7}', '{"sizes":null,"folded":["moon"]}']) {
+      await it.page.evaluate((words) => localStorage.setItem('ev3dev-panels', words), odd);
+      await again();
+    }
+    await it.page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
+    const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
+    const whole = await page.evaluate(() => document.body.scrollHeight);
+    for (const name of ['world', 'ports', 'brick']) await page.tap(`.${name}-card .fold`);
+    assert.ok(await page.evaluate(() => document.body.scrollHeight) < whole - 800);
+    await page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
+    await free(page)();
+  });
+});
+
 group('goals', ROOM, 'goals(true)', (it) => {
   const ask = async (goal, pattern) => {
     await it.page.type('#goal-text', goal);

@@ -52,7 +52,7 @@ export class Charts {
     this.sights = new IntersectionObserver((seen) => {
       for (const { target, isIntersecting } of seen) target.view.seen = isIntersecting;
       this.draw();
-    });
+    }, { rootMargin: '200px' });
     this.sizes.observe(this.box);
     this.listen();
     // Of another part of the page, too, wherever it says so.
@@ -230,7 +230,7 @@ export class Charts {
         sized();
       }),
     });
-    view.box = el('div', { class: 'chart', role: 'group', 'aria-label': name || 'A new chart' }, el('div', { class: 'chart-head' }, el('div', { class: 'keys-of' }, ...view.keys.map(({ key }) => key)), view.more), plot, view.bar);
+    view.box = el('div', { class: 'chart', role: 'group', 'aria-label': name || 'A new chart' }, el('div', { class: 'chart-head' }, el('div', { class: 'keys-of' }, ...view.keys.length ? view.keys.map(({ key }) => key) : [el('span', { class: 'key' }, 'Choose what it shows.')]), view.more), plot, view.bar);
     const sized = () => { view.box.style.flex = chart.height ? `0 0 ${chart.height}px` : ''; };
     sized();
     view.box.view = view;

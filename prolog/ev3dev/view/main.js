@@ -6,6 +6,7 @@ import { Charts } from './charts.js';
 import { Hands } from './hands.js';
 import { Log } from './log.js';
 import { Model } from './model.js';
+import { Panels } from './panels.js';
 import { Ports } from './ports.js';
 import { Wire } from './wire.js';
 import { World } from './world.js';
@@ -33,6 +34,7 @@ const log = new Log(send);
 const wire = new Wire({ state, frame, reply });
 const hands = new Hands(wire, world, charts, log, ports);
 const panels = [ports, brick, hands, log, charts];
+const arranged = new Panels(layout);
 
 // ----------------------------------------------------------------- the line
 
@@ -123,8 +125,7 @@ function layout() {
   const tallest = Math.max(300, tall - gap - (tall > 900 ? 320 : 256));
   const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
   const height = Math.min(tallest, Math.max(432, (width - sides) / aspect + ends));
-  style.setProperty('--world', `${Math.round(width)}px`);
-  style.setProperty('--row', `${Math.round(height)}px`);
+  arranged.fit(width, height);
 }
 
 new ResizeObserver(layout).observe($('main'));
