@@ -3,7 +3,7 @@ use ev3_driver::lock::locked;
 use ev3_motion::Pose;
 use ev3_sim::is_outside;
 use std::cell::RefCell;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use swipl::fli::this_thread;
 
@@ -14,6 +14,9 @@ static IS_SIMULATED: AtomicBool = AtomicBool::new(false);
 
 /// Counts the films: each tree, and each return to a snapshot, begins one.
 static FILM: AtomicU32 = AtomicU32::new(1);
+
+/// The inputs whose sensors the program has read during the film, as bits.
+static READ: AtomicU8 = AtomicU8::new(0);
 
 /// The frame in which the robot's odometry counts, in the world.
 static FRAME: Mutex<Option<Frame>> = Mutex::new(None);
@@ -100,7 +103,26 @@ pub(crate) fn film() -> u64 {
 
 /// What was seen so far is void.
 pub(crate) fn begin_film() {
+    READ.store(0, Ordering::Relaxed);
     FILM.fetch_add(1, Ordering::Relaxed);
+}
+
+/// The program reads the sensor at a port.
+pub(crate) fn note_read(port: &str) {
+    READ.fetch_or(bit_of(port), Ordering::Relaxed);
+}
+
+/// Whether it has done so during the film.
+pub(crate) fn is_read(port: &str) -> bool {
+    READ.load(Ordering::Relaxed) & bit_of(port) != 0
+}
+
+/// The bit of an input; a port of another name has none.
+fn bit_of(port: &str) -> u8 {
+    match port.strip_prefix("in").and_then(|number| number.bytes().next()) {
+        Some(number @ b'1'..=b'4') => 1 << (number - b'1'),
+        _ => 0,
+    }
 }
 
 /// The frame in which the odometry counts; `None` if it is the world's.

@@ -1,5 +1,6 @@
 //! What pages get: each struct is an object of docs/view-protocol.md. `simulated.rs` fills
 //! them from the simulator, `brick.rs` from the driver, and only here they are written as JSON.
+use crate::glue::watch::is_read;
 use ev3_json::Json;
 use std::borrow::Cow;
 use std::time::Duration;
@@ -188,6 +189,7 @@ objects! {
         kind: &'static str,
         driver: Option<Text>,
         name: Option<Text>,
+        read: Option<bool>,
         position: Option<Fine>,
         speed: Option<Fine>,
         duty: Option<Fine>,
@@ -332,10 +334,12 @@ const NAMES: [(&str, &str); 14] = [
 ];
 
 impl Port {
-    /// A device of a kind, with the name that people have for it, else its driver's.
+    /// A device of a kind, with the name that people have for it, else its driver's; and
+    /// whether the program has read it.
     pub(super) fn have(&mut self, kind: &'static str, driver: Text) {
         let known = NAMES.iter().find(|(known, _)| *known == driver);
         self.name = Some(known.map_or_else(|| driver.clone(), |(_, name)| (*name).into()));
+        self.read = is_read(self.port).then_some(true);
         (self.kind, self.driver) = (kind, Some(driver));
     }
 }

@@ -47,5 +47,26 @@ const [after, end] = [await page.metrics(), await state(page)];
 const frames = end.frames - begin.frames;
 console.log(`${(frames / (after.Timestamp - before.Timestamp)).toFixed(1)} frames a second; `
   + `the page takes ${(((after.TaskDuration - before.TaskDuration) * 1000) / frames).toFixed(1)} ms for each`);
+
+// Six charts on a screen, each of two series, of the last 20 s and then of all.
+const series = ['outA', 'outB', 'outC'].flatMap((port) => ['position', 'speed', 'duty'].map((quality) => `${port}.${quality}`)).concat(['in1.value0', 'in2.value0', 'in3.value0']);
+await page.setViewport({ width: 1280, height: 1400 });
+await page.evaluate((names) => {
+  const charts = [0, 2, 4, 6, 8, 10].map((i) => ({ series: names.slice(i, i + 2), height: 88 }));
+  localStorage.setItem('ev3dev-charts', JSON.stringify({ charts, known: [] }));
+}, series);
+await page.reload();
+await shows(page, (s) => s.charts.length === 6 && s.samples > 100, 'six charts');
+for (const [words, span] of [['20 s', 1], ['all', 3]]) {
+  await page.evaluate((n) => document.querySelectorAll('#spans button')[n].click(), span);
+  const spent = [];
+  for (let i = 0; i < 21; i += 1) {
+    const [from, first] = [await page.metrics(), await state(page)];
+    await new Promise((resolve) => { setTimeout(resolve, 300); });
+    const [to, last] = [await page.metrics(), await state(page)];
+    if (last.frames > first.frames) spent.push(((to.ScriptDuration - from.ScriptDuration) * 1000) / (last.frames - first.frames));
+  }
+  console.log(`six charts of ${words}, ${(await state(page)).samples} samples: script of a frame, median ${median(spent).toFixed(1)} ms, worst ${worst(spent).toFixed(1)} ms`);
+}
 await browser.close();
 await session.end();

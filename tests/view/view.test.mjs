@@ -1006,6 +1006,225 @@ group('the log', [...ROOM, 'use_module(library(ev3dev/rules))', 'use_module(libr
   });
 });
 
+group('charts', ['sim_start(line)'], '', (it) => {
+  const charts = async () => (await state(it.page)).charts;
+  const plot = (i) => it.page.evaluate((n) => {
+    const box = document.querySelectorAll('.chart-plot')[n];
+    box.scrollIntoView({ block: 'nearest' });
+    const { left, top, width, height } = box.getBoundingClientRect();
+    return { left, top, width, height };
+  }, i);
+  /** A stretch of a chart, in parts of its width. */
+  const pull = async (i, from, to) => {
+    const { left, top, width, height } = await plot(i);
+    await it.page.mouse.move(left + width * from, top + height / 2);
+    await it.page.mouse.down();
+    await it.page.mouse.move(left + width * to, top + height / 2, { steps: 5 });
+    await it.page.mouse.up();
+  };
+  const click = (selector, words) => it.page.evaluate((where, name) => {
+    [...document.querySelectorAll(where)].find((each) => each.textContent.includes(name) || each.ariaLabel === name).click();
+  }, selector, words);
+  const choose = async (i, ...words) => {
+    await it.page.evaluate((n) => document.querySelectorAll('.chart-more')[n].click(), i);
+    for (const each of words) await click('.series-menu button', each);
+    await it.page.keyboard.press('Escape');
+    await until(() => it.page.evaluate(() => !document.querySelector('.series-menu')), 'the menu to close');
+  };
+  const add = async (...words) => {
+    await it.page.click('#chart-add');
+    for (const each of words) await click('.series-menu button', each);
+    await it.page.keyboard.press('Escape');
+  };
+
+  test('begin with what the program reads', async () => {
+    await it.session.ask('load_files(user:examples/line_following, [])');
+    it.session.type('start');
+    const shown = await shows(it.page, (s) => s.charts[0]?.title === 'reflected light', 'the light');
+    assert.deepEqual(shown.charts.map((chart) => chart.title), ['reflected light', 'speed']);
+    assert.deepEqual(shown.charts[0].series.map((each) => each.label), ['in2 reflected light']);
+  });
+
+  test('have any series, each with a color and, for another quantity, a scale of its own', async () => {
+    await choose(1, 'outB duty cycle', 'in2 reflected light');
+    const [, second] = await charts();
+    assert.deepEqual(second.series.map((each) => each.label), ['outB speed', 'outC speed', 'outB duty cycle', 'in2 reflected light']);
+    assert.equal(new Set(second.series.map((each) => each.scale)).size, 3);
+    assert.equal(second.series[0].scale, second.series[1].scale);
+    await add('outB position', 'outC position');
+    await add('in1', 'heading believed');
+    const all = (await charts()).flatMap((chart) => chart.series.map((each) => each.color));
+    assert.equal(new Set(all).size, new Set((await charts()).flatMap((chart) => chart.series.map((each) => each.label))).size, all.join());
+  });
+
+  test('are never strips: the panel scrolls', async () => {
+    for (const words of ['outC duty cycle', 'outC position', 'heading']) await add(words);
+    const heights = await it.page.$$eval('.chart-plot', (plots) => plots.map((each) => each.clientHeight));
+    assert.ok(heights.length >= 6 && heights.every((each) => each >= 50), heights.join());
+    assert.ok(await it.page.$eval('.strips', (box) => box.scrollHeight > box.clientHeight + 50), 'it scrolls');
+    assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('are made higher by a drag and by keys, and stay so when the page is loaded again', async () => {
+    const bar = await it.page.$('.chart .divider');
+    await bar.evaluate((each) => each.scrollIntoView());
+    const before = (await plot(0)).height;
+    const box = await bar.boundingBox();
+    await it.page.mouse.move(box.x + 100, box.y + box.height / 2);
+    await it.page.mouse.down();
+    await it.page.mouse.move(box.x + 100, box.y + box.height / 2 + 60, { steps: 3 });
+    await it.page.mouse.up();
+    assert.ok(near((await plot(0)).height, before + 60, 2));
+    await bar.focus();
+    await it.page.keyboard.press('ArrowDown');
+    const { height } = await plot(0);
+    assert.ok(height > before + 65);
+    const titles = (await charts()).map((chart) => chart.title);
+    await it.page.reload();
+    await shows(it.page, (s) => s.phase === 'live' && s.charts.length === titles.length, 'the charts again');
+    assert.deepEqual((await charts()).map((chart) => chart.title), titles);
+    assert.ok(near((await plot(0)).height, height, 2));
+  });
+
+  test('hide a series, and a chart', async () => {
+    const before = await charts();
+    await click('.chart .key', 'outC speed');
+    assert.ok((await charts())[1].series.find((each) => each.label === 'outC speed').hidden);
+    await choose(0, 'Hide this chart');
+    await shows(it.page, (s) => s.charts.length === before.length - 1, 'one chart less');
+    await click('#series button', before[0].title);
+    await shows(it.page, (s) => s.charts.length === before.length, 'the chart');
+  });
+
+  test('are zoomed by a drag, and are back by a double click', async () => {
+    const { chartRange: [from, to] } = await state(it.page);
+    await pull(0, 0.5, 0.75);
+    const { chartRange: [low, high], chartHeld } = await state(it.page);
+    assert.ok(chartHeld && high - low < (to - from) * 0.4 && low > from, `${low} ${high}`);
+    assert.equal(await it.page.$eval('#chart-live', (button) => button.hidden), false);
+    const { left, top, width, height } = await plot(0);
+    await it.page.mouse.click(left + width / 2, top + height / 2, { clickCount: 2 });
+    const back = await state(it.page);
+    assert.ok(!back.chartHeld && back.chartRange[1] - back.chartRange[0] > 19.9);
+    assert.equal(back.chartMoment, null);
+  });
+
+  test('name a moment by a click, and mark the one that is named', async () => {
+    const told = it.page.evaluate(() => new Promise((resolve, reject) => { setTimeout(reject, 5000, new Error('no moment')); document.addEventListener('ev3dev-time', (event) => resolve(event.detail.t), { once: true }); }));
+    const { left, top, width, height } = await plot(0);
+    await it.page.mouse.click(left + width * 0.6, top + height / 2);
+    const t = await told;
+    const shown = await state(it.page);
+    assert.ok(t >= 0 && shown.chartMoment === t);
+    const say = (moment) => it.page.evaluate((s) => document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t: s } })), moment);
+    await say(0.5);
+    const { chartMoment, chartRange: [from, to] } = await state(it.page);
+    assert.ok(chartMoment === 0.5 && from <= 0.5 && 0.5 <= to);
+    await say(null);
+    assert.equal((await state(it.page)).chartMoment, null);
+  });
+
+  test('are as at first again, when that is wished, and after what nobody wrote', async () => {
+    await choose(0, 'All charts as at first');
+    await shows(it.page, (s) => s.charts.length === 2 && s.charts[0].title === 'reflected light', 'the first charts');
+    for (const odd of ['{', '{"charts":7}', '{"charts":[{"series":[null]}],"known":[]}', '[]']) {
+      await it.page.evaluate((words) => localStorage.setItem('ev3dev-charts', words), odd);
+      await it.page.reload();
+      await shows(it.page, (s) => s.phase === 'live' && s.charts.length === 2, `charts after ${odd}`);
+    }
+  });
+});
+
+group('panels', ROOM, '', (it) => {
+  const size = (selector) => it.page.$eval(selector, (box) => [box.offsetWidth, box.offsetHeight]);
+  const bar = (words) => it.page.$(`[role=separator][aria-label="${words}"]`);
+  const again = async () => {
+    await it.page.reload();
+    await shows(it.page, (s) => s.phase === 'live' && s.frames > 2, 'the page again');
+  };
+
+  test('are made larger by a drag and by keys, and stay so when the page is loaded again', async () => {
+    await shows(it.page, (s) => s.charts.length > 0, 'charts');
+    const [, before] = await size('.charts-card');
+    const box = await (await bar('Height of the charts')).boundingBox();
+    await it.page.mouse.move(box.x + 50, box.y + 6);
+    await it.page.mouse.down();
+    await it.page.mouse.move(box.x + 50, box.y - 94, { steps: 4 });
+    await it.page.mouse.up();
+    assert.ok(near((await size('.charts-card'))[1], before + 100, 2));
+    for (const [words, panel, key] of [['Width of the world', '.world-card', 'ArrowLeft'], ['Width of brick and log', '.side', 'ArrowLeft'], ['Height of the brick', '.brick-card', 'ArrowUp']]) {
+      const way = panel === '.brick-card' ? 1 : 0;
+      const sign = panel === '.side' ? 1 : -1;
+      const old = (await size(panel))[way];
+      await (await bar(words)).focus();
+      await it.page.keyboard.press(key);
+      await it.page.keyboard.press(key);
+      assert.ok(near((await size(panel))[way], old + sign * 32, 2), words);
+      assert.equal(await (await bar(words)).evaluate((each) => Number(each.ariaValueNow)), (await size(panel))[way]);
+    }
+    const all = ['.world-card', '.side', '.brick-card', '.charts-card'];
+    const sizes = await Promise.all(all.map(size));
+    await again();
+    assert.deepEqual(await Promise.all(all.map(size)), sizes);
+    assert.deepEqual(await violations(it.page), []);
+  });
+
+  test('are as before after a double click, and never larger than the screen', async () => {
+    await (await bar('Width of the world')).focus();
+    await it.page.keyboard.press('End');
+    await it.page.setViewport({ width: 1010, height: 700 });
+    await until(() => it.page.evaluate(() => document.querySelector('.side').getBoundingClientRect().right <= innerWidth - 8), 'all on the screen');
+    await it.page.setViewport({ width: 1280, height: 800 });
+    await until(async () => (await size('.world-card'))[0] > 500, 'a wide world');
+    await (await bar('Width of the world')).focus();
+    await it.page.keyboard.press('Home');
+    assert.equal((await size('.world-card'))[0], 300);
+    const box = await (await bar('Width of the world')).boundingBox();
+    await it.page.mouse.click(box.x + 6, box.y + 60, { clickCount: 2 });
+    assert.ok((await size('.world-card'))[0] > 500);
+  });
+
+  test('are folded, what they leave is for others, and stay so when the page is loaded again', async () => {
+    const fold = (name) => it.page.click(`.${name}-card .fold`);
+    const [charts] = await size('.charts-card');
+    const [, log] = await size('.log-card');
+    await fold('brick');
+    assert.ok((await size('.log-card'))[1] > log + 100);
+    await fold('log');
+    assert.ok((await size('.charts-card'))[0] > charts + 200, 'charts below a folded log');
+    await fold('ports');
+    assert.ok((await size('.ports-card'))[0] < 60);
+    await fold('charts');
+    assert.ok((await size('.charts-card'))[1] < 60);
+    await fold('world');
+    await again();
+    assert.deepEqual(await it.page.$$eval('.folded', (cards) => cards.length), 5);
+    for (const id of ['world', 'ports', 'charts', 'brick', 'log']) assert.equal(await it.page.$eval(`#${id}`, (part) => part.offsetParent), null, id);
+    assert.deepEqual(await violations(it.page), []);
+    for (const name of ['world', 'ports', 'charts', 'brick', 'log']) {
+      await it.page.focus(`.${name}-card .fold`);
+      await it.page.keyboard.press('Enter');
+      assert.equal(await it.page.$eval(`.${name}-card .fold`, (button) => button.ariaExpanded), 'true');
+    }
+    await shows(it.page, (s) => s.camera.pixels[0] > 300, 'the world');
+    assert.ok(near((await size('.charts-card'))[0], charts, 2));
+  });
+
+  test('are folded on a phone, and come in any shape from the browser\'s memory', async () => {
+    for (const odd of ['7', '{"sizes":{"world":"wide","row":-5},"folded":7}', '{"sizes":null,"folded":["moon"]}']) {
+      await it.page.evaluate((words) => localStorage.setItem('ev3dev-panels', words), odd);
+      await again();
+    }
+    await it.page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
+    const page = await open(browser, it.url, { width: 390, height: 844, phone: true });
+    const whole = await page.evaluate(() => document.body.scrollHeight);
+    for (const name of ['world', 'ports', 'brick']) await page.tap(`.${name}-card .fold`);
+    assert.ok(await page.evaluate(() => document.body.scrollHeight) < whole - 800);
+    await page.evaluate(() => localStorage.removeItem('ev3dev-panels'));
+    await free(page)();
+  });
+});
+
 group('goals', ROOM, 'goals(true)', (it) => {
   const type = async (goal) => {
     await it.page.$eval('#goal-text', (input) => { input.value = ''; });

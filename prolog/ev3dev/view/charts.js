@@ -1,115 +1,97 @@
-// Strip charts of samples and of the program's own values: one strip for
-// each quantity, all over the same time.
+// Charts of samples and of the program's own values. A chart has any series; those of one
+// quantity have one scale. The time is that of all charts.
 
-import { $, attribute, brief, clock, download, el, nice, num, pressed, text } from './dom.js';
+import { $, attribute, brief, clock, download, el, icon, nice, num, pressed, text } from './dom.js';
+import { divider, keep, kept } from './panels.js';
 import { UNITS } from './ports.js';
 
 const SPANS = [[5, '5 s'], [20, '20 s'], [60, '60 s'], [Infinity, 'all']];
-const LEFT = 54;
-const RIGHT = 116;
+const KEPT = 'ev3dev-charts';
+const SCALE = 46;
+const RIGHT = 12;
 const BOTTOM = 22;
-const LOWEST_STRIP = 50;
-const PALETTE = ['s1', 's2', 's3', 's4', 's5', 's6'];
-const TITLES = { speed: 'speed', position: 'position', duty: 'duty cycle', x: 'x', y: 'y', heading: 'heading', bx: 'x believed', by: 'y believed', bh: 'heading believed' };
+const LOWEST = 88;
+const COLORS = 8;
+const CLICK = 5;
+const TITLES = { duty: 'duty cycle', bx: 'x believed', by: 'y believed', bh: 'heading believed' };
 
 export class Charts {
   /** `changed` is called when other columns are shown. */
   constructor(changed) {
     this.changed = changed;
     this.box = $('charts');
-    this.canvas = el('canvas', { role: 'img', 'aria-label': 'No chart yet' });
-    this.context = this.canvas.getContext('2d');
-    this.empty = el('p', { class: 'empty', hidden: true }, 'No samples yet. They begin when time passes.');
-    this.strip = el('div', { class: 'strips' }, this.canvas);
+    this.list = el('div', { class: 'strips' });
     this.axis = el('canvas', { class: 'axis', 'aria-hidden': 'true' });
-    this.box.append(this.strip, this.axis, this.empty);
-    this.columns = null;
-    this.hidden = new Set();
-    this.domains = new Map();
-    this.colorsOf = new Map();
-    this.strips = [];
+    this.empty = el('p', { class: 'empty', hidden: true });
+    this.box.append(this.list, this.axis, this.empty);
+    /** What hands have chosen, if any: the charts, and the program's own series that were seen. */
+    this.own = valid(kept(KEPT));
+    this.charts = [];
+    this.views = [];
+    this.paints = new Map();
     this.span = 20;
-    this.held = null;
+    /** The time shown, if it is not the last seconds; where the pointer is; the moment of the page. */
+    this.zoom = null;
     this.cursor = null;
+    this.moment = null;
     this.spans = SPANS.map(([span, name]) => {
       const button = el('button', { type: 'button', 'aria-pressed': String(span === this.span) }, name);
       button.addEventListener('click', () => this.reach(span));
       return button;
     });
     $('spans').append(...this.spans);
-    $('chart-pause').addEventListener('click', () => this.hold(this.held === null));
+    $('chart-live').addEventListener('click', () => this.live());
+    $('chart-pause').addEventListener('click', () => this.hold(this.zoom === null));
+    $('chart-add').addEventListener('click', () => this.add());
     $('chart-csv').addEventListener('click', () => this.save());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
-    new ResizeObserver(() => this.resize()).observe(this.box);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      this.theme = null;
+      this.draw();
+    });
+    this.sizes = new ResizeObserver(() => this.resize());
+    this.sights = new IntersectionObserver((seen) => {
+      for (const { target, isIntersecting } of seen) target.view.seen = isIntersecting;
+      this.draw();
+    }, { rootMargin: '200px' });
+    this.sizes.observe(this.box);
     this.listen();
+    // Of another part of the page, too, wherever it says so.
+    addEventListener('ev3dev-time', (event) => {
+      this.moment = event.detail?.t ?? null;
+      this.shift(this.zoom);
+    }, true);
   }
 
-  // ------------------------------------------------------------- what is shown
+  // ------------------------------------------------------------- series
 
-  plotted(column) {
-    const shown = this.columns?.has(column) && !this.hidden.has(this.quantity(column));
-    return shown ? this.colorsOf.get(column) ?? null : null;
-  }
-
-  plot(column) {
-    this.columns ??= new Set();
-    if (this.columns.has(column)) this.columns.delete(column);
-    else this.columns.add(column);
-    this.hidden.delete(this.quantity(column));
-    this.arrange();
-    this.changed();
-    this.draw();
-  }
-
-  quantity(column) {
-    const [port, attribute] = column.split('.');
-    if (!attribute) return column;
-    return attribute.startsWith('value') ? column : `${attribute} ${this.model?.samples.units.get(column) ?? ''}`;
-  }
-
-  /** At first: the wheels' speeds and two sensors. */
-  choose() {
-    const { columns } = this.model.samples;
-    if (this.columns !== null || columns.size === 0) return;
-    const { spec, frame } = this.model;
-    const motors = [spec?.left?.port, spec?.right?.port].filter(Boolean).map((port) => `${port}.speed`);
-    const sensors = (frame.ports ?? []).filter((port) => port.kind === 'sensor').map((port) => `${port.port}.value0`);
-    const wanted = [...motors, ...sensors.slice(0, this.height > 200 ? 2 : 1)].filter((name) => columns.has(name));
-    if (!wanted.length) wanted.push(...[...columns.keys()].filter((name) => /speed|value0/.test(name)).slice(0, 3));
-    this.columns = new Set(wanted);
-    this.changed();
-  }
-
-  /** The strips: values of the program first, then what is watched, then columns. */
-  arrange() {
+  /** All there are, by name: `=` and a value of the program, `@` and what it watches, columns. */
+  names() {
     const { samples, values, watches } = this.model;
-    const strips = new Map();
-    const put = (key, title, unit, series) => {
-      const strip = strips.get(key) ?? { key, title, unit: UNITS[unit] ?? unit ?? '', series: [] };
-      strip.series.push(series);
-      strips.set(key, strip);
-    };
-    for (const [name, series] of values) put(`value ${name}`, name, '', { name, label: name, time: series.time, values: series.values });
-    for (const { name, column, unit } of watches ?? []) {
-      const taken = samples.columns.get(column);
-      if (taken) put(`watch ${name}`, name, unit ?? samples.units.get(column), { name: column, label: name, time: samples.time, values: taken });
+    return [
+      ...[...values.keys()].map((name) => `=${name}`),
+      ...(watches ?? []).filter(({ column }) => samples.columns.has(column)).map(({ name }) => `@${name}`),
+      ...samples.columns.keys(),
+    ];
+  }
+
+  /** A series by its name, as it is now; null if there is none. Those of one `scale` share it. */
+  series(name) {
+    const { samples, values, watches } = this.model;
+    const rest = name.slice(1);
+    if (name[0] === '=') {
+      const value = values.get(rest);
+      return value ? { name, title: rest, label: rest, unit: '', scale: name, ...value } : null;
     }
-    for (const column of this.columns ?? []) {
-      const taken = samples.columns.get(column);
-      if (!taken) continue;
-      const [port, quality] = column.split('.');
-      const title = !quality ? TITLES[column] ?? column : quality.startsWith('value') ? this.sensorTitle(port, quality) : TITLES[quality] ?? quality;
-      put(this.quantity(column), title, samples.units.get(column), { name: column, label: quality ? port : column, time: samples.time, values: taken });
-    }
-    this.strips = [...strips.values()];
-    this.shown = this.strips.filter((strip) => !this.hidden.has(strip.key));
-    for (const strip of this.strips) {
-      for (const series of strip.series) {
-        if (!this.colorsOf.has(series.name)) this.colorsOf.set(series.name, PALETTE[this.colorsOf.size % PALETTE.length]);
-        series.color = this.colorsOf.get(series.name);
-      }
-    }
-    this.chips();
+    const watch = name[0] === '@' ? (watches ?? []).find((each) => each.name === rest) : null;
+    const column = watch ? watch.column : name;
+    const taken = samples.columns.get(column);
+    if (!taken) return null;
+    const [port, quality] = column.split('.');
+    const given = watch?.unit ?? samples.units.get(column);
+    const unit = UNITS[given] ?? given ?? '';
+    const title = watch ? rest : quality?.startsWith('value') ? this.sensorTitle(port, quality) : TITLES[quality ?? port] ?? quality ?? port;
+    const scale = quality ? `${quality.startsWith('value') ? title : quality} ${unit}` : unit;
+    return { name, title, label: watch || !quality ? title : `${port} ${title}`, unit, scale, time: samples.time, values: taken };
   }
 
   sensorTitle(port, value) {
@@ -118,40 +100,208 @@ export class Charts {
     return value === 'value0' ? words : `${words} ${value.slice(5)}`;
   }
 
-  chips() {
-    const key = this.strips.map((strip) => `${strip.key}|${strip.title}|${this.hidden.has(strip.key)}`).join();
-    if (key === this.chipKey) return;
-    this.chipKey = key;
-    $('series').replaceChildren(...this.strips.map((strip) => {
-      const on = !this.hidden.has(strip.key);
-      const names = strip.series.map((series) => series.label).join(', ');
-      const chip = el('button', { type: 'button', 'aria-pressed': String(on), title: names }, strip.title === names ? strip.title : `${strip.title} ${names}`);
-      chip.addEventListener('click', () => {
-        if (on) this.hidden.add(strip.key);
-        else this.hidden.delete(strip.key);
-        this.arrange();
-        this.changed();
-        this.resize();
-      });
+  plotted(column) {
+    const paint = this.paints.get(column);
+    return paint === undefined ? null : color(paint);
+  }
+
+  /** Shows a column beside what has its scale, or takes it away. */
+  plot(column) {
+    const scale = this.series(column)?.scale;
+    const shown = this.paints.has(column);
+    this.edit((charts) => {
+      for (const chart of charts) chart.series = chart.series.filter((name) => name !== column);
+      if (shown) return;
+      const fit = charts.find((chart) => !chart.hidden && chart.series.some((name) => this.series(name)?.scale === scale));
+      if (fit) fit.series.push(column);
+      else charts.push({ series: [column] });
+    });
+  }
+
+  // ------------------------------------------------------------- which charts
+
+  /** Before any hand: what the program names, what it reads, the wheels' speeds. */
+  automatic(names) {
+    const { spec, frame } = this.model;
+    const sensors = (frame.ports ?? []).filter((port) => port.kind === 'sensor');
+    const read = sensors.filter((port) => port.read);
+    const wheels = [spec?.left?.port, spec?.right?.port].filter(Boolean).map((port) => `${port}.speed`);
+    const values = (ports) => ports.map(({ port }) => [`${port}.value0`]);
+    const charts = [...names.filter(given).map((name) => [name]), ...values(read), wheels, ...read.length ? [] : values(sensors.slice(0, 2))]
+      .map((series) => ({ series: series.filter((name) => names.includes(name)) })).filter(({ series }) => series.length);
+    return charts.length ? charts : names.filter((name) => /speed|value0/.test(name)).slice(0, 3).map((name) => ({ series: [name] }));
+  }
+
+  /** A hand changes the charts. */
+  edit(change) {
+    if (this.own?.charts !== this.charts) this.own = { charts: this.charts, known: this.names().filter(given) };
+    change(this.own.charts);
+    this.own.charts = this.charts = this.own.charts.filter((chart) => chart.series.length || chart === this.edited);
+    keep(KEPT, this.own);
+    this.arrange();
+    this.draw();
+  }
+
+  arrange() {
+    const names = this.names();
+    const { own } = this;
+    const has = (chart) => chart.series.some((name) => names.includes(name));
+    if (own && (own.charts.some(has) || own.charts.includes(this.edited))) {
+      const fresh = names.filter((name) => given(name) && !own.known.includes(name));
+      if (fresh.length) {
+        own.known.push(...fresh);
+        own.charts.unshift(...fresh.map((name) => ({ series: [name] })));
+        keep(KEPT, own);
+      }
+      this.charts = own.charts;
+    } else {
+      const charts = this.automatic(names);
+      if (JSON.stringify(charts) !== this.automated || this.charts === own?.charts) this.charts = charts;
+      this.automated = JSON.stringify(charts);
+    }
+    const there = this.charts.filter((chart) => chart === this.edited || has(chart));
+    const shown = there.filter((chart) => !chart.hidden);
+    this.paint(shown.flatMap((chart) => chart.series));
+    const parts = shown.map((chart) => chart.series.map((name) => this.series(name)).filter(Boolean));
+    const signature = JSON.stringify([there, parts.map((all) => all.map(({ label, unit }) => [label, unit]))], (part, value) => (part === 'height' || part === 'off' ? undefined : value));
+    if (signature !== this.signature) {
+      this.signature = signature;
+      this.build(there, shown, parts);
+      this.changed();
+    }
+    this.views.forEach((view, i) => { view.series = parts[i]; });
+    this.empty.hidden = shown.length > 0;
+    text(this.empty, there.length ? 'All charts are hidden.' : names.length ? 'Add a chart by +.' : 'No samples yet. They begin when time passes.');
+  }
+
+  /** Each series keeps its color for as long as it is shown, and no other has it. */
+  paint(names) {
+    for (const name of [...this.paints.keys()]) if (!names.includes(name)) this.paints.delete(name);
+    for (const name of names) {
+      if (this.paints.has(name)) continue;
+      const taken = [...this.paints.values()];
+      let paint = 0;
+      while (taken.includes(paint)) paint += 1;
+      this.paints.set(name, paint);
+    }
+  }
+
+  build(there, shown, parts) {
+    this.sizes.disconnect();
+    this.sights.disconnect();
+    this.sizes.observe(this.box);
+    this.views = shown.map((chart, i) => this.view(chart, parts[i]));
+    this.list.replaceChildren(...this.views.map(({ box }) => box));
+    $('series').replaceChildren(...there.filter((chart) => chart.hidden).map((chart) => {
+      const chip = el('button', { type: 'button', title: 'Show this chart again' }, `+ ${title(chart.series.map((name) => this.series(name)).filter(Boolean))}`);
+      chip.addEventListener('click', () => this.edit(() => { delete chart.hidden; }));
       return chip;
     }));
+    for (const view of this.views) {
+      this.sizes.observe(view.plot);
+      this.sights.observe(view.box);
+    }
+  }
+
+  view(chart, series) {
+    const canvas = el('canvas', { 'aria-hidden': 'true' });
+    const plot = el('div', { class: 'chart-plot' }, canvas);
+    const view = { chart, canvas, plot, context: canvas.getContext('2d'), domains: new Map(), width: 0, height: 0, seen: true };
+    const name = title(series);
+    view.keys = series.map((each) => {
+      const value = document.createTextNode('');
+      const key = el('button', { type: 'button', class: 'key', 'aria-pressed': String(!chart.off?.includes(each.name)), title: 'Hide or show this series' },
+        el('i', { class: this.paints.get(each.name) < COLORS ? 'paint' : 'paint ring' }), each.label, el('b', { class: 'num' }, value), el('span', { class: 'unit' }, each.unit));
+      key.style.setProperty('--plot', `var(--${color(this.paints.get(each.name))})`);
+      key.addEventListener('click', () => this.edit(() => {
+        const off = chart.off ?? [];
+        chart.off = off.includes(each.name) ? off.filter((other) => other !== each.name) : [...off, each.name];
+        pressed(key, !chart.off.includes(each.name));
+      }));
+      return { value, key };
+    });
+    view.more = el('button', { type: 'button', class: 'tool chart-more', title: 'What this chart shows', 'aria-label': `What the chart of ${name || 'nothing'} shows`, 'aria-haspopup': 'true' }, icon('more'));
+    view.more.addEventListener('click', () => this.menu(chart));
+    view.bar = divider(`Height of the chart of ${name || 'nothing'}`, {
+      get: () => view.box.offsetHeight, least: LOWEST, most: () => 600,
+      set: (height) => this.edit(() => {
+        if (height === null) delete chart.height;
+        else chart.height = height;
+        sized();
+      }),
+    });
+    view.box = el('div', { class: 'chart', role: 'group', 'aria-label': name || 'A new chart' }, el('div', { class: 'chart-head' }, el('div', { class: 'keys-of' }, ...view.keys.length ? view.keys.map(({ key }) => key) : [el('span', { class: 'key' }, 'Choose what it shows.')]), view.more), plot, view.bar);
+    const sized = () => { view.box.style.flex = chart.height ? `0 0 ${chart.height}px` : ''; };
+    sized();
+    view.box.view = view;
+    return view;
+  }
+
+  // ------------------------------------------------------------- the menu of a chart
+
+  add() {
+    const chart = { series: [] };
+    this.edited = chart;
+    this.edit((charts) => charts.push(chart));
+    this.list.scrollTop = this.list.scrollHeight;
+    this.menu(chart);
+  }
+
+  menu(chart) {
+    const rank = (name) => (given(name) ? 0 : name.startsWith('in') ? 1 : name.startsWith('out') ? 2 : 3);
+    const names = this.names().sort((a, b) => rank(a) - rank(b));
+    const entry = (words, act, props) => {
+      const button = el('button', { type: 'button', ...props }, words);
+      button.addEventListener('click', () => act(button));
+      return button;
+    };
+    const ends = (words, act) => entry(words, () => {
+      menu.hidePopover();
+      act();
+    });
+    const menu = el('div', { class: 'menu series-menu', popover: 'auto', role: 'group', 'aria-label': 'What the chart shows' },
+      ...names.map((name) => entry(this.series(name).label, (button) => {
+        const on = !chart.series.includes(name);
+        attribute(button, 'aria-checked', on);
+        this.edited = chart;
+        this.edit(() => { chart.series = on ? [...chart.series, name] : chart.series.filter((each) => each !== name); });
+      }, { class: 'check', role: 'checkbox', 'aria-checked': String(chart.series.includes(name)) })),
+      ends('Hide this chart', () => this.edit(() => { chart.hidden = true; })),
+      ends('Remove this chart', () => this.edit((charts) => charts.splice(charts.indexOf(chart), 1))),
+      ends('All charts as at first', () => {
+        this.own = this.automated = null;
+        keep(KEPT, null);
+        this.arrange();
+      }));
+    const near = (this.views.find((view) => view.chart === chart)?.more ?? $('chart-add')).getBoundingClientRect();
+    document.body.append(menu);
+    menu.showPopover();
+    menu.style.left = `${Math.max(8, near.right - menu.offsetWidth)}px`;
+    menu.style.top = `${Math.max(8, Math.min(near.bottom + 4, innerHeight - menu.offsetHeight - 8))}px`;
+    menu.querySelector('button').focus();
+    menu.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape') return;
+      menu.hidePopover();
+      event.stopPropagation();
+    });
+    menu.addEventListener('toggle', (event) => {
+      if (event.newState !== 'closed') return;
+      const inside = menu.contains(document.activeElement) || document.activeElement === document.body;
+      menu.remove();
+      this.edited = null;
+      if (!chart.series.length) this.edit(() => {});
+      if (inside) (this.views.find((view) => view.chart === chart)?.more ?? $('chart-add')).focus();
+    });
   }
 
   take(model) {
     this.model = model;
     if (model.frame.new) {
-      this.held = null;
       this.cursor = null;
-      this.domains.clear();
-      pressed($('chart-pause'), false);
+      for (const view of this.views) view.domains.clear();
+      this.shift(null);
     }
-    this.choose();
-    const before = this.shown?.length;
     this.arrange();
-    if (before !== this.shown.length) this.resize();
-    this.empty.hidden = this.shown.length > 0;
-    text(this.empty, this.strips.length ? 'All charts are hidden.' : model.samples.columns.size ? 'Choose a port to see its chart.' : 'No samples yet. They begin when time passes.');
-    this.strip.hidden = this.axis.hidden = this.shown.length === 0;
   }
 
   // ------------------------------------------------------------- time
@@ -164,58 +314,85 @@ export class Charts {
   }
 
   get range() {
-    const end = this.held ?? this.latest;
+    if (this.zoom) return this.zoom;
+    const live = this.until(this.latest);
+    if (this.moment === null || (this.moment >= live[0] && this.moment <= live[1])) return live;
+    return this.until(Math.max(this.moment, Math.min(this.latest, this.moment + this.span / 2)));
+  }
+
+  /** The span that ends there. */
+  until(end) {
     let first = Infinity;
-    for (const strip of this.shown) for (const series of strip.series) first = Math.min(first, series.time[0] ?? Infinity);
+    for (const view of this.views) for (const series of view.series) first = Math.min(first, series.time[0] ?? Infinity);
     if (this.span === Infinity) return [Math.min(first, end - 1), end];
     // What is younger than that fills the strips from the left.
     if (Number.isFinite(first) && end - first < this.span) return [first, first + this.span];
     return [end - this.span, end];
   }
 
+  /** Whether the charts are held still. */
+  get held() {
+    return this.zoom;
+  }
+
+  /** Shows a stretch of time, or the last seconds if that is null. */
+  shift(range) {
+    this.zoom = range;
+    pressed($('chart-pause'), range !== null);
+    $('chart-live').hidden = range === null && this.moment === null;
+    this.draw();
+  }
+
   reach(span) {
     this.span = span;
     SPANS.forEach(([each], i) => pressed(this.spans[i], each === span));
-    this.draw();
+    this.shift(this.zoom && this.until(this.zoom[1]));
   }
 
   hold(on) {
-    this.held = on ? this.latest : null;
     if (!on) this.cursor = null;
-    pressed($('chart-pause'), on);
-    this.draw();
+    this.shift(on ? this.range : null);
   }
 
-  // ------------------------------------------------------------- reading off
+  /** Back to what is now. */
+  live() {
+    this.hold(false);
+    if (this.moment !== null) tell(null);
+  }
+
+  // ------------------------------------------------------------- hands
 
   listen() {
     const { box } = this;
-    box.addEventListener('pointermove', (event) => {
-      if (this.grip) {
-        const [from, to] = this.range;
-        this.held = Math.min(this.latest, this.grip.end - ((event.clientX - this.grip.x) * (to - from)) / this.wide);
-        this.draw();
-      } else if (event.target === this.canvas) this.point(this.timeAt(event.offsetX));
-    });
-    box.addEventListener('pointerleave', () => { if (!this.keyed) this.point(null); });
+    let grip = null;
     box.addEventListener('pointerdown', (event) => {
+      const { target } = event;
+      if (target.tagName !== 'CANVAS' || event.button || !this.views.length) return;
       this.keyed = false;
-      if (this.held !== null && event.pointerType === 'mouse') {
-        this.grip = { x: event.clientX, end: this.held };
-        box.setPointerCapture(event.pointerId);
-      } else if (event.target === this.canvas) this.point(this.timeAt(event.offsetX));
+      target.setPointerCapture(event.pointerId);
+      grip = { x: event.clientX, time: this.timeAt(event), range: this.range, pan: target === this.axis || event.shiftKey };
     });
-    for (const end of ['pointerup', 'pointercancel']) box.addEventListener(end, () => { this.grip = null; });
-    box.addEventListener('keydown', (event) => {
-      const steps = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity }[event.key];
-      if (!steps || !this.shown?.length) return;
-      const [from, to] = this.range;
-      const step = (steps * (to - from)) / (event.shiftKey ? 20 : 100);
-      this.keyed = true;
-      this.point(Math.max(from, Math.min(to, (this.cursor ?? to) + step)));
-      attribute(box, 'aria-label', `At ${clock(Math.max(0, this.cursor))} s: ${this.readings().join(', ')}`);
-      event.preventDefault();
+    box.addEventListener('pointermove', (event) => {
+      if (grip?.pan) {
+        const [from, to] = grip.range;
+        const by = Math.min(this.latest - to, ((grip.x - event.clientX) * (to - from)) / this.wide);
+        this.shift([from + by, to + by]);
+      } else if (grip || event.target.tagName === 'CANVAS') {
+        if (grip) this.stretch = Math.abs(event.clientX - grip.x) < CLICK ? null : [grip.time, this.timeAt(event)].sort((a, b) => a - b);
+        this.point(this.timeAt(event));
+      }
     });
+    box.addEventListener('pointerup', (event) => {
+      const [range, was] = [this.stretch, grip];
+      grip = this.stretch = null;
+      if (!was || was.pan) return;
+      if (range) this.shift(this.about((range[0] + range[1]) / 2, range[1] - range[0]));
+      else if (event.target !== this.axis) tell(was.time);
+    });
+    box.addEventListener('pointercancel', () => { grip = this.stretch = null; });
+    box.addEventListener('pointerleave', () => { if (!this.keyed) this.point(null); });
+    box.addEventListener('dblclick', (event) => { if (event.target.tagName === 'CANVAS') this.live(); });
+    box.addEventListener('keydown', (event) => this.key(event));
     box.addEventListener('blur', () => {
       this.keyed = false;
       this.point(null);
@@ -223,11 +400,38 @@ export class Charts {
     });
   }
 
-  timeAt(px) {
-    if (!this.model || !this.shown?.length) return null;
+  key(event) {
+    if (event.target !== this.box || !this.views.length || event.ctrlKey || event.metaKey) return;
     const [from, to] = this.range;
-    const share = (px - LEFT) / this.wide;
-    return share < 0 || share > 1 ? null : from + share * (to - from);
+    const step = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity }[event.key];
+    const at = this.cursor ?? (step ? to : (from + to) / 2);
+    if (step) {
+      this.keyed = true;
+      this.point(Math.max(from, Math.min(to, at + (step * (to - from)) / (event.shiftKey ? 20 : 100))));
+      attribute(this.box, 'aria-label', `At ${clock(Math.max(0, this.cursor))} s: ${this.readings().join(', ')}`);
+    } else if (event.key === '+' || event.key === '=') this.shift(this.about(at, (to - from) / 2));
+    else if (event.key === '-') this.shift(this.about(at, (to - from) * 2));
+    else if (event.key === '0') this.live();
+    else if (event.key === 'Enter') tell(at);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** So many seconds about a time, or the least there is to see. */
+  about(time, seconds) {
+    const half = Math.max(0.1, seconds / 2);
+    return [time - half, time + half];
+  }
+
+  get wide() {
+    return Math.max(10, this.width - this.left - RIGHT);
+  }
+
+  timeAt(event) {
+    const [from, to] = this.range;
+    const share = (event.clientX - this.axis.getBoundingClientRect().left - this.left) / this.wide;
+    return from + Math.max(0, Math.min(1, share)) * (to - from);
   }
 
   point(time) {
@@ -237,98 +441,181 @@ export class Charts {
   }
 
   readings() {
-    return (this.shown ?? []).flatMap((strip) => strip.series.map((series) => {
-      const value = this.valueAt(series, this.cursor);
-      return `${strip.title === series.label ? '' : `${strip.title} `}${series.label} ${value === null ? 'unknown' : brief(value)} ${strip.unit}`.trim();
+    return this.views.flatMap((view) => view.series.map((series) => {
+      const value = valueAt(series, this.cursor);
+      return `${series.label} ${value === null ? 'unknown' : brief(value)} ${series.unit}`.trim();
     }));
   }
 
-  valueAt(series, time) {
-    const { time: times, values } = series;
-    const i = time === null ? times.length - 1 : upper(times, time) - 1;
-    return i < 0 ? null : values[i] ?? null;
+  /** What is drawn, for tests. */
+  state() {
+    return this.views.map(({ chart, series, box }) => ({
+      title: title(series), unit: [...new Set(series.map(({ unit }) => unit))].join(', '), height: box.offsetHeight,
+      series: series.map((each) => ({
+        label: each.label, value: valueAt(each, null), scale: each.scale, color: this.paints.get(each.name), hidden: chart.off?.includes(each.name) ?? false,
+      })),
+    }));
   }
 
   // ------------------------------------------------------------- drawing
 
   resize() {
-    const { clientWidth: width, clientHeight } = this.box;
-    const height = clientHeight - BOTTOM;
-    if (!width || height <= 0) return;
     this.ratio = devicePixelRatio || 1;
-    this.width = width;
-    this.height = Math.max(height, (this.shown?.length ?? 0) * LOWEST_STRIP);
-    this.strip.style.overflowY = this.height > height + 1 ? 'auto' : 'hidden';
-    this.box.style.setProperty('--strips', this.shown?.length ?? 0);
-    this.canvas.style.height = `${this.height}px`;
-    for (const [canvas, tall] of [[this.canvas, this.height], [this.axis, BOTTOM]]) {
-      const [w, h] = [Math.round(width * this.ratio), Math.round(tall * this.ratio)];
-      if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+    this.width = this.list.clientWidth;
+    for (const view of this.views) {
+      [view.width, view.height] = [view.plot.clientWidth, view.plot.clientHeight];
+      this.fit(view.canvas, view.width, view.height);
+      view.bar.tell();
     }
+    this.axis.style.width = `${this.width}px`;
+    this.fit(this.axis, this.width, BOTTOM);
     this.draw();
   }
 
-  get wide() {
-    return Math.max(10, this.width - LEFT - RIGHT);
+  fit(canvas, width, height) {
+    const [w, h] = [Math.round(width * this.ratio), Math.round(height * this.ratio)];
+    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+  }
+
+  color(name) {
+    if (!this.theme) {
+      const style = getComputedStyle(document.documentElement);
+      this.theme = new Map(['ink', 'soft', 'line', 'off', 'card', 'yellow', 'sans', ...Array.from({ length: COLORS }, (_, i) => color(i))]
+        .map((each) => [each, style.getPropertyValue(`--${each}`).trim()]));
+      this.font = `12px ${this.theme.get('sans')}`;
+    }
+    return this.theme.get(name);
   }
 
   draw() {
-    if (!this.model || !this.width || !this.shown?.length) return;
-    const c = this.context;
-    const style = getComputedStyle(document.documentElement);
-    this.color = (name) => style.getPropertyValue(`--${name}`).trim();
-    this.font = this.color('sans');
-    const axis = this.axis.getContext('2d');
-    for (const each of [c, axis]) {
-      each.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-      each.clearRect(0, 0, this.width, this.height);
-    }
+    if (!this.model || !this.width) return;
+    this.color('ink');
     const [from, to] = this.range;
-    const x = (time) => LEFT + ((time - from) / (to - from)) * this.wide;
-    const tall = this.height / this.shown.length;
-    this.drawTimes(c, axis, from, to, x);
-    this.shown.forEach((strip, i) => this.drawStrip(c, strip, i * tall, tall, from, to, x));
-    if (this.cursor !== null && this.cursor >= from && this.cursor <= to) this.drawCursor(c, axis, x(this.cursor));
-    const now = this.cursor;
-    this.cursor = null;
-    attribute(this.canvas, 'aria-label', `Charts. ${this.readings().join(', ')}`);
-    this.cursor = now;
+    const scales = Math.max(1, ...this.views.map((view) => new Set(view.series.map(({ scale }) => scale)).size));
+    this.left = 8 + SCALE * Math.max(1, Math.min(scales, Math.floor(this.width / 4 / SCALE)));
+    const x = (time) => this.left + ((time - from) / (to - from)) * this.wide;
+    const step = nice(((to - from) * 76) / this.wide);
+    const times = [];
+    for (let time = Math.ceil(Math.max(0, from) / step) * step; time <= to; time += step) times.push(time);
+    const marks = this.model.log.filter(({ kind, time }) => kind === 'mark' && time >= from && time <= to);
+    for (const view of this.views) if (view.seen && view.width) this.drawChart(view, from, to, x, times, marks);
+    this.drawAxis(times, step, from, to, x);
   }
 
-  drawTimes(c, axis, from, to, x) {
-    const step = nice(((to - from) * 76) / this.wide);
-    axis.font = `12px ${this.font}`;
-    axis.textAlign = 'center';
-    axis.fillStyle = this.color('soft');
+  drawAxis(times, step, from, to, x) {
+    const c = this.axis.getContext('2d');
+    c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    c.clearRect(0, 0, this.width, BOTTOM);
+    if (!this.views.length) return;
+    c.font = this.font;
+    c.textAlign = 'center';
+    c.fillStyle = this.color('soft');
+    for (const time of times) if (x(time) < this.width - 30) c.fillText(axisTime(time, step), x(time), 15);
+    c.textAlign = 'right';
+    c.fillText('s', this.width - RIGHT + 4, 15);
+    const pill = this.cursor ?? this.moment;
+    if (pill === null || pill < from || pill > to) return;
+    const words = `${clock(Math.max(0, pill))} s`;
+    c.font = `600 ${this.font}`;
+    c.textAlign = 'center';
+    const half = c.measureText(words).width / 2 + 7;
+    const middle = Math.max(half, Math.min(this.width - half, x(pill)));
+    c.fillStyle = this.color('ink');
+    c.beginPath();
+    c.roundRect(middle - half, 1, 2 * half, 20, 6);
+    c.fill();
+    c.fillStyle = this.color('card');
+    c.fillText(words, middle, 15);
+  }
+
+  drawChart(view, from, to, x, times, marks) {
+    const { context: c, series, width, height } = view;
+    const at = this.cursor ?? this.moment ?? this.zoom?.[1] ?? null;
+    c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    c.clearRect(0, 0, width, height);
     c.lineWidth = 1;
-    c.strokeStyle = this.color('line');
-    for (let time = Math.ceil(Math.max(0, from) / step) * step; time <= to; time += step) {
-      const at = Math.round(x(time)) + 0.5;
+    c.font = this.font;
+    c.textBaseline = 'middle';
+    c.textAlign = 'right';
+    const upright = (time, name, thick) => {
+      c.strokeStyle = this.color(name);
+      c.lineWidth = thick;
       c.beginPath();
-      c.moveTo(at, 0);
-      c.lineTo(at, this.height);
+      c.moveTo(Math.round(x(time)) + 0.5, 0);
+      c.lineTo(Math.round(x(time)) + 0.5, height);
       c.stroke();
-      if (at < this.width - RIGHT + 12) axis.fillText(axisTime(time, step), at, 15);
+    };
+    for (const time of times) upright(time, 'line', 1);
+    const scales = new Map();
+    for (const each of series) {
+      if (view.chart.off?.includes(each.name)) continue;
+      if (!scales.has(each.scale)) scales.set(each.scale, []);
+      scales.get(each.scale).push(each);
     }
-    axis.textAlign = 'left';
-    axis.fillText('s', this.width - RIGHT + 23, 15);
-    c.strokeStyle = this.color('yellow');
-    c.globalAlpha = 0.8;
-    for (const line of this.model.log) {
-      if (line.kind !== 'mark' || line.time < from || line.time > to) continue;
+    const ys = new Map();
+    let place = 0;
+    for (const [scale, all] of scales) {
+      const edge = SCALE * (place + 1);
+      const y = this.drawScale(view, scale, all, from, to, edge, scales.size > 1);
+      for (const each of all) ys.set(each, y);
+      place += 1;
+    }
+    for (const { time } of marks) upright(time, 'yellow', 1.5);
+    c.save();
+    c.beginPath();
+    c.rect(this.left, 0, this.wide, height);
+    c.clip();
+    for (const [each, y] of ys) this.drawSeries(c, each, from, to, x, y);
+    if (this.stretch) {
+      c.globalAlpha = 0.12;
+      c.fillStyle = this.color('ink');
+      c.fillRect(x(this.stretch[0]), 0, x(this.stretch[1]) - x(this.stretch[0]), height);
+      c.globalAlpha = 1;
+    }
+    if (this.moment !== null) upright(this.moment, 'ink', 2);
+    if (this.cursor !== null) upright(this.cursor, 'soft', 1);
+    c.restore();
+    series.forEach((each, i) => {
+      const value = valueAt(each, at);
+      const words = value === null ? '–' : brief(value);
+      const { value: node } = view.keys[i];
+      if (node.data !== words) node.data = words;
+      if (at === null || value === null || !ys.has(each) || at < from || at > to) return;
+      c.fillStyle = this.color(color(this.paints.get(each.name)));
       c.beginPath();
-      c.moveTo(x(line.time), 0);
-      c.lineTo(x(line.time), this.height);
-      c.lineWidth = 1.5;
-      c.stroke();
+      c.arc(x(at), ys.get(each)(value), 3.5, 0, 7);
+      c.fill();
+    });
+  }
+
+  /** The labels of a scale, left of an edge; those of the first have lines. Answers where a value is. */
+  drawScale(view, scale, all, from, to, edge, several) {
+    const { context: c, height, width } = view;
+    const [low, high, step] = this.domain(view, scale, all, from, to);
+    const y = (value) => 7 + (1 - (value - low) / (high - low)) * (height - 14);
+    if (edge > this.left) return y;
+    // As many labels as there is room for.
+    const shown = step * Math.max(1, Math.ceil(17 / Math.max(1, (step / (high - low)) * (height - 14))));
+    for (let value = Math.ceil(low / shown - 1e-9) * shown; value <= high + step * 1e-6; value += shown) {
+      const at = Math.round(y(value)) + 0.5;
+      if (edge === SCALE) {
+        c.lineWidth = 1;
+        c.strokeStyle = this.color(Math.abs(value) < step * 1e-6 ? 'off' : 'line');
+        c.beginPath();
+        c.moveTo(this.left, at);
+        c.lineTo(width - RIGHT, at);
+        c.stroke();
+      }
+      c.fillStyle = this.color(several ? color(this.paints.get(all[0].name)) : 'soft');
+      c.fillText(num(value, Math.max(0, Math.min(6, -Math.floor(Math.log10(shown) + 1e-9)))), edge, at);
     }
-    c.globalAlpha = 1;
+    return y;
   }
 
   /** The axis keeps still for as long as the values fit well. */
-  domain(strip, from, to) {
+  domain(view, scale, all, from, to) {
     let [low, high] = [Infinity, -Infinity];
-    for (const { time, values } of strip.series) {
+    for (const { time, values } of all) {
       for (let i = Math.max(0, upper(time, from) - 1), end = upper(time, to); i < end; i += 1) {
         const value = values[i];
         if (value === null) continue;
@@ -343,76 +630,15 @@ export class Charts {
     else if (high - low < least) [low, high] = [low - least, high + least];
     if (low > 0 && low < 0.6 * high) low = 0;
     if (high < 0 && high > 0.6 * low) high = 0;
-    const old = this.domains.get(strip.key);
+    const old = view.domains.get(scale);
     if (old && low >= old[0] && high <= old[1] && high - low > 0.3 * (old[1] - old[0])) return old;
     const step = nice((high - low) / 3);
     const fresh = [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step, step];
-    this.domains.set(strip.key, fresh);
+    view.domains.set(scale, fresh);
     return fresh;
   }
 
-  drawStrip(c, strip, top, tall, from, to, x) {
-    const above = tall < 70 ? 17 : 22, below = 5;
-    const [low, high, step] = this.domain(strip, from, to);
-    const y = (value) => top + above + (1 - (value - low) / (high - low)) * (tall - above - below);
-    const right = this.width - RIGHT;
-    c.textBaseline = 'middle';
-    c.textAlign = 'right';
-    c.font = `12px ${this.font}`;
-    c.lineWidth = 1;
-    // As many labels as there is room for.
-    const shown = step * Math.max(1, Math.ceil(17 / Math.max(1, (step / (high - low)) * (tall - above - below))));
-    for (let value = Math.ceil(low / shown - 1e-9) * shown; value <= high + step * 1e-6; value += shown) {
-      const at = Math.round(y(value)) + 0.5;
-      c.strokeStyle = this.color(Math.abs(value) < step * 1e-6 ? 'off' : 'line');
-      c.beginPath();
-      c.moveTo(LEFT, at);
-      c.lineTo(right, at);
-      c.stroke();
-      c.fillStyle = this.color('soft');
-      c.fillText(num(value, Math.max(0, Math.min(6, -Math.floor(Math.log10(shown) + 1e-9)))), LEFT - 8, at);
-    }
-    c.textAlign = 'left';
-    c.fillStyle = this.color('soft');
-    c.font = `12px ${this.font}`;
-    c.fillText(this.cut(c, `${strip.title}${strip.unit ? `  ${strip.unit}` : ''}`, this.wide - 8), LEFT + 4, top + (tall < 70 ? 9 : 12));
-    c.save();
-    c.beginPath();
-    c.rect(LEFT, top, this.wide, tall);
-    c.clip();
-    for (const series of strip.series) this.drawSeries(c, series, from, to, x, y);
-    c.restore();
-    const size = Math.min(20, (tall - 8) / strip.series.length);
-    strip.series.forEach((series, i) => {
-      const at = top + above + 2 + size * i;
-      const value = this.valueAt(series, this.cursor ?? this.held);
-      c.fillStyle = this.color(series.color);
-      c.beginPath();
-      c.arc(right + 14, at, 4, 0, 7);
-      c.fill();
-      c.fillStyle = this.color('ink');
-      c.font = `600 13px ${this.font}`;
-      c.textAlign = 'right';
-      const words = value === null ? '–' : brief(value);
-      c.fillText(words, this.width - 8, at);
-      const room = RIGHT - 38 - c.measureText(words).width;
-      if (strip.series.length > 1 || series.label !== strip.title) {
-        c.font = `12px ${this.font}`;
-        c.textAlign = 'left';
-        c.fillStyle = this.color('soft');
-        c.fillText(this.cut(c, series.label, room), right + 23, at);
-      }
-    });
-  }
-
-  cut(c, words, room) {
-    if (c.measureText(words).width <= room) return words;
-    let length = words.length;
-    while (length > 0 && c.measureText(`${words.slice(0, length)}…`).width > room) length -= 1;
-    return length > 0 ? `${words.slice(0, length)}…` : '';
-  }
-
-  drawSeries(c, { time, values, color }, from, to, x, y) {
+  drawSeries(c, { name, time, values }, from, to, x, y) {
     const start = Math.max(0, upper(time, from) - 1);
     const end = Math.min(time.length, upper(time, to) + 1);
     c.beginPath();
@@ -445,30 +671,13 @@ export class Charts {
       }
     }
     flush();
-    c.strokeStyle = this.color(color);
+    const paint = this.paints.get(name);
+    c.strokeStyle = this.color(color(paint));
     c.lineWidth = 1.6;
     c.lineJoin = 'round';
+    c.setLineDash(paint < COLORS ? [] : [6, 3]);
     c.stroke();
-  }
-
-  drawCursor(c, axis, at) {
-    c.strokeStyle = this.color('ink');
-    c.lineWidth = 1;
-    c.beginPath();
-    c.moveTo(Math.round(at) + 0.5, 0);
-    c.lineTo(Math.round(at) + 0.5, this.height);
-    c.stroke();
-    const words = `${clock(Math.max(0, this.cursor))} s`;
-    axis.font = `600 12px ${this.font}`;
-    axis.textAlign = 'center';
-    const half = axis.measureText(words).width / 2 + 7;
-    const middle = Math.max(half, Math.min(this.width - half, at));
-    axis.fillStyle = this.color('ink');
-    axis.beginPath();
-    axis.roundRect(middle - half, 1, 2 * half, 20, 6);
-    axis.fill();
-    axis.fillStyle = this.color('card');
-    axis.fillText(words, middle, 15);
+    c.setLineDash([]);
   }
 
   // ------------------------------------------------------------- CSV
@@ -508,4 +717,30 @@ function upper(sorted, n) {
 function axisTime(time, step) {
   if (time < 60 || step < 1) return num(time, step < 0.1 ? 2 : step < 1 ? 1 : 0);
   return `${Math.floor(time / 60)}:${String(Math.round(time % 60)).padStart(2, '0')}`;
+}
+
+/** Series that the program names appear by themselves. */
+const given = (name) => /^[=@]/.test(name);
+
+/** One of eight; what comes after those is dashed. */
+const color = (paint) => `s${(paint % COLORS) + 1}`;
+
+/** Kept by another version, or by a hand: then there is nothing. */
+const valid = (own) => {
+  const texts = (all) => Array.isArray(all) && all.every((name) => typeof name === 'string');
+  return texts(own?.known) && Array.isArray(own.charts) && own.charts.every((chart) => texts(chart?.series) && texts(chart.off ?? [])) ? own : null;
+};
+
+/** What its series are, without their ports. */
+const title = (series) => [...new Set(series.map((each) => each.title))].join(', ');
+
+/** A moment for the whole page, in seconds of the run; null for what is now. */
+function tell(t) {
+  document.dispatchEvent(new CustomEvent('ev3dev-time', { detail: { t } }));
+}
+
+/** The value at a time, or the last one. */
+function valueAt({ time: times, values }, time) {
+  const i = time === null ? times.length - 1 : upper(times, time) - 1;
+  return i < 0 ? null : values[i] ?? null;
 }

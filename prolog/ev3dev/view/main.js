@@ -7,6 +7,7 @@ import { Editor } from './editor.js';
 import { Hands } from './hands.js';
 import { Log } from './log.js';
 import { KEPT, Model } from './model.js';
+import { Panels } from './panels.js';
 import { Ports } from './ports.js';
 import { Program } from './program.js';
 import { Timeline, goTo } from './timeline.js';
@@ -41,6 +42,7 @@ const editor = new Editor(send, world, edited);
 /** Those that go back with the timeline, and those that are always of now. */
 const scenes = [ports, brick, program];
 const panels = [hands, log, charts];
+const arranged = new Panels(layout);
 
 // ----------------------------------------------------------------- the line
 
@@ -163,11 +165,10 @@ function layout() {
   const [sides, ends] = [free.left + free.right, free.top + free.bottom];
   const tall = main.height - pad - gap - 44;
   const most = main.width - 2 * pad - 2 * gap - 276 - 340;
-  const tallest = Math.max(300, tall - gap - (tall > 900 ? 280 : 228));
+  const tallest = Math.max(300, tall - gap - (tall > 900 ? 320 : 256));
   const width = Math.max(420, Math.min(most, (tallest - ends) * aspect + sides));
   const height = Math.min(tallest, Math.max(432, (width - sides) / aspect + ends));
-  style.setProperty('--world', `${Math.round(width)}px`);
-  style.setProperty('--row', `${Math.round(height)}px`);
+  arranged.fit(width, height);
 }
 
 new ResizeObserver(layout).observe($('main'));
@@ -194,11 +195,10 @@ function shown() {
     grid: model.grid,
     snapshots: model.snapshots ?? [],
     samples: model.samples.time.length,
-    charts: (charts.shown ?? []).map((strip) => ({
-      title: strip.title, unit: strip.unit,
-      series: strip.series.map((series) => ({ label: series.label, value: charts.valueAt(series, null) })),
-    })),
+    charts: charts.state(),
     chartHeld: charts.held !== null,
+    chartRange: charts.model ? charts.range : null,
+    chartMoment: charts.moment,
     log: model.log.map(({ kind, text: words }) => ({ kind, text: words })),
     goals: now?.goals ?? false,
     camera: { ...world.camera, pixels: [world.width, world.height] },
