@@ -847,7 +847,7 @@ react :- behave([near, wander]), true.
     await shows(it.page, (s) => s.phase === 'live', 'a page that lives');
     it.page.said.length = 0;
     it.session.type('start');
-    await shows(it.page, (s) => s.program.state === 'running', 'a program');
+    await shows(it.page, (s) => s.program?.state === 'running', 'a program');
     const { frames } = await state(it.page);
     await shows(it.page, (s) => s.frames > frames + 20, 'frames');
     assert.deepEqual((await state(it.page)).active, []);
