@@ -134,9 +134,12 @@ order and in several files.
 %     - reason(-Reason)
 %       Do not fail, and do not throw an error of an action, but tell why the
 %       run ended: `final`, not_possible(Action, Condition) if only actions
-%       were left whose precondition does not hold, no_step(Program) if
-%       nothing else was left, `stopped` by abort/0, `timeout`, `limit`,
-%       failed(Action), or exception(Error).
+%       were left whose precondition does not hold, gave_up(Limit, Far) if
+%       a search gave up at its Limit and nothing else was left,
+%       no_step(Program) if nothing at all was, `stopped` by abort/0,
+%       `timeout`, `limit`, failed(Action), or exception(Error). Far says how
+%       far the search came: [steps(N), depth(D), inferences(I), seconds(S)];
+%       it had tried N steps, at most D in a row.
 %     - history(-History)
 %       The history, newest first: actions, sensing results e(Fluent, Value)
 %       or e(Action, Outcome), failed(Action) and interrupted(Action).
@@ -146,9 +149,10 @@ order and in several files.
 %     - limit(+Steps)
 %       End after that number of steps. Default is `infinite`.
 %     - timeout(+Seconds)
-%       End after that time, also in the middle of a wait. Default is
-%       `infinite`. The time is that of the robot or the simulation, if there
-%       is one.
+%       End after that time, also in the middle of a wait or a search. Default
+%       is `infinite`. The time is that of the robot or the simulation, if
+%       there is one. On a virtual clock no time passes during a search; then
+%       one step may take that long by the wall clock.
 %     - initial(+History)
 %       What is taken to have happened before. Default is [].
 %     - on_failed(+What)

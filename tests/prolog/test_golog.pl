@@ -703,10 +703,38 @@ test(a_limit_turns_to_deepening, Run == [up, up]) :-
     once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
                               ?(n = 2)], [depth(30)]), H)),
     reverse(H, Run).
-test(a_time_limit_turns_to_deepening, Run == [up, up]) :-
-    once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
-                              ?(n = 2)], [timeout(0)]), H)),
-    reverse(H, Run).
+test(a_search_gives_up_and_others_go_on,
+     [ forall(member(Limit, [ steps(50), inferences(20000), seconds(0),
+                              seconds(0.01) ])),
+       true(Runs-Far == [[a]]-true) ]) :-
+    Endless = [star(up), ?(n = 1), star(b), never],
+    said(runs(wndet(search(Endless, [gives_up(Limit)]), a), Runs), Texts),
+    (   Texts = [Text|_],
+        Limit =.. [Name, Most],
+        format(atom(Said), 'gave up at its limit of ~w ~w', [Most, Name]),
+        sub_atom(Text, _, _, _, Said)
+    ->  Far = true
+    ;   Far = Texts
+    ).
+test(its_deepening_gives_up_too, Runs == [[a]]) :-
+    runs(wndet(search([star(b), never], [steps(9), gives_up(steps(60))]), a),
+         Runs).
+test(a_timeout_of_a_search_is_a_limit_too, Runs == [[a]]) :-
+    runs(wndet(search([star(b), never], [timeout(0.01)]), a), Runs).
+test(the_limit_around_a_search_ends_it, Runs == [[a]]) :-
+    runs(wndet(search(ndet(search([star(b), never]), c),
+                      [gives_up(steps(40))]), a), Runs).
+test(the_limit_of_a_search_does_not_end_that_around_it, Runs == [[c]]) :-
+    runs(search(ndet(search([star(b), never], [gives_up(steps(40))]), c)),
+         Runs).
+test(a_conditional_plan_gives_up, Runs == [[a]]) :-
+    runs(wndet(searchc([star(b), never], [gives_up(steps(40))]), a), Runs).
+test(a_limit_must_be_one, [ forall(member(Option, [ gives_up(5), gives_up(_),
+                                                    gives_up(steps(-1)),
+                                                    gives_up(seconds(a)),
+                                                    timeout(soon) ])),
+                            error(domain_error(golog_option, Option)) ]) :-
+    golog_lab:do(search(a, [Option]), _).
 test(deepening_ends_if_all_was_seen, Runs == []) :-
     runs(search([star(a, 4), never], [steps(3)]), Runs).
 test(a_plan_broken_by_another_is_made_again, Run == [up, b]) :-
@@ -1015,6 +1043,30 @@ test(a_failed_action_may_stop, R-Run == failed(breaks)-[failed(breaks)]) :-
     online([breaks, a], [on_failed(stop), reason(R)], Run).
 test(a_failed_action_may_backtrack, Run == [b]) :-
     online(ndet(breaks, b), [on_failed(backtrack)], Run).
+test(a_timeout_ends_a_search,
+     [ forall(( member(Search, [ search(P), searchc(P), search(P, m),
+                                 search([c, search(P)]),
+                                 pi([(x, digit), (y, digit), (z, digit),
+                                     (u, digit), (v, digit), (w, digit)],
+                                    ?(x+y+z+u+v+w < 0)) ]),
+                P = [star(b), never] )),
+       true(R == timeout) ]) :-
+    get_time(T0),
+    online([a, Search], [timeout(0.2), reason(R)], [a]),
+    get_time(T1),
+    assertion(T1-T0 < 2).
+test(a_timeout_ends_a_planner, R == timeout) :-
+    with_domain([ prim_action(inc), poss(inc, true), prim_fluent(n),
+                  initially(n, 0), causes_val(inc, n, N, N is n+1) ],
+                M, golog(M:achieve(n < 0), [timeout(0.2), reason(R)])).
+test(a_search_that_gave_up_is_the_reason, true(Far == Wanted)) :-
+    online([a, search([star(b), never], [gives_up(steps(70))])], [reason(R)],
+           [a]),
+    R = gave_up(steps(70), [steps(Steps), depth(Depth), inferences(I),
+                            seconds(S)]),
+    assertion(( I > 0, S >= 0 )),
+    Far = Steps-Depth,
+    Wanted = 70-70.
 test(an_initial_history, Run == [up, a]) :-
     online(if(n = 1, a, b), [initial([up])], Run).
 test(gexec_that_assumes, Run == [e(ringing, true), a, b]) :-
@@ -1163,6 +1215,56 @@ test(ten_thousand_are_counted, [true(Sum-N == Expected-Expected)]) :-
                   findall(x, member(tick, H), Ticks),
                   length(Ticks, N) )).
 
+test(one_that_comes_in_a_search_is_taken_in_at_once, true(Late < 0.05)) :-
+    % Of five runs the one that the machine disturbed least
+    findall(Late,
+            ( between(1, 5, _),
+              ring_in_a_search([ interrupt(ringing, b),
+                                 interrupt(true, search([star(a), never])) ],
+                               H, Late),
+              memberchk(b, H) ),
+            Lates),
+    min_list(Lates, Late).
+test(a_message_to_stop_ends_a_search, true(H-R == []-stopped)) :-
+    thread_create(( thread_get_message(go),
+                    golog_lab:golog_exog(end_indi) ), Id, []),
+    nb_setval(golog_ringer, Id),
+    golog_lab:golog([?(user:go_once), search([star(a), never])],
+                    [history(H), reason(R), timeout(9)]),
+    thread_join(Id, true).
+test(those_that_never_end_do_not_keep_a_search_from_its_end, H == [c]) :-
+    % The plan takes longer than the pause between two.
+    message_queue_create(End),
+    thread_create(ringing_on(End), Id, []),
+    golog_lab:golog(search(ndet([star(ndet(b, b), 12), never], c)),
+                    [history(H0), timeout(20)]),
+    thread_send_message(End, end),
+    thread_join(Id, true),
+    message_queue_destroy(End),
+    exclude(==(ring), H0, H).
+
+%   It rings when the search is under way; Late is the time until the history
+%   has the action that answers it.
+
+ring_in_a_search(Interrupts, H, Late) :-
+    nb_setval(golog_events, []),
+    thread_create(( thread_get_message(go), get_time(T0),
+                    golog_lab:golog_exog(ring), thread_exit(T0) ), Id, []),
+    nb_setval(golog_ringer, Id),
+    golog_lab:golog(pconc(?(user:go_once), prioritized_interrupts(Interrupts)),
+                    [ history(H), reason(_), timeout(5),
+                      trace(user:stop_after(b)) ]),
+    nb_getval(golog_events, [T1|_]),
+    thread_join(Id, exited(T0)),
+    Late is T1-T0.
+
+ringing_on(End) :-
+    (   thread_get_message(End, end, [timeout(0.005)])
+    ->  true
+    ;   golog_lab:golog_exog(ring),
+        ringing_on(End)
+    ).
+
 with_ring_after(A, Program, H) :-
     nb_setval(golog_events, []),
     golog_lab:golog(Program,
@@ -1176,6 +1278,18 @@ with_domain_of_calls(N, H) :-
                       trace(user:call_after(off(3), call(N))) ]).
 
 :- end_tests(golog_exogenous).
+
+user:go_once :-
+    nb_getval(golog_ringer, Id),
+    thread_send_message(Id, go).
+
+user:stop_after(A, E) :-
+    (   E == action(A)
+    ->  get_time(T),
+        nb_setval(golog_events, [T]),
+        golog_lab:golog_exog(end_indi)
+    ;   true
+    ).
 
 user:ring_after(A, E) :-
     event(E),

@@ -27,9 +27,10 @@
               ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
-              [ call_of/3, context_module/2, entered/4,
+              [ call_of/3, context_effort/2, context_module/2, entered/4,
                 print_once/3
               ]).
+:- use_module(effort, [polled/1]).
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
 :- use_module(theory,
@@ -733,6 +734,8 @@ chosen([V-D|Choices], S, Context) :-
     ->  domain_value(V, Domain, S, Context)
     ;   true
     ),
+    context_effort(Context, Effort),
+    polled(Effort),
     chosen(Choices, S, Context).
 
 %!  domain_value(-Value, +Domain, +Situation, +Context) is nondet.

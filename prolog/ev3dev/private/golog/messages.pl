@@ -19,6 +19,12 @@ words(search(What, Message)) -->
     [ 'Search: ' ],
     message_words(Message),
     outcome(What).
+words(gave_up(Limit, Far)) -->
+    [ 'Golog: ' ],
+    reason(gave_up(Limit, Far)).
+words(out_of_time(Far)) -->
+    [ 'Golog: the time was up while a step was looked for; ' ],
+    far(Far).
 words(ended(Count)) -->
     [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
 words(not_ended(Reason)) -->
@@ -72,7 +78,19 @@ reason(timeout) -->
     [ 'the time is up' ].
 reason(limit) -->
     [ 'the limit of steps is reached' ].
+reason(gave_up(Limit, Far)) -->
+    { Limit =.. [Name, Most] },
+    [ 'a search gave up at its limit of ~w ~w; '-[Most, Name] ],
+    far(Far).
 reason(failed(Action)) -->
     [ 'the action ~p failed'-[Action] ].
 reason(exception(Error)) -->
     [ 'an exception: ~p'-[Error] ].
+
+far(Far) -->
+    { memberchk(steps(Steps), Far),
+      memberchk(depth(Depth), Far),
+      memberchk(seconds(Seconds), Far)
+    },
+    [ 'it had tried ~D steps, at most ~D in a row, in ~2f s'-
+      [Steps, Depth, Seconds] ].

@@ -8,6 +8,7 @@
                                         % +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
                                         % +Context
+            higher_can_step/3,          % +Notes, +Situation, +Context
             in_atom/3,                  % +Program, +Situation, +Context
             simplified/3,               % +Program0, -Program, +Context
             program_shown/2             % +Program0, -Program
@@ -608,6 +609,14 @@ is_preempted(E0, E, S, X) :-
     \+ ( atom_in(E, Inner),
          \+ ( atom_in(E0, Inner0), Inner0 =@= Inner ) ),
     recorded_step(X, _, Notes),
+    higher_can_step(Notes, S, X).
+
+%!  higher_can_step(+Notes, +Situation, +Context) is semidet.
+%
+%   True if in Situation a part can take a step that has a higher priority
+%   than the step of which Notes were recorded.
+
+higher_can_step(Notes, S, X) :-
     stepping(X, X1),
     member(above(Higher), Notes),
     \+ \+ step(Higher, S, _, _, X1),
