@@ -1,6 +1,9 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/golog)).
+:- use_module('../support/cases').
 :- use_module('../support/golog/lab').
+:- use_module('../support/golog/random_programs').
+:- use_module('../support/golog/sensing').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -780,6 +783,134 @@ test(achieve_plans_the_least_steps, Run == [all_off]) :-
 
 :- end_tests(golog_search).
 
+:- begin_tests(golog_conditional).
+
+plan_of(Program, Plan) :-
+    golog_sensing:trans(searchc(Program), [], Plan, []),
+    !.
+
+test(a_plan_branches_where_it_depends_on_what_is_sensed,
+     Plan == [look, if(light = red, [a], [if(light = green, [b],
+                                             [?(light = off), b])])]) :-
+    plan_of([look, if(light = red, a, b)], Plan).
+test(a_relational_fluent_has_two_cases, Plan == [feel, if(door, [], [push])]) :-
+    plan_of([feel, if(door, [], push)], Plan).
+test(without_the_values_it_branches_on_the_condition,
+     Plan == [measure, if(distance < 10, [feel], [measure])]) :-
+    plan_of([measure, if(distance < 10, feel, measure)], Plan).
+test(what_was_assumed_is_not_tested_again,
+     Plan == [measure, if(distance < 10, [feel, feel], [])]) :-
+    plan_of([ measure, if(distance < 10, feel, []),
+              if(distance < 10, feel, []) ], Plan).
+test(what_is_sensed_again_is_tested_again,
+     Plan == [measure, if(distance < 10, [feel|Rest], Rest)]) :-
+    Rest = [measure, if(distance < 10, [feel], [])],
+    plan_of([ measure, if(distance < 10, feel, []),
+              measure, if(distance < 10, feel, []) ], Plan).
+test(no_branch_where_it_makes_no_difference, Plan == [look, go]) :-
+    plan_of([look, if(light = red, go, go)], Plan).
+test(a_precondition_decides, Plan == [feel, if(door, [feel], [push])]) :-
+    plan_of([feel, ndet(push, feel)], Plan).
+test(an_effect_decides,
+     Plan == [ go, look, measure,
+               if(light = red,
+                  [if(distance > 20, [a, look], [a, feel])],
+                  [if(light = green, [feel], [?(light = off), feel])]) ]) :-
+    plan_of([ go, look, measure, if(light = red, a, []),
+              if(n = 0, look, feel) ], Plan).
+test(branch_takes_a_condition,
+     Plan == [look, if(light = red, [a], [if(light = green, [b],
+                                             [?(light = off), b])])]) :-
+    plan_of([look, branch(light = red), if(light = red, a, b)], Plan).
+test(branch_takes_a_condition_about_what_may_change,
+     Plan == [if(n = 0, [go], [feel])]) :-
+    plan_of([branch(n = 0), if(n = 0, go, feel)], Plan).
+test(branch_on_a_conjunction,
+     Plan == [if(door, [if(n = 1, [go], [feel])], [feel])]) :-
+    plan_of([branch(and(door, n = 1)), if(and(door, n = 1), go, feel)], Plan).
+test(a_search_within_it_knows_no_more,
+     Plan == [feel, if(door, [], [push])]) :-
+    plan_of(search([feel, if(door, [], push)]), Plan).
+test(no_plan_if_there_is_none_for_one_answer, fail) :-
+    plan_of([look, a], _).
+test(what_it_cannot_branch_on_is_refused,
+     [ forall(member(P, [ [measure, pi(x, [?(distance = x), go])],
+                          [measure, ?(_ is distance+1)] ])),
+       error(domain_error(golog_branch, _)) ]) :-
+    plan_of(P, _).
+test(branch_on_something_quantified_is_refused,
+     error(domain_error(golog_branch, some(_, _)))) :-
+    plan_of([branch(some(x, n = x)), go], _).
+test(branch_on_a_variable_is_refused,
+     error(domain_error(golog_branch, n = _))) :-
+    plan_of([branch(n = _), go], _).
+test(the_refusal_names_the_value_and_the_cure, true(Said == true)) :-
+    catch(plan_of([measure, ?(_ is distance+1)], _),
+          error(_, context(_, Message)), true),
+    (   sub_atom(Message, _, _, _, 'still to be sensed'),
+        sub_atom(Message, _, _, _, 'sensed_values/2')
+    ->  Said = true
+    ;   Said = Message
+    ).
+test(a_plan_comes_to_its_end_in_each_world, Wrong-Enough == []-true) :-
+    findall(Program-Plan,
+            ( case(150, 5000, Seed),
+              sensing_program(Seed, Program),
+              catch(plan_of([look, Program], Plan),
+                    error(domain_error(golog_branch, _), _), fail) ),
+            Plans),
+    findall(Program-Plan-World-Run-R,
+            ( member(Program-Plan, Plans),
+              world(World),
+              in_world(World, golog_sensing:golog(Plan, [ reason(R),
+                                                          history(H) ])),
+              reverse(H, Run),
+              \+ ( R == final,
+                   follows([look, Program], [], Run) ) ),
+            Wrong),
+    findall(x, ( member(_-Plan, Plans), member(if(_, _, _), Plan) ), Branch),
+    length(Branch, Count),
+    (   ( Count >= 5 ; \+ all_cases )
+    ->  Enough = true
+    ;   Enough = Count
+    ).
+
+sensing_program(Seed, Program) :-
+    random_program(Seed, 3,
+                   words([look, feel, measure, a, b, push, go],
+                         [ light = red, light = off, door, distance > 20,
+                           distance < 10, n > 0, felt, green = light ],
+                         [ [program, program], [program, program, program],
+                           if(condition, program, program),
+                           if(condition, program, []),
+                           ndet(program, program), star(program, 2),
+                           conc(program, action), atomic([program, action]),
+                           search(program),
+                           pi(v, [red, off], [?(light = v), program]) ]),
+                   Program).
+
+%   Program can run through Run, what it sensed included, to its end.
+
+follows(Program, H, Run) :-
+    (   Run == []
+    ->  golog_sensing:final(Program, H)
+    ;   Run = [e(F, V)|Run1],
+        follows(Program, [e(F, V)|H], Run1)
+    ;   golog_sensing:trans(Program, H, Program1, H1),
+        (   H1 == H
+        ->  follows(Program1, H, Run)
+        ;   Run = [A|Run1],
+            H1 = [A|H],
+            follows(Program1, H1, Run1)
+        )
+    ),
+    !.
+follows(Program, H, []) :-
+    golog_sensing:trans(Program, H, Program1, H),
+    follows(Program1, H, []).
+
+:- end_tests(golog_conditional).
+
 :- begin_tests(golog_conditions).
 
 test(and) :-
@@ -1097,6 +1228,10 @@ test(a_plan_goes_on_without_what_it_simulated, Run == [up, b]) :-
 test(a_plan_with_sensing_is_made_again, Run == [look, e(weather, sun), b]) :-
     sensing(look, sun,
             search([look, if(weather = rain, a, b)]), Run).
+
+test(a_plan_that_ends_with_sensing_is_made_again,
+     Run == [look, e(weather, sun), b]) :-                  % [I] followpath
+    sensing(look, sun, search([look, if(weather = sun, b, [])]), Run).
 
 sensing(Action, Value, Program, Run) :-
     setup_call_cleanup(

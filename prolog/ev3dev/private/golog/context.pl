@@ -28,10 +28,11 @@
 
 A context is `x(Module, Options, Calls, Record, Effort)`. Module holds the
 domain. Options are words of this run: `online`, `assume` (what gexec/2
-means), `simulate`. Calls are the procedures entered since the step began.
-Record is `none`, or record(Number, Notes) of the step that an online run
-takes: Notes is a partial list, of what noted/2 says of the step, the
-outermost first. Effort is what effort.pl counts, or `none`.
+means), `simulate`, `conditional` for a plan with branches. Calls are the
+procedures entered since the step began. Record is `none`, or
+record(Number, Notes) of the step that an online run takes: Notes is a partial
+list, of what noted/2 says of the step, the outermost first. Effort is what
+effort.pl counts, or `none`.
 */
 
 %!  context(+Module, +Options, -Context) is det.

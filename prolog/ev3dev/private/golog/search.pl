@@ -9,8 +9,9 @@
                 gave_up/2, searching/4
               ]).
 :- use_module(domain,
-              [ done/4, fluents_now/3, holds/3, marked/3,
-                situation_count/2, situation_history/2
+              [ assumed/3, branch_on/3, done/4, fluents_now/3, holds/3,
+                marked/3, opened/4, sensed_later/4, situation_count/2,
+                situation_history/2
               ]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
@@ -139,8 +140,12 @@ offline(X0, Options, X) :-
     ;   Words0 = []
     ),
     (   memberchk(simulate(true), Options)
-    ->  Words = [simulate|Words0]
-    ;   Words = Words0
+    ->  Words1 = [simulate|Words0]
+    ;   Words1 = Words0
+    ),
+    (   ( memberchk(conditional, Options) ; context_option(conditional, X0) )
+    ->  Words = [conditional|Words1]
+    ;   Words = Words1
     ),
     findall(Limit, ( member(Option, Options), limit_of(Option, Limit) ),
             Limits),
@@ -196,10 +201,9 @@ is_mark(test(_)).
 %!  path_step(+E0, +Path, +AtOptions, +S0, -E, -S, +Context) is nondet.
 
 path_step(E, Path, At-Options, S, E1, S1, X) :-
-    Path = [_|_],
     (   on_track(At, S)
     ->  path_begun(E, Path, Options, S, E1, S1, X)
-    ;   replanned(E),
+    ;   replanned(E, X),
         (   Options == achieve
         ->  step(E, S, E1, S1, X)
         ;   search_step(E, Options, S, E1, S1, X)
@@ -213,20 +217,22 @@ on_track(at(Count, Top), S) :-
 %   path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
 
 path_is_final(E, Path, At, S, X) :-
-    (   Path == []
-    ->  true
-    ;   \+ on_track(At, S),
-        is_final(E, S, X)
+    (   on_track(At, S)
+    ->  Path == []
+    ;   is_final(E, S, X)
     ).
 
 %!  replanned_since(-Program) is nondet.
 %
-%   Program is one that was searched again since this was asked last.
+%   Program is one that an online run has searched again since this was asked
+%   last.
 
 :- thread_local replanned_/1.
 
-replanned(E) :-
-    (   replanned_(E0),
+replanned(E, X) :-
+    (   \+ context_option(online, X)
+    ->  true
+    ;   replanned_(E0),
         E0 =@= E
     ->  true
     ;   assertz(replanned_(E))
@@ -369,26 +375,69 @@ told(Options, What) :-
                 *      CONDITIONAL PLANS       *
                 *******************************/
 
-%   conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
+%   conditional_plan(+Program, +Options, +Situation, -Plan, +Context) is
+%   nondet.
 %
-%   Plan is a program of actions and if/3 that runs Program to its end from
-%   Situation, whatever the conditions of its branch/1 turn out to be. It
-%   keeps each sim/1, so that a search around it can follow it, and holds
-%   together what an atomic/1 does.
+%   Plan is a program of actions, tests and if/3 that runs Program to its end
+%   from Situation, whatever its actions sense, and whatever the conditions of
+%   its branch/1 turn out to be. It keeps each sim/1, so that a search around
+%   it can follow it, and holds together what an atomic/1 does.
 
 conditional_plan(E, Options, S, Plan, X0) :-
-    offline(X0, Options, X),
+    offline(X0, [conditional|Options], X),
     limited(planned(E, S, 0, Plan, X), X).
 
 planned(E, S, Depth, Plan, X) :-
-    (   is_final(E, S, X),
-        Plan = []
-    ;   context_effort(X, Effort),
-        counted(Depth, Effort),
-        step(E, S, E1, S1, X),
+    context_effort(X, Effort),
+    counted(Depth, Effort),
+    decided(next(E, S, Next, X), Next, X),
+    Depth1 is Depth+1,
+    (   Next == final
+    ->  Plan = []
+    ;   Next = branch(Cases)
+    ->  all_planned(Cases, E, S, Depth1, Plans, X),
+        same_or_branches(Plans, Plan)
+    ;   Next = step(E1, S1),
         entry_since(S, S1, Entry),
-        Depth1 is Depth+1,
         planned_after(Entry, E1, S, S1, Depth1, Plan, X)
+    ).
+
+next(E, S, final, X) :-
+    is_final(E, S, X).
+next(E, S, step(E1, S1), X) :-
+    step(E, S, E1, S1, X).
+
+%   decided(:Goal, ?Next, +Context) is nondet: as Goal. If it depends on what
+%   is still to be sensed, Next is branch(Cases).
+
+:- meta_predicate decided(0, -, +).
+
+decided(Goal, Next, X) :-
+    catch(catch(Goal, '$golog_unknown'(F), branch_on(F, none, X)),
+          '$golog_branch'(Cases), Next = branch(Cases)).
+
+all_planned([], _, _, _, [], _).
+all_planned([Test-Case|Cases], E, S0, Depth, [Test-Plan|Plans], X) :-
+    assumed(Case, S0, S),
+    planned(E, S, Depth, Plan, X),
+    all_planned(Cases, E, S0, Depth, Plans, X).
+
+same_or_branches(Plans, Plan) :-
+    (   Plans = [_-Plan0|Rest],
+        \+ ( member(_-Other, Rest), Other \== Plan0 )
+    ->  Plan = Plan0
+    ;   branches(Plans, Plan)
+    ).
+
+%   The last of several values is tested, too, in case the world has another.
+
+branches([Test-Plan0|Plans], Plan) :-
+    (   Plans == []
+    ->  Plan = [?(Test)|Plan0]
+    ;   Plans = [else-Else]
+    ->  Plan = [if(Test, Plan0, Else)]
+    ;   branches(Plans, Else),
+        Plan = [if(Test, Plan0, Else)]
     ).
 
 planned_after(none, E, _, S, Depth, Plan, X) :-
@@ -396,11 +445,8 @@ planned_after(none, E, _, S, Depth, Plan, X) :-
     planned(E, S, Depth, Plan, X).
 planned_after(branch(P), E, S0, _, Depth, Plan, X) :-
     !,
-    done(e(P, true), S0, S1, X),
-    done(e(P, false), S0, S2, X),
-    planned(E, S1, Depth, Plan1, X),
-    planned(E, S2, Depth, Plan2, X),
-    Plan = [if(P, Plan1, Plan2)].
+    opened(P, S0, S, X),
+    planned_branch(P, E, S, Depth, Plan, X).
 planned_after(commit, E, S, _, Depth, Plan, X) :-
     !,
     (   planned(E, S, Depth, Plan, X)
@@ -410,13 +456,31 @@ planned_after(commit, E, S, _, Depth, Plan, X) :-
 planned_after(test(P), E, S, _, Depth, Plan, X) :-
     !,
     planned_after(?(P), E, S, S, Depth, Plan, X).
-planned_after(A, E, _, S, Depth, Plan, X) :-
+planned_after(A, E, _, S0, Depth, Plan, X) :-
+    sensed_later(A, S0, S, X),
     planned(E, S, Depth, Plan1, X),
     (   Plan1 = [B|Bs],
-        in_atom(E, S, X)
+        decided(in_atom(E, S, X), _, X)
     ->  Plan = [atomic([A, B])|Bs]
     ;   Plan = [A|Plan1]
     ).
+
+%   Branch on each part of the condition P that decides it.
+
+planned_branch(P, E, S, Depth, Plan, X) :-
+    decided(( holds(P, S, X) -> true ; true ), Next, X),
+    (   nonvar(Next)
+    ->  Next = branch(Cases),
+        branches_planned(Cases, P, E, S, Depth, Plans, X),
+        branches(Plans, Plan)
+    ;   planned(E, S, Depth, Plan, X)
+    ).
+
+branches_planned([], _, _, _, _, [], _).
+branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
+    assumed(Case, S0, S),
+    planned_branch(P, E, S, Depth, Plan, X),
+    branches_planned(Cases, P, E, S0, Depth, Plans, X).
 
                 /*******************************
                 *           ACHIEVE            *

@@ -50,6 +50,7 @@ vocabulary(causes_true/3).
 vocabulary(causes_false/3).
 vocabulary(senses/2).
 vocabulary(senses/5).
+vocabulary(sensed_values/2).
 vocabulary(forget/2).
 vocabulary(cache/1).
 vocabulary(proc/2).

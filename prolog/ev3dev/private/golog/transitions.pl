@@ -685,7 +685,8 @@ simplified(E0, E, X) :-
         is_construct(E0, X)
     ->  all_simplified(Es0, Es, X),
         E = E1
-    ;   E0 = '$path'(_, [], _, _)
+    ;   E0 = '$path'(Rest, [], _, _),
+        simplified(Rest, [], X)
     ->  E = []
     ;   E = E0
     ).
