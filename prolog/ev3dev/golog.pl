@@ -12,6 +12,8 @@
             has_val/3,                  % :Fluent, ?Value, +History
             eval/3,                     % :Condition, +History, -Truth
             now/1,                      % -History
+            why_not/1,                  % :Action
+            why_not/2,                  % :Action, -Why
             domain/2,                   % ?Value, :Sort
             rdomain/2,                  % ?Value, :Sort
             getdomain/2,                % :Sort, -Values
@@ -47,7 +49,9 @@
                                      situation_history/2]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run,
-              [recorded_history/1, run_online/4, situation_of_run/4]).
+              [ recorded_history/1, run_online/4, situation_of_run/4,
+                state_of_run/3
+              ]).
 :- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
@@ -55,6 +59,7 @@
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
+:- use_module(private/golog/why_not, [hindrance/5]).
 :- use_module(private/golog/world,
               [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
 
@@ -110,6 +115,8 @@ order and in several files.
     holds(:, +),
     has_val(:, ?, +),
     eval(:, +, ?),
+    why_not(:),
+    why_not(:, -),
     domain(?, :),
     rdomain(?, :),
     getdomain(:, ?),
@@ -415,6 +422,51 @@ situation_now(M, History, S, X) :-
 
 now(History) :-
     recorded_history(History).
+
+%!  why_not(:Action) is det.
+%!  why_not(:Action, -Why) is semidet.
+%
+%   Print, or answer, why the run of this thread does not do Action next; if
+%   none runs, why the last one did not go on with it. Without any run, only
+%   whether Action is possible at the beginning. Why is one of
+%
+%     - no_action
+%       The domain has no such action.
+%     - not_possible(Failures)
+%       For each clause of poss/2 a failure(Part, Values, Place): the part of
+%       the condition that does not hold, the values of the fluents in it as
+%       Fluent = Value, and File:Line of the clause, or `none`.
+%     - priority(Other, Interrupts)
+%       A part of the program with a higher priority does Other. Interrupts
+%       are the conditions of the interrupts around it, the innermost first.
+%     - before(Other, Interrupts)
+%       The program may do Action, but does Other first.
+%     - interrupt(Part, Values)
+%       An interrupt would do it; Part of its condition does not hold.
+%     - not_offered
+%       The program that remains does not begin with it.
+%
+%   Fails if nothing stands in its way.
+%
+%   @error instantiation_error if Action has variables
+
+why_not(M:Action) :-
+    (   why_not(M:Action, Why)
+    ->  print_message(help, golog(why_not(Action, Why)))
+    ;   print_message(help, golog(why_not(Action, nothing)))
+    ).
+
+why_not(M:Action, Why) :-
+    must_be(ground, Action),
+    prepare(M),
+    refuse_epistemic(M),
+    context(M, [], X),
+    (   state_of_run(M, E, S)
+    ->  true
+    ;   E = [Action],
+        situation([], S, X)
+    ),
+    hindrance(Action, E, Why, S, X).
 
                 /*******************************
                 *        FOR DOMAINS           *

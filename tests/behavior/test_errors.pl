@@ -54,6 +54,8 @@ bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
 bad(golog_exog(x), [_-1]).
+bad(why_not(x), [_-1, off(_)-1]).
+bad(why_not(x, _), [_-1]).
 bad(do([], _), [_-1, fly-1]).
 bad(do([], [], _), [_-1, fly-1, a-2]).
 bad(trans([], [], _, _), [_-1, fly-1, a-2]).

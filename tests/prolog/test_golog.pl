@@ -465,6 +465,7 @@ whole(P, goal(false, P, false, never)).
 whole(P, goal(false, never, true, P)).
 whole(P, atomic(P)).
 whole(P, '$atomic'(P)).
+whole(P, '$within'(interrupt(true), P)).
 whole(P, exogint(P, true)).
 whole(P, time(P, 99)).
 whole(P, ttime(P, 99)).
@@ -1584,6 +1585,90 @@ user:device(wheels, Code, _) :-
 user:device(eye, Code, raw(5)) :-
     seen_action(eye-Code).
 
+:- begin_tests(golog_why_not).
+
+%   After one step of Program, at its place Limit; the answer for each Action
+
+why_not_after(Program, Limit, Action, Why) :-
+    online(Program, [limit(Limit), reason(_)], _),
+    golog_lab:why_not(Action, Why).
+
+test(an_action_that_is_none, Why == no_action) :-
+    why_not_after([a, b], 1, fly, Why).
+test(the_next_action_has_no_hindrance, fail) :-
+    why_not_after([a, ?(true), b], 1, b, _).
+test(the_part_of_a_precondition, Found == [(n > 0)-[n = 0]]) :-
+    golog_lab:why_not(down, not_possible(Failures)),
+    findall(Part-Values, member(failure(Part, Values, _), Failures), Found).
+test(the_clause_of_a_precondition, Base == 'lab.pl') :-
+    golog_lab:why_not(down, not_possible([failure(_, _, File:Line)])),
+    integer(Line),
+    file_base_name(File, Base).
+test(the_first_false_part_of_each_clause,
+     Found == [ (x > 3)-[x = 2], (y = 1)-[y = 5],
+                (light(x) = on)-[x = 2, light(2) = off] ]) :-
+    with_domain([ prim_action(a), prim_fluent(x), prim_fluent(y),
+                  (prim_fluent(light(N)) :- between(1, 2, N)),
+                  initially(x, 2), initially(y, 5), initially(light(_), off),
+                  poss(a, and(y > 0, and(x > 3, y = 1))),
+                  poss(a, and([x = 2, y = 1, x = 9])),
+                  poss(a, bright),
+                  proc(bright, light(x) = on) ],
+                M, why_not(M:a, not_possible(Failures))),
+    findall(Part-Values, member(failure(Part, Values, none), Failures), Found).
+test(a_higher_priority, Why == priority(up, [n < 2])) :-
+    why_not_after(prioritized_interrupts([ interrupt(n < 2, up),
+                                           interrupt(neg(done(a)), a) ]),
+                  1, a, Why).
+test(a_higher_priority_of_pconc, Why == priority(b, [])) :-
+    why_not_after(pconc([b, b], a), 1, a, Why).
+test(another_that_comes_first, Why == before(b, [])) :-
+    why_not_after([a, ndet(b, c)], 1, c, Why).
+test(the_condition_of_an_interrupt, Why == interrupt(n > 1, [n = 1])) :-
+    why_not_after(prioritized_interrupts([ interrupt(and(true, n > 1), b),
+                                           interrupt(n < 3, up) ]),
+                  1, b, Why).
+test(the_condition_of_an_interrupt_with_a_variable,
+     true(Why = interrupt(light(_) = red, _))) :-
+    why_not_after(prioritized_interrupts([ interrupt(x, light(x) = red, b),
+                                           interrupt(n < 3, up) ]),
+                  1, b, Why).
+test(what_the_program_does_not_offer, Why == not_offered) :-
+    why_not_after([a, b, c], 1, c, Why).
+test(it_is_asked_during_a_run, Why == before(a, [])) :-
+    retractall(golog_lab:next_exog(_)),
+    nb_setval(golog_seen, none),
+    golog_lab:golog([ndet(a, b)], [trace(user:asks_why_not(b))]),
+    nb_getval(golog_seen, Why).
+test(an_open_action_is_refused, error(instantiation_error)) :-
+    golog_lab:why_not(off(_), _).
+test(it_is_said_in_words,
+     [ forall(member(Action-Text,
+                     [ fly-'fly is no action of the domain',
+                       up-'up comes next',
+                       down-'down is not possible: n>0 does not hold, \c
+                             as n=0 (poss/2, lab.pl:',
+                       a-'a has to wait: up has a higher priority, \c
+                          by the interrupt n<2' ])),
+       true(Said == true) ]) :-
+    online(prioritized_interrupts([ interrupt(n < 2, up),
+                                    interrupt(neg(done(a)), a) ]),
+           [limit(0), reason(_)], _),
+    said(golog_lab:why_not(Action), [Line]),
+    (   sub_atom(Line, 0, _, _, Text)
+    ->  Said = true
+    ;   Said = Line
+    ).
+
+:- end_tests(golog_why_not).
+
+user:asks_why_not(A, E) :-
+    (   E == action(a)
+    ->  golog_lab:why_not(A, Why),
+        nb_setval(golog_seen, Why)
+    ;   true
+    ).
+
 :- begin_tests(golog_wrong).
 
 test(no_poss_for_an_action,
@@ -2033,6 +2118,73 @@ test(the_journal_knows_the_interrupt,
 test(the_journal_knows_a_step_of_a_plan,
      true(Told == [golog(2, drive(3), at(robot) = 2)])) :-
     told_causes(search([interrupt(keys > 0, beep), halt, drive(3)]), Told).
+test(the_journal_knows_the_interrupt_of_each_action_of_its_body,
+     [ forall(member(Body, [ [halt, drive(3)], [halt, search(drive(3))],
+                             [halt, gexec(true, search([drive(3)]))],
+                             [?(true), [halt, conc(drive(3), [])]],
+                             [halt, ndet(drive(3), beep)] ])),
+       true(Told == [interrupt(keys = 0)]) ]) :-
+    told_causes(prioritized_interrupts([interrupt(keys = 0, Body)]), Told0),
+    include(=(interrupt(_)), Told0, Told).
+test(an_endless_procedure_has_one_mark, true(Depth < 20)) :-
+    with_domain([ prim_action(inc), poss(inc, true), execute(inc, _),
+                  proc(on, [inc, on]) ], M,
+                golog(M:on, [limit(300), reason(_)])),
+    ev3dev_golog_run:state_of_run(M, E, _),
+    depth_of(E, Depth).
+
+depth_of(T, Depth) :-
+    (   compound(T)
+    ->  findall(D, ( arg(_, T, A), depth_of(A, D) ), Ds),
+        max_list(Ds, Most),
+        Depth is Most+1
+    ;   Depth = 0
+    ).
+
+test(the_journal_knows_the_clause_of_the_procedure,
+     true(Places == ['golog_why.pl':6, 'golog_why.pl':7])) :-
+    tmp_file(golog_why, Directory),
+    make_directory(Directory),
+    atom_concat(Directory, '/golog_why.pl', File),
+    setup_call_cleanup(
+        open(File, write, Stream),
+        write(Stream, ":- module(golog_why, []).
+:- use_module(library(ev3dev/golog)).
+prim_action(go(_)). poss(go(_), true).
+robot_action(go(N), go_cm(30, N)).
+proc(other, go(7)).
+proc(way, [go(3), proceed]).
+proc(proceed, [?(true), go(4)]).
+"),     close(Stream)),
+    with_sim(room, ( set_robot(5.6, 10.6, outB, outC),
+                     load_files(File, []),
+                     golog(golog_why:way, [reason(_)]),
+                     journal(Journal) )),
+    delete_file(File),
+    delete_directory(Directory),
+    findall(Base:Line,
+            ( member(command(_, robot(_, _), course(_, _), Causes), Journal),
+              memberchk(proc(_, Path:Line), Causes),
+              file_base_name(Path, Base) ),
+            Places).
+test(why_knows_the_end_of_the_run,
+     [ forall(member(Program-Reason,
+                     [ while(true, wait)-timeout, ?(keys > 9)-no_step(_),
+                       abort-stopped ])),
+       true(( Ended = Reason,
+              sub_string(Line, _, _, 0, Text) )) ]) :-
+    with_driver(M, ( golog(M:[roll, beep, Program],
+                           [timeout(1), reason(Ended)]),
+                     why(outB, why(_, _, Causes)),
+                     said_why(stop, Line) )),
+    assertion(Causes = [golog(ended(Ended))|_]),
+    format(string(Text), "golog: the run ended: ~p", [Ended]).
+test(why_knows_an_exception_of_the_run,
+     true(Causes = [golog(ended(exception(oops)))|_])) :-
+    with_rover(M, ( assertz(M:prim_action(bad)),
+                    assertz(M:robot_action(bad, throw(oops))),
+                    catch(indigolog(M:[roll, bad]), oops, true),
+                    why(outB, why(_, _, Causes)) )).
 test(why_says_it_in_words,
      true(Text == "golog: step 2, drive(3): poss at(robot)=2")) :-
     with_driver(M, ( indigolog(M:[halt, drive(3)]),

@@ -10,6 +10,7 @@
                                         % -Context
             context_effort/2,           % +Context, -Effort
             noted/2,                    % +Note, +Context
+            is_recorded/1,              % +Context
             recorded_step/3,            % +Context, -Number, -Notes
             recorded_notes/2,           % +Record, -Notes
             print_once/3,               % +Module, +Kind, +Message
@@ -92,6 +93,12 @@ ends_in(Partial, Note) :-
     ;   Partial = [_|Rest],
         ends_in(Rest, Note)
     ).
+
+%!  is_recorded(+Context) is semidet.
+%
+%   True if noted/2 is remembered.
+
+is_recorded(x(_, _, _, record(_, _), _)).
 
 recorded_step(x(_, _, _, Record, _), Number, Notes) :-
     Record = record(Number, _),

@@ -21,6 +21,8 @@
             condition_of/3,             % +Condition, -Body, +Context
             sensed_later/4,             % +Action, +Situation0, -Situation,
                                         % +Context
+            fluent_in/4,                % +Condition, -Fluent, +Situation,
+                                        % +Context
             opened/4,                   % +Condition, +Situation0, -Situation,
                                         % +Context
             assumed/3,                  % +Case, +Situation0, -Situation
@@ -801,6 +803,10 @@ quantified(P) :-
     ->  true
     ).
 
+%!  fluent_in(+Condition, -Fluent, +Situation, +Context) is nondet.
+%
+%   Condition asks for the value of Fluent.
+
 fluent_in(P, F, S, Context) :-
     callable(P),
     context_module(Context, M),
@@ -810,8 +816,8 @@ fluent_in(P, F, S, Context) :-
         entered(condition, P, Context, Context1),
         fluent_in(Body, F, S, Context1)
     ;   is_kind(fluent, P, M),
-        \+ \+ is_fluent(P, M)
-    ->  arguments_known(P, F, S, Context, M)
+        arguments_known(P, F, S, Context, M),
+        known_or_declared(F, S, M)
     ;   compound(P),
         arg(_, P, Q),
         fluent_in(Q, F, S, Context)

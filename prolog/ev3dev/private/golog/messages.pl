@@ -45,6 +45,8 @@ words(executing(Action)) -->
     [ 'Executing ~p'-[Action] ].
 words(which_exogenous(Actions)) -->
     [ 'What has happened? One of ~p, or nil.'-[Actions] ].
+words(why_not(Action, Why)) -->
+    hindrance(Why, Action).
 words(report(_, Message)) -->
     message_words(Message).
 
@@ -94,3 +96,56 @@ far(Far) -->
     },
     [ 'it had tried ~D steps, at most ~D in a row, in ~2f s'-
       [Steps, Depth, Seconds] ].
+
+hindrance(no_action, Action) -->
+    [ '~p is no action of the domain'-[Action] ].
+hindrance(not_possible([]), Action) -->
+    [ '~p is not possible: there is no poss/2 for it'-[Action] ].
+hindrance(not_possible([Failure|Failures]), Action) -->
+    [ '~p is not possible: '-[Action] ],
+    failures([Failure|Failures]).
+hindrance(priority(Other, Interrupts), Action) -->
+    [ '~p has to wait: ~p has a higher priority'-[Action, Other] ],
+    around(Interrupts).
+hindrance(before(Other, Interrupts), Action) -->
+    [ '~p has to wait: ~p comes first'-[Action, Other] ],
+    around(Interrupts).
+hindrance(interrupt(Part, Values), Action) -->
+    [ '~p is for an interrupt: '-[Action] ],
+    false_part(Part, Values).
+hindrance(not_offered, Action) -->
+    [ '~p is possible, but the program does not go on with it'-[Action] ].
+hindrance(nothing, Action) -->
+    [ '~p comes next: nothing stands in its way'-[Action] ].
+
+failures([failure(Part, Values, Place)|Failures]) -->
+    false_part(Part, Values),
+    (   { Place = File:Line }
+    ->  { file_base_name(File, Base) },
+        [ ' (poss/2, ~w:~d)'-[Base, Line] ]
+    ;   []
+    ),
+    (   { Failures == [] }
+    ->  []
+    ;   [ '; '-[] ],
+        failures(Failures)
+    ).
+
+false_part(Part, Values) -->
+    [ '~p does not hold'-[Part] ],
+    (   { Values == [] ; Values = [Part = _] }
+    ->  []
+    ;   [ ', as '-[] ],
+        values(Values)
+    ).
+
+values([Value]) -->
+    [ '~p'-[Value] ].
+values([Value, Next|Values]) -->
+    [ '~p and '-[Value] ],
+    values([Next|Values]).
+
+around([]) -->
+    [].
+around([Condition|_]) -->
+    [ ', by the interrupt ~p'-[Condition] ].

@@ -2,8 +2,9 @@
           [ run_online/4,               % :Program, +Settings, -Reason,
                                         % -History
             recorded_history/1,         % -History
-            situation_of_run/4          % +History, +Module, -Situation,
+            situation_of_run/4,         % +History, +Module, -Situation,
                                         % +Context
+            state_of_run/3              % +Module, -Program, -Situation
           ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
@@ -18,14 +19,16 @@
 :- use_module(effort, [how_far/2, in_trial/1]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
-              [has_clauses/2, is_kind/3, prepare/1, refuse_epistemic/1]).
+              [ has_clauses/2, is_kind/3, prepare/1, proc_place/4,
+                refuse_epistemic/1
+              ]).
 :- use_module(transitions,
               [ higher_can_step/3, is_final/3, is_preempted/4,
                 made_possible/4, program_shown/2, simplified/3, step/5
               ]).
 :- use_module(waiting,
               [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
-                robot_stopped/1
+                robot_stopped/2
               ]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
@@ -61,15 +64,16 @@ run_online(M:E, Settings, Reason, History) :-
     simplified(E, E1, X),
     Ended = ended(none),
     situation_noted(Outer),
-    setup_call_cleanup(
+    setup_call_catcher_cleanup(
         begun(M, Initial, Keep),
-        ( b_setval(ev3dev_golog_now, now(M, S)),
+        ( b_setval(ev3dev_golog_now, now(M, S, E1)),
           initialized(M),
           deadline(Timeout, Robot, Deadline),
           cycle(at(E1, S, quiet), 0,
                 r(X, Agent, Settings, Deadline, again(0)), Reason),
           nb_setarg(1, Ended, Reason) ),
-        finished(M, Robot, Ended)),
+        Catcher,
+        finished(M, Robot, Ended, Catcher)),
     b_setval(ev3dev_golog_now, Outer),
     recorded_history(History).
 
@@ -85,11 +89,16 @@ begun(M, Initial, Keep) :-
 initialized(M) :-
     ignore_if_defined(M, initialize).
 
-finished(M, Robot, Ended) :-
+finished(M, Robot, ended(Reason0), Catcher) :-
     agent_ends(M),
-    (   Ended = ended(final)
+    (   nb_current(ev3dev_golog_now, now(M, S, E))
+    ->  nb_setval(ev3dev_golog_last, last(M, S, E))
+    ;   true
+    ),
+    (   Reason0 == final
     ->  true
-    ;   robot_stopped(Robot)
+    ;   ( Reason0 == none -> Reason = Catcher ; Reason = Reason0 ),
+        robot_stopped(Robot, golog(ended(Reason)))
     ),
     ignore_if_defined(M, finalize).
 
@@ -151,7 +160,7 @@ recorded_history(History) :-
 %   again, and what the record has forgotten still counts.
 
 situation_of_run(History, Module, S, X) :-
-    nb_current(ev3dev_golog_now, now(Module, S0)),
+    nb_current(ev3dev_golog_now, now(Module, S0, _)),
     situation_count(S0, C),
     entry_record(C, Newest),
     C1 is C+1,
@@ -168,9 +177,23 @@ situation_of_run(History, Module, S, X) :-
 %   whole run. A global variable that is set at each step would keep all
 %   situations.
 
-note_situation(S) :-
+note_state(E, S) :-
     b_getval(ev3dev_golog_now, Now),
-    nb_linkarg(2, Now, S).
+    nb_linkarg(2, Now, S),
+    nb_linkarg(3, Now, E).
+
+%!  state_of_run(+Module, -Program, -Situation) is semidet.
+%
+%   Program and Situation are those of the run of Module in this thread, or of
+%   the last one.
+
+state_of_run(Module, E, S) :-
+    (   nb_current(ev3dev_golog_now, now(Module, S0, E0))
+    ->  true
+    ;   nb_current(ev3dev_golog_last, last(Module, S0, E0))
+    ),
+    S = S0,
+    E = E0.
 
 situation_noted(Now) :-
     (   nb_current(ev3dev_golog_now, Now0)
@@ -192,7 +215,7 @@ cycle(State0, Steps0, R0, Reason) :-
     R0 = r(_, Agent, Settings, _, _),
     exogenous_seen(Agent, Actions),
     happened(Actions, State0, at(E, S1, News), R0, Stop),
-    note_situation(S1),
+    note_state(E, S1),
     Steps is Steps0+1,
     watching(Steps, S1, R0, R),
     arg(5, Settings, Limit),
@@ -485,13 +508,20 @@ acted(A, E, S1, State0, R, State, Next) :-
     ).
 
 %   What library(ev3dev/journal) tells about the commands of an action: its
-%   step, what made it possible, and the interrupts that it belongs to.
+%   step, what made it possible, where it stands in the program, and the
+%   interrupts that it belongs to.
 
 causes(A, S, X, [golog(Number, A, Condition)|Causes]) :-
     recorded_step(X, Number, Notes),
     made_possible(A, Condition, S, X),
+    (   memberchk(proc(Proc), Notes)
+    ->  context_module(X, M),
+        proc_place(Proc, A, M, Place),
+        Causes = [proc(Proc, Place)|Interrupts]
+    ;   Causes = Interrupts
+    ),
     Interrupt = interrupt(_),
-    findall(Interrupt, member(Interrupt, Notes), Causes).
+    findall(Interrupt, member(Interrupt, Notes), Interrupts).
 
 %   The newest entries of a situation, and the record of all but the last
 

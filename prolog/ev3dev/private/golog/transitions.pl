@@ -18,7 +18,7 @@
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(context,
               [ blocked/2, context_module/2, context_option/2, entered/4,
-                noted/2, recorded_step/3, stepping/2
+                is_recorded/1, noted/2, recorded_step/3, stepping/2
               ]).
 :- use_module(domain,
               [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
@@ -198,7 +198,8 @@ step_named(E, S, E1, S1, X, M) :-
 proc_step(E, S, E1, S1, X, M) :-
     proc_body(E, Body, M),
     entered(step, E, X, X1),
-    step(Body, S, E1, S1, X1).
+    functor(E, Name, Arity),
+    step_within(proc(Name/Arity), Body, S, E1, S1, X1).
 
 %   A primitive action: the fluents in its arguments are evaluated first.
 
@@ -336,14 +337,14 @@ step_construct(iconc(E), S, E1, S1, X) :-
     turn_taken(left, E, iconc(E), S, E1, S1, X).
 step_construct(interrupt(P, E), S, [E1, interrupt(P, E)], S1, X) :-
     holds(P, S, X),
-    noted(interrupt(P), X),
-    step(E, S, E1, S1, X).
+    step_within(interrupt(P), E, S, E1, S1, X).
 step_construct(interrupt(Vs, P, E), S, [E1, interrupt(Vs, P, E)], S1, X) :-
     fresh(Vs, P-E, P1-E0, Choices),
     chosen(Choices, S, X),
     holds(P1, S, X),
-    noted(interrupt(P1), X),
-    step(E0, S, E1, S1, X).
+    step_within(interrupt(P1), E0, S, E1, S1, X).
+step_construct('$within'(Note, E), S, E1, S1, X) :-
+    step_within(Note, E, S, E1, S1, X).
 step_construct(prioritized_interrupts(Es), S, E1, S1, X) :-
     (   first_step(Es, S, Es1, S1, X)
     *-> E1 = prioritized_interrupts(Es1)
@@ -450,6 +451,19 @@ step_construct(ttime(E, Seconds), S, ttime(E1, Seconds), S1, X) :-
     step_construct(time(E, Seconds), S, E1, S1, X).
 step_construct(sync(Es), S, sync(Es1), S1, X) :-
     together(Es, S, Es1, S1, _, X).
+
+%   step_within(+Note, +Program0, +Situation0, -Program, -Situation, +Context)
+%   is nondet: an online run knows also of the later steps what Note says. Of
+%   a procedure whose last part is a procedure nothing is left but that part.
+
+step_within(Note, E, S, E1, S1, X) :-
+    noted(Note, X),
+    step(E, S, E2, S1, X),
+    (   is_recorded(X),
+        \+ ( Note = proc(_), E2 = '$within'(proc(_), _) )
+    ->  E1 = '$within'(Note, E2)
+    ;   E1 = E2
+    ).
 
 for_program(V, D, E, S, X, Es) :-
     findall(Value, domain_value(Value, D, S, X), Values),
@@ -684,7 +698,10 @@ simplified(E0, E, X) :-
     ;   parts(E0, _, Es0, Es, E1),
         is_construct(E0, X)
     ->  all_simplified(Es0, Es, X),
-        E = E1
+        (   E1 = '$within'(_, [])
+        ->  E = []
+        ;   E = E1
+        )
     ;   E0 = '$path'(Rest, [], _, _),
         simplified(Rest, [], X)
     ->  E = []
@@ -711,4 +728,5 @@ program_shown(E0, E) :-
 
 shown('$turn'(A, B), conc(A, B)).
 shown('$atomic'(E), atomic(E)).
+shown('$within'(_, E), E).
 shown('$path'(E, _, _, _), search(E)).
