@@ -1,9 +1,11 @@
 :- use_module('../support/trees').
 :- use_module(library(ev3dev/golog)).
 :- use_module('../support/cases').
+:- use_module('../support/golog/axioms').
 :- use_module('../support/golog/lab').
 :- use_module('../support/golog/random_programs').
 :- use_module('../support/golog/sensing').
+:- use_module('../support/golog/small_world', []).
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -681,6 +683,74 @@ part_of(E, Part) :-
     part_of(A, Part).
 
 :- end_tests(golog_laws).
+
+                /*******************************
+                *   AGAINST THE AXIOMS         *
+                *******************************/
+
+:- begin_tests(golog_axioms).
+
+test(random_programs_have_the_histories_of_the_axioms,
+     [Different, Enough, Rich] == [[], true, true]) :-
+    findall(Same,
+            ( case(500, 10000, Seed),
+              against_axioms(Seed, Same) ),
+            Results),
+    findall(D, ( member(D, Results), D = different(_, _, _) ), Different),
+    exclude(==(too_large), Results, Compared),
+    length(Results, All),
+    length(Compared, Count),
+    (   Count * 10 >= All * 9
+    ->  Enough = true
+    ;   Enough = Count-All
+    ),
+    findall(N, ( member(N, Compared), integer(N), N > 1 ), Ns),
+    length(Ns, Several),
+    (   Several * 4 >= Count
+    ->  Rich = true
+    ;   Rich = Several
+    ).
+
+%   Programs whose histories take too long to find are left out.
+
+against_axioms(Seed, Result) :-
+    small_program(Seed, Program),
+    call_with_inference_limit(histories(Program, golog_small_world, Wanted),
+                              3000000, Limit),
+    (   Limit == inference_limit_exceeded
+    ->  Result = too_large
+    ;   findall(H, golog_small_world:do(Program, H), Hs0),
+        sort(Hs0, Hs),
+        (   Hs == Wanted
+        ->  length(Hs, Result)
+        ;   Result = different(Program, Wanted, Hs)
+        )
+    ).
+
+small_program(Seed, Program) :-
+    random_program(Seed, 3,
+                   words([a, b, c, put(1), put(2), put(3)],
+                         [ x > 1, x = 1, light(1) = on, light(2) = off,
+                           n < 3, odd, lit, light(x) = on,
+                           some(k, [1, 2, 3], light(k) = on) ],
+                         [ [program, program], [program, program, program],
+                           ndet(program, program), wndet(program, program),
+                           if(condition, program, program),
+                           while(condition, [action, program]),
+                           star([action, program]),
+                           pi(v, [1, 2, 3], [put(v), program]),
+                           pi(v, [1, 2], [?(light(v) = off), program]),
+                           for(v, [3, 1], wndet(put(v), program)),
+                           conc(program, program), pconc(program, program),
+                           conc(program, atomic(program)),
+                           iconc([action, ?(condition)]),
+                           prioritized_interrupts(
+                               [ interrupt(condition, [action, program]),
+                                 interrupt(condition, [action, action]) ]),
+                           search(program), ab, down(1), again(2) ]),
+                   Program).
+
+:- end_tests(golog_axioms).
 
 :- begin_tests(golog_search).
 
