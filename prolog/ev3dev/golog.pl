@@ -326,6 +326,8 @@ main_program(M, Main) :-
 %   translate_exog/2 or actionNum/2 of the domain translate.
 %
 %   @error instantiation_error if Action is unbound
+%   @error existence_error(exogenous_action, Action) if no exog_action/1 of
+%          these domains declares it
 
 golog_exog(M:Action) :-
     must_be(nonvar, Action),

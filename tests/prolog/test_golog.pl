@@ -923,7 +923,10 @@ test(the_refusal_names_the_value_and_the_cure, true(Said == true)) :-
     ->  Said = true
     ;   Said = Message
     ).
-test(a_plan_comes_to_its_end_in_each_world, Wrong-Enough == []-true) :-
+test(a_plan_comes_to_its_end_in_each_world,
+     [ setup(set_prolog_flag(verbose, silent)),
+       cleanup(set_prolog_flag(verbose, normal)),
+       true(Wrong-Enough == []-true) ]) :-
     findall(Program-Plan,
             ( case(150, 5000, Seed),
               sensing_program(Seed, Program),
@@ -1561,8 +1564,18 @@ test(codes_of_exogenous_actions_are_translated, H == [bell, horn, bell]) :-
                   actionNum(bell, 5),
                   translate_exog(toot, horn) ],
                 M, ( M:golog_exog(5), M:golog_exog(toot), M:golog_exog(bell),
-                     M:golog_exog(6),
                      golog(M:[], [history(H)]) )).
+test(an_exogenous_action_of_no_domain_is_refused,
+     [ forall(member(Action, [foo, 6, bell(1)])),
+       error(existence_error(exogenous_action, Action)) ]) :-
+    with_domain([exog_action(bell), actionNum(bell, 5)], M,
+                M:golog_exog(Action)).
+test(it_is_refused_without_a_domain,
+     error(existence_error(exogenous_action, bell))) :-
+    with_domain([], M, M:golog_exog(bell)).
+test(a_code_of_the_world_that_is_none_is_dropped, H == [bell]) :-
+    with_domain([ exog_action(bell), exog_occurs([6, bell]) ],
+                M, golog(M:[], [history(H)])).
 test(legologs_boundary, [Seen, H] == [[1], [go, bell]]) :-
     nb_setval(golog_seen, []),
     with_domain([ prim_action(go), exog_action(bell), poss(_, true),
@@ -1739,6 +1752,9 @@ user:asks_why_not(A, E) :-
     ;   true
     ).
 
+:- op(500, xfy, #).
+:- op(700, xfy, &).
+
 :- begin_tests(golog_wrong).
 
 test(no_poss_for_an_action,
@@ -1755,6 +1771,63 @@ test(no_initial_value, Said == true) :-
     ).
 test(a_relational_fluent_without_initial_value_is_false) :-
     with_domain([rel_fluent(f)], M, holds(M:neg(f), [])).
+test(a_fluent_that_is_asked_before_it_is_sensed, Said-H == true-[c, a]) :-
+    with_domain([ prim_action(look), prim_action(a), prim_action(c),
+                  poss(_, true), prim_fluent(f), senses(look, f),
+                  execute(_, _) ], M,
+                said(golog(M:[a, if(f = 1, a, c)], [history(H)]), Texts)),
+    (   Texts = [Text],
+        sub_atom(Text, _, _, _,
+                 'the fluent f/0 has no value before it is sensed')
+    ->  Said = true
+    ;   Said = Texts
+    ).
+test(a_plan_may_ask_before_it_looks, Texts == []) :-
+    with_domain([ prim_action(look), prim_action(a), prim_action(c),
+                  poss(_, true), prim_fluent(f), senses(look, f),
+                  execute(_, 1) ], M,
+                said(golog(M:search([look, if(f = 1, a, c)]), []), Texts)).
+test(to_know_needs_no_value, Texts == []) :-
+    with_domain([ prim_action(look), prim_action(c), poss(_, true),
+                  prim_fluent(f), senses(look, f), execute(_, _) ], M,
+                said(golog(M:if(know(f), look, c), []), Texts)).
+test(what_books_write_has_a_hint,
+     [ forall(member(Program-Hint,
+                     [ (a # b)-'ndet(P, Q) for P#Q',
+                       [a, (a : b)]-'[P, Q] for P:Q',
+                       ?((n = 0) & (n = 0))-'and(P, Q) for P & Q',
+                       if(n = 0, b)-'if(C, P, [])',
+                       ?(-(n = 1))-'neg(P) for -P',
+                       ?(v(n = 0, n = 1))-'or(P, Q) for P v Q' ])),
+       true(Found == true) ]) :-
+    catch(golog_lab:do(Program, _), error(_, context(_, Message)), true),
+    (   sub_atom(Message, _, _, _, Hint)
+    ->  Found = true
+    ;   Found = Message
+    ).
+test(a_primitive_action_has_a_hint, true(Found == true)) :-
+    with_domain([primitive_action(a), poss(a, true)], M,
+                catch(do(M:a, _), error(_, context(_, Message)), true)),
+    (   sub_atom(Message, _, _, _,
+                 'has primitive_action/1; here it is prim_action/1')
+    ->  Found = true
+    ;   Found = Message
+    ).
+test(a_precondition_of_a_situation_has_a_hint,
+     true(Found == true)) :-
+    with_domain([prim_action(a), (poss(a, _) :- true)], M,
+                catch(do(M:a, _),
+                      error(instantiation_error, context(_, Message)), true)),
+    (   sub_atom(Message, _, _, _, 'not a situation')
+    ->  Found = true
+    ;   Found = Message
+    ).
+test(a_sequence_with_a_colon_has_a_hint, true(Found == true)) :-
+    catch(do(golog_test_none:b, _), error(_, context(_, Message)), true),
+    (   sub_atom(Message, _, _, _, '[P, Q], not P:Q')
+    ->  Found = true
+    ;   Found = Message
+    ).
 test(an_unknown_construct, [error(existence_error(golog_program, fly/1))]) :-
     golog_lab:do([a, fly(1)], _).
 test(a_cyclic_procedure, [error(domain_error(golog_procedure, p))]) :-

@@ -46,6 +46,7 @@ rel_fluent(door).
 rel_fluent(felt).
 
 initially(n, 0).
+initially(distance, 0).
 initially(felt, false).
 
 senses(look, light).

@@ -22,6 +22,7 @@
             was_given_up/2              % -Limit, -Far
           ]).
 :- use_module(effort, [effort/4, watched_effort/3]).
+:- use_module(hints, [hint/3]).
 :- use_module(theory, [located/3]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
 
@@ -158,8 +159,9 @@ no_predicate(PI, Where0, Condition, Goal, M) :-
     strip_module(PI, _, Name/Arity),
     (   functor(Goal, Name, Arity)
     ->  located(M, in_program(Condition), Where),
+        hint(Goal, M, Hint),
         format(atom(Text), '~wthere is no fluent, condition or predicate \c
-                            ~q', [Where, Name/Arity]),
+                            ~q~w', [Where, Name/Arity, Hint]),
         throw_error(existence_error(golog_condition, Name/Arity), _, Text)
     ;   throw(error(existence_error(procedure, PI), Where0))
     ).

@@ -36,7 +36,7 @@
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
               [ call_of/3, context_effort/2, context_module/2,
-                context_option/2, entered/4, print_once/3
+                context_option/2, entered/4, is_recorded/1, print_once/3
               ]).
 :- use_module(effort, [polled/1]).
 :- use_module(programs,
@@ -478,7 +478,7 @@ value(F, V, s(_, _, Values, Open, _), Context, M) :-
     (   V1 == '$initial'
     ->  (   initial_value(F, V3, M)
         ->  V = V3
-        ;   no_initial_value(F, M),
+        ;   no_initial_value(F, M, Context),
             fail
         )
     ;   V1 == '$sensed'
@@ -500,21 +500,28 @@ open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
     ).
 
 %   A fluent without a value: no condition about it holds. That is as it
-%   should be if its value is sensed or comes from outside; else it is most
-%   likely forgotten.
+%   should be if its value comes from outside; else it is most likely
+%   forgotten, or the program asks before it looks. A plan may well do that,
+%   as it does not look; it is made again then.
 
-no_initial_value(F, M) :-
+no_initial_value(F, M, Context) :-
+    (   is_kind(relational, F, M)
+    ->  Kind = informational
+    ;   Kind = warning
+    ),
     (   is_kind(initial, F, M)
     ->  true
     ;   is_kind(sensed, F, M)
-    ->  true
-    ;   is_kind(relational, F, M)
-    ->  located(M, fluent(F), Where),
-        print_once(M, informational, no_initial_value(Where, F))
-    ;   is_set_by_exogenous(F, M)
+    ->  (   is_recorded(Context)
+        ->  located(M, fluent(F), Where),
+            print_once(M, Kind, not_sensed_yet(Where, F))
+        ;   true
+        )
+    ;   Kind == warning,
+        is_set_by_exogenous(F, M)
     ->  true
     ;   located(M, fluent(F), Where),
-        print_once(M, warning, no_initial_value(Where, F))
+        print_once(M, Kind, no_initial_value(Where, F))
     ).
 
 %!  fluents_now(+Situation, +Context, -Pairs) is det.

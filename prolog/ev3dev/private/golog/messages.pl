@@ -13,6 +13,13 @@ words(no_initial_value(Where, Fluent)) -->
     [ '~wthe fluent ~q has no initial value: '-[Where, Name/Arity],
       'there is no initially/2 for it, and conditions about it do not hold'-[]
     ].
+words(not_sensed_yet(Where, Fluent)) -->
+    { functor(Fluent, Name, Arity) },
+    [ '~wthe fluent ~q has no value before it is sensed: '-
+      [Where, Name/Arity],
+      'until then conditions about it do not hold. know/1 asks for that, \c
+       and initially/2 gives a value'-[]
+    ].
 words(history(History)) -->
     [ 'History: ~p'-[History] ].
 words(search(What, Message)) -->

@@ -24,6 +24,7 @@
               [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
                 holds/3, marked/3, situation_count/2, situation_history/2
               ]).
+:- use_module(hints, [hint/3]).
 :- use_module(programs,
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
@@ -182,8 +183,9 @@ unknown_program(E, X) :-
     ;   What = E
     ),
     located(M, in_program(E), Where),
-    format(atom(Text), '~wthere is no construct, procedure or action ~q',
-           [Where, What]),
+    hint(E, M, Hint),
+    format(atom(Text), '~wthere is no construct, procedure or action ~q~w',
+           [Where, What, Hint]),
     throw_error(existence_error(golog_program, What), _, Text).
 
 step_named(E, S, E1, S1, X, M) :-
@@ -228,6 +230,7 @@ possible(A, S, X, M) :-
     ;   no_precondition(A, M)
     ),
     (   M:poss(A, Condition),
+        is_condition(Condition, A),
         (   holds(Condition, S, X)
         *-> true
         ;   blocked(A, Condition),
@@ -236,6 +239,16 @@ possible(A, S, X, M) :-
     *-> true
     ;   blocked(A, poss(A)),
         fail
+    ).
+
+is_condition(Condition, A) :-
+    (   nonvar(Condition)
+    ->  true
+    ;   functor(A, Name, Arity),
+        format(atom(Text), 'poss(~q, ..): the second argument is a \c
+                            condition, as in poss(Action, true), and not a \c
+                            situation', [Name/Arity]),
+        throw_error(instantiation_error, _, Text)
     ).
 
 %!  made_possible(+Action, -Condition, +Situation, +Context) is det.
