@@ -1,6 +1,7 @@
 :- module(ev3dev_pddl,
           [ pddl_domain/1,              % :File
-            pddl_problem/1              % :File
+            pddl_problem/1,             % :File
+            pddl_write/1                % :File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
@@ -8,6 +9,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(private/errors,
               [must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
 :- use_module(private/golog/theory, [declare_domain/1]).
 
@@ -41,7 +43,8 @@ letters, as PDDL knows no capital ones. What becomes what:
 
 :- meta_predicate
     pddl_domain(:),
-    pddl_problem(:).
+    pddl_problem(:),
+    pddl_write(:).
 
 :- dynamic
     made/3,                             % Module, domain or problem, Ref
@@ -554,4 +557,91 @@ init(Atom, T, Path, Kind, Fact) :-
     ->  atom_term(Atom, [], T, Path, Kind, Fact)
     ;   format(atom(Why), 'a fact is expected, and not ~p', [Atom]),
         wrong(Path, Why)
+    ).
+
+                /*******************************
+                *            WRITING           *
+                *******************************/
+
+%!  pddl_write(:File) is det.
+%
+%   Write the domain of this module to File, and its initial situation with
+%   the goal of `proc(pddl_goal, Condition)` to the file whose name has
+%   `-problem` more, before its extension. Any planner of ADL can read them:
+%   each ground action becomes an action without parameters, as prim_action/1
+%   may be rules. The domain has only relational fluents, which rel_fluent/1
+%   enumerates; conditions about them, and any goals of Prolog about what does
+%   not change. Sensing actions are left out.
+%
+%   @error domain_error(pddl_fluent, Fluent) if it has other values than true
+%          and false
+%   @error domain_error(pddl_name, Term) if two actions, fluents or objects
+%          have the same name in PDDL
+%   @error existence_error(pddl_goal, Module)
+%   @error the errors of open/4
+
+pddl_write(M:File0) :-
+    must_be(nonvar, File0),
+    declare_domain(M),
+    pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)),
+    absolute_file_name(File0, File),
+    file_name_extension(Base, Extension, File),
+    atom_concat(Base, '-problem', ProblemBase),
+    file_name_extension(ProblemBase, Extension, ProblemFile),
+    file_base_name(Base, Name0),
+    downcase_atom(Name0, Name),
+    written(File, domain_text(Name, Objects, Predicates, Actions)),
+    written(ProblemFile, problem_text(Name, Init, Goal)).
+
+:- meta_predicate written(+, 1).
+
+written(File, Text) :-
+    setup_call_cleanup(
+        open(File, write, Stream, [encoding(utf8)]),
+        call(Text, Stream),
+        close(Stream)).
+
+domain_text(Name, Objects, Predicates, Actions, Stream) :-
+    format(Stream, '(define (domain ~w)~n  (:requirements :adl)~n', [Name]),
+    part_text(Stream, ':constants', Objects),
+    part_text(Stream, ':predicates', Predicates),
+    forall(member(action(Action, Condition, Effects), Actions),
+           ( format(Stream, '  (:action ~w~n    :parameters ()', [Action]),
+             format(Stream, '~n    :precondition ', []),
+             condition_text(Condition, Stream),
+             format(Stream, '~n    :effect ', []),
+             expression_text([and|Effects], Stream),
+             format(Stream, ')~n', []) )),
+    format(Stream, ')~n', []).
+
+problem_text(Name, Init, Goal, Stream) :-
+    format(Stream, '(define (problem ~w-problem)~n  (:domain ~w)~n',
+           [Name, Name]),
+    part_text(Stream, ':init', Init),
+    format(Stream, '  (:goal ', []),
+    condition_text(Goal, Stream),
+    format(Stream, '))~n', []).
+
+part_text(Stream, Keyword, Items) :-
+    format(Stream, '  (~w', [Keyword]),
+    forall(member(Item, Items),
+           ( format(Stream, '~n    ', []), expression_text(Item, Stream) )),
+    format(Stream, ')~n', []).
+
+condition_text(Condition, Stream) :-
+    (   Condition == true
+    ->  expression_text([and], Stream)
+    ;   Condition == false
+    ->  expression_text([or], Stream)
+    ;   expression_text(Condition, Stream)
+    ).
+
+expression_text(E, Stream) :-
+    (   E = [First|Rest]
+    ->  format(Stream, '(', []),
+        expression_text(First, Stream),
+        forall(member(Item, Rest),
+               ( format(Stream, ' ', []), expression_text(Item, Stream) )),
+        format(Stream, ')', [])
+    ;   format(Stream, '~w', [E])
     ).

@@ -57,6 +57,7 @@ bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
 bad(golog_exog(x), [_-1]).
 bad(pddl_domain(x), [_-1, nix-1]).
 bad(pddl_problem(x), [_-1, nix-1]).
+bad(pddl_write(x), [_-1]).
 bad(why_not(x), [_-1, off(_)-1]).
 bad(why_not(x, _), [_-1]).
 bad(do([], _), [_-1, fly-1]).

@@ -129,6 +129,83 @@ with_text(Text, File, Goal) :-
         Goal,
         delete_file(File)).
 
+%   Goal, with the files of a domain that is written from Module.
+
+written(Module, Domain, Problem, Goal) :-
+    tmp_file(pddl, Base),
+    atom_concat(Base, '.pddl', Domain),
+    atom_concat(Base, '-problem.pddl', Problem),
+    setup_call_cleanup(
+        pddl_write(Module:Domain),
+        Goal,
+        ( delete_file(Domain), delete_file(Problem) )).
+
+test(what_was_read_and_written_has_the_same_plans,
+     [forall(published(Name, Least)), true(Verdict-Length == solved-Least)]) :-
+    files(Name, Domain0, Problem0),
+    pddl_domain(pddl_test:Domain0),
+    pddl_problem(pddl_test:Problem0),
+    written(pddl_test, Domain, Problem,
+            ( pddl_domain(pddl_test_again:Domain),
+              pddl_problem(pddl_test_again:Problem),
+              once(do(pddl_test_again:achieve(pddl_goal), H)),
+              reverse(H, Plan),
+              length(Plan, Length),
+              verdict(Domain, Problem, Plan, Verdict) )).
+
+%   Rooms in a row, by rules of Prolog
+
+rooms([ (prim_action(go(N)) :- between(1, 4, N)),
+        prim_action(look), prim_action('Switch'),
+        (poss(go(N), some(m, [1, 2, 3, 4],
+                          and(at(m), 1 =:= abs(m-N)))) :- true),
+        poss('Switch', (at(4), \+ lit)),
+        poss(look, true), senses(look, lit),
+        (rel_fluent(at(N)) :- between(1, 4, N)), rel_fluent(lit),
+        initially(at(2), true), initially(lit, false),
+        (initially(at(N), false) :- N \== 2),
+        causes_true(go(N), at(N), true),
+        causes_false(go(N), at(M), neg(M = N)),
+        causes_true('Switch', lit, near),
+        proc(near, or(at(3), at(4))),
+        proc(pddl_goal, and(lit, impl(at(4), neg(at(3))))) ]).
+
+with_rooms(Change, Goal) :-
+    rooms(Clauses0),
+    call(Change, Clauses0, Clauses),
+    setup_call_cleanup(
+        forall(member(C, Clauses), assertz(pddl_rooms:C, _)),
+        Goal,
+        forall(( member(C, Clauses), ( C = (H :- _) -> true ; H = C ) ),
+               ( functor(H, N, A), functor(G, N, A),
+                 retractall(pddl_rooms:G) ))).
+
+same(Clauses, Clauses).
+with(Clause, Clauses, [Clause|Clauses]).
+without(Clause, Clauses0, Clauses) :-
+    exclude(=(Clause), Clauses0, Clauses).
+
+test(a_domain_with_rules_is_written,
+     true(Verdict-Plan == solved-['go-n3', 'go-n4', switch])) :-
+    with_rooms(same,
+        written(pddl_rooms, Domain, Problem,
+            ( pddl_domain(pddl_test_again:Domain),
+              pddl_problem(pddl_test_again:Problem),
+              once(do(pddl_test_again:achieve(pddl_goal), H)),
+              reverse(H, Plan),
+              verdict(Domain, Problem, Plan, Verdict) ))).
+test(what_pddl_cannot_say_is_refused,
+     [ forall(member(Change-Error,
+                     [ with(prim_fluent(n))-domain_error(pddl_fluent, n),
+                       with(prim_action(switch))-domain_error(pddl_name, _),
+                       without(proc(pddl_goal, _))-
+                           existence_error(pddl_goal, pddl_rooms) ])),
+       true(Thrown = Error) ]) :-
+    catch(with_rooms(Change, pddl_write(pddl_rooms:'/nonexistent/x.pddl')),
+          error(Thrown, _), true).
+test(an_unbound_file_is_not_written, error(instantiation_error)) :-
+    pddl_write(_).
+
 %   wrong(Text, Error, Part of the message)
 
 wrong("(define (domain d)\n (:predicates (p)\n", syntax_error(pddl),

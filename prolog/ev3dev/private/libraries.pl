@@ -65,7 +65,7 @@ in_library(golog,
       set_option/2, shuffle/2, trans/4, why_not/1, why_not/2
     ]).
 in_library(pddl,
-    [ pddl_domain/1, pddl_problem/1
+    [ pddl_domain/1, pddl_problem/1, pddl_write/1
     ]).
 in_library(view,
     [ view/0, view/1, view_mark/1, view_stop/0, view_url/1, view_value/2,
