@@ -2240,6 +2240,29 @@ test(a_search_may_try_in_the_simulator, H-Y == [long]-true) :-
     ->  Y = true
     ;   Y = Y0
     ).
+test(a_timeout_ends_a_search_in_the_simulator, R-Way == timeout-0.0) :-
+    with_rover(M, ( sim_pose(X0, Y0, _),
+                    golog(M:search([ star(ahead, 1), star(halt), ?(keys > 9) ],
+                                   [simulate(true)]),
+                          [timeout(0.3), reason(R)]),
+                    sim_pose(X1, Y1, _) )),
+    Way is sqrt((X1-X0)**2 + (Y1-Y0)**2).
+test(an_exogenous_action_of_the_robot_is_seen_in_a_search,
+     true(H == [beep, key])) :-
+    % In real time, as on a brick: the key is pressed while it searches.
+    nb_setval(golog_times, []),
+    rover(Clauses),
+    with_sim(room,
+             ( set_robot(5.6, 10.6, outB, outC),
+               with_domain(Clauses, M,
+                           ( sim_press(enter, [after(0.2)]),
+                             golog(M:prioritized_interrupts(
+                                        [ interrupt(beeps < keys, beep),
+                                          interrupt(beeps = 0,
+                                                    search([star(halt),
+                                                            ?(false)])) ]),
+                                   [history(H), timeout(9)]) )) ),
+             [clock(realtime)]).
 test(the_journal_knows_step_and_action, Cause == golog(1, ahead, true)) :-
     with_rover(M, ( indigolog(M:ahead),
                     why(robot, why(_, _, Causes)) )),
