@@ -35,6 +35,7 @@
 :- use_module(library(ev3dev/navigation)).
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/golog)).
+:- use_module(library(ev3dev/pddl)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/planners)).
 :- use_module(library(ev3dev/plnxt)).
@@ -57,7 +58,7 @@ task('Ask why it did that', [journal]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views, sim_batch]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
-task('Plan, act and react', [golog]).
+task('Plan, act and react', [golog, pddl]).
 
 main :-
     current_prolog_flag(argv, Argv),

@@ -65,6 +65,7 @@ unit(events, ['ev3dev/events']).
 unit(rules, ['ev3dev/rules']).
 unit(plnxt, ['ev3dev/plnxt']).
 unit(golog, ['ev3dev/golog']).
+unit(pddl, ['ev3dev/pddl']).
 
 pack_file(Name, File) :-
     pack_folder(Pack),

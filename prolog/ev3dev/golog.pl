@@ -12,6 +12,8 @@
             has_val/3,                  % :Fluent, ?Value, +History
             eval/3,                     % :Condition, +History, -Truth
             now/1,                      % -History
+            why_not/1,                  % :Action
+            why_not/2,                  % :Action, -Why
             domain/2,                   % ?Value, :Sort
             rdomain/2,                  % ?Value, :Sort
             getdomain/2,                % :Sort, -Values
@@ -47,7 +49,9 @@
                                      situation_history/2]).
 :- use_module(private/golog/messages, []).
 :- use_module(private/golog/run,
-              [recorded_history/1, run_online/4, situation_of_run/4]).
+              [ recorded_history/1, run_online/4, situation_of_run/4,
+                state_of_run/3
+              ]).
 :- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
@@ -55,6 +59,7 @@
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
+:- use_module(private/golog/why_not, [hindrance/5]).
 :- use_module(private/golog/world,
               [ ask/2, code_of_number/3, run_directly/4, send_exogenous/2 ]).
 
@@ -110,6 +115,8 @@ order and in several files.
     holds(:, +),
     has_val(:, ?, +),
     eval(:, +, ?),
+    why_not(:),
+    why_not(:, -),
     domain(?, :),
     rdomain(?, :),
     getdomain(:, ?),
@@ -134,9 +141,12 @@ order and in several files.
 %     - reason(-Reason)
 %       Do not fail, and do not throw an error of an action, but tell why the
 %       run ended: `final`, not_possible(Action, Condition) if only actions
-%       were left whose precondition does not hold, no_step(Program) if
-%       nothing else was left, `stopped` by abort/0, `timeout`, `limit`,
-%       failed(Action), or exception(Error).
+%       were left whose precondition does not hold, gave_up(Limit, Far) if
+%       a search gave up at its Limit and nothing else was left,
+%       no_step(Program) if nothing at all was, `stopped` by abort/0,
+%       `timeout`, `limit`, failed(Action), or exception(Error). Far says how
+%       far the search came: [steps(N), depth(D), inferences(I), seconds(S)];
+%       it had tried N steps, at most D in a row.
 %     - history(-History)
 %       The history, newest first: actions, sensing results e(Fluent, Value)
 %       or e(Action, Outcome), failed(Action) and interrupted(Action).
@@ -146,9 +156,10 @@ order and in several files.
 %     - limit(+Steps)
 %       End after that number of steps. Default is `infinite`.
 %     - timeout(+Seconds)
-%       End after that time, also in the middle of a wait. Default is
-%       `infinite`. The time is that of the robot or the simulation, if there
-%       is one.
+%       End after that time, also in the middle of a wait or a search. Default
+%       is `infinite`. The time is that of the robot or the simulation, if
+%       there is one. On a virtual clock no time passes during a search; then
+%       one step may take that long by the wall clock.
 %     - initial(+History)
 %       What is taken to have happened before. Default is [].
 %     - on_failed(+What)
@@ -315,6 +326,8 @@ main_program(M, Main) :-
 %   translate_exog/2 or actionNum/2 of the domain translate.
 %
 %   @error instantiation_error if Action is unbound
+%   @error existence_error(exogenous_action, Action) if no exog_action/1 of
+%          these domains declares it
 
 golog_exog(M:Action) :-
     must_be(nonvar, Action),
@@ -411,6 +424,51 @@ situation_now(M, History, S, X) :-
 
 now(History) :-
     recorded_history(History).
+
+%!  why_not(:Action) is det.
+%!  why_not(:Action, -Why) is semidet.
+%
+%   Print, or answer, why the run of this thread does not do Action next; if
+%   none runs, why the last one did not go on with it. Without any run, only
+%   whether Action is possible at the beginning. Why is one of
+%
+%     - no_action
+%       The domain has no such action.
+%     - not_possible(Failures)
+%       For each clause of poss/2 a failure(Part, Values, Place): the part of
+%       the condition that does not hold, the values of the fluents in it as
+%       Fluent = Value, and File:Line of the clause, or `none`.
+%     - priority(Other, Interrupts)
+%       A part of the program with a higher priority does Other. Interrupts
+%       are the conditions of the interrupts around it, the innermost first.
+%     - before(Other, Interrupts)
+%       The program may do Action, but does Other first.
+%     - interrupt(Part, Values)
+%       An interrupt would do it; Part of its condition does not hold.
+%     - not_offered
+%       The program that remains does not begin with it.
+%
+%   Fails if nothing stands in its way.
+%
+%   @error instantiation_error if Action has variables
+
+why_not(M:Action) :-
+    (   why_not(M:Action, Why)
+    ->  print_message(help, golog(why_not(Action, Why)))
+    ;   print_message(help, golog(why_not(Action, nothing)))
+    ).
+
+why_not(M:Action, Why) :-
+    must_be(ground, Action),
+    prepare(M),
+    refuse_epistemic(M),
+    context(M, [], X),
+    (   state_of_run(M, E, S)
+    ->  true
+    ;   E = [Action],
+        situation([], S, X)
+    ),
+    hindrance(Action, E, Why, S, X).
 
                 /*******************************
                 *        FOR DOMAINS           *

@@ -148,10 +148,13 @@ prolog:message(ev3dev(why_nothing(What))) -->
 %     - rule(Name, Guard), rules(none), rules(ended), event(Id, Condition)
 %       of library(ev3dev/rules): `none` if no rule applies, `ended` if
 %       behave/1 has ended
-%     - golog(Step, Action, Condition), interrupt(Condition)
+%     - golog(Step, Action, Condition), proc(Name/Arity, Place),
+%       interrupt(Condition), golog(ended(Reason))
 %       of library(ev3dev/golog): the number of the step in the run, and the
-%       condition of poss/2 that held; around it the conditions of the
-%       interrupts that the action belongs to
+%       condition of poss/2 that held; the innermost procedure, and
+%       File:Line of its clause in which the action stands, or `none`; around
+%       it the conditions of the interrupts that the action belongs to; why a
+%       run stopped the motors at its end
 %     - plan(Step, Cell)
 %       of library(ev3dev/grid): `turn` or `move`
 %     - leg(Part)

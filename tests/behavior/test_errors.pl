@@ -6,6 +6,7 @@
 :- use_module(library(ev3dev/console)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/golog)).
+:- use_module(library(ev3dev/pddl)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/jog)).
 :- use_module(library(ev3dev/journal)).
@@ -55,6 +56,11 @@ bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
 bad(golog_exog(x), [_-1]).
+bad(pddl_domain(x), [_-1, nix-1]).
+bad(pddl_problem(x), [_-1, nix-1]).
+bad(pddl_write(x), [_-1]).
+bad(why_not(x), [_-1, off(_)-1]).
+bad(why_not(x, _), [_-1]).
 bad(do([], _), [_-1, fly-1]).
 bad(do([], [], _), [_-1, fly-1, a-2]).
 bad(trans([], [], _, _), [_-1, fly-1, a-2]).

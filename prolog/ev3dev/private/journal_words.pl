@@ -353,10 +353,21 @@ cause(golog(Step, Action, Condition)) -->
     ->  []
     ;   [ ': poss ~p'-[Condition] ]
     ).
+cause(golog(ended(Reason))) -->
+    !,
+    [ 'golog: the run ended: ~p'-[Reason] ].
 cause(golog(Event)) -->
     !,
     [ 'golog: '-[] ],
     history(Event).
+cause(proc(Proc, Place)) -->
+    !,
+    [ 'proc ~q'-[Proc] ],
+    (   { Place = File:Line }
+    ->  { file_base_name(File, Base) },
+        [ ', ~w:~d'-[Base, Line] ]
+    ;   []
+    ).
 cause(interrupt(Condition)) -->
     !,
     [ 'interrupt ~p'-[Condition] ].

@@ -62,7 +62,10 @@ in_library(golog,
       holds/2, indigolog/0, indigolog/1, initializeExog/0, initializeRcx/0,
       now/1, pathfind/3, rdomain/2, receiveRcxActionNumber/1,
       report_message/2, sendRcxActionNumber/2, sensing_action/2,
-      set_option/2, shuffle/2, trans/4
+      set_option/2, shuffle/2, trans/4, why_not/1, why_not/2
+    ]).
+in_library(pddl,
+    [ pddl_domain/1, pddl_problem/1, pddl_write/1
     ]).
 in_library(view,
     [ view/0, view/1, view_mark/1, view_stop/0, view_url/1, view_value/2,

@@ -37,6 +37,7 @@ number_of_light(N) :- between(1, 3, N).
 room([hall, lab]).
 direction(left).
 direction(right).
+digit(D) :- between(0, 9, D).
 
 poss(a, true).
 poss(b, true).

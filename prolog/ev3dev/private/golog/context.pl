@@ -5,56 +5,84 @@
             entered/4,                  % +Kind, +Call, +Context0, -Context
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
-            recording/3,                % +Number, +Context0, -Context
+            recording/4,                % +Number, :Watch, +Context0, -Context
+            searching/4,                % +Options, +Limits, +Context0,
+                                        % -Context
+            context_effort/2,           % +Context, -Effort
             noted/2,                    % +Note, +Context
+            is_recorded/1,              % +Context
             recorded_step/3,            % +Context, -Number, -Notes
+            recorded_notes/2,           % +Record, -Notes
             print_once/3,               % +Module, +Kind, +Message
             print_again/1,              % +Module
             blocked/2,                  % +Action, +Condition
             unblock/0,
-            was_blocked/2               % -Action, -Condition
+            was_blocked/2,              % -Action, -Condition
+            gave_up/2,                  % +Limit, +Far
+            was_given_up/2              % -Limit, -Far
           ]).
+:- use_module(effort, [effort/4, watched_effort/3]).
+:- use_module(hints, [hint/3]).
 :- use_module(theory, [located/3]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
 
 /** <module> What the interpreter carries along
 
-A context is `x(Module, Options, Calls, Record)`. Module holds the domain.
-Options are words of this run: `online`, `assume` (what gexec/2 means),
-`simulate`. Calls are the procedures entered since the step began. Record is
-`none`, or record(Number, Notes) of the step that an online run takes: Notes
-is a partial list, of what noted/2 says of the step, the outermost first.
+A context is `x(Module, Options, Calls, Record, Effort)`. Module holds the
+domain. Options are words of this run: `online`, `assume` (what gexec/2
+means), `simulate`, `conditional` for a plan with branches. Calls are the
+procedures entered since the step began. Record is `none`, or
+record(Number, Notes) of the step that an online run takes: Notes is a partial
+list, of what noted/2 says of the step, the outermost first. Effort is what
+effort.pl counts, or `none`.
 */
 
 %!  context(+Module, +Options, -Context) is det.
 %!  context_module(+Context, -Module) is det.
 %!  context_option(?Option, +Context) is semidet.
 
-context(Module, Options, x(Module, Options, [], none)).
+context(Module, Options, x(Module, Options, [], none, none)).
 
-context_module(x(Module, _, _, _), Module).
+context_module(x(Module, _, _, _, _), Module).
 
-context_option(Option, x(_, Options, _, _)) :-
+context_option(Option, x(_, Options, _, _, _)) :-
     memberchk(Option, Options).
+
+%!  context_effort(+Context, -Effort) is det.
+
+context_effort(x(_, _, _, _, Effort), Effort).
+
+%!  searching(+Options, +Limits, +Context0, -Context) is det.
+%
+%   A search begins, with words of its own; it gives up at Limits, and at
+%   those of the searches around it.
+
+searching(Options, Limits, x(M, _, _, _, Outer), x(M, Options, [], none,
+                                                   Effort)) :-
+    effort(Limits, Options, Outer, Effort).
 
 %!  stepping(+Context0, -Context) is det.
 %
-%   A new step begins: no procedure has been entered, nothing is recorded.
+%   A new step begins: no procedure has been entered, nothing is recorded,
+%   and nobody watches.
 
-stepping(x(M, O, _, _), x(M, O, [], none)).
+stepping(x(M, O, _, _, _), x(M, O, [], none, none)).
 
-%!  recording(+Number, +Context0, -Context) is det.
+%!  recording(+Number, :Watch, +Context0, -Context) is det.
 %!  noted(+Note, +Context) is det.
 %!  recorded_step(+Context, -Number, -Notes) is det.
 %
-%   A step Number begins. Note is interrupt(Condition) if the step is found
+%   A step Number begins, during which Watch is called, as effort.pl tells.
+%   Note is interrupt(Condition) if the step is found
 %   within an interrupt whose Condition holds, above(Program) if Program has a
 %   higher priority than what takes the step. Notes are these, the innermost
 %   first. Backtracking undoes what was noted.
 
-recording(Number, x(M, O, _, _), x(M, O, [], record(Number, _))).
+recording(Number, Watch, x(M, O, _, _, _), x(M, O, [], Record, Effort)) :-
+    Record = record(Number, _),
+    watched_effort(Watch, Record, Effort).
 
-noted(Note, x(_, _, _, Record)) :-
+noted(Note, x(_, _, _, Record, _)) :-
     (   Record = record(_, Notes)
     ->  ends_in(Notes, Note)
     ;   true
@@ -67,7 +95,19 @@ ends_in(Partial, Note) :-
         ends_in(Rest, Note)
     ).
 
-recorded_step(x(_, _, _, record(Number, Partial)), Number, Notes) :-
+%!  is_recorded(+Context) is semidet.
+%
+%   True if noted/2 is remembered.
+
+is_recorded(x(_, _, _, record(_, _), _)).
+
+recorded_step(x(_, _, _, Record, _), Number, Notes) :-
+    Record = record(Number, _),
+    recorded_notes(Record, Notes).
+
+%!  recorded_notes(+Record, -Notes) is det.
+
+recorded_notes(record(_, Partial), Notes) :-
     reversed(Partial, [], Notes).
 
 reversed(Partial, Notes0, Notes) :-
@@ -84,8 +124,8 @@ reversed(Partial, Notes0, Notes) :-
 %   @error domain_error(golog_procedure, Call) if it has entered the same call
 %          already: there is nothing that would end this
 
-entered(Kind, Call, x(M, O, Calls, Record),
-        x(M, O, [c(Kind, Call)|Calls], Record)) :-
+entered(Kind, Call, x(M, O, Calls, Record, Effort),
+        x(M, O, [c(Kind, Call)|Calls], Record, Effort)) :-
     (   again(Calls, Kind, Call, 0)
     ->  located(M, proc(Call), Where),
         format(atom(Text), '~wcyclic: ~q comes to itself again without a \c
@@ -110,7 +150,7 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %
 %   @error existence_error(golog_condition, Name/Arity)
 
-call_of(Condition, Goal, x(M, _, _, _)) :-
+call_of(Condition, Goal, x(M, _, _, _, _)) :-
     catch(goal_of_program(M:Goal),
           error(existence_error(procedure, PI), Where),
           no_predicate(PI, Where, Condition, Goal, M)).
@@ -119,8 +159,9 @@ no_predicate(PI, Where0, Condition, Goal, M) :-
     strip_module(PI, _, Name/Arity),
     (   functor(Goal, Name, Arity)
     ->  located(M, in_program(Condition), Where),
+        hint(Goal, M, Hint),
         format(atom(Text), '~wthere is no fluent, condition or predicate \c
-                            ~q', [Where, Name/Arity]),
+                            ~q~w', [Where, Name/Arity, Hint]),
         throw_error(existence_error(golog_condition, Name/Arity), _, Text)
     ;   throw(error(existence_error(procedure, PI), Where0))
     ).
@@ -151,7 +192,9 @@ print_again(Module) :-
 %   Remember the first Action of a step that was not possible, and its
 %   precondition. Backtracking does not undo it.
 
-:- thread_local blocked_/2.
+:- thread_local
+    blocked_/2,
+    gave_up_/2.
 
 blocked(Action, Condition) :-
     (   blocked_(_, _)
@@ -160,8 +203,22 @@ blocked(Action, Condition) :-
     ).
 
 unblock :-
-    retractall(blocked_(_, _)).
+    retractall(blocked_(_, _)),
+    retractall(gave_up_(_, _)).
 
 was_blocked(Action, Condition) :-
     blocked_(Action, Condition),
+    !.
+
+%!  gave_up(+Limit, +Far) is det.
+%!  was_given_up(-Limit, -Far) is semidet.
+%
+%   Remember the first search of a step that gave up at its Limit, and how Far
+%   it came. unblock/0 forgets it.
+
+gave_up(Limit, Far) :-
+    assertz(gave_up_(Limit, Far)).
+
+was_given_up(Limit, Far) :-
+    gave_up_(Limit, Far),
     !.

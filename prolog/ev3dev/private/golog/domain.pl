@@ -19,6 +19,14 @@
                                         % +Context
             chosen/3,                   % +Choices, +Situation, +Context
             condition_of/3,             % +Condition, -Body, +Context
+            sensed_later/4,             % +Action, +Situation0, -Situation,
+                                        % +Context
+            fluent_in/4,                % +Condition, -Fluent, +Situation,
+                                        % +Context
+            opened/4,                   % +Condition, +Situation0, -Situation,
+                                        % +Context
+            assumed/3,                  % +Case, +Situation0, -Situation
+            branch_on/3,                % +Fluent, +Condition, +Context
             fluents_now/3               % +Situation, +Context, -Pairs
           ]).
 :- use_module(library(assoc),
@@ -27,15 +35,16 @@
               ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
-              [ call_of/3, context_module/2, entered/4,
-                print_once/3
+              [ call_of/3, context_effort/2, context_module/2,
+                context_option/2, entered/4, is_recorded/1, print_once/3
               ]).
+:- use_module(effort, [polled/1]).
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
 :- use_module(theory,
-              [ domain_list/3, initial_value/3, is_fluent/2, is_kind/3,
-                is_sensing_action/2, is_set_by_exogenous/2, located/3,
-                proc_body/3
+              [ domain_list/3, has_clauses/2, initial_value/3, is_fluent/2,
+                is_kind/3, is_sensing_action/2, is_set_by_exogenous/2,
+                located/3, proc_body/3
               ]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -469,9 +478,11 @@ value(F, V, s(_, _, Values, Open, _), Context, M) :-
     (   V1 == '$initial'
     ->  (   initial_value(F, V3, M)
         ->  V = V3
-        ;   no_initial_value(F, M),
+        ;   no_initial_value(F, M, Context),
             fail
         )
+    ;   V1 == '$sensed'
+    ->  throw('$golog_unknown'(F))
     ;   V1 \== '$unknown',
         V = V1
     ).
@@ -489,21 +500,28 @@ open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
     ).
 
 %   A fluent without a value: no condition about it holds. That is as it
-%   should be if its value is sensed or comes from outside; else it is most
-%   likely forgotten.
+%   should be if its value comes from outside; else it is most likely
+%   forgotten, or the program asks before it looks. A plan may well do that,
+%   as it does not look; it is made again then.
 
-no_initial_value(F, M) :-
+no_initial_value(F, M, Context) :-
+    (   is_kind(relational, F, M)
+    ->  Kind = informational
+    ;   Kind = warning
+    ),
     (   is_kind(initial, F, M)
     ->  true
     ;   is_kind(sensed, F, M)
-    ->  true
-    ;   is_kind(relational, F, M)
-    ->  located(M, fluent(F), Where),
-        print_once(M, informational, no_initial_value(Where, F))
-    ;   is_set_by_exogenous(F, M)
+    ->  (   is_recorded(Context)
+        ->  located(M, fluent(F), Where),
+            print_once(M, Kind, not_sensed_yet(Where, F))
+        ;   true
+        )
+    ;   Kind == warning,
+        is_set_by_exogenous(F, M)
     ->  true
     ;   located(M, fluent(F), Where),
-        print_once(M, warning, no_initial_value(Where, F))
+        print_once(M, Kind, no_initial_value(Where, F))
     ).
 
 %!  fluents_now(+Situation, +Context, -Pairs) is det.
@@ -528,7 +546,7 @@ known_value(F, V, S, Context) :-
     context_module(Context, M),
     S = s(_, _, Values, _, _),
     (   get_assoc(F, Values, _)
-    ->  true
+    ->  \+ F = '$assumed'(_)
     ;   is_kind(initial, F, M)
     ),
     value(F, V, S, Context, M).
@@ -618,7 +636,14 @@ holds(P, S, Context) :-
 holds_(P, S, Context) :-
     (   condition_construct(P)
     ->  holds_construct(P, S, Context)
-    ;   P = _:_
+    ;   context_option(conditional, Context)
+    ->  catch(holds_atom(P, S, Context), '$golog_unknown'(F),
+              holds_if_assumed(P, F, S, Context))
+    ;   holds_atom(P, S, Context)
+    ).
+
+holds_atom(P, S, Context) :-
+    (   P = _:_
     ->  call_of(P, P, Context)
     ;   context_module(Context, M),
         is_kind(proc, P, M)
@@ -722,6 +747,212 @@ is_known(F0, S, X) :-
     ;   holds(neg(F0), S, X)
     ).
 
+                /*******************************
+                *     WHAT WILL BE SENSED      *
+                *******************************/
+
+%   A conditional plan is made before its actions have sensed anything. After
+%   a sensing action the value of its fluent is '$sensed'. A condition that
+%   depends on it cannot be decided, but its cases can be assumed one by one:
+%   '$golog_branch'(Cases) is thrown, and the planner goes on in each. So a
+%   plan never relies on a value that it does not test. A case is
+%   Test-Assumption; the Test of the last may be `else`.
+
+%!  sensed_later(+Action, +Situation0, -Situation, +Context) is det.
+%
+%   Action has been done in Situation0, and what it senses is open. If it
+%   senses anything, the history gets a mark, so that no plan goes on.
+
+sensed_later(A, S0, S, Context) :-
+    context_module(Context, M),
+    findall(F, sensed_fluent(A, F, M), Fs),
+    (   Fs == []
+    ->  S = S0
+    ;   marked('$sensed', S0, S1),
+        all_open(Fs, S1, S)
+    ).
+
+sensed_fluent(A, F, M) :-
+    is_sensing_action(A, M),
+    (   M:senses(A, F)
+    ;   M:senses(A, _, F, _, _)
+    ),
+    ( ground(F) -> true ; is_fluent(F, M) ).
+
+all_open(Fs, s(H, C, Values0, Open, Done), s(H, C, Values, Open, Done)) :-
+    open_values(Fs, v(C, '$sensed'), Values0, Values).
+
+open_values([], _, Values, Values).
+open_values([F|Fs], Value, Values0, Values) :-
+    put_assoc(F, Values0, Value, Values1),
+    open_values(Fs, Value, Values1, Values).
+
+%!  opened(+Condition, +Situation0, -Situation, +Context) is det.
+%
+%   The values of the fluents in Condition are open, whatever they are in
+%   Situation0.
+
+opened(P, S0, S, Context) :-
+    (   ground(P),
+        \+ quantified(P)
+    ->  findall(F, fluent_in(P, F, S0, Context), Fs),
+        all_open(Fs, S0, S)
+    ;   no_branch(P, 'it has variables', Context)
+    ).
+
+quantified(P) :-
+    compound(P),
+    (   functor(P, Name, Arity),
+        memberchk(Name/Arity, [some/2, some/3, all/2, all/3])
+    ->  true
+    ;   arg(_, P, Q),
+        quantified(Q)
+    ->  true
+    ).
+
+%!  fluent_in(+Condition, -Fluent, +Situation, +Context) is nondet.
+%
+%   Condition asks for the value of Fluent.
+
+fluent_in(P, F, S, Context) :-
+    callable(P),
+    context_module(Context, M),
+    (   \+ condition_construct(P),
+        is_kind(proc, P, M)
+    ->  condition_of(P, Body, Context),
+        entered(condition, P, Context, Context1),
+        fluent_in(Body, F, S, Context1)
+    ;   is_kind(fluent, P, M),
+        arguments_known(P, F, S, Context, M),
+        known_or_declared(F, S, M)
+    ;   compound(P),
+        arg(_, P, Q),
+        fluent_in(Q, F, S, Context)
+    ).
+
+%   holds_if_assumed(+Condition, +Fluent, +Situation, +Context): the value of
+%   Fluent is open. True if Condition is assumed to hold.
+
+holds_if_assumed(P0, F, S, Context) :-
+    context_module(Context, M),
+    (   P0 == F
+    ->  P = F
+    ;   arguments_known(P0, P1, S, Context, M),
+        value_last(P1, P)
+    ),
+    (   is_assumed(P, S, Truth)
+    ->  Truth == true
+    ;   branch_on(F, P, Context)
+    ).
+
+value_last(P0, P) :-
+    (   nonvar(P0),
+        ( P0 = (Value = F) ; P0 = (Value == F) ),
+        atomic(Value),
+        compound(F)
+    ->  P = (F = Value)
+    ;   P = P0
+    ).
+
+%!  branch_on(+Fluent, +Condition, +Context)
+%
+%   Throw the cases in which Condition is to be planned for, as the value of
+%   Fluent is open: its values if the domain names them, else that Condition
+%   holds, and that it does not. Condition is `none` if Fluent is needed for
+%   something else, such as the argument of an action.
+%
+%   @error domain_error(golog_branch, Condition) if it has variables, or
+%          Fluent
+
+branch_on(F, P, Context) :-
+    (   cases(F, P, Context, Cases)
+    ->  throw('$golog_branch'(Cases))
+    ;   P == none
+    ->  no_branch(F, 'an action or an effect needs its value', Context)
+    ;   no_branch(P, 'it has variables', Context)
+    ).
+
+cases(F, _, Context, Cases) :-
+    context_module(Context, M),
+    (   is_kind(relational, F, M)
+    ->  Cases = [F-is(F, true), else-is(F, false)]
+    ;   has_clauses(M, sensed_values(_, _)),
+        M:sensed_values(F, Sort)
+    ->  domain_list(Sort, M, Values),
+        findall((F = V)-is(F, V), member(V, Values), Cases)
+    ).
+cases(F, P, _, [P-Case, else-holds(P, false)]) :-
+    P \== none,
+    ground(P),
+    (   P == F
+    ->  Case = is(F, true)
+    ;   ( P = (Of = Value) ; P = (Of == Value) ),
+        Of == F,
+        atomic(Value)
+    ->  Case = is(F, Value)
+    ;   Case = holds(P, true)
+    ).
+
+%   Fluents with a known value are replaced by it.
+
+with_known(T0, T, S, Context, M) :-
+    arguments_known(T0, T1, S, Context, M),
+    (   callable(T1),
+        ground(T1),
+        is_kind(fluent, T1, M),
+        known_or_declared(T1, S, M)
+    ->  catch(value(T1, T, S, Context, M), '$golog_unknown'(_), T = T1)
+    ;   T = T1
+    ).
+
+arguments_known(T0, T, S, Context, M) :-
+    (   compound(T0)
+    ->  T0 =.. [Name|As0],
+        all_known(As0, As, S, Context, M),
+        T =.. [Name|As]
+    ;   T = T0
+    ).
+
+all_known([], [], _, _, _).
+all_known([A0|As0], [A|As], S, Context, M) :-
+    with_known(A0, A, S, Context, M),
+    all_known(As0, As, S, Context, M).
+
+%   Assumed since the last of its open fluents was sensed
+
+is_assumed(P, s(_, _, Values, _, _), Truth) :-
+    ground(P),
+    get_assoc('$assumed'(P), Values, v(C, Truth)),
+    \+ ( open_since(P, Values, C1),
+         C1 > C ).
+
+open_since(P, Values, C) :-
+    callable(P),
+    (   get_assoc(P, Values, v(C, '$sensed'))
+    ;   compound(P),
+        arg(_, P, Q),
+        open_since(Q, Values, C)
+    ).
+
+%!  assumed(+Case, +Situation0, -Situation) is det.
+%
+%   Case is is(Fluent, Value), or holds(Condition, Truth).
+
+assumed(Case, s(H, C, Values0, Open, Done), s(H, C, Values, Open, Done)) :-
+    (   Case = is(F, V)
+    ->  put_assoc(F, Values0, v(C, V), Values)
+    ;   Case = holds(P, Truth),
+        put_assoc('$assumed'(P), Values0, v(C, Truth), Values)
+    ).
+
+no_branch(P, Why, Context) :-
+    context_module(Context, M),
+    located(M, in_program(P), Where),
+    format(atom(Text), '~wno plan can branch on ~p, which is still to be \c
+                        sensed: ~w. A sensed_values/2 for the fluent would \c
+                        help', [Where, P, Why]),
+    throw_error(domain_error(golog_branch, P), _, Text).
+
 %!  chosen(?Choices, +Situation, +Context) is nondet.
 %
 %   Gives each variable of Choices with a domain a value of it, on
@@ -733,6 +964,8 @@ chosen([V-D|Choices], S, Context) :-
     ->  domain_value(V, Domain, S, Context)
     ;   true
     ),
+    context_effort(Context, Effort),
+    polled(Effort),
     chosen(Choices, S, Context).
 
 %!  domain_value(-Value, +Domain, +Situation, +Context) is nondet.

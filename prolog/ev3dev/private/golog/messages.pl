@@ -13,12 +13,25 @@ words(no_initial_value(Where, Fluent)) -->
     [ '~wthe fluent ~q has no initial value: '-[Where, Name/Arity],
       'there is no initially/2 for it, and conditions about it do not hold'-[]
     ].
+words(not_sensed_yet(Where, Fluent)) -->
+    { functor(Fluent, Name, Arity) },
+    [ '~wthe fluent ~q has no value before it is sensed: '-
+      [Where, Name/Arity],
+      'until then conditions about it do not hold. know/1 asks for that, \c
+       and initially/2 gives a value'-[]
+    ].
 words(history(History)) -->
     [ 'History: ~p'-[History] ].
 words(search(What, Message)) -->
     [ 'Search: ' ],
     message_words(Message),
     outcome(What).
+words(gave_up(Limit, Far)) -->
+    [ 'Golog: ' ],
+    reason(gave_up(Limit, Far)).
+words(out_of_time(Far)) -->
+    [ 'Golog: the time was up while a step was looked for; ' ],
+    far(Far).
 words(ended(Count)) -->
     [ 'Golog: the program ended, ~D entries in the history'-[Count] ].
 words(not_ended(Reason)) -->
@@ -39,6 +52,8 @@ words(executing(Action)) -->
     [ 'Executing ~p'-[Action] ].
 words(which_exogenous(Actions)) -->
     [ 'What has happened? One of ~p, or nil.'-[Actions] ].
+words(why_not(Action, Why)) -->
+    hindrance(Why, Action).
 words(report(_, Message)) -->
     message_words(Message).
 
@@ -72,7 +87,72 @@ reason(timeout) -->
     [ 'the time is up' ].
 reason(limit) -->
     [ 'the limit of steps is reached' ].
+reason(gave_up(Limit, Far)) -->
+    { Limit =.. [Name, Most] },
+    [ 'a search gave up at its limit of ~w ~w; '-[Most, Name] ],
+    far(Far).
 reason(failed(Action)) -->
     [ 'the action ~p failed'-[Action] ].
 reason(exception(Error)) -->
     [ 'an exception: ~p'-[Error] ].
+
+far(Far) -->
+    { memberchk(steps(Steps), Far),
+      memberchk(depth(Depth), Far),
+      memberchk(seconds(Seconds), Far)
+    },
+    [ 'it had tried ~D steps, at most ~D in a row, in ~2f s'-
+      [Steps, Depth, Seconds] ].
+
+hindrance(no_action, Action) -->
+    [ '~p is no action of the domain'-[Action] ].
+hindrance(not_possible([]), Action) -->
+    [ '~p is not possible: there is no poss/2 for it'-[Action] ].
+hindrance(not_possible([Failure|Failures]), Action) -->
+    [ '~p is not possible: '-[Action] ],
+    failures([Failure|Failures]).
+hindrance(priority(Other, Interrupts), Action) -->
+    [ '~p has to wait: ~p has a higher priority'-[Action, Other] ],
+    around(Interrupts).
+hindrance(before(Other, Interrupts), Action) -->
+    [ '~p has to wait: ~p comes first'-[Action, Other] ],
+    around(Interrupts).
+hindrance(interrupt(Part, Values), Action) -->
+    [ '~p is for an interrupt: '-[Action] ],
+    false_part(Part, Values).
+hindrance(not_offered, Action) -->
+    [ '~p is possible, but the program does not go on with it'-[Action] ].
+hindrance(nothing, Action) -->
+    [ '~p comes next: nothing stands in its way'-[Action] ].
+
+failures([failure(Part, Values, Place)|Failures]) -->
+    false_part(Part, Values),
+    (   { Place = File:Line }
+    ->  { file_base_name(File, Base) },
+        [ ' (poss/2, ~w:~d)'-[Base, Line] ]
+    ;   []
+    ),
+    (   { Failures == [] }
+    ->  []
+    ;   [ '; '-[] ],
+        failures(Failures)
+    ).
+
+false_part(Part, Values) -->
+    [ '~p does not hold'-[Part] ],
+    (   { Values == [] ; Values = [Part = _] }
+    ->  []
+    ;   [ ', as '-[] ],
+        values(Values)
+    ).
+
+values([Value]) -->
+    [ '~p'-[Value] ].
+values([Value, Next|Values]) -->
+    [ '~p and '-[Value] ],
+    values([Next|Values]).
+
+around([]) -->
+    [].
+around([Condition|_]) -->
+    [ ', by the interrupt ~p'-[Condition] ].

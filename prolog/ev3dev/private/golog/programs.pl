@@ -62,6 +62,7 @@ construct(rconc(_, _)).
 construct(rrobin(_)).
 construct(atomic(_)).
 construct('$atomic'(_)).
+construct('$within'(_, _)).
 construct(for(_, _, _)).
 construct(??(_)).
 construct(exogint(_, _)).
@@ -115,6 +116,7 @@ parts(gexec2(C, E0), own, [E0], [E], gexec2(C, E)).
 parts(goal(P, E0, F, R), own, [E0], [E], goal(P, E, F, R)).
 parts(atomic(E0), first, [E0], [E], atomic(E)).
 parts('$atomic'(E0), all, [E0], [E], '$atomic'(E)).
+parts('$within'(Note, E0), all, [E0], [E], '$within'(Note, E)).
 parts(exogint(E0, P), all, [E0], [E], exogint(E, P)).
 parts(time(E0, Seconds), first, [E0], [E], time(E, Seconds)).
 parts(ttime(E0, Seconds), all, [E0], [E], ttime(E, Seconds)).

@@ -2,28 +2,33 @@
           [ run_online/4,               % :Program, +Settings, -Reason,
                                         % -History
             recorded_history/1,         % -History
-            situation_of_run/4          % +History, +Module, -Situation,
+            situation_of_run/4,         % +History, +Module, -Situation,
                                         % +Context
+            state_of_run/3              % +Module, -Program, -Situation
           ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(context,
-              [ context/3, context_module/2, print_again/1, recorded_step/3,
-                recording/3, unblock/0, was_blocked/2
+              [ context/3, context_module/2, print_again/1, recorded_notes/2,
+                recorded_step/3, recording/4, unblock/0, was_blocked/2,
+                was_given_up/2
               ]).
 :- use_module(domain,
               [ done/4, entries_done/4, history_shortened/3, situation/3,
                 situation_count/2, situation_history/2
               ]).
+:- use_module(effort, [how_far/2, in_trial/1]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
-              [has_clauses/2, is_kind/3, prepare/1, refuse_epistemic/1]).
+              [ has_clauses/2, is_kind/3, prepare/1, proc_place/4,
+                refuse_epistemic/1
+              ]).
 :- use_module(transitions,
-              [ is_final/3, is_preempted/4, made_possible/4, program_shown/2,
-                simplified/3, step/5
+              [ higher_can_step/3, is_final/3, is_preempted/4,
+                made_possible/4, program_shown/2, simplified/3, step/5
               ]).
 :- use_module(waiting,
               [ causes_wanted/1, clock/2, followed/1, for_causes/2, pause/4,
-                robot_stopped/1
+                robot_stopped/2
               ]).
 :- use_module(world,
               [ agent_begins/1, agent_ends/1, executed/6, exogenous_seen/2,
@@ -59,14 +64,16 @@ run_online(M:E, Settings, Reason, History) :-
     simplified(E, E1, X),
     Ended = ended(none),
     situation_noted(Outer),
-    setup_call_cleanup(
+    setup_call_catcher_cleanup(
         begun(M, Initial, Keep),
-        ( b_setval(ev3dev_golog_now, now(M, S)),
+        ( b_setval(ev3dev_golog_now, now(M, S, E1)),
           initialized(M),
           deadline(Timeout, Robot, Deadline),
-          cycle(at(E1, S, quiet), 0, r(X, Agent, Settings, Deadline), Reason),
+          cycle(at(E1, S, quiet), 0,
+                r(X, Agent, Settings, Deadline, again(0)), Reason),
           nb_setarg(1, Ended, Reason) ),
-        finished(M, Robot, Ended)),
+        Catcher,
+        finished(M, Robot, Ended, Catcher)),
     b_setval(ev3dev_golog_now, Outer),
     recorded_history(History).
 
@@ -82,11 +89,16 @@ begun(M, Initial, Keep) :-
 initialized(M) :-
     ignore_if_defined(M, initialize).
 
-finished(M, Robot, Ended) :-
+finished(M, Robot, ended(Reason0), Catcher) :-
     agent_ends(M),
-    (   Ended = ended(final)
+    (   nb_current(ev3dev_golog_now, now(M, S, E))
+    ->  nb_setval(ev3dev_golog_last, last(M, S, E))
+    ;   true
+    ),
+    (   Reason0 == final
     ->  true
-    ;   robot_stopped(Robot)
+    ;   ( Reason0 == none -> Reason = Catcher ; Reason = Reason0 ),
+        robot_stopped(Robot, golog(ended(Reason)))
     ),
     ignore_if_defined(M, finalize).
 
@@ -103,7 +115,7 @@ deadline(Timeout, Robot, Deadline) :-
         Deadline is Now+Timeout
     ).
 
-is_over(r(_, agent(_, Robot, _, _), _, Deadline)) :-
+is_over(r(_, agent(_, Robot, _, _), _, Deadline, _)) :-
     Deadline \== infinite,
     clock(Robot, Now),
     Now >= Deadline.
@@ -148,7 +160,7 @@ recorded_history(History) :-
 %   again, and what the record has forgotten still counts.
 
 situation_of_run(History, Module, S, X) :-
-    nb_current(ev3dev_golog_now, now(Module, S0)),
+    nb_current(ev3dev_golog_now, now(Module, S0, _)),
     situation_count(S0, C),
     entry_record(C, Newest),
     C1 is C+1,
@@ -165,9 +177,23 @@ situation_of_run(History, Module, S, X) :-
 %   whole run. A global variable that is set at each step would keep all
 %   situations.
 
-note_situation(S) :-
+note_state(E, S) :-
     b_getval(ev3dev_golog_now, Now),
-    nb_linkarg(2, Now, S).
+    nb_linkarg(2, Now, S),
+    nb_linkarg(3, Now, E).
+
+%!  state_of_run(+Module, -Program, -Situation) is semidet.
+%
+%   Program and Situation are those of the run of Module in this thread, or of
+%   the last one.
+
+state_of_run(Module, E, S) :-
+    (   nb_current(ev3dev_golog_now, now(Module, S0, E0))
+    ->  true
+    ;   nb_current(ev3dev_golog_last, last(Module, S0, E0))
+    ),
+    S = S0,
+    E = E0.
 
 situation_noted(Now) :-
     (   nb_current(ev3dev_golog_now, Now0)
@@ -182,30 +208,55 @@ situation_noted(Now) :-
 %   cycle(+State, +Steps, +Run, -Reason). A state is at(Program, Situation,
 %   News). News is `news` if an exogenous action has come since the last
 %   primitive action and since the last wait, else `quiet`. A run is
-%   r(Context, Agent, Settings, Deadline).
+%   r(Context, Agent, Settings, Deadline, Again): again(N) counts how often in
+%   a row a step was given up for news, in place.
 
-cycle(State0, Steps0, R, Reason) :-
-    R = r(X, Agent, Settings, _),
+cycle(State0, Steps0, R0, Reason) :-
+    R0 = r(_, Agent, Settings, _, _),
     exogenous_seen(Agent, Actions),
-    happened(Actions, State0, at(E, S1, News), R, Stop),
-    note_situation(S1),
+    happened(Actions, State0, at(E, S1, News), R0, Stop),
+    note_state(E, S1),
+    Steps is Steps0+1,
+    watching(Steps, S1, R0, R),
     arg(5, Settings, Limit),
     (   Stop == stop
     ->  Reason = stopped
-    ;   is_final(E, S1, X)
-    ->  Reason = final
+    ;   may_end(E, S1, R, Left)
+    ->  ending(Left, at(E, S1, News), Steps0, R0, Reason)
     ;   Limit \== infinite,
         Steps0 >= Limit
     ->  Reason = limit
     ;   is_over(R)
     ->  Reason = timeout
-    ;   Steps is Steps0+1,
-        shortened(Steps, S1, S),
-        taken(Steps, at(E, S, News), R, State, Next),
+    ;   shortened(Steps, S1, S),
+        taken(at(E, S, News), R, State, Next),
         (   Next == on
-        ->  cycle(State, Steps, R, Reason)
+        ->  cycle(State, Steps, R0, Reason)
         ;   Reason = Next
         )
+    ).
+
+%   watching(+Number, +Situation, +Run0, -Run): Run has the context of the
+%   step Number, during which watched/5 is called.
+
+watching(Number, S, R0, R) :-
+    R0 = r(X0, Agent, Settings, Deadline, Again),
+    get_time(Now),
+    Watch = watched(S, R0, began(Now, none)),
+    recording(Number, ev3dev_golog_run:Watch, X0, X),
+    R = r(X, Agent, Settings, Deadline, Again).
+
+%   Left is unbound, or why the question was given up.
+
+may_end(E, S, r(X, _, _, _, _), Left) :-
+    catch(is_final(E, S, X), '$golog_left'(Left), true).
+
+ending(Left, State, Steps, R, Reason) :-
+    (   var(Left)
+    ->  Reason = final
+    ;   Left == on
+    ->  cycle(State, Steps, R, Reason)
+    ;   Reason = Left
     ).
 
 shortened(Steps, S0, S) :-
@@ -232,7 +283,7 @@ happened([Seen|As], State0, State, R, Stop) :-
     ).
 
 entered(Entry, S0, S, R) :-
-    R = r(X, _, _, _),
+    R = r(X, _, _, _, _),
     done(Entry, S0, S, X),
     situation_count(S, C),
     record(C, Entry).
@@ -243,7 +294,7 @@ entered_all([Entry|Entries], S0, S, R) :-
     entered_all(Entries, S1, S, R).
 
 traced(Event, R) :-
-    R = r(_, _, Settings, _),
+    R = r(_, _, Settings, _, _),
     arg(2, Settings, Trace),
     (   Trace = trace(Closure)
     ->  ignore(call(Closure, Event))
@@ -254,29 +305,112 @@ traced(Event, R) :-
     ;   followed(Event)
     ).
 
-%   taken(+Number, +State0, +Run, -State, -Next): the first step. Next is `on`
-%   or the reason why the run ends.
+%   taken(+State0, +Run, -State, -Next): the first step. Next is `on` or the
+%   reason why the run ends.
 
-taken(Steps, State0, R0, State, Next) :-
-    R0 = r(X0, Agent, Settings, Deadline),
-    recording(Steps, X0, X),
-    R = r(X, Agent, Settings, Deadline),
+taken(State0, R, State, Next) :-
+    R = r(X, _, _, _, _),
     State0 = at(E0, S0, _),
     unblock,
-    (   step(E0, S0, E1, S1, X),
-        performed(E1, S1, State0, R, at(E2, S, News), Next0)
+    (   catch(step(E0, S0, E1, S1, X), '$golog_left'(Why),
+              (   Left = Why,
+                  E1 = E0,
+                  S1 = S0 )),
+        performed_or_left(Left, E1, S1, State0, R, at(E2, S, News), Next0)
     ->  simplified(E2, E, X),
         State = at(E, S, News),
         Next = Next0,
         traced_step(E, R)
+    ;   was_given_up(Limit, Far)
+    ->  Next = gave_up(Limit, Far)
     ;   was_blocked(A, Condition)
     ->  Next = not_possible(A, Condition)
     ;   program_shown(E0, E),
         Next = no_step(E)
     ).
 
+performed_or_left(Left, E, S, State0, R, State, Next) :-
+    (   var(Left)
+    ->  performed(E, S, State0, R, State, Next),
+        R = r(_, _, _, _, Again),
+        nb_setarg(1, Again, 0)
+    ;   State = State0,
+        Next = Left
+    ).
+
+%   watched(+Situation, +Run, +Began, +Record, +Effort): the step that is
+%   looked for in Situation is given up if the time of the run is up, or if
+%   something has happened meanwhile. It is called every 15 ms, see effort.pl.
+%   Began is began(Wall, Seconds): on the wall, and by the clock of the robot
+%   when this was called last, in place.
+%
+%   On a virtual clock no time passes while a program computes, so that of the
+%   wall counts for the limit, and the robot need not be asked. The step is
+%   looked for again after what has happened, but at most three times in a
+%   row, unless a part with a higher priority can take one now.
+
+:- public watched/5.
+
+watched(S0, R, Began, Record, Effort) :-
+    (   is_over(R, Began, Effort)
+    ->  how_far(Effort, Far),
+        print_message(informational, golog(out_of_time(Far))),
+        left(timeout)
+    ;   R = r(_, Agent0, _, _, _),
+        seen_meanwhile(Agent0, Began, Effort, New, All),
+        forall(member(A, New), traced(exog(A), R)),
+        New = [_|_],
+        is_for_news(New, All, S0, R, Record)
+    ->  left(on)
+    ;   true
+    ).
+
+left(Why) :-
+    throw('$golog_left'(Why)).
+
+is_over(R, _, Effort) :-
+    \+ in_trial(Effort),
+    is_over(R),
+    !.
+is_over(r(_, _, Settings, _, _), began(Wall0, _), _) :-
+    arg(6, Settings, Timeout),
+    Timeout \== infinite,
+    get_time(Wall),
+    Wall-Wall0 >= Timeout.
+
+seen_meanwhile(agent(M, Robot0, Queue, Device), Began, Effort, New, All) :-
+    (   Robot0 == robot,
+        stands_still(Began, Effort)
+    ->  Robot = none
+    ;   Robot = Robot0
+    ),
+    exogenous_noticed(agent(M, Robot, Queue, Device), New, All).
+
+stands_still(Began, Effort) :-
+    (   in_trial(Effort)
+    ->  true
+    ;   arg(2, Began, Before),
+        clock(robot, Now),
+        nb_setarg(2, Began, Now),
+        ( Before == none ; Now =:= Before )
+    ),
+    !.
+
+is_for_news(New, All, S0, r(X, _, _, _, Again), Record) :-
+    (   member(A, New),
+        stops_run(A)
+    ->  true
+    ;   arg(1, Again, Times),
+        Times < 3
+    ->  Times1 is Times+1,
+        nb_setarg(1, Again, Times1)
+    ;   entries_done(All, S0, S, X),
+        recorded_notes(Record, Notes),
+        higher_can_step(Notes, S, X)
+    ).
+
 traced_step(E0, R) :-
-    R = r(_, _, Settings, _),
+    R = r(_, _, Settings, _, _),
     (   arg(2, Settings, none)
     ->  true
     ;   forall(replanned_since(Again), traced(replanned(Again), R)),
@@ -299,7 +433,7 @@ performed(E, S, State0, R, State, Next) :-
         newest(More, S, [Entry|Before]),
         record_before(Before, C),
         (   mark(Entry, Use),
-            R = r(X, _, _, _),
+            R = r(X, _, _, _, _),
             context_module(X, M),
             \+ is_kind(action, Entry, M)
         ->  (   Use == wait
@@ -335,7 +469,7 @@ mark(e(_, _), kept).
 
 acted(A, E, S1, State0, R, State, Next) :-
     State0 = at(E0, S0, News),
-    R = r(X, Agent, Settings, _),
+    R = r(X, Agent, Settings, _, _),
     Agent = agent(M, Robot, _, _),
     situation_history(S0, History),
     traced(action(A), R),
@@ -374,13 +508,20 @@ acted(A, E, S1, State0, R, State, Next) :-
     ).
 
 %   What library(ev3dev/journal) tells about the commands of an action: its
-%   step, what made it possible, and the interrupts that it belongs to.
+%   step, what made it possible, where it stands in the program, and the
+%   interrupts that it belongs to.
 
 causes(A, S, X, [golog(Number, A, Condition)|Causes]) :-
     recorded_step(X, Number, Notes),
     made_possible(A, Condition, S, X),
+    (   memberchk(proc(Proc), Notes)
+    ->  context_module(X, M),
+        proc_place(Proc, A, M, Place),
+        Causes = [proc(Proc, Place)|Interrupts]
+    ;   Causes = Interrupts
+    ),
     Interrupt = interrupt(_),
-    findall(Interrupt, member(Interrupt, Notes), Causes).
+    findall(Interrupt, member(Interrupt, Notes), Interrupts).
 
 %   The newest entries of a situation, and the record of all but the last
 
@@ -403,7 +544,7 @@ record_before([Entry|Entries], C1) :-
 :- public is_to_end/4.
 
 is_to_end(E0, E, S0, R) :-
-    R = r(X, Agent, _, _),
+    R = r(X, Agent, _, _, _),
     exogenous_noticed(Agent, New, All),
     forall(member(A, New), traced(exog(A), R)),
     (   is_over(R)
@@ -423,7 +564,7 @@ is_to_end(E0, E, S0, R) :-
 
 waited(E, State0, R, State) :-
     State0 = at(_, S0, News),
-    R = r(_, Agent, _, Deadline),
+    R = r(_, Agent, _, Deadline, _),
     Agent = agent(_, Robot, Queue, _),
     (   News == news
     ->  State = at(E, S0, quiet)

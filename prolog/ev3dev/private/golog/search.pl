@@ -3,15 +3,20 @@
             found_path/4                % +Module, +Start, +End, -Moves
           ]).
 :- use_module(library(assoc), [empty_assoc/1, list_to_assoc/2]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(context,
-              [ context/3, context_module/2, context_option/2 ]).
-:- use_module(domain,
-              [ done/4, fluents_now/3, holds/3, marked/3,
-                situation_count/2, situation_history/2
+              [ context_effort/2, context_module/2, context_option/2,
+                gave_up/2, searching/4
               ]).
+:- use_module(domain,
+              [ assumed/3, branch_on/3, done/4, fluents_now/3, holds/3,
+                marked/3, opened/4, sensed_later/4, situation_count/2,
+                situation_history/2
+              ]).
+:- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
+:- use_module('../errors', [domain_error/2]).
 :- use_module(simulated, [simulation_kept/1, tried_in_simulator/5]).
 
 /** <module> Search: plans that are found before they are carried out
@@ -26,8 +31,9 @@ step adds to the history, or `none`. As long as the history grows by the
 plan's own steps only, the plan is followed. Otherwise, as after an exogenous
 action, the search begins again, with the program that remains.
 
-If the search goes deeper than a limit, or takes more steps or seconds than a
-limit, it begins again by iterative deepening.
+If the search goes deeper than a limit, or takes more steps than a limit, it
+begins again by iterative deepening. At a limit of gives_up/1 it fails, and so
+does its deepening.
 
 Sources: De Giacomo, Levesque: An incremental interpreter for high-level
 programs with sensing (1999); Sardina: Local conditional high-level robot
@@ -47,9 +53,12 @@ ev3dev_golog_transitions:step_construct(search(E, M, Options), S,
 ev3dev_golog_transitions:step_construct(searchn(E, _), S, E1, S1, X) :-
     search_step(E, [], S, E1, S1, X).
 ev3dev_golog_transitions:step_construct(searchc(E), S, Plan, S, X) :-
-    conditional_plan(E, S, Plan, X).
-ev3dev_golog_transitions:step_construct(searchc(E, _), S, Plan, S, X) :-
-    conditional_plan(E, S, Plan, X).
+    conditional_plan(E, [], S, Plan, X).
+ev3dev_golog_transitions:step_construct(searchc(E, M), S, Plan, S, X) :-
+    (   is_options(M)
+    ->  conditional_plan(E, M, S, Plan, X)
+    ;   conditional_plan(E, [], S, Plan, X)
+    ).
 ev3dev_golog_transitions:step_construct('$path'(E, Path, At, Options), S,
                                         E1, S1, X) :-
     path_step(E, Path, At-Options, S, E1, S1, X).
@@ -89,33 +98,75 @@ is_options(Options) :-
 is_search_option(Option) :-
     compound(Option),
     functor(Option, Name, 1),
-    memberchk(Name, [depth, steps, timeout, simulate, message]).
+    memberchk(Name, [depth, steps, gives_up, timeout, simulate, message]).
 
 %   search_step(+Program0, +Options, +Situation0, -Program, -Situation,
 %   +Context) is nondet.
 
 search_step(E, Options, S, E1, S1, X) :-
-    offline(X, Options, X1),
     (   memberchk(simulate(true), Options)
-    ->  simulation_kept(search_committed(E, Options, S, Path, X1))
-    ;   search_committed(E, Options, S, Path, X1)
+    ->  simulation_kept(search_committed(E, Options, S, Path, X))
+    ;   search_committed(E, Options, S, Path, X)
     ),
     path_begun(E, Path, Options, S, E1, S1, X).
 
-search_committed(E, Options, S, Path, X) :-
-    catch(search_path(E, Options, S, Path, X), '$golog_committed', fail).
+search_committed(E, Options, S, Path, X0) :-
+    offline(X0, Options, X),
+    limited(search_path(E, Options, S, Path, X), X).
+
+%   limited(:Goal, +Context) is nondet.
+%   Goal is a search with Context. It fails when it gives up.
+
+:- meta_predicate limited(0, +).
+
+limited(Goal, X) :-
+    context_effort(X, Effort),
+    effort_id(Effort, Id),
+    catch(catch(Goal, '$golog_committed', fail),
+          '$golog_gave_up'(Id, Limit),
+          gives_up(Limit, Effort)).
+
+gives_up(Limit, Effort) :-
+    how_far(Effort, Far),
+    gave_up(Limit, Far),
+    print_message(informational, golog(gave_up(Limit, Far))),
+    fail.
+
+%   offline(+Context0, +Options, -Context) is det.
 
 offline(X0, Options, X) :-
-    context_module(X0, M),
     (   context_option(assume, X0)
     ->  Words0 = [assume]
     ;   Words0 = []
     ),
     (   memberchk(simulate(true), Options)
-    ->  Words = [simulate|Words0]
-    ;   Words = Words0
+    ->  Words1 = [simulate|Words0]
+    ;   Words1 = Words0
     ),
-    context(M, Words, X).
+    (   ( memberchk(conditional, Options) ; context_option(conditional, X0) )
+    ->  Words = [conditional|Words1]
+    ;   Words = Words1
+    ),
+    findall(Limit, ( member(Option, Options), limit_of(Option, Limit) ),
+            Limits),
+    searching(Words, Limits, X0, X).
+
+limit_of(timeout(Seconds), seconds(Seconds)) :-
+    must_be_limit(Seconds, timeout(Seconds)).
+limit_of(gives_up(Limit), Limit) :-
+    (   nonvar(Limit),
+        Limit =.. [Name, Most],
+        memberchk(Name, [steps, inferences, seconds])
+    ->  must_be_limit(Most, gives_up(Limit))
+    ;   domain_error(golog_option, gives_up(Limit))
+    ).
+
+must_be_limit(Most, Option) :-
+    (   number(Most),
+        Most >= 0
+    ->  true
+    ;   domain_error(golog_option, Option)
+    ).
 
 path_begun(_, [p(E1, Entry)|Path], Options, S, E2, S1, X) :-
     (   dropped(Entry),
@@ -150,10 +201,9 @@ is_mark(test(_)).
 %!  path_step(+E0, +Path, +AtOptions, +S0, -E, -S, +Context) is nondet.
 
 path_step(E, Path, At-Options, S, E1, S1, X) :-
-    Path = [_|_],
     (   on_track(At, S)
     ->  path_begun(E, Path, Options, S, E1, S1, X)
-    ;   replanned(E),
+    ;   replanned(E, X),
         (   Options == achieve
         ->  step(E, S, E1, S1, X)
         ;   search_step(E, Options, S, E1, S1, X)
@@ -167,20 +217,22 @@ on_track(at(Count, Top), S) :-
 %   path_is_final(+Program, +Path, +At, +Situation, +Context) is semidet.
 
 path_is_final(E, Path, At, S, X) :-
-    (   Path == []
-    ->  true
-    ;   \+ on_track(At, S),
-        is_final(E, S, X)
+    (   on_track(At, S)
+    ->  Path == []
+    ;   is_final(E, S, X)
     ).
 
 %!  replanned_since(-Program) is nondet.
 %
-%   Program is one that was searched again since this was asked last.
+%   Program is one that an online run has searched again since this was asked
+%   last.
 
 :- thread_local replanned_/1.
 
-replanned(E) :-
-    (   replanned_(E0),
+replanned(E, X) :-
+    (   \+ context_option(online, X)
+    ->  true
+    ;   replanned_(E0),
         E0 =@= E
     ->  true
     ;   assertz(replanned_(E))
@@ -196,22 +248,20 @@ replanned_since(E) :-
 %   search_path(+Program, +Options, +Situation, -Path, +Context) is nondet.
 
 search_path(E, Options, S, Path, X) :-
-    told(Options, begin, X),
+    told(Options, begin),
     limit(depth, Options, 2000, Depth),
     limit(steps, Options, 100000, Steps),
-    limit(timeout, Options, infinite, Timeout),
-    (   Timeout == infinite
-    ->  End = infinite
-    ;   get_time(Now),
-        End is Now+Timeout
-    ),
-    Budget = budget(Steps, End, 0),
-    (   catch(deep(E, S, Path, Depth, Budget, X), '$golog_limit'(Budget0),
-              limit_reached(Budget0, Budget, E, S, Path, X)),
-        nb_setarg(3, Budget, 1),
-        told(Options, found, X)
-    ;   arg(3, Budget, 0),
-        told(Options, none, X),
+    context_effort(X, Effort),
+    effort_id(Effort, Id),
+    Budget = budget(Steps, Depth, Id, Effort),
+    Found = found(no),
+    (   catch(deep(E, S, Path, 0, Budget, X), '$golog_deepen'(Id),
+              ( arg(1, Found, no),
+                deepened(8, E, S, Path, X) )),
+        nb_setarg(1, Found, yes),
+        told(Options, found)
+    ;   arg(1, Found, no),
+        told(Options, none),
         fail
     ).
 
@@ -222,11 +272,6 @@ limit(Name, Options, Default, Limit) :-
     ;   Limit = Default
     ).
 
-limit_reached(Budget0, Budget, E, S, Path, X) :-
-    Budget0 == Budget,
-    arg(3, Budget, 0),
-    deepened(8, E, S, Path, X).
-
 %   deep(+Program, +Situation, -Path, +Depth, +Budget, +Context) is nondet.
 %   After a step that `commit` marks there is no way back.
 
@@ -235,7 +280,7 @@ deep(E, S, Path, Depth, Budget, X) :-
         Path = []
     ;   one_more(Depth, Budget),
         searched_step(E, S, E1, S1, Entry, X),
-        Depth1 is Depth-1,
+        Depth1 is Depth+1,
         (   Entry == commit
         ->  Path = [p(E1, none)|Path1],
             (   deep(E1, S1, Path1, Depth1, Budget, X)
@@ -248,19 +293,14 @@ deep(E, S, Path, Depth, Budget, X) :-
     ).
 
 one_more(Depth, Budget) :-
-    arg(1, Budget, Steps0),
+    Budget = budget(Steps0, Deepest, Id, Effort),
+    counted(Depth, Effort),
     Steps is Steps0-1,
     nb_setarg(1, Budget, Steps),
     (   Steps >= 0,
-        Depth > 0,
-        arg(2, Budget, End),
-        (   End == infinite
-        ->  true
-        ;   get_time(Now),
-            Now < End
-        )
+        Depth < Deepest
     ->  true
-    ;   throw('$golog_limit'(Budget))
+    ;   throw('$golog_deepen'(Id))
     ).
 
 searched_step(E, S, E1, S1, Entry, X) :-
@@ -291,8 +331,9 @@ dropped(Entry) :-
 %   Iterative deepening; each limit is half as large again as the last.
 
 deepened(Limit, E, S, Path, X) :-
-    Cut = cut(false),
-    (   within(E, S, Path0, Limit, Cut, X)
+    context_effort(X, Effort),
+    Cut = cut(false, Limit, Effort),
+    (   within(E, S, Path0, 0, Cut, X)
     ->  Path = Path0
     ;   arg(1, Cut, true),
         Limit1 is Limit + Limit // 2,
@@ -302,13 +343,15 @@ deepened(Limit, E, S, Path, X) :-
 within(E, S, Path, Depth, Cut, X) :-
     (   is_final(E, S, X),
         Path = []
-    ;   (   Depth > 0
+    ;   Cut = cut(_, Limit, Effort),
+        counted(Depth, Effort),
+        (   Depth < Limit
         ->  true
         ;   nb_setarg(1, Cut, true),
             fail
         ),
         searched_step(E, S, E1, S1, Entry, X),
-        Depth1 is Depth-1,
+        Depth1 is Depth+1,
         (   Entry == commit
         ->  Path = [p(E1, none)|Path1],
             (   within(E1, S1, Path1, Depth1, Cut, X)
@@ -322,7 +365,7 @@ within(E, S, Path, Depth, Cut, X) :-
         )
     ).
 
-told(Options, What, _) :-
+told(Options, What) :-
     (   memberchk(message(Message), Options)
     ->  print_message(informational, golog(search(What, Message)))
     ;   true
@@ -332,51 +375,112 @@ told(Options, What, _) :-
                 *      CONDITIONAL PLANS       *
                 *******************************/
 
-%   conditional_plan(+Program, +Situation, -Plan, +Context) is nondet.
+%   conditional_plan(+Program, +Options, +Situation, -Plan, +Context) is
+%   nondet.
 %
-%   Plan is a program of actions and if/3 that runs Program to its end from
-%   Situation, whatever the conditions of its branch/1 turn out to be. It
-%   keeps each sim/1, so that a search around it can follow it, and holds
-%   together what an atomic/1 does.
+%   Plan is a program of actions, tests and if/3 that runs Program to its end
+%   from Situation, whatever its actions sense, and whatever the conditions of
+%   its branch/1 turn out to be. It keeps each sim/1, so that a search around
+%   it can follow it, and holds together what an atomic/1 does.
 
-conditional_plan(E, S, Plan, X0) :-
-    offline(X0, [], X),
-    catch(planned(E, S, Plan, X), '$golog_committed', fail).
+conditional_plan(E, Options, S, Plan, X0) :-
+    offline(X0, [conditional|Options], X),
+    limited(planned(E, S, 0, Plan, X), X).
 
-planned(E, S, Plan, X) :-
-    (   is_final(E, S, X),
-        Plan = []
-    ;   step(E, S, E1, S1, X),
+planned(E, S, Depth, Plan, X) :-
+    context_effort(X, Effort),
+    counted(Depth, Effort),
+    decided(next(E, S, Next, X), Next, X),
+    Depth1 is Depth+1,
+    (   Next == final
+    ->  Plan = []
+    ;   Next = branch(Cases)
+    ->  all_planned(Cases, E, S, Depth1, Plans, X),
+        same_or_branches(Plans, Plan)
+    ;   Next = step(E1, S1),
         entry_since(S, S1, Entry),
-        planned_after(Entry, E1, S, S1, Plan, X)
+        planned_after(Entry, E1, S, S1, Depth1, Plan, X)
     ).
 
-planned_after(none, E, _, S, Plan, X) :-
+next(E, S, final, X) :-
+    is_final(E, S, X).
+next(E, S, step(E1, S1), X) :-
+    step(E, S, E1, S1, X).
+
+%   decided(:Goal, ?Next, +Context) is nondet: as Goal. If it depends on what
+%   is still to be sensed, Next is branch(Cases).
+
+:- meta_predicate decided(0, -, +).
+
+decided(Goal, Next, X) :-
+    catch(catch(Goal, '$golog_unknown'(F), branch_on(F, none, X)),
+          '$golog_branch'(Cases), Next = branch(Cases)).
+
+all_planned([], _, _, _, [], _).
+all_planned([Test-Case|Cases], E, S0, Depth, [Test-Plan|Plans], X) :-
+    assumed(Case, S0, S),
+    planned(E, S, Depth, Plan, X),
+    all_planned(Cases, E, S0, Depth, Plans, X).
+
+same_or_branches(Plans, Plan) :-
+    (   Plans = [_-Plan0|Rest],
+        \+ ( member(_-Other, Rest), Other \== Plan0 )
+    ->  Plan = Plan0
+    ;   branches(Plans, Plan)
+    ).
+
+%   The last of several values is tested, too, in case the world has another.
+
+branches([Test-Plan0|Plans], Plan) :-
+    (   Plans == []
+    ->  Plan = [?(Test)|Plan0]
+    ;   Plans = [else-Else]
+    ->  Plan = [if(Test, Plan0, Else)]
+    ;   branches(Plans, Else),
+        Plan = [if(Test, Plan0, Else)]
+    ).
+
+planned_after(none, E, _, S, Depth, Plan, X) :-
     !,
-    planned(E, S, Plan, X).
-planned_after(branch(P), E, S0, _, Plan, X) :-
+    planned(E, S, Depth, Plan, X).
+planned_after(branch(P), E, S0, _, Depth, Plan, X) :-
     !,
-    done(e(P, true), S0, S1, X),
-    done(e(P, false), S0, S2, X),
-    planned(E, S1, Plan1, X),
-    planned(E, S2, Plan2, X),
-    Plan = [if(P, Plan1, Plan2)].
-planned_after(commit, E, S, _, Plan, X) :-
+    opened(P, S0, S, X),
+    planned_branch(P, E, S, Depth, Plan, X).
+planned_after(commit, E, S, _, Depth, Plan, X) :-
     !,
-    (   planned(E, S, Plan, X)
+    (   planned(E, S, Depth, Plan, X)
     ->  true
     ;   throw('$golog_committed')
     ).
-planned_after(test(P), E, S, _, Plan, X) :-
+planned_after(test(P), E, S, _, Depth, Plan, X) :-
     !,
-    planned_after(?(P), E, S, S, Plan, X).
-planned_after(A, E, _, S, Plan, X) :-
-    planned(E, S, Plan1, X),
+    planned_after(?(P), E, S, S, Depth, Plan, X).
+planned_after(A, E, _, S0, Depth, Plan, X) :-
+    sensed_later(A, S0, S, X),
+    planned(E, S, Depth, Plan1, X),
     (   Plan1 = [B|Bs],
-        in_atom(E, S, X)
+        decided(in_atom(E, S, X), _, X)
     ->  Plan = [atomic([A, B])|Bs]
     ;   Plan = [A|Plan1]
     ).
+
+%   Branch on each part of the condition P that decides it.
+
+planned_branch(P, E, S, Depth, Plan, X) :-
+    decided(( holds(P, S, X) -> true ; true ), Next, X),
+    (   nonvar(Next)
+    ->  Next = branch(Cases),
+        branches_planned(Cases, P, E, S, Depth, Plans, X),
+        branches(Plans, Plan)
+    ;   planned(E, S, Depth, Plan, X)
+    ).
+
+branches_planned([], _, _, _, _, [], _).
+branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
+    assumed(Case, S0, S),
+    planned_branch(P, E, S, Depth, Plan, X),
+    branches_planned(Cases, P, E, S0, Depth, Plans, X).
 
                 /*******************************
                 *           ACHIEVE            *
@@ -392,11 +496,9 @@ achieve_step(Goal, S, E1, S1, X0) :-
     offline(X0, [], X),
     state_of(S, X, State),
     planner_loaded,
-    ev3dev_search:plan(breadth_first,
-                       problem(State, goal,
-                               [ successor(ev3dev_golog_search:
-                                               successor(Goal, X)) ]),
-                       Plan0),
+    Problem = problem(State, goal,
+                      [ successor(ev3dev_golog_search:successor(Goal, X)) ]),
+    ev3dev_search:plan(breadth_first, Problem, Plan0),
     append(Plan, [end], Plan0),
     Plan = [_|_],
     achieving(Plan, achieve(Goal), Path),
@@ -453,9 +555,12 @@ successor(Goal, X, State0, Action, State, 1) :-
     (   holds(Goal, S0, X)
     ->  Action = end,
         State = goal
-    ;   context_module(X, M),
+    ;   context_effort(X, Effort),
+        counted(0, Effort),
+        context_module(X, M),
         call(M:prim_action(Action)),
         ground(Action),
+        polled(Effort),
         is_kind(precondition, Action, M),
         \+ is_sensing_action(Action, M),
         step(Action, S0, [], S, X),

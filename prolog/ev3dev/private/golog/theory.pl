@@ -12,6 +12,8 @@
             proc_body/3,                % +Call, -Body, +Module
             initial_value/3,            % +Fluent, -Value, +Module
             located/3,                  % +Module, +What, -Place
+            proc_place/4,               % +Proc, +Term, +Module, -Place
+            clause_location/2,          % +Ref, -Place
             domain_list/3               % +Sort, +Module, -Values
           ]).
 :- use_module(library(lists), [member/2]).
@@ -32,7 +34,8 @@ fluents, actions and procedures.
     noted_any/2,                        % Kind, Module
     with_binder/3,                      % Name, Arity, Module
     prepared/2,                         % Module, Signature
-    kept_initial/4.                     % Hash, Module, Fluent, Value
+    kept_initial/4,                     % Hash, Module, Fluent, Value
+    kept_place/4.                       % Proc, Functor, Module, Place
 
 %!  vocabulary(?PI) is nondet.
 %
@@ -50,6 +53,7 @@ vocabulary(causes_true/3).
 vocabulary(causes_false/3).
 vocabulary(senses/2).
 vocabulary(senses/5).
+vocabulary(sensed_values/2).
 vocabulary(forget/2).
 vocabulary(cache/1).
 vocabulary(proc/2).
@@ -136,6 +140,7 @@ prepare(Module) :-
     ;   retractall(noted(_, _, _, Module)),
         retractall(noted_any(_, Module)),
         retractall(with_binder(_, _, Module)),
+        retractall(kept_place(_, _, Module, _)),
         retractall(prepared(Module, _)),
         forall(kind(Kind, Head, Term),
                note_heads(Module, Kind, Head, Term)),
@@ -439,11 +444,43 @@ short(Head, Short) :-
     ).
 
 clause_place(Ref, Place) :-
-    (   clause_property(Ref, file(File)),
-        clause_property(Ref, line_count(Line))
-    ->  Place = File:Line
+    (   clause_location(Ref, Place0)
+    ->  Place = Place0
     ;   Place = none
     ).
+
+%!  clause_location(+Ref, -Place) is semidet.
+%
+%   Place is File:Line of a clause that was read from a file.
+
+clause_location(Ref, File:Line) :-
+    clause_property(Ref, file(File)),
+    clause_property(Ref, line_count(Line)).
+
+%!  proc_place(+Proc, +Term, +Module, -Place) is det.
+%
+%   Place is File:Line of the first clause of Proc, Name/Arity, in whose body
+%   something stands with the functor of Term; else of its first clause; else
+%   `none`. It is looked up once.
+
+proc_place(Proc, Term, Module, Place) :-
+    functor(Term, Name, Arity),
+    (   kept_place(Proc, Name/Arity, Module, Place0)
+    ->  true
+    ;   functor(General, Name, Arity),
+        Proc = ProcName/ProcArity,
+        functor(Call, ProcName, ProcArity),
+        findall(Body-Ref, clause(Module:proc(Call, Body), _, Ref), Clauses),
+        (   (   member(Body-Ref, Clauses),
+                stands_in(General, Body)
+            ;   member(_-Ref, Clauses)
+            )
+        ->  clause_place(Ref, Place0)
+        ;   Place0 = none
+        ),
+        assertz(kept_place(Proc, Name/Arity, Module, Place0))
+    ),
+    Place = Place0.
 
 place_text(File:Line, Text) :-
     format(atom(Text), '~w:~w: ', [File, Line]).

@@ -8,6 +8,7 @@
                                         % +Context
             is_preempted/4,             % +Program0, +Program, +Situation,
                                         % +Context
+            higher_can_step/3,          % +Notes, +Situation, +Context
             in_atom/3,                  % +Program, +Situation, +Context
             simplified/3,               % +Program0, -Program, +Context
             program_shown/2             % +Program0, -Program
@@ -17,12 +18,13 @@
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(context,
               [ blocked/2, context_module/2, context_option/2, entered/4,
-                noted/2, recorded_step/3, stepping/2
+                is_recorded/1, noted/2, recorded_step/3, stepping/2
               ]).
 :- use_module(domain,
               [ chosen/3, domain_value/4, done/4, evaluated_arguments/4,
                 holds/3, marked/3, situation_count/2, situation_history/2
               ]).
+:- use_module(hints, [hint/3]).
 :- use_module(programs,
               [construct/1, fresh/4, mapped/3, parts/5, weak_construct/1]).
 :- use_module(theory,
@@ -181,8 +183,9 @@ unknown_program(E, X) :-
     ;   What = E
     ),
     located(M, in_program(E), Where),
-    format(atom(Text), '~wthere is no construct, procedure or action ~q',
-           [Where, What]),
+    hint(E, M, Hint),
+    format(atom(Text), '~wthere is no construct, procedure or action ~q~w',
+           [Where, What, Hint]),
     throw_error(existence_error(golog_program, What), _, Text).
 
 step_named(E, S, E1, S1, X, M) :-
@@ -197,7 +200,8 @@ step_named(E, S, E1, S1, X, M) :-
 proc_step(E, S, E1, S1, X, M) :-
     proc_body(E, Body, M),
     entered(step, E, X, X1),
-    step(Body, S, E1, S1, X1).
+    functor(E, Name, Arity),
+    step_within(proc(Name/Arity), Body, S, E1, S1, X1).
 
 %   A primitive action: the fluents in its arguments are evaluated first.
 
@@ -226,6 +230,7 @@ possible(A, S, X, M) :-
     ;   no_precondition(A, M)
     ),
     (   M:poss(A, Condition),
+        is_condition(Condition, A),
         (   holds(Condition, S, X)
         *-> true
         ;   blocked(A, Condition),
@@ -234,6 +239,16 @@ possible(A, S, X, M) :-
     *-> true
     ;   blocked(A, poss(A)),
         fail
+    ).
+
+is_condition(Condition, A) :-
+    (   nonvar(Condition)
+    ->  true
+    ;   functor(A, Name, Arity),
+        format(atom(Text), 'poss(~q, ..): the second argument is a \c
+                            condition, as in poss(Action, true), and not a \c
+                            situation', [Name/Arity]),
+        throw_error(instantiation_error, _, Text)
     ).
 
 %!  made_possible(+Action, -Condition, +Situation, +Context) is det.
@@ -335,14 +350,14 @@ step_construct(iconc(E), S, E1, S1, X) :-
     turn_taken(left, E, iconc(E), S, E1, S1, X).
 step_construct(interrupt(P, E), S, [E1, interrupt(P, E)], S1, X) :-
     holds(P, S, X),
-    noted(interrupt(P), X),
-    step(E, S, E1, S1, X).
+    step_within(interrupt(P), E, S, E1, S1, X).
 step_construct(interrupt(Vs, P, E), S, [E1, interrupt(Vs, P, E)], S1, X) :-
     fresh(Vs, P-E, P1-E0, Choices),
     chosen(Choices, S, X),
     holds(P1, S, X),
-    noted(interrupt(P1), X),
-    step(E0, S, E1, S1, X).
+    step_within(interrupt(P1), E0, S, E1, S1, X).
+step_construct('$within'(Note, E), S, E1, S1, X) :-
+    step_within(Note, E, S, E1, S1, X).
 step_construct(prioritized_interrupts(Es), S, E1, S1, X) :-
     (   first_step(Es, S, Es1, S1, X)
     *-> E1 = prioritized_interrupts(Es1)
@@ -449,6 +464,19 @@ step_construct(ttime(E, Seconds), S, ttime(E1, Seconds), S1, X) :-
     step_construct(time(E, Seconds), S, E1, S1, X).
 step_construct(sync(Es), S, sync(Es1), S1, X) :-
     together(Es, S, Es1, S1, _, X).
+
+%   step_within(+Note, +Program0, +Situation0, -Program, -Situation, +Context)
+%   is nondet: an online run knows also of the later steps what Note says. Of
+%   a procedure whose last part is a procedure nothing is left but that part.
+
+step_within(Note, E, S, E1, S1, X) :-
+    noted(Note, X),
+    step(E, S, E2, S1, X),
+    (   is_recorded(X),
+        \+ ( Note = proc(_), E2 = '$within'(proc(_), _) )
+    ->  E1 = '$within'(Note, E2)
+    ;   E1 = E2
+    ).
 
 for_program(V, D, E, S, X, Es) :-
     findall(Value, domain_value(Value, D, S, X), Values),
@@ -608,6 +636,14 @@ is_preempted(E0, E, S, X) :-
     \+ ( atom_in(E, Inner),
          \+ ( atom_in(E0, Inner0), Inner0 =@= Inner ) ),
     recorded_step(X, _, Notes),
+    higher_can_step(Notes, S, X).
+
+%!  higher_can_step(+Notes, +Situation, +Context) is semidet.
+%
+%   True if in Situation a part can take a step that has a higher priority
+%   than the step of which Notes were recorded.
+
+higher_can_step(Notes, S, X) :-
     stepping(X, X1),
     member(above(Higher), Notes),
     \+ \+ step(Higher, S, _, _, X1),
@@ -675,8 +711,12 @@ simplified(E0, E, X) :-
     ;   parts(E0, _, Es0, Es, E1),
         is_construct(E0, X)
     ->  all_simplified(Es0, Es, X),
-        E = E1
-    ;   E0 = '$path'(_, [], _, _)
+        (   E1 = '$within'(_, [])
+        ->  E = []
+        ;   E = E1
+        )
+    ;   E0 = '$path'(Rest, [], _, _),
+        simplified(Rest, [], X)
     ->  E = []
     ;   E = E0
     ).
@@ -701,4 +741,5 @@ program_shown(E0, E) :-
 
 shown('$turn'(A, B), conc(A, B)).
 shown('$atomic'(E), atomic(E)).
+shown('$within'(_, E), E).
 shown('$path'(E, _, _, _), search(E)).

@@ -7,7 +7,7 @@
             pause/4,                    % +Robot, +Queue, +Deadline,
                                         % -Message
             clock/2,                    % +Robot, -Seconds
-            robot_stopped/1             % +Robot
+            robot_stopped/2             % +Robot, +Cause
           ]).
 
 
@@ -150,12 +150,12 @@ clock(Robot, Seconds) :-
     ;   get_time(Seconds)
     ).
 
-%!  robot_stopped(+Robot) is det.
+%!  robot_stopped(+Robot, +Cause) is det.
 %
-%   Stop the motors that the program has started.
+%   Stop the motors that the program has started, for Cause.
 
-robot_stopped(Robot) :-
+robot_stopped(Robot, Cause) :-
     (   on_robot_time(Robot)
-    ->  ignore(ev3dev_native:stop_started_)
+    ->  ignore(for_causes([Cause], ev3dev_native:stop_started_))
     ;   true
     ).

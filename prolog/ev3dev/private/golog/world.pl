@@ -18,10 +18,10 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(theory,
-              [has_clauses/2, is_exogenous/2, is_sensing_action/2]).
+              [has_clauses/2, is_sensing_action/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../brick', [brick/1]).
-:- use_module('../errors', [goal_of_program/1]).
+:- use_module('../errors', [goal_of_program/1, throw_error/3]).
 
 /** <module> The world: how actions are executed, and what happens by itself
 
@@ -75,6 +75,9 @@ queue_of(Module, Queue) :-
 %
 %   Put Code into the queue of the agent in Module. If Module has no domain,
 %   into those of all agents that run.
+%
+%   @error existence_error(exogenous_action, Code) if it is one for none of
+%          these
 
 send_exogenous(Module, Code) :-
     (   \+ running(Module),
@@ -84,6 +87,12 @@ send_exogenous(Module, Code) :-
         Modules \== []
     ->  true
     ;   Modules = [Module]
+    ),
+    (   member(M, Modules),
+        exogenous_of(Code, M, _)
+    ->  true
+    ;   throw_error(existence_error(exogenous_action, Code), _,
+                    'no exog_action/1 of the domain declares it')
     ),
     forall(member(M, Modules),
            ( queue_of(M, Queue),
@@ -234,13 +243,20 @@ seen_code(Code, Module, Known) :-
     ).
 
 exogenous_of(Code, Module, Action) :-
-    (   is_exogenous(Code, Module)
+    (   is_declared(Code, Module)
     ->  Action = Code
     ;   stops_run(Code)
     ->  Action = Code
     ;   translated(Code, Module, Action),
-        is_exogenous(Action, Module)
+        is_declared(Action, Module)
     ).
+
+%   Another thread may ask, which has no notes on Module.
+
+is_declared(Action, Module) :-
+    nonvar(Action),
+    has_clauses(Module, exog_action(_)),
+    \+ \+ Module:exog_action(Action).
 
 %!  stops_run(+Code) is semidet.
 %

@@ -1,0 +1,166 @@
+:- module(ev3dev_golog_effort,
+          [ effort/4,                   % +Limits, +Options, +Outer, -Effort
+            watched_effort/3,           % :Watch, +Record, -Effort
+            counted/2,                  % +Depth, +Effort
+            polled/1,                   % +Effort
+            in_trial/1,                 % +Effort
+            effort_id/2,                % +Effort, -Id
+            how_far/2                   % +Effort, -Far
+          ]).
+
+/** <module> What a search costs, and what ends it
+
+An effort counts the steps of a search, and knows its limits:
+
+    effort(Id, Steps, Deepest, Limits, Wall0, Inferences0, Trial, Watch,
+           Outer)
+
+A limit is steps(N), inferences(N) or seconds(S), by the wall clock. At one of
+them '$golog_gave_up'(Id, Limit) is thrown. A search within another one counts
+for both. Watch is watch(Closure, Record, Next): of an online run, what else
+may end it. From the time Next on call(Closure, Record, Effort) is called;
+then again after 15 ms. Trial is true if the search tries actions in the
+simulator. An effort is changed in place, also when a search goes back.
+*/
+
+:- meta_predicate watched_effort(2, +, -).
+
+%!  effort(+Limits, +Options, +Outer, -Effort) is det.
+%
+%   Effort is that of a search which begins within Outer. Options are the
+%   words of its context.
+
+effort(Limits, Options, Outer, Effort) :-
+    Effort = effort(Id, 0, 0, Limits, Wall, Inferences, Trial, Watch, Outer),
+    flag(ev3dev_golog_effort, Id, Id+1),
+    get_time(Wall),
+    statistics(inferences, Inferences),
+    (   Outer == none
+    ->  Watch = none,
+        Trial0 = false
+    ;   arg(8, Outer, Watch),
+        arg(7, Outer, Trial0)
+    ),
+    (   memberchk(simulate, Options)
+    ->  Trial = true
+    ;   Trial = Trial0
+    ).
+
+%!  watched_effort(:Watch, +Record, -Effort) is det.
+%
+%   Effort is that of a step of an online run.
+
+watched_effort(Watch, Record, Effort) :-
+    get_time(Wall),
+    next_look(Wall, Next),
+    Effort = effort(none, 0, 0, [], Wall, 0, false,
+                    watch(Watch, Record, Next), none).
+
+next_look(Now, Next) :-
+    Next is Now+0.015.
+
+%!  counted(+Depth, +Effort) is det.
+%
+%   A search looks for a step at Depth.
+
+counted(Depth, Effort) :-
+    one_more(Depth, Effort),
+    polled(Effort).
+
+one_more(Depth, Effort) :-
+    (   Effort == none
+    ->  true
+    ;   arg(2, Effort, Steps0),
+        Steps is Steps0+1,
+        nb_setarg(2, Effort, Steps),
+        arg(3, Effort, Deepest),
+        (   Depth > Deepest
+        ->  nb_setarg(3, Effort, Depth)
+        ;   true
+        ),
+        arg(9, Effort, Outer),
+        one_more(0, Outer)
+    ).
+
+%!  polled(+Effort) is det.
+%
+%   The same step goes on: is a limit reached, and is it time to look?
+
+polled(Effort) :-
+    (   Effort == none
+    ->  true
+    ;   all_within(Effort),
+        arg(8, Effort, Watch),
+        (   Watch == none
+        ->  true
+        ;   looked(Watch, Effort)
+        )
+    ).
+
+all_within(Effort) :-
+    (   Effort == none
+    ->  true
+    ;   arg(4, Effort, Limits),
+        within(Limits, Effort),
+        arg(9, Effort, Outer),
+        all_within(Outer)
+    ).
+
+within([], _).
+within([Limit|Limits], Effort) :-
+    (   is_reached(Limit, Effort)
+    ->  effort_id(Effort, Id),
+        throw('$golog_gave_up'(Id, Limit))
+    ;   within(Limits, Effort)
+    ).
+
+is_reached(steps(Most), Effort) :-
+    arg(2, Effort, Steps),
+    Steps > Most,
+    nb_setarg(2, Effort, Most).         % The next one is not tried.
+is_reached(inferences(Most), Effort) :-
+    spent(Effort, Inferences, _),
+    Inferences > Most.
+is_reached(seconds(Most), Effort) :-
+    spent(Effort, _, Seconds),
+    Seconds >= Most.
+
+spent(effort(_, _, _, _, Wall0, Inferences0, _, _, _), Inferences, Seconds) :-
+    statistics(inferences, Inferences1),
+    Inferences is Inferences1-Inferences0,
+    get_time(Wall),
+    Seconds is Wall-Wall0.
+
+looked(Watch, Effort) :-
+    Watch = watch(Closure, Record, Next0),
+    get_time(Now),
+    (   Now < Next0
+    ->  true
+    ;   call(Closure, Record, Effort),
+        get_time(Later),
+        next_look(Later, Next),
+        nb_setarg(3, Watch, Next)
+    ).
+
+%!  in_trial(+Effort) is semidet.
+%
+%   True if the robot of the simulator may stand where a plan has led it.
+
+in_trial(Effort) :-
+    arg(7, Effort, true).
+
+%!  effort_id(+Effort, -Id) is det.
+
+effort_id(Effort, Id) :-
+    arg(1, Effort, Id).
+
+%!  how_far(+Effort, -Far) is det.
+%
+%   Far is [steps(N), depth(D), inferences(I), seconds(S)]: what a search has
+%   cost so far, and the most steps that it was from its beginning.
+
+how_far(Effort, [ steps(Steps), depth(Deepest), inferences(Inferences),
+                  seconds(Seconds) ]) :-
+    arg(2, Effort, Steps),
+    arg(3, Effort, Deepest),
+    spent(Effort, Inferences, Seconds).

@@ -1,0 +1,167 @@
+:- module(ev3dev_golog_why_not,
+          [ hindrance/5                 % +Action, +Program, -Why, +Situation,
+                                        % +Context
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(context, [context_module/2, recorded_step/3, recording/4]).
+:- use_module(domain,
+              [ fluent_in/4, fluent_value/4, holds/3, situation_count/2,
+                situation_history/2
+              ]).
+:- use_module(programs, [fresh/4, parts/5]).
+:- use_module(theory,
+              [clause_location/2, has_clauses/2, is_kind/3, proc_body/3]).
+:- use_module(transitions, [step/5]).
+
+/** <module> Why an action is not done
+*/
+
+%!  hindrance(+Action, +Program, -Why, +Situation, +Context) is semidet.
+%
+%   Why is the first that keeps Program from doing Action next in Situation.
+%   Fails if nothing does. What Why is, library(ev3dev/golog) says, why_not/2.
+
+hindrance(A, E, Why, S, X) :-
+    context_module(X, M),
+    (   \+ is_kind(action, A, M)
+    ->  Why = no_action
+    ;   \+ \+ possible(A, S, X, M)
+    ->  hindered(A, E, Why, S, X)
+    ;   findall(Failure, failure(A, Failure, S, X, M), Failures),
+        Why = not_possible(Failures)
+    ).
+
+possible(A, S, X, M) :-
+    M:prim_action(A),
+    M:poss(A, Condition),
+    holds(Condition, S, X).
+
+%   Each clause of poss/2 for the action, and what is false in it
+
+failure(A, failure(Part, Values, Place), S, X, M) :-
+    has_clauses(M, poss(_, _)),
+    clause(M:poss(A, Condition), Body, Ref),
+    call(M:Body),
+    false_part(Condition, Part, S, X),
+    values_in(Part, Values, S, X),
+    (   clause_location(Ref, Place)
+    ->  true
+    ;   Place = none
+    ).
+
+%   false_part(+Condition, -Part, +Situation, +Context) is semidet: Part is
+%   that of a conjunction which is false, if those before it hold.
+
+false_part(P, Part, S, X) :-
+    (   nonvar(P),
+        ( P = and(Q, R) ; P = (Q, R) )
+    ->  (   \+ holds(Q, S, X)
+        ->  false_part(Q, Part, S, X)
+        ;   \+ ( holds(Q, S, X), holds(R, S, X) ),
+            once(holds(Q, S, X)),
+            false_part(R, Part, S, X)
+        )
+    ;   nonvar(P),
+        P = and([Q|Qs])
+    ->  false_part(and(Q, and(Qs)), Part, S, X)
+    ;   context_module(X, M),
+        nonvar(P),
+        is_kind(proc, P, M),
+        \+ is_kind(fluent, P, M),
+        findall(Body, proc_body(P, Body, M), [Body])
+    ->  false_part(Body, Part, S, X)
+    ;   \+ holds(P, S, X),
+        Part = P
+    ).
+
+values_in(P, Values, S, X) :-
+    findall(F = V,
+            ( fluent_in(P, F, S, X), ground(F), fluent_value(F, V, S, X) ),
+            Values0),
+    sort(Values0, Values).
+
+%   The action is possible. What does the program do instead?
+
+hindered(A, E, Why, S, X0) :-
+    recording(0, ev3dev_golog_why_not:true, X0, X),
+    (   next_entry(E, S, X, Next, Interrupts)
+    ->  (   Next = A
+        ->  fail
+        ;   can_do(A, E, S, X0)
+        ->  Why = before(Next, Interrupts)
+        ;   lower(E, Part),
+            can_do(A, Part, S, X0)
+        ->  Why = priority(Next, Interrupts)
+        ;   not_begun(A, E, Why0, S, X0)
+        ->  Why = Why0
+        ;   Why = not_offered
+        )
+    ;   not_begun(A, E, Why0, S, X0)
+    ->  Why = Why0
+    ;   Why = not_offered
+    ).
+
+:- public true/2.
+
+true(_, _).
+
+%   The next entry of the history, if the program goes on by its first steps
+
+next_entry(E, S, X, Next, Interrupts) :-
+    next_entry(E, S, X, 20, Next, Interrupts).
+
+next_entry(E, S, X, Most, Next, Interrupts) :-
+    once(step(E, S, E1, S1, X)),
+    situation_count(S, C),
+    situation_count(S1, C1),
+    (   C1 =:= C
+    ->  Most > 0,
+        Less is Most-1,
+        next_entry(E1, S1, X, Less, Next, Interrupts)
+    ;   situation_history(S1, [Next|_]),
+        recorded_step(X, _, Notes),
+        findall(P, member(interrupt(P), Notes), Interrupts)
+    ).
+
+can_do(A, E, S, X) :-
+    situation_count(S, C0),
+    step(E, S, _, S1, X),
+    situation_count(S1, C1),
+    C1 > C0,
+    situation_history(S1, [A|_]),
+    !.
+
+%   A part of the program that another part comes before
+
+lower(E, Part) :-
+    nonvar(E),
+    (   (   E = prioritized_interrupts([_|Lower])
+        ;   E = pconc(_, Last),
+            Lower = [Last]
+        ),
+        member(Part, Lower)
+    ;   parts(E, _, Parts, _, _),
+        member(Inner, Parts),
+        lower(Inner, Part)
+    ).
+
+%   An interrupt would do it, but its condition does not hold.
+
+not_begun(A, E, interrupt(Part, Values), S, X) :-
+    interrupt_in(E, Vs, P, Body0),
+    fresh(Vs, P-Body0, Condition-Body, _),
+    \+ holds(Condition, S, X),
+    can_do(A, Body, S, X),
+    !,
+    false_part(Condition, Part, S, X),
+    values_in(Part, Values, S, X).
+
+interrupt_in(E, Vs, P, Body) :-
+    nonvar(E),
+    (   E = interrupt(P, Body),
+        Vs = []
+    ;   E = interrupt(Vs, P, Body)
+    ;   parts(E, _, Parts, _, _),
+        member(Part, Parts),
+        interrupt_in(Part, Vs, P, Body)
+    ).

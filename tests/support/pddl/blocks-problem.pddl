@@ -1,0 +1,5 @@
+(define (problem sussman)
+  (:domain blocks)
+  (:objects A B C)
+  (:init (on C A) (ontable A) (ontable B) (clear B) (clear C) (handempty))
+  (:goal (and (on A B) (on B C))))

@@ -1,0 +1,5 @@
+(define (problem get-paid)
+  (:domain briefcase)
+  (:objects p d - portable home office bank - location)
+  (:init (is-at home) (at p home) (at d home) (in p))
+  (:goal (and (is-at home) (at p bank) (at d office) (not (in d)))))

@@ -1,0 +1,5 @@
+(define (problem ferry-2)
+  (:domain ferry)
+  (:objects l0 l1 l2 - location c0 c1 - car)
+  (:init (at-ferry l2) (empty-ferry) (at c0 l0) (at c1 l1))
+  (:goal (and (at c0 l1) (at c1 l0))))

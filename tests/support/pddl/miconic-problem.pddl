@@ -1,0 +1,7 @@
+(define (problem miconic-2)
+  (:domain miconic)
+  (:objects p0 p1 - passenger f0 f1 f2 - floor)
+  (:init (above f0 f1) (above f0 f2) (above f1 f2)
+         (origin p0 f2) (destin p0 f1) (origin p1 f1) (destin p1 f0)
+         (lift-at f0))
+  (:goal (forall (?p - passenger) (served ?p))))

@@ -1,0 +1,25 @@
+; ADL: at a stop all that wait get in, and all that have arrived get out.
+(define (domain miconic)
+  (:requirements :adl)
+  (:types passenger floor - object)
+  (:predicates (origin ?p - passenger ?f - floor)
+               (destin ?p - passenger ?f - floor)
+               (above ?f ?g - floor) (boarded ?p - passenger)
+               (served ?p - passenger) (lift-at ?f - floor))
+  (:action stop
+    :parameters (?f - floor)
+    :precondition (lift-at ?f)
+    :effect (and (forall (?p - passenger)
+                   (when (and (boarded ?p) (destin ?p ?f))
+                         (and (not (boarded ?p)) (served ?p))))
+                 (forall (?p - passenger)
+                   (when (and (origin ?p ?f) (not (served ?p)))
+                         (boarded ?p)))))
+  (:action up
+    :parameters (?f ?g - floor)
+    :precondition (and (lift-at ?f) (above ?f ?g))
+    :effect (and (lift-at ?g) (not (lift-at ?f))))
+  (:action down
+    :parameters (?f ?g - floor)
+    :precondition (and (lift-at ?f) (above ?g ?f))
+    :effect (and (lift-at ?g) (not (lift-at ?f)))))

@@ -1,0 +1,6 @@
+(define (problem rovers-1)
+  (:domain rovers)
+  (:objects r - rover w1 w2 w3 - waypoint)
+  (:init (at r w1) (path w1 w2) (path w2 w3) (is-at rock w3) (is-at soil w2)
+         (lander w1) (visible w2 w1))
+  (:goal (and (sent rock w3) (sent soil w2))))

@@ -1,0 +1,26 @@
+(define (domain rovers)
+  (:requirements :strips :typing :disjunctive-preconditions)
+  (:types rover waypoint sample)
+  (:constants rock soil - sample)
+  (:predicates (at ?r - rover ?w - waypoint) (path ?v ?w - waypoint)
+               (is-at ?s - sample ?w - waypoint) (full ?r - rover)
+               (has ?r - rover ?s - sample ?w - waypoint)
+               (visible ?v ?w - waypoint) (lander ?w - waypoint)
+               (sent ?s - sample ?w - waypoint))
+  (:action navigate
+    :parameters (?r - rover ?v ?w - waypoint)
+    :precondition (and (at ?r ?v) (or (path ?v ?w) (path ?w ?v)))
+    :effect (and (not (at ?r ?v)) (at ?r ?w)))
+  (:action take
+    :parameters (?r - rover ?s - sample ?w - waypoint)
+    :precondition (and (at ?r ?w) (is-at ?s ?w) (not (full ?r)))
+    :effect (and (full ?r) (has ?r ?s ?w) (not (is-at ?s ?w))))
+  (:action drop
+    :parameters (?r - rover)
+    :precondition (full ?r)
+    :effect (not (full ?r)))
+  (:action send
+    :parameters (?r - rover ?s - sample ?from ?v ?w - waypoint)
+    :precondition (and (has ?r ?s ?from) (at ?r ?v) (lander ?w)
+                       (visible ?v ?w))
+    :effect (sent ?s ?from)))

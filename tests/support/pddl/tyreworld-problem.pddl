@@ -1,0 +1,7 @@
+(define (problem fixit)
+  (:domain tyreworld)
+  (:objects hub1 - hub w1 w2 - thing)
+  (:init (in-boot jack) (in-boot wrench) (in-boot pump) (in-boot w2)
+         (on w1 hub1) (flat w1) (flat w2) (wheel w1) (wheel w2))
+  (:goal (exists (?h - hub ?w - thing)
+           (and (on ?w ?h) (not (flat ?w)) (wheel ?w)))))

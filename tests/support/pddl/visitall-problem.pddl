@@ -1,0 +1,8 @@
+(define (problem visitall-4)
+  (:domain visitall)
+  (:objects c00 c01 c10 c11 - place)
+  (:init (connected c00 c01) (connected c01 c00) (connected c00 c10)
+         (connected c10 c00) (connected c01 c11) (connected c11 c01)
+         (connected c10 c11) (connected c11 c10)
+         (at-robot c00) (visited c00))
+  (:goal (forall (?x - place) (visited ?x))))
