@@ -1181,7 +1181,7 @@ group('panels', ROOM, '', (it) => {
     assert.equal((await size('.world-card'))[0], 300);
     const box = await (await bar('Width of the world')).boundingBox();
     await it.page.mouse.click(box.x + 6, box.y + 60, { clickCount: 2 });
-    assert.ok((await size('.world-card'))[0] > 500);
+    assert.ok((await size('.world-card'))[0] > 400);
   });
 
   test('are folded, what they leave is for others, and stay so when the page is loaded again', async () => {
