@@ -33,9 +33,15 @@ impl Printed {
     }
 }
 
-/// Whether what is written from now on is kept.
+/// Whether what is written from now on is kept. The toplevel ends a line that is not complete.
 pub(super) fn keep(keeps: bool) {
     KEEPS.store(keeps, Ordering::Relaxed);
+    if !keeps {
+        let mut printed = locked(&PRINTED);
+        if let Some(last) = printed.back_mut().filter(|last| !last.bytes.ends_with(b"\n")) {
+            last.bytes.push(b'\n');
+        }
+    }
 }
 
 /// These bytes were written.

@@ -960,6 +960,10 @@ group('the log', [...ROOM, 'use_module(library(ev3dev/rules))', 'use_module(libr
     assert.ok(places.every((place, i) => place >= 0 && place > (places[i - 1] ?? -1)), JSON.stringify([places, log]));
     assert.ok(log.every(({ text }) => !/secret|T =/.test(text)), JSON.stringify(log));
     assert.ok((await rows(it.page)).some(({ kind }) => kind === 'output'));
+    it.session.type('wait(0.3), write(half)');
+    it.session.type('wait(0.3), writeln(other)');
+    await row(it.page, /^other$/);
+    await row(it.page, /^half$/);
   });
 
   test('has what was asked for, as by why/1', async () => {

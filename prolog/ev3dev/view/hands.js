@@ -128,6 +128,8 @@ export class Hands {
     $('pad').hidden = !on;
     if (!on) this.letGo();
     this.tools();
+    // The pad goes where it hides no robot, before somebody clicks.
+    this.world.draw();
   }
 
   jog(way, on) {
