@@ -13,7 +13,9 @@ LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
+# Who loads the pack by its path has it compiled, too
 all: build
+	@$(MAKE) --no-print-directory install
 
 # What is missing on a fresh machine. pack_install of 7.2.3 copies a folder without the
 # right to execute its files.

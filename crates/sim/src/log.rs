@@ -13,19 +13,17 @@ pub(crate) struct Log<T> {
     /// All are full but the last.
     chunks: VecDeque<Arc<Vec<T>>>,
     most: usize,
-    /// Forgotten entries, whose memory serves again.
-    spare: Vec<T>,
 }
 
 impl<T> Clone for Log<T> {
     fn clone(&self) -> Log<T> {
-        Log { chunks: self.chunks.clone(), most: self.most, spare: Vec::new() }
+        Log { chunks: self.chunks.clone(), most: self.most }
     }
 }
 
 impl<T: Clone> Log<T> {
     pub(crate) fn new(most: usize) -> Log<T> {
-        Log { chunks: VecDeque::new(), most, spare: Vec::new() }
+        Log { chunks: VecDeque::new(), most }
     }
 
     /// How many entries are kept.
@@ -50,15 +48,14 @@ impl<T: Clone> Log<T> {
         entries.take(self.len())
     }
 
-    /// Adds an entry. It may be made of a forgotten one.
-    pub(crate) fn push(&mut self, make: impl FnOnce(Option<T>) -> T) {
+    /// Adds an entry.
+    pub(crate) fn push(&mut self, entry: T) {
         if self.chunks.back().is_none_or(|chunk| chunk.len() == CHUNK) {
             if self.kept() >= self.most + CHUNK {
-                self.spare = self.chunks.pop_front().and_then(Arc::into_inner).unwrap_or_default();
+                self.chunks.pop_front();
             }
             self.chunks.push_back(Arc::new(Vec::with_capacity(CHUNK)));
         }
-        let entry = make(self.spare.pop());
         if let Some(chunk) = self.chunks.back_mut() {
             Arc::make_mut(chunk).push(entry);
         }
@@ -78,7 +75,7 @@ impl<T: Clone> Log<T> {
     pub(crate) fn thin_out(&mut self) {
         let mut thinner = Log::new(self.most);
         for entry in self.iter().step_by(2) {
-            thinner.push(|_| entry.clone());
+            thinner.push(entry.clone());
         }
         *self = thinner;
     }
@@ -96,7 +93,7 @@ mod tests {
     fn it_keeps_the_newest() {
         let mut log = Log::new(100);
         for number in 0..1000 {
-            log.push(|_| number);
+            log.push(number);
             let first = (number + 1_usize).saturating_sub(100);
             assert_eq!(numbers(&log), (first..=number).collect::<Vec<_>>());
             assert_eq!(log.len(), number + 1 - first);
@@ -113,26 +110,13 @@ mod tests {
     fn copies_share_all_but_the_newest_entries() {
         let mut log = Log::new(1000);
         for number in 0..500 {
-            log.push(|_| number);
+            log.push(number);
         }
         let copy = log.clone();
-        log.push(|_| 500);
+        log.push(500);
         let shared = log.chunks.iter().zip(&copy.chunks).filter(|(a, b)| Arc::ptr_eq(a, b));
         assert_eq!(shared.count(), copy.chunks.len() - 1);
         assert_eq!(numbers(&copy), (0..500).collect::<Vec<_>>());
         assert_eq!(numbers(&log), (0..=500).collect::<Vec<_>>());
-    }
-
-    #[test]
-    fn forgotten_entries_serve_again() {
-        let mut log = Log::new(32);
-        let mut again = 0;
-        for _ in 0..200 {
-            log.push(|old| {
-                again += usize::from(old.is_some());
-                String::new()
-            });
-        }
-        assert!(again >= 100, "{again}");
     }
 }

@@ -2,9 +2,11 @@
 //! bounded
 //! however long a run is.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::log::Log;
+use crate::ticks::TICK_US;
 use crate::world::ItemId;
 use crate::world::geometry::Pose;
 
@@ -59,14 +61,74 @@ pub struct Event {
     pub text: String,
 }
 
+/// The name of an attribute's file, in its parts.
+#[derive(Clone, Debug)]
+pub(crate) struct File {
+    pub(crate) class: &'static str,
+    pub(crate) device: Arc<str>,
+    pub(crate) attribute: &'static str,
+}
+
+/// Room for what most files hold.
+const SHORT: usize = 22;
+
+/// A text that is noted: without memory of its own if it is short.
+#[derive(Clone, Debug)]
+enum Text {
+    Short(u8, [u8; SHORT]),
+    Long(Box<[u8]>),
+}
+
+impl Text {
+    fn new(text: &[u8]) -> Text {
+        let mut short = [0; SHORT];
+        match (short.get_mut(..text.len()), u8::try_from(text.len())) {
+            (Some(room), Ok(length)) => {
+                room.copy_from_slice(text);
+                Text::Short(length, short)
+            }
+            _ => Text::Long(text.into()),
+        }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Text::Short(length, bytes) => &bytes[..usize::from(*length)],
+            Text::Long(bytes) => bytes,
+        }
+    }
+}
+
+/// An event as it is kept: a program that polls makes thousands a second.
+#[derive(Clone, Debug)]
+struct Noted {
+    order: u64,
+    at: Duration,
+    action: Action,
+    file: Option<File>,
+    text: Text,
+}
+
+impl Noted {
+    fn event(&self) -> Event {
+        let path = |file: &File| format!("{}/{}/{}", file.class, file.device, file.attribute);
+        Event {
+            at: self.at,
+            action: self.action,
+            path: self.file.as_ref().map_or_else(String::new, path),
+            text: String::from_utf8_lossy(self.text.bytes()).into_owned(),
+        }
+    }
+}
+
 /// The record of a run. Copies share what they have in common.
 #[derive(Clone, Debug)]
 pub struct Trace {
     path: Log<(Duration, Pose)>,
     spacing: u64,
     /// Apart, so that a program that polls does not push its own commands out; with their order.
-    written: Log<(u64, Event)>,
-    read: Log<(u64, Event)>,
+    written: Log<Noted>,
+    read: Log<Noted>,
     event_count: u64,
     collisions: Log<Collision>,
     collision_count: u32,
@@ -92,10 +154,10 @@ impl Trace {
 
     /// The newest accesses to files, oldest first: 4096 writes and 4096 reads.
     #[must_use]
-    pub fn events(&self) -> Vec<&Event> {
+    pub fn events(&self) -> Vec<Event> {
         let mut events: Vec<_> = self.written.iter().chain(self.read.iter()).collect();
-        events.sort_unstable_by_key(|(order, _)| *order);
-        events.into_iter().map(|(_, event)| event).collect()
+        events.sort_unstable_by_key(|noted| noted.order);
+        events.into_iter().map(Noted::event).collect()
     }
 
     /// The newest collisions, oldest first.
@@ -109,47 +171,33 @@ impl Trace {
         self.collision_count
     }
 
-    pub(crate) fn tick(&mut self, tick: u64, at: Duration, pose: Pose) {
+    pub(crate) fn tick(&mut self, tick: u64, pose: Pose) {
         if tick % self.spacing != 0 {
             return;
         }
         if self.path.newest().take(2).filter(|(_, old)| *old == pose).count() == 2 {
             self.path.pop();
         }
-        self.path.push(|_| (at, pose));
+        self.path.push((Duration::from_micros(tick * TICK_US), pose));
         if self.path.len() >= PATH_POINTS {
             self.path.thin_out();
             self.spacing *= 2;
         }
     }
 
-    /// Notes an event. The path is given in its parts.
-    pub(crate) fn event(&mut self, at: Duration, action: Action, path: &[&str], text: &str) {
+    /// Notes an event.
+    pub(crate) fn event(&mut self, at: Duration, action: Action, file: Option<File>, text: &[u8]) {
         let log = match action {
             Action::Read => &mut self.read,
             _ => &mut self.written,
         };
         let order = self.event_count;
         self.event_count += 1;
-        log.push(|forgotten| {
-            // The strings of one that is forgotten serve again.
-            let (mut old_path, mut old_text) =
-                forgotten.map_or_else(Default::default, |(_, event)| (event.path, event.text));
-            old_path.clear();
-            for (index, part) in path.iter().enumerate() {
-                if index > 0 {
-                    old_path.push('/');
-                }
-                old_path.push_str(part);
-            }
-            old_text.clear();
-            old_text.push_str(text);
-            (order, Event { at, action, path: old_path, text: old_text })
-        });
+        log.push(Noted { order, at, action, file, text: Text::new(text) });
     }
 
     pub(crate) fn collision(&mut self, collision: Collision) {
         self.collision_count = self.collision_count.saturating_add(1);
-        self.collisions.push(|_| collision);
+        self.collisions.push(collision);
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::lock::locked;
 use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};
-use std::thread::ThreadId;
+use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use crate::machine::Machine;
@@ -15,7 +16,11 @@ pub type Act = Box<dyn FnMut() -> Option<Duration> + Send>;
 
 /// The acts, and which thread runs one.
 #[derive(Default)]
-pub(super) struct PeriodicActs(Mutex<Acts>);
+pub(super) struct PeriodicActs {
+    acts: Mutex<Acts>,
+    /// Whether a thread runs one: set by itself, so it knows.
+    is_any: AtomicBool,
+}
 
 #[derive(Default)]
 struct Acts {
@@ -38,12 +43,13 @@ impl fmt::Debug for PeriodicActs {
 
 impl PeriodicActs {
     pub(super) fn add(&self, now: Duration, period: Duration, act: Act) {
-        locked(&self.0).due.push(Due { at: now.saturating_add(period), period, act });
+        locked(&self.acts).due.push(Due { at: now.saturating_add(period), period, act });
     }
 
     /// Whether this thread runs an act. Its reads then take no time.
     pub(super) fn is_acting(&self) -> bool {
-        locked(&self.0).actor.is_some_and(|actor| actor == std::thread::current().id())
+        self.is_any.load(Ordering::Relaxed)
+            && locked(&self.acts).actor.is_some_and(|actor| actor == thread::current().id())
     }
 
     /// Lets time pass, and runs the acts that become due meanwhile.
@@ -59,7 +65,7 @@ impl PeriodicActs {
             machine.step(left);
             drop(machine);
             let next = act();
-            locked(&self.0).actor = None;
+            self.ends();
             machine = shared.lock();
             if let Some(next) = next {
                 // One that comes late keeps its rhythm.
@@ -76,7 +82,7 @@ impl PeriodicActs {
     /// Takes the first act that is due by `end`, for this thread to run. There is one
     /// at a time: while a thread runs one, other threads let time pass without.
     fn due(&self, now: Duration, end: Duration) -> Option<Due> {
-        let mut acts = locked(&self.0);
+        let mut acts = locked(&self.acts);
         if acts.actor.is_some() {
             return None;
         }
@@ -88,7 +94,15 @@ impl PeriodicActs {
         if due.at > end {
             return None;
         }
-        acts.actor = Some(std::thread::current().id());
+        acts.actor = Some(thread::current().id());
+        self.is_any.store(true, Ordering::Relaxed);
         Some(acts.due.swap_remove(index))
+    }
+
+    /// The act that this thread ran is over.
+    fn ends(&self) {
+        let mut acts = locked(&self.acts);
+        self.is_any.store(false, Ordering::Relaxed);
+        acts.actor = None;
     }
 }

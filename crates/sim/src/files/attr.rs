@@ -4,7 +4,7 @@
 //! stand behind it. Everything else (mode bits, open, stat, directory listings, the errors of an
 //! operation the attribute does not offer) follows from the row.
 
-use std::fmt::Display;
+use std::fmt::{Display, Write};
 use std::time::Duration;
 
 use crate::files::errno::Errno;
@@ -178,7 +178,10 @@ impl<D: Table> Files for D {
 /// A value and the one newline that ends every text attribute.
 #[expect(clippy::unnecessary_wraps, reason = "a reader is fallible")]
 pub(crate) fn text(value: impl Display) -> Result<Vec<u8>, Errno> {
-    Ok(format!("{value}\n").into_bytes())
+    // Most are short, and room for them at once is faster than room that grows.
+    let mut text = String::with_capacity(16);
+    let _ = writeln!(text, "{value}");
+    Ok(text.into_bytes())
 }
 
 /// The text of a device's `uevent`, which has driver and address in one file. Writing an action

@@ -154,28 +154,39 @@ impl Machine {
             }
             None => self.record(Action::Written, node, bytes),
         }
-        let port = self.sockets.iter().find(|s| s.lego_port == Tree::owner(node)).map(|s| s.port);
-        match (effect, port) {
-            (Effect::Blocks(time), _) => written.blocks = time,
-            (Effect::Reads(mode, time), _) => {
+        match effect {
+            Effect::Done => {}
+            Effect::Blocks(time) => written.blocks = time,
+            Effect::Reads(mode, time) => {
                 written.blocks = time;
                 self.read_in(Tree::owner(node), mode);
             }
-            (Effect::TimesOut(time), _) => {
+            Effect::TimesOut(time) => {
                 (written.blocks, written.outcome) = (time, Err(Errno::ETIMEDOUT));
             }
-            (Effect::Appeared, _) => {
+            Effect::Appeared => {
                 let open_at = self.tick + self.udev_ticks();
                 self.tree.appeared(Tree::owner(node), open_at);
             }
-            (Effect::PortMode(mode), Some(port)) => written.blocks = self.port_mode(port, mode),
-            (Effect::PortDevice(name), Some(port)) => {
-                self.sockets[port as usize].forced = Some(name);
-                self.register(port, false);
+            Effect::PortMode(mode) => {
+                if let Some(port) = self.port_of(node) {
+                    written.blocks = self.port_mode(port, mode);
+                }
             }
-            _ => {}
+            Effect::PortDevice(name) => {
+                if let Some(port) = self.port_of(node) {
+                    self.sockets[port as usize].forced = Some(name);
+                    self.register(port, false);
+                }
+            }
         }
         Ok(written)
+    }
+
+    /// The port whose file a node is.
+    fn port_of(&self, node: NodeId) -> Option<Port> {
+        let owner = Tree::owner(node);
+        self.sockets.iter().find(|socket| socket.lego_port == owner).map(|socket| socket.port)
     }
 
     /// How often an attribute has notified those who poll it. Only `state` of tacho motors and
@@ -206,9 +217,9 @@ impl Machine {
     }
 
     fn record(&mut self, action: Action, node: NodeId, bytes: &[u8]) {
-        if let Ok(path) = self.tree.attribute_path(node) {
-            let text = String::from_utf8_lossy(bytes.strip_suffix(b"\n").unwrap_or(bytes));
-            self.trace.event(self.now, action, &path, &text);
+        if let Ok(file) = self.tree.file(node) {
+            let text = bytes.strip_suffix(b"\n").unwrap_or(bytes);
+            self.trace.event(self.now, action, Some(file), text);
         }
     }
 

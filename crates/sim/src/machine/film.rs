@@ -74,7 +74,7 @@ impl Film {
         if self.kept.newest().take(2).filter(is_same).count() == 2 {
             self.kept.pop();
         }
-        self.kept.push(|_| sample);
+        self.kept.push(sample);
         if self.kept.len() >= MOST {
             self.kept.thin_out();
             self.spacing *= 2;

@@ -158,7 +158,7 @@ impl Machine {
             machine.notice(port);
             machine.register(port, true);
         }
-        machine.trace.tick(0, Duration::ZERO, world.start);
+        machine.trace.tick(0, world.start);
         Ok(machine)
     }
 

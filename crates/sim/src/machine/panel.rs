@@ -47,12 +47,15 @@ impl Machine {
     fn set_button(&mut self, event: ButtonEvent) {
         if self.panel.set(event) {
             let action = if event.is_press { Action::Pressed } else { Action::Released };
-            self.trace.event(event.at, action, &[], &event.button.to_string());
+            self.trace.event(event.at, action, None, event.button.to_string().as_bytes());
         }
     }
 
     /// Presses and releases what is planned until this tick.
     pub(super) fn apply_planned_buttons(&mut self) {
+        if self.panel.next_planned().is_none() {
+            return;
+        }
         let now = Duration::from_micros(self.tick * TICK_US);
         while let Some(event) = self.panel.take_planned(now) {
             self.set_button(event);
@@ -98,6 +101,6 @@ impl Machine {
     }
 
     fn record_sound(&mut self, action: Action, text: &str) {
-        self.trace.event(self.now, action, &[], text);
+        self.trace.event(self.now, action, None, text.as_bytes());
     }
 }

@@ -63,7 +63,7 @@ impl Machine {
         if is_touch && self.held[port as usize] != is_press {
             self.held[port as usize] = is_press;
             let action = if is_press { Action::Pressed } else { Action::Released };
-            self.trace.event(self.now, action, &[], port.name());
+            self.trace.event(self.now, action, None, port.name().as_bytes());
             self.hand_is_done();
         }
         is_touch
@@ -106,6 +106,9 @@ impl Machine {
         let socket = &mut self.sockets[port as usize];
         let noticed = socket.noticed.take_if(|due| *due <= now).is_some();
         let due = socket.due.take_if(|due| *due <= now).is_some();
+        if !noticed && !due {
+            return;
+        }
         let mode = self.lego_port(port).map_or("", |device| device.mode_name());
         if mode == "auto" {
             if noticed {

@@ -26,8 +26,9 @@ impl Machine {
     /// Lets exactly this much time pass.
     pub fn step(&mut self, dt: Duration) {
         self.now += dt;
-        let ticks = self.now.as_micros() / u128::from(TICK_US);
-        while u128::from(self.tick) < ticks {
+        let micros = u64::from(self.now.subsec_micros());
+        let now_us = self.now.as_secs().saturating_mul(1_000_000).saturating_add(micros);
+        while (self.tick + 1) * TICK_US <= now_us {
             self.advance();
         }
     }
@@ -70,8 +71,7 @@ impl Machine {
             self.look_at_plug(port, self.tick);
         }
         self.apply_planned_buttons();
-        let at = Duration::from_micros(self.tick * TICK_US);
-        self.trace.tick(self.tick, at, self.body.pose);
+        self.trace.tick(self.tick, self.body.pose);
         self.sample_at_tick();
     }
 
@@ -91,8 +91,12 @@ impl Machine {
         if self.wired(port) { self.output(port).bridge() } else { Bridge::Float }
     }
 
-    /// The share of the battery's voltage that each output port gives what is plugged in.
+    /// The share of the battery's voltage that each output port gives the bulbs that the world
+    /// has there.
     pub(crate) fn power(&self) -> [f64; 4] {
+        if !self.scene.has_bulbs() {
+            return [0.0; 4];
+        }
         OUTPUTS.map(|port| match self.output(port).bridge() {
             Bridge::Driven(duty) => f64::from(duty.abs()) / 100.0,
             Bridge::Float | Bridge::Short => 0.0,

@@ -13,6 +13,8 @@ use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
 use crate::motor::servo::Servo;
 use crate::sensor::Sensor;
+use crate::trace::File;
+use std::sync::Arc;
 
 /// A file or directory: its inode number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,7 +177,7 @@ impl Hardware {
 #[derive(Clone, Debug)]
 pub(crate) struct Device {
     serial: u64,
-    name: String,
+    name: Arc<str>,
     class: Class,
     /// Tick until which udev has not yet changed the modes of the files.
     closed_until: u64,
@@ -234,7 +236,7 @@ impl Tree {
         let (late_until, shown) = (0, Vec::new());
         self.devices.push(Device {
             serial,
-            name,
+            name: name.into(),
             class,
             closed_until,
             late_until,
@@ -263,13 +265,21 @@ impl Tree {
         }
     }
 
+    /// Where a device stands: at its serial number, as long as none before it was removed.
+    fn index(&self, serial: u64) -> Option<usize> {
+        let first = usize::try_from(serial.wrapping_sub(FIRST_SERIAL)).unwrap_or(usize::MAX);
+        if self.devices.get(first).is_some_and(|device| device.serial == serial) {
+            return Some(first);
+        }
+        self.devices.binary_search_by_key(&serial, |device| device.serial).ok()
+    }
+
     fn device(&self, serial: u64) -> Option<&Device> {
-        let index = self.devices.binary_search_by_key(&serial, |device| device.serial).ok()?;
-        self.devices.get(index)
+        self.devices.get(self.index(serial)?)
     }
 
     fn device_mut(&mut self, serial: u64) -> Option<&mut Device> {
-        let index = self.devices.binary_search_by_key(&serial, |device| device.serial).ok()?;
+        let index = self.index(serial)?;
         self.devices.get_mut(index)
     }
 
@@ -349,11 +359,7 @@ impl Tree {
                 .iter()
                 .filter(|device| device.class == class)
                 .map(|device| {
-                    (
-                        device.name.as_str(),
-                        NodeId(device.serial << SERIAL_SHIFT),
-                        FileKind::Directory,
-                    )
+                    (&*device.name, NodeId(device.serial << SERIAL_SHIFT), FileKind::Directory)
                 })
                 .collect(),
             Place::Device(device) => device.entries(),
@@ -479,14 +485,11 @@ impl Tree {
     }
 
     /// Class, device and name of an attribute.
-    pub(crate) fn attribute_path(&self, node: NodeId) -> Result<[&str; 3], Errno> {
-        match self.place(node)? {
-            Place::Attribute(device, row) => {
-                let class = CLASSES[device.class as usize].1;
-                Ok([class, &device.name, device.hardware.files().name(row)])
-            }
-            _ => Err(Errno::EISDIR),
-        }
+    pub(crate) fn file(&self, node: NodeId) -> Result<File, Errno> {
+        let (device, row) = self.attribute(node)?;
+        let class = CLASSES[device.class as usize].1;
+        let attribute = device.hardware.files().name(row);
+        Ok(File { class, device: Arc::clone(&device.name), attribute })
     }
 
     /// The path of a node, for messages and the trace.

@@ -229,16 +229,12 @@ impl View<'_> {
     fn cone(&self, half_angle: f64, rays: u32, far: f64) -> Option<f64> {
         let here = self.pose.point();
         let step = 2.0 * half_angle / f64::from(rays - 1);
-        let mut nearest = None;
-        let mut limit = far;
-        for ray in 0..rays {
-            let heading = self.pose.heading - half_angle + step * f64::from(ray);
-            if let Some(distance) = self.scene.cast(here, direction(heading), limit) {
-                limit = distance;
-                nearest = Some(distance);
-            }
+        let mut directions = [Vec2::zeros(); SONAR_RAYS as usize];
+        let directions = &mut directions[..rays as usize];
+        for (ray, towards) in (0..rays).zip(directions.iter_mut()) {
+            *towards = direction(self.pose.heading - half_angle + step * f64::from(ray));
         }
-        nearest
+        self.scene.cast_all(here, directions, far)
     }
 
     fn distance(&mut self, inches: bool) -> i32 {

@@ -109,6 +109,19 @@ impl Obstacle {
         }
     }
 
+    /// True only if this is certainly farther from a point than `limit`: by the larger of the
+    /// distances along two axes, and by more than what rounding may do.
+    pub(crate) fn is_beyond(&self, point: Vec2, limit: f64) -> bool {
+        let offset = point - self.frame.translation.vector;
+        let (aside, half) = match &self.solid {
+            Solid::Box(cuboid) => {
+                (self.frame.rotation.inverse_transform_vector(&offset), cuboid.half_extents)
+            }
+            Solid::Ball(ball) => (offset, Vec2::repeat(ball.radius)),
+        };
+        (aside.abs() - half).max() > limit + 1e-6
+    }
+
     /// Not farther than this obstacle is from a circle: cheap.
     pub(crate) fn at_least(&self, center: Vec2, radius: f64) -> f64 {
         length(self.frame.translation.vector - center) - self.reach - radius

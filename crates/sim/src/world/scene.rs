@@ -114,6 +114,27 @@ impl Scene {
         nearest
     }
 
+    /// How far the first of some rays goes to meet something, at most `max`. What the middle one
+    /// meets leaves few obstacles that the others could meet before.
+    pub(crate) fn cast_all(&self, from: Vec2, directions: &[Vec2], max: f64) -> Option<f64> {
+        let middle = directions.get(directions.len() / 2)?;
+        let mut nearest = self.cast(from, *middle, max);
+        let mut limit = nearest.unwrap_or(max);
+        for obstacle in &self.obstacles {
+            if obstacle.is_beyond(from, limit) {
+                continue;
+            }
+            for direction in directions {
+                let ray = Ray::new(Point::from(from), *direction);
+                if let Some(distance) = obstacle.cast(&ray, limit) {
+                    limit = distance;
+                    nearest = Some(distance);
+                }
+            }
+        }
+        nearest
+    }
+
     /// True if nothing stands between two points.
     pub(crate) fn clear_between(&self, from: Vec2, to: Vec2) -> bool {
         let way = to - from;
@@ -131,6 +152,11 @@ impl Scene {
             }
             _ => None,
         })
+    }
+
+    /// Whether there are lamps on output ports.
+    pub(crate) fn has_bulbs(&self) -> bool {
+        self.items.iter().any(|(_, item)| matches!(item, Item::Bulb { .. }))
     }
 
     /// The beacons: where they stand and on which channels.

@@ -105,7 +105,7 @@ fn planned_keys_come_at_their_time_however_time_is_sliced() {
             assert!(!is_down || (301..=501).contains(&ms), "{ms}");
             machine.step(Duration::from_millis(slice));
         }
-        let trace: Vec<_> = machine.trace().events().into_iter().cloned().collect();
+        let trace = machine.trace().events();
         let seen: Vec<_> = trace.iter().map(|e| (e.at.as_millis(), e.action, &*e.text)).collect();
         assert_eq!(seen, [(301, Action::Pressed, "down"), (500, Action::Released, "down")]);
         assert_eq!(machine.next_button(), None);
@@ -157,7 +157,7 @@ fn tones_fit_the_speaker_and_are_recorded() {
     file.write(&mut machine, 0, &event(0x12, 1, 1)).unwrap();
     assert_eq!(machine.tone(), 1000);
     assert_eq!(file.write(&mut machine, 0, &[0; EVENT - 1]), Err(Errno::EINVAL));
-    let trace: Vec<_> = machine.trace().events().iter().map(|e| e.text.clone()).collect();
+    let trace: Vec<_> = machine.trace().events().into_iter().map(|e| e.text).collect();
     assert_eq!(trace, ["440", "100", "10000", "0", "1000"]);
 }
 
@@ -168,7 +168,8 @@ fn speech_takes_its_time_and_is_recorded() {
     machine.play("bark.wav");
     machine.set_volume(150);
     assert_eq!(machine.volume(), 100);
-    let trace: Vec<_> = machine.trace().events().iter().map(|e| (e.action, &*e.text)).collect();
+    let events = machine.trace().events();
+    let trace: Vec<_> = events.iter().map(|e| (e.action, &*e.text)).collect();
     assert_eq!(trace, [(Action::Said, "hello"), (Action::Played, "bark.wav")]);
 }
 
