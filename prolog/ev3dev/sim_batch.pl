@@ -46,8 +46,8 @@ processor as with many.
 %   Load the program File, and for each seed, an integer of the list Seeds,
 %   call Test with one more argument, a Score, in a simulation as of
 %   with_sim/3 with that seed. Test is an atom or a term, called in the module
-%   of File, or in `user`. Scores is a list of Seed-Score in the order of Seeds. Score
-%   is what Test answers first, or
+%   of File, or in `user`. Scores is a list of Seed-Score in the order of
+%   Seeds. Score is what Test answers first, or
 %
 %     - failed
 %       Test failed.
