@@ -232,18 +232,18 @@ test(a_limit_stops_the_motors_of_a_program_that_goes_on,
        true(Status-B-C == exit(0)-stop-stop) ]) :-
     % Nothing else does.
     signalled(Tree, Signal, ":- set_prolog_flag(ev3dev_stop_at_halt, false).
-                             wait :- catch(wait(60), _, true).",
+                             wait :- catch(wait(3), _, true).",
               [goal(main)], Status, eventually, B, C).
 test(one_that_goes_on_after_a_crash_drives_again,
      [forall(( tree(Tree), Tree \== simulator )), true(Status == exit(5))]) :-
     signalled(Tree, 8, ":- on_signal(fpe, _, survived).
                         survived(_) :- throw(survived).
-                        wait :- catch(( repeat, sleep(0.01), fail ), survived, true),
-                                repeat,
-                                sleep(0.01),
-                                catch(motor_run(outB, 20), _, fail),
-                                halt(5).",
-              [goal(main)], Status, eventually, stop, stop).
+                        again :- catch(main, survived, true),
+                                 repeat,
+                                 sleep(0.01),
+                                 catch(motor_run(outB, 20), _, fail),
+                                 halt(5).",
+              [goal(again)], Status, eventually, stop, stop).
 test(a_process_that_is_killed_has_one_that_stops_its_motors,
      [ forall(( tree(Tree), Tree \== simulator )),
        true(Status == killed(9)) ]) :-

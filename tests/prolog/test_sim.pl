@@ -398,7 +398,8 @@ left(screen_rectangle(0, 0, 178, 128, [fill(true)]),
        Black \== White )).
 left(( nxt_open, nxt_light(V, force) ), ( sim_show(in2, value0, 55), nxt_light(V) )).
 left(nxt_open, catch(nxt_goal(nxt, true), error(existence_error(_, _), _), fail)).
-left(ev3dev_golog_world:send_exogenous(user, 1),
+left(( assertz(user:exog_action(1)), ev3dev_golog_world:send_exogenous(user, 1),
+       retract(user:exog_action(1)) ),
      ( ev3dev_golog_world:queue_of(user, Queue), message_queue_property(Queue, size(1)) )).
 
 robot :-

@@ -23,7 +23,7 @@ const PICTURES = [
   {
     name: 'line', world: 'line', example: 'line_following', goal: 'start', seconds: 24,
     prepare: ['view_watch(\'left wheel\', outB-speed)'],
-    shots: [{ name: 'view-charts', clip: '.charts-card', width: 1100, height: 860 }],
+    shots: [{ name: 'view-charts', clip: '.charts-card', width: 1100, height: 1000 }],
   },
 ];
 
