@@ -443,8 +443,8 @@ now(History) :-
 %       The domain has no such action.
 %     - not_possible(Failures)
 %       For each clause of poss/2 a failure(Part, Values, Place): the part of
-%       the condition that does not hold, the values of the fluents in it, each
-%       possible one, as Fluent = Value, and File:Line of the clause, or `none`.
+%       the condition that does not hold, the possible values of the fluents
+%       in it as Fluent = Value, and File:Line of the clause, or `none`.
 %     - priority(Other, Interrupts)
 %       A part of the program with a higher priority does Other. Interrupts
 %       are the conditions of the interrupts around it, the innermost first.

@@ -1153,8 +1153,9 @@ test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
 
 :- end_tests(golog_domain).
 
-% What is possible and what is known: Vassos, Levesque (2005), Sardina, Vassos:
-% The Wumpus World in IndiGolog (2005)
+% What is possible and what is known: Vassos: A feasible approach to disjunctive
+% knowledge in situation calculus (2005); Sardina, Vassos: The Wumpus World in
+% IndiGolog (2005)
 
 :- begin_tests(golog_possible_values).
 

@@ -778,11 +778,11 @@ is_known(F0, S, X) :-
 %   In a domain with possible values a fluent may have '$possible'(Set), two
 %   values or more. A condition is known if it holds for each value, possible
 %   if for some. Each simple condition in it takes the values by itself, so
-%   `known` and `possible` change places under a negation only, and nothing
-%   is taken for known that is not; yet or(p, neg(p)) is not known if p is not.
-%   This is how the evaluator of IndiGolog does it, after Vassos, Levesque:
-%   possible values (2005), and Sardina, Vassos: The Wumpus World in IndiGolog
-%   (2005).
+%   `known` and `possible` change places under a negation only, and what is
+%   known is true; but or(p, neg(p)) is not known if neither of its parts is.
+%   This is how the evaluator of IndiGolog does it, after Vassos: A
+%   feasible approach to disjunctive knowledge in situation calculus (2005),
+%   and Sardina, Vassos: The Wumpus World in IndiGolog (2005).
 
 %   known_atom(+Condition, +Situation, +Context) is nondet. True if Condition,
 %   without constructs, holds whichever possible values its fluents have.
@@ -913,8 +913,8 @@ remaining(F, Rejected, Entry, S, X, M, Value) :-
     (   possible_of(Vs, Value)
     ->  true
     ;   located(M, fluent(F), Where),
-        format(atom(Text), '~wno possible value of ~q is left after ~q: what \c
-                            was sensed contradicts what was known',
+        format(atom(Text), '~wno possible value of ~q is left after ~q: \c
+                            what was sensed contradicts what was known',
                [Where, F, Entry]),
         throw_error(domain_error(golog_sensing, Entry), _, Text)
     ).

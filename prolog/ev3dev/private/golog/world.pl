@@ -441,8 +441,8 @@ value_translated(A, Value0, M, Value) :-
 %!  sensing_entries(+Action, +Value, +Module, -Entries) is det.
 %
 %   Entries are what the history gets for Value: e(Action, Value) if senses/5,
-%   settles/5 or rejects/5 says what follows from it, else e(Fluent, Value) for each Fluent of
-%   senses/2.
+%   settles/5 or rejects/5 says what follows from it, else e(Fluent, Value)
+%   for each Fluent of senses/2.
 
 sensing_entries(A, Value, M, Entries) :-
     (   has_clauses(M, senses(_, _, _, _, _)),
