@@ -1245,6 +1245,20 @@ test(a_search_relies_on_what_is_known, Hs == [[fill(c)|H]]) :-
     H = [e(peek(c), 0), peek(c)],
     findall(H1, golog_uncertain:do(search([ ndet(fill(a), fill(c)),
                                             ?(full(c)) ]), H, H1), Hs).
+test(an_action_that_forgets_makes_all_values_possible, Truths ==
+     [true, unknown]) :-
+    with_domain([ prim_action(a), poss(a, true), rel_fluent(f(1)),
+                  initially(f(1), true), initially(f(1), false),
+                  settles(a, 1, f(_), true, true), forget(a, f(_)) ], M,
+                findall(T, ( member(H, [[e(a, 1), a], [a, e(a, 1), a]]),
+                             eval(M:f(1), H, T) ), Truths)).
+test(what_is_settled_must_be_declared, [error(instantiation_error)]) :-
+    with_domain([ prim_action(a), poss(a, true), rel_fluent(f(_)),
+                  settles(a, 1, f(_), true, true) ], M,
+                holds(M:f(1), [e(a, 1), a])).
+test(achieve_plans_with_what_is_known, H == [fill(c)|H0]) :-
+    H0 = [e(peek(c), 0), peek(c)],
+    once(golog_uncertain:do(achieve(full(c)), H0, H)).
 test(which_fluents_change_must_be_declared, [error(instantiation_error)]) :-
     with_domain([ prim_action(a), poss(a, true), rel_fluent(f(_)),
                   initially(f(1), true), initially(f(1), false),

@@ -39,7 +39,8 @@ record(Number, Notes) of the step that an online run takes: Notes is a partial
 list, of what noted/2 says of the step, the outermost first. Effort is what
 effort.pl counts, or `none`. Mode is what it means that a condition holds:
 `plain`; `conditional`, in a plan with branches; or in a domain with possible
-values `known`, for all of them, or `possible`, for some.
+values `known`, for all of them, or `possible`, for some. In the mode `stored`
+the value of a fluent is the set of these.
 */
 
 %!  context(+Module, +Options, -Context) is det.
@@ -71,8 +72,8 @@ mode(Options, Module, Mode) :-
 %!  in_mode(?Mode, +Context0, -Context) is det.
 %!  dual(+Context0, -Context) is det.
 %
-%   Context is Context0 with Mode, `known` or `possible`; with the other of
-%   these two. Without possible values it is Context0.
+%   Context is Context0 with Mode; with the other one of `known` and
+%   `possible`. Without possible values it is Context0.
 
 context_mode(x(_, _, _, _, _, Mode), Mode).
 

@@ -493,8 +493,12 @@ value(F, V, s(_, _, Values, Open, _), Context, M) :-
     ),
     (   nonvar(V3),
         V3 = '$possible'(Vs)
-    ->  context_mode(Context, possible),
-        member(V, Vs)
+    ->  context_mode(Context, Mode),
+        (   Mode == possible
+        ->  member(V, Vs)
+        ;   Mode == stored,
+            V = V3
+        )
     ;   V = V3
     ).
 
@@ -538,12 +542,12 @@ no_initial_value(F, M, Context) :-
 %!  fluents_now(+Situation, +Context, -Pairs) is det.
 %
 %   Pairs is a list of Fluent-Value of all ground fluents that have a value,
-%   each possible one, in standard order.
+%   or '$possible'(Values), in standard order.
 
 fluents_now(S, Context, Pairs) :-
     S = s(_, _, Values, _, _),
     context_module(Context, M),
-    in_mode(possible, Context, Any),
+    in_mode(stored, Context, Stored),
     assoc_to_keys(Values, Fs1),
     findall(F,
             ( M:initially(F, _), ground(F) ),
@@ -552,7 +556,7 @@ fluents_now(S, Context, Pairs) :-
     append(Fs1, Fs2, Fs4),
     append(Fs3, Fs4, Fs5),
     sort(Fs5, Fs),
-    findall(F-V, ( member(F, Fs), known_value(F, V, S, Any) ), Pairs).
+    findall(F-V, ( member(F, Fs), known_value(F, V, S, Stored) ), Pairs).
 
 known_value(F, V, S, Context) :-
     context_module(Context, M),
@@ -830,7 +834,8 @@ is_satisfied(call(Goal), P, X) :-
 
 %   effects_known(+Entry, +Situation, +Context, +Module, -Effects) is det. The
 %   values of a fluent after an action are those that it may cause, and if it
-%   is not known to cause any, also those before.
+%   is not known to cause any, also those before; after one that forgets them,
+%   those of the beginning.
 
 effects_known(Entry, S, X, M, Effects) :-
     (   \+ is_kind(action, Entry, M),
@@ -846,7 +851,9 @@ internal_effects(Entry, S, X, M, Effects) :-
     ->  findall(Effect,
                 ( internal_effect(Entry, S, X, M, Effect)
                 ; M:settles(A, Outcome, F, V, Condition),
-                  effect_if(F, V, Condition, S, X, M, Effect)
+                  effect_if(F, V, Condition, S, X, M, Effect),
+                  arg(1, Effect, F1),
+                  must_be_declared(F1, A, M)
                 ),
                 Effects1),
         findall(F-V, rejected(A, Outcome, F, V, S, X, M), Pairs),
@@ -879,7 +886,9 @@ acted_effects(A, S, X, M, Effects) :-
               possible_of(Vs, Value),
               Effect = set(F, Value)
             ; M:forget(A, F),
-              Effect = set(F, '$unknown')
+              instance(F, M),
+              must_be_declared(F, A, M),
+              Effect = set(F, '$initial')
             ),
             Effects).
 
