@@ -1197,6 +1197,16 @@ test(an_effect_that_is_only_possible_keeps_the_value, Truths ==
                  golog_uncertain:eval(full(a), H1, T) ), Truths).
 test(a_known_effect_sets_the_value) :-
     known(neg(full(c)), [sweep, e(listen, high), listen]).
+test(what_is_set_is_known) :-
+    known(full(a), [set(full(a))]),
+    known(neg(full(a)), [unset(full(a))]).
+test(what_is_simulated_has_the_effects_of_the_action, Vs == [2, 3, 4]) :-
+    findall(V, golog_uncertain:has_val(place, V, [sim(step)]), Vs).
+test(what_is_settled_is_not_rejected, Vs == [2]) :-
+    with_domain([ prim_action(a), poss(a, true), prim_fluent(f),
+                  initially(f, 1), initially(f, 2), initially(f, 3),
+                  settles(a, 1, f, 2, true), rejects(a, 1, f, 1, true) ], M,
+                findall(V, has_val(M:f, V, [e(a, 1), a]), Vs)).
 test(know_is_about_one_value) :-
     \+ known(know(place), []),
     known(neg(know(place)), []),
