@@ -72,6 +72,7 @@ demo(traffic_light, room, start).
 demo(golog_elevator, room, start(smart)).
 demo(golog_delivery, delivery, start).
 demo(golog_rescue, grid, start).
+demo(golog_wumpus, [bounds(-15, -15, 105, 105)], start).
 demo(brick_check, room, brick_check:report).
 demo(rules_light_seeker, lights, start).
 demo(rules_line_follower, line, start).
@@ -108,6 +109,10 @@ prepare(golog_delivery) :-
 prepare(golog_rescue) :-
     !,
     sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])).
+prepare(golog_wumpus) :-
+    !,
+    user:cave(0-2, [2-0, 2-2], 1-2, [_, _|Patches]),
+    forall(member(Patch, Patches), sim_add(Patch)).
 prepare(rules_line_follower) :-
     !,
     sim_add(circle(150, 40, 4)),

@@ -44,7 +44,7 @@
               [ domain_error/2, existence_error/2, must_be/2,
                 term_expansion/4
               ]).
-:- use_module(private/golog/context, [context/3]).
+:- use_module(private/golog/context, [context/3, in_mode/3]).
 :- use_module(private/golog/domain, [fluent_value/4, situation/3,
                                      situation_history/2]).
 :- use_module(private/golog/messages, []).
@@ -55,7 +55,7 @@
 :- use_module(private/golog/search, [found_path/4]).
 :- use_module(private/golog/theory,
               [ declare_domain/1, domain_list/3, has_clauses/2, prepare/1,
-                refuse_epistemic/1, vocabulary/1
+                vocabulary/1
               ]).
 :- use_module(private/golog/transitions,
               [is_final/3, program_shown/2, run/5, step/5]).
@@ -181,8 +181,10 @@ order and in several files.
 %   @error existence_error(golog_condition, Name/Arity)
 %   @error domain_error(golog_procedure, Call) if a procedure calls itself
 %          without a step in between
-%   @error permission_error(run, golog_domain, Module) if the domain is about
-%          what is known in several initial situations
+%   @error permission_error(search, golog_domain, Module) if searchc is to
+%          plan in a domain with possible values
+%   @error domain_error(golog_sensing, Entry) if no possible value of a fluent
+%          is left
 
 golog(M:Program, Options) :-
     settings(Options, M, Settings),
@@ -379,7 +381,8 @@ final(M:Program, History) :-
 %!  holds(:Condition, +History) is nondet.
 %
 %   True if Condition holds after History. Variables in Condition are bound to
-%   each solution.
+%   each solution. In a domain with possible values, Condition is known then:
+%   it holds for each of them; possibly(Condition) holds for some.
 
 holds(M:Condition, History) :-
     situation_now(M, History, S, X),
@@ -387,29 +390,33 @@ holds(M:Condition, History) :-
 
 %!  has_val(:Fluent, ?Value, +History) is nondet.
 %
-%   True if Fluent has Value after History.
+%   True if Fluent has Value after History; on backtracking each possible
+%   value.
 
 has_val(M:Fluent, Value, History) :-
     must_be(nonvar, Fluent),
-    situation_now(M, History, S, X),
+    situation_now(M, History, S, X0),
+    in_mode(possible, X0, X),
     fluent_value(Fluent, Value, S, X).
 
 %!  eval(:Condition, +History, -Truth) is nondet.
 %
-%   Truth is `true` if Condition holds after History, else `false`.
+%   Truth is `true` if Condition holds after History, `false` if its negation
+%   does; else, in a domain with possible values, `unknown`.
 
-eval(Condition, History, Truth) :-
+eval(M:Condition, History, Truth) :-
     (   Truth = true,
-        holds(Condition, History)
+        holds(M:Condition, History)
     ;   Truth = false,
-        Condition = M:C,
-        \+ holds(M:C, History)
+        holds(M:neg(Condition), History)
+    ;   Truth = unknown,
+        \+ holds(M:Condition, History),
+        \+ holds(M:neg(Condition), History)
     ).
 
 situation_now(M, History, S, X) :-
     must_be(list, History),
     prepare(M),
-    refuse_epistemic(M),
     context(M, [], X),
     (   situation_of_run(History, M, S0, X)
     ->  S = S0
@@ -436,8 +443,8 @@ now(History) :-
 %       The domain has no such action.
 %     - not_possible(Failures)
 %       For each clause of poss/2 a failure(Part, Values, Place): the part of
-%       the condition that does not hold, the values of the fluents in it as
-%       Fluent = Value, and File:Line of the clause, or `none`.
+%       the condition that does not hold, the possible values of the fluents
+%       in it as Fluent = Value, and File:Line of the clause, or `none`.
 %     - priority(Other, Interrupts)
 %       A part of the program with a higher priority does Other. Interrupts
 %       are the conditions of the interrupts around it, the innermost first.
@@ -461,7 +468,6 @@ why_not(M:Action) :-
 why_not(M:Action, Why) :-
     must_be(ground, Action),
     prepare(M),
-    refuse_epistemic(M),
     context(M, [], X),
     (   state_of_run(M, E, S)
     ->  true
@@ -504,6 +510,10 @@ sensing_action(M:Action, Fluent) :-
         M:senses(Action, Fluent)
     ;   has_clauses(M, senses(_, _, _, _, _)),
         M:senses(Action, _, Fluent, _, _)
+    ;   has_clauses(M, settles(_, _, _, _, _)),
+        M:settles(Action, _, Fluent, _, _)
+    ;   has_clauses(M, rejects(_, _, _, _, _)),
+        M:rejects(Action, _, Fluent, _, _)
     ).
 
 %!  shuffle(+List, -Shuffled) is det.

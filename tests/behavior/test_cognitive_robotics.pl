@@ -1,6 +1,8 @@
 % The examples of docs/cognitive-robotics.md do what it says. Its queries are played
 % by tests/sessions/play.py.
 
+:- use_module('../support/cases').
+:- use_module('../support/caves').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/golog)).
@@ -9,6 +11,7 @@
 :- initialization(load_files(chapter_elevator:example(golog_elevator), [])).
 :- initialization(load_files(chapter_post:example(golog_delivery), [])).
 :- initialization(load_files(chapter_rescue:example(golog_rescue), [])).
+:- initialization(load_files(chapter_wumpus:example(golog_wumpus), [])).
 
 :- begin_tests(cognitive_robotics).
 
@@ -63,6 +66,67 @@ test(the_rescuer_finds_and_comes_home, true(near(Way, 0, 4))) :-
     assertion(H = [report|_]),
     assertion(memberchk(e(check, 5), H)),
     Way is sqrt(X*X + Y*Y).
+
+test(the_hunter_of_gold_knows_and_does_not_guess,
+     [forall(case(50, Seed)), true(Wrong == [])]) :-
+    random_cave(Seed, Cave),
+    hunt(Cave, H, Crossed),
+    reverse(H, Done),
+    findall(C, member(go(C), Done), Ways),
+    findall(Which,
+            ( guess([0-0], Ways, Cave, Which)
+            ; member(C, Crossed), \+ memberchk(C, [0-0|Ways]),
+              Which = crossed(C)
+            ; member(C, Crossed), is_deadly(C, Cave), Which = dead(C)
+            ; \+ H = [leave|_], Which = not_home
+            ; amiss(Cave, Ways, H, Which)
+            ),
+            Wrong).
+test(in_caves_of_the_test_knowledge_mostly_does_not_suffice,
+     [condition(all_cases), true(Found-Not == yes-yes)]) :-
+    findall(x, ( case(50, Seed), random_cave(Seed, Cave),
+                 Cave = cave(_, _, Gold), explored(Cave, Cells),
+                 memberchk(Gold, Cells) ), Xs),
+    length(Xs, N),
+    ( N >= 15 -> Found = yes ; Found = N ),
+    ( N =< 45 -> Not = yes ; Not = N ).
+
+%   Crossed are the cells where the robot of the simulator has been.
+
+hunt(Cave, H, Crossed) :-
+    Cave = cave(Wumpus, Pits, Gold),
+    chapter_wumpus:cave(Wumpus, Pits, Gold, World),
+    with_sim(World,
+             ( chapter_wumpus:start([history(H)]),
+               sim_trace(Trace) )),
+    findall(CX-CY,
+            ( member(_-pose(X, Y, _), Trace),
+              CX is round(X/30),
+              CY is round(Y/30) ),
+            Cells),
+    sort(Cells, Crossed).
+
+%   It went where it could not know that it is safe.
+
+guess(Visited, [C|Cs], Cave, Which) :-
+    safe_beside(Visited, Cave, Safe),
+    (   ( memberchk(C, Visited) ; memberchk(C, Safe) )
+    ->  guess([C|Visited], Cs, Cave, Which)
+    ;   Which = guessed(C)
+    ).
+
+%   It has the gold if that can be, else it has been wherever it could be.
+
+amiss(Cave, Ways, H, Which) :-
+    Cave = cave(_, _, Gold),
+    explored(Cave, Cells),
+    (   memberchk(Gold, Cells)
+    ->  \+ memberchk(take, H),
+        Which = no_gold
+    ;   sort([0-0|Ways], Visited),
+        Visited \== Cells,
+        Which = visited(Visited, Cells)
+    ).
 
 floors(How, Floors) :-
     with_sim(room,

@@ -6,6 +6,7 @@
 :- use_module('../support/golog/random_programs').
 :- use_module('../support/golog/sensing').
 :- use_module('../support/golog/small_world', []).
+:- use_module('../support/golog/uncertain').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -1152,6 +1153,198 @@ test(sensing_action_by_outcome, [true(F == warm), nondet]) :-
 
 :- end_tests(golog_domain).
 
+% What is possible and what is known: Vassos: A feasible approach to disjunctive
+% knowledge in situation calculus (2005); Sardina, Vassos: The Wumpus World in
+% IndiGolog (2005)
+
+:- begin_tests(golog_possible_values).
+
+known(P, H) :-
+    golog_uncertain:holds(P, H).
+
+test(a_fluent_has_each_possible_value, Vs == [1, 2, 3]) :-
+    findall(V, golog_uncertain:has_val(place, V, []), Vs).
+test(what_holds_for_all_values_is_known) :-
+    known(place < 4, []),
+    known(neg(place = 7), []),
+    known(some(p, [1, 2, 3, 4], place < p), []).
+test(what_holds_for_some_values_is_possible, Truths == [unknown, unknown]) :-
+    \+ known(place = 1, []),
+    \+ known(neg(place = 1), []),
+    known(possibly(place = 1), []),
+    known(possibly(neg(place = 1)), []),
+    \+ known(possibly(place = 7), []),
+    findall(T, ( member(P, [place = 1, full(a)]),
+                 golog_uncertain:eval(P, [], T) ), Truths).
+test(what_is_known_or_known_not_has_a_truth, Truths == [true, false]) :-
+    findall(T, ( member(P, [place < 4, place = 7]),
+                 golog_uncertain:eval(P, [], T) ), Truths).
+test(sensing_settles_a_value) :-
+    known(full(b), [e(peek(b), 1), peek(b)]),
+    known(neg(full(b)), [e(peek(b), 0), peek(b)]),
+    \+ known(full(a), [e(peek(b), 1), peek(b)]).
+test(sensing_rejects_values, Vs-Ws == [1, 2]-[3]) :-
+    findall(V, golog_uncertain:has_val(place, V, [e(listen, low), listen]), Vs),
+    findall(V, golog_uncertain:has_val(place, V, [e(listen, high), listen]),
+            Ws),
+    known(place = 3, [e(listen, high), listen]).
+test(an_effect_of_all_values_moves_them, Vs == [2, 3, 4]) :-
+    findall(V, golog_uncertain:has_val(place, V, [step]), Vs).
+test(an_effect_that_is_only_possible_keeps_the_value, Truths ==
+     [unknown, false]) :-
+    H = [sweep, e(peek(a), 1), peek(a)],
+    findall(T, ( member(H1, [H, [sweep, e(peek(a), 0), peek(a)]]),
+                 golog_uncertain:eval(full(a), H1, T) ), Truths).
+test(a_known_effect_sets_the_value) :-
+    known(neg(full(c)), [sweep, e(listen, high), listen]).
+test(what_is_set_is_known) :-
+    known(full(a), [set(full(a))]),
+    known(neg(full(a)), [unset(full(a))]).
+test(what_is_simulated_has_the_effects_of_the_action, Vs == [2, 3, 4]) :-
+    findall(V, golog_uncertain:has_val(place, V, [sim(step)]), Vs).
+test(what_is_settled_is_not_rejected, Vs == [2]) :-
+    with_domain([ prim_action(a), poss(a, true), prim_fluent(f),
+                  initially(f, 1), initially(f, 2), initially(f, 3),
+                  settles(a, 1, f, 2, true), rejects(a, 1, f, 1, true) ], M,
+                findall(V, has_val(M:f, V, [e(a, 1), a]), Vs)).
+test(know_is_about_one_value) :-
+    \+ known(know(place), []),
+    known(neg(know(place)), []),
+    known(know(place), [e(listen, high), listen]),
+    known(know(full(a)), [e(peek(a), 0), peek(a)]),
+    \+ known(kwhether(place = 1), []),
+    known(kwhether(place = 1), [e(listen, high), listen]).
+test(variables_get_what_is_known, Bs == [b]) :-
+    findall(B, known(full(B), [e(peek(b), 1), peek(b)]), Bs).
+test(variables_get_what_is_possible, Bs == [a, b, c]) :-
+    findall(B, known(possibly(full(B)), [e(peek(b), 1), peek(b)]), Bs0),
+    sort(Bs0, Bs).
+test(an_action_needs_a_known_precondition, Hs == [[fill(c)|H]]) :-
+    H = [e(peek(c), 0), peek(c)],
+    findall(H1, golog_uncertain:do(ndet(fill(a), fill(c)), H, H1), Hs).
+test(an_argument_of_an_action_must_be_known, H == [fill(a)|H0]) :-
+    H0 = [e(peek(a), 0), peek(a)],
+    with_domain([ prim_action(go(X)), poss(go(X), true), prim_fluent(at),
+                  initially(at, 1), initially(at, 2) ], M,
+                \+ do(M:go(at), _)),
+    golog_uncertain:do(fill(a), H0, H).
+test(a_program_does_the_else_of_what_it_does_not_know, H == [turn]) :-
+    golog_uncertain:do(if(full(a), fill(a), turn), H).
+test(a_run_senses_and_knows,
+     H == [fill(b), e(peek(b), 0), peek(b), e(peek(a), 1), peek(a)]) :-
+    setup_call_cleanup(
+        assertz(golog_uncertain:real(w(1, [a, c], false)), Ref),
+        golog_uncertain:golog(for(x, [a, b],
+                                  [peek(x), if(neg(full(x)), fill(x), [])]),
+                              [history(H)]),
+        erase(Ref)).
+test(a_contradiction_is_told,
+     [error(domain_error(golog_sensing, e(listen, low)))]) :-
+    known(up, [e(listen, low), listen, e(listen, high), listen]).
+test(a_plan_with_branches_is_refused,
+     [error(permission_error(search, golog_domain, _))]) :-
+    golog_uncertain:trans(searchc(turn), [], _, _).
+test(why_not_shows_the_possible_values, Why ==
+     not_possible([failure(neg(full(c)), [full(c) = false, full(c) = true])])) :-
+    golog_uncertain:why_not(fill(c), not_possible([failure(P, Values, _)])),
+    Why = not_possible([failure(P, Values)]).
+test(it_tells_which_fluents_are_sensed, Fs == [full(a), place]) :-
+    findall(F, ( member(A, [peek(a), listen]),
+                 once(golog_uncertain:sensing_action(A, F)) ), Fs).
+test(a_search_relies_on_what_is_known, Hs == [[fill(c)|H]]) :-
+    H = [e(peek(c), 0), peek(c)],
+    findall(H1, golog_uncertain:do(search([ ndet(fill(a), fill(c)),
+                                            ?(full(c)) ]), H, H1), Hs).
+test(an_action_that_forgets_makes_all_values_possible, Truths ==
+     [true, unknown]) :-
+    with_domain([ prim_action(a), poss(a, true), rel_fluent(f(1)),
+                  initially(f(1), true), initially(f(1), false),
+                  settles(a, 1, f(_), true, true), forget(a, f(_)) ], M,
+                findall(T, ( member(H, [[e(a, 1), a], [a, e(a, 1), a]]),
+                             eval(M:f(1), H, T) ), Truths)).
+test(what_is_settled_must_be_declared, [error(instantiation_error)]) :-
+    with_domain([ prim_action(a), poss(a, true), rel_fluent(f(_)),
+                  settles(a, 1, f(_), true, true) ], M,
+                holds(M:f(1), [e(a, 1), a])).
+test(achieve_plans_with_what_is_known, H == [fill(c)|H0]) :-
+    H0 = [e(peek(c), 0), peek(c)],
+    once(golog_uncertain:do(achieve(full(c)), H0, H)).
+test(which_fluents_change_must_be_declared, [error(instantiation_error)]) :-
+    with_domain([ prim_action(a), poss(a, true), rel_fluent(f(_)),
+                  initially(f(1), true), initially(f(1), false),
+                  causes_true(a, f(_), true) ], M, do(M:a, _)).
+
+%   No condition has a fluent twice: then the answer is that of all worlds.
+
+test(conditions_hold_as_in_all_worlds,
+     [ forall(member(P, [ and(full(a), place < 3), or(full(a), neg(up)),
+                          neg(or(full(a), place = 2)),
+                          impl(full(a), place < 4), impl(place = 9, up),
+                          equiv(full(b), full(c)), neg(equiv(up, place = 9)),
+                          equiv(up, place = 9), (up -> full(a) ; place < 4),
+                          (full(a) -> up ; place = 1), sure(a), neg(sure(b)),
+                          some(x, [a, b, c], full(x)), near(place, b),
+                          all(x, [a, b, c], full(x)), full(c) = false ])),
+       true(Found == Wanted) ]) :-
+    findall(T, ( possible_world(W), ( is_so(P, W) -> T = true ; T = false ) ), Ts0),
+    sort(Ts0, Ts),
+    (   Ts = [Wanted]
+    ->  true
+    ;   Wanted = unknown
+    ),
+    once(golog_uncertain:eval(P, [], Found)).
+
+%   What is known is so, and what is so is possible, in random worlds.
+
+test(nothing_false_is_ever_known, Wrong == []) :-
+    findall(wrong(Seed, P, H, W),
+            ( case(300, 5000, Seed),
+              random_run(Seed, H, W),
+              between(1, 4, I),
+              Seed1 is 10*Seed+I,
+              uncertain_condition(Seed1, P),
+              wrongly_known(P, H, W) ),
+            Wrong).
+
+wrongly_known(P, H, W) :-
+    (   is_so(P, W)
+    ->  \+ known(possibly(P), H)
+    ;   known(P, H)
+    ).
+
+random_run(Seed, H, W) :-
+    set_random(seed(Seed)),
+    findall(World, possible_world(World), Worlds),
+    random_member(W0, Worlds),
+    random_between(0, 6, Length),
+    length(Places, Length),
+    acted(Places, [], H, W0, W).
+
+acted([], H, H, W, W).
+acted([_|Places], H0, H, W0, W) :-
+    random_member(A, [ step, sweep, turn, listen, peek(a), peek(b), peek(c),
+                       fill(a), fill(b) ]),
+    world_after(A, W0, W1),
+    (   outcome(A, W0, Value)
+    ->  H1 = [e(A, Value), A|H0]
+    ;   H1 = [A|H0]
+    ),
+    acted(Places, H1, H, W1, W).
+
+uncertain_condition(Seed, P) :-
+    random_program(Seed, 1,
+                   words([turn],
+                         [ full(a), full(b), full(c), up, place = 1, place = 2,
+                           place < 3, place < 5, near(place, b), sure(a),
+                           full(c) = false, some(x, [a, b, c], full(x)),
+                           all(x, [a, b, c], full(x)), impl(full(a), up),
+                           equiv(full(b), full(c)),
+                           (full(a) -> up ; place < 2) ],
+                         [?(condition)]),
+                   ?(P)).
+
+:- end_tests(golog_possible_values).
+
 %   From floor 4 to calls on six of eight floors, by depth first search with a
 %   growing number of moves
 
@@ -1836,13 +2029,6 @@ test(a_cyclic_condition, [error(domain_error(golog_procedure, p))]) :-
     with_domain([proc(p, neg(p))], M, holds(M:p, [])).
 test(an_unknown_condition, [error(existence_error(golog_condition, wet/1))]) :-
     golog_lab:holds(wet(1), []).
-test(a_domain_about_knowledge,
-     [error(permission_error(run, golog_domain, _))]) :-
-    with_domain([causes(a, f, 1, true)], M, indigolog(M:[])).
-test(several_initial_values,
-     [error(permission_error(run, golog_domain, _))]) :-
-    with_domain([prim_fluent(f), initially(f, 1), initially(f, 2)], M,
-                indigolog(M:[])).
 test(the_message_names_clause_and_line, true(Found == true)) :-
     catch(golog_lab:do(broken, _), error(_, context(_, Message)), true),
     module_property(golog_lab, file(File)),

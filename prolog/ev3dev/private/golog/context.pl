@@ -2,6 +2,9 @@
           [ context/3,                  % +Module, +Options, -Context
             context_module/2,           % +Context, -Module
             context_option/2,           % ?Option, +Context
+            context_mode/2,             % +Context, -Mode
+            in_mode/3,                  % ?Mode, +Context0, -Context
+            dual/2,                     % +Context0, -Context
             entered/4,                  % +Kind, +Call, +Context0, -Context
             call_of/3,                  % +Condition, +Goal, +Context
             stepping/2,                 % +Context0, -Context
@@ -23,42 +26,85 @@
           ]).
 :- use_module(effort, [effort/4, watched_effort/3]).
 :- use_module(hints, [hint/3]).
-:- use_module(theory, [located/3]).
+:- use_module(theory, [has_possible_values/1, located/3]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
 
 /** <module> What the interpreter carries along
 
-A context is `x(Module, Options, Calls, Record, Effort)`. Module holds the
-domain. Options are words of this run: `online`, `assume` (what gexec/2
+A context is `x(Module, Options, Calls, Record, Effort, Mode)`. Module holds
+the domain. Options are words of this run: `online`, `assume` (what gexec/2
 means), `simulate`, `conditional` for a plan with branches. Calls are the
 procedures entered since the step began. Record is `none`, or
 record(Number, Notes) of the step that an online run takes: Notes is a partial
 list, of what noted/2 says of the step, the outermost first. Effort is what
-effort.pl counts, or `none`.
+effort.pl counts, or `none`. Mode is what it means that a condition holds:
+`plain`; `conditional`, in a plan with branches; or in a domain with possible
+values `known`, for all of them, or `possible`, for some. In the mode `stored`
+the value of a fluent is the set of these.
 */
 
 %!  context(+Module, +Options, -Context) is det.
 %!  context_module(+Context, -Module) is det.
 %!  context_option(?Option, +Context) is semidet.
 
-context(Module, Options, x(Module, Options, [], none, none)).
+context(Module, Options, x(Module, Options, [], none, none, Mode)) :-
+    mode(Options, Module, Mode).
 
-context_module(x(Module, _, _, _, _), Module).
+context_module(x(Module, _, _, _, _, _), Module).
 
-context_option(Option, x(_, Options, _, _, _)) :-
+context_option(Option, x(_, Options, _, _, _, _)) :-
     memberchk(Option, Options).
+
+mode(Options, Module, Mode) :-
+    (   \+ memberchk(conditional, Options)
+    ->  (   has_possible_values(Module)
+        ->  Mode = known
+        ;   Mode = plain
+        )
+    ;   has_possible_values(Module)
+    ->  throw_error(permission_error(search, golog_domain, Module), _,
+                    'searchc plans for what senses/2 and senses/5 may \c
+                     answer; in a domain with possible values, use search')
+    ;   Mode = conditional
+    ).
+
+%!  context_mode(+Context, -Mode) is det.
+%!  in_mode(?Mode, +Context0, -Context) is det.
+%!  dual(+Context0, -Context) is det.
+%
+%   Context is Context0 with Mode; with the other one of `known` and
+%   `possible`. Without possible values it is Context0.
+
+context_mode(x(_, _, _, _, _, Mode), Mode).
+
+in_mode(Mode, X0, X) :-
+    X0 = x(M, O, C, R, E, Mode0),
+    (   ( Mode0 == known ; Mode0 == possible )
+    ->  X = x(M, O, C, R, E, Mode)
+    ;   X = X0
+    ).
+
+dual(X0, X) :-
+    X0 = x(M, O, C, R, E, Mode),
+    (   Mode == known
+    ->  X = x(M, O, C, R, E, possible)
+    ;   Mode == possible
+    ->  X = x(M, O, C, R, E, known)
+    ;   X = X0
+    ).
 
 %!  context_effort(+Context, -Effort) is det.
 
-context_effort(x(_, _, _, _, Effort), Effort).
+context_effort(x(_, _, _, _, Effort, _), Effort).
 
 %!  searching(+Options, +Limits, +Context0, -Context) is det.
 %
 %   A search begins, with words of its own; it gives up at Limits, and at
 %   those of the searches around it.
 
-searching(Options, Limits, x(M, _, _, _, Outer), x(M, Options, [], none,
-                                                   Effort)) :-
+searching(Options, Limits, x(M, _, _, _, Outer, _),
+          x(M, Options, [], none, Effort, Mode)) :-
+    mode(Options, M, Mode),
     effort(Limits, Options, Outer, Effort).
 
 %!  stepping(+Context0, -Context) is det.
@@ -66,7 +112,7 @@ searching(Options, Limits, x(M, _, _, _, Outer), x(M, Options, [], none,
 %   A new step begins: no procedure has been entered, nothing is recorded,
 %   and nobody watches.
 
-stepping(x(M, O, _, _, _), x(M, O, [], none, none)).
+stepping(x(M, O, _, _, _, Mode), x(M, O, [], none, none, Mode)).
 
 %!  recording(+Number, :Watch, +Context0, -Context) is det.
 %!  noted(+Note, +Context) is det.
@@ -78,11 +124,12 @@ stepping(x(M, O, _, _, _), x(M, O, [], none, none)).
 %   higher priority than what takes the step. Notes are these, the innermost
 %   first. Backtracking undoes what was noted.
 
-recording(Number, Watch, x(M, O, _, _, _), x(M, O, [], Record, Effort)) :-
+recording(Number, Watch, x(M, O, _, _, _, Mode),
+          x(M, O, [], Record, Effort, Mode)) :-
     Record = record(Number, _),
     watched_effort(Watch, Record, Effort).
 
-noted(Note, x(_, _, _, Record, _)) :-
+noted(Note, x(_, _, _, Record, _, _)) :-
     (   Record = record(_, Notes)
     ->  ends_in(Notes, Note)
     ;   true
@@ -99,9 +146,9 @@ ends_in(Partial, Note) :-
 %
 %   True if noted/2 is remembered.
 
-is_recorded(x(_, _, _, record(_, _), _)).
+is_recorded(x(_, _, _, record(_, _), _, _)).
 
-recorded_step(x(_, _, _, Record, _), Number, Notes) :-
+recorded_step(x(_, _, _, Record, _, _), Number, Notes) :-
     Record = record(Number, _),
     recorded_notes(Record, Notes).
 
@@ -124,8 +171,8 @@ reversed(Partial, Notes0, Notes) :-
 %   @error domain_error(golog_procedure, Call) if it has entered the same call
 %          already: there is nothing that would end this
 
-entered(Kind, Call, x(M, O, Calls, Record, Effort),
-        x(M, O, [c(Kind, Call)|Calls], Record, Effort)) :-
+entered(Kind, Call, x(M, O, Calls, Record, Effort, Mode),
+        x(M, O, [c(Kind, Call)|Calls], Record, Effort, Mode)) :-
     (   again(Calls, Kind, Call, 0)
     ->  located(M, proc(Call), Where),
         format(atom(Text), '~wcyclic: ~q comes to itself again without a \c
@@ -150,7 +197,7 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %
 %   @error existence_error(golog_condition, Name/Arity)
 
-call_of(Condition, Goal, x(M, _, _, _, _)) :-
+call_of(Condition, Goal, x(M, _, _, _, _, _)) :-
     catch(goal_of_program(M:Goal),
           error(existence_error(procedure, PI), Where),
           no_predicate(PI, Where, Condition, Goal, M)).

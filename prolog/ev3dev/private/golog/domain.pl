@@ -34,9 +34,10 @@
                 put_assoc/4
               ]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(context,
-              [ call_of/3, context_effort/2, context_module/2,
-                context_option/2, entered/4, is_recorded/1, print_once/3
+              [ call_of/3, context_effort/2, context_mode/2, context_module/2,
+                dual/2, entered/4, in_mode/3, is_recorded/1, print_once/3
               ]).
 :- use_module(effort, [polled/1]).
 :- use_module(programs,
@@ -44,7 +45,7 @@
 :- use_module(theory,
               [ domain_list/3, has_clauses/2, initial_value/3, is_fluent/2,
                 is_kind/3, is_sensing_action/2, is_set_by_exogenous/2,
-                located/3, proc_body/3
+                located/3, possible_of/2, proc_body/3
               ]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -151,7 +152,10 @@ entries_done([Entry|Entries], S0, S, Context) :-
 %   may bind them.
 
 effects(Entry, S0, Context, Effects) :-
-    (   ground(Entry)
+    (   context_mode(Context, known)
+    ->  context_module(Context, M),
+        effects_known(Entry, S0, Context, M, Effects)
+    ;   ground(Entry)
     ->  findall(Effect, effect(Entry, S0, Context, Effect), Effects)
     ;   findall(Entry-Effect, effect(Entry, S0, Context, Effect), Pairs),
         of_same(Pairs, Entry, Effects)
@@ -461,7 +465,8 @@ sort_if_open(Fs0, F, s(_, _, Values, _, _), M, Fs) :-
         sort(Fs5, Fs)
     ).
 
-%   value(+Fluent, -Value, +Situation, +Context, +Module) is semidet.
+%   value(+Fluent, -Value, +Situation, +Context, +Module) is semidet; in the
+%   mode `possible` on backtracking each possible value.
 
 value(F, V, s(_, _, Values, Open, _), Context, M) :-
     (   get_assoc(F, Values, v(C, V0))
@@ -477,14 +482,24 @@ value(F, V, s(_, _, Values, Open, _), Context, M) :-
     ),
     (   V1 == '$initial'
     ->  (   initial_value(F, V3, M)
-        ->  V = V3
+        ->  true
         ;   no_initial_value(F, M, Context),
             fail
         )
     ;   V1 == '$sensed'
     ->  throw('$golog_unknown'(F))
     ;   V1 \== '$unknown',
-        V = V1
+        V3 = V1
+    ),
+    (   nonvar(V3),
+        V3 = '$possible'(Vs)
+    ->  context_mode(Context, Mode),
+        (   Mode == possible
+        ->  member(V, Vs)
+        ;   Mode == stored,
+            V = V3
+        )
+    ;   V = V3
     ).
 
 open_value([open(C1, F1, V1, Condition, S1)|Open], C, F, V, Context) :-
@@ -527,11 +542,12 @@ no_initial_value(F, M, Context) :-
 %!  fluents_now(+Situation, +Context, -Pairs) is det.
 %
 %   Pairs is a list of Fluent-Value of all ground fluents that have a value,
-%   in standard order.
+%   or '$possible'(Values), in standard order.
 
 fluents_now(S, Context, Pairs) :-
     S = s(_, _, Values, _, _),
     context_module(Context, M),
+    in_mode(stored, Context, Stored),
     assoc_to_keys(Values, Fs1),
     findall(F,
             ( M:initially(F, _), ground(F) ),
@@ -540,7 +556,7 @@ fluents_now(S, Context, Pairs) :-
     append(Fs1, Fs2, Fs4),
     append(Fs3, Fs4, Fs5),
     sort(Fs5, Fs),
-    findall(F-V, ( member(F, Fs), known_value(F, V, S, Context) ), Pairs).
+    findall(F-V, ( member(F, Fs), known_value(F, V, S, Stored) ), Pairs).
 
 known_value(F, V, S, Context) :-
     context_module(Context, M),
@@ -636,10 +652,14 @@ holds(P, S, Context) :-
 holds_(P, S, Context) :-
     (   condition_construct(P)
     ->  holds_construct(P, S, Context)
-    ;   context_option(conditional, Context)
-    ->  catch(holds_atom(P, S, Context), '$golog_unknown'(F),
-              holds_if_assumed(P, F, S, Context))
-    ;   holds_atom(P, S, Context)
+    ;   context_mode(Context, Mode),
+        (   ( Mode == plain ; Mode == possible )
+        ->  holds_atom(P, S, Context)
+        ;   Mode == known
+        ->  known_atom(P, S, Context)
+        ;   catch(holds_atom(P, S, Context), '$golog_unknown'(F),
+                  holds_if_assumed(P, F, S, Context))
+        )
     ).
 
 holds_atom(P, S, Context) :-
@@ -681,39 +701,32 @@ holds_construct(or(P, Q), S, X) :-
 holds_construct(or(Ps), S, X) :-
     member(P, Ps),
     holds(P, S, X).
-holds_construct(neg(P), S, X) :-
+holds_construct(neg(P), S, X0) :-
+    dual(X0, X),
     \+ holds(P, S, X).
 holds_construct(\+ P, S, X) :-
-    \+ holds(P, S, X).
+    holds_construct(neg(P), S, X).
 holds_construct(not(P), S, X) :-
-    \+ holds(P, S, X).
+    holds_construct(neg(P), S, X).
 holds_construct((P, Q), S, X) :-
     holds(P, S, X),
     holds(Q, S, X).
 holds_construct((P ; Q), S, X) :-
     (   nonvar(P),
         P = (If -> Then)
-    ->  (   holds(If, S, X)
-        ->  holds(Then, S, X)
-        ;   holds(Q, S, X)
-        )
+    ->  holds_if(If, Then, Q, S, X)
     ;   (   holds(P, S, X)
         ;   holds(Q, S, X)
         )
     ).
 holds_construct((P -> Q), S, X) :-
-    (   holds(P, S, X)
-    ->  holds(Q, S, X)
-    ).
+    holds_if(P, Q, false, S, X).
 holds_construct(impl(P, Q), S, X) :-
-    (   \+ holds(P, S, X)
+    (   holds_construct(neg(P), S, X)
     ;   holds(Q, S, X)
     ).
 holds_construct(equiv(P, Q), S, X) :-
-    (   holds(P, S, X)
-    ->  holds(Q, S, X)
-    ;   \+ holds(Q, S, X)
-    ).
+    holds_if(P, Q, neg(Q), S, X).
 holds_construct(some(Vs, P0), S, X) :-
     fresh(Vs, P0, P, Choices),
     chosen(Choices, S, X),
@@ -731,10 +744,25 @@ holds_construct(done(A0), S, X) :-
     was_done(A, S).
 holds_construct(haveExecuted(A), S, X) :-
     holds_construct(done(A), S, X).
-holds_construct(know(F), S, X) :-
+holds_construct(know(F), S, X0) :-
+    in_mode(known, X0, X),
     is_known(F, S, X).
 holds_construct(kwhether(F), S, X) :-
-    is_known(F, S, X).
+    holds_construct(know(F), S, X).
+holds_construct(possibly(P), S, X0) :-
+    in_mode(possible, X0, X),
+    holds(P, S, X).
+
+holds_if(P, Q, R, S, X) :-
+    context_mode(X, Mode),
+    (   ( Mode == known ; Mode == possible )
+    ->  (   holds(and(P, Q), S, X)
+        ;   holds(and(neg(P), R), S, X)
+        )
+    ;   holds(P, S, X)
+    ->  holds(Q, S, X)
+    ;   holds(R, S, X)
+    ).
 
 is_known(F0, S, X) :-
     context_module(X, M),
@@ -746,6 +774,183 @@ is_known(F0, S, X) :-
     ->  true
     ;   holds(neg(F0), S, X)
     ).
+
+                /*******************************
+                *       POSSIBLE VALUES        *
+                *******************************/
+
+%   In a domain with possible values a fluent may have '$possible'(Set), two
+%   values or more. A condition is known if it holds for each value, possible
+%   if for some. Each simple condition in it takes the values by itself, so
+%   `known` and `possible` change places under a negation only, and what is
+%   known is true; but or(p, neg(p)) is not known if neither of its parts is.
+%   This is how the evaluator of IndiGolog does it, after Vassos: A
+%   feasible approach to disjunctive knowledge in situation calculus (2005),
+%   and Sardina, Vassos: The Wumpus World in IndiGolog (2005).
+
+%   known_atom(+Condition, +Situation, +Context) is nondet. True if Condition,
+%   without constructs, holds whichever possible values its fluents have.
+
+known_atom(P, S, Context) :-
+    context_module(Context, M),
+    (   P \= _:_,
+        is_kind(proc, P, M)
+    ->  holds_atom(P, S, Context)
+    ;   dual(Context, Any),
+        findall(P-Case, case(P, S, Any, M, Case), Cases0),
+        sort(Cases0, Cases),
+        (   Cases = [P-Case]
+        ->  is_satisfied(Case, P, Context)
+        ;   findall(P,
+                    ( member(P-Case, Cases),
+                      is_satisfied(Case, P, Context) ),
+                    Ps0),
+            sort(Ps0, Ps),
+            member(P, Ps),
+            \+ ( member(P-Case, Cases),
+                 \+ is_satisfied(Case, P, Context) )
+        )
+    ).
+
+%   case(+Condition, +Situation, +Context, +Module, -Case) is nondet: Case is
+%   what Condition comes to for some possible values.
+
+case(P, S, X, M, Case) :-
+    (   P = _:_
+    ->  Case = call(P)
+    ;   evaluated_arguments(P, P1, S, X),
+        (   is_kind(fluent, P, M),
+            known_or_declared(P1, S, M)
+        ->  fluent_value(P1, V, S, X),
+            Case = is(V)
+        ;   Case = call(P1)
+        )
+    ).
+
+is_satisfied(is(V), _, _) :-
+    V == true.
+is_satisfied(call(Goal), P, X) :-
+    call_of(P, Goal, X).
+
+%   effects_known(+Entry, +Situation, +Context, +Module, -Effects) is det. The
+%   values of a fluent after an action are those that it may cause, and if it
+%   is not known to cause any, also those before; after one that forgets them,
+%   those of the beginning.
+
+effects_known(Entry, S, X, M, Effects) :-
+    (   \+ is_kind(action, Entry, M),
+        is_internal(Entry)
+    ->  internal_effects(Entry, S, X, M, Effects)
+    ;   acted_effects(Entry, S, X, M, Effects)
+    ).
+
+internal_effects(Entry, S, X, M, Effects) :-
+    (   Entry = sim(A)
+    ->  acted_effects(A, S, X, M, Effects)
+    ;   Entry = e(A, Outcome)
+    ->  findall(Effect,
+                ( internal_effect(Entry, S, X, M, Effect)
+                ; M:settles(A, Outcome, F, V, Condition),
+                  effect_if(F, V, Condition, S, X, M, Effect),
+                  arg(1, Effect, F1),
+                  must_be_declared(F1, A, M)
+                ),
+                Effects1),
+        findall(F-V, rejected(A, Outcome, F, V, S, X, M), Pairs),
+        by_fluent(Pairs, Rejected),
+        findall(set(F, Value),
+                ( member(F-Vs, Rejected),
+                  \+ memberchk(set(F, _), Effects1),
+                  remaining(F, Vs, Entry, S, X, M, Value) ),
+                Effects2),
+        append(Effects1, Effects2, Effects)
+    ;   findall(Effect, internal_effect(Entry, S, X, M, Effect), Effects)
+    ).
+
+acted_effects(A, S, X, M, Effects) :-
+    in_mode(possible, X, Any),
+    findall(F-V,
+            ( may_cause(A, F, V, Condition, M),
+              instance(F, M),
+              holds(Condition, S, Any),
+              must_be_declared(F, A, M) ),
+            Pairs),
+    by_fluent(Pairs, Caused),
+    findall(Effect,
+            ( member(F-Vs1, Caused),
+              (   must_cause(A, F, S, X, M)
+              ->  Vs = Vs1
+              ;   findall(V, value(F, V, S, Any, M), Vs0),
+                  append(Vs0, Vs1, Vs)
+              ),
+              possible_of(Vs, Value),
+              Effect = set(F, Value)
+            ; M:forget(A, F),
+              instance(F, M),
+              must_be_declared(F, A, M),
+              Effect = set(F, '$initial')
+            ),
+            Effects).
+
+may_cause(A, F, V, Condition, M) :-
+    caused(A, F, V, Condition, M).
+may_cause(A, F, V, Condition, M) :-
+    M:causes(A, F, V, Condition).
+
+%   causes/4 says all about its fluent.
+
+must_cause(A, F, S, X, M) :-
+    (   M:causes(A, F, _, _)
+    ;   caused(A, F, _, Condition, M),
+        holds(Condition, S, X)
+    ),
+    !.
+
+rejected(A, Outcome, F, V, S, X, M) :-
+    M:rejects(A, Outcome, F, V, Condition),
+    instance(F, M),
+    must_be_declared(F, A, M),
+    in_mode(possible, X, Any),
+    value(F, V, S, Any, M),
+    holds_once(Condition, S, X).
+
+remaining(F, Rejected, Entry, S, X, M, Value) :-
+    in_mode(possible, X, Any),
+    findall(V,
+            ( value(F, V, S, Any, M), \+ memberchk(V, Rejected) ),
+            Vs),
+    (   possible_of(Vs, Value)
+    ->  true
+    ;   located(M, fluent(F), Where),
+        format(atom(Text), '~wno possible value of ~q is left after ~q: \c
+                            what was sensed contradicts what was known',
+               [Where, F, Entry]),
+        throw_error(domain_error(golog_sensing, Entry), _, Text)
+    ).
+
+instance(F, M) :-
+    (   ground(F)
+    ->  true
+    ;   is_kind(fluent, F, M)
+    ->  is_fluent(F, M)
+    ;   true
+    ).
+
+must_be_declared(F, A, M) :-
+    (   ground(F)
+    ->  true
+    ;   located(M, fluent(F), Where),
+        functor(A, Name, Arity),
+        format(atom(Text), '~wwhich fluents ~q changes is open: the \c
+                            declaration of the fluent must enumerate its \c
+                            arguments in a domain with possible values',
+               [Where, Name/Arity]),
+        throw_error(instantiation_error, _, Text)
+    ).
+
+by_fluent(Pairs0, Groups) :-
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups).
 
                 /*******************************
                 *     WHAT WILL BE SENSED      *

@@ -140,6 +140,7 @@ condition_construct(done(_)).
 condition_construct(haveExecuted(_)).
 condition_construct(know(_)).
 condition_construct(kwhether(_)).
+condition_construct(possibly(_)).
 condition_construct((_, _)).
 condition_construct((_ ; _)).
 condition_construct((_ -> _)).

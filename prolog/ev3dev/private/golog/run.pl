@@ -19,8 +19,7 @@
 :- use_module(effort, [how_far/2, in_trial/1]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
-              [ has_clauses/2, is_kind/3, prepare/1, proc_place/4,
-                refuse_epistemic/1
+              [ has_clauses/2, is_kind/3, prepare/1, proc_place/4
               ]).
 :- use_module(transitions,
               [ higher_can_step/3, is_final/3, is_preempted/4,
@@ -54,7 +53,6 @@ settings(Words, Trace, OnFailed, Device, Limit, Timeout, Initial, Keep).
 run_online(M:E, Settings, Reason, History) :-
     Settings = settings(Words, _, _, Device, _, Timeout, Initial, Keep),
     prepare(M),
-    refuse_epistemic(M),
     print_again(M),
     context(M, [online|Words], X),
     robot_kind(M, Robot),

@@ -2,12 +2,14 @@
           [ declare_domain/1,           % +Module
             vocabulary/1,               % ?PredicateIndicator
             prepare/1,                  % +Module
-            refuse_epistemic/1,         % +Module
+            has_possible_values/1,      % +Module
+            possible_of/2,              % +Values, -Value
             has_clauses/2,              % +Module, +Head
             is_kind/3,                  % +Kind, +Term, +Module
             is_fluent/2,                % +Term, +Module
             is_exogenous/2,             % +Action, +Module
             is_sensing_action/2,        % +Action, +Module
+            rules_out/2,                % +Action, +Module
             is_set_by_exogenous/2,      % +Fluent, +Module
             proc_body/3,                % +Call, -Body, +Module
             initial_value/3,            % +Fluent, -Value, +Module
@@ -16,7 +18,7 @@
             clause_location/2,          % +Ref, -Place
             domain_list/3               % +Sort, +Module, -Values
           ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(programs, [has_binder/1, renamed/2]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -34,6 +36,7 @@ fluents, actions and procedures.
     noted_any/2,                        % Kind, Module
     with_binder/3,                      % Name, Arity, Module
     prepared/2,                         % Module, Signature
+    uncertain/1,                        % Module
     kept_initial/4,                     % Hash, Module, Fluent, Value
     kept_place/4.                       % Proc, Functor, Module, Place
 
@@ -142,9 +145,11 @@ prepare(Module) :-
         retractall(with_binder(_, _, Module)),
         retractall(kept_place(_, _, Module, _)),
         retractall(prepared(Module, _)),
+        retractall(uncertain(Module)),
         forall(kind(Kind, Head, Term),
                note_heads(Module, Kind, Head, Term)),
         note_binders(Module),
+        note_possible_values(Module),
         assertz(prepared(Module, Signature))
     ).
 
@@ -159,6 +164,10 @@ kind(initial, initially(F, _), F).
 kind(sensed, senses(_, F), F).
 kind(sensed, senses(_, _, F, _, _), F).
 kind(proc, proc(P, _), P).
+kind(uncertain, settles(_, _, F, _, _), F).
+kind(uncertain, rejects(_, _, F, _, _), F).
+kind(uncertain, causes(_, F, _, _), F).
+kind(uncertain, senses(A), A).
 
 signature(Module, Signature) :-
     findall(Sign,
@@ -213,8 +222,8 @@ note_binders(Module) :-
 %
 %   True if a clause of the domain is about a Kind with the name and number of
 %   arguments of Term. Kind is one of `fluent`, `relational`, `action`,
-%   `exogenous`, `precondition`, `initial`, `sensed`, `proc`. A clause whose
-%   head is a variable is asked.
+%   `exogenous`, `precondition`, `initial`, `sensed`, `proc`, `uncertain`. A
+%   clause whose head is a variable is asked.
 
 is_kind(Kind, Term, Module) :-
     functor(Term, Name, Arity),
@@ -264,7 +273,22 @@ is_sensing_action(Action, Module) :-
     !.
 is_sensing_action(Action, Module) :-
     has_clauses(Module, senses(_, _, _, _, _)),
-    \+ \+ Module:senses(Action, _, _, _, _).
+    \+ \+ Module:senses(Action, _, _, _, _),
+    !.
+is_sensing_action(Action, Module) :-
+    has_possible_values(Module),
+    rules_out(Action, Module).
+
+%!  rules_out(+Action, +Module) is semidet.
+%
+%   What Action senses settles or rejects possible values.
+
+rules_out(Action, Module) :-
+    (   Module:senses(Action)
+    ;   Module:settles(Action, _, _, _, _)
+    ;   Module:rejects(Action, _, _, _, _)
+    ),
+    !.
 
 %!  is_set_by_exogenous(+Fluent, +Module) is semidet.
 %
@@ -305,18 +329,64 @@ proc_body(Call, Body, Module) :-
 
 %!  initial_value(+Fluent, -Value, +Module) is semidet.
 %
-%   Value is the first that initially/2 answers for a ground Fluent. What it
+%   Value is the first that initially/2 answers for a ground Fluent; in a
+%   domain with possible values all, as possible_of/2 has them. What it
 %   answered is kept until prepare/1.
 
 initial_value(Fluent, Value, Module) :-
     term_hash(Fluent, Hash),
     (   kept_initial(Hash, Module, Fluent, Kept)
     ->  Kept = value(Value)
-    ;   Module:initially(Fluent, Value0)
+    ;   initial_values(Fluent, Value0, Module)
     ->  assertz(kept_initial(Hash, Module, Fluent, value(Value0))),
         Value = Value0
     ;   assertz(kept_initial(Hash, Module, Fluent, none)),
         fail
+    ).
+
+initial_values(Fluent, Value, Module) :-
+    (   uncertain(Module)
+    ->  findall(V, Module:initially(Fluent, V), Values),
+        possible_of(Values, Value)
+    ;   Module:initially(Fluent, Value)
+    ).
+
+%!  possible_of(+Values, -Value) is semidet.
+%
+%   Value is the only one of Values, else '$possible'(Set). Fails if there are
+%   none.
+
+possible_of(Values, Value) :-
+    sort(Values, Set),
+    (   Set = [Value0]
+    ->  Value = Value0
+    ;   Set = [_|_],
+        Value = '$possible'(Set)
+    ).
+
+%!  has_possible_values(+Module) is semidet.
+%
+%   True if fluents of the domain may have several possible values: it says
+%   what settles or rejects one, or gives a fluent two initial values.
+
+has_possible_values(Module) :-
+    uncertain(Module).
+
+note_possible_values(Module) :-
+    (   noted(uncertain, _, _, Module)
+    ->  assertz(uncertain(Module))
+    ;   noted_any(uncertain, Module)
+    ->  assertz(uncertain(Module))
+    ;   findall(F-V,
+                ( has_clauses(Module, initially(_, _)),
+                  clause(Module:initially(F, V), true),
+                  ground(F) ),
+                Pairs0),
+        sort(Pairs0, Pairs),
+        append(_, [F1-_, F2-_|_], Pairs),
+        F1 == F2
+    ->  assertz(uncertain(Module))
+    ;   true
     ).
 
 %!  domain_list(+Sort, +Module, -Values) is det.
@@ -335,50 +405,6 @@ domain_list(Sort, Module, Values) :-
         ;   Values = Answers
         )
     ;   throw_error(domain_error(golog_sort, Sort), _, '')
-    ).
-
-%!  refuse_epistemic(+Module) is det.
-%
-%   @error permission_error(run, golog_domain, Module) if the domain has
-%          several initial situations
-
-refuse_epistemic(Module) :-
-    (   epistemic(Module, PI, Place)
-    ->  place_text(Place, Where),
-        format(atom(Text), '~wa domain with ~w is about knowledge: \c
-                            several initial situations. Only domains with \c
-                            one initial value for each fluent can run',
-               [Where, PI]),
-        throw_error(permission_error(run, golog_domain, Module), _, Text)
-    ;   true
-    ).
-
-epistemic(Module, Name/Arity, Place) :-
-    member(Name/Arity, [senses/1, causes/4, settles/5, rejects/5]),
-    functor(Head, Name, Arity),
-    has_clauses(Module, Head),
-    clause(Module:Head, Body, Ref),
-    Body \== fail,
-    !,
-    clause_place(Ref, Place).
-epistemic(Module, initially(F, V), Place) :-
-    has_clauses(Module, initially(_, _)),
-    findall(Fluent-Value,
-            ( clause(Module:initially(Fluent, Value), true),
-              ground(Fluent) ),
-            Pairs0),
-    sort(Pairs0, Pairs),
-    twice(Pairs, F, V),
-    clause(Module:initially(F, V0), true, Ref),
-    V0 == V,
-    !,
-    clause_place(Ref, Place).
-
-twice([F1-_, F2-V2|Pairs], F, V) :-
-    (   F1 == F2
-    ->  F = F2,
-        V = V2
-    ;   twice([F2-V2|Pairs], F, V)
     ).
 
 %!  located(+Module, +What, -Text) is det.

@@ -3,7 +3,8 @@
                                         % +Context
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(context, [context_module/2, recorded_step/3, recording/4]).
+:- use_module(context,
+              [context_module/2, in_mode/3, recorded_step/3, recording/4]).
 :- use_module(domain,
               [ fluent_in/4, fluent_value/4, holds/3, situation_count/2,
                 situation_history/2
@@ -74,7 +75,8 @@ false_part(P, Part, S, X) :-
         Part = P
     ).
 
-values_in(P, Values, S, X) :-
+values_in(P, Values, S, X0) :-
+    in_mode(possible, X0, X),
     findall(F = V,
             ( fluent_in(P, F, S, X), ground(F), fluent_value(F, V, S, X) ),
             Values0),

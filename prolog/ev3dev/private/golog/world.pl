@@ -18,7 +18,9 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(theory,
-              [has_clauses/2, is_sensing_action/2]).
+              [ has_clauses/2, has_possible_values/1, is_sensing_action/2,
+                rules_out/2
+              ]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
@@ -438,13 +440,16 @@ value_translated(A, Value0, M, Value) :-
 
 %!  sensing_entries(+Action, +Value, +Module, -Entries) is det.
 %
-%   Entries are what the history gets for Value: e(Action, Value) if senses/5
-%   says what follows from it, else e(Fluent, Value) for each Fluent of
-%   senses/2.
+%   Entries are what the history gets for Value: e(Action, Value) if senses/5,
+%   settles/5 or rejects/5 says what follows from it, else e(Fluent, Value)
+%   for each Fluent of senses/2.
 
 sensing_entries(A, Value, M, Entries) :-
     (   has_clauses(M, senses(_, _, _, _, _)),
         \+ \+ M:senses(A, _, _, _, _)
+    ->  Entries = [e(A, Value)]
+    ;   has_possible_values(M),
+        rules_out(A, M)
     ->  Entries = [e(A, Value)]
     ;   has_clauses(M, senses(_, _))
     ->  findall(e(F, Value), M:senses(A, F), Entries)
