@@ -198,6 +198,8 @@ test(what_pddl_cannot_say_is_refused,
      [ forall(member(Change-Error,
                      [ with(prim_fluent(n))-domain_error(pddl_fluent, n),
                        with(prim_action(switch))-domain_error(pddl_name, _),
+                       with(poss(go(2), at(3) = true))-
+                           domain_error(pddl_condition, _ = true),
                        without(proc(pddl_goal, _))-
                            existence_error(pddl_goal, pddl_rooms) ])),
        true(Thrown = Error) ]) :-
