@@ -433,7 +433,8 @@ task_plan(Task, Shortest, Effort, Plan) :-
     with_denied(State, Task, Full),
     estimated(Full, Task, Estimate, _, _),
     (   Shortest == true
-    ->  shortest([State-[]], [State], 0, Task, Effort, Reversed)
+    ->  by_fact(Task, ByFact),
+        shortest([State-[]], [State], 0, Task, ByFact, Effort, Reversed)
     ;   empty_heap(Heap0),
         empty_assoc(Seen),
         add_to_heap(Heap0, Estimate, node(0, State, none, []), Heap),
@@ -470,42 +471,60 @@ changed([change(Mask, Add1, Delete1)|Changes], Full, Add0, Delete0,
     ),
     changed(Changes, Full, Add2, Delete2, Add, Delete).
 
+%   by_fact(+Task, -ByFact): argument I+1 of ByFact has the operators whose
+%   condition has fact I as its last, the last argument those that have none.
+
+by_fact(Task, ByFact) :-
+    Task = task(known(N, _, _, _), Ops, _, _, _, _),
+    findall(Fact-(I-Mask),
+            ( arg(I, Ops, op(_, Mask, _, _, _)),
+              ( Mask =:= 0 -> Fact is 2*N ; Fact is msb(Mask) ) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    Last is 2*N,
+    uses(0, Last, Pairs, Lists),
+    compound_name_arguments(ByFact, by_fact, Lists).
+
 %   Breadth first, a layer of states at a time: State-Path, sorted, as are the
 %   states Seen so far.
 
-shortest(Layer, Seen, Depth, Task, Effort, Path) :-
+shortest(Layer, Seen, Depth, Task, ByFact, Effort, Path) :-
     Layer = [_|_],
     (   member(State-Path0, Layer),
         reaches_goal(State, Task)
     ->  Path = Path0
-    ;   all_next(Layer, Depth, Task, Effort, [], Next0),
+    ;   all_next(Layer, Depth, Task, ByFact, Effort, [], Next0),
         sort(1, @<, Next0, Next),
         unseen(Next, Seen, Layer1, Seen1),
         Depth1 is Depth+1,
-        shortest(Layer1, Seen1, Depth1, Task, Effort, Path)
+        shortest(Layer1, Seen1, Depth1, Task, ByFact, Effort, Path)
     ).
 
-all_next([], _, _, _, Next, Next).
-all_next([State-Path|Layer], Depth, Task, Effort, Next0, Next) :-
+all_next([], _, _, _, _, Next, Next).
+all_next([State-Path|Layer], Depth, Task, ByFact, Effort, Next0, Next) :-
     counted(Depth, Effort),
     with_denied(State, Task, Full),
-    Task = task(_, Ops, _, _, _, _),
-    functor(Ops, _, Count),
-    next(Count, Ops, State, Full, Path, Next0, Next1),
-    all_next(Layer, Depth, Task, Effort, Next1, Next).
+    Task = task(known(N, _, _, _), Ops, _, _, _, _),
+    Always is 2*N,
+    facts(Full, Facts),
+    of_facts([Always|Facts], ByFact, Ops, State, Full, Path, Next0, Next1),
+    all_next(Layer, Depth, Task, ByFact, Effort, Next1, Next).
 
-next(I, Ops, State, Full, Path, Next0, Next) :-
-    (   I =:= 0
-    ->  Next = Next0
-    ;   arg(I, Ops, op(_, Mask, _, _, _)),
-        (   Full /\ Mask =:= Mask
-        ->  applied(I, State, Full, Ops, State1),
-            Next1 = [State1-[I|Path]|Next0]
-        ;   Next1 = Next0
-        ),
-        I1 is I-1,
-        next(I1, Ops, State, Full, Path, Next1, Next)
-    ).
+of_facts([], _, _, _, _, _, Next, Next).
+of_facts([Fact|Facts], ByFact, Ops, State, Full, Path, Next0, Next) :-
+    At is Fact+1,
+    arg(At, ByFact, Candidates),
+    next(Candidates, Ops, State, Full, Path, Next0, Next1),
+    of_facts(Facts, ByFact, Ops, State, Full, Path, Next1, Next).
+
+next([], _, _, _, _, Next, Next).
+next([I-Mask|Candidates], Ops, State, Full, Path, Next0, Next) :-
+    (   Full /\ Mask =:= Mask
+    ->  applied(I, State, Full, Ops, State1),
+        Next1 = [State1-[I|Path]|Next0]
+    ;   Next1 = Next0
+    ),
+    next(Candidates, Ops, State, Full, Path, Next1, Next).
 
 unseen([], Seen, [], Seen).
 unseen([State-Path|Next], Seen0, Layer, Seen) :-
