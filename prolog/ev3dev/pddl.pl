@@ -575,6 +575,8 @@ init(Atom, T, Path, Kind, Fact) :-
 %
 %   @error domain_error(pddl_fluent, Fluent) if it has other values than true
 %          and false
+%   @error domain_error(pddl_condition, Condition) if it cannot be said in
+%          PDDL, as done(Action)
 %   @error domain_error(pddl_name, Term) if two actions, fluents or objects
 %          have the same name in PDDL
 %   @error existence_error(pddl_goal, Module)

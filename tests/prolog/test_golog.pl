@@ -374,6 +374,8 @@ trans_of(wait_exog, no, [[]-[wait]]).                           % [M]
 trans_of(?(wait_exog_action), no, [[]-[wait]]).                 % [M]
 trans_of(sim(ring), no, [[]-[sim(ring)]]).                      % [M]
 trans_of(achieve(n = 2), no, [search(achieve(n = 2))-[up]]).    % ours
+trans_of(achieve(n = 2, [shortest(false)]), no,                 % ours
+         [search(achieve(n = 2, [shortest(false)]))-[up]]).
 trans_of(abort, no, [[]-[abort]]).                              % [M]
 trans_of(abort(ringing), no, [[]-[e(ringing, false)]]).         % [M]
 trans_of(commit, no, [[]-[commit]]).                            % [M]
@@ -486,6 +488,7 @@ without_part(wait).
 without_part(wait_exog).
 without_part(sim(_)).
 without_part(achieve(_)).
+without_part(achieve(_, _)).
 without_part(abort).
 without_part(abort(_)).
 without_part(commit).

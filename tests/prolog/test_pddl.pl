@@ -1,5 +1,6 @@
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev/pddl)).
+:- use_module('../support/cases').
 :- use_module('../support/pddl_validator').
 :- use_module(library(plunit)).
 
@@ -82,6 +83,136 @@ walk(N, H0, H) :-
         walk(N1, [A|H0], H)
     ;   H = H0
     ).
+
+%   What cannot be made ground is planned for breadth first, by the
+%   interpreter itself.
+
+interpreted(Goal, and(Goal, (true -> true ; true))).
+
+test(what_the_domain_does_not_decide_is_not_made_ground, fail) :-
+    files(blocks, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    interpreted(pddl_goal, Goal),
+    ev3dev_golog_relaxed:task(pddl_test, Goal, [], none, _).
+test(a_plan_that_need_not_be_shortest_is_valid,
+     [forall(published(Name, Least)), true(Verdict-Long == solved-enough)]) :-
+    files(Name, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    once(do(pddl_test:achieve(pddl_goal, [shortest(false)]), H)),
+    reverse(H, Plan),
+    length(Plan, Length),
+    ( between(Least, 30, Length) -> Long = enough ; Long = Length ),
+    verdict(Domain, Problem, Plan, Verdict).
+test(random_goals_are_reached_as_by_the_interpreter,
+     [forall(published(Name, _)), true(Wrong == [])]) :-
+    files(Name, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    set_random(seed(11)),
+    cases(12, Count),
+    findall(Goal-Found,
+            ( between(1, Count, _),
+              random_goal(Goal),
+              \+ holds(pddl_test:Goal, []),
+              interpreted(Goal, Interpreted),
+              reached(Interpreted, [gives_up(steps(300))], Plan1),
+              reached(Goal, [gives_up(steps(3000))], Plan2),
+              reached(Goal, [gives_up(steps(3000)), shortest(false)], Plan3),
+              Found = [Plan1, Plan2, Plan3],
+              \+ agreed(Found, Domain, Problem, Goal) ),
+            Wrong).
+
+%   Half of the goals hold after a random walk.
+
+random_goal(Goal) :-
+    findall(F, ( pddl_test:rel_fluent(F), ground(F) ), Fs),
+    walk(9, [], H),
+    random_member(Value, [random, H]),
+    random_literal(Fs, Value, P),
+    random_literal(Fs, Value, Q),
+    random_literal(Fs, Value, R),
+    random_member(Goal, [ P, and(P, Q), and([P, Q, R]), or(P, and(Q, R)),
+                          neg(or(P, Q)), and(impl(P, Q), R),
+                          some(x, [1, 2], or(and(x = 1, P),
+                                             and(x = 2, Q))) ]).
+
+random_literal(Fs, Value, L) :-
+    random_member(F, Fs),
+    (   Value == random
+    ->  random_member(L, [F, F, F, neg(F)])
+    ;   holds(pddl_test:F, Value)
+    ->  L = F
+    ;   L = neg(F)
+    ).
+
+reached(Goal, Options, Plan) :-
+    (   do(pddl_test:achieve(Goal, Options), H)
+    ->  reverse(H, Plan)
+    ;   Plan = none
+    ).
+
+%   A plan that was found is possible and reaches the goal. What the
+%   interpreter finds is found, and in as few steps.
+
+agreed(Found, Domain, Problem, Goal) :-
+    \+ ( member(Plan, Found),
+         Plan \== none,
+         \+ ( reverse(Plan, H),
+              holds(pddl_test:Goal, H),
+              verdict(Domain, Problem, Plan, Verdict),
+              Verdict \= impossible(_) ) ),
+    Found = [Plan1, Plan2, Plan3],
+    (   Plan1 == none
+    ->  true
+    ;   length(Plan1, Length),
+        length(Plan2, Length),
+        Plan3 \== none
+    ).
+
+test(a_plan_is_made_again_after_an_exogenous_action,
+     true(R-Left == final-[])) :-
+    files(gripper, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    pddl_test:initially(at(Ball, Room), true),
+    !,
+    Clauses = [ (execute(pick(_, _, _), _) :-
+                     (   test_pddl_pushed
+                     ->  true
+                     ;   assertz(test_pddl_pushed),
+                         golog_exog(pddl_test:push)
+                     )),
+                (execute(A, _) :- A \= pick(_, _, _)),
+                exog_action(push), poss(push, true),
+                causes_true(push, at(Ball, Room), true) ],
+    pddl_test:dynamic(test_pddl_pushed/0),
+    setup_call_cleanup(
+        findall(Ref, ( member(C, Clauses), assertz(pddl_test:C, Ref) ), Refs),
+        golog(pddl_test:achieve(pddl_goal, [shortest(false)]),
+              [reason(R), history(H)]),
+        ( forall(member(Ref, Refs), erase(Ref)),
+          retractall(pddl_test:test_pddl_pushed) )),
+    memberchk(push, H),
+    findall(pddl_goal, \+ holds(pddl_test:pddl_goal, H), Left).
+test(a_search_that_is_given_up_finds_nothing,
+     [ forall(( member(Limit, [ gives_up(steps(2)), gives_up(seconds(0)),
+                                gives_up(inferences(100)), timeout(0) ]),
+                member(Shortest, [true, false]) )),
+       fail ]) :-
+    files(hanoi, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    do(pddl_test:achieve(pddl_goal, [Limit, shortest(Shortest)]), _).
+test(a_wrong_option,
+     [ forall(member(Options, [ [shortest(_)], [shortest(maybe)], [depth(3)],
+                                [gives_up(3)], [timeout(-1)], quick ])),
+       error(domain_error(golog_option, _)) ]) :-
+    files(blocks, Domain, Problem),
+    pddl_domain(pddl_test:Domain),
+    pddl_problem(pddl_test:Problem),
+    do(pddl_test:achieve(pddl_goal, Options), _).
 
 test(a_domain_takes_the_place_of_the_last, Actions == [move]) :-
     files(gripper, First, FirstProblem),
@@ -194,10 +325,23 @@ test(a_domain_with_rules_is_written,
               once(do(pddl_test_again:achieve(pddl_goal), H)),
               reverse(H, Plan),
               verdict(Domain, Problem, Plan, Verdict) ))).
+test(a_plan_in_a_domain_with_rules,
+     [ forall(member(Options, [[], [shortest(false)]])),
+       true(Plan == [go(3), go(4), 'Switch']) ]) :-
+    with_rooms(same,
+        ( once(do(pddl_rooms:achieve(pddl_goal, Options), H)),
+          reverse(H, Plan) )).
+test(a_fluent_with_another_value_leaves_the_planning_to_the_interpreter,
+     Length == 3) :-
+    with_rooms(with(prim_fluent(n)),
+        ( once(do(pddl_rooms:achieve(pddl_goal, [shortest(false)]), H)),
+          length(H, Length) )).
 test(what_pddl_cannot_say_is_refused,
      [ forall(member(Change-Error,
                      [ with(prim_fluent(n))-domain_error(pddl_fluent, n),
                        with(prim_action(switch))-domain_error(pddl_name, _),
+                       with(poss(go(2), at(3) = true))-
+                           domain_error(pddl_condition, _ = true),
                        without(proc(pddl_goal, _))-
                            existence_error(pddl_goal, pddl_rooms) ])),
        true(Thrown = Error) ]) :-

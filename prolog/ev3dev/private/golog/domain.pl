@@ -45,7 +45,7 @@
 :- use_module(theory,
               [ domain_list/3, has_clauses/2, initial_value/3, is_fluent/2,
                 is_kind/3, is_sensing_action/2, is_set_by_exogenous/2,
-                located/3, possible_of/2, proc_body/3
+                located/3, names_fluent/2, possible_of/2, proc_body/3
               ]).
 :- use_module('../errors', [throw_error/3]).
 
@@ -229,16 +229,6 @@ comparisons(P0, S, Context, M, P) :-
         comparisons(R0, S, Context, M, R)
     ;   ( P0 = (_ = _) ; P0 = (_ \= _) ; P0 = (_ == _) ; P0 = (_ \== _) )
     ->  once(evaluated_arguments(P0, P, S, Context))
-    ).
-
-names_fluent(Term, M) :-
-    callable(Term),
-    (   is_kind(fluent, Term, M)
-    ->  true
-    ;   compound(Term),
-        arg(_, Term, Argument),
-        names_fluent(Argument, M)
-    ->  true
     ).
 
 %   Newest first; those of one action in the order of the clauses.

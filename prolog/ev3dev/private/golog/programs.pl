@@ -76,6 +76,7 @@ weak_construct(wait).
 weak_construct(wait_exog).
 weak_construct(sim(_)).
 weak_construct(achieve(_)).
+weak_construct(achieve(_, _)).
 weak_construct(abort).
 weak_construct(abort(_)).
 weak_construct(commit).

@@ -14,6 +14,7 @@
                 situation_history/2
               ]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
+:- use_module(relaxed, [task/5, task_plan/4]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
 :- use_module('../errors', [domain_error/2]).
@@ -63,23 +64,17 @@ ev3dev_golog_transitions:step_construct('$path'(E, Path, At, Options), S,
                                         E1, S1, X) :-
     path_step(E, Path, At-Options, S, E1, S1, X).
 ev3dev_golog_transitions:step_construct(achieve(Goal), S, E1, S1, X) :-
-    (   rules(X, M)
-    ->  rule_of(M, Goal, Guard, Body),
-        holds(Guard, S, X),
-        step(Body, S, E1, S1, X)
-    ;   \+ holds(Goal, S, X),
-        achieve_step(Goal, S, E1, S1, X)
-    ).
+    achieve_step(Goal, [], achieve(Goal), S, E1, S1, X).
+ev3dev_golog_transitions:step_construct(achieve(Goal, Options), S,
+                                        E1, S1, X) :-
+    achieve_step(Goal, Options, achieve(Goal, Options), S, E1, S1, X).
 
 ev3dev_golog_transitions:ends('$path'(E, Path, At, _), S, X) :-
     path_is_final(E, Path, At, S, X).
 ev3dev_golog_transitions:ends(achieve(Goal), S, X) :-
-    (   rules(X, M)
-    ->  rule_of(M, Goal, Guard, Body),
-        holds(Guard, S, X),
-        is_final(Body, S, X)
-    ;   holds(Goal, S, X)
-    ).
+    is_achieved(Goal, S, X).
+ev3dev_golog_transitions:ends(achieve(Goal, _), S, X) :-
+    is_achieved(Goal, S, X).
 
 rules(X, M) :-
     context_module(X, M),
@@ -486,23 +481,66 @@ branches_planned([Test-Case|Cases], P, E, S0, Depth, [Test-Plan|Plans], X) :-
                 *           ACHIEVE            *
                 *******************************/
 
-%   achieve_step(+Goal, +Situation0, -Program, -Situation, +Context) is
-%   semidet.
+%   achieve_step(+Goal, +Options, +Program0, +Situation0, -Program,
+%   -Situation, +Context) is nondet.
 %
-%   Take the first step of a shortest plan of primitive actions after which
-%   the condition Goal holds. library(ev3dev/planners) finds the plan.
+%   Take the first step of a plan of primitive actions after which the
+%   condition Goal holds, or as the rules of the domain say. relaxed.pl finds
+%   the plan, or, if the domain is not for that, library(ev3dev/planners).
 
-achieve_step(Goal, S, E1, S1, X0) :-
-    offline(X0, [], X),
-    state_of(S, X, State),
-    planner_loaded,
-    Problem = problem(State, goal,
-                      [ successor(ev3dev_golog_search:successor(Goal, X)) ]),
-    ev3dev_search:plan(breadth_first, Problem, Plan0),
-    append(Plan, [end], Plan0),
-    Plan = [_|_],
-    achieving(Plan, achieve(Goal), Path),
-    path_begun(achieve(Goal), Path, achieve, S, E1, S1, X0).
+achieve_step(Goal, Options, E, S, E1, S1, X) :-
+    must_be_achieve_options(Options),
+    (   rules(X, M)
+    ->  rule_of(M, Goal, Guard, Body),
+        holds(Guard, S, X),
+        step(Body, S, E1, S1, X)
+    ;   \+ holds(Goal, S, X),
+        offline(X, Options, X1),
+        limited(achieving_plan(Goal, Options, S, Plan, X1), X1),
+        achieving(Plan, E, Path),
+        path_begun(E, Path, achieve, S, E1, S1, X)
+    ).
+
+must_be_achieve_options(Options) :-
+    (   is_list(Options),
+        \+ ( member(Option, Options), \+ is_achieve_option(Option) )
+    ->  true
+    ;   domain_error(golog_option, Options)
+    ).
+
+is_achieve_option(Option) :-
+    compound(Option),
+    (   Option = shortest(Truth)
+    ->  nonvar(Truth),
+        memberchk(Truth, [true, false])
+    ;   functor(Option, Name, 1),
+        memberchk(Name, [gives_up, timeout])
+    ).
+
+is_achieved(Goal, S, X) :-
+    (   rules(X, M)
+    ->  rule_of(M, Goal, Guard, Body),
+        holds(Guard, S, X),
+        is_final(Body, S, X)
+    ;   holds(Goal, S, X)
+    ).
+
+achieving_plan(Goal, Options, S, Plan, X) :-
+    context_effort(X, Effort),
+    context_module(X, M),
+    fluents_now(S, X, Values),
+    (   task(M, Goal, Values, Effort, Task)
+    ->  ( memberchk(shortest(false), Options) -> Shortest = false
+        ; Shortest = true ),
+        task_plan(Task, Shortest, Effort, Plan)
+    ;   planner_loaded,
+        Problem = problem(state(Values), goal,
+                          [ successor(ev3dev_golog_search:
+                                          successor(Goal, X)) ]),
+        ev3dev_search:plan(breadth_first, Problem, Plan0),
+        append(Plan, [end], Plan0)
+    ),
+    Plan = [_|_].
 
 %!  found_path(+Module, +Start, +End, -Moves) is semidet.
 %

@@ -6,6 +6,7 @@
             possible_of/2,              % +Values, -Value
             has_clauses/2,              % +Module, +Head
             is_kind/3,                  % +Kind, +Term, +Module
+            names_fluent/2,             % +Term, +Module
             is_fluent/2,                % +Term, +Module
             is_exogenous/2,             % +Action, +Module
             is_sensing_action/2,        % +Action, +Module
@@ -238,6 +239,20 @@ is_kind(Kind, Term, Module) :-
 asked(Kind, Template, Module) :-
     kind(Kind, Head, Template),
     Module:Head.
+
+%!  names_fluent(+Term, +Module) is semidet.
+%
+%   True if Term, or a part of it, has the form of a fluent.
+
+names_fluent(Term, M) :-
+    callable(Term),
+    (   is_kind(fluent, Term, M)
+    ->  true
+    ;   compound(Term),
+        arg(_, Term, Argument),
+        names_fluent(Argument, M)
+    ->  true
+    ).
 
 %!  is_fluent(?Term, +Module) is nondet.
 %
