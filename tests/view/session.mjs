@@ -93,9 +93,9 @@ export class Session {
 /** Else it is Chromium. */
 export const isFirefox = Boolean(process.env.FIREFOX);
 
-export async function browse() {
-  // By WebDriver BiDi, which cannot say what colors one page has: all are light.
-  if (isFirefox) return puppeteer.launch({ browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': 1 } });
+/** The colors matter to Firefox only: WebDriver BiDi cannot say which one page has. */
+export async function browse(scheme = 'light') {
+  if (isFirefox) return puppeteer.launch({ browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': scheme === 'light' ? 1 : 0 } });
   return puppeteer.launch({
     executablePath: process.env.CHROMIUM, headless: true,
     args: [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--font-render-hinting=none'],
