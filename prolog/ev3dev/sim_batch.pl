@@ -5,7 +5,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/arguments,
-              [ number_option/4, number_value/3, option/2, option/3,
+              [ must_be_options/3, number_option/4, number_value/3, option/3,
                 take_options/4 ]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
@@ -81,7 +81,7 @@ processor as with many.
 %   @error existence_error(procedure, Name/Arity) if File has no such Test
 %   @error type_error(integer, Seed)
 %   @error domain_error(sim_batch_option, Option)
-%   @error the errors of sim_start/2 for the other options
+%   @error the errors of sim_start/2 for its options
 %   @error existence_error(library, unix) where there is no fork/1
 
 sim_batch(File, Test, Seeds, Scores) :-
@@ -90,8 +90,10 @@ sim_batch(File, Test, Seeds, Scores) :-
 sim_batch(File, Test, Seeds, Scores, Options) :-
     must_be(callable, Test),
     must_be(list(integer), Seeds),
+    must_be_options(sim_batch_option,
+                    [ world, workers, wall, cpu, progress,
+                      clock, robot, noise, screen ], Options),
     take_options([world, workers, wall, cpu, progress], Options, Own, Sim),
-    must_have_no_seed(Sim),
     option(world(World), Own, room),
     own_options(Own, Workers, Wall, Cpu, Progress),
     in_own_name(absolute_file_name(File, Path,
@@ -106,13 +108,6 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
         end_workers(Pool)),
     msort(Done, Sorted),
     findall(Seed-Score, member(done(_, Seed, Score), Sorted), Scores).
-
-must_have_no_seed(Options) :-
-    (   option(seed(Seed), Options)
-    ->  throw_error(domain_error(sim_batch_option, seed(Seed)), _,
-                    'the seeds of the runs are an argument of their own')
-    ;   true
-    ).
 
 own_options(Options, Workers, Wall, Cpu, Progress) :-
     (   current_prolog_flag(cpu_count, Processors)

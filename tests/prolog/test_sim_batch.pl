@@ -142,7 +142,7 @@ test(what_is_wrong_with_the_call,
                        sim_batch(File, drawn, [1], _, [world(mars)])
                        -existence_error(world, mars),
                        sim_batch(File, drawn, [1], _, [colour(red)])
-                       -domain_error(sim_option, colour(red)),
+                       -domain_error(sim_batch_option, colour(red)),
                        sim_batch(File, drawn, [1], _, [workers(0)])
                        -type_error(positive_integer, 0),
                        sim_batch(File, drawn, [1], _, [wall(-1)])-domain_error(seconds, -1),
