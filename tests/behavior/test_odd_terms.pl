@@ -129,9 +129,8 @@ may_throw(public, _:Goal, error(Formal, context(Called, Message))) :-
     (   Calls = Goal
     ;   arg(_, Goal, Calls)             % a goal that it called
     ),
-    nonvar(Calls),
-    functor(Calls, Name, Arity),
-    Called == Name/Arity,
+    callable(Calls),
+    called(Calls, Called),
     !,
     (   Formal == resource_error(c_stack)       % its words are Prolog's
     ->  true
@@ -144,6 +143,14 @@ may_throw(public, _, error(syntax_error(_), file(_, _, _, _))).
 may_throw(native, _, error(Formal, _)) :-
     nonvar(Formal),
     Formal \= rust_error(_).
+
+called(Goal, Called) :-
+    compound(Goal),
+    !,
+    compound_name_arity(Goal, Name, Arity),     % functor/3 refuses wall()
+    Called == Name/Arity.
+called(Name, Called) :-
+    Called == Name/0.
 
 of_its_goal(error(existence_error(procedure, _), _)).
 of_its_goal(error(representation_error(max_procedure_arity), _)).
