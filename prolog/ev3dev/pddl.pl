@@ -7,8 +7,9 @@
 :- use_module(private/compiled, []).
 :- reexport(golog).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(private/directory, [file_path/2]).
 :- use_module(private/errors,
-              [must_be/2, term_expansion/4, throw_error/3]).
+              [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
 :- use_module(private/golog/theory, [declare_domain/1]).
@@ -159,9 +160,9 @@ no_names_of_fluents(Parts, theory(_, Predicates), Path) :-
 
 read_define(File, What, Parts, Path) :-
     must_be(nonvar, File),
-    (   absolute_file_name(File, Path,
-                           [ extensions([pddl, '']), access(read),
-                             file_errors(fail) ]),
+    (   in_own_name(absolute_file_name(File, Path,
+                                       [ extensions([pddl, '']), access(read),
+                                         file_errors(fail) ])),
         exists_file(Path)
     ->  true
     ;   throw_error(existence_error(source_sink, File), _, '')
@@ -583,10 +584,10 @@ init(Atom, T, Path, Kind, Fact) :-
 %   @error the errors of open/4
 
 pddl_write(M:File0) :-
-    must_be(nonvar, File0),
+    must_be(ground, File0),
     declare_domain(M),
     pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)),
-    absolute_file_name(File0, File),
+    file_path(File0, File),
     file_name_extension(Base, Extension, File),
     atom_concat(Base, '-problem', ProblemBase),
     file_name_extension(ProblemBase, Extension, ProblemFile),

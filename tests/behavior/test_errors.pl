@@ -56,8 +56,8 @@ bad(calibrate(axle, [], _), [all-1, _-1, [turn(5)]-2, [turns(0)]-2]).
 bad(set_grid([]), [a-1, [neighbors(5)]-1, [colour(red)]-1]).
 bad(golog([], []), [_-1, fly-1, [limt(3)]-2, [limit(-1)]-2, [gexec(x)]-2]).
 bad(golog_exog(x), [_-1]).
-bad(pddl_domain(x), [_-1, nix-1]).
-bad(pddl_problem(x), [_-1, nix-1]).
+bad(pddl_domain(x), [_-1, nix-1, 7-1]).
+bad(pddl_problem(x), [_-1, nix-1, 7-1]).
 bad(pddl_write(x), [_-1]).
 bad(why_not(x), [_-1, off(_)-1]).
 bad(why_not(x, _), [_-1]).
@@ -65,7 +65,7 @@ bad(do([], _), [_-1, fly-1]).
 bad(do([], [], _), [_-1, fly-1, a-2]).
 bad(trans([], [], _, _), [_-1, fly-1, a-2]).
 bad(final([], []), [_-1, a-2]).
-bad(holds(true, []), [_-1, wet(1)-1, a-2]).
+bad(holds(true, []), [_-1, 7-1, wet(1)-1, a-2]).
 bad(has_val(f, _, []), [_-1, a-3]).
 bad(eval(true, [], _), [_-1, a-2]).
 bad(get_integer(1, _, 3), [a-1, _-1, a-3, _-3]).

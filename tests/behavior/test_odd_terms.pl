@@ -127,7 +127,8 @@ may_throw(_, _, Error) :-
 may_throw(public, _:Goal, error(Formal, context(Called, Message))) :-
     nonvar(Formal),
     (   Calls = Goal
-    ;   arg(_, Goal, Calls)             % a goal that it called
+    ;   arg(_, Goal, Argument),         % a goal that it called
+        ( Calls = Argument ; is_list(Argument), member(Calls, Argument) )
     ),
     callable(Calls),
     called(Calls, Called),

@@ -1990,6 +1990,7 @@ test(to_know_needs_no_value, Texts == []) :-
 test(what_books_write_has_a_hint,
      [ forall(member(Program-Hint,
                      [ (a # b)-'ndet(P, Q) for P#Q',
+                       a()-'one writes a, without ()',
                        [a, (a : b)]-'[P, Q] for P:Q',
                        ?((n = 0) & (n = 0))-'and(P, Q) for P & Q',
                        if(n = 0, b)-'if(C, P, [])',
@@ -2001,6 +2002,8 @@ test(what_books_write_has_a_hint,
     ->  Found = true
     ;   Found = Message
     ).
+test(an_infinite_timeout_is_none) :-
+    golog([], [timeout(inf)]).
 test(a_primitive_action_has_a_hint, true(Found == true)) :-
     with_domain([primitive_action(a), poss(a, true)], M,
                 catch(do(M:a, _), error(_, context(_, Message)), true)),

@@ -227,7 +227,7 @@ number_option(Option, Domain, Options, Default) :-
 %!  timeout_option(+Options, -Seconds) is det.
 %
 %   True if the option `timeout` in Options is an expression of that value, or
-%   `infinite`, which is the default.
+%   `infinite`, which is the default, and what `inf` is.
 %
 %   @error domain_error(timeout, Seconds) if it is negative
 
@@ -235,7 +235,11 @@ timeout_option(Options, Seconds) :-
     option(timeout(Expression), Options, infinite),
     (   Expression == infinite
     ->  Seconds = infinite
-    ;   number_value(timeout, Expression, Seconds)
+    ;   number_value(timeout, Expression, Seconds0),
+        (   Seconds0 > 1.0e300          % as inf
+        ->  Seconds = infinite
+        ;   Seconds = Seconds0
+        )
     ).
 
 %!  must_be_within(+Lowest, +Highest, +Domain, +Integer) is det.

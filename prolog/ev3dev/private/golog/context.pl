@@ -27,7 +27,7 @@
 :- use_module(effort, [effort/4, watched_effort/3]).
 :- use_module(hints, [hint/3]).
 :- use_module(theory, [has_possible_values/1, located/3]).
-:- use_module('../errors', [goal_of_program/1, throw_error/3]).
+:- use_module('../errors', [goal_of_program/1, must_be/2, throw_error/3]).
 
 /** <module> What the interpreter carries along
 
@@ -196,8 +196,10 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %   Call the Prolog Goal that Condition is, with fluents replaced.
 %
 %   @error existence_error(golog_condition, Name/Arity)
+%   @error type_error(callable, Goal)
 
 call_of(Condition, Goal, x(M, _, _, _, _, _)) :-
+    must_be(callable, Goal),
     catch(goal_of_program(M:Goal),
           error(existence_error(procedure, PI), Where),
           no_predicate(PI, Where, Condition, Goal, M)).

@@ -12,7 +12,10 @@
 %   is what may follow in the message: how this library writes it, or empty.
 
 hint(Term, Module, Text) :-
-    (   callable(Term),
+    (   compound(Term),
+        compound_name_arity(Term, Name, 0)
+    ->  format(atom(Text), '. Here one writes ~q, without ()', [Name])
+    ;   callable(Term),
         functor(Term, Name, Arity),
         written(Name/Arity, Here)
     ->  format(atom(Text), '. Here one writes ~w', [Here])

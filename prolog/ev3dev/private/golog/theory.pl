@@ -227,7 +227,11 @@ note_binders(Module) :-
 %   clause whose head is a variable is asked.
 
 is_kind(Kind, Term, Module) :-
-    functor(Term, Name, Arity),
+    (   compound(Term)
+    ->  compound_name_arity(Term, Name, Arity), % functor/3 refuses go()
+        Arity > 0
+    ;   functor(Term, Name, Arity)
+    ),
     (   noted(Kind, Name, Arity, Module)
     ->  true
     ;   noted_any(Kind, Module)
@@ -467,9 +471,7 @@ clause_about(About, Heads, Term, Module, Head, Ref) :-
 
 stands_in(Term, Body) :-
     nonvar(Body),
-    (   functor(Term, Name, Arity),
-        functor(Body, Name, Arity),
-        Term = Body
+    (   Term = Body
     ->  true
     ;   compound(Body),
         arg(_, Body, Argument),
@@ -498,6 +500,14 @@ clause_location(Ref, File:Line) :-
     clause_property(Ref, file(File)),
     clause_property(Ref, line_count(Line)).
 
+%   functor/3 refuses go().
+shape(Term, Name, Arity, General) :-
+    (   compound(Term)
+    ->  compound_name_arity(Term, Name, Arity),
+        compound_name_arity(General, Name, Arity)
+    ;   Name-Arity-General = Term-0-Term
+    ).
+
 %!  proc_place(+Proc, +Term, +Module, -Place) is det.
 %
 %   Place is File:Line of the first clause of Proc, Name/Arity, in whose body
@@ -505,11 +515,10 @@ clause_location(Ref, File:Line) :-
 %   `none`. It is looked up once.
 
 proc_place(Proc, Term, Module, Place) :-
-    functor(Term, Name, Arity),
+    shape(Term, Name, Arity, General),
     (   kept_place(Proc, Name/Arity, Module, Place0)
     ->  true
-    ;   functor(General, Name, Arity),
-        Proc = ProcName/ProcArity,
+    ;   Proc = ProcName/ProcArity,
         functor(Call, ProcName, ProcArity),
         findall(Body-Ref, clause(Module:proc(Call, Body), _, Ref), Clauses),
         (   (   member(Body-Ref, Clauses),

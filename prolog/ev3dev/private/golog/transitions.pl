@@ -177,9 +177,11 @@ unbound_program :-
 
 unknown_program(E, X) :-
     context_module(X, M),
-    (   callable(E)
-    ->  functor(E, Name, Arity),
+    (   compound(E)
+    ->  compound_name_arity(E, Name, Arity),    % also of go()
         What = Name/Arity
+    ;   atom(E)
+    ->  What = E/0
     ;   What = E
     ),
     located(M, in_program(E), Where),
