@@ -584,10 +584,9 @@ init(Atom, T, Path, Kind, Fact) :-
 %   @error the errors of open/4
 
 pddl_write(M:File0) :-
-    must_be(ground, File0),
+    file_path(File0, File),
     declare_domain(M),
     pddl_parts(M, parts(Objects, Predicates, Actions, Init, Goal)),
-    file_path(File0, File),
     file_name_extension(Base, Extension, File),
     atom_concat(Base, '-problem', ProblemBase),
     file_name_extension(ProblemBase, Extension, ProblemFile),

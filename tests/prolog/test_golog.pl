@@ -2002,7 +2002,7 @@ test(what_books_write_has_a_hint,
     ->  Found = true
     ;   Found = Message
     ).
-test(an_infinite_timeout_is_none) :-
+test(an_infinite_timeout_is_none, condition(catch(_ is inf, _, fail))) :- % not in 7.2.3
     golog([], [timeout(inf)]).
 test(a_primitive_action_has_a_hint, true(Found == true)) :-
     with_domain([primitive_action(a), poss(a, true)], M,

@@ -199,7 +199,10 @@ again([c(Kind0, Call0)|Calls], Kind, Call, N) :-
 %   @error type_error(callable, Goal)
 
 call_of(Condition, Goal, x(M, _, _, _, _, _)) :-
-    must_be(callable, Goal),
+    (   callable(Goal)
+    ->  true
+    ;   must_be(callable, Goal)
+    ),
     catch(goal_of_program(M:Goal),
           error(existence_error(procedure, PI), Where),
           no_predicate(PI, Where, Condition, Goal, M)).

@@ -229,7 +229,7 @@ note_binders(Module) :-
 is_kind(Kind, Term, Module) :-
     (   compound(Term)
     ->  compound_name_arity(Term, Name, Arity), % functor/3 refuses go()
-        Arity > 0
+        Arity \== 0
     ;   functor(Term, Name, Arity)
     ),
     (   noted(Kind, Name, Arity, Module)
@@ -500,14 +500,6 @@ clause_location(Ref, File:Line) :-
     clause_property(Ref, file(File)),
     clause_property(Ref, line_count(Line)).
 
-%   functor/3 refuses go().
-shape(Term, Name, Arity, General) :-
-    (   compound(Term)
-    ->  compound_name_arity(Term, Name, Arity),
-        compound_name_arity(General, Name, Arity)
-    ;   Name-Arity-General = Term-0-Term
-    ).
-
 %!  proc_place(+Proc, +Term, +Module, -Place) is det.
 %
 %   Place is File:Line of the first clause of Proc, Name/Arity, in whose body
@@ -515,10 +507,11 @@ shape(Term, Name, Arity, General) :-
 %   `none`. It is looked up once.
 
 proc_place(Proc, Term, Module, Place) :-
-    shape(Term, Name, Arity, General),
+    functor(Term, Name, Arity),
     (   kept_place(Proc, Name/Arity, Module, Place0)
     ->  true
-    ;   Proc = ProcName/ProcArity,
+    ;   functor(General, Name, Arity),
+        Proc = ProcName/ProcArity,
         functor(Call, ProcName, ProcArity),
         findall(Body-Ref, clause(Module:proc(Call, Body), _, Ref), Clauses),
         (   (   member(Body-Ref, Clauses),
