@@ -119,6 +119,9 @@ mutants: build
 lint: build
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	@! [ -d "$$(rustc --print target-libdir --target wasm32-unknown-unknown)" ] || \
+	    RUSTFLAGS="-D warnings" $(CARGO) check --locked --target wasm32-unknown-unknown \
+	        --no-default-features --features sim
 	tools/layers.py --self-test
 	tools/layers.py
 	tools/papers.py --self-test

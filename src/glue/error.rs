@@ -20,10 +20,11 @@ use crate::glue::terms::{Ask as _, unify_atom, unify_value};
 use ev3_driver::device::read_value;
 use ev3_driver::error::{Access, Error};
 use ev3_driver::{Class, Errno, Registry, Value};
+use ev3_os::{Instant, sleep, words};
 use ev3_signals::latch::{self, Reason};
 use std::error::Error as _;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use swipl::prelude::*;
 
 /// The origin of errors: the public predicate that was called, by name and arity.
@@ -61,7 +62,7 @@ fn end_of_program<C: QueryableContextType>(call: &Origin<C>) -> PrologResult<()>
         if latch::is_set_as(Reason::Halting) && since.elapsed() > MOST {
             return call.context.ask(pred!("system:abort/0"), []);
         }
-        std::thread::sleep(Duration::from_millis(10));
+        sleep(Duration::from_millis(10));
     }
     Ok(())
 }
@@ -250,17 +251,12 @@ fn formal<'a, C: QueryableContextType>(
 /// The operation, the path and the kernel's words; then what there is, if a device is
 /// missing, and what the kernel takes, if it refused a word.
 fn message(error: &Error, devices: &Registry) -> String {
-    let source = error.source().map(|source| format!(": {}", words(&source.to_string())));
+    let source = error.source().map(|source| format!(": {}", words(source)));
     // The list of devices does not help if a picture is missing.
     let is_device = |path: &Path| path.starts_with(devices.tree().root());
     let is_gone = error.is_unplugged() && error.path().is_none_or(is_device);
     let rest = if is_gone { connected(devices) } else { allowed(error, devices) };
     format!("{error}{}{rest}", source.unwrap_or_default())
-}
-
-/// What the kernel says, without the number that Rust adds.
-fn words(source: &str) -> &str {
-    source.split_once(" (os error ").map_or(source, |(words, _)| words)
 }
 
 /// The values that an attribute takes, if its driver lists them in a file beside it.

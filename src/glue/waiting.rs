@@ -284,7 +284,7 @@ impl<C: QueryableContextType> Call<'_, C> {
             unify_atom(reason, if is_ending { "pause" } else { ended.word() })
         })?;
         if is_ending {
-            std::thread::sleep(SIGNAL);
+            ev3_os::sleep(SIGNAL);
         }
         Ok(goes_on || is_ending)
     }

@@ -1,9 +1,9 @@
 //! The simulated brick's buttons, speaker and screen as a [`Dev`].
 use crate::sim::files::error;
-use ev3_driver::Devfs;
 use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_driver::lock::locked;
+use ev3_driver::{Devfs, Errno};
 use ev3_sim::{DevDescriptor, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ impl Devfs for SimulatedDev {
 
     fn open(&self, path: &Path, _access: Access) -> io::Result<Box<dyn Stream>> {
         let below = path.strip_prefix(&self.root).ok().and_then(Path::to_str);
-        let below = below.ok_or(io::ErrorKind::NotFound)?;
+        let below = below.ok_or(Errno::NOENT)?;
         let descriptor = DevDescriptor::open(&self.simulation.machine(), below).map_err(error)?;
         let place = Mutex::new(Place { descriptor, offset: 0 });
         Ok(Box::new(SimulatedStream { simulation: Arc::clone(&self.simulation), place }))

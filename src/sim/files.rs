@@ -1,7 +1,8 @@
 //! The simulated brick's attribute files as a [`Sysfs`]: the driver uses them like real
 //! files. [`ev3_sim::Simulation`] is their clock.
+use ev3_driver::SysfsDir;
 use ev3_driver::error::Access;
-use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs, SysfsDir};
+use ev3_driver::sysfs::{AttributeFile, Entry, Repeated, Sysfs};
 use ev3_sim::{Clock, Errno, NodeId, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -44,7 +45,7 @@ impl Sysfs for SimulatedFiles {
     }
 
     fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
-        self.list_below(self.below(directory).ok_or(io::ErrorKind::NotFound)?)
+        self.list_below(self.below(directory).ok_or_else(|| error(Errno::ENOENT))?)
     }
 
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {

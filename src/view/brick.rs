@@ -11,9 +11,10 @@ use ev3_driver::drive::Believed;
 use ev3_driver::lock::locked;
 use ev3_driver::{Class, Device, Registry, motor};
 use ev3_json::Json;
+use ev3_os::Instant;
 use std::collections::VecDeque;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How often the files are read at most.
 const EVERY: Duration = Duration::from_millis(200);

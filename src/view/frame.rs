@@ -7,12 +7,13 @@ use crate::glue::state::{chosen_devices, devices};
 use crate::glue::watch::film;
 use ev3_driver::lock::locked;
 use ev3_json::Json;
+use ev3_os::Instant;
 use ev3_signals::latch;
 use ev3_sim::Simulation;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What a page has: counts of what was sent, in the order of the fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,6 +4,10 @@
 //! time passes, and nothing is read on the program's behalf.
 mod believed;
 mod brick;
+#[cfg(unix)]
+pub(crate) mod door;
+#[cfg(not(unix))]
+#[path = "page.rs"]
 pub(crate) mod door;
 mod frame;
 pub(crate) mod hand;

@@ -1,10 +1,11 @@
 //! What the program prints, for the page's log.
 use super::reach::seconds;
 use ev3_driver::lock::locked;
+use ev3_os::Instant;
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How much is kept until somebody looks: texts, and the bytes after which one is full.
 const TEXTS: usize = 200;

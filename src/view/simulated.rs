@@ -282,6 +282,7 @@ pub(super) fn samples(
 }
 
 /// All samples as a table for a spreadsheet; `None` if there are none.
+#[cfg(unix)]
 pub(super) fn csv(machine: &Machine) -> Option<String> {
     let rows: Vec<_> = machine.samples(None).into_iter().map(|sample| row(sample, None)).collect();
     let names = [["x", "y", "heading"]];

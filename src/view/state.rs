@@ -395,6 +395,7 @@ impl Samples {
     }
 
     /// The same as a table for a spreadsheet, without units.
+    #[cfg(unix)]
     pub(super) fn csv(&self) -> String {
         let mut lines = vec![self.columns.join(",")];
         for row in &self.rows {

@@ -5,9 +5,9 @@ mod robots;
 
 use ev3_driver::error::Access;
 use ev3_driver::motor::{Move, MoveOptions, Run, Speed, Extent, run_forever, run_to};
-use ev3_driver::sysfs::{AttributeFile, Entry, Sysfs, SysfsDir};
+use ev3_driver::sysfs::{AttributeFile, Entry, Sysfs};
 use ev3_driver::motor::wait::Reason;
-use ev3_driver::{Registry, Error};
+use ev3_driver::{Registry, Error, SysfsDir};
 use ev3_sim::{Mount, Shared};
 use ev3dev_lang_rust::motors::{LargeMotor, MotorPort, TachoMotor};
 use ev3dev_lang_rust::sensors::{ColorSensor, GyroSensor, Sensor, SensorPort, UltrasonicSensor};

@@ -1,24 +1,18 @@
 //! The device files: the brick's buttons, its speaker and its screen.
 //!
 //! They are no attributes of text: events are read and written in the kernel's
-//! binary layout, the screen is an array of bytes. [`DevfsDir`] is a directory of
+//! binary layout, the screen is an array of bytes. [`DevfsDir`](crate::DevfsDir) is a directory of
 //! real files: `/dev`, a FUSE mount, or any directory shaped like it, in which
 //! a named pipe or a file stands for each device. A simulator may stand in for
 //! it within the process by implementing [`Devfs`] and [`Stream`].
 use crate::error::{Access, Error, Result};
-use crate::sysfs::is_generated;
 use crate::wait::{Look, Slices, Wait};
-use input_linux::EvdevHandle;
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::fs::OFlags;
-use rustix::io::Errno;
-use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::os::fd::AsFd;
-use std::os::unix::fs::OpenOptionsExt;
+use ev3_os::Errno;
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The longest pause before the caller can do something else.
 pub(crate) const SLICE: Duration = Duration::from_millis(20);
@@ -57,8 +51,7 @@ pub trait Stream: Send + Sync {
     /// Reads what comes next.
     ///
     /// # Errors
-    /// [`WouldBlock`](io::ErrorKind::WouldBlock) if there is nothing yet, else
-    /// the kernel's.
+    /// EAGAIN if there is nothing yet, else the kernel's.
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize>;
 
     /// Writes behind what was written before.
@@ -104,103 +97,6 @@ pub trait Speaker: Send + Sync {
 
     /// Sets the volume, in percent.
     fn set_volume(&self, percent: u8);
-}
-
-/// A directory of real files.
-#[derive(Debug)]
-pub struct DevfsDir {
-    root: PathBuf,
-    started: Instant,
-}
-
-impl DevfsDir {
-    /// The devices below `root`, which need not exist.
-    #[must_use]
-    pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into(), started: Instant::now() }
-    }
-}
-
-impl Devfs for DevfsDir {
-    fn root(&self) -> &Path {
-        &self.root
-    }
-
-    fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>> {
-        let file = OpenOptions::new()
-            .read(access == Access::Read)
-            .write(access == Access::Write)
-            .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
-            .open(path)?;
-        let metadata = file.metadata()?;
-        let is_plain = metadata.is_file() && !is_generated(&file)?;
-        let length = (metadata.is_file() && metadata.len() > 0).then_some(metadata.len());
-        Ok(Box::new(DevFile { file, is_plain, length }))
-    }
-
-    fn now(&self) -> Duration {
-        self.started.elapsed()
-    }
-
-    fn pause(&self, stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
-        if let Some(file) = stream.and_then(Stream::pollable) {
-            let mut descriptors = [PollFd::new(file, PollFlags::IN)];
-            let at_most =
-                Timespec::try_from(end.saturating_sub(self.now())).map_err(io::Error::other)?;
-            match poll(&mut descriptors, Some(&at_most)) {
-                Ok(0) | Err(Errno::INTR) => return Ok(true),
-                Ok(_)
-                    if descriptors.iter().any(|found| found.revents().contains(PollFlags::IN)) =>
-                {
-                    return Ok(true);
-                }
-                // A pipe whose writers have gone, which is ready for nothing.
-                Ok(_) => {}
-                Err(errno) => return Err(errno.into()),
-            }
-        }
-        std::thread::sleep(end.saturating_sub(self.now()));
-        Ok(true)
-    }
-}
-
-/// A device as an open file.
-struct DevFile {
-    file: File,
-    is_plain: bool,
-    length: Option<u64>,
-}
-
-impl Stream for DevFile {
-    fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        (&self.file).read(buffer)
-    }
-
-    fn write(&self, bytes: &[u8]) -> io::Result<usize> {
-        (&self.file).write(bytes)
-    }
-
-    fn skip(&self) -> io::Result<()> {
-        // A device delivers the events after it was opened; a plain file holds the
-        // earlier ones, too.
-        if self.is_plain {
-            (&self.file).seek(SeekFrom::End(0))?;
-        }
-        Ok(())
-    }
-
-    fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
-        EvdevHandle::new(self.file.as_fd()).key_state(bits).map(drop)
-    }
-
-    fn length(&self) -> Option<u64> {
-        self.length
-    }
-
-    fn pollable(&self) -> Option<&File> {
-        // A plain file is always ready.
-        (!self.is_plain).then_some(&self.file)
-    }
 }
 
 /// Opens a device by its path below the root; `None` if there is none.

@@ -1,6 +1,6 @@
 //! Errors, each with the file or the device that it is about.
 use crate::class::Class;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -12,22 +12,38 @@
 //!   ([`survive`]) stops the motors as soon as this one has gone.
 //!
 //! Prolog's own end, as by halt/0, is the affair of `prolog/ev3dev/private/halt.pl`.
-#![expect(unsafe_code, reason = "handlers of signals, and processes, are C's")]
+//!
+//! Where there are no signals there is the latch alone.
+#![cfg_attr(unix, expect(unsafe_code, reason = "handlers of signals, and processes, are C's"))]
+#[cfg(unix)]
 mod crash;
+#[cfg(unix)]
 mod handlers;
+#[cfg(unix)]
 mod kept;
 pub mod latch;
+#[cfg(not(unix))]
+mod none;
+#[cfg(unix)]
 mod stack;
+#[cfg(unix)]
 mod survivor;
+#[cfg(unix)]
 mod watchdog;
 
+#[cfg(unix)]
 pub use kept::{Kept, leave};
-use latch::Reason;
+#[cfg(not(unix))]
+pub use none::{Asked, halts, is_to_halt, leave, own_handlers_stack, stop_for, survive, watch};
+#[cfg(unix)]
 pub use stack::own_handlers_stack;
+#[cfg(unix)]
 pub use survivor::survive;
+#[cfg(unix)]
 pub use watchdog::{Asked, PATIENCE, halts, is_to_halt, watch};
 
 /// Stops the motors that run and whose files are kept, and keeps all from starting.
-pub fn stop_for(reason: Reason) {
+#[cfg(unix)]
+pub fn stop_for(reason: latch::Reason) {
     handlers::stop_for(reason);
 }

@@ -1,7 +1,8 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
 
+use ev3_os::Instant;
 use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::clock::pace::Pace;
 use crate::lock::locked;

@@ -22,6 +22,7 @@ macro_rules! truth {
     ($($name:ident($($arg:ident: $type:ty),*);)*) => {$(
         #[inline]
         pub unsafe fn $name($($arg: $type),*) -> c_int {
+            #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
             unsafe extern "C" {
                 #[allow(clashing_extern_declarations, reason = "wrapped under its own name")]
                 fn $name($($arg: $type),*) -> u8;
@@ -81,6 +82,7 @@ truth! {
 /// yes is always yes.
 pub unsafe fn PL_is_initialised(count: *mut c_int, args: *mut *mut *mut c_char) -> c_int {
     static IS_INITIALISED: AtomicBool = AtomicBool::new(false);
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_is_initialised(argc: *mut c_int, argv: *mut *mut *mut c_char) -> u8;
     }
@@ -99,6 +101,7 @@ macro_rules! translated {
        => |$version:ident| ($($passed:expr),*) |$answer:ident| $result:expr;)*) => {$(
         #[inline]
         pub unsafe fn $name($($arg: $type),*) -> c_int {
+            #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
             unsafe extern "C" {
                 #[allow(clashing_extern_declarations, reason = "wrapped under its own name")]
                 fn $name($($arg: $type),*) -> $c;
@@ -120,6 +123,7 @@ translated! {
 /// The text of a term, if it is one for Rust: an atom may have half of a surrogate pair, and
 /// `swipl` panics at that.
 pub unsafe fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_get_nchars(t: term_t, len: *mut usize, s: *mut *mut c_char, flags: u32) -> u8;
     }
@@ -145,6 +149,7 @@ unsafe fn is_text(atom: atom_t) -> bool {
 
 /// The name and arity of a compound term, if the name is a text: `swipl` panics at any other.
 pub unsafe fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *mut usize) -> u8;
     }
@@ -160,6 +165,7 @@ pub unsafe fn PL_get_compound_name_arity(t: term_t, name: *mut atom_t, arity: *m
 
 /// The functor of a term, if its name is a text, as above.
 pub unsafe fn PL_get_functor(t: term_t, f: *mut functor_t) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_get_functor(t: term_t, f: *mut functor_t) -> u8;
     }
@@ -168,6 +174,7 @@ pub unsafe fn PL_get_functor(t: term_t, f: *mut functor_t) -> c_int {
 
 /// Puts into `end` what follows the elements of a list: `[]`, if it is one.
 pub unsafe fn list_end(list: term_t, end: term_t) {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_skip_list(list: term_t, end: term_t, len: *mut usize) -> c_int;
     }
@@ -231,6 +238,7 @@ macro_rules! list_end {
     }};
 }
 
+#[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
 unsafe extern "C" {
     // Atoms, functors, modules, predicates
     pub fn PL_register_atom(a: atom_t);
@@ -291,6 +299,7 @@ thread_local! {
 }
 
 pub unsafe fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t;
     }
@@ -300,6 +309,7 @@ pub unsafe fn PL_create_engine(attributes: *mut c_void) -> PL_engine_t {
 }
 
 pub unsafe fn PL_destroy_engine(engine: PL_engine_t) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_destroy_engine(engine: PL_engine_t) -> u8;
     }
@@ -313,6 +323,7 @@ pub unsafe fn PL_destroy_engine(engine: PL_engine_t) -> c_int {
 /// sure that a term is of the engine that runs. In a thread of Prolog's it always is, as no
 /// term goes to another thread: such a thread gets a name for its engine, the same in all.
 pub unsafe fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_set_engine(engine: PL_engine_t, old: *mut PL_engine_t) -> c_int;
     }
@@ -412,6 +423,7 @@ macro_rules! of_query {
     ($($name:ident -> $result:ty;)*) => {$(
         #[inline]
         pub unsafe fn $name(query: qid_t) -> $result {
+            #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
             unsafe extern "C" {
                 fn $name(query: usize) -> $result;
             }
@@ -429,6 +441,7 @@ of_query! {
 /// The next solution: -1 for an exception, 0 for failure, 1 if there may be more,
 /// 2 if not. Versions without `PL_Q_EXT_STATUS` answer 0 and 1 only.
 pub unsafe fn PL_next_solution(query: qid_t) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_next_solution(query: usize) -> c_int;
     }
@@ -440,6 +453,7 @@ pub unsafe fn PL_next_solution(query: qid_t) -> c_int {
 }
 
 pub unsafe fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> qid_t {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_open_query(m: module_t, flags: c_int, pred: predicate_t, t0: term_t) -> usize;
     }

@@ -9,6 +9,7 @@ static ACT: OnceLock<fn()> = OnceLock::new();
 /// What was registered last is called first: one called in `at_halt/1` comes before the hooks of
 /// other libraries, of which that of library(time) may hang.
 pub fn act_at_halt(act: fn()) {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_on_halt(
             function: unsafe extern "C" fn(c_int, *mut c_void) -> c_int,

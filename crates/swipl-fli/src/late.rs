@@ -14,10 +14,28 @@ use std::ptr::null_mut;
 use std::sync::OnceLock;
 
 /// Address of the function, or 0 in a version that lacks it.
+#[cfg(unix)]
 fn look_up(name: &CStr) -> usize {
     // Safety: a null-terminated name, and a handle that is always valid.
     unsafe { libc::dlsym(libc::RTLD_DEFAULT, name.as_ptr()) as usize }
 }
+
+/// The same: the place that the loader gives it in the table of functions.
+#[cfg(not(unix))]
+fn look_up(name: &CStr) -> usize {
+    #[link(wasm_import_module = "host")]
+    unsafe extern "C" {
+        fn look_up(name: *const c_char) -> usize;
+    }
+    // Safety: a null-terminated name.
+    unsafe { look_up(name.as_ptr()) }
+}
+
+/// C's wide character.
+#[cfg(unix)]
+type Wide = libc::wchar_t;
+#[cfg(not(unix))]
+type Wide = c_int;
 
 /// Declares a function that is looked up at its first call. After `=>`
 /// comes what is done in versions without it.
@@ -65,14 +83,15 @@ late! {
 
 /// An atom from UTF-8 text by the wide-character function, which 7.2 has.
 unsafe fn atom_from_utf8(len: usize, s: *const c_char) -> atom_t {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
-        fn PL_new_atom_wchars(len: usize, s: *const libc::wchar_t) -> atom_t;
+        fn PL_new_atom_wchars(len: usize, s: *const Wide) -> atom_t;
     }
     // Safety: `swipl` passes `len` bytes of a `&str`.
     let bytes = unsafe { std::slice::from_raw_parts(s.cast::<u8>(), len) };
-    let wide: Vec<libc::wchar_t> = String::from_utf8_lossy(bytes)
+    let wide: Vec<Wide> = String::from_utf8_lossy(bytes)
         .chars()
-        .map(|c| libc::wchar_t::from_ne_bytes(u32::from(c).to_ne_bytes()))
+        .map(|c| Wide::from_ne_bytes(u32::from(c).to_ne_bytes()))
         .collect();
     unsafe { PL_new_atom_wchars(wide.len(), wide.as_ptr()) }
 }

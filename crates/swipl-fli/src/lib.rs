@@ -22,6 +22,9 @@
 //! * **The prompt, the output, and the end.** What is to be done while Prolog waits for input
 //!   ([`prompt`]), when it writes ([`output`]), and when it halts ([`halt`]).
 //!
+//! In WebAssembly all functions are imported from the module `swipl`, which the loader binds to
+//! SWI-Prolog's, and memory is SWI-Prolog's (`memory`).
+//!
 //! Names and meanings are those of `SWI-Prolog.h`; its manual documents them.
 //!
 //! [`swipl`]: https://docs.rs/swipl
@@ -38,6 +41,8 @@
 pub mod functions;
 pub mod halt;
 pub mod late;
+#[cfg(target_family = "wasm")]
+mod memory;
 pub mod output;
 pub mod prompt;
 pub mod pruned;

@@ -24,6 +24,7 @@ const INPUT: c_int = 0;
 const TIMEOUT: c_int = 1;
 
 /// How long it waits for input, in milliseconds.
+#[cfg(unix)]
 const PAUSE_MS: c_int = 20;
 
 /// What is done without input.
@@ -50,6 +51,7 @@ static IS_ACTING: AtomicBool = AtomicBool::new(false);
 /// call is of use if somebody has installed another hook meanwhile. To be called by Prolog's main
 /// thread.
 pub fn act_without_input(act: Act) {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_dispatch_hook(hook: Option<Hook>) -> Option<Hook>;
     }
@@ -85,6 +87,7 @@ unsafe extern "C" fn hook(input: usize) -> c_int {
 
 /// The descriptor that Prolog waits for.
 unsafe fn descriptor(input: usize) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn Sfileno(stream: *mut IOSTREAM) -> c_int;
     }
@@ -102,13 +105,21 @@ unsafe fn descriptor(input: usize) -> c_int {
 }
 
 /// Waits for input, for a moment. Also if a signal has arrived there is none yet.
+#[cfg(unix)]
 unsafe fn has_input(descriptor: c_int) -> bool {
     let mut awaited = libc::pollfd { fd: descriptor, events: libc::POLLIN, revents: 0 };
     unsafe { libc::poll(&raw mut awaited, 1, PAUSE_MS) > 0 }
 }
 
+/// A page has no terminal.
+#[cfg(not(unix))]
+unsafe fn has_input(_descriptor: c_int) -> bool {
+    false
+}
+
 /// Calls the predicate. An exception ends here.
 unsafe fn call(act: &Act) {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_predicate(name: *const c_char, arity: c_int, module: *const c_char) -> predicate_t;
     }

@@ -172,6 +172,7 @@ pub unsafe fn PL_register_foreign_in_module(
     flags: c_int,
     meta: *const c_char,
 ) -> c_int {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_register_foreign_in_module(
             module: *const c_char,
@@ -223,6 +224,7 @@ fn guarded(
 
 /// Prolog is to have this context, until it calls the predicate again.
 pub unsafe fn _PL_retry_address(address: *mut c_void) -> foreign_t {
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn _PL_retry_address(address: *mut c_void) -> foreign_t;
     }

@@ -127,6 +127,7 @@ impl Version {
 #[cold]
 fn ask() -> u32 {
     const PL_QUERY_VERSION: c_int = 10;
+    #[cfg_attr(target_family = "wasm", link(wasm_import_module = "swipl"))]
     unsafe extern "C" {
         fn PL_query(query: c_int) -> isize;
     }

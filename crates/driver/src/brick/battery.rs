@@ -7,7 +7,7 @@ use crate::class::Class;
 use crate::device::Device;
 use crate::device::registry::Registry;
 use crate::error::Result;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 
 /// How a kind of battery discharges.

@@ -11,10 +11,8 @@ use crate::devfs::{Devfs, SLICE, Stream, open_first, pause_for};
 use crate::error::{Access, Error, Result};
 use crate::lock::locked;
 use crate::wait::{AnyWait, Look, Slices, Wait};
-use input_linux::sys::input_event;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::collections::VecDeque;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -35,7 +33,11 @@ const EV_KEY: u16 = 1;
 const STATE_BYTES: usize = 96;
 
 /// An event of the kernel: a time of two words, then type, code and value.
-pub(crate) const EVENT_BYTES: usize = size_of::<input_event>();
+#[cfg(unix)]
+pub(crate) const EVENT_BYTES: usize = size_of::<input_linux::sys::input_event>();
+/// That of the simulated brick.
+#[cfg(not(unix))]
+pub(crate) const EVENT_BYTES: usize = 2 * size_of::<usize>() + 8;
 
 /// A button of the brick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -246,7 +248,7 @@ impl Queue {
         let mut buffer = [0; 64 * EVENT_BYTES];
         let length = match stream.read(&mut buffer) {
             Ok(length) => length,
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => 0,
+            Err(error) if Errno::from_io_error(&error) == Some(Errno::AGAIN) => 0,
             Err(source) => return Err(Error::Read { path: path.to_owned(), source }),
         };
         self.rest.extend_from_slice(buffer.get(..length).unwrap_or_default());

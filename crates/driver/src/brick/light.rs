@@ -18,7 +18,7 @@ use crate::error::{Error, Interrupted, Result};
 use crate::journal::{Act, LightChange, Name};
 use crate::port_name;
 use crate::value::integer;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -3,10 +3,8 @@ use crate::devfs::{Devfs, Finds, UntilFound};
 use crate::error::{Error, Result};
 use crate::lock::locked;
 use crate::wait::Slices;
-use nix::sys::signal::Signal;
 use std::ffi::OsStr;
 use std::io::{self, Read};
-use std::os::unix::process::ExitStatusExt as _;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
@@ -14,9 +12,6 @@ use std::sync::{Arc, Mutex};
 /// How a program ends that could not be started, where that is only found out
 /// later: in shells, and on an emulated processor.
 const NOT_FOUND: i32 = 127;
-
-/// The signal that ends a program whose output nobody reads any more.
-const SIGPIPE: i32 = Signal::SIGPIPE as i32;
 
 /// A program, and the Debian package that brings it.
 #[derive(Clone, Copy, Debug)]
@@ -182,7 +177,7 @@ impl Programs {
                 Some(status) => failed.push((started, status)),
             }
         }
-        let first = failed.into_iter().min_by_key(|(_, status)| status.signal() == Some(SIGPIPE));
+        let first = failed.into_iter().min_by_key(|(_, status)| lost_its_reader(*status));
         first.map_or(Ok(Some(())), |(started, why)| Err(started.complaint(why)))
     }
 
@@ -192,10 +187,23 @@ impl Programs {
     }
 }
 
+/// Whether a program was ended because nobody read its output any more.
+#[cfg(unix)]
+fn lost_its_reader(status: ExitStatus) -> bool {
+    use std::os::unix::process::ExitStatusExt as _;
+    status.signal() == Some(nix::sys::signal::Signal::SIGPIPE as i32)
+}
+
+/// No program runs there.
+#[cfg(not(unix))]
+fn lost_its_reader(_status: ExitStatus) -> bool {
+    false
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::devfs::DevfsDir;
+    use crate::files::DevfsDir;
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 

@@ -20,7 +20,7 @@ use crate::journal::{Act, Journal, MotorCommand, Name, Written};
 use crate::lock::locked;
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use crate::value::{first_line, integer};
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};

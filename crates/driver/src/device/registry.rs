@@ -12,7 +12,7 @@ use crate::journal::Journal;
 use crate::lock::locked;
 use crate::port_name;
 use crate::sysfs::{Entry, Sysfs};
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -296,7 +296,7 @@ impl Registry {
         let directory = self.tree.root().join(class.directory());
         let mut entries = match self.tree.list(&directory) {
             Ok(entries) => entries,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Vec::new(),
+            Err(error) if Errno::from_io_error(&error) == Some(Errno::NOENT) => Vec::new(),
             Err(source) => {
                 return Err(Error::Open { path: directory, access: Access::Read, source });
             }

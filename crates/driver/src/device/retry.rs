@@ -10,7 +10,7 @@ use crate::device::Device;
 use crate::device::registry::Registry;
 use crate::error::{Error, Interrupted, Result};
 use crate::sysfs::{Sysfs, sleep};
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 

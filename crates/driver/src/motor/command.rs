@@ -8,7 +8,7 @@ use crate::device::motion::{End, MotorRun};
 use crate::error::{Error, Result};
 use crate::motor::ramped::Ramped;
 pub use crate::stop_action::StopAction;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 

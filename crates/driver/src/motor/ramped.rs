@@ -14,7 +14,7 @@ use crate::device::Device;
 use crate::device::motion::End;
 use crate::error::Result;
 use crate::motor::wait::has;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::time::Duration;
 
 /// How much longer than its set-point a ramp up may take: two of its steps.

@@ -11,7 +11,7 @@ use crate::device::registry::Registry;
 use crate::error::{Interrupted, Result};
 use crate::sysfs::{AttributeFile, SLICE};
 use crate::wait::{Look, Slices, Wait};
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 

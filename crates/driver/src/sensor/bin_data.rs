@@ -7,7 +7,7 @@
 //! more than one value.
 use crate::device::Device;
 use crate::error::Result;
-use rustix::io::Errno;
+use ev3_os::Errno;
 
 /// The bytes in `bin_data`, in every mode.
 const LENGTH: usize = 32;

@@ -17,7 +17,7 @@ use crate::device::{Device, Use};
 use crate::error::{Error, Interrupted, Result};
 use crate::sysfs::sleep;
 use crate::value::Value;
-use rustix::io::Errno;
+use ev3_os::Errno;
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -1,6 +1,7 @@
 //! Trees of plain files in temporary directories, and what is asked of them.
+use ev3_driver::SysfsDir;
 use ev3_driver::error::Access;
-use ev3_driver::sysfs::{AttributeFile, Entry, SysfsDir};
+use ev3_driver::sysfs::{AttributeFile, Entry};
 use ev3_driver::{Class, Registry, Sysfs};
 use std::fs;
 use std::io;

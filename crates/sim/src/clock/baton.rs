@@ -11,10 +11,11 @@
 //! does the same in each run.
 
 use crate::lock::locked;
+use ev3_os::Instant;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, Thread};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::threads::{self, Id, Threads};
 

@@ -20,10 +20,11 @@ pub(crate) mod pace;
 mod threads;
 mod wall;
 
+use ev3_os::Instant;
 use std::cell::Cell;
 use std::io;
 use std::sync::{Arc, MutexGuard};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
@@ -165,7 +166,7 @@ impl Simulation {
         match self.shared.pace().leave(now) {
             Leave::Go(_) => true,
             Leave::Wait(sleep) => {
-                std::thread::sleep(sleep);
+                ev3_os::sleep(sleep);
                 matches!(self.shared.pace().leave(now), Leave::Go(_))
             }
         }
@@ -277,7 +278,7 @@ impl Simulation {
         wall: Option<Instant>,
     ) -> bool {
         if IS_OUTSIDE.get() {
-            std::thread::sleep(SLICE);
+            ev3_os::sleep(SLICE);
             return true;
         }
         match &self.clock {
@@ -306,7 +307,7 @@ impl Simulation {
             Leave::Go(most) => most,
             Leave::Wait(sleep) => {
                 drop(machine);
-                std::thread::sleep(sleep);
+                ev3_os::sleep(sleep);
                 return left.is_zero();
             }
         };

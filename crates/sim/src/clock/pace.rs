@@ -4,9 +4,10 @@
 //! paused. What a program does, and what it sees, is the same at any pace.
 
 use crate::lock::locked;
+use ev3_os::Instant;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How long time is held back before signals are handled, by the wall clock, and between two
 /// steps of a paced clock.

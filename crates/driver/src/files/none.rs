@@ -1,0 +1,84 @@
+//! Where there are no files: trees without devices.
+use crate::devfs::{Devfs, Stream};
+use crate::error::{Access, Result};
+use crate::sysfs::{AttributeFile, Entry, Sysfs};
+use ev3_os::{Errno, Instant, sleep};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A tree without devices.
+#[derive(Debug)]
+pub struct SysfsDir {
+    root: PathBuf,
+    started: Instant,
+}
+
+impl SysfsDir {
+    /// A tree that is said to be at `root`.
+    #[must_use]
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into(), started: Instant::now() }
+    }
+}
+
+impl Sysfs for SysfsDir {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn list(&self, _directory: &Path) -> io::Result<Vec<Entry>> {
+        Err(Errno::NOENT.into())
+    }
+
+    fn open(&self, _path: &Path, _access: Access) -> io::Result<Box<dyn AttributeFile>> {
+        Err(Errno::NOENT.into())
+    }
+
+    fn matching(&self, _pattern: &str) -> Result<Vec<PathBuf>> {
+        Ok(Vec::new())
+    }
+
+    fn now(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    fn pause(&self, _nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
+        sleep(end.saturating_sub(self.now()));
+        Ok(true)
+    }
+}
+
+/// A directory without devices.
+#[derive(Debug)]
+pub struct DevfsDir {
+    root: PathBuf,
+    started: Instant,
+}
+
+impl DevfsDir {
+    /// A directory that is said to be at `root`.
+    #[must_use]
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into(), started: Instant::now() }
+    }
+}
+
+impl Devfs for DevfsDir {
+    fn root(&self) -> &Path {
+        &self.root
+    }
+
+    fn open(&self, _path: &Path, _access: Access) -> io::Result<Box<dyn Stream>> {
+        Err(Errno::NOENT.into())
+    }
+
+    fn now(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    fn pause(&self, _stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
+        sleep(end.saturating_sub(self.now()));
+        Ok(true)
+    }
+}

@@ -1,0 +1,42 @@
+//! What the other crates take from the operating system: the kernel's error numbers, the
+//! clock of the wall, and sleep.
+//!
+//! On Unix these are rustix's and the standard library's. In WebAssembly there is no operating
+//! system: error numbers and their words are those of Linux, a page has the clock ([`page`]), and
+//! nobody can sleep.
+#[cfg(not(unix))]
+pub mod page;
+
+#[cfg(not(unix))]
+pub use page::{Errno, Instant, sleep};
+#[cfg(unix)]
+pub use rustix::io::Errno;
+#[cfg(unix)]
+pub use std::thread::sleep;
+#[cfg(unix)]
+pub use std::time::Instant;
+
+use std::error::Error;
+
+/// What the kernel says of an error, without the number that Rust adds.
+#[must_use]
+pub fn words(error: &(dyn Error + 'static)) -> String {
+    #[cfg(not(unix))]
+    if let Some(errno) = error.downcast_ref().and_then(Errno::from_io_error) {
+        return errno.to_string();
+    }
+    let text = error.to_string();
+    let number = text.find(" (os error ").unwrap_or(text.len());
+    text[..number].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_are_without_the_number() {
+        assert_eq!(words(&std::io::Error::from(Errno::NODEV)), "No such device");
+        assert_eq!(words(&std::io::Error::other("no text")), "no text");
+    }
+}
