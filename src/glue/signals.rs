@@ -11,10 +11,15 @@ pub(crate) fn watch(stop: fn()) -> io::Result<()> {
     ev3_signals::watch(Asked { ends, stop })
 }
 
-/// Asks Prolog in an engine of its own, as the program's may be busy.
+/// Asks Prolog in an engine of its own, as the program's may be busy. It gets none from a
+/// Prolog that halts already.
 fn ends(signal: &'static str, has_terminal: bool) -> bool {
     let engine = Engine::new();
-    let context: Context<_> = engine.activate().into();
+    let activation = engine.activate();
+    if activation.engine_ptr().is_null() {
+        return true;
+    }
+    let context: Context<_> = activation.into();
     let [name, terminal] = context.new_term_refs();
     let stops = unify_atom(&name, signal)
         .and_then(|()| terminal.unify(has_terminal))

@@ -157,12 +157,10 @@ test(a_program_that_is_told_to_end_stops_its_motors,
                 read_line_to_string(Out, Line),
                 Line == "started",
                 !,
-                % Prolog's thread for atoms may swallow one: it asks again.
-                call_cleanup(
-                    eventually(( catch(process_kill(Pid, Signal), _, true),
-                                 sleep(0.2),
-                                 is_over(Pid) )),
-                    catch(process_kill(Pid, kill), _, true)),
+                process_kill(Pid, Signal),
+                process_wait(Pid, Status, [timeout(60)]),
+                catch(process_kill(Pid, kill), _, true),
+                Status \== timeout,
                 end_output(Child, Output),
                 left(outB, command, Output, B),
                 left(outC, command, Output, C) )).
@@ -194,10 +192,6 @@ test(a_move_that_a_signal_stops_does_not_end,
 after_a_while(Goal) :-
     sleep(0.2),
     call(Goal).
-
-is_over(Pid) :-
-    process_wait(Pid, Status, [timeout(0)]),
-    Status \== timeout.
 
 % Where Prolog handles no signal, and in crashes
 test(one_signal_suffices_where_prolog_handles_none,

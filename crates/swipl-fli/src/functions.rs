@@ -313,7 +313,8 @@ pub unsafe fn PL_destroy_engine(engine: PL_engine_t) -> c_int {
     unsafe extern "C" {
         fn PL_destroy_engine(engine: PL_engine_t) -> u8;
     }
-    let is_destroyed = unsafe { PL_destroy_engine(engine) };
+    // None was made: Prolog halts.
+    let is_destroyed = engine.is_null() || unsafe { PL_destroy_engine(engine) != 0 };
     HAS_MADE_ENGINE.set(false);
     ENGINES.fetch_sub(1, Ordering::Relaxed);
     c_int::from(is_destroyed)
