@@ -11,6 +11,7 @@
               [ existence_error/2, goal_of_program/1, in_own_name/1,
                 must_be/2, term_expansion/4
               ]).
+:- use_module(private/directory, [readable_file/3]).
 :- use_module(private/explain, [fail_because/1]).
 :- use_module(private/arguments, [word/2]).
 :- use_module(private/causes, [acting_for/2, causes/2]).
@@ -408,7 +409,7 @@ all_readable([Term0|Terms0], [Term|Terms]) :-
 %   @error syntax_error(What)
 
 journal_replay(File) :-
-    in_own_name(journal_file(File, Path)),
+    journal_file(File, Path),
     setup_call_cleanup(
         in_own_name(open(Path, read, Stream, [encoding(utf8)])),
         read_facts(Stream, Path, Facts),
@@ -423,11 +424,7 @@ journal_replay(File) :-
 journal_file(File, Path) :-
     must_be(nonvar, File),
     (   ( atom(File) ; string(File) ; compound(File) ),
-        absolute_file_name(File, Path,
-                           [ extensions([pl, '']), access(read),
-                             file_errors(fail)
-                           ]),
-        exists_file(Path)
+        readable_file(File, pl, Path)
     ->  true
     ;   existence_error(source_sink, File)
     ).

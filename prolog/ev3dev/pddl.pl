@@ -7,9 +7,8 @@
 :- use_module(private/compiled, []).
 :- reexport(golog).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(private/directory, [file_path/2]).
-:- use_module(private/errors,
-              [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/directory, [file_path/2, readable_file/3]).
+:- use_module(private/errors, [must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/golog/pddl_text, [pddl_parts/2]).
 :- use_module(private/golog/s_expressions, [expression/3]).
 :- use_module(private/golog/theory, [declare_domain/1]).
@@ -160,10 +159,7 @@ no_names_of_fluents(Parts, theory(_, Predicates), Path) :-
 
 read_define(File, What, Parts, Path) :-
     must_be(nonvar, File),
-    (   in_own_name(absolute_file_name(File, Path,
-                                       [ extensions([pddl, '']), access(read),
-                                         file_errors(fail) ])),
-        exists_file(Path)
+    (   readable_file(File, pddl, Path)
     ->  true
     ;   throw_error(existence_error(source_sink, File), _, '')
     ),

@@ -1,5 +1,6 @@
 :- module(ev3dev_directory,
           [ file_path/2,                % +File, -Path
+            readable_file/3,            % +File, +Extension, -Path
             directory_path/2,           % +Directory, -Path
             environment_directory/2     % +Variable, -Directory
           ]).
@@ -17,6 +18,18 @@
 file_path(File, Path) :-
     must_be(ground, File),
     in_own_name(absolute_file_name(File, Path)).
+
+%!  readable_file(+File, +Extension, -Path) is semidet.
+%
+%   Path is the absolute name of a file that exists and can be read: File, with
+%   the Extension or without.
+
+readable_file(File, Extension, Path) :-
+    in_own_name(absolute_file_name(File, Path,
+                                   [ extensions([Extension, '']), access(read),
+                                     file_errors(fail)
+                                   ])),
+    exists_file(Path).
 
 %!  directory_path(+Directory, -Path) is det.
 %

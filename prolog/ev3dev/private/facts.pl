@@ -5,6 +5,7 @@
             source_location/3,          % +Kind, +Source, -Location
             throw_located/3             % +Formal, +Location, +Why
           ]).
+:- use_module(directory, [readable_file/3]).
 :- use_module(errors, [in_own_name/1, must_be/2, shown/2, throw_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(native, [sim_check_/2]).
@@ -77,11 +78,7 @@ found(Kind, Source, File) :-
     shipped(Kind, Source, File),
     !.
 found(_, Source, File) :-
-    absolute_file_name(Source, File,
-                       [ extensions([pl, '']), access(read),
-                         file_errors(fail)
-                       ]),
-    exists_file(File).
+    readable_file(Source, pl, File).
 
 shipped(Kind, Name, File) :-
     atomic(Name),
