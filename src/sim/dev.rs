@@ -1,5 +1,4 @@
 //! The simulated brick's buttons, speaker and screen as a [`Dev`].
-use crate::sim::files::error;
 use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_driver::lock::locked;
@@ -40,7 +39,8 @@ impl Devfs for SimulatedDev {
     fn open(&self, path: &Path, _access: Access) -> io::Result<Box<dyn Stream>> {
         let below = path.strip_prefix(&self.root).ok().and_then(Path::to_str);
         let below = below.ok_or(Errno::NOENT)?;
-        let descriptor = DevDescriptor::open(&self.simulation.machine(), below).map_err(error)?;
+        let descriptor =
+            DevDescriptor::open(&self.simulation.machine(), below).map_err(io::Error::from)?;
         let place = Mutex::new(Place { descriptor, offset: 0 });
         Ok(Box::new(SimulatedStream { simulation: Arc::clone(&self.simulation), place }))
     }
@@ -101,7 +101,7 @@ impl Stream for SimulatedStream {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         self.simulation.read(|machine| {
             let Place { descriptor, offset } = &mut *locked(&self.place);
-            let length = descriptor.read(machine, *offset, buffer).map_err(error)?;
+            let length = descriptor.read(machine, *offset, buffer).map_err(io::Error::from)?;
             *offset += length;
             Ok(length)
         })
@@ -110,7 +110,7 @@ impl Stream for SimulatedStream {
     fn write(&self, bytes: &[u8]) -> io::Result<usize> {
         self.simulation.write(|machine| {
             let Place { descriptor, offset } = &mut *locked(&self.place);
-            let length = descriptor.write(machine, *offset, bytes).map_err(error)?;
+            let length = descriptor.write(machine, *offset, bytes).map_err(io::Error::from)?;
             *offset += length;
             Ok(length)
         })
@@ -124,7 +124,7 @@ impl Stream for SimulatedStream {
         let command = eviocgkey(bits.len());
         let state =
             self.simulation.read(|machine| locked(&self.place).descriptor.ioctl(machine, command));
-        let (_, state) = state.map_err(error)?;
+        let (_, state) = state.map_err(io::Error::from)?;
         let (known, rest) = bits.split_at_mut(state.len());
         known.copy_from_slice(&state);
         rest.fill(0);

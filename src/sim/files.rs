@@ -32,8 +32,8 @@ impl SimulatedFiles {
 
     fn list_below(&self, path: &str) -> io::Result<Vec<Entry>> {
         let machine = self.simulation.machine();
-        let directory = machine.resolve(path).map_err(error)?;
-        let entries = machine.read_dir(directory).map_err(error)?;
+        let directory = machine.resolve(path).map_err(io::Error::from)?;
+        let entries = machine.read_dir(directory).map_err(io::Error::from)?;
         let entry = |entry: ev3_sim::Entry| Entry { name: entry.name, inode: entry.node.0 };
         Ok(entries.into_iter().map(entry).collect())
     }
@@ -45,7 +45,7 @@ impl Sysfs for SimulatedFiles {
     }
 
     fn list(&self, directory: &Path) -> io::Result<Vec<Entry>> {
-        self.list_below(self.below(directory).ok_or_else(|| error(Errno::ENOENT))?)
+        self.list_below(self.below(directory).ok_or(Errno::ENOENT)?)
     }
 
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
@@ -56,7 +56,7 @@ impl Sysfs for SimulatedFiles {
             Access::Read => ev3_sim::Access::ReadOnly,
             Access::Write => ev3_sim::Access::WriteOnly,
         };
-        let node = self.simulation.machine().open(below, wanted).map_err(error)?;
+        let node = self.simulation.machine().open(below, wanted).map_err(io::Error::from)?;
         Ok(Box::new(SimulatedFile { simulation: Arc::clone(&self.simulation), node }))
     }
 
@@ -109,7 +109,7 @@ struct SimulatedFile {
 impl AttributeFile for SimulatedFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let text = self.simulation.read(|machine| machine.read(self.node));
-        let text = text.map_err(error)?;
+        let text = text.map_err(io::Error::from)?;
         let length = text.len().min(buffer.len());
         buffer[..length].copy_from_slice(&text[..length]);
         Ok(length)
@@ -122,7 +122,7 @@ impl AttributeFile for SimulatedFile {
     fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {
         let count = buffer.len();
         let read = self.simulation.read(|machine| machine.read_at(self.node, offset.into(), count));
-        let bytes = read.map_err(error)?;
+        let bytes = read.map_err(io::Error::from)?;
         buffer[..bytes.len()].copy_from_slice(&bytes);
         Ok(bytes.len())
     }
@@ -133,15 +133,11 @@ impl AttributeFile for SimulatedFile {
                 .write_at(self.node, offset.into(), bytes)
                 .map(|written| (written, machine.now()))
         });
-        let (written, start) = written.map_err(error)?;
+        let (written, start) = written.map_err(io::Error::from)?;
         let end = start + written.blocks;
         while self.simulation.machine().now() < end && !self.simulation.is_acting() {
             self.simulation.pause(end);
         }
-        written.outcome.map(drop).map_err(error)
+        written.outcome.map(drop).map_err(io::Error::from)
     }
-}
-
-pub(crate) fn error(errno: Errno) -> io::Error {
-    io::Error::from_raw_os_error(errno.0)
 }

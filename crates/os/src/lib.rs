@@ -4,11 +4,14 @@
 //! On Unix these are rustix's and the standard library's. In WebAssembly there is no operating
 //! system: error numbers and their words are those of Linux, a page has the clock ([`page`]), and
 //! nobody can sleep.
+pub mod linux;
 #[cfg(not(unix))]
 pub mod page;
 
 #[cfg(not(unix))]
-pub use page::{Errno, Instant, sleep};
+pub use linux::Errno;
+#[cfg(not(unix))]
+pub use page::{Instant, sleep};
 #[cfg(unix)]
 pub use rustix::io::Errno;
 #[cfg(unix)]
@@ -25,9 +28,11 @@ pub fn words(error: &(dyn Error + 'static)) -> String {
     if let Some(errno) = error.downcast_ref().and_then(Errno::from_io_error) {
         return errno.to_string();
     }
-    let text = error.to_string();
-    let number = text.find(" (os error ").unwrap_or(text.len());
-    text[..number].to_owned()
+    let mut text = error.to_string();
+    if let Some(number) = text.find(" (os error ") {
+        text.truncate(number);
+    }
+    text
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! A page in the place of the operating system: its clock, and Linux's error numbers.
+//! A page in the place of the operating system: its clock, and Linux's error numbers under the
+//! names that they have on Unix.
 #![expect(unsafe_code, reason = "the page's clock is imported")]
-use std::error::Error;
-use std::fmt;
+use crate::linux::Errno;
 use std::io;
 use std::ops::{Add, Sub};
 use std::time::Duration;
@@ -79,53 +79,36 @@ impl Sub for Instant {
 /// Does not sleep: nobody can here.
 pub fn sleep(_time: Duration) {}
 
-/// An error number.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Errno(i32);
-
-macro_rules! errnos {
-    ($($name:ident = $number:literal, $words:literal;)*) => {
+macro_rules! renamed {
+    ($($name:ident = $symbol:ident;)*) => {
+        /// The names that rustix has.
+        #[expect(missing_docs, reason = "they are those of the symbols")]
         impl Errno {
-            $(#[doc = $words] pub const $name: Errno = Errno($number);)*
-        }
-
-        impl fmt::Display for Errno {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                match self.0 {
-                    $($number => f.write_str($words),)*
-                    number => write!(f, "Unknown error {number}"),
-                }
-            }
+            $(pub const $name: Self = Self::$symbol;)*
         }
     };
 }
 
-// From asm-generic/errno-base.h and errno.h; the words are glibc's.
-errnos! {
-    PERM = 1, "Operation not permitted";
-    NOENT = 2, "No such file or directory";
-    INTR = 4, "Interrupted system call";
-    IO = 5, "Input/output error";
-    NXIO = 6, "No such device or address";
-    BADF = 9, "Bad file descriptor";
-    AGAIN = 11, "Resource temporarily unavailable";
-    NOMEM = 12, "Cannot allocate memory";
-    ACCESS = 13, "Permission denied";
-    BUSY = 16, "Device or resource busy";
-    EXIST = 17, "File exists";
-    NODEV = 19, "No such device";
-    NOTDIR = 20, "Not a directory";
-    ISDIR = 21, "Is a directory";
-    INVAL = 22, "Invalid argument";
-    NFILE = 23, "Too many open files in system";
-    MFILE = 24, "Too many open files";
-    NOTTY = 25, "Inappropriate ioctl for device";
-    NOSPC = 28, "No space left on device";
-    ROFS = 30, "Read-only file system";
-    RANGE = 34, "Numerical result out of range";
-    NOSYS = 38, "Function not implemented";
-    OPNOTSUPP = 95, "Operation not supported";
-    TIMEDOUT = 110, "Connection timed out";
+renamed! {
+    ACCESS = EACCES;
+    AGAIN = EAGAIN;
+    BUSY = EBUSY;
+    INTR = EINTR;
+    INVAL = EINVAL;
+    MFILE = EMFILE;
+    NFILE = ENFILE;
+    NODEV = ENODEV;
+    NOENT = ENOENT;
+    NOMEM = ENOMEM;
+    NOSYS = ENOSYS;
+    NOTDIR = ENOTDIR;
+    NOTTY = ENOTTY;
+    NXIO = ENXIO;
+    OPNOTSUPP = EOPNOTSUPP;
+    PERM = EPERM;
+    RANGE = ERANGE;
+    ROFS = EROFS;
+    TIMEDOUT = ETIMEDOUT;
 }
 
 impl Errno {
@@ -133,19 +116,5 @@ impl Errno {
     #[must_use]
     pub fn from_io_error(error: &io::Error) -> Option<Self> {
         error.raw_os_error().map(Self)
-    }
-}
-
-impl fmt::Debug for Errno {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl Error for Errno {}
-
-impl From<Errno> for io::Error {
-    fn from(errno: Errno) -> Self {
-        Self::from_raw_os_error(errno.0)
     }
 }

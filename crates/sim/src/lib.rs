@@ -117,8 +117,8 @@ pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;
 pub use brick::screen::Depth;
 pub use clock::{Act, Clock, Simulation, is_outside, stay_outside};
+pub use ev3_os::linux::Errno;
 pub use files::attr::Access;
-pub use files::errno::Errno;
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
 pub use machine::descriptor::Descriptor;

@@ -1,15 +1,13 @@
 //! A directory of real files.
-use super::sysfs::is_generated;
+use super::sysfs::{is_plain, open_file};
 use crate::devfs::{Devfs, Stream};
 use crate::error::Access;
 use ev3_os::{Errno, Instant};
 use input_linux::EvdevHandle;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::fs::OFlags;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::os::fd::AsFd;
-use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -34,13 +32,8 @@ impl Devfs for DevfsDir {
     }
 
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn Stream>> {
-        let file = OpenOptions::new()
-            .read(access == Access::Read)
-            .write(access == Access::Write)
-            .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
-            .open(path)?;
-        let metadata = file.metadata()?;
-        let is_plain = metadata.is_file() && !is_generated(&file)?;
+        let (file, metadata) = open_file(path, access)?;
+        let is_plain = is_plain(&file, &metadata)?;
         let length = (metadata.is_file() && metadata.len() > 0).then_some(metadata.len());
         Ok(Box::new(DevFile { file, is_plain, length }))
     }

@@ -9,6 +9,10 @@ mod sysfs;
 #[cfg(unix)]
 pub use devfs::DevfsDir;
 #[cfg(not(unix))]
-pub use none::{DevfsDir, SysfsDir};
+pub(crate) use none::open_file;
+#[cfg(not(unix))]
+pub use none::{NoFiles as DevfsDir, NoFiles as SysfsDir};
 #[cfg(unix)]
 pub use sysfs::SysfsDir;
+#[cfg(unix)]
+pub(crate) use sysfs::open_file;

@@ -3,18 +3,19 @@ use crate::devfs::{Devfs, Stream};
 use crate::error::{Access, Result};
 use crate::sysfs::{AttributeFile, Entry, Sysfs};
 use ev3_os::{Errno, Instant, sleep};
+use std::fs::{File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// A tree without devices.
+/// A tree without devices, of attributes or of device files.
 #[derive(Debug)]
-pub struct SysfsDir {
+pub struct NoFiles {
     root: PathBuf,
     started: Instant,
 }
 
-impl SysfsDir {
+impl NoFiles {
     /// A tree that is said to be at `root`.
     #[must_use]
     pub fn new(root: impl Into<PathBuf>) -> Self {
@@ -22,7 +23,7 @@ impl SysfsDir {
     }
 }
 
-impl Sysfs for SysfsDir {
+impl Sysfs for NoFiles {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -44,27 +45,12 @@ impl Sysfs for SysfsDir {
     }
 
     fn pause(&self, _nodes: &[&dyn AttributeFile], end: Duration) -> io::Result<bool> {
-        sleep(end.saturating_sub(self.now()));
+        sleep(end.saturating_sub(self.started.elapsed()));
         Ok(true)
     }
 }
 
-/// A directory without devices.
-#[derive(Debug)]
-pub struct DevfsDir {
-    root: PathBuf,
-    started: Instant,
-}
-
-impl DevfsDir {
-    /// A directory that is said to be at `root`.
-    #[must_use]
-    pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into(), started: Instant::now() }
-    }
-}
-
-impl Devfs for DevfsDir {
+impl Devfs for NoFiles {
     fn root(&self) -> &Path {
         &self.root
     }
@@ -74,11 +60,17 @@ impl Devfs for DevfsDir {
     }
 
     fn now(&self) -> Duration {
-        self.started.elapsed()
+        Sysfs::now(self)
     }
 
     fn pause(&self, _stream: Option<&dyn Stream>, end: Duration) -> io::Result<bool> {
-        sleep(end.saturating_sub(self.now()));
-        Ok(true)
+        Sysfs::pause(self, &[], end)
     }
+}
+
+/// Opens a file to read it.
+pub(crate) fn open_file(path: &Path, _access: Access) -> io::Result<(File, Metadata)> {
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    Ok((file, metadata))
 }

@@ -7,7 +7,7 @@ use ev3_signals::Kept;
 use nix::time::{ClockId, clock_gettime};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, Seek, SeekFrom};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd};
 use std::os::unix::fs::{DirEntryExt, FileExt, OpenOptionsExt};
@@ -47,14 +47,8 @@ impl Sysfs for SysfsDir {
     }
 
     fn open(&self, path: &Path, access: Access) -> io::Result<Box<dyn AttributeFile>> {
-        let file = OpenOptions::new()
-            .read(access == Access::Read)
-            .write(access == Access::Write)
-            // A named pipe in the place of an attribute must not block us.
-            .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
-            .open(path)?;
-        // Devices and pipes are no stores of bytes either.
-        let is_plain = file.metadata()?.is_file() && !is_generated(&file)?;
+        let (file, metadata) = open_file(path, access)?;
+        let is_plain = is_plain(&file, &metadata)?;
         let kept = if access == Access::Write && path.ends_with("command") {
             let is_servos = path.starts_with(self.root.join(Class::ServoMotor.directory()));
             Kept::new(file.as_raw_fd(), path, if is_servos { "float" } else { "stop" })?
@@ -98,14 +92,28 @@ impl Sysfs for SysfsDir {
     }
 }
 
-/// Whether reads and writes of the file go to a driver, as on sysfs and FUSE,
-/// rather than to a store of bytes.
-pub(super) fn is_generated(file: &File) -> io::Result<bool> {
+/// Opens a file, and does not wait: a named pipe in its place would block us.
+pub(crate) fn open_file(path: &Path, access: Access) -> io::Result<(File, Metadata)> {
+    let file = OpenOptions::new()
+        .read(access == Access::Read)
+        .write(access == Access::Write)
+        .custom_flags(OFlags::NONBLOCK.bits().try_into().unwrap_or_default())
+        .open(path)?;
+    let metadata = file.metadata()?;
+    Ok((file, metadata))
+}
+
+/// Whether reads and writes of the file go to a store of bytes, rather than to a driver, as on
+/// sysfs and FUSE. Devices and pipes are no stores either.
+pub(super) fn is_plain(file: &File, metadata: &Metadata) -> io::Result<bool> {
     // From linux/magic.h. Both fit the word's width and sign everywhere.
     const SYSFS: u64 = 0x6265_6572;
     const FUSE: u64 = 0x6573_5546;
+    if !metadata.is_file() {
+        return Ok(false);
+    }
     let kind = rustix::fs::fstatfs(file)?.f_type;
-    Ok(u64::try_from(kind).is_ok_and(|kind| kind == SYSFS || kind == FUSE))
+    Ok(!u64::try_from(kind).is_ok_and(|kind| kind == SYSFS || kind == FUSE))
 }
 
 /// An attribute as an open file, read and written at offset 0.

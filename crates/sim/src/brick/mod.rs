@@ -9,8 +9,8 @@ pub(crate) mod screen;
 
 use crate::brick::output::{Output, Pins};
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
-use crate::files::errno::Errno;
 use crate::files::text::{strict_unsigned, word};
+use ev3_os::linux::Errno;
 use screen::{Depth, HEIGHT, WIDTH};
 
 /// The EV3's four status lights; a left and a right pair of red and green.

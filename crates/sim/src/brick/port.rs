@@ -4,8 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::files::attr::{Attr, Effect, Table, text, write_uevent};
-use crate::files::errno::Errno;
 use crate::files::text::{name, word};
+use ev3_os::linux::Errno;
 
 /// A socket: four inputs, four outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -7,7 +7,7 @@
 use std::fmt::{Display, Write};
 use std::time::Duration;
 
-use crate::files::errno::Errno;
+use ev3_os::linux::Errno;
 
 /// The allowed access to an attribute. Sysfs refuses anything else at `open`, even for root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

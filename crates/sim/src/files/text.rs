@@ -2,7 +2,7 @@
 //! `docs/ev3dev-sysfs.md`, 0.3. Here are A (strict), B (lenient), C (the same without a sign) and
 //! W (words).
 
-use crate::files::errno::Errno;
+use ev3_os::linux::Errno;
 
 /// What a driver sees of what was written: a text of C, which a NUL ends.
 fn c_text(bytes: &[u8]) -> &[u8] {

@@ -11,14 +11,14 @@ use fuser::{
     ReplyIoctl, ReplyOpen, ReplyPoll, ReplyWrite, Request, TimeOrNow, WriteFlags,
 };
 
-use super::open::{Open, written};
+use super::open::{Open, fuse_errno, written};
 use super::served::Served;
 use crate::files::attr::Access;
-use crate::files::errno::Errno;
 use crate::lock::locked;
 use crate::machine::tree::{FileKind, NodeId, Stat};
 use crate::machine::{Machine, Written};
 use crate::shared::Shared;
+use ev3_os::linux::Errno;
 
 /// Nothing may be remembered by the kernel: devices come and go.
 const NO_CACHE: Duration = Duration::ZERO;
@@ -31,12 +31,6 @@ const O_NONBLOCK: i32 = 0o4000;
 pub(super) struct Files<F> {
     pub(super) shared: Arc<Shared>,
     pub(super) open: Arc<Mutex<Open<F>>>,
-}
-
-impl From<Errno> for fuser::Errno {
-    fn from(errno: Errno) -> fuser::Errno {
-        fuser::Errno::from_i32(errno.0)
-    }
 }
 
 fn file_type(kind: FileKind) -> FileType {
@@ -104,14 +98,14 @@ impl<F: Served> Filesystem for Files<F> {
     fn lookup(&self, request: &Request, parent: INodeNo, name: &OsStr, reply: ReplyEntry) {
         match self.find(NodeId(parent.0), name, request) {
             Ok(attr) => reply.entry(&NO_CACHE, &attr, Generation(0)),
-            Err(errno) => reply.error(errno.into()),
+            Err(errno) => reply.error(fuse_errno(errno)),
         }
     }
 
     fn getattr(&self, request: &Request, ino: INodeNo, _: Option<FileHandle>, reply: ReplyAttr) {
         match self.stat(NodeId(ino.0), request) {
             Ok(attr) => reply.attr(&NO_CACHE, &attr),
-            Err(errno) => reply.error(errno.into()),
+            Err(errno) => reply.error(fuse_errno(errno)),
         }
     }
 
@@ -135,7 +129,7 @@ impl<F: Served> Filesystem for Files<F> {
         reply: ReplyAttr,
     ) {
         if mode.is_some() || uid.is_some() || gid.is_some() {
-            reply.error(Errno::EPERM.into());
+            reply.error(fuse_errno(Errno::EPERM));
         } else {
             self.getattr(request, ino, fh, reply);
         }
@@ -153,7 +147,7 @@ impl<F: Served> Filesystem for Files<F> {
         _flags: i32,
         reply: ReplyCreate,
     ) {
-        reply.error(Errno::EACCES.into());
+        reply.error(fuse_errno(Errno::EACCES));
     }
 
     fn mkdir(
@@ -165,15 +159,15 @@ impl<F: Served> Filesystem for Files<F> {
         _umask: u32,
         reply: ReplyEntry,
     ) {
-        reply.error(F::REFUSAL.into());
+        reply.error(fuse_errno(F::REFUSAL));
     }
 
     fn unlink(&self, _: &Request, _parent: INodeNo, _name: &OsStr, reply: ReplyEmpty) {
-        reply.error(F::REFUSAL.into());
+        reply.error(fuse_errno(F::REFUSAL));
     }
 
     fn rmdir(&self, _: &Request, _parent: INodeNo, _name: &OsStr, reply: ReplyEmpty) {
-        reply.error(F::REFUSAL.into());
+        reply.error(fuse_errno(F::REFUSAL));
     }
 
     fn rename(
@@ -186,13 +180,13 @@ impl<F: Served> Filesystem for Files<F> {
         _flags: RenameFlags,
         reply: ReplyEmpty,
     ) {
-        reply.error(F::REFUSAL.into());
+        reply.error(fuse_errno(F::REFUSAL));
     }
 
     fn open(&self, request: &Request, ino: INodeNo, flags: OpenFlags, reply: ReplyOpen) {
         match self.open_file(NodeId(ino.0), flags, request.uid() == 0) {
             Ok(handle) => reply.opened(FileHandle(handle), FopenFlags::FOPEN_DIRECT_IO),
-            Err(errno) => reply.error(errno.into()),
+            Err(errno) => reply.error(fuse_errno(errno)),
         }
     }
 
@@ -212,7 +206,7 @@ impl<F: Served> Filesystem for Files<F> {
         match open.read(&mut machine, fh.0, offset, size) {
             Ok(bytes) => reply.data(&bytes),
             Err(Errno::EAGAIN) if flags.0 & O_NONBLOCK == 0 => open.read_later(fh.0, size, reply),
-            Err(errno) => reply.error(errno.into()),
+            Err(errno) => reply.error(fuse_errno(errno)),
         }
     }
 
@@ -255,7 +249,7 @@ impl<F: Served> Filesystem for Files<F> {
         let machine = self.shared.lock();
         match locked(&self.open).file(fh.0).and_then(|file| file.ioctl(&machine, command)) {
             Ok((result, bytes)) => reply.ioctl(result, &bytes),
-            Err(errno) => reply.error(errno.into()),
+            Err(errno) => reply.error(fuse_errno(errno)),
         }
     }
 
@@ -287,7 +281,7 @@ impl<F: Served> Filesystem for Files<F> {
     ) {
         let entries = match self.list(ino) {
             Ok(entries) => entries,
-            Err(errno) => return reply.error(errno.into()),
+            Err(errno) => return reply.error(fuse_errno(errno)),
         };
         for (next, (ino, kind, name)) in (1..).zip(entries) {
             if next > offset && reply.add(ino, next, kind, name) {

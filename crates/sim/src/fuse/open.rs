@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 use fuser::{Notifier, PollHandle, ReplyData, ReplyWrite};
 
 use super::served::Served;
-use crate::files::errno::Errno;
 use crate::lock::locked;
 use crate::machine::Machine;
 use crate::shared::Shared;
+use ev3_os::linux::Errno;
 
 /// [`watch`] samples this often, in wall time, even if nothing wakes it.
 const LOOK: Duration = Duration::from_millis(100);
@@ -120,8 +120,8 @@ impl<F: Served> Open<F> {
                 {
                     match self.read(machine, handle, 0, size) {
                         Ok(bytes) => reply.data(&bytes),
-                        Err(Errno::EAGAIN) => reply.error(Errno::EINTR.into()),
-                        Err(errno) => reply.error(errno.into()),
+                        Err(Errno::EAGAIN) => reply.error(fuse_errno(Errno::EINTR)),
+                        Err(errno) => reply.error(fuse_errno(errno)),
                     }
                 }
                 Blocked::Write { until, latest, outcome, reply }
@@ -138,7 +138,7 @@ impl<F: Served> Open<F> {
     fn answer_all(&mut self) {
         for call in std::mem::take(&mut self.blocked) {
             match call {
-                Blocked::Read { reply, .. } => reply.error(Errno::ENODEV.into()),
+                Blocked::Read { reply, .. } => reply.error(fuse_errno(Errno::ENODEV)),
                 Blocked::Write { outcome, reply, .. } => written(outcome, reply),
             }
         }
@@ -153,11 +153,15 @@ impl<F: Served> Open<F> {
     }
 }
 
+pub(super) fn fuse_errno(errno: Errno) -> fuser::Errno {
+    fuser::Errno::from_i32(errno.0)
+}
+
 /// Answers a write.
 pub(super) fn written(outcome: Result<usize, Errno>, reply: ReplyWrite) {
     match outcome {
         Ok(length) => reply.written(u32::try_from(length).unwrap_or(u32::MAX)),
-        Err(errno) => reply.error(errno.into()),
+        Err(errno) => reply.error(fuse_errno(errno)),
     }
 }
 

@@ -6,11 +6,11 @@ use std::time::Duration;
 use fuser::PollEvents;
 
 use crate::files::attr::Access;
-use crate::files::errno::Errno;
 use crate::machine::descriptor::Descriptor;
 use crate::machine::dev::DevDescriptor;
 use crate::machine::tree::{Entry, NodeId, Stat};
 use crate::machine::{Machine, Written};
+use ev3_os::linux::Errno;
 
 /// An open file, and the tree that it is in.
 pub(super) trait Served: Debug + Send + Sized + 'static {

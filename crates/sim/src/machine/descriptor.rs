@@ -1,9 +1,9 @@
 //! An open file, as the kernel sees it: what a `pread` and a `poll` on it do.
 
 use crate::files::attr::Access;
-use crate::files::errno::Errno;
 use crate::machine::tree::NodeId;
 use crate::machine::{Machine, Written};
+use ev3_os::linux::Errno;
 
 /// An open attribute. It stays with its device: once that is unplugged, reads and writes answer
 /// ENODEV for ever.

@@ -13,9 +13,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::brick::panel::{Button, ButtonEvent};
-use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::machine::tree::{Entry, FileKind, NodeId, Stat};
+use ev3_os::linux::Errno;
 
 /// A device below `/dev`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

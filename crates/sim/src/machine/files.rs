@@ -4,7 +4,6 @@ use std::time::Duration;
 
 use crate::brick::port::Port;
 use crate::files::attr::{Access, Effect};
-use crate::files::errno::Errno;
 use crate::machine::descriptor::Descriptor;
 use crate::machine::socket::Plug;
 use crate::machine::tree::{Entry, Hardware, NodeId, PAGE, Stat, Tree};
@@ -15,6 +14,7 @@ use crate::sensor::{Link, Mode, Reading, SUPPLY_MV, Sensor};
 use crate::ticks::JIFFY_TICKS;
 use crate::trace::Action;
 use crate::world::geometry::Pose;
+use ev3_os::linux::Errno;
 
 /// The place of a sensor at a port without a place in the robot's facts.
 const SPARE_MOUNT: Pose = Pose::new(0.0, 7.0, 0.0);

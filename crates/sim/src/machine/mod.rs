@@ -26,7 +26,6 @@ use crate::brick::port::{LegoPort, Port};
 use crate::brick::remote::{Remote, RemoteButton};
 use crate::brick::screen::Depth;
 use crate::brick::{Battery, Board, Framebuffer, LEDS, Led};
-use crate::files::errno::Errno;
 use crate::machine::film::Film;
 use crate::machine::socket::{Plug, Socket};
 use crate::machine::tree::{Hardware, Tree};
@@ -39,6 +38,7 @@ use crate::trace::{Collision, Trace};
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::scene::Scene;
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
+use ev3_os::linux::Errno;
 
 /// How faithful a run is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,6 @@ use std::time::Duration;
 use crate::brick::Led;
 use crate::brick::output::{Output, Pins};
 use crate::brick::port::{LegoPort, Port};
-use crate::files::errno::Errno;
 use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
@@ -17,6 +16,7 @@ use crate::sensor::{Sense, Sensor};
 use crate::ticks::{TICK_US, ticks_from_ms};
 use crate::trace::Action;
 use crate::world::SpecError;
+use ev3_os::linux::Errno;
 
 /// udev needs about half a second to open the files of a new device to the group.
 const UDEV_MS: i32 = 500;

@@ -8,12 +8,12 @@ use crate::brick::output::Output;
 use crate::brick::port::LegoPort;
 use crate::brick::{Battery, Board, Framebuffer, Led};
 use crate::files::attr::{Access, Effect, Files};
-use crate::files::errno::Errno;
 use crate::motor::Tacho;
 use crate::motor::dc::DcMotor;
 use crate::motor::servo::Servo;
 use crate::sensor::Sensor;
 use crate::trace::File;
+use ev3_os::linux::Errno;
 use std::sync::Arc;
 
 /// A file or directory: its inode number.

@@ -3,8 +3,8 @@
 use super::kind::COUNT_PER_M;
 use super::{Command, StopAction, Tacho};
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
-use crate::files::errno::Errno;
 use crate::files::text::{strict_int, strict_int_in, strict_int_to, word};
+use ev3_os::linux::Errno;
 
 const POLARITIES: [&str; 2] = ["normal", "inversed"];
 const LONGEST_RAMP_MS: i32 = 60_000;

@@ -7,8 +7,8 @@
 
 use crate::brick::port::Port;
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
-use crate::files::errno::Errno;
 use crate::files::text::{lenient_int_in, lenient_unsigned, word};
+use ev3_os::linux::Errno;
 
 /// Of the controller, which is a sensor to the kernel, and of its servos.
 pub(crate) const DRIVER: &str = "ms-8ch-servo";

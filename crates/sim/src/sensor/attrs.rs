@@ -2,8 +2,8 @@
 
 use super::Sensor;
 use crate::files::attr::{Attr, Table, text, uevent, write_uevent};
-use crate::files::errno::Errno;
 use crate::files::text::word;
+use ev3_os::linux::Errno;
 
 macro_rules! value {
     ($name:literal, $index:literal) => {

@@ -7,9 +7,9 @@
 
 use super::{Link, Reading, Sensor};
 use crate::files::attr::Effect;
-use crate::files::errno::Errno;
 use crate::files::text::{lenient_unsigned, signed};
 use crate::ticks::{TICK_MS, milliseconds, ticks_from_ms};
+use ev3_os::linux::Errno;
 
 /// The time of one message on the I2C bus, and the time until the next answer.
 const BUS_MS: i32 = 4;

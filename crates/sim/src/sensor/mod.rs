@@ -23,9 +23,9 @@ use std::time::Duration;
 
 use crate::brick::port::Port;
 use crate::files::attr::Effect;
-use crate::files::errno::Errno;
 use crate::ticks::{JIFFY_TICKS, TICK_MS, milliseconds, ticks_from_ms};
 use crate::wheel::jiffy;
+use ev3_os::linux::Errno;
 
 /// From a mode message to the first data of the new mode.
 const MODE_LATENCY_MS: i32 = 4;
