@@ -21,14 +21,12 @@ file_path(File, Path) :-
 
 %!  readable_file(+File, +Extension, -Path) is semidet.
 %
-%   Path is the absolute name of a file that exists and can be read: File, with
-%   the Extension or without.
+%   Path is the absolute name of a file that exists and can be read: File,
+%   with the Extension or without.
 
 readable_file(File, Extension, Path) :-
-    in_own_name(absolute_file_name(File, Path,
-                                   [ extensions([Extension, '']), access(read),
-                                     file_errors(fail)
-                                   ])),
+    Options = [extensions([Extension, '']), access(read), file_errors(fail)],
+    in_own_name(absolute_file_name(File, Path, Options)),
     exists_file(Path).
 
 %!  directory_path(+Directory, -Path) is det.

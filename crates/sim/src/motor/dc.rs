@@ -6,13 +6,13 @@
 //! (`docs/ev3dev-sysfs.md`, 4.1). The class has a duty of its own, 0 at first; what the files show
 //! is that of the port, which outlives the motor.
 
-use crate::Errno;
 use crate::brick::output::{Output, Pins};
 use crate::brick::port::Port;
 use crate::files::attr::{Attr, Effect, Table, text, uevent, write_uevent};
 use crate::files::text::{lenient_unsigned, strict_int_in, strict_int_to, word};
 use crate::ticks::JIFFY_TICKS;
 use crate::wheel::{Timer, jiffies_from_ms, jiffy};
+use ev3_os::linux::Errno;
 
 const DRIVER: &str = "rcx-motor";
 const COMMANDS: [&str; 4] = ["run-forever", "run-timed", "run-direct", "stop"];
