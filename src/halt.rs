@@ -1,8 +1,9 @@
 //! `prolog/ev3dev/private/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
-use crate::glue::state::{self, chosen_devices, devices};
-use ev3_driver::motor;
+use crate::glue::state::{self, all_devices};
+use ev3_driver::{Registry, motor};
 use ev3_signals::latch::Reason;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use swipl::fli::act_at_halt;
 use swipl::prelude::*;
@@ -24,7 +25,8 @@ pub(crate) fn halts() {
 natives! {
     /// running_(-Ports): the motors that the program started and that still turn.
     semidet fn "running_"(_context, ports) {
-        let motors = chosen_devices().map(|devices| motor::running(&devices)).unwrap_or_default();
+        let running = |devices: Arc<Registry>| motor::running(&devices);
+        let motors: Vec<_> = all_devices().into_iter().flat_map(running).collect();
         let names: Vec<_> = motors.iter().map(|motor| atomable(motor.port())).collect();
         ports.unify(names.as_slice())
     }
@@ -53,7 +55,9 @@ natives! {
 
     /// stop_started_: stops the motors that the program started.
     semidet fn "stop_started_"(context) {
-        Call::of(context, "halt", 0).or_throw(motor::stop_started(&devices()))
+        let stop = |devices: Arc<Registry>| motor::stop_started(&devices);
+        let stopped = all_devices().into_iter().map(stop).fold(Ok(()), Result::and);
+        Call::of(context, "halt", 0).or_throw(stopped)
     }
 
     /// halts_by_(+Signal): Prolog halts because of a signal, `term`, `hup` or `int`.

@@ -11,6 +11,7 @@
 mod glue;
 
 mod battery;
+mod bricks;
 mod buttons;
 mod dc_motors;
 mod drive;
@@ -42,6 +43,7 @@ pub extern "C" fn install() {
     swipl::fli::answer_quickly("attribute_", 4, driver::known_attribute);
     swipl::fli::answer_quickly("sensor_known_", 3, sensors::known_value);
     swipl::fli::answer_quickly("motor_run_", 2, motors::known_run);
+    bricks::register();
     driver::register();
     motors::register();
     dc_motors::register();

@@ -109,7 +109,8 @@ natives! {
     semidet fn "motors_stop_"(context, from, before) {
         let call = Call::of(context, "behave", 2);
         let commands = commands_of(&call, from, before)?;
-        call.or_throw(motor::stop_commanded(&*call.devices_to_command()?, &commands))
+        call.devices_to_command()?;
+        call.stop_commanded(&commands)
     }
 
     /// motors_leave_(+From, +Before): the same at the first wait of this thread, in the place of

@@ -1,8 +1,8 @@
 //! `prolog/ev3dev/screen.pl`: the screen.
 use crate::glue::call::Call;
 use crate::glue::error::wrong_value;
-use crate::glue::state::{self, devices, frame};
-use ev3_driver::brick::screen::frame::{Align, Font, Letters, Shade, Shape, Style};
+use crate::glue::state::{devices, with_frame};
+use ev3_driver::brick::screen::frame::{Align, Font, Frame, Letters, Shade, Shape, Style};
 use ev3_driver::brick::screen::picture::Picture;
 use ev3_driver::brick::screen::{self, frame, picture};
 use std::path::Path;
@@ -11,7 +11,7 @@ use swipl::prelude::*;
 natives! {
     /// screen_clear_
     semidet fn "screen_clear_"(_context) {
-        frame().clear();
+        with_frame(Frame::clear);
         into_prolog_result(true)
     }
 
@@ -25,7 +25,7 @@ natives! {
             width: size(&call, &width)?,
             fill: fill.get_ex()?,
         };
-        frame().draw(shape, style);
+        with_frame(|frame| frame.draw(shape, style));
         Ok(())
     }
 
@@ -34,7 +34,7 @@ natives! {
         let call = Call::of(context, "screen_text", 4);
         let (at, text) = (point(&call, [x, y])?, call.text(text)?);
         let letters = letters_of(&call, letters)?;
-        frame().write(at, &text, letters);
+        with_frame(|frame| frame.write(at, &text, letters));
         Ok(())
     }
 
@@ -43,7 +43,7 @@ natives! {
         let call = Call::of(context, "screen_image", 3);
         let at = point(&call, [x, y])?;
         let picture = call.or_throw(Picture::read(Path::new(&*call.text(file)?)))?;
-        frame().place(at, &picture);
+        with_frame(|frame| frame.place(at, &picture));
         Ok(())
     }
 
@@ -51,19 +51,7 @@ natives! {
     semidet fn "screen_show_"(context) {
         let call = Call::of(context, "screen_show", 0);
         let dev = call.dev()?;
-        call.or_fail(screen::show(devices().tree(), &*dev, &frame()))
-    }
-
-    /// screen_set_aside_: the sheet is blank from now on, until it is given back.
-    semidet fn "screen_set_aside_"(_context) {
-        state::set_frame_aside();
-        into_prolog_result(true)
-    }
-
-    /// screen_give_back_: what was set aside last.
-    semidet fn "screen_give_back_"(_context) {
-        state::give_frame_back();
-        into_prolog_result(true)
+        call.or_fail(with_frame(|frame| screen::show(devices().tree(), &*dev, frame)))
     }
 
     /// screen_png_(+File)

@@ -4,9 +4,9 @@ use crate::glue::call::{Call, ListedDevices, Text, start};
 use crate::glue::error::{wrong_type, wrong_value};
 use crate::glue::interned::{handle, word_in};
 use crate::glue::known::{self, Found, Look};
+use crate::glue::state::watched;
 use crate::glue::terms::{Ask as _, unify_atom, unify_value};
 use crate::glue::waiting::is_serving;
-use crate::glue::watch::note_read;
 use ev3_driver::lock::locked;
 use ev3_driver::sensor::registers;
 use ev3_driver::sensor::wait::{Until, UntilShown, until_shown};
@@ -80,7 +80,7 @@ natives! {
             let read = |device: &Arc<Device>| {
                 let interrupted = &mut call.interrupted();
                 let read = sensor::read_several(devices, device, &row.mode, count, interrupted);
-                note_read(device.port());
+                watched().note_read(device.port());
                 call.terms(&call.or_fail(read)?)
             };
             call.next(sensors, read, |device, read| {
@@ -113,7 +113,7 @@ natives! {
             let (until, timeout) = (until(&call, test)?, call.seconds(timeout)?);
             let Readings { devices, mut sensors, row, .. } = readings(&call, port, &types, row)?;
             let sensor = sensors.next().ok_or(PrologError::Failure)?;
-            note_read(sensor.port());
+            watched().note_read(sensor.port());
             Ok(Some(until_shown(&devices, &sensor, &row.mode, row.index, until, timeout)))
         },
         call(waiting) => {
@@ -240,7 +240,7 @@ impl Readings {
             let interrupted = &mut call.interrupted();
             let read = sensor::read(devices, device, Some(&row.mode), row.index, interrupted);
             let read = call.or_fail(read)?;
-            note_read(device.port());
+            watched().note_read(device.port());
             has_value.set(true);
             Ok(read)
         };

@@ -1,6 +1,7 @@
 //! `prolog/ev3dev/time.pl`: the clock of the tree in use.
 use crate::glue::call::Call;
 use crate::glue::due::note_guards;
+use crate::glue::state::chosen_devices;
 use crate::glue::terms::unify_atom;
 use crate::glue::waiting::{self, Round};
 use ev3_driver::device::sleep::Sleep;
@@ -8,8 +9,13 @@ use ev3_driver::wait::Slices;
 use std::time::Duration;
 use swipl::prelude::*;
 
-/// The longest time between two looks of branches.
-const BRANCHES_LOOK: Duration = Duration::from_millis(20);
+#[cfg(feature = "sim")]
+use crate::sim::has_virtual_clock;
+
+#[cfg(not(feature = "sim"))]
+fn has_virtual_clock(_brick: u32) -> bool {
+    false
+}
 
 natives! {
     /// now_(-Seconds): since some fixed moment.
@@ -56,9 +62,11 @@ natives! {
 
     /// branches_begin_: from now on the waits of this thread let no time pass.
     semidet fn "branches_begin_"(context) {
-        let now = Call::of(context, "both", 2).devices()?.tree().now();
-        waiting::begin_branches(Round::GoesOn(now.saturating_add(BRANCHES_LOOK)));
-        Ok(())
+        if chosen_devices().is_some() {
+            Call::of(context, "both", 2).devices()?; // runs planned goals that are due
+        }
+        waiting::begin_branches(Round::GoesOn(Vec::new()));
+        into_prolog_result(true)
     }
 
     /// branches_leave_: a branch is left from now on. Its clean-ups may wait, and time passes.
@@ -78,11 +86,16 @@ natives! {
         Call::of(context, "both", 2).serve_if_due()
     }
 
-    /// branches_look_(-Seconds): after what time the first of them has to look again.
-    semidet fn "branches_look_"(context, seconds) {
-        let now = Call::of(context, "both", 2).devices()?.tree().now();
-        let look = waiting::branches_look().unwrap_or(now);
-        seconds.unify(look.saturating_sub(now).as_secs_f64())
+    /// branches_look_(-Seconds, -Bricks): after what time the first of them has to look again, and
+    /// the numbers of the bricks in which it is to pass: of those on the wall's clock one does.
+    semidet fn "branches_look_"(_context, seconds, bricks) {
+        let (first, waiting) = waiting::branches_wait();
+        seconds.unify(first.as_secs_f64())?;
+        let (mut waiting, real): (Vec<_>, Vec<_>) =
+            waiting.into_iter().partition(|brick| has_virtual_clock(*brick));
+        waiting.extend(real.first());
+        let numbers: Vec<_> = waiting.into_iter().map(u64::from).collect();
+        bricks.unify(numbers.as_slice())
     }
 
     /// branches_end_: they pause. An engine of theirs may be gone.

@@ -57,6 +57,7 @@ unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
                  'ev3dev/sim_time', 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
 unit(sim_batch, ['ev3dev/sim_batch']).
+unit(bricks, ['ev3dev/bricks']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).

@@ -16,11 +16,12 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ error_within/3, goal_of_program/1, in_own_name/1, must_be/2,
-                term_expansion/4, throw_error/3
+                must_be_goal/1, term_expansion/4, throw_error/3
               ]).
 :- use_module(private/arguments,
               [must_be_options/3, number_value/3, option/3]).
-:- use_module(private/brick, [brick/1]).
+:- use_module(private/brick,
+              [brick/1, in_brick/2, is_apart/1, switch_brick/1]).
 :- use_module(private/chance, [branch_seed/1, seed_branch/1]).
 :- use_module(private/conditions, [condition_goal/2]).
 :- use_module(private/one_of, [one_of/2]).
@@ -32,7 +33,7 @@
               ]).
 :- use_module(private/native,
               [ branches_begin_/0, branches_end_/0, branches_leave_/0,
-                branches_look_/1, cause_now_/1, cause_set_/1, commands_/1,
+                branches_look_/2, cause_now_/1, cause_set_/1, commands_/1,
                 guards_/0, motors_stop_/2, now_/1, serve_at_prompt_/0,
                 slices_/1, tick_after_/1
               ]).
@@ -189,10 +190,6 @@ after(Seconds0, Action, Options) :-
     Next is Now + Seconds,
     add_event(after(Seconds), Action, due(Next, 1), Options).
 
-must_be_goal(Goal) :-
-    strip_module(Goal, _, Plain),
-    must_be(callable, Plain).
-
 count_option(Options, Count) :-
     option(count(Count), Options, inf),
     (   Count == inf
@@ -256,7 +253,21 @@ ev3dev_waits:serve_events :-
 
 %   Which there are at the beginning: an action may add and cancel events.
 serve :-
-    brick(Brick),
+    brick(Own),
+    findall(Brick, other_brick(Own, Brick), Others0),
+    sort(Others0, Others),
+    serve(Own),
+    forall(one_of(Others, Brick),
+           in_brick(Brick, serve(Brick))).
+
+%   A simulation of with_sim/2 is for itself.
+other_brick(Own, Brick) :-
+    event_(Brick, _, _, _),
+    Brick \== Own,
+    \+ is_apart(Own),
+    \+ is_apart(Brick).
+
+serve(Brick) :-
     (   event_(Brick, _, _, _)
     ->  now_(Now),
         findall(Id, event_(Brick, Id, _, _), Ids),
@@ -559,12 +570,15 @@ branches(Goals, Which, Winner) :-
         run_branches(Branches, Which, Winner),
         leave_branches(Branches)).
 
-%   branch(Number, Engine, Goal, Over, Commands, Cause): Over is `false`,
-%   true(Goal) or `failed`, Commands are the ranges of commands that it gave,
-%   and Cause is what it acts for. These are changed by nb_setarg/3.
+%   branch(Number, Engine, Goal, Over, Commands, Cause, Brick): Over is
+%   `false`, true(Goal) or `failed`, Commands are the ranges of commands that
+%   it gave, Cause is what it acts for, and Brick is in use there. These are
+%   changed by nb_setarg/3.
+
 created([], _, []).
 created([Goal|Goals], Number,
-        [branch(Number, Engine, Goal, false, [], [])|Branches]) :-
+        [branch(Number, Engine, Goal, false, [], [], Brick)|Branches]) :-
+    brick(Brick),
     branch_seed(Seed),
     engine_create(Goal, ev3dev_events:in_branch(Goal, Seed), Engine),
     Next is Number + 1,
@@ -581,13 +595,13 @@ run_branches(Branches, Which, Winner) :-
     setup_call_cleanup(                 % also after an abort
         branches_begin_,
         once(( each_goes_on(Branches, Which),
-               branches_look_(Seconds)
+               branches_look_(Seconds, Bricks)
              )),
         branches_end_),
     (   is_decided(Branches, Which, Decision)
     ->  true
     ;   Seconds > 0
-    ->  wait(Seconds),
+    ->  wait_in(Bricks, Seconds),
         fail
     ;   let_others_go_on,
         fail
@@ -595,6 +609,11 @@ run_branches(Branches, Which, Winner) :-
     !,
     Decision = over(Winner),
     taken_over(Branches, Which, Winner).
+
+wait_in([], _).
+wait_in([Brick|Bricks], Seconds) :-
+    in_brick(Brick, wait(Seconds)),
+    wait_in(Bricks, Seconds).
 
 %   In the order of the list; a race is over with the first.
 each_goes_on([], _).
@@ -615,7 +634,10 @@ each_goes_on([Branch|Branches], Which) :-
 goes_on(Branch) :-
     arg(2, Branch, Engine),
     commands_(From),
-    % A branch has its own cause.
+    % A branch has its own brick, and its own cause.
+    brick(OuterBrick),
+    arg(7, Branch, Brick),
+    switch_brick(Brick),
     cause_now_(Outer),
     arg(6, Branch, Cause),
     (   Cause == []
@@ -634,6 +656,9 @@ goes_on(Branch) :-
     cause_now_(Own),
     nb_setarg(6, Branch, Own),
     cause_set_(Outer),
+    brick(OwnBrick),
+    nb_setarg(7, Branch, OwnBrick),
+    switch_brick(OuterBrick),
     commands_(Before),
     (   From =:= Before
     ->  true
@@ -667,25 +692,25 @@ is_decided(Branches, all, over(Winner)) :-
 %   The bindings of what has succeeded.
 taken_over(Branches, first, Winner) :-
     integer(Winner),
-    one_of(Branches, branch(Winner, _, Goal, true(Goal), _, _)),
+    one_of(Branches, branch(Winner, _, Goal, true(Goal), _, _, _)),
     !.
 taken_over(Branches, all, all) :-
     answers(Branches).
 
 answers([]).
-answers([branch(_, _, Goal, true(Goal), _, _)|Branches]) :-
+answers([branch(_, _, Goal, true(Goal), _, _, _)|Branches]) :-
     answers(Branches).
 
 %   To destroy an engine runs its clean-ups, which may wait.
 leave_branches([]).
-leave_branches([branch(_, Engine, _, Over, Commands, _)|Branches]) :-
+leave_branches([branch(_, Engine, _, Over, Commands, _, Brick)|Branches]) :-
     (   Over == false
     ->  motors_stopped(Commands)
     ;   true
     ),
     setup_call_cleanup(
         branches_leave_,
-        catch(engine_destroy(Engine), _, true),
+        in_brick(Brick, catch(engine_destroy(Engine), _, true)),
         branches_end_),
     leave_branches(Branches).
 

@@ -6,7 +6,8 @@
             ev3_dev/1                   % ?Directory
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/errors, [term_expansion/4]).
+:- use_module(private/brick, [brick/1, is_apart/1, named_brick/3]).
+:- use_module(private/errors, [term_expansion/4, throw_error/3]).
 :- use_module(private/directory, [directory_path/2, environment_directory/2]).
 :- use_module(private/native,
               [ dev_/1, dev_use_/1, file_read_/2, file_write_/2,
@@ -106,17 +107,31 @@ use_environment :-
 :- public choose_tree/0.
 
 choose_tree :-
-    with_mutex(ev3dev_tree,
-               (   simulator_needless
-               ->  true
-               ;   simulate
-               )).
+    brick(Brick),
+    (   named_brick(_, Brick, sim)
+    ->  Is = simulated
+    ;   ( Brick == 0 ; is_apart(Brick) )
+    ->  Is = this_machine
+    ;   throw_error(existence_error(brick, Brick), _,
+                    'the brick that this thread has in use was closed')
+    ),
+    with_mutex(ev3dev_tree, choose_tree(Is)).
 
-simulator_needless :-
+choose_tree(this_machine) :-
+    is_ev3,
+    !.
+choose_tree(_) :-
+    (   simulator_needless
+    ->  true
+    ;   simulate
+    ).
+
+is_ev3 :-
     ( Class = 'tacho-motor' ; Class = 'lego-sensor' ),
     atom_concat('/sys/class/', Class, Directory),
     exists_directory(Directory),
     !.
+
 simulator_needless :-
     \+ predicate_property(sim_active_, foreign),
     !.
@@ -129,7 +144,10 @@ simulate :-
     atom_concat(Directory, '/sim', Simulator),
     load_files(ev3dev_files:Simulator, [if(not_loaded), imports([])]),
     ev3dev_sim:sim_start(room),
-    print_message(informational, ev3dev(simulated(room))).
+    (   brick(0)
+    ->  print_message(informational, ev3dev(simulated(room)))
+    ;   true                            % brick_open/2 asked for it
+    ).
 
 :- multifile prolog:message//1.
 

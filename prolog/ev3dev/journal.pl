@@ -9,7 +9,7 @@
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(private/errors,
               [ existence_error/2, goal_of_program/1, in_own_name/1,
-                must_be/2, term_expansion/4
+                must_be/2, must_be_goal/1, term_expansion/4
               ]).
 :- use_module(private/directory, [readable_file/3]).
 :- use_module(private/explain, [fail_because/1]).
@@ -55,8 +55,7 @@ recorded. A new tree, as of sim_start/1, has an empty journal.
 %   @error type_error(callable, Goal)
 
 because(Goal, Cause) :-
-    strip_module(Goal, _, Plain),
-    must_be(callable, Plain),
+    must_be_goal(Goal),
     must_be(nonvar, Cause),
     plain_copy(Cause, Copy),
     acting_for(goal_of_program(Goal), Copy).

@@ -9,13 +9,14 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
-                must_be/2, term_expansion/4
+                must_be/2, must_be_goal/1, term_expansion/4
               ]).
 :- use_module(library(lists), [nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
-:- use_module(private/brick, [end_brick/1, new_brick/1]).
-:- use_module(private/chance, [begin_chance_of/1, end_chance/0]).
+:- use_module(private/brick, [in_new_brick/1]).
+:- use_module(private/chance,
+              [begin_chance_of/1, end_chance/0, with_own_chance/1]).
 :- use_module(private/facts,
               [located_facts/3, source_location/3, throw_located/3]).
 :- use_module(private/limits, [clock_changes/1, forget_plans/0]).
@@ -28,8 +29,7 @@
 :- reexport(sim_time).
 :- reexport(sim_views).
 :- use_module(private/native,
-              [ screen_give_back_/0, screen_set_aside_/0, sim_active_/0,
-                sim_start_/4, sim_stop_/0 ]).
+              [sim_active_/0, sim_start_/4, sim_stop_/0]).
 
 :- meta_predicate
     with_sim(+, 0),
@@ -337,8 +337,9 @@ sim_stop :-
 %!  with_sim(+World, :Goal, +Options) is semidet.
 %
 %   Call Goal once in a simulation of its own, which ends with it, however it
-%   ends. It ends a simulation that ran before, as sim_start/2 does. So a test
-%   starts from the same state each time. What the program knows of its robot
+%   ends. So a test starts from the same state each time. A simulation that
+%   runs already is as before after Goal; on the virtual clock its time stands
+%   still meanwhile. What the program knows of its robot
 %   it does not know in Goal: set_robot/4 and drive_option/2, the grid with
 %   its obstacles, the events of this thread, what was drawn on the screen,
 %   the white of col_white/1, exogenous actions that wait. After Goal it knows
@@ -357,8 +358,7 @@ sim_stop :-
 %   :- end_tests(robot).
 %   ```
 %
-%   Options are those of sim_start/2, but the default clock is `virtual`. Ends
-%   a simulation that runs already.
+%   Options are those of sim_start/2, but the default clock is `virtual`.
 %
 %   @error as sim_start/2
 
@@ -366,37 +366,19 @@ with_sim(World, Goal) :-
     with_sim(World, Goal, []).
 
 with_sim(World, Goal, Options) :-
-    strip_module(Goal, _, Plain),
-    must_be(callable, Plain),
+    must_be_goal(Goal),
     must_be(list, Options),
     (   option(clock(_), Options)
     ->  WithClock = Options
     ;   WithClock = [clock(virtual)|Options]
     ),
+    event_period(Period, []),
     setup_call_cleanup(
-        know_nothing(Before),
-        in_sim(World, WithClock, Goal),
-        know_again(Before)).
-
-%   An error of sim_start/2 in a setup would be printed twice at the prompt.
+        true,
+        with_own_chance(
+            in_new_brick(in_sim(World, WithClock, Goal))),
+        event_period(_, Period)).
 
 in_sim(World, Options, Goal) :-
     sim_start(World, Options),
-    setup_call_cleanup(
-        true,
-        once(goal_of_program(Goal)),
-        ignore(sim_stop)).
-
-%   A brick has what is known of the robot. The screen's sheet and the ticks
-%   of this thread are with the native code.
-
-know_nothing(before(Brick, Period)) :-
-    event_period(Period, []),
-    screen_set_aside_,
-    new_brick(Brick).
-
-know_again(before(Brick, Period)) :-
-    end_brick(Brick),
-    end_chance,                         % the program may have ended it
-    screen_give_back_,
-    event_period(_, Period).
+    once(goal_of_program(Goal)).

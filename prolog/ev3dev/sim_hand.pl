@@ -16,6 +16,7 @@
             set_added_facts/1           % +Added
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/brick, [brick/1]).
 :- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(private/explain, [fail_because/1]).
 :- use_module(library(lists), [member/2]).
@@ -35,7 +36,12 @@ The part of library(ev3dev/sim) that moves the robot, changes the world and
 presses buttons. All predicates fail if no simulation runs.
 */
 
-:- dynamic added/2.                     % Fact, Id
+:- dynamic added/3.                     % Brick, Fact, Id
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(added(Brick, _, _)).
 
 %!  sim_place(+X, +Y, +Heading) is semidet.
 %
@@ -70,8 +76,9 @@ sim_add(Fact) :-
 sim_add(Fact, Id) :-
     must_be(nonvar, Fact),
     sim_add_(Fact, Id),
-    retractall(added(_, Id)),
-    asserta(added(Fact, Id)).
+    brick(Brick),
+    retractall(added(Brick, _, Id)),
+    asserta(added(Brick, Fact, Id)).
 
 %!  sim_remove(+IdOrFact) is semidet.
 %
@@ -85,7 +92,8 @@ sim_remove(Id) :-
     sim_remove_(Id).
 sim_remove(Fact) :-
     must_be(callable, Fact),
-    added(Fact, Id),
+    brick(Brick),
+    added(Brick, Fact, Id),
     sim_remove_(Id),
     !.
 
@@ -231,9 +239,11 @@ sim_press(Key, Options) :-
 %   Added is a list of Fact-Id, the items that sim_add/1,2 added to the world.
 
 added_facts(Added) :-
-    findall(Fact-Id, added(Fact, Id), Added).
+    brick(Brick),
+    findall(Fact-Id, added(Brick, Fact, Id), Added).
 
 set_added_facts(Added) :-
     must_be(list, Added),
-    retractall(added(_, _)),
-    forall(member(Fact-Id, Added), assertz(added(Fact, Id))).
+    brick(Brick),
+    retractall(added(Brick, _, _)),
+    forall(member(Fact-Id, Added), assertz(added(Brick, Fact, Id))).

@@ -9,7 +9,8 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/errors,
-              [domain_error/2, evaluated/2, must_be/2, term_expansion/4]).
+              [ domain_error/2, evaluated/2, must_be/2, must_be_goal/1,
+                term_expansion/4 ]).
 :- use_module(private/arguments, [number_value/3]).
 :- use_module(private/limits, [clock_changes/1, within_seconds/2]).
 :- use_module(private/plans, [plan/3]).
@@ -129,10 +130,6 @@ sim_at(Seconds0, Goal) :-
     must_be_goal(Goal),
     sim_time_(_),
     plan(Seconds, Goal, _).
-
-must_be_goal(Goal) :-
-    strip_module(Goal, _, Plain),
-    must_be(callable, Plain).
 
 %!  for_seconds(+Seconds, :Goal) is semidet.
 %

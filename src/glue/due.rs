@@ -32,6 +32,15 @@ impl Bell {
     }
 }
 
+/// Another clock is in use: what this thread has planned by it may be due.
+pub(crate) fn look_again() {
+    MINE.with(|mine| {
+        if let Some(bell) = mine.get() {
+            bell.0.store(true, Ordering::Release);
+        }
+    });
+}
+
 /// Whether the program has guards. One that has none pays for one load.
 static GUARDS: AtomicBool = AtomicBool::new(false);
 

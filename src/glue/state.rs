@@ -1,28 +1,34 @@
-//! The brick in use. This value holds the state of the process.
-use crate::glue::{signals, watch};
+//! The bricks, and which one is in use. This value holds the state of the process.
+use crate::glue::signals;
+use crate::glue::watch::Watched;
 use ev3_driver::brick::screen::frame::Frame;
 use ev3_driver::brick::sound::Sound;
 use ev3_driver::drive::{Drive, Robot};
 use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, DevfsDir, Registry, Sysfs, SysfsDir, motor};
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{
-    Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, RwLock, RwLockReadGuard,
-    RwLockWriteGuard,
+    Arc, LazyLock, Mutex, OnceLock, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard,
 };
+use std::time::Duration;
+use swipl::fli::{integer_flag, this_thread};
 
 /// A brick: its attribute files, its device files, and what this process knows
-/// of both.
-struct Brick {
+/// of both. It is never freed, as any thread may have it in use; a closed one is empty.
+pub(crate) struct Brick {
+    /// 0 is the brick that is there from the start. No number is used twice.
+    number: u32,
     /// The files in use. A program may select others later.
     files: RwLock<InUse>,
+    /// Another number whenever other files may be in use: no two bricks have the same.
+    files_number: AtomicU32,
     /// The sounds that this program makes.
     sound: Sound,
-    /// The picture that this program has drawn.
-    frame: Mutex<Frame>,
-    /// The pictures that it had drawn before, and sees again.
-    frames_aside: Mutex<Vec<Frame>>,
+    /// The picture that this program has drawn, if it has.
+    frame: Mutex<Option<Frame>>,
+    watched: Watched,
 }
 
 /// The files in use.
@@ -50,13 +56,33 @@ impl InTree {
 }
 
 impl Brick {
+    fn new(number: u32) -> &'static Self {
+        Box::leak(Box::new(Self {
+            number,
+            files: RwLock::new(InUse::default()),
+            files_number: AtomicU32::new(FILES.fetch_add(1, Ordering::Relaxed)),
+            sound: Sound::default(),
+            frame: Mutex::default(),
+            watched: Watched::default(),
+        }))
+    }
+
     fn files(&self) -> RwLockReadGuard<'_, InUse> {
         self.files.read().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn change_files(&self) -> RwLockWriteGuard<'_, InUse> {
-        FILES_NUMBER.fetch_add(1, Ordering::AcqRel);
+        self.files_number.store(FILES.fetch_add(1, Ordering::AcqRel), Ordering::Release);
         self.files.write().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn devices(&self) -> Arc<Registry> {
+        Arc::clone(&self.files().tree.devices)
+    }
+
+    fn chosen_devices(&self) -> Option<Arc<Registry>> {
+        let files = self.files();
+        files.is_tree_chosen.then(|| Arc::clone(&files.tree.devices))
     }
 }
 
@@ -66,36 +92,146 @@ const KERNEL: &str = "/sys/class";
 /// The directory of the kernel's own device files.
 const KERNEL_DEV: &str = "/dev";
 
-static BRICK: LazyLock<Brick> = LazyLock::new(|| Brick {
-    files: RwLock::new(InUse {
-        tree: InTree::new(Arc::new(SysfsDir::new(KERNEL))),
-        is_tree_chosen: false,
-        dev: Arc::new(DevfsDir::new(KERNEL_DEV)),
-        is_dev_chosen: false,
-    }),
-    sound: Sound::default(),
-    frame: Mutex::default(),
-    frames_aside: Mutex::default(),
-});
+impl Default for InUse {
+    fn default() -> Self {
+        Self {
+            tree: InTree::new(Arc::new(SysfsDir::new(KERNEL))),
+            is_tree_chosen: false,
+            dev: Arc::new(DevfsDir::new(KERNEL_DEV)),
+            is_dev_chosen: false,
+        }
+    }
+}
 
-/// Counts what may have changed the files in use.
-static FILES_NUMBER: AtomicU32 = AtomicU32::new(0);
+/// Those that are open, by their numbers; the first is always.
+static BRICKS: LazyLock<Mutex<Vec<&'static Brick>>> =
+    LazyLock::new(|| Mutex::new(vec![Brick::new(0)]));
+
+/// How many bricks were opened.
+static OPENED: AtomicU32 = AtomicU32::new(0);
+
+/// Counts what may have changed the files of a brick.
+static FILES: AtomicU32 = AtomicU32::new(0);
+
+/// The brick of Prolog's main thread, by its number: pages show this one.
+static SHOWN: AtomicU32 = AtomicU32::new(0);
+
+/// The number of Prolog's main thread.
+const MAIN_THREAD: i32 = 1;
+
+/// The flag of Prolog that a new thread inherits from the one that made it.
+const FLAG: &std::ffi::CStr = c"ev3dev_brick";
+
+thread_local! {
+    static CURRENT: Cell<Option<&'static Brick>> = const { Cell::new(None) };
+    /// Whether this thread, which serves a page, has the brick of the main thread in use.
+    static FOLLOWS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The brick that this thread has in use.
+#[inline]
+fn current() -> &'static Brick {
+    CURRENT.get().unwrap_or_else(inherited)
+}
+
+#[cold]
+fn inherited() -> &'static Brick {
+    let thread = this_thread();
+    if FOLLOWS.get() || thread < 1 {
+        return brick(SHOWN.load(Ordering::Acquire)).unwrap_or_else(first);
+    }
+    let number = integer_flag(FLAG).and_then(|number| u32::try_from(number).ok());
+    // One that was closed meanwhile has no files, and says so.
+    let brick =
+        number.map_or_else(first, |number| brick(number).unwrap_or_else(|| Brick::new(number)));
+    CURRENT.set(Some(brick));
+    brick
+}
+
+fn first() -> &'static Brick {
+    locked(&BRICKS)[0]
+}
+
+fn brick(number: u32) -> Option<&'static Brick> {
+    let bricks = locked(&BRICKS);
+    let at = bricks.binary_search_by_key(&number, |brick| brick.number).ok()?;
+    bricks.get(at).copied()
+}
+
+/// The devices of all bricks whose tree is settled.
+pub(crate) fn all_devices() -> Vec<Arc<Registry>> {
+    let bricks = locked(&BRICKS).clone();
+    bricks.iter().filter_map(|brick| brick.chosen_devices()).collect()
+}
+
+/// This thread serves a page from now on, or does not.
+pub(crate) fn follow_main_thread(follows: bool) {
+    FOLLOWS.set(follows);
+    CURRENT.set(None);
+}
+
+/// The time of a brick, by its own clock.
+pub(crate) fn now_of(number: u32) -> Duration {
+    brick(number).unwrap_or_else(first).devices().tree().now()
+}
+
+/// What is seen of the brick in use.
+pub(crate) fn watched() -> &'static Watched {
+    &current().watched
+}
+
+/// The number of the brick in use.
+pub(crate) fn brick_number() -> u32 {
+    current().number
+}
+
+/// Makes a brick; its number.
+pub(crate) fn open_brick() -> u32 {
+    let mut bricks = locked(&BRICKS);
+    let number = OPENED.fetch_add(1, Ordering::Relaxed) + 1;
+    bricks.push(Brick::new(number));
+    number
+}
+
+/// Has this thread use a brick from now on; `false` if it is not open.
+pub(crate) fn use_brick(number: u32) -> bool {
+    let before = current();
+    if before.number == number {
+        return true;
+    }
+    let Some(brick) = brick(number) else { return false };
+    CURRENT.set(Some(brick));
+    if this_thread() == MAIN_THREAD {
+        SHOWN.store(number, Ordering::Release);
+    }
+    true
+}
+
+/// Forgets a brick, which stops its motors; `None` if it is not open, or the first.
+pub(crate) fn close_brick(number: u32) -> Option<ev3_driver::Result<()>> {
+    let brick = brick(number).filter(|brick| brick.number > 0)?;
+    locked(&BRICKS).retain(|open| open.number != number);
+    let before = std::mem::take(&mut *brick.change_files());
+    *locked(&brick.frame) = None;
+    Some(motor::stop_started(&before.tree.devices))
+}
 
 /// Another number than before, if other files may be in use.
+#[inline]
 pub(crate) fn files_number() -> u32 {
-    FILES_NUMBER.load(Ordering::Acquire)
+    current().files_number.load(Ordering::Acquire)
 }
 
 /// The devices of the tree in use.
 pub(crate) fn devices() -> Arc<Registry> {
-    Arc::clone(&BRICK.files().tree.devices)
+    current().devices()
 }
 
 /// The drive of a robot in the tree in use. A tree has one drive: another robot
 /// continues from its pose.
 pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
     let drive = {
-        let files = BRICK.files();
+        let files = current().files();
         let InTree { drive, devices } = &files.tree;
         Arc::clone(drive.get_or_init(|| Drive::new(Arc::clone(devices), robot)))
     };
@@ -105,24 +241,25 @@ pub(crate) fn drive(robot: &Robot) -> Arc<Drive> {
 
 /// The drive of the tree in use, if it has one.
 pub(crate) fn known_drive() -> Option<Arc<Drive>> {
-    BRICK.files().tree.drive.get().cloned()
+    current().files().tree.drive.get().cloned()
 }
 
 /// The devices of the tree in use, if it is settled which one that is.
 pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
-    let files = BRICK.files();
-    files.is_tree_chosen.then(|| Arc::clone(&files.tree.devices))
+    current().chosen_devices()
 }
 
-/// Stops the motors that the program started, where nobody is told what fails.
+/// Stops the motors of all bricks that the program started, where nobody is told what fails.
 pub(crate) fn stop_started() {
-    let _ = motor::stop_started(&devices());
+    for devices in all_devices() {
+        let _ = motor::stop_started(&devices);
+    }
 }
 
 /// Keeps the tree in use.
 pub(crate) fn chosen() {
     let _ = signals::watch(stop_started); // else no motor starts
-    BRICK.change_files().is_tree_chosen = true;
+    current().change_files().is_tree_chosen = true;
 }
 
 /// Uses another tree from now on. This stops the motors that were started in the old
@@ -131,17 +268,17 @@ pub(crate) fn use_tree(tree: Arc<dyn Sysfs>) -> ev3_driver::Result<()> {
     let _ = signals::watch(stop_started); // else no motor starts
     let tree = InTree::new(tree);
     let before = {
-        let mut files = BRICK.change_files();
+        let mut files = current().change_files();
         files.is_tree_chosen = true;
         std::mem::replace(&mut files.tree, tree)
     };
-    watch::begin_film();
+    watched().begin_film();
     motor::stop_started(&before.devices)
 }
 
 /// Uses the tree of files below a directory from now on.
 pub(crate) fn use_files(root: impl Into<PathBuf>) -> ev3_driver::Result<()> {
-    watch::set_simulated(false);
+    watched().set_simulated(false);
     use_tree(Arc::new(SysfsDir::new(root)))
 }
 
@@ -156,7 +293,7 @@ pub(crate) struct Selected {
 /// The directories that the program has selected.
 #[cfg(feature = "sim")]
 pub(crate) fn selected() -> Selected {
-    let files = BRICK.files();
+    let files = current().files();
     let root = |root: &Path| root.to_owned();
     Selected {
         tree: files.is_tree_chosen.then(|| root(files.tree.devices.tree().root())),
@@ -171,7 +308,7 @@ pub(crate) fn select(Selected { tree, dev }: Selected) -> ev3_driver::Result<()>
     let (is_tree_chosen, is_dev_chosen) = (tree.is_some(), dev.is_some());
     use_dev_files(dev.unwrap_or_else(|| KERNEL_DEV.into()));
     let used = use_files(tree.unwrap_or_else(|| KERNEL.into()));
-    let mut files = BRICK.change_files();
+    let mut files = current().change_files();
     files.is_tree_chosen = is_tree_chosen;
     files.is_dev_chosen = is_dev_chosen;
     used
@@ -185,18 +322,18 @@ pub(crate) fn use_default_files() -> ev3_driver::Result<()> {
 
 /// The device files in use.
 pub(crate) fn dev() -> Arc<dyn Devfs> {
-    Arc::clone(&BRICK.files().dev)
+    Arc::clone(&current().files().dev)
 }
 
 /// Whether it is settled which device files are in use.
 pub(crate) fn is_dev_chosen() -> bool {
-    BRICK.files().is_dev_chosen
+    current().files().is_dev_chosen
 }
 
 /// Uses other device files from now on.
 pub(crate) fn use_dev(dev: Arc<dyn Devfs>) {
     let _before = {
-        let mut files = BRICK.change_files();
+        let mut files = current().change_files();
         files.is_dev_chosen = true;
         std::mem::replace(&mut files.dev, dev)
     };
@@ -215,22 +352,10 @@ pub(crate) fn use_default_dev() {
 
 /// The sounds that this program makes.
 pub(crate) fn sound() -> &'static Sound {
-    &BRICK.sound
+    &current().sound
 }
 
 /// The picture that this program has drawn.
-pub(crate) fn frame() -> MutexGuard<'static, Frame> {
-    locked(&BRICK.frame)
-}
-
-/// Sets aside what this program has drawn, and begins a blank picture.
-pub(crate) fn set_frame_aside() {
-    let before = std::mem::take(&mut *frame());
-    locked(&BRICK.frames_aside).push(before);
-}
-
-/// Has what was set aside last in the place of what was drawn since.
-pub(crate) fn give_frame_back() {
-    let before = locked(&BRICK.frames_aside).pop();
-    *frame() = before.unwrap_or_default();
+pub(crate) fn with_frame<R>(act: impl FnOnce(&mut Frame) -> R) -> R {
+    act(locked(&current().frame).get_or_insert_default())
 }

@@ -10,15 +10,19 @@ use crate::glue::due;
 use crate::glue::error;
 use crate::glue::state;
 use crate::glue::terms::{Ask as _, unify_atom};
-use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
+use ev3_driver::{Error, Registry};
 use ev3_signals::latch;
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 use swipl::fli::{Act, act_without_input, this_thread};
 use swipl::prelude::*;
+
+/// The longest time between two looks of branches.
+const BRANCHES_LOOK: Duration = Duration::from_millis(20);
 
 /// How often Prolog looks for a signal that ends the program, once the motors are stopped.
 const SIGNAL: Duration = Duration::from_millis(10);
@@ -44,11 +48,11 @@ thread_local! {
 }
 
 /// One round of branches.
-#[derive(Clone, Copy)]
 pub(crate) enum Round {
-    /// Each goes on until it waits; no time passes. The first of them has to look again at this
-    /// time, and one that reads sensors then lets the others go on.
-    GoesOn(Duration),
+    /// Each goes on until it waits; no time passes. By the clock of each brick that they are
+    /// about, the first of them has to look again at this time, and one that reads sensors then
+    /// lets the others go on.
+    GoesOn(Vec<(u32, Duration)>),
     /// One of them is left, and time passes while its clean-ups wait. Later the thread's own
     /// ticks go on, the next of which is this.
     Left(Option<Duration>),
@@ -56,14 +60,13 @@ pub(crate) enum Round {
 
 /// Sets when this thread serves its events next.
 pub(crate) fn tick_at(time: Option<Duration>) {
-    if branches_look().is_none() {
+    if !branches_go_on() {
         NEXT_TICK.set(time);
         note_serving();
     }
 }
 
 /// The clock is another one from now on: a tick of before is due at once.
-#[cfg(feature = "sim")]
 pub(crate) fn tick_at_once() {
     if NEXT_TICK.get().is_some() {
         NEXT_TICK.set(Some(Duration::ZERO));
@@ -71,7 +74,7 @@ pub(crate) fn tick_at_once() {
 }
 
 fn note_serving() {
-    let is_in_branch = round().is_some();
+    let is_in_branch = BRANCHES.with_borrow(|rounds| !rounds.is_empty());
     due::set_in_branch(is_in_branch);
     IS_SERVING.set(NEXT_TICK.get().is_some() || is_in_branch);
 }
@@ -102,16 +105,33 @@ pub(crate) fn back_to_rounds(count: usize) {
     }
 }
 
-fn round() -> Option<Round> {
-    BRANCHES.with_borrow(|rounds| rounds.last().copied())
+fn branches_go_on() -> bool {
+    BRANCHES.with_borrow(|rounds| matches!(rounds.last(), Some(Round::GoesOn(_))))
 }
 
-/// When the first of the branches that go on has to look again.
-pub(crate) fn branches_look() -> Option<Duration> {
-    match round() {
-        Some(Round::GoesOn(look)) => Some(look),
-        _ => None,
-    }
+/// By the clock of the brick in use, when the first of the branches that go on has to look again.
+fn branches_look() -> Option<Duration> {
+    BRANCHES.with_borrow_mut(|rounds| {
+        let Some(Round::GoesOn(looks)) = rounds.last_mut() else { return None };
+        let brick = state::brick_number();
+        let known = looks.iter().find(|(of, _)| *of == brick).map(|(_, look)| *look);
+        Some(known.unwrap_or_else(|| {
+            let look = state::devices().tree().now().saturating_add(BRANCHES_LOOK);
+            looks.push((brick, look));
+            look
+        }))
+    })
+}
+
+/// After what time the first of the branches has to look again, and the bricks they are about.
+pub(crate) fn branches_wait() -> (Duration, Vec<u32>) {
+    let looks = BRANCHES.with_borrow(|rounds| match rounds.last() {
+        Some(Round::GoesOn(looks)) => looks.clone(),
+        _ => Vec::new(),
+    });
+    let left = looks.iter().map(|&(brick, look)| look.saturating_sub(state::now_of(brick)));
+    let first = left.min().unwrap_or_default();
+    (first, looks.into_iter().map(|(brick, _)| brick).collect())
 }
 
 /// A branch is left from now on.
@@ -130,7 +150,10 @@ pub(crate) fn end_branches() {
 /// A branch has to look again at this time.
 fn look_at(time: Duration) {
     BRANCHES.with_borrow_mut(|rounds| {
-        if let Some(Round::GoesOn(look)) = rounds.last_mut() {
+        let brick = state::brick_number();
+        if let Some(Round::GoesOn(looks)) = rounds.last_mut()
+            && let Some((_, look)) = looks.iter_mut().find(|(of, _)| *of == brick)
+        {
             *look = time.min(*look);
         }
     });
@@ -182,6 +205,13 @@ fn is_tick_due_at_prompt() -> bool {
 }
 
 impl<C: QueryableContextType> Call<'_, C> {
+    /// Stops the motors of all bricks whose last command was one of these.
+    pub(crate) fn stop_commanded(&self, commands: &Range<u32>) -> PrologResult<()> {
+        let stop = |devices: Arc<Registry>| motor::stop_commanded(&devices, commands);
+        let stopped = state::all_devices().into_iter().map(stop);
+        self.or_throw(stopped.fold(Ok(()), Result::and))
+    }
+
     /// One slice of a wait: unifies `reason` with what is to be done before the next one, or calls
     /// `ended`. The result is that of a nondeterministic predicate.
     pub(crate) fn slice<W: Wait>(
@@ -192,7 +222,7 @@ impl<C: QueryableContextType> Call<'_, C> {
     ) -> PrologResult<bool> {
         let tick = NEXT_TICK.get();
         for commands in LEFT.take() {
-            self.or_throw(motor::stop_commanded(&state::devices(), &commands))?;
+            self.stop_commanded(&commands)?;
         }
         if branches_look().is_some() {
             let now = state::devices().tree().now();

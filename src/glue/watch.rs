@@ -9,17 +9,69 @@ use swipl::fli::this_thread;
 
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 
-/// Whether the tree in use is that of the simulation within this process.
-static IS_SIMULATED: AtomicBool = AtomicBool::new(false);
-
 /// Counts the films: each tree, and each return to a snapshot, begins one.
-static FILM: AtomicU32 = AtomicU32::new(1);
+static FILMS: AtomicU32 = AtomicU32::new(1);
 
-/// The inputs whose sensors the program has read during the film, as bits.
-static READ: AtomicU8 = AtomicU8::new(0);
+/// What is seen of a brick.
+pub(crate) struct Watched {
+    /// Whether its tree is that of a simulation within this process.
+    is_simulated: AtomicBool,
+    film: AtomicU32,
+    /// The inputs whose sensors the program has read during the film, as bits.
+    read: AtomicU8,
+    /// The frame in which the robot's odometry counts, in the world.
+    frame: Mutex<Option<Frame>>,
+}
 
-/// The frame in which the robot's odometry counts, in the world.
-static FRAME: Mutex<Option<Frame>> = Mutex::new(None);
+impl Default for Watched {
+    fn default() -> Self {
+        Self {
+            is_simulated: AtomicBool::new(false),
+            film: AtomicU32::new(FILMS.fetch_add(1, Ordering::Relaxed)),
+            read: AtomicU8::new(0),
+            frame: Mutex::default(),
+        }
+    }
+}
+
+impl Watched {
+    /// Whether the tree in use is that of the simulation within this process, and not files.
+    #[cfg(feature = "sim")]
+    pub(crate) fn is_simulated(&self) -> bool {
+        self.is_simulated.load(Ordering::Relaxed)
+    }
+
+    /// Another tree is used from now on.
+    pub(crate) fn set_simulated(&self, is_simulated: bool) {
+        self.is_simulated.store(is_simulated, Ordering::Relaxed);
+    }
+
+    /// The number of the film.
+    pub(crate) fn film(&self) -> u64 {
+        self.film.load(Ordering::Relaxed).into()
+    }
+
+    /// What was seen so far is void.
+    pub(crate) fn begin_film(&self) {
+        self.read.store(0, Ordering::Relaxed);
+        self.film.store(FILMS.fetch_add(1, Ordering::Relaxed), Ordering::Relaxed);
+    }
+
+    /// The program reads the sensor at a port.
+    pub(crate) fn note_read(&self, port: &str) {
+        self.read.fetch_or(bit_of(port), Ordering::Relaxed);
+    }
+
+    /// Whether it has done so during the film.
+    pub(crate) fn is_read(&self, port: &str) -> bool {
+        self.read.load(Ordering::Relaxed) & bit_of(port) != 0
+    }
+
+    /// The frame in which the odometry counts; `None` if it is the world's.
+    pub(crate) fn frame(&self) -> MutexGuard<'_, Option<Frame>> {
+        locked(&self.frame)
+    }
+}
 
 /// A pose in the odometry's frame, and the same in the world.
 #[derive(Clone, Copy, Debug)]
@@ -85,47 +137,10 @@ pub(crate) fn set_watched(is_watched: bool) {
     IS_WATCHED.store(is_watched, Ordering::Relaxed);
 }
 
-/// Whether the tree in use is that of the simulation within this process, and not files.
-#[cfg(feature = "sim")]
-pub(crate) fn is_simulated() -> bool {
-    IS_SIMULATED.load(Ordering::Relaxed)
-}
-
-/// Another tree is used from now on.
-pub(crate) fn set_simulated(is_simulated: bool) {
-    IS_SIMULATED.store(is_simulated, Ordering::Relaxed);
-}
-
-/// The number of the film.
-pub(crate) fn film() -> u64 {
-    FILM.load(Ordering::Relaxed).into()
-}
-
-/// What was seen so far is void.
-pub(crate) fn begin_film() {
-    READ.store(0, Ordering::Relaxed);
-    FILM.fetch_add(1, Ordering::Relaxed);
-}
-
-/// The program reads the sensor at a port.
-pub(crate) fn note_read(port: &str) {
-    READ.fetch_or(bit_of(port), Ordering::Relaxed);
-}
-
-/// Whether it has done so during the film.
-pub(crate) fn is_read(port: &str) -> bool {
-    READ.load(Ordering::Relaxed) & bit_of(port) != 0
-}
-
 /// The bit of an input; a port of another name has none.
 fn bit_of(port: &str) -> u8 {
     match port.strip_prefix("in").and_then(|number| number.bytes().next()) {
         Some(number @ b'1'..=b'4') => 1 << (number - b'1'),
         _ => 0,
     }
-}
-
-/// The frame in which the odometry counts; `None` if it is the world's.
-pub(crate) fn frame() -> MutexGuard<'static, Option<Frame>> {
-    locked(&FRAME)
 }

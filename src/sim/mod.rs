@@ -10,7 +10,7 @@ mod mount;
 mod mount;
 mod running;
 
-pub(crate) use self::running::{end_unless_mounted, running_simulation};
+pub(crate) use self::running::{end_of, end_unless_mounted, has_virtual_clock, running_simulation};
 
 use self::files::SimulatedFiles;
 use self::running::{is_running, simulation, start};
@@ -18,7 +18,7 @@ use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::due::Bell;
 use crate::glue::error::{no_such, wrong_because, wrong_value};
-use crate::glue::state::devices;
+use crate::glue::state::{devices, watched};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_driver::Registry;
@@ -281,7 +281,7 @@ natives! {
         let simulation = simulation(context)?;
         simulation.machine().restore(machine);
         simulation.machine().keep_samples(watch::is_watched());
-        watch::begin_film();
+        watched().begin_film();
         devices().forget_listings();
         Ok(())
     }

@@ -2,17 +2,19 @@
 use crate::buttons::close_sources;
 use crate::glue::call::Call;
 use crate::glue::error::{no_such, wrong_because};
-use crate::glue::state::{dev, devices, use_default_dev, use_default_files};
+use crate::glue::state::{brick_number, dev, devices, use_default_dev, use_default_files};
 use ev3_driver::Registry;
 use ev3_driver::lock::locked;
 use ev3_sim::{Mount, MountError, Shared};
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 use swipl::prelude::*;
 
-static MOUNTED: Mutex<Option<Mounted>> = Mutex::new(None);
+/// By the number of the brick.
+static MOUNTED: Mutex<BTreeMap<u32, Mounted>> = Mutex::new(BTreeMap::new());
 
 /// The mounts: the classes of devices, and perhaps the device files.
 struct Mounted {
@@ -21,8 +23,7 @@ struct Mounted {
 }
 
 /// Mounts the tree of a machine on a directory, and its device files on
-/// another one if it is given. There is one mount at a time: this unmounts an earlier
-/// one.
+/// another one if it is given. A brick has one mount: this unmounts an earlier one.
 pub(crate) fn mount<C: QueryableContextType>(
     call: &Call<C>,
     machine: &Arc<Shared>,
@@ -32,7 +33,7 @@ pub(crate) fn mount<C: QueryableContextType>(
     end();
     let classes = mounted(call, classes, Mount::new, machine)?;
     let dev = dev.map(|term| mounted(call, term, Mount::dev, machine)).transpose()?;
-    *locked(&MOUNTED) = Some(Mounted { classes, dev });
+    locked(&MOUNTED).insert(brick_number(), Mounted { classes, dev });
     Ok(())
 }
 
@@ -95,10 +96,10 @@ fn gone<C: QueryableContextType>(call: &Call<C>, mount: Mount) -> PrologResult<(
 
 /// Whether something is mounted.
 pub(crate) fn is_mounted() -> bool {
-    locked(&MOUNTED).is_some()
+    locked(&MOUNTED).contains_key(&brick_number())
 }
 
-/// Unmounts everything.
+/// Unmounts what shows the simulation of the brick in use.
 pub(crate) fn end() {
     if let Some(mounted) = take() {
         // Unmount even if the motors cannot be stopped.
@@ -107,5 +108,11 @@ pub(crate) fn end() {
 }
 
 fn take() -> Option<Mounted> {
-    locked(&MOUNTED).take()
+    locked(&MOUNTED).remove(&brick_number())
+}
+
+/// Unmounts what shows the simulation of a brick that nobody uses.
+pub(crate) fn end_of(brick: u32) {
+    let mounted = locked(&MOUNTED).remove(&brick);
+    drop(mounted);
 }

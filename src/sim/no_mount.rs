@@ -23,6 +23,9 @@ pub(crate) fn unmount<C: QueryableContextType>(_call: &Call<C>) -> PrologResult<
 /// Nothing is mounted.
 pub(crate) fn end() {}
 
+/// Nothing is mounted.
+pub(crate) fn end_of(_brick: u32) {}
+
 /// Nothing is.
 pub(crate) fn is_mounted() -> bool {
     false

@@ -1,19 +1,21 @@
-//! The simulation that runs: there is at most one in a process.
+//! The simulation that runs: there is at most one of each brick.
 use super::dev::SimulatedDev;
 use super::files::SimulatedFiles;
 use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
-use crate::glue::state::{Selected, select, selected, use_dev, use_tree};
+use crate::glue::state::{Selected, brick_number, select, selected, use_dev, use_tree, watched};
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
 use ev3_driver::lock::locked;
 use ev3_sim::{Clock, Machine, Simulation};
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 use swipl::fli::has_other_threads;
 use swipl::prelude::*;
 
-static RUNNING: Mutex<Option<Running>> = Mutex::new(None);
+/// By the number of its brick.
+static RUNNING: Mutex<BTreeMap<u32, Running>> = Mutex::new(BTreeMap::new());
 
 struct Running {
     simulation: Arc<Simulation>,
@@ -25,7 +27,7 @@ struct Running {
 pub(super) fn simulation<C: QueryableContextType>(
     context: &Context<C>,
 ) -> PrologResult<Arc<Simulation>> {
-    let simulation = locked(&RUNNING).as_ref().map(|running| Arc::clone(&running.simulation));
+    let simulation = running_simulation();
     let call = Call::of(context, "sim_start", 1);
     let Some(simulation) = simulation else {
         return none(&call);
@@ -36,7 +38,13 @@ pub(super) fn simulation<C: QueryableContextType>(
 
 /// The running simulation, for somebody who only looks or reaches in from outside.
 pub(crate) fn running_simulation() -> Option<Arc<Simulation>> {
-    locked(&RUNNING).as_ref().map(|running| Arc::clone(&running.simulation))
+    locked(&RUNNING).get(&brick_number()).map(|running| Arc::clone(&running.simulation))
+}
+
+/// Whether a simulation on the virtual clock runs in a brick.
+pub(crate) fn has_virtual_clock(brick: u32) -> bool {
+    let running = locked(&RUNNING);
+    running.get(&brick).is_some_and(|running| running.simulation.clock() == Clock::Virtual)
 }
 
 /// Fails because no simulation runs.
@@ -47,7 +55,7 @@ fn none<C: QueryableContextType, T>(call: &Call<C>) -> PrologResult<T> {
 
 /// Whether a simulation runs.
 pub(super) fn is_running() -> bool {
-    locked(&RUNNING).is_some()
+    locked(&RUNNING).contains_key(&brick_number())
 }
 
 /// Starts a simulation and ends the running one.
@@ -62,12 +70,13 @@ pub(super) fn start<C: QueryableContextType>(
         Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
     };
     mount::end();
-    let before = locked(&RUNNING).as_ref().map(|running| running.before.clone());
+    let before = locked(&RUNNING).get(&brick_number()).map(|running| running.before.clone());
     let before = before.unwrap_or_else(selected);
-    let ended = locked(&RUNNING).replace(Running { simulation: Arc::clone(&simulation), before });
+    let running = Running { simulation: Arc::clone(&simulation), before };
+    let ended = locked(&RUNNING).insert(brick_number(), running);
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
-    watch::set_simulated(true);
+    watched().set_simulated(true);
     tick_at_once();
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }
@@ -78,7 +87,7 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
         return none(call);
     }
     mount::end();
-    let ended = locked(&RUNNING).take();
+    let ended = locked(&RUNNING).remove(&brick_number());
     tick_at_once();
     match ended {
         Some(ended) => call.or_throw(select(ended.before)),
@@ -90,7 +99,13 @@ pub(super) fn stop<C: QueryableContextType>(call: &Call<C>) -> PrologResult<()> 
 /// it to other programs.
 pub(crate) fn end_unless_mounted() {
     if !mount::is_mounted() {
-        let ended = locked(&RUNNING).take();
-        drop(ended);
+        end_of(brick_number());
     }
+}
+
+/// Ends the simulation of a brick, if it has one, and its mount.
+pub(crate) fn end_of(brick: u32) {
+    mount::end_of(brick);
+    let ended = locked(&RUNNING).remove(&brick);
+    drop(ended);
 }

@@ -6,8 +6,8 @@
 use super::notes::notes;
 use super::reach::running_simulation;
 use super::state::{self, Decimal, OrNull, fine, text};
-use crate::glue::state::known_drive;
-use crate::glue::watch::{Frame, film, frame};
+use crate::glue::state::{known_drive, watched};
+use crate::glue::watch::Frame;
 use ev3_driver::drive::Believed;
 use ev3_driver::lock::locked;
 use ev3_motion::{Pose, wrapped};
@@ -26,14 +26,14 @@ pub(crate) fn counting_begins() {
 /// The program has said where the robot is.
 pub(crate) fn pose_is_set(believed: Pose) {
     let Some(simulation) = running_simulation() else {
-        *frame() = None;
+        *watched().frame() = None;
         return;
     };
     let ev3_sim::Pose { x, y, heading } = simulation.machine().pose();
     let real = Pose { x, y, heading };
     let is_near = (believed.x - x).hypot(believed.y - y) <= NEAR
         && wrapped(believed.heading - heading).abs() <= ABOUT;
-    *frame() = (!is_near).then_some(Frame { believed, real });
+    *watched().frame() = (!is_near).then_some(Frame { believed, real });
 }
 
 /// What the drive knows, without looking; with the way after a moment. While a thread of the
@@ -44,10 +44,12 @@ pub(super) fn believed(after: Duration) -> Option<Believed> {
     let mut last = locked(&LAST);
     match drive.peek(after) {
         Some(believed) => {
-            *last = Some((film(), Believed { way: Vec::new(), ..believed.clone() }));
+            *last = Some((watched().film(), Believed { way: Vec::new(), ..believed.clone() }));
             Some(believed)
         }
-        None => last.as_ref().filter(|(of, _)| *of == film()).map(|(_, last)| last.clone()),
+        None => {
+            last.as_ref().filter(|(of, _)| *of == watched().film()).map(|(_, last)| last.clone())
+        }
     }
 }
 
@@ -57,7 +59,7 @@ pub(super) struct ToWorld(Option<Frame>);
 
 impl ToWorld {
     pub(super) fn now() -> Self {
-        Self(*frame())
+        Self(*watched().frame())
     }
 
     pub(super) fn pose(self, pose: Pose) -> Pose {

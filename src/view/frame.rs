@@ -3,8 +3,7 @@ use super::notes::notes;
 use super::reach::running_simulation;
 use super::state::{Clock, Decimal, Report, Samples};
 use super::{brick, simulated};
-use crate::glue::state::{chosen_devices, devices};
-use crate::glue::watch::film;
+use crate::glue::state::{chosen_devices, devices, watched};
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_os::Instant;
@@ -92,7 +91,7 @@ pub(super) fn source() -> &'static str {
 /// in a second, and `goals` may be sent or not.
 pub(super) fn next(have: &str, program: &str, rate: f64, goals: bool) -> String {
     let had = have.parse::<Have>().ok();
-    let (film, source) = (film(), Source::now());
+    let (film, source) = (watched().film(), Source::now());
     let is_new = had.is_none_or(|had| had.film != film);
     let mut have = had.filter(|_| !is_new).unwrap_or_default();
     // The log goes on from film to film.

@@ -2,8 +2,8 @@
 use super::reach::{outside, running_simulation};
 use crate::glue::call::Call;
 use crate::glue::error::{wrong_because, wrong_value};
+use crate::glue::state::watched;
 use crate::glue::terms::unify_atom;
-use crate::glue::watch::film;
 use ev3_driver::lock::locked;
 use ev3_sim::{Clock, ItemId, Port, Simulation};
 use std::sync::{Arc, Mutex};
@@ -63,7 +63,7 @@ natives! {
         if is_pulled {
             let mut now = pulled();
             now[port as usize] = driver;
-            *locked(&PULLED) = (film(), now);
+            *locked(&PULLED) = (watched().film(), now);
         }
         into_prolog_result(is_pulled)
     }
@@ -99,7 +99,7 @@ fn simulation() -> PrologResult<Arc<Simulation>> {
 /// The device that was pulled out of each port.
 pub(super) fn pulled() -> Pulled {
     let (of, pulled) = *locked(&PULLED);
-    if of == film() { pulled } else { Pulled::default() }
+    if of == watched().film() { pulled } else { Pulled::default() }
 }
 
 fn port_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Port> {

@@ -1,7 +1,7 @@
 //! Reaching into the simulation that runs, from outside of the program.
 use super::threads;
-use crate::glue::state::devices;
-use ev3_driver::{Error, motor};
+use crate::glue::state::{all_devices, devices, watched};
+use ev3_driver::{Error, Registry, motor};
 use ev3_sim::{Simulation, stay_outside};
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use std::time::Duration;
 /// The simulation whose tree is in use.
 #[cfg(feature = "sim")]
 pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
-    crate::sim::running_simulation().filter(|_| crate::glue::watch::is_simulated())
+    crate::sim::running_simulation().filter(|_| watched().is_simulated())
 }
 
 /// There is none.
@@ -46,11 +46,14 @@ pub(super) fn keep_samples(keep: bool) {
     }
 }
 
-/// Stops all motors that are connected, with brake, at once.
+/// Stops all motors that are connected to any brick, with brake, at once.
 pub(super) fn stop_motors() -> ev3_driver::Result<()> {
-    match outside(|| motor::stop_connected(&devices(), &mut || true)) {
-        // A motor whose files are not open yet does not run.
-        Err(Error::Interrupted) => Ok(()),
-        stopped => stopped,
-    }
+    let stop = |devices: Arc<Registry>| {
+        match outside(|| motor::stop_connected(&devices, &mut || true)) {
+            // A motor whose files are not open yet does not run.
+            Err(Error::Interrupted) => Ok(()),
+            stopped => stopped,
+        }
+    };
+    all_devices().into_iter().map(stop).fold(Ok(()), Result::and)
 }

@@ -7,7 +7,7 @@ use super::state::{
     Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Wheel, Words, World, fine, points,
     text,
 };
-use crate::glue::watch::film;
+use crate::glue::state::watched;
 use ev3_driver::lock::locked;
 use ev3_json::Json;
 use ev3_sim::{
@@ -148,7 +148,7 @@ fn seen(pose: Pose, sight: ev3_sim::Sight) -> Sight {
 fn keep_versions(machine: &Machine) {
     static VERSIONS: Mutex<Option<[u64; 3]>> = Mutex::new(None);
     let mut versions = locked(&VERSIONS);
-    let now = [film(), machine.world_version(), machine.screen_version()];
+    let now = [watched().film(), machine.world_version(), machine.screen_version()];
     let before = versions.replace(now);
     let [film, world, screen] = before.unwrap_or_default();
     let is_new = before.is_none() || film != now[0];

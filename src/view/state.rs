@@ -1,6 +1,6 @@
 //! What pages get: each struct is an object of docs/view-protocol.md. `simulated.rs` fills
 //! them from the simulator, `brick.rs` from the driver, and only here they are written as JSON.
-use crate::glue::watch::is_read;
+use crate::glue::state::watched;
 use ev3_json::Json;
 use std::borrow::Cow;
 use std::time::Duration;
@@ -339,7 +339,7 @@ impl Port {
     pub(super) fn have(&mut self, kind: &'static str, driver: Text) {
         let known = NAMES.iter().find(|(known, _)| *known == driver);
         self.name = Some(known.map_or_else(|| driver.clone(), |(_, name)| (*name).into()));
-        self.read = is_read(self.port).then_some(true);
+        self.read = watched().is_read(self.port).then_some(true);
         (self.kind, self.driver) = (kind, Some(driver));
     }
 }

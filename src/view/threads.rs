@@ -1,4 +1,5 @@
 //! The threads that serve pages.
+use crate::glue::state::follow_main_thread;
 use crate::glue::watch;
 use ev3_sim::stay_outside;
 use std::cell::Cell;
@@ -18,6 +19,7 @@ pub(super) fn serve(serves: bool) {
         // Where the kernel has no such file, the clock takes the thread for one of the program's.
         let _ = fs::write("/proc/thread-self/comm", NAME);
         stay_outside(serves);
+        follow_main_thread(serves);
     }
     pass_over_thread(this_thread(), serves);
 }

@@ -13,6 +13,7 @@
 :- use_module(library(ev3dev/plnxt)).
 :- use_module(library(ev3dev/raw)).
 :- use_module(library(ev3dev/roadmap)).
+:- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
@@ -84,6 +85,12 @@ bad(view([]), [a-1, _-1, [port(0)]-1, [port(x)]-1, [address(all)]-1, [token(shor
 bad(view_mark(a), [_-1]).
 bad(view_watch(a, outA), [_-1, _-2, outE-2, outA-value0-2, 7-2]).
 bad(view_value(a, 1), [_-1, _-2, high-2]).
+bad(brick_open(anna, sim), [_-1, 7-1, local-1, _-2, mars-2, dir('/nowhere')-2, sim(nowhere)-2, sim(room, [colour(red)])-2]).
+bad(brick_close(anna), [_-1, 7-1, anna-1, local-1]).
+bad(with_brick(local, true), [_-1, 7-1, anna-1, 7-2, _-2]).
+bad(use_brick(local), [7-1, anna-1]).
+bad(bricks_do(true), [_-1, 7-1]).
+bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).
 bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
 bad(sim_batch(nofile, a, [1], _, []), [_-1, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).

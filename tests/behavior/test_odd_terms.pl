@@ -45,6 +45,7 @@ exported(Module, Name/Arity) :-
 % the process; or take a map that grid_map/2 made.
 left_out(jog).
 left_out(button_wait).
+left_out(view_visit_).
 left_out(sensor_wait).
 left_out(sim_step).
 left_out(sim_step_).

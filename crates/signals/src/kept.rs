@@ -20,8 +20,11 @@ use std::sync::atomic::{AtomicI32, AtomicPtr, AtomicU8, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Room for the lines of more than a hundred motors.
-const ROOM: usize = 16 * 1024;
+/// As many as 32 bricks have.
+const MOST: usize = 128;
+
+/// Room for their lines.
+const ROOM: usize = MOST * 128;
 
 /// No descriptor.
 const NONE: c_int = -1;
@@ -38,13 +41,13 @@ struct Slot {
     length: AtomicUsize,
 }
 
-static SLOTS: [Slot; 64] = [const {
+static SLOTS: [Slot; MOST] = [const {
     Slot {
         descriptor: AtomicI32::new(NONE),
         start: AtomicUsize::new(0),
         length: AtomicUsize::new(0),
     }
-}; 64];
+}; MOST];
 
 /// The lines; null until there is one.
 static LINES: AtomicPtr<u8> = AtomicPtr::new(std::ptr::null_mut());

@@ -6,12 +6,12 @@
 //! ([`crate::version`]); the plain `extern` block those that are the same
 //! everywhere.
 use crate::types::{
-    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_blob_t, PL_engine_t, PL_fid_t, REP_UTF8, atom_t,
-    control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
+    BUF_DISCARDABLE, CVT_ATOM, IOSTREAM, PL_INTEGER, PL_blob_t, PL_engine_t, PL_fid_t, REP_UTF8,
+    atom_t, control_t, functor_t, module_t, predicate_t, qid_t, record_t, term_t,
 };
 use crate::version::Version;
 use std::cell::Cell;
-use std::ffi::{c_char, c_int, c_uchar, c_void};
+use std::ffi::{CStr, c_char, c_int, c_uchar, c_void};
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 
 /// Declares functions whose result is a truth value: `int` in old headers,
@@ -33,6 +33,7 @@ macro_rules! truth {
 }
 
 truth! {
+    PL_current_prolog_flag(name: atom_t, kind: u32, value: *mut c_void);
     PL_get_arg(index: c_int, t: term_t, a: term_t);
     PL_get_atom(t: term_t, a: *mut atom_t);
     PL_get_blob(t: term_t, blob: *mut *mut c_void, len: *mut usize, kind: *mut *mut PL_blob_t);
@@ -243,6 +244,7 @@ unsafe extern "C" {
     // Atoms, functors, modules, predicates
     pub fn PL_register_atom(a: atom_t);
     pub fn PL_unregister_atom(a: atom_t);
+    pub fn PL_new_atom(s: *const c_char) -> atom_t;
     pub fn PL_new_functor(name: atom_t, arity: usize) -> functor_t;
     pub fn PL_functor_name(f: functor_t) -> atom_t;
     pub fn PL_functor_arity(f: functor_t) -> c_int;
@@ -375,6 +377,19 @@ unsafe fn is_collector(id: term_t) -> bool {
             let bytes = PL_blob_data(alias, &raw mut length, std::ptr::null_mut()).cast::<u8>();
             !bytes.is_null() && std::slice::from_raw_parts(bytes, length) == ALIAS
         })
+    }
+}
+
+/// The value of a flag of Prolog, as this thread of Prolog has it, if it is an integer.
+#[must_use]
+pub fn integer_flag(name: &CStr) -> Option<i64> {
+    let mut value = 0_i64;
+    // Safety: an integer flag is written as 64 bits. The atom has a reference for that long.
+    unsafe {
+        let atom = PL_new_atom(name.as_ptr());
+        let is_integer = PL_current_prolog_flag(atom, PL_INTEGER, (&raw mut value).cast());
+        PL_unregister_atom(atom);
+        (is_integer != 0).then_some(value)
     }
 }
 

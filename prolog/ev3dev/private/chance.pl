@@ -2,6 +2,7 @@
           [ begin_chance_of/1,          % +Options
             begin_chance/1,             % +Seed
             end_chance/0,
+            with_own_chance/1,          % :Goal
             branch_seed/1,              % -Seed
             seed_branch/1               % +Seed
           ]).
@@ -14,6 +15,8 @@ global variable, which each of them has for itself.
 */
 
 :- use_module(arguments, [option/2]).
+
+:- meta_predicate with_own_chance(0).
 
 %!  begin_chance_of(+Options) is det.
 %
@@ -37,21 +40,53 @@ begin_chance_of(Options) :-
 begin_chance(Seed) :-
     (   seeded(_)
     ->  true
-    ;   random_property(state(State))
-    ->  nb_setval(ev3dev_chance, before(State))
-    ;   nb_setval(ev3dev_chance, before(none))
+    ;   generator(State),
+        nb_setval(ev3dev_chance, before(State))
     ),
     set_random(seed(Seed)).
+
+%   Not every Prolog can say it.
+generator(State) :-
+    (   random_property(state(State0))
+    ->  State = State0
+    ;   State = none
+    ).
 
 end_chance :-
     (   seeded(State)
     ->  nb_setval(ev3dev_chance, []),
-        (   State == none
-        ->  set_random(seed(random))
-        ;   set_random(state(State))
-        )
+        draw_from(State)
     ;   true
     ).
+
+draw_from(State) :-
+    (   State == none
+    ->  set_random(seed(random))
+    ;   set_random(state(State))
+    ).
+
+%!  with_own_chance(:Goal) is semidet.
+%
+%   Call Goal once, in which a simulation draws its own numbers. After it this
+%   thread goes on with those that it would have drawn without it.
+
+with_own_chance(Goal) :-
+    (   seeded(Before)
+    ->  Outer = before(Before)
+    ;   Outer = []
+    ),
+    generator(State),
+    setup_call_cleanup(
+        nb_setval(ev3dev_chance, []),
+        once(Goal),
+        chance_again(Outer, State)).
+
+chance_again(Outer, State) :-
+    (   seeded(_)
+    ->  draw_from(State)
+    ;   true
+    ),
+    nb_setval(ev3dev_chance, Outer).
 
 seeded(State) :-
     nb_current(ev3dev_chance, before(State)).

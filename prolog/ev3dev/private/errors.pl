@@ -1,5 +1,6 @@
 :- module(ev3dev_errors,
           [ must_be/2,                  % +Type, ?Term
+            must_be_goal/1,             % ?Term
             evaluated/2,                % +Expression, -Number
             in_own_name/1,              % :Goal
             goal_of_program/1,          % :Goal
@@ -129,6 +130,16 @@ not_evaluated(instantiation_error, Expression) :-
     instantiation_error(Variable).
 not_evaluated(Formal, _) :-
     throw_formal(Formal).
+
+%!  must_be_goal(?Term) is det.
+%
+%   True if Term is callable, with a module or without.
+%
+%   @error as must_be(callable, Term), without the module
+
+must_be_goal(Term) :-
+    strip_module(Term, _, Plain),
+    must_be(callable, Plain).
 
 %!  in_own_name(:Goal) is nondet.
 %

@@ -3,6 +3,7 @@
             clock_changes/1,            % :Goal
             forget_plans/0
           ]).
+:- use_module(brick, [brick/1]).
 :- use_module(errors, [goal_of_program/1, throw_error/3]).
 :- use_module(native, [limit_call_/2, limit_insist_/4]).
 :- use_module(plans,
@@ -30,7 +31,7 @@ clock. What it looks at are inferences, which do not depend on the machine.
 
 :- dynamic
     limit/3,                            % Id, Thread, Way
-    held/3,                             % Id, Thread, Seconds that are left
+    held/4,                             % Brick, Id, Thread, Seconds left
     left/3,                             % Id, Thread, Why
     used/5,                             % Id, Inferences, all Inferences so
                                         % far, Time, Wall
@@ -84,7 +85,7 @@ end_limit(Id) :-
     forall(retract(alarm_of(Id, Alarm)),
            remove_alarm(Alarm)),
     unplan(Id),
-    retractall(held(Id, _, _)),
+    retractall(held(_, Id, _, _)),
     retractall(used(Id, _, _, _, _)),
     retractall(left(Id, _, _)).
 
@@ -280,35 +281,41 @@ used_so_far(All, Now, Wall) :-
 %   simulation that is, and stands still while there is none.
 
 clock_changes(Goal) :-
-    findall(held(Id, Thread, Left), time_left(Id, Thread, Left), Limits),
+    clock_changes(_, Goal).
+
+%   Of one thread, or of all.
+clock_changes(Thread, Goal) :-
+    findall(Id-Left, time_left(Id, Thread, Left), Limits),
     once(Goal),
-    forall(( one_of(Limits, held(Id, Thread, Left)),
-             is_limit(Id)
+    forall(( one_of(Limits, Id-Left),
+             limit(Id, Of, _)           % its goal may have ended meanwhile
            ),
-           count_on(Id, Thread, Left)).
+           count_on(Id, Of, Left)).
+
+:- multifile ev3dev_brick:switch/1.
+
+ev3dev_brick:switch(Goal) :-
+    thread_self(Me),
+    limit(_, Me, _),
+    !,
+    clock_changes(Me, Goal).
 
 time_left(Id, Thread, Left) :-
     clock(Now),
     planned(End, Id, Thread, ev3dev_limits:time_is_up(Id)),
     Left is max(0, End - Now).
 time_left(Id, Thread, Left) :-
-    held(Id, Thread, Left).
-
-%   Its goal may have ended meanwhile.
-is_limit(Id) :-
-    (   planned(_, Id, _, _)
-    ->  true
-    ;   held(Id, _, _)
-    ->  true
-    ).
+    brick(Brick),
+    held(Brick, Id, Thread, Left).
 
 count_on(Id, Thread, Left) :-
     unplan(Id),
-    retractall(held(Id, _, _)),
+    retractall(held(_, Id, _, _)),
     (   clock(Now)
     ->  End is Now + Left,
         plan(End, ev3dev_limits:time_is_up(Id), Id, Thread)
-    ;   assertz(held(Id, Thread, Left))
+    ;   brick(Brick),
+        assertz(held(Brick, Id, Thread, Left))
     ).
 
 %!  forget_plans is det.

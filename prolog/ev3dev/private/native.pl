@@ -1,5 +1,10 @@
 :- module(ev3dev_native,
-          [ attribute_/4,
+          [ brick_/1,
+            brick_close_/1,
+            brick_open_/1,
+            brick_use_/1,
+            stop_all_bricks_/0,
+            attribute_/4,
             attribute_write_/4,
             device_/3,
             device_/4,
@@ -15,7 +20,7 @@
             wait_/2,
             branches_begin_/0,
             branches_leave_/0,
-            branches_look_/1,
+            branches_look_/2,
             branches_end_/0,
             guards_/0,
             commands_/1,
@@ -76,10 +81,8 @@
             volume_set_/1,
             screen_clear_/0,
             screen_draw_/2,
-            screen_give_back_/0,
             screen_image_/3,
             screen_png_/1,
-            screen_set_aside_/0,
             screen_show_/0,
             screen_write_/4,
             battery_/2,
@@ -190,6 +193,16 @@ expressions evaluated. It throws ISO errors, and fails where a device is
 missing.
 */
 
+% Bricks
+
+%!  brick_(-Number) is semidet.
+%!  brick_close_(+Number) is semidet.
+%!  brick_open_(-Number) is semidet.
+%!  brick_use_(+Number) is semidet.
+%!  stop_all_bricks_ is semidet.
+%
+%   `src/bricks.rs`
+
 % Devices and attributes
 
 %!  attribute_(+Class, ?Port, +Attribute, ?Value) is nondet.
@@ -218,7 +231,7 @@ missing.
 %!  wait_(+Seconds, -Reason) is nondet.
 %!  branches_begin_ is semidet.
 %!  branches_leave_ is semidet.
-%!  branches_look_(-Seconds) is semidet.
+%!  branches_look_(-Seconds, -Bricks) is semidet.
 %!  branches_end_ is semidet.
 %!  guards_ is semidet.
 %!  commands_(-Count) is semidet.
@@ -319,10 +332,8 @@ missing.
 
 %!  screen_clear_ is semidet.
 %!  screen_draw_(+Shape, +Style) is semidet.
-%!  screen_give_back_ is det.
 %!  screen_image_(+X, +Y, +File) is semidet.
 %!  screen_png_(+File) is semidet.
-%!  screen_set_aside_ is det.
 %!  screen_show_ is semidet.
 %!  screen_write_(+X, +Y, +Text, +Letters) is semidet.
 %

@@ -6,6 +6,7 @@
             run_due_goals/0,
             clock/1                     % -Seconds
           ]).
+:- use_module(brick, [brick/1]).
 :- use_module(errors, [goal_of_program/1]).
 :- use_module(native, [sim_clock_/1, sim_plan_/1]).
 
@@ -18,11 +19,21 @@
 Each runs in the thread that planned it, when this waits or uses a device.
 */
 
-:- dynamic planned/4.                   % Seconds, Id, Thread, Goal
+:- dynamic planned/5.                   % Brick, Seconds, Id, Thread, Goal
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(planned(Brick, _, _, _, _)).
 
 %!  planned(?Seconds, ?Id, ?Thread, ?Goal) is nondet.
 %
-%   True if Goal is planned for that simulated time, in Thread.
+%   True if Goal is planned for that simulated time of the brick in use, in
+%   Thread.
+
+planned(Seconds, Id, Thread, Goal) :-
+    brick(Brick),
+    planned(Brick, Seconds, Id, Thread, Goal).
 
 %!  clock(-Seconds) is semidet.
 %
@@ -44,7 +55,8 @@ plan(Seconds, Goal, Id) :-
     plan(Seconds, Goal, Id, Me).
 
 plan(Seconds, Goal, Id, Thread) :-
-    assertz(planned(Seconds, Id, Thread, Goal)),
+    brick(Brick),
+    assertz(planned(Brick, Seconds, Id, Thread, Goal)),
     (   thread_self(Thread)
     ->  ring(Seconds)
     ;   true
@@ -60,7 +72,7 @@ ring(Seconds) :-
 %!  unplan(+Id) is det.
 
 unplan(Id) :-
-    retractall(planned(_, Id, _, _)).
+    retractall(planned(_, _, Id, _, _)).
 
 %!  run_due_goals is det.
 %
@@ -69,30 +81,31 @@ unplan(Id) :-
 
 run_due_goals :-
     thread_self(Me),
+    brick(Brick),
     clock(Now),
-    findall(Seconds-Id, planned(Seconds, Id, Me, _), Planned0),
+    findall(Seconds-Id, planned(Brick, Seconds, Id, Me, _), Planned0),
     msort(Planned0, Planned),
-    run_due(Planned, Now, Me),
+    run_due(Planned, Brick, Now, Me),
     !.
 run_due_goals.
 
 :- multifile ev3dev_waits:serve_planned/0.
 
 ev3dev_waits:serve_planned :-
-    planned(_, _, _, _),
+    planned(_, _, _, _, _),
     !,
     run_due_goals.
 
 %   The clock counts nanoseconds.
-run_due([Seconds-Id|Planned], Now, Me) :-
+run_due([Seconds-Id|Planned], Brick, Now, Me) :-
     Seconds =< Now + 1.0e-6,
     !,
-    (   retract(planned(Seconds, Id, Me, Goal))
+    (   retract(planned(Brick, Seconds, Id, Me, Goal))
     ->  run_planned(Goal)
     ;   true
     ),
-    run_due(Planned, Now, Me).
-run_due([Seconds-_|_], _, _) :-
+    run_due(Planned, Brick, Now, Me).
+run_due([Seconds-_|_], _, _, _) :-
     % An earlier one was due, or sim_restore/1 went back in time.
     ring(Seconds).
 

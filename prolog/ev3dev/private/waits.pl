@@ -9,6 +9,7 @@
             let_others_go_on/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(brick, [brick/1, in_brick/2]).
 :- use_module(native,
               [ read_on_/0, serve_if_due_/0, tick_after_/1, tick_at_once_/0
               ]).
@@ -92,14 +93,15 @@ in_guard(Name, Goal) :-
 %!  listening(+Seconds, :Closure, :Goal) is semidet.
 %
 %   Call Goal once. Meanwhile, each time that this thread has waited for
-%   Seconds, call(Closure, Listener) is called. It may call leave/2 with that
-%   Listener.
+%   Seconds, call(Closure, Listener) is called, with the brick in use that is
+%   so now. It may call leave/2 with that Listener.
 
 listening(Seconds, Closure, Goal) :-
     listeners(Outer),
     period(Outer, Before),
     Period is min(Seconds, Before),
-    append_lists(Outer, [listener(Closure, [], Period)], Listeners),
+    brick(Brick),
+    append_lists(Outer, [listener(Closure, [], Period, Brick)], Listeners),
     b_setval(ev3dev_listeners, Listeners),
     tick_after_(Period),
     goal_of_program(Goal),
@@ -119,7 +121,7 @@ period([], Period) :-
     ->  Period = Seconds
     ;   Period = 1.0
     ).
-period([listener(_, _, Period)], Period) :- !.
+period([listener(_, _, Period, _)], Period) :- !.
 period([_|Listeners], Period) :-
     period(Listeners, Period).
 
@@ -251,8 +253,8 @@ serve(Listeners) :-
     tick_after_(Period).
 
 serve_listener(Listener) :-
-    Listener = listener(Closure, State, _),
+    Listener = listener(Closure, State, _, Brick),
     (   State = leave(Ball)
     ->  throw(Ball)
-    ;   call(Closure, Listener)
+    ;   in_brick(Brick, call(Closure, Listener))
     ).

@@ -4,8 +4,9 @@
             world_name/1,               % -Name
             name_world/1                % +Name
           ]).
+:- use_module(brick, [brick/1]).
 
-/** <module> What the simulation began with
+/** <module> What the simulation of the brick in use began with
 
 Only the pages of library(ev3dev/view) ask: for the name of the world, and to
 begin it again.
@@ -20,11 +21,25 @@ begin it again.
 %   The world that was last simulated is called Name, an atom.
 
 :- dynamic
-    noted_world/2,
-    world_name/1.
+    noted/3,                            % Brick, World, Options
+    name/2.                             % Brick, Name
 :- volatile
-    noted_world/2,
-    world_name/1.
+    noted/3,
+    name/2.
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(noted(Brick, _, _)),
+    retractall(name(Brick, _)).
+
+noted_world(World, Options) :-
+    brick(Brick),
+    noted(Brick, World, Options).
+
+world_name(Name) :-
+    brick(Brick),
+    name(Brick, Name).
 
 %!  note_world(+World, +Options) is det.
 %
@@ -32,13 +47,14 @@ begin it again.
 %   of facts, which has no name.
 
 note_world(World, Options) :-
-    retractall(noted_world(_, _)),
-    assertz(noted_world(World, Options)),
-    retractall(world_name(_)),
+    brick(Brick),
+    retractall(noted(Brick, _, _)),
+    assertz(noted(Brick, World, Options)),
+    retractall(name(Brick, _)),
     (   ( atom(World) ; string(World) )
     ->  file_base_name(World, File),
         file_name_extension(Name, _, File),
-        assertz(world_name(Name))
+        assertz(name(Brick, Name))
     ;   true
     ).
 
@@ -47,5 +63,6 @@ note_world(World, Options) :-
 %   The world that is simulated is called Name, though it is a list of facts.
 
 name_world(Name) :-
-    retractall(world_name(_)),
-    assertz(world_name(Name)).
+    brick(Brick),
+    retractall(name(Brick, _)),
+    assertz(name(Brick, Name)).

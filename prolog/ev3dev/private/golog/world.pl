@@ -38,11 +38,12 @@ closure of the option `device`.
 
 :- dynamic
     queue/3,                            % Brick, Module, Queue
-    running/1.                          % Module
+    running/2.                          % Brick, Module
 
 :- multifile ev3dev_brick:forget/1.
 
 ev3dev_brick:forget(Brick) :-
+    retractall(running(Brick, _)),
     forall(retract(queue(Brick, _, Queue)),
            catch(message_queue_destroy(Queue), error(_, _), true)).
 
@@ -76,15 +77,16 @@ queue_of(Module, Queue) :-
 %!  send_exogenous(+Module, +Code) is det.
 %
 %   Put Code into the queue of the agent in Module. If Module has no domain,
-%   into those of all agents that run.
+%   into those of all agents that run on this brick.
 %
 %   @error existence_error(exogenous_action, Code) if it is one for none of
 %          these
 
 send_exogenous(Module, Code) :-
-    (   \+ running(Module),
+    brick(Brick),
+    (   \+ running(Brick, Module),
         \+ has_clauses(Module, exog_action(_)),
-        findall(M, running(M), Modules0),
+        findall(M, running(Brick, M), Modules0),
         sort(Modules0, Modules),
         Modules \== []
     ->  true
@@ -106,10 +108,12 @@ send_exogenous(Module, Code) :-
 %   An agent with its domain in Module runs from now on, or no longer.
 
 agent_begins(Module) :-
-    assertz(running(Module)).
+    brick(Brick),
+    assertz(running(Brick, Module)).
 
 agent_ends(Module) :-
-    (   retract(running(Module))
+    (   brick(Brick),
+        retract(running(Brick, Module))
     ->  true
     ;   true
     ).

@@ -1,0 +1,237 @@
+:- module(ev3dev_bricks,
+          [ brick_open/2,               % +Name, +Where
+            brick_close/1,              % +Name
+            brick/1,                    % ?Name
+            brick/2,                    % ?Name, ?Where
+            with_brick/2,               % +Name, :Goal
+            use_brick/1,                % ?Name
+            bricks_do/1,                % :Goal
+            bricks_do/2,                % +Names, :Goal
+            stop_all_bricks/0
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
+:- use_module(private/brick,
+              [ end_brick/1, in_brick/2,
+                name_brick/3, named_brick/3, new_brick/1, switch_brick/1,
+                unname_brick/1 ]).
+:- use_module(private/directory, [directory_path/2]).
+:- use_module(private/errors,
+              [ goal_of_program/1, must_be/2, must_be_goal/1,
+                term_expansion/4, throw_error/3 ]).
+:- use_module(private/native, [brick_/1, stop_all_bricks_/0]).
+:- use_module(private/one_of, [one_of/2]).
+:- use_module(files, [ev3_sysfs/1]).
+:- use_module(library(thread), [concurrent/3]).
+
+:- meta_predicate
+    with_brick(+, 0),
+    bricks_do(0),
+    bricks_do(+, 0).
+
+/** <module> Several bricks
+
+A program starts with one brick, `local`: this machine, or a simulated robot.
+Here it gets others. Each predicate of the pack is about the brick that is in
+use, and ports keep their names:
+
+```
+?- brick_open(anna, sim(room)), brick_open(bob, sim(maze)).
+?- with_brick(anna, us_dist_cm(in1, D)).
+?- bricks_do([anna, bob], go_cm(30, 50)).       % both, at the same time
+```
+
+A brick has its own robot (set_robot/4), odometry, grid, events, screen and
+simulation. A thread begins with the brick of the thread that made it.
+*/
+
+%!  brick_open(+Name, +Where) is det.
+%
+%   Name, an atom, is a brick from now on. It gets in use by with_brick/2 or
+%   use_brick/1. Where is
+%
+%     - local
+%       The one with which a program starts: another name for it.
+%     - dir(Directory)
+%       One whose attribute files are below a directory of the shape of
+%       `/sys/class`, such as that of sim_mount/1.
+%     - sim
+%       A simulated one. sim_start/1,2 chooses its world, with that brick in
+%       use; else its first use starts it in the world `room`.
+%     - sim(World)
+%     - sim(World, Options)
+%       The same with sim_start(World, Options).
+%
+%   @error permission_error(open, brick, Name) if that name is taken
+%   @error domain_error(brick_place, Where)
+%   @error existence_error(directory, Directory)
+%   @error what sim_start/2 throws
+
+brick_open(Name, Where) :-
+    must_be(atom, Name),
+    must_be(nonvar, Where),
+    (   is_brick(Name)
+    ->  throw_error(permission_error(open, brick, Name), _,
+                    'there is a brick of that name; brick_close/1 closes it')
+    ;   opened(Where, Brick)
+    ->  name_brick(Name, Brick, Where)
+    ;   throw_error(domain_error(brick_place, Where), _,
+                    'a place is local, dir(Directory), sim, sim(World) or \c
+                     sim(World, Options)')
+    ).
+
+opened(local, 0).
+opened(dir(Directory), Brick) :-
+    directory_path(Directory, Path),
+    begun(ev3_sysfs(Path), Brick).
+opened(sim, Brick) :-
+    new_brick(Brick).
+opened(sim(World), Brick) :-
+    opened(sim(World, []), Brick).
+opened(sim(World, Options), Brick) :-
+    begun(ev3dev_bricks:simulated(World, Options), Brick).
+
+:- public simulated/2.
+
+simulated(World, Options) :-
+    use_module(library(ev3dev/sim), []),
+    ev3dev_sim:sim_start(World, Options).
+
+%   Nothing is left of one that cannot begin.
+begun(Goal, Brick) :-
+    new_brick(Brick),
+    catch(in_brick(Brick, Goal), E, true),
+    (   var(E)
+    ->  true
+    ;   end_brick(Brick),
+        throw(E)
+    ).
+
+is_brick(Name) :-
+    brick(Name, _),
+    !.
+
+%!  brick_close(+Name) is det.
+%
+%   Name is a brick no more. Its motors stop, its simulation ends, and what
+%   was known of it is forgotten. A thread that has it in use gets errors from
+%   now on; this one has `local` in use instead.
+%
+%   @error existence_error(brick, Name)
+%   @error permission_error(close, brick, local)
+
+brick_close(Name) :-
+    number_of(Name, Brick),
+    (   Name == local
+    ->  throw_error(permission_error(close, brick, local), _,
+                    'this brick is always there')
+    ;   true
+    ),
+    unname_brick(Name),
+    (   Brick == 0
+    ->  true
+    ;   (   brick_(Brick)
+        ->  switch_brick(0)
+        ;   true
+        ),
+        end_brick(Brick)
+    ).
+
+%!  brick(?Name) is nondet.
+%!  brick(?Name, ?Where) is nondet.
+%
+%   True if there is a brick Name, at that place: `local`, and those of
+%   brick_open/2 in their order.
+
+brick(Name) :-
+    brick(Name, _).
+
+brick(local, local).
+brick(Name, Where) :-
+    named_brick(Name, _, Where).
+
+number_of(Name, Brick) :-
+    must_be(atom, Name),
+    (   numbered(Name, Brick0)
+    ->  Brick = Brick0
+    ;   throw_error(existence_error(brick, Name), _,
+                    'there is no brick of that name; brick_open/2 opens one')
+    ).
+
+numbered(local, 0).
+numbered(Name, Brick) :-
+    named_brick(Name, Brick, _).
+
+%!  with_brick(+Name, :Goal) is nondet.
+%
+%   Call Goal, in which all predicates are about the brick Name. Before,
+%   after, and between its solutions they are about the one that was in use.
+%   Events and rules that were begun with another brick in use go on
+%   meanwhile, and are about that one.
+%
+%   @error existence_error(brick, Name)
+%   @error type_error(callable, Goal)
+
+with_brick(Name, Goal) :-
+    number_of(Name, Brick),
+    must_be_goal(Goal),
+    in_brick(Brick, goal_of_program(Goal)).
+
+%!  use_brick(?Name) is det.
+%
+%   From now on predicates are about the brick Name, in this thread and in
+%   those that it makes. If Name is unbound, it is the name of the one in use.
+%
+%   @error existence_error(brick, Name)
+
+use_brick(Name) :-
+    var(Name),
+    !,
+    brick_(Brick),
+    (   numbered(Name0, Brick)
+    ->  Name = Name0
+    ;   throw_error(existence_error(brick, Brick), _,
+                    'the brick that this thread has in use has no name')
+    ).
+use_brick(Name) :-
+    number_of(Name, Brick),
+    switch_brick(Brick).
+
+%!  bricks_do(:Goal) is semidet.
+%!  bricks_do(+Names, :Goal) is semidet.
+%
+%   Call Goal once with each brick in use, at the same time, each in a thread
+%   of its own: the bricks of the list Names, or all that brick_open/2 has
+%   opened, or `local` if it has opened none. Waits for all. Binds nothing:
+%   each has a copy of Goal. Fails if Goal fails with one of them; then, and
+%   after an error, the others are left, and their moves stop.
+%
+%   @error existence_error(brick, Name)
+%   @error type_error(callable, Goal)
+
+bricks_do(Goal) :-
+    must_be_goal(Goal),
+    findall(Name, named_brick(Name, _, _), Names),
+    (   Names == []
+    ->  bricks_do([local], Goal)
+    ;   bricks_do(Names, Goal)
+    ).
+
+bricks_do(Names, Goal) :-
+    must_be(list, Names),
+    must_be_goal(Goal),
+    findall(ev3dev_bricks:in_brick(Brick, goal_of_program(Goal)),
+            ( one_of(Names, Name), number_of(Name, Brick) ),
+            Goals),
+    length(Goals, Count),
+    (   Count == 0
+    ->  true
+    ;   concurrent(Count, Goals, [])
+    ).
+
+%!  stop_all_bricks is det.
+%
+%   Stop all motors of all bricks, as stop_all_motors/0 does of one.
+
+stop_all_bricks :-
+    stop_all_bricks_.

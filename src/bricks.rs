@@ -1,0 +1,46 @@
+//! `prolog/ev3dev/bricks.pl`, `private/brick.pl`: which brick predicates are about.
+use crate::glue::call::Call;
+use crate::glue::{due, state, waiting};
+use ev3_driver::{Registry, motor};
+use std::sync::Arc;
+use swipl::prelude::*;
+
+natives! {
+    /// brick_(-Number): the brick that this thread has in use.
+    semidet fn "brick_"(_context, number) {
+        number.unify(u64::from(state::brick_number()))
+    }
+
+    /// brick_use_(+Number): fails if that is not open.
+    semidet fn "brick_use_"(context, number) {
+        let number = Call::of(context, "use_brick", 1).integer(number)?;
+        let is_open = u32::try_from(number).is_ok_and(state::use_brick);
+        // Its clock may be another one, and what was planned by it may be due.
+        waiting::tick_at_once();
+        due::look_again();
+        into_prolog_result(is_open)
+    }
+
+    /// brick_open_(-Number)
+    semidet fn "brick_open_"(_context, number) {
+        number.unify(u64::from(state::open_brick()))
+    }
+
+    /// brick_close_(+Number): stops its motors, and ends its simulation; fails if it is not open.
+    semidet fn "brick_close_"(context, number) {
+        let call = Call::of(context, "brick_close", 1);
+        let number = u32::try_from(call.integer(number)?).map_err(|_| PrologError::Failure)?;
+        let closed = state::close_brick(number).ok_or(PrologError::Failure)?;
+        #[cfg(feature = "sim")]
+        crate::sim::end_of(number);
+        call.or_throw(closed)
+    }
+
+    /// stop_all_bricks_: stops all motors that are connected to the bricks in use.
+    semidet fn "stop_all_bricks_"(context) {
+        let call = Call::of(context, "stop_all_bricks", 0);
+        let stop = |devices: Arc<Registry>| motor::stop_connected(&devices, &mut call.interrupted());
+        let stopped = state::all_devices().into_iter().map(stop);
+        call.or_throw(stopped.fold(Ok(()), Result::and))
+    }
+}

@@ -1,0 +1,285 @@
+% library(ev3dev/bricks): each brick has its own robot, and a name says which is meant.
+
+:- use_module('../support/trees').
+:- use_module('../support/simulation').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/bricks)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/events), [on/2 as when_, both/2]).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(readutil)).
+
+% Call Goal with simulated bricks of these names, which end with it.
+with_bricks(Names, Goal) :-
+    setup_call_cleanup(
+        maplist(open_simulated, Names),
+        once(Goal),
+        maplist(close_if_open, Names)).
+
+open_simulated(Name) :-
+    brick_open(Name, sim([start(0, 0, 90)], [clock(virtual)])).
+
+close_if_open(Name) :-
+    ( brick(Name) -> brick_close(Name) ; true ).
+
+% A directory with a motor at outB and at outC, as a brick has them.
+with_brick_of_files(Name, Goal) :-
+    with_tree(plain, [outB-'lego-ev3-l-motor', outC-'lego-ev3-l-motor'],
+              ( tree_root(Root),
+                setup_call_cleanup(
+                    brick_open(Name, dir(Root)),
+                    once(Goal),
+                    close_if_open(Name)) )).
+
+two_wheels :-
+    set_robot(5.6, 12, outB, outC).
+
+tacho(Name, Degrees) :-
+    with_brick(Name, position(outB, Degrees0)),
+    Degrees is round(Degrees0 / 10) * 10.
+
+current_name(Name) :-
+    use_brick(Name).
+
+:- begin_tests(bricks).
+
+test(a_program_starts_with_local, true(Names == [local-local])) :-
+    findall(Name-Where, brick(Name, Where), Names).
+test(each_has_motors_of_its_own, true([A, B] == [90, 0])) :-
+    with_bricks([anna, bob],
+                ( with_brick(anna, motor_run(outB, 50, 90)),
+                  tacho(anna, A),
+                  tacho(bob, B) )).
+test(each_has_a_world_and_a_time, true(A-B == (0-0-90)-yes)) :-
+    with_bricks([anna, bob],
+                ( with_brick(bob, ( two_wheels, go_cm(30, 10), sim_pose(X0, _, _) )),
+                  with_brick(anna, ( sim_pose(X1, Y1, H1), sim_time(T1) )),
+                  maplist(round_, [X1, Y1, H1], [X, Y2, H]),
+                  A = X-Y2-H,
+                  ( near(X0, 10, 0.2), T1 =:= 0 -> B = yes ; B = X0-T1 ) )).
+test(each_has_its_robot, true(Going == [anna])) :-
+    with_bricks([anna, bob],
+                ( with_brick(anna, two_wheels),
+                  findall(Name,
+                          ( member(Name, [anna, bob]),
+                            with_brick(Name, go_cm(30, 1)) ),
+                          Going) )).
+test(each_has_its_odometry, true(A-B == 10-5)) :-
+    with_bricks([anna, bob],
+                ( forall(member(Name-Cm, [anna-10, bob-5]),
+                         with_brick(Name, ( two_wheels, set_pose(0, 0, 0),
+                                            go_cm(30, Cm) ))),
+                  with_brick(anna, pose(_, YA, _)),
+                  with_brick(bob, pose(_, YB, _)),
+                  maplist(round_, [YA, YB], [A, B]) )).
+test(each_has_its_screen, true(Same == [no, yes])) :-
+    with_bricks([anna, bob],
+                ( with_brick(anna, ( screen_circle(50, 50, 20), picture(A) )),
+                  with_brick(bob, picture(B)),
+                  picture(C),
+                  maplist(same, [A, C], [B, B], Same) )).
+test(the_former_is_in_use_between_solutions_and_after,
+     true(Seen == [local-1, local-2, local-3])) :-
+    with_bricks([anna],
+                ( findall(Name-N,
+                          ( with_brick(anna, ( member(N, [1, 2, 3]), use_brick(anna) )),
+                            current_name(Name) ),
+                          Seen0),
+                  current_name(After),
+                  ( After == local -> Seen = Seen0 ; Seen = After ) )).
+test(the_former_is_in_use_after_failure_and_errors, true(A-B == local-local)) :-
+    with_bricks([anna],
+                ( \+ with_brick(anna, fail),
+                  current_name(A),
+                  catch(with_brick(anna, throw(oops)), oops, true),
+                  current_name(B) )).
+test(they_nest, true(Seen == [anna, bob, anna])) :-
+    with_bricks([anna, bob],
+                with_brick(anna,
+                           ( current_name(A),
+                             with_brick(bob, current_name(B)),
+                             current_name(C) ))),
+    Seen = [A, B, C].
+test(one_that_is_chosen_inside_is_left_with_the_goal, true(Name == local)) :-
+    with_bricks([anna, bob],
+                ( with_brick(anna, use_brick(bob)), current_name(Name) )).
+test(a_thread_begins_with_that_of_its_maker, true(Seen == [bob, anna, bob])) :-
+    with_bricks([anna, bob],
+                setup_call_cleanup(
+                    use_brick(bob),
+                    ( thread_self(Me),
+                      thread_create(( current_name(A), use_brick(anna), current_name(B),
+                                      thread_send_message(Me, names(A, B)) ), Id),
+                      thread_join(Id, true),
+                      thread_get_message(names(A1, B1)),
+                      current_name(C) ),
+                    use_brick(local))),
+    Seen = [A1, B1, C].
+test(an_engine_acts_for_the_thread_that_asks_it, true(Names == [anna, bob])) :-
+    with_bricks([anna, bob],
+                ( engine_create(Name, ( repeat, current_name(Name) ), Engine),
+                  with_brick(anna, engine_next(Engine, A)),
+                  with_brick(bob, engine_next(Engine, B)),
+                  engine_destroy(Engine) )),
+    Names = [A, B].
+test(all_act_at_the_same_time, true(Positions == [100, 100])) :-
+    with_bricks([anna, bob],
+                ( bricks_do(motor_run(outB, 50, 100)),
+                  maplist(tacho, [anna, bob], Positions) )).
+test(those_of_a_list_act, true(Positions == [0, 100])) :-
+    with_bricks([anna, bob],
+                ( bricks_do([bob], motor_run(outB, 50, 100)),
+                  maplist(tacho, [anna, bob], Positions) )).
+test(nobody_has_nothing_to_do) :-
+    bricks_do([], fail).
+test(a_copy_of_the_goal_binds_nothing, true(var(X))) :-
+    with_bricks([anna, bob], bricks_do(X = 1)).
+test(where_one_fails_the_others_leave_their_moves, true(Running == [])) :-
+    with_bricks([anna, bob],
+                ( \+ bricks_do(moves_unless(bob)),
+                  findall(Name,
+                          ( member(Name, [anna, bob]),
+                            with_brick(Name, ( motor_states(outB, States),
+                                               memberchk(running, States) )) ),
+                          Running) )).
+test(an_error_of_one_is_thrown, throws(oops)) :-
+    with_bricks([anna, bob], bricks_do(throw(oops))).
+test(files_elsewhere_are_a_brick, true(B-Command == Root-'run-forever')) :-
+    with_brick_of_files(file,
+                        ( with_brick(file, motor_run(outB, 20)),
+                          get_attribute(outB, command, Command),
+                          brick(file, dir(B)),
+                          tree_root(Root) )).
+test(to_close_one_stops_its_motors, true(Command == stop)) :-
+    with_brick_of_files(file,
+                        ( with_brick(file, motor_run(outB, 20)),
+                          brick_close(file),
+                          get_attribute(outB, command, Command) )).
+test(to_close_the_one_in_use_goes_back_to_local, true(Name-Names == local-[local])) :-
+    with_bricks([anna],
+                ( use_brick(anna),
+                  brick_close(anna),
+                  current_name(Name),
+                  findall(N, brick(N), Names) )).
+test(a_closed_one_forgets, true(Position == 0)) :-
+    with_bricks([anna], with_brick(anna, motor_run(outB, 50, 90))),
+    with_bricks([anna], tacho(anna, Position)).
+test(a_thread_that_has_a_closed_one_is_told, true(Name-Error == '#'-brick)) :-
+    with_bricks([anna],
+                ( thread_self(Me),
+                  with_brick(anna, thread_create(uses_after(Me, go), Id)),
+                  thread_get_message(ready),
+                  brick_close(anna),
+                  thread_send_message(Id, go),
+                  thread_join(Id, true),
+                  thread_get_message(was(Caught)),
+                  ( Caught = error(existence_error(Error, N), _),
+                    integer(N)
+                  -> Name = '#' ; Name = Caught ) )).
+test(stop_all_bricks_stops_all, true(Running == [])) :-
+    with_bricks([anna, bob],
+                ( forall(member(N, [anna, bob]), with_brick(N, motor_run(outB, 50))),
+                  stop_all_bricks,
+                  findall(N, ( member(N, [anna, bob]),
+                               with_brick(N, ( motor_states(outB, States),
+                                               memberchk(running, States) )) ),
+                          Running) )).
+test(an_event_is_about_the_brick_where_it_was_asked_for,
+     true(Happened == [anna])) :-
+    with_bricks([anna, bob],
+                ( nb_setval(happened, []),
+                  with_brick(anna, when_(( position(outB, P), P > 45 ), note_event)),
+                  with_brick(bob, motor_run(outB, 50, 90)),
+                  with_brick(anna, motor_run(outB, 50, 90)),
+                  with_brick(bob, motor_run(outB, 50, 90)),
+                  nb_getval(happened, Happened) )).
+test(branches_keep_their_bricks, true(Positions == [90, 40])) :-
+    with_bricks([anna, bob],
+                ( both(with_brick(anna, motor_run(outB, 50, 90)),
+                       with_brick(bob, motor_run(outB, 50, 40))),
+                  maplist(tacho, [anna, bob], Positions) )).
+test(a_simulation_of_its_own_leaves_the_running_one, true(near(A, 90, 2))) :-
+    with_bricks([anna],
+                with_brick(anna,
+                           ( motor_run(outB, 50, 90),
+                             with_sim(room, motor_run(outB, 50, 20)),
+                             position(outB, A) ))).
+test(the_first_use_starts_the_simulation, true(Cm > 0)) :-
+    setup_call_cleanup(
+        brick_open(anna, sim),
+        with_brick(anna, us_dist_cm(in1, Cm)),
+        brick_close(anna)).
+test(local_has_other_names, true(Name == local)) :-
+    setup_call_cleanup(
+        brick_open(here, local),
+        with_brick(here, current_name(Name)),
+        brick_close(here)).
+
+:- end_tests(bricks).
+
+round_(Number, Integer) :-
+    Integer is round(Number).
+
+same(A, B, Same) :-
+    ( A == B -> Same = yes ; Same = no ).
+
+picture(Bytes) :-
+    tmp_file(picture, File0),
+    atom_concat(File0, '.png', File),
+    screen_show,
+    screen_png(File),
+    read_file_to_codes(File, Bytes, [type(binary)]),
+    delete_file(File).
+
+moves_unless(Name) :-
+    current_name(Name),
+    !,
+    fail.
+moves_unless(_) :-
+    motor_run(outB, 50),
+    wait_s(60).
+
+uses_after(Me, Message) :-
+    thread_send_message(Me, ready),
+    thread_get_message(Message),
+    catch(motor_run(outB, 50), Error, true),
+    thread_send_message(Me, was(Error)).
+
+note_event :-
+    nb_getval(happened, Names),
+    current_name(Name),
+    append(Names, [Name], Now),
+    nb_setval(happened, Now).
+
+:- begin_tests(bricks_bad_input).
+
+test(wrong, [ forall(member(Goal-Error,
+                            [ brick_open(_, sim)-instantiation_error,
+                              brick_open(7, sim)-type_error(atom, 7),
+                              brick_open(anna, _)-instantiation_error,
+                              brick_open(anna, mars)-domain_error(brick_place, mars),
+                              brick_open(anna, dir('/nowhere'))
+                              -existence_error(directory, '/nowhere'),
+                              brick_open(anna, sim(nowhere))-existence_error(world, nowhere),
+                              brick_open(anna, sim(room, [colour(red)]))
+                              -domain_error(sim_option, colour(red)),
+                              brick_open(local, sim)-permission_error(open, brick, local),
+                              brick_close(_)-instantiation_error,
+                              brick_close(anna)-existence_error(brick, anna),
+                              brick_close(local)-permission_error(close, brick, local),
+                              with_brick(_, true)-instantiation_error,
+                              with_brick(anna, true)-existence_error(brick, anna),
+                              use_brick(anna)-existence_error(brick, anna),
+                              use_brick(7)-type_error(atom, 7),
+                              bricks_do([anna], true)-existence_error(brick, anna),
+                              bricks_do(anna, true)-type_error(list, anna) ])),
+              true(Formal-Names == Error-[local]) ]) :-
+    catch(Goal, error(Formal, _), true),
+    findall(Name, brick(Name), Names).
+test(one_name_for_one_brick,
+     throws(error(permission_error(open, brick, anna), _))) :-
+    with_bricks([anna], brick_open(anna, sim)).
+
+:- end_tests(bricks_bad_input).
