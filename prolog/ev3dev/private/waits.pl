@@ -211,8 +211,11 @@ branch :-
     Branch \== [].
 
 %   It is not while native code calls Prolog, as in with_output_to/2, or in a
-%   clean-up after an exception.
+%   clean-up after an exception. The error of Prolog's instruction needs room
+%   on the global stack, and crashes a 32-bit Prolog (9.0.4, 9.2.9) if that is
+%   made only then.
 yield_if_possible :-
+    \+ \+ length(_, 100),
     catch(yield, error(permission_error(execute, vmi, _), _), true).
 
 %!  serve_events is det.
