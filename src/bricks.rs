@@ -1,8 +1,7 @@
 //! `prolog/ev3dev/bricks.pl`, `private/brick.pl`: which brick predicates are about.
 use crate::glue::call::Call;
 use crate::glue::{due, state, waiting};
-use ev3_driver::{Registry, motor};
-use std::sync::Arc;
+use ev3_driver::motor;
 use swipl::prelude::*;
 
 natives! {
@@ -39,8 +38,7 @@ natives! {
     /// stop_all_bricks_: stops all motors that are connected to the bricks in use.
     semidet fn "stop_all_bricks_"(context) {
         let call = Call::of(context, "stop_all_bricks", 0);
-        let stop = |devices: Arc<Registry>| motor::stop_connected(&devices, &mut call.interrupted());
-        let stopped = state::all_devices().into_iter().map(stop);
-        call.or_throw(stopped.fold(Ok(()), Result::and))
+        let stop = |devices: &_| motor::stop_connected(devices, &mut call.interrupted());
+        call.or_throw(state::on_all_bricks(stop))
     }
 }

@@ -1,6 +1,6 @@
 //! `prolog/ev3dev/private/halt.pl`: stops motors when a program ends.
 use crate::glue::call::Call;
-use crate::glue::state::{self, all_devices};
+use crate::glue::state::{self, all_devices, on_all_bricks};
 use ev3_driver::{Registry, motor};
 use ev3_signals::latch::Reason;
 use std::sync::Arc;
@@ -55,9 +55,7 @@ natives! {
 
     /// stop_started_: stops the motors that the program started.
     semidet fn "stop_started_"(context) {
-        let stop = |devices: Arc<Registry>| motor::stop_started(&devices);
-        let stopped = all_devices().into_iter().map(stop).fold(Ok(()), Result::and);
-        Call::of(context, "halt", 0).or_throw(stopped)
+        Call::of(context, "halt", 0).or_throw(on_all_bricks(motor::stop_started))
     }
 
     /// halts_by_(+Signal): Prolog halts because of a signal, `term`, `hup` or `int`.

@@ -70,7 +70,7 @@ simulation. A thread begins with the brick of the thread that made it.
 brick_open(Name, Where) :-
     must_be(atom, Name),
     must_be(nonvar, Where),
-    (   is_brick(Name)
+    (   brick(Name)
     ->  throw_error(permission_error(open, brick, Name), _,
                     'there is a brick of that name; brick_close/1 closes it')
     ;   opened(Where, Brick)
@@ -106,10 +106,6 @@ begun(Goal, Brick) :-
     ;   end_brick(Brick),
         throw(E)
     ).
-
-is_brick(Name) :-
-    brick(Name, _),
-    !.
 
 %!  brick_close(+Name) is det.
 %
@@ -152,8 +148,8 @@ brick(Name, Where) :-
 
 number_of(Name, Brick) :-
     must_be(atom, Name),
-    (   numbered(Name, Brick0)
-    ->  Brick = Brick0
+    (   numbered(Name, Brick)
+    ->  true
     ;   throw_error(existence_error(brick, Name), _,
                     'there is no brick of that name; brick_open/2 opens one')
     ).
@@ -188,8 +184,8 @@ use_brick(Name) :-
     var(Name),
     !,
     brick_(Brick),
-    (   numbered(Name0, Brick)
-    ->  Name = Name0
+    (   numbered(Name, Brick)
+    ->  true
     ;   throw_error(existence_error(brick, Brick), _,
                     'the brick that this thread has in use has no name')
     ).

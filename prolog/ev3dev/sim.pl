@@ -339,12 +339,12 @@ sim_stop :-
 %   Call Goal once in a simulation of its own, which ends with it, however it
 %   ends. So a test starts from the same state each time. A simulation that
 %   runs already is as before after Goal; on the virtual clock its time stands
-%   still meanwhile. What the program knows of its robot
-%   it does not know in Goal: set_robot/4 and drive_option/2, the grid with
-%   its obstacles, the events of this thread, what was drawn on the screen,
-%   the white of col_white/1, exogenous actions that wait. After Goal it knows
-%   that again, and nothing of what Goal did. Only rules and other clauses of
-%   the program are the same in Goal.
+%   still meanwhile. What the program knows of its robot it does not know in
+%   Goal: set_robot/4 and drive_option/2, the grid with its obstacles, the
+%   events of this thread, what was drawn on the screen, the white of
+%   col_white/1, exogenous actions that wait. After Goal it knows that again,
+%   and nothing of what Goal did. Only rules and other clauses of the program
+%   are the same in Goal.
 %
 %   ```
 %   :- use_module(library(ev3dev)).
@@ -372,9 +372,8 @@ with_sim(World, Goal, Options) :-
     ->  WithClock = Options
     ;   WithClock = [clock(virtual)|Options]
     ),
-    event_period(Period, []),
     setup_call_cleanup(
-        true,
+        event_period(Period, []),
         with_own_chance(
             in_new_brick(in_sim(World, WithClock, Goal))),
         event_period(_, Period)).

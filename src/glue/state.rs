@@ -164,6 +164,14 @@ pub(crate) fn all_devices() -> Vec<Arc<Registry>> {
     bricks.iter().filter_map(|brick| brick.chosen_devices()).collect()
 }
 
+/// Has `act` done with the devices of each of them, also after an error, of which the first
+/// is the result.
+pub(crate) fn on_all_bricks(
+    act: impl Fn(&Registry) -> ev3_driver::Result<()>,
+) -> ev3_driver::Result<()> {
+    all_devices().iter().map(|devices| act(devices)).fold(Ok(()), Result::and)
+}
+
 /// This thread serves a page from now on, or does not.
 pub(crate) fn follow_main_thread(follows: bool) {
     FOLLOWS.set(follows);
@@ -251,9 +259,7 @@ pub(crate) fn chosen_devices() -> Option<Arc<Registry>> {
 
 /// Stops the motors of all bricks that the program started, where nobody is told what fails.
 pub(crate) fn stop_started() {
-    for devices in all_devices() {
-        let _ = motor::stop_started(&devices);
-    }
+    let _ = on_all_bricks(motor::stop_started);
 }
 
 /// Keeps the tree in use.

@@ -10,13 +10,12 @@ use crate::glue::due;
 use crate::glue::error;
 use crate::glue::state;
 use crate::glue::terms::{Ask as _, unify_atom};
+use ev3_driver::Error;
 use ev3_driver::motor::{self, wait::Reason};
 use ev3_driver::wait::{Look, Slices, Wait};
-use ev3_driver::{Error, Registry};
 use ev3_signals::latch;
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
-use std::sync::Arc;
 use std::time::Duration;
 use swipl::fli::{Act, act_without_input, this_thread};
 use swipl::prelude::*;
@@ -207,9 +206,8 @@ fn is_tick_due_at_prompt() -> bool {
 impl<C: QueryableContextType> Call<'_, C> {
     /// Stops the motors of all bricks whose last command was one of these.
     pub(crate) fn stop_commanded(&self, commands: &Range<u32>) -> PrologResult<()> {
-        let stop = |devices: Arc<Registry>| motor::stop_commanded(&devices, commands);
-        let stopped = state::all_devices().into_iter().map(stop);
-        self.or_throw(stopped.fold(Ok(()), Result::and))
+        let stop = |devices: &_| motor::stop_commanded(devices, commands);
+        self.or_throw(state::on_all_bricks(stop))
     }
 
     /// One slice of a wait: unifies `reason` with what is to be done before the next one, or calls

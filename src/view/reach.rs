@@ -1,7 +1,7 @@
 //! Reaching into the simulation that runs, from outside of the program.
 use super::threads;
-use crate::glue::state::{all_devices, devices, watched};
-use ev3_driver::{Error, Registry, motor};
+use crate::glue::state::{devices, on_all_bricks, watched};
+use ev3_driver::{Error, motor};
 use ev3_sim::{Simulation, stay_outside};
 use std::sync::Arc;
 use std::time::Duration;
@@ -48,12 +48,9 @@ pub(super) fn keep_samples(keep: bool) {
 
 /// Stops all motors that are connected to any brick, with brake, at once.
 pub(super) fn stop_motors() -> ev3_driver::Result<()> {
-    let stop = |devices: Arc<Registry>| {
-        match outside(|| motor::stop_connected(&devices, &mut || true)) {
-            // A motor whose files are not open yet does not run.
-            Err(Error::Interrupted) => Ok(()),
-            stopped => stopped,
-        }
-    };
-    all_devices().into_iter().map(stop).fold(Ok(()), Result::and)
+    on_all_bricks(|devices| match outside(|| motor::stop_connected(devices, &mut || true)) {
+        // A motor whose files are not open yet does not run.
+        Err(Error::Interrupted) => Ok(()),
+        stopped => stopped,
+    })
 }
