@@ -149,10 +149,9 @@ pub(crate) fn end_branches() {
 /// A branch has to look again at this time.
 fn look_at(time: Duration) {
     BRANCHES.with_borrow_mut(|rounds| {
+        let Some(Round::GoesOn(looks)) = rounds.last_mut() else { return };
         let brick = state::brick_number();
-        if let Some(Round::GoesOn(looks)) = rounds.last_mut()
-            && let Some((_, look)) = looks.iter_mut().find(|(of, _)| *of == brick)
-        {
+        if let Some((_, look)) = looks.iter_mut().find(|(of, _)| *of == brick) {
             *look = time.min(*look);
         }
     });
