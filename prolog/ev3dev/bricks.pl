@@ -7,6 +7,8 @@
             use_brick/1,                % ?Name
             bricks_do/1,                % :Goal
             bricks_do/2,                % +Names, :Goal
+            far/2,                      % +Name, +Goal
+            far_load/2,                 % +Name, +File
             stop_all_bricks/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -61,24 +63,53 @@ simulation. A thread begins with the brick of the thread that made it.
 %     - sim(World)
 %     - sim(World, Options)
 %       The same with sim_start(World, Options).
+%     - ssh(Destination)
+%       A brick on the network with this pack, where ssh logs in: Host or
+%       User@Host, as `robot@ev3dev.local`. far/2 sends it goals. Its motors
+%       stop, and its process ends, when this program ends or closes it, or
+%       the connection is silent for a second.
+%     - command(Program, Arguments)
+%       The same with another program, behind which library(ev3dev/worker)
+%       speaks: as `command(swipl, ['-q', '-g',
+%       'use_module(library(ev3dev/worker)),work', '-t', halt])`.
 %
 %   @error permission_error(open, brick, Name) if that name is taken
 %   @error domain_error(brick_place, Where)
 %   @error existence_error(directory, Directory)
-%   @error what sim_start/2 throws
+%   @error existence_error(connection, Name) if no worker answers in a minute
+%   @error what sim_start/2 and process_create/3 throw
 
 brick_open(Name, Where) :-
     must_be(atom, Name),
     must_be(nonvar, Where),
+    (   named_brick(Name, far(Far), _),
+        ev3dev_far:is_lost(Far)
+    ->  brick_close(Name)
+    ;   true
+    ),
     (   brick(Name)
     ->  throw_error(permission_error(open, brick, Name), _,
                     'there is a brick of that name; brick_close/1 closes it')
-    ;   opened(Where, Brick)
+    ;   opened(Where, Name, Brick)
     ->  name_brick(Name, Brick, Where)
     ;   throw_error(domain_error(brick_place, Where), _,
-                    'a place is local, dir(Directory), sim, sim(World) or \c
-                     sim(World, Options)')
+                    'a place is local, dir(Directory), sim, sim(World), \c
+                     sim(World, Options), ssh(Destination) or \c
+                     command(Program, Arguments)')
     ).
+
+opened(ssh(Destination), Name, Brick) :-
+    !,
+    opened_far(Name, ssh(Destination), Brick).
+opened(command(Program, Arguments), Name, Brick) :-
+    !,
+    opened_far(Name, command(Program, Arguments), Brick).
+opened(Where, _, Brick) :-
+    opened(Where, Brick).
+
+opened_far(Name, Where, far(Far)) :-
+    use_module(library(ev3dev/private/far), []),
+    ev3dev_far:far_open(Name, Where, Far).
 
 opened(local, 0).
 opened(dir(Directory), Brick) :-
@@ -126,6 +157,8 @@ brick_close(Name) :-
     unname_brick(Name),
     (   Brick == 0
     ->  true
+    ;   Brick = far(Far)
+    ->  ev3dev_far:far_close(Far)
     ;   (   brick_(Brick)
         ->  switch_brick(0)
         ;   true
@@ -146,12 +179,22 @@ brick(local, local).
 brick(Name, Where) :-
     named_brick(Name, _, Where).
 
+%   Of a far brick, Brick is far(Far).
+
 number_of(Name, Brick) :-
     must_be(atom, Name),
     (   numbered(Name, Brick)
     ->  true
     ;   throw_error(existence_error(brick, Name), _,
                     'there is no brick of that name; brick_open/2 opens one')
+    ).
+
+near(Name, Brick) :-
+    number_of(Name, Brick),
+    (   Brick = far(_)
+    ->  throw_error(permission_error(use, far_brick, Name), _,
+                    'each access would travel; far/2 sends it a goal')
+    ;   true
     ).
 
 numbered(local, 0).
@@ -166,10 +209,11 @@ numbered(Name, Brick) :-
 %   meanwhile, and are about that one.
 %
 %   @error existence_error(brick, Name)
+%   @error permission_error(use, far_brick, Name)
 %   @error type_error(callable, Goal)
 
 with_brick(Name, Goal) :-
-    number_of(Name, Brick),
+    near(Name, Brick),
     must_be_goal(Goal),
     in_brick(Brick, goal_of_program(Goal)).
 
@@ -179,6 +223,7 @@ with_brick(Name, Goal) :-
 %   those that it makes. If Name is unbound, it is the name of the one in use.
 %
 %   @error existence_error(brick, Name)
+%   @error permission_error(use, far_brick, Name)
 
 use_brick(Name) :-
     var(Name),
@@ -190,7 +235,7 @@ use_brick(Name) :-
                     'the brick that this thread has in use has no name')
     ).
 use_brick(Name) :-
-    number_of(Name, Brick),
+    near(Name, Brick),
     switch_brick(Brick).
 
 %!  bricks_do(:Goal) is semidet.
@@ -200,7 +245,8 @@ use_brick(Name) :-
 %   of its own: the bricks of the list Names, or all that brick_open/2 has
 %   opened, or `local` if it has opened none. Waits for all. Binds nothing:
 %   each has a copy of Goal. Fails if Goal fails with one of them; then, and
-%   after an error, the others are left, and their moves stop.
+%   after an error, the others are left, and their moves stop. A far brick
+%   gets Goal by far/2.
 %
 %   @error existence_error(brick, Name)
 %   @error type_error(callable, Goal)
@@ -216,7 +262,7 @@ bricks_do(Goal) :-
 bricks_do(Names, Goal) :-
     must_be(list, Names),
     must_be_goal(Goal),
-    findall(ev3dev_bricks:in_brick(Brick, goal_of_program(Goal)),
+    findall(ev3dev_bricks:on_brick(Brick, Goal),
             ( one_of(Names, Name), number_of(Name, Brick) ),
             Goals),
     length(Goals, Count),
@@ -225,9 +271,64 @@ bricks_do(Names, Goal) :-
     ;   concurrent(Count, Goals, [])
     ).
 
+:- public on_brick/2.
+
+on_brick(far(Far), Goal) :-
+    !,
+    strip_module(Goal, _, Plain),
+    ev3dev_far:far_call(Far, Plain).
+on_brick(Brick, Goal) :-
+    in_brick(Brick, goal_of_program(Goal)).
+
+%!  far(+Name, +Goal) is semidet.
+%
+%   Call Goal once on the far brick Name, in its module `user`: one message
+%   there, one back. Its solution, failure or error is that of far/2. What it
+%   prints is printed here, after the brick's name. Goals come one after the
+%   other. If this is left before, as by Ctrl-C, the goal there ends, and all
+%   motors of that brick stop; so they do if it hears nothing for a second.
+%
+%   Meanwhile this thread serves its events. Branches of both/2 go on slowly;
+%   bricks_do/2 has a thread for each brick.
+%
+%   @error existence_error(brick, Name)
+%   @error domain_error(far_brick, Name) if it is not a far one
+%   @error existence_error(connection, Name) if it has not been heard of for
+%          two seconds, or has ended; brick_open/2 opens it again
+%   @error type_error(acyclic_term, Goal)
+%   @error resource_error(frame) if Goal has more than a million characters
+%   @error what Goal throws
+
+far(Name, Goal) :-
+    far_of(Name, Far),
+    must_be_goal(Goal),
+    ev3dev_far:far_call(Far, Goal).
+
+%!  far_load(+Name, +File) is det.
+%
+%   Load the program File, one of this machine, on the far brick Name. Loading
+%   it again replaces it.
+%
+%   @error existence_error(source_sink, File)
+%   @error the other errors of far/2
+
+far_load(Name, File) :-
+    far_of(Name, Far),
+    must_be(nonvar, File),
+    ev3dev_far:far_file(Far, File).
+
+far_of(Name, Far) :-
+    number_of(Name, Brick),
+    (   Brick = far(Far)
+    ->  true
+    ;   throw_error(domain_error(far_brick, Name), _,
+                    'that brick is not far: with_brick/2 is for it')
+    ).
+
 %!  stop_all_bricks is det.
 %
 %   Stop all motors of all bricks, as stop_all_motors/0 does of one.
 
 stop_all_bricks :-
-    stop_all_bricks_.
+    stop_all_bricks_,
+    forall(named_brick(_, far(Far), _), ev3dev_far:far_stop(Far)).

@@ -58,6 +58,8 @@ unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
 unit(sim, ['ev3dev/sim']).
 unit(sim_batch, ['ev3dev/sim_batch']).
 unit(bricks, ['ev3dev/bricks']).
+unit(far, ['ev3dev/private/far']).
+unit(worker, ['ev3dev/worker']).
 unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).

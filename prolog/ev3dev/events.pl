@@ -427,7 +427,7 @@ event_condition(on(_:Condition), Values) :-
 event_condition(Kind, Kind).
 
 print_error(E0, Id, Name) :-
-    format(atom(Where), 'event ~p (~w)', [Id, Name]),
+    format(atom(Where), 'in event ~p (~w)', [Id, Name]),
     error_within(E0, Where, E),
     print_message(error, E).
 

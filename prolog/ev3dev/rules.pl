@@ -492,7 +492,7 @@ failed(E, Name, Where, Behavior) :-
     ->  throw(E)
     ;   E = error(_, _)
     ->  arg(3, Behavior, settings(_, _, _, _, OnError, _)),
-        format(atom(Text), 'the ~w of rule ~p', [Where, Name]),
+        format(atom(Text), 'in the ~w of rule ~p', [Where, Name]),
         error_within(E, Text, Named),
         (   OnError == throw
         ->  throw(Named)

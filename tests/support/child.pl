@@ -10,7 +10,8 @@
             printed_line/2,             % +Toplevel, -Line
             end_program/3,              % +Child, -Status, -Output
             end_output/2,               % +Child, -Output
-            kill_program/1              % +Child
+            kill_program/1,             % +Child
+            swipl/1                     % -Program
           ]).
 :- use_module(library(filesex)).
 :- use_module(library(option)).
@@ -108,8 +109,10 @@ run_script(File, Arguments, Typed, Status, Output) :-
     read_to_end(Out, Output),
     process_wait(Pid, Status).
 
-%   SWIPL in the environment counts, as this one may not start by itself: an
-%   emulated one does not.
+%!  swipl(-Program)
+%
+%   What starts a Prolog. SWIPL in the environment counts, as this one may not start by
+%   itself: an emulated one does not.
 
 swipl(Swipl) :-
     getenv('SWIPL', Swipl),

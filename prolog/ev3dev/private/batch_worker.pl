@@ -8,7 +8,8 @@
    asserta(user:file_search_path(library, Library)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(unix)).
+:- use_module(library(ev3dev/private/descriptors), [taken/3]).
+:- use_module(library(unix), [fork/1, wait/2]).
 
 %!  work is det.
 %
@@ -45,16 +46,6 @@ work :-
     ;   run(Out, Seed, Test, Start),
         fail
     ).
-
-%   A stream to where this file descriptor leads; the descriptor itself is of
-%   no use for a program any more.
-
-taken(Descriptor, Mode, Stream) :-
-    atom_concat('/proc/self/fd/', Descriptor, File),
-    open(File, Mode, Stream, [encoding(utf8)]),
-    open('/dev/null', Mode, Null),
-    stream_property(Null, file_no(Nothing)),
-    dup(Nothing, Descriptor).
 
 reply(Out, Term) :-
     format(Out, '~k~n', [Term]),

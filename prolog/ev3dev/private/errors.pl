@@ -12,6 +12,7 @@
             shown/2,                    % +Term, -Shown
             called_by_program/1,        % -Called
             error_within/3,             % +Error0, +Where, -Error
+            named_called/2,             % ?Called0, -Called
             in_pack/3,                  % +Predicate, -Module, -Indicator
             is_of_system/1,             % +Predicate
             is_public/2,                % ?Module, +Indicator
@@ -223,18 +224,31 @@ called_by_program(Frame, Called) :-
 %!  error_within(+Error0, +Where, -Error) is det.
 %
 %   Error is Error0, and its message also says Where it occurred: a text as
-%   `the guard of rule avoid`.
+%   `in the guard of rule avoid`.
 
 error_within(error(Formal, Context0), Where,
              error(Formal, context(Called, Text))) :-
     (   nonvar(Context0),
         Context0 = context(Called0, Text0)
-    ->  Called = Called0
+    ->  named_called(Called0, Called)
     ;   true
     ),
     (   nonvar(Text0)
-    ->  format(atom(Text), '~w; in ~w', [Text0, Where])
-    ;   format(atom(Text), 'in ~w', [Where])
+    ->  format(atom(Text), '~w; ~w', [Text0, Where])
+    ;   Text = Where
+    ).
+
+%!  named_called(?Called0, -Called) is det.
+%
+%   Called is Called0, the predicate in the context of an error, but unbound
+%   if it is an inner one of the pack: that means nothing to a person.
+
+named_called(Called0, Called) :-
+    (   ground(Called0),
+        in_pack(Called0, Module, Predicate),
+        \+ is_public(Module, Predicate)
+    ->  true
+    ;   Called = Called0
     ).
 
 %   The last exported predicate of the pack between Frame and the program.

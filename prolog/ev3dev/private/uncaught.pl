@@ -1,7 +1,9 @@
 :- module(ev3dev_uncaught,
           [ in_words//1                 % +Message
           ]).
-:- use_module(errors, [in_pack/3, is_of_system/1, is_public/2, is_word/1]).
+:- use_module(errors,
+              [ in_pack/3, is_of_system/1, is_public/2, is_word/1,
+                named_called/2 ]).
 :- use_module(forgotten, [form_of/2, known_mistake/1, unqualified/2]).
 :- use_module(native, [running_/1]).
 
@@ -240,20 +242,13 @@ caught_outside(_) :-
 
 :- endif.
 
-%   An inner predicate of the pack means nothing to a person.
-
 words(Context, Called, Text) :-
     (   var(Context)
     ->  true
     ;   Context = context(Called0, Text),
         \+ ( nonvar(Called0), Called0 = prolog_stack(_) ),
         \+ ( nonvar(Text), Text = ev3dev_at(_, _) ),
-        (   ground(Called0),
-            in_pack(Called0, Module, Predicate),
-            \+ is_public(Module, Predicate)
-        ->  true
-        ;   Called = Called0
-        )
+        named_called(Called0, Called)
     ).
 
 %   Passed is true if a frame is the pack's; Places are the innermost ones of

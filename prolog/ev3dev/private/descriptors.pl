@@ -1,0 +1,22 @@
+:- module(ev3dev_descriptors, [taken/3]).
+:- use_module(library(unix), [dup/2]).
+
+/** <module> A process that speaks with another one
+
+A worker of library(ev3dev/sim_batch) and of a far brick uses its standard
+streams to speak with the process that has started it. So the program that it
+runs must get others.
+*/
+
+%!  taken(+Descriptor, +Mode, -Stream) is det.
+%
+%   Stream, in UTF-8, leads to where this file descriptor did; what is read
+%   from the descriptor, or written to it, goes nowhere from now on. Mode is
+%   `read` or `write`.
+
+taken(Descriptor, Mode, Stream) :-
+    atom_concat('/proc/self/fd/', Descriptor, File),
+    open(File, Mode, Stream, [encoding(utf8)]),
+    open('/dev/null', Mode, Null),
+    stream_property(Null, file_no(Nothing)),
+    dup(Nothing, Descriptor).
