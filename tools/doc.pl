@@ -43,6 +43,7 @@
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
+:- use_module(library(ev3dev/worker)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
 task('Drive a robot with two wheels',
@@ -57,7 +58,7 @@ task('Use the brick itself',
 task('See what is connected', [device_table, driver, files]).
 task('Ask why it did that', [journal]).
 task('Try it without a robot', [sim, sim_hand, sim_time, sim_views, sim_batch]).
-task('Drive several robots', [bricks]).
+task('Drive several robots', [bricks, worker]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
 task('Plan, act and react', [golog, pddl]).
