@@ -4,6 +4,7 @@
 :- use_module('../support/trees').
 :- use_module('../support/cases').
 :- use_module('../support/child').
+:- use_module('../support/far_bricks').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/events), [on/2 as when_, race/2]).
@@ -15,35 +16,14 @@
 :- use_module(library(readutil)).
 :- use_module(library(time)).
 
-:- prolog_load_context(directory, Tests),
-   atom_concat(Home, '/tests/prolog', Tests),
-   atom_concat(Home, '/prolog', Library),
-   format(atom(Goal), "asserta(user:file_search_path(library,~q)),\c
-                       use_module(library(ev3dev/worker)),set_prolog_flag(ev3dev_hints,off),work",
-          [Library]),
-   assertz(worker(['-q', '-f', none, '-g', Goal, '-t', halt])).
+:- initialization(load_files(far_grid:example(far_grid), [])).
 
-:- dynamic worker/1.
+with_motor_at_outB(Goal) :-
+    with_tree(plain, [outB-'lego-ev3-l-motor'], Goal).
 
-% A far brick is a process of this machine.
-far_place(command(Swipl, Arguments)) :-
-    swipl(Swipl),
-    worker(Arguments).
-
-with_far(Name, Goal) :-
-    far_place(Where),
-    with_far(Name, Where, Goal).
-
-with_far(Name, Where, Goal) :-
-    setup_call_cleanup(
-        brick_open(Name, Where),
-        once(Goal),
-        ( brick(Name) -> brick_close(Name) ; true )).
-
-% It has a motor at outB, whose files are here.
+% A motor at outB, whose files are here, is one of the far brick.
 with_motor(Name, Goal) :-
-    with_tree(plain, [outB-'lego-ev3-l-motor'],
-              ( tree_root(Root), far(Name, ev3_sysfs(Root)), call(Goal) )).
+    with_motor_at_outB(( tree_root(Root), far(Name, ev3_sysfs(Root)), call(Goal) )).
 
 with_far_motor(Name, Goal) :-
     with_far(Name, with_motor(Name, Goal)).
@@ -67,57 +47,24 @@ process_of(Name, Process) :-
 is_over(Process) :-
     catch(( process_kill(Process, 0), fail ), error(_, _), true).
 
-% ended(+How, +Wait): a motor of a far brick runs, and after these seconds it ends so.
-ended(program_killed, Wait) :-
-    far_program("far(anna, ( motor_run(outB, 50), sleep(60) ))", Text),
-    start_program(Text, [], Child),
-    eventually(get_attribute(outB, command, 'run-forever')),
-    sleep(Wait),
-    kill_program(Child),
-    !.
-ended(How, Wait) :-
-    memberchk(How, [killed, cut, silent]),
-    tmp_file(relay, File),
-    far_through_relay(File, Where),
-    tree_root(Root),
-    setup_call_cleanup(
-        brick_open(anna, Where),
-        ( far(anna, ( ev3_sysfs(Root), current_prolog_flag(pid, Worker) )),
-          read_file_to_terms(File, [Relay], []),
-          meanwhile(catch(far(anna, ( motor_run(outB, 50), sleep(60) )), _, true),
-                    ( eventually(get_attribute(outB, command, 'run-forever')),
-                      sleep(Wait),
-                      hurt(How, Worker, Relay),
-                      eventually(is_stopped) )) ),
-        ( hurt(cut, _, Relay), brick_close(anna) )).
-
-hurt(killed, Worker, _) :-
-    process_kill(Worker, kill).
-hurt(cut, _, Relay) :-
-    catch(process_kill(Relay, kill), error(_, _), true).
-hurt(silent, _, Relay) :-
-    process_kill(Relay, stop).
-
-% Between the program and the worker there is a process that does not end when it is stopped.
-far_through_relay(File, command(bash, ['-c', 'exec "$@" < <(echo "$BASHPID." > $0; exec cat 2>/dev/null)',
-                                       File, Swipl|Arguments])) :-
-    far_place(command(Swipl, Arguments)).
-
-% A program for which Name is a far brick with these files, and which goes on so.
-far_program(Rest, Text) :-
-    tree_root(Root),
-    far_place(Where),
-    format(string(Text),
-           ":- use_module(library(ev3dev/bricks)).
-            :- initialization(( brick_open(anna, ~q), far(anna, ev3_sysfs(~q)), ~s )).",
-           [Where, Root, Rest]).
-
 within(Seconds, Goal, Took) :-
     get_time(Before),
     catch(call_with_time_limit(20, Goal), Error, true),
     get_time(After),
     ( var(Error) -> true ; Error == time_limit_exceeded -> true ; throw(Error) ),
     ( After-Before < Seconds -> Took = soon ; Took is After-Before ).
+
+% A simulated robot drives; the map is the one that its own program would make.
+drives_over_the_grid(Name) :-
+    far(Name, ( use_module(library(ev3dev/sim)), sim_start(grid, [clock(virtual)]) )),
+    with_output_to(string(Text), far_grid:drive(Name, [7, 7])),
+    split_string(Text, "\n", "\n", [First|Lines]),
+    sub_string(First, 0, _, _, "at [0,0], obstacles []: [move,"),
+    last(Lines, "arrived at [7,7]"),
+    far(Name, ( state_position(Cell, _), sim_pose(X, Y, _) )),
+    Cell == [7, 7],
+    abs(X-140) < 5,
+    abs(Y-140) < 5.
 
 % One that says this, and no more until it is told to end.
 fake(Text, command(sh, ['-c', Command])) :-
@@ -262,10 +209,31 @@ test(what_comes_before_its_first_word_is_printed, Lines == ["anna: Welcome", "en
 
 % Killed, cut, silent or without a program at a random moment of a move.
 test(its_motors_stop_whatever_ends,
-     forall(( case(3, 20, Seed), member(How, [killed, cut, silent, program_killed]) ))) :-
+     forall(( case(3, 20, Seed), far_end(How) ))) :-
     set_random(seed(Seed)),
     random(0.0, 0.2, Wait),
-    with_tree(plain, [outB-'lego-ev3-l-motor'],
-              ( ended(How, Wait), eventually(is_stopped) )).
+    with_motor_at_outB(stops_when(pipe, How, Wait, _)).
+test(the_grid_of_the_paper_with_the_map_on_this_side) :-
+    with_far(anna, drives_over_the_grid(anna)).
 
 :- end_tests(worker_ends).
+
+% Through a server of OpenSSH, where there is one.
+:- begin_tests(worker_ssh, [condition(can_log_in)]).
+
+test(a_goal_and_its_output, X-Lines == 3-["eva: hi", "3"]) :-
+    with_login(
+        ( with_far(eva, ssh(eva), far(eva, X is 1+2)),
+          run_program(":- use_module(library(ev3dev/bricks)).
+                       :- initialization(( brick_open(eva, ssh(eva)),
+                                           far(eva, ( writeln(hi), X = 3 )), writeln(X) )).",
+                      [], exit(0), Output) )),
+    split_string(Output, "\n", "\n", Lines).
+test(its_motors_stop_whatever_ends, forall(( far_end(How), How \== program_killed ))) :-
+    with_login(with_motor_at_outB(stops_when(ssh, How, 0.1, _))).
+test(the_grid_of_the_paper_with_the_map_on_this_side) :-
+    with_login(with_far(eva, ssh(eva), drives_over_the_grid(eva))).
+test(a_login_that_is_refused, Formal == existence_error(connection, nobody)) :-
+    with_login(catch(brick_open(nobody, ssh('nobody@eva')), error(Formal, _), true)).
+
+:- end_tests(worker_ssh).
