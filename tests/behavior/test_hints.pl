@@ -185,7 +185,8 @@ usual(set_robot(3, 6, outB, outC)).
 usual(set_robot(8.2, 20, outB, outC)).
 usual(tone(440, 100)).
 usual(tone(440, 0)).
-usual(led_blink(left, 10, 990)).
+usual(led_blink(left, 10, 9)).
+usual(led_blink(left, 9, 10)).
 usual(motor_run_timed(outB, 50, 20)).
 usual(motor_run_timed(outB, 50, 1, [stop_action(hold)])).
 usual(motor_run_timed(outB, 50, 1, [ramp_up(100)])).

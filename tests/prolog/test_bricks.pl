@@ -47,6 +47,14 @@ current_name(Name) :-
 
 test(a_program_starts_with_local, true(Names == [local-local])) :-
     findall(Name-Where, brick(Name, Where), Names).
+test(a_world_that_was_asked_for_is_not_announced, [true(Said == [])]) :-
+    setup_call_cleanup(
+        ( brick_open(anna, sim),
+          assertz((user:message_hook(ev3dev(simulated(W)), _, _) :-
+                       assertz(user:announced(W)), fail), Ref) ),
+        with_brick(anna, battery(voltage, _)),
+        ( erase(Ref), brick_close(anna) )),
+    findall(W, retract(user:announced(W)), Said).
 test(each_has_motors_of_its_own, true([A, B] == [90, 0])) :-
     with_bricks([anna, bob],
                 ( with_brick(anna, motor_run(outB, 50, 90)),

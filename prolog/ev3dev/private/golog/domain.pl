@@ -1002,7 +1002,6 @@ quantified(P) :-
     ->  true
     ;   arg(_, P, Q),
         quantified(Q)
-    ->  true
     ).
 
 %!  fluent_in(+Condition, -Fluent, +Situation, +Context) is nondet.
