@@ -144,6 +144,13 @@ call_command(check, [], Options) :-
     use_module(File, []),
     Report = brick_check:report,
     call_cleanup(Report, stop_all_motors).
+call_command(work, [], Options) :-
+    use_module(library(ev3dev/sim_batch), []),
+    setting(redis, Options, Address, 'localhost:6379'),
+    ( current_prolog_flag(cpu_count, Count) -> true ; Count = 1 ),
+    setting(workers, Options, Workers, Count),
+    Work = ev3dev_sim_batch:sim_batch_work(Address, Workers),
+    call(Work).
 call_command(jog, [], Options) :-
     start_world_if_any(realtime, Options),
     start_view_if_any(Options),

@@ -56,7 +56,8 @@ unit(chance, ['ev3dev/private/chance']).
 unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
                  'ev3dev/sim_time', 'ev3dev/sim_views']).
 unit(sim, ['ev3dev/sim']).
-unit(sim_batch, ['ev3dev/sim_batch']).
+unit(sim_batch, ['ev3dev/private/batch_pool', 'ev3dev/sim_batch']).
+unit(batch_redis, ['ev3dev/private/batch_redis']).
 unit(bricks, ['ev3dev/bricks']).
 unit(far, ['ev3dev/private/far']).
 unit(worker, ['ev3dev/worker']).

@@ -1,6 +1,7 @@
 :- module(ev3dev_sim_batch,
           [ sim_batch/4,                % +File, +Test, +Seeds, -Scores
-            sim_batch/5                 % ..., +Options
+            sim_batch/5,                % ..., +Options
+            sim_batch_work/2            % +Address, +Workers
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
@@ -9,13 +10,10 @@
                 take_options/4 ]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
-:- use_module(library(apply), [foldl/4, maplist/2]).
-:- use_module(library(lists), [last/2, member/2, nth1/3]).
-:- use_module(library(process),
-              [ process_create/3, process_group_kill/2, process_kill/2,
-                process_wait/2 ]).
-:- use_module(library(readutil),
-              [read_file_to_string/3, read_line_to_string/2]).
+:- use_module(private/batch_pool,
+              [ batch_step/3, end_workers/1, start_workers/2,
+                workers_ready/2 ]).
+:- use_module(library(lists), [member/2]).
 
 /** <module> The same program in many simulations
 
@@ -70,6 +68,13 @@ processor as with many.
 %     - cpu(Seconds)
 %       How much time of a processor a run may use, or `infinite`: the
 %       default. This and `wall` are looked at five times a second.
+%     - redis(Address)
+%       Have the workers of a Redis server make the runs, Host or Host:Port:
+%       on each machine that takes part `swipl ev3dev work --redis Host:Port`
+%       runs, with the same version of this pack. They get the text of File;
+%       what it loads must be at the same places there. Each has its own
+%       `workers`. If a machine dies, others make its runs. Who can write to
+%       that server can run programs on these machines.
 %     - progress(Boolean)
 %       Whether to print how many runs are over. By default `true` if there is
 %       a terminal.
@@ -83,6 +88,9 @@ processor as with many.
 %   @error domain_error(sim_batch_option, Option)
 %   @error the errors of sim_start/2 for its options
 %   @error existence_error(library, unix) where there is no fork/1
+%   @error existence_error(redis_server, Address)
+%   @error existence_error(library, redis) in a Prolog without it
+%   @error io_error(Operation, Stream) if that server goes away
 
 sim_batch(File, Test, Seeds, Scores) :-
     sim_batch(File, Test, Seeds, Scores, []).
@@ -91,23 +99,53 @@ sim_batch(File, Test, Seeds, Scores, Options) :-
     must_be(callable, Test),
     must_be(list(integer), Seeds),
     must_be_options(sim_batch_option,
-                    [ world, workers, wall, cpu, progress,
+                    [ world, workers, wall, cpu, progress, redis,
                       clock, robot, noise, screen ], Options),
-    take_options([world, workers, wall, cpu, progress], Options, Own, Sim),
+    take_options([world, workers, wall, cpu, progress, redis], Options,
+                 Own, Sim),
     option(world(World), Own, room),
     own_options(Own, Workers, Wall, Cpu, Progress),
+    option(redis(Address), Own, none),
+    (   Address == none
+    ->  Server = none
+    ;   redis_address(Address, HostPort),
+        Server = redis(HostPort)
+    ),
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     length(Seeds, All),
-    numbered(Seeds, 1, Todos),
-    Number is max(1, min(Workers, All)),
-    setup_call_cleanup(
-        start_workers(Number, Pool),
-        ( all_ready(Pool, begin(Path, Test, World, Sim)),
-          batch(Todos, Pool, [], limits(Wall, Cpu, Progress-All), [], Done) ),
-        end_workers(Pool)),
+    Limits = limits(Wall, Cpu),
+    (   Server = redis(HostPort)
+    ->  use_module(library(ev3dev/private/batch_redis), []),
+        ev3dev_batch_redis:redis_batch(
+            HostPort, program(Path, Test, World, Sim, Limits), Seeds,
+            ev3dev_sim_batch:report(Progress-All), Done)
+    ;   numbered(Seeds, 1, Todos),
+        Number is max(1, min(Workers, All)),
+        setup_call_cleanup(
+            start_workers(Number, Pool),
+            ( workers_ready(Pool, begin(Path, Test, World, Sim)),
+              batch(now(Todos, Pool, [], []), Limits, Progress-All, Done) ),
+            end_workers(Pool))
+    ),
     msort(Done, Sorted),
     findall(Seed-Score, member(done(_, Seed, Score), Sorted), Scores).
+
+%!  sim_batch_work(+Address, +Workers) is det.
+%
+%   Make the runs that sim_batch/5 asks for by the Redis server at Address,
+%   Workers at a time, until it is interrupted: what `swipl ev3dev work` does.
+%   If the server goes away, it is looked for every two seconds.
+%
+%   @error existence_error(redis_server, Address) if it is not there at first
+%   @error existence_error(library, redis) in a Prolog without it
+
+sim_batch_work(Address, Workers) :-
+    must_be(nonvar, Address),
+    must_be(positive_integer, Workers),
+    redis_address(Address, HostPort),
+    use_module(library(ev3dev/private/batch_redis), []),
+    ev3dev_batch_redis:redis_work(HostPort, Workers).
 
 own_options(Options, Workers, Wall, Cpu, Progress) :-
     (   current_prolog_flag(cpu_count, Processors)
@@ -129,197 +167,38 @@ own_options(Options, Workers, Wall, Cpu, Progress) :-
     option(progress(Progress), Options, Terminal),
     must_be(boolean, Progress).
 
-                /*******************************
-                *           WORKERS            *
-                *******************************/
+%   The port is by default that of Redis.
 
-%   A worker is a Prolog that has loaded the program, and makes a copy of
-%   itself for each run: worker(Pid, In, Out).
-
-start_workers(Number, Pool) :-
-    (   Number =:= 0
-    ->  Pool = []
-    ;   start_worker(Worker),
-        Pool = [Worker|Pool1],
-        Number1 is Number-1,
-        catch(start_workers(Number1, Pool1), Error,
-              ( end_workers([Worker]),
-                throw(Error) ))
-    ).
-
-start_worker(worker(Pid, In, Out)) :-
-    current_prolog_flag(executable, Prolog),
-    module_property(ev3dev_sim_batch, file(This)),
-    file_directory_name(This, Folder),
-    atom_concat(Folder, '/private/batch_worker.pl', Program),
-    process_create(Prolog,
-                   [ '-q', '-f', none, '-s', file(Program),
-                     '-g', 'ev3dev_batch_worker:work', '-t', halt ],
-                   [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
-                     detached(true) ]),
-    maplist(set_utf8, [In, Out]).
-
-set_utf8(Stream) :-
-    set_stream(Stream, encoding(utf8)).
-
-%   The first one alone prints what is wrong with the program.
-
-all_ready([Worker|Workers], Begin) :-
-    tell(Worker, loud(Begin)),
-    must_be_ready(Worker),
-    forall(member(Other, Workers), tell(Other, quiet(Begin))),
-    maplist(must_be_ready, Workers).
-
-must_be_ready(Worker) :-
-    hear(Worker, Answer),
-    (   Answer == ready
-    ->  true
-    ;   Answer = refused(error(Formal, Context))
-    ->  (   nonvar(Context),
-            Context = context(_, Message)
-        ->  throw_error(Formal, _, Message)
-        ;   throw(error(Formal, Context))
+redis_address(Address, HostPort) :-
+    (   Address = Host:Port,
+        atom(Host),
+        integer(Port)
+    ->  HostPort = Host:Port
+    ;   atom(Address)
+    ->  (   atomic_list_concat([Host, Text], :, Address),
+            atom_number(Text, Port)
+        ->  HostPort = Host:Port
+        ;   HostPort = Address:6379
         )
-    ;   has_died
+    ;   throw_error(domain_error(redis_address, Address), _,
+                    'an address is Host or Host:Port')
     ).
-
-has_died :-
-    throw(error(system_error('the processes of the runs have died'), _)).
-
-end_workers(Pool) :-
-    forall(member(worker(Pid, In, Out), Pool),
-           ( catch(process_group_kill(Pid, kill), _, true),
-             maplist(close_quietly, [In, Out]),
-             catch(process_wait(Pid, _), _, true) )).
-
-close_quietly(Stream) :-
-    catch(close(Stream, [force(true)]), _, true).
-
-tell(worker(_, In, _), Term) :-
-    format(In, '~k.~n', [Term]),
-    flush_output(In).
-
-hear(worker(_, _, Out), Answer) :-
-    read_line_to_string(Out, Line),
-    (   Line == end_of_file
-    ->  Answer = over(died)
-    ;   term_string(Answer, Line)
-    ).
-
-                /*******************************
-                *             RUNS             *
-                *******************************/
-
-%   todo(Number, Seed, Tries): a run that is still to be made. Tries is how
-%   often it may be tried again when its process dies.
 
 numbered([], _, []).
 numbered([Seed|Seeds], Number, [todo(Number, Seed, 1)|Todos]) :-
     Next is Number+1,
     numbered(Seeds, Next, Todos).
 
-%   batch(+Todos, +Idle, +Busy, +Limits, +Done0, -Done): Done is a list of
-%   done(Number, Seed, Score).
-
-batch([], _, [], _, Done, Done) :-
-    !.
-batch([Todo|Todos], [Worker|Idle], Busy, Limits, Done0, Done) :-
-    !,
-    Todo = todo(_, Seed, _),
-    catch(tell(Worker, Seed), error(_, _), true),       % a dead one is heard
-    Limits = limits(Wall, _, _),
-    in_seconds(Wall, Deadline),
-    batch(Todos, Idle, [busy(Worker, Todo, none, none, Deadline)|Busy],
-          Limits, Done0, Done).
-batch(_, _, [], _, _, _) :-
-    has_died.
-batch(Todos, Idle, Busy, Limits, Done0, Done) :-
-    findall(Out, member(busy(worker(_, _, Out), _, _, _, _), Busy), Outs),
-    wait_for_input(Outs, Ready, 0.2),
-    Limits = limits(_, Cpu, Report),
-    foldl(progress(Ready, Cpu), Busy, now(Todos, Idle, [], Done0),
-          now(Todos1, Idle1, Busy1, Done1)),
-    report(Report, Done0, Done1),
-    batch(Todos1, Idle1, Busy1, Limits, Done1, Done).
-
-in_seconds(Seconds, Time) :-
-    get_time(Now),
-    Time is Now+Seconds.
-
-%   busy(Worker, Todo, Process, Score, Deadline): Process is that of the run
-%   and Score score(Score), also when the run was ended here. As long as it is
-%   not known: `none`.
-
-progress(Ready, Cpu, Busy, Now0, Now) :-
-    Busy = busy(Worker, Todo, Process, Score, Deadline),
-    Worker = worker(_, _, Out),
-    (   memberchk(Out, Ready)
-    ->  hear(Worker, Answer),
-        heard(Answer, Busy, Now0, Now)
-    ;   integer(Process),
-        beyond(Process, Deadline, Cpu, Limit)
-    ->  process_kill(Process, kill),
-        (   Score == none
-        ->  Ended = score(limit(Limit))
-        ;   Ended = Score
-        ),
-        still(busy(Worker, Todo, none, Ended, Deadline), Now0, Now)
-    ;   still(Busy, Now0, Now)
+batch(Now, Limits, Report, Done) :-
+    Now = now(Todos, _, Busy, Done0),
+    (   Todos == [],
+        Busy == []
+    ->  Done = Done0
+    ;   batch_step(Limits, Now, Now1),
+        Now1 = now(_, _, _, Done1),
+        report(Report, Done0, Done1),
+        batch(Now1, Limits, Report, Done)
     ).
-
-beyond(_, Deadline, _, wall) :-
-    get_time(Now),
-    Now > Deadline,
-    !.
-beyond(Process, _, Cpu, cpu) :-
-    Cpu \== infinite,
-    process_cpu(Process, Used),
-    Used > Cpu.
-
-%   The time of a processor that it has used: proc_pid_stat(5), in hundredths
-%   of a second. The second field is in parentheses, and may have spaces.
-
-process_cpu(Process, Seconds) :-
-    atomic_list_concat(['/proc/', Process, '/stat'], File),
-    catch(read_file_to_string(File, Text, []), error(_, _), fail),
-    split_string(Text, ")", " ", Parts),
-    last(Parts, Fields),
-    split_string(Fields, " ", "", List),
-    nth1(12, List, User),
-    nth1(13, List, System),
-    number_string(UserTicks, User),
-    number_string(SystemTicks, System),
-    Seconds is (UserTicks+SystemTicks)/100.
-
-still(Busy, now(Todos, Idle, Busys, Done),
-      now(Todos, Idle, [Busy|Busys], Done)).
-
-%   A process that has a score may hang when it halts.
-
-heard(process(Process), busy(Worker, Todo, _, Score, Deadline), Now0, Now) :-
-    still(busy(Worker, Todo, Process, Score, Deadline), Now0, Now).
-heard(score(Score), busy(Worker, Todo, Process, _, _), Now0, Now) :-
-    in_seconds(2, Deadline),
-    still(busy(Worker, Todo, Process, score(Score), Deadline), Now0, Now).
-heard(over(Status), busy(Worker, Todo, _, Score, _),
-      now(Todos, Idle0, Busys, Done), now(Todos1, Idle, Busys, Done1)) :-
-    Todo = todo(Number, Seed, Tries),
-    (   Status == died
-    ->  Idle = Idle0
-    ;   Idle = [Worker|Idle0]
-    ),
-    (   run_score(Score, Status, Tries, Value)
-    ->  Todos1 = Todos,
-        Done1 = [done(Number, Seed, Value)|Done]
-    ;   Todos1 = [todo(Number, Seed, 0)|Todos],
-        Done1 = Done
-    ).
-
-%   Fails if it is to be tried again.
-
-run_score(score(Score), _, _, Score) :-
-    !.
-run_score(none, _, 0, error(died)).
 
 %   Ten times in all.
 

@@ -92,7 +92,8 @@ bad(use_brick(local), [7-1, anna-1]).
 bad(bricks_do(true), [_-1, 7-1]).
 bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).
 bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
-bad(sim_batch(nofile, a, [1], _, []), [_-1, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
+bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).
+bad(sim_batch(nofile, a, [1], _, []), [_-1, [redis(1)]-5, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).
 bad(sim_place(0, 0, 0), [a-1, _-2, a-3]).
 bad(sim_plug(in1, 'lego-ev3-us'), [1-1, in1-2, _-2]).

@@ -1,7 +1,11 @@
 % library(ev3dev/sim_batch): a process for each run, the same scores with any number of
 % workers, and limits that no program escapes.
 
+:- use_module('../support/cases').
+:- use_module('../support/child').
+:- use_module('../support/redis').
 :- use_module('../support/simulation').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim_batch)).
@@ -157,3 +161,108 @@ test(what_is_wrong_with_the_call,
     with_program(File, Goal).
 
 :- end_tests(sim_batch).
+
+% Workers of other machines are processes of this one.
+with_workers(Port, Count, Workers, Goal) :-
+    length(Workers, Count),
+    setup_call_cleanup(
+        maplist(start_worker(Port), Workers),
+        once(Goal),
+        maplist(end_worker, Workers)).
+
+start_worker(Port, Worker) :-
+    swipl(Swipl),
+    atom_concat('localhost:', Port, Address),
+    process_create(path(env),
+                   [Swipl, '-q', 'app/ev3dev.pl', work, '--redis', Address, '--workers', 1],
+                   [stdin(null), stdout(null), stderr(null), process(Worker)]).
+
+end_worker(Worker) :-
+    catch(( process_kill(Worker, int), process_wait(Worker, _) ), error(_, _), true).
+
+killed_while_it_works(Port, Worker) :-
+    with_client(Port, Redis, eventually(has_run(Redis, Worker))),
+    process_kill(Worker, kill).
+
+has_run(Redis, Worker) :-
+    catch(redis(Redis, xpending('ev3dev:runs', workers), [_, _, _, Consumers]),
+          error(redis_error(_, _), _), fail),
+    atom_concat(-, Worker, End),
+    once(( member([Name, _], Consumers), sub_atom(Name, _, _, 0, End) )).
+
+%   A worker drops them, or makes them to the end.
+no_run_is_left(Port) :-
+    with_client(Port, Redis,
+        eventually(( redis(Redis, xlen('ev3dev:runs'), 0),
+                     \+ redis(Redis, keys('ev3dev:batch:*'), [_|_]) ))).
+
+with_client(Port, Redis, Goal) :-
+    setup_call_cleanup(redis_connect(localhost:Port, Redis, []), once(Goal),
+                       redis_disconnect(Redis)).
+
+% The server at this port ends, and begins again empty.
+with_server_again(Port, Goal) :-
+    catch(with_client(Port, Redis, redis(Redis, shutdown(nosave))), error(_, _), true),
+    setup_call_cleanup(eventually(start_redis(Port, Server)), once(Goal), stop_redis(Server)).
+
+as_here(File, Port, Test, Same) :-
+    scores(File, Test, [1, 2, 3], Here),
+    scores(File, Test, [1, 2, 3], [redis(localhost:Port)], There),
+    ( Here == There -> Same = same ; Same = There ).
+
+:- ( exists_source(library(redis)) -> use_module(library(redis)) ; true ).
+
+:- begin_tests(sim_batch_redis, [condition(( can_use_redis, starts_itself ))]).
+
+test(the_same_scores_though_a_worker_is_killed, There == Here) :-
+    cases(200, Count),
+    numlist(1, Count, Seeds),
+    with_program(File,
+        ( scores(File, driven, Seeds, [noise(true)], Here),
+          with_redis_server(Port,
+            with_workers(Port, 2, [First|_],
+              ( thread_create(killed_while_it_works(Port, First), Killer, []),
+                scores(File, driven, Seeds, [noise(true), redis(localhost:Port)], There),
+                thread_join(Killer, Status),
+                assertion(Status == true),
+                no_run_is_left(Port) ))) )).
+test(two_programs_take_turns, Both == [same, same]) :-
+    with_program(File,
+        with_redis_server(Port,
+          with_workers(Port, 2, _,
+            concurrent_maplist(as_here(File, Port), [drawn, driven], Both) ))).
+test(a_program_that_cannot_begin, error(existence_error(procedure, nothing/1))) :-
+    with_program(File,
+        with_redis_server(Port,
+          with_workers(Port, 1, _, scores(File, nothing, [1, 2], [redis(localhost:Port)], _)))).
+test(other_machines_get_the_text, Scores == [1-ok, 2-ok]) :-
+    thread_self(Me),
+    with_redis_server(Port,
+        ( with_program(File,
+              ( thread_create(( scores(File, prints, [1, 2], [redis(localhost:Port)], Found),
+                                thread_send_message(Me, scores(Found)) ), Thread, []),
+                with_client(Port, Redis,
+                    eventually(redis(Redis, keys('ev3dev:batch:*'), [_]))) )),
+          with_workers(Port, 1, _,
+              ( thread_join(Thread, _), thread_get_message(Me, scores(Scores), [timeout(0)]) )) )).
+test(a_server_that_is_none, error(existence_error(redis_server, localhost:1))) :-
+    with_program(File, scores(File, drawn, [1], [redis('localhost:1')], _)).
+test(a_worker_without_a_server, Status == exit(1)) :-
+    start_worker(1, Worker),
+    process_wait(Worker, Status).
+test(a_worker_waits_for_a_server_that_went_away, Score == ok) :-
+    with_program(File,
+        with_redis_server(Port,
+          with_workers(Port, 1, _,
+            ( scores(File, prints, [1], [redis(localhost:Port)], [1-ok]),
+              with_server_again(Port, scores(File, prints, [1], [redis(localhost:Port)],
+                                             [1-Score])) )))).
+test(what_is_left_before_its_end_is_dropped) :-
+    with_program(File,
+        with_redis_server(Port,
+          with_workers(Port, 1, _,
+            ( catch(call_soon(scores(File, waits, [1, 2], [redis(localhost:Port), wall(2)], _)),
+                    over, true),
+              no_run_is_left(Port) )))).
+
+:- end_tests(sim_batch_redis).

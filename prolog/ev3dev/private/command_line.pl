@@ -23,6 +23,7 @@ command(sim, 'WORLD', 'the same with a simulated robot').
 command(run, 'FILE', 'load a program, call start/0 or main/0 or --goal').
 command(devices, '', 'what is connected').
 command(check, '', 'try each motor and sensor; lift the robot first').
+command(work, '', 'make the runs that sim_batch/5 asks for by Redis').
 command(jog, '', 'drive with the arrow keys of the terminal').
 
 %   option(?Option, ?Value, ?Type, ?Commands, ?Text): Type is in words.
@@ -43,6 +44,10 @@ option(port, 'P', 'a whole number below 65536', [view, sim, run, jog],
 option(address, any, any, [view, sim, run, jog],
        'other machines can open the view, too').
 option('no-open', '', flag, [view, sim, run, jog], 'open no browser').
+option(redis, 'ADDRESS', 'an address', [work],
+       'of the server, as HOST:PORT: localhost:6379').
+option(workers, 'N', 'a whole number above 0', [work],
+       'runs at a time: one for each processor').
 option(speed, 'P', 'a number above 0, at most 100', [jog],
        'percent of full speed: 30').
 option(wheel, 'D', 'a number above 0', [jog],
@@ -65,6 +70,7 @@ needs('no-open', view).
 number('a number', N, N >= 0).
 number('a number above 0', N, N > 0).
 number('a number above 0, at most 100', N, ( N > 0, N =< 100 )).
+number('a whole number above 0', N, ( integer(N), N > 0 )).
 number('a whole number', N, ( integer(N), N >= 0 )).
 number('a whole number below 65536', N, ( integer(N), N >= 0, N < 65536 )).
 number('virtual, realtime, or a factor', N, N > 0).
