@@ -216,7 +216,9 @@ text(Text, Position, Part) :-
 %   tests(Files, Tests): of what has no test file of its name, or other tests, too.
 tests([arguments, domains, errors],       [errors, bad_input, motors, robot]).
 tests([attributes],                       [motor_settings, dc_motors, driver, ports]).
-tests([brick, facts, world_name],         [sim, view, planners]).
+tests([batch_pool, batch_redis, batch_worker, descriptors], [sim_batch]).
+tests([brick, facts, world_name],         [sim, bricks, view, planners]).
+tests([bricks],                           [bricks, worker]).
 tests([causes],                           [journal, events]).
 tests([chance, turn],                     [sim, events, grid]).
 tests([command_line, scripts, last_goal], [app, halt]).
@@ -226,10 +228,13 @@ tests([directory],                        [files, sound, app]).
 tests([drive_moves, robot_state],         [drive, robot, plnxt, jog]).
 tests([events],                           [events, rules, journal]).
 tests([explain, uncaught],                [hints, errors, halt]).
+tests([far, far_frames],                  [worker]).
+tests([files],                            [files, sim_default, bricks]).
 tests([forgotten, forms, libraries, own_help, help_index], [help, errors]).
 tests([limits, plans],                    [sim_time, sim]).
 tests([ports],                            [ports, hints]).
 tests([prompt],                           [events]).
+tests([relaxed, ground, pddl_text, s_expressions], [pddl]).
 tests([roadmap_arguments],                [roadmap, navigation]).
 tests([robot],                            [robot, hints]).
 tests([sensor_type],                      [sensors, calibrate, raw]).
