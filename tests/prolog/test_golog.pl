@@ -6,6 +6,7 @@
 :- use_module('../support/golog/random_programs').
 :- use_module('../support/golog/sensing').
 :- use_module('../support/golog/small_world', []).
+:- use_module('../support/golog/switches', []).
 :- use_module('../support/golog/uncertain').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -731,6 +732,25 @@ against_axioms(Seed, Result) :-
         )
     ).
 
+%   The first run of a search is that of its program, also where it looks for states that it
+%   knows.
+
+test(a_search_is_as_its_program, Wrong == []) :-
+    findall(Program-Run-Found,
+            ( case(200, 3000, Seed),
+              small_program(Seed, Program),
+              first_run(Program, Run),
+              first_run(search(ndet([?(between(1, 600, _)), ?(false)], Program)), Found),
+              Run \== Found,
+              Run \== too_large ),
+            Wrong).
+
+first_run(Program, Run) :-
+    (   call_with_inference_limit(golog_small_world:do(Program, H), 3000000, Limit)
+    ->  ( Limit == inference_limit_exceeded -> Run = too_large ; Run = H )
+    ;   Run = none
+    ).
+
 small_program(Seed, Program) :-
     random_program(Seed, 3,
                    words([a, b, c, put(1), put(2), put(3)],
@@ -781,11 +801,23 @@ test(a_limit_turns_to_deepening, Run == [up, up]) :-
     once(golog_lab:do(search([star(ndet([?(true), ?(true)], up)),
                               ?(n = 2)], [depth(30)]), H)),
     reverse(H, Run).
+test(a_search_through_few_states_ends, Texts-Runs == []-[]) :-
+    said(findall(H, golog_switches:do(search([star(any), ?(and(on(1), neg(on(1))))],
+                                             [gives_up(steps(20000))]), H), Runs), Texts).
+test(a_search_through_few_states_finds_its_plan,
+     [forall(member(Depth, [2000, 20])), true(Texts == [])]) :-
+    Goal = and([on(1), on(2), on(3), on(4), on(5), on(6)]),
+    said(once(golog_switches:do(search(long([star(any), ?(Goal)]),
+                                       [depth(Depth), gives_up(steps(20000))]), H)), Texts),
+    holds(golog_switches:Goal, H).
+test(a_state_is_not_all_where_a_condition_asks_what_was_done,
+     [forall(member(Depth, [2000, 20])), true(H == [c, a])]) :-
+    once(golog_switches:do(search(long([ndet(b, a), c, ?(done(a))]), [depth(Depth)]), H)).
 test(a_search_gives_up_and_others_go_on,
      [ forall(member(Limit, [ steps(50), inferences(20000), seconds(0),
                               seconds(0.01) ])),
        true(Runs-Far == [[a]]-true) ]) :-
-    Endless = [star(up), ?(n = 1), star(b), never],
+    Endless = [star(up), ?(n = 1), star(b), ?(done(never))],
     said(runs(wndet(search(Endless, [gives_up(Limit)]), a), Runs), Texts),
     (   Texts = [Text|_],
         Limit =.. [Name, Most],
@@ -795,18 +827,18 @@ test(a_search_gives_up_and_others_go_on,
     ;   Far = Texts
     ).
 test(its_deepening_gives_up_too, Runs == [[a]]) :-
-    runs(wndet(search([star(b), never], [steps(9), gives_up(steps(60))]), a),
+    runs(wndet(search([star(b), ?(done(never))], [steps(9), gives_up(steps(60))]), a),
          Runs).
 test(a_timeout_of_a_search_is_a_limit_too, Runs == [[a]]) :-
-    runs(wndet(search([star(b), never], [timeout(0.01)]), a), Runs).
+    runs(wndet(search([star(b), ?(done(never))], [timeout(0.01)]), a), Runs).
 test(the_limit_around_a_search_ends_it, Runs == [[a]]) :-
-    runs(wndet(search(ndet(search([star(b), never]), c),
+    runs(wndet(search(ndet(search([star(b), ?(done(never))]), c),
                       [gives_up(steps(40))]), a), Runs).
 test(the_limit_of_a_search_does_not_end_that_around_it, Runs == [[c]]) :-
-    runs(search(ndet(search([star(b), never], [gives_up(steps(40))]), c)),
+    runs(search(ndet(search([star(b), ?(done(never))], [gives_up(steps(40))]), c)),
          Runs).
 test(a_conditional_plan_gives_up, Runs == [[a]]) :-
-    runs(wndet(searchc([star(b), never], [gives_up(steps(40))]), a), Runs).
+    runs(wndet(searchc([star(b), ?(done(never))], [gives_up(steps(40))]), a), Runs).
 test(a_limit_must_be_one, [ forall(member(Option, [ gives_up(5), gives_up(_),
                                                     gives_up(steps(-1)),
                                                     gives_up(seconds(a)),
@@ -1450,7 +1482,7 @@ test(a_timeout_ends_a_search,
                                  pi([(x, digit), (y, digit), (z, digit),
                                      (u, digit), (v, digit), (w, digit)],
                                     ?(x+y+z+u+v+w < 0)) ]),
-                P = [star(b), never] )),
+                P = [star(b), ?(done(never))] )),
        true(R == timeout) ]) :-
     get_time(T0),
     online([a, Search], [timeout(0.2), reason(R)], [a]),
@@ -1461,7 +1493,7 @@ test(a_timeout_ends_a_planner, R == timeout) :-
                   initially(n, 0), causes_val(inc, n, N, N is n+1) ],
                 M, golog(M:achieve(n < 0), [timeout(0.2), reason(R)])).
 test(a_search_that_gave_up_is_the_reason, true(Far == Wanted)) :-
-    online([a, search([star(b), never], [gives_up(steps(70))])], [reason(R)],
+    online([a, search([star(b), ?(done(never))], [gives_up(steps(70))])], [reason(R)],
            [a]),
     R = gave_up(steps(70), [steps(Steps), depth(Depth), inferences(I),
                             seconds(S)]),
@@ -1625,7 +1657,7 @@ test(one_that_comes_in_a_search_is_taken_in_at_once, true(Late < 0.05)) :-
     findall(Late,
             ( between(1, 5, _),
               ring_in_a_search([ interrupt(ringing, b),
-                                 interrupt(true, search([star(a), never])) ],
+                                 interrupt(true, search([star(a), ?(done(never))])) ],
                                H, Late),
               memberchk(b, H) ),
             Lates),
@@ -1634,14 +1666,14 @@ test(a_message_to_stop_ends_a_search, true(H-R == []-stopped)) :-
     thread_create(( thread_get_message(go),
                     golog_lab:golog_exog(end_indi) ), Id, []),
     nb_setval(golog_ringer, Id),
-    golog_lab:golog([?(user:go_once), search([star(a), never])],
+    golog_lab:golog([?(user:go_once), search([star(a), ?(done(never))])],
                     [history(H), reason(R), timeout(9)]),
     thread_join(Id, true).
 test(those_that_never_end_do_not_keep_a_search_from_its_end, H == [c]) :-
     % The plan takes longer than the pause between two.
     message_queue_create(End),
     thread_create(ringing_on(End), Id, []),
-    golog_lab:golog(search(ndet([star(ndet(b, b), 12), never], c)),
+    golog_lab:golog(search(ndet([star(ndet(b, b), 12), ?(done(never))], c)),
                     [history(H0), timeout(20)]),
     thread_send_message(End, end),
     thread_join(Id, true),
@@ -2452,7 +2484,7 @@ test(an_exogenous_action_of_the_robot_is_seen_in_a_search,
                                         [ interrupt(beeps < keys, beep),
                                           interrupt(beeps = 0,
                                                     search([star(halt),
-                                                            ?(false)])) ]),
+                                                            ?(done(drive(9)))])) ]),
                                    [history(H), timeout(9)]) )) ),
              [clock(realtime)]).
 test(the_journal_knows_step_and_action, Cause == golog(1, ahead, true)) :-

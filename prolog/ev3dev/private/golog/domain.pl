@@ -2,6 +2,7 @@
           [ initial_situation/1,        % -Situation
             situation_history/2,        % +Situation, -History
             situation_count/2,          % +Situation, -Count
+            situation_state/2,          % +Situation, -State
             situation/3,                % +History, -Situation, +Context
             history_shortened/3,        % +Length, +Situation0, -Situation
             done/4,                     % +Entry, +Situation0, -Situation,
@@ -39,7 +40,7 @@
               [ call_of/3, context_effort/2, context_mode/2, context_module/2,
                 dual/2, entered/4, in_mode/3, is_recorded/1, print_once/3
               ]).
-:- use_module(effort, [polled/1]).
+:- use_module(effort, [asks_history/1, polled/1]).
 :- use_module(programs,
               [ closed/1, condition_construct/1, fresh/4 ]).
 :- use_module(theory,
@@ -90,6 +91,20 @@ initial_situation(s([], 0, Empty, [], Empty)) :-
 situation_history(s(History, _, _, _, _), History).
 
 situation_count(s(_, Count, _, _, _), Count).
+
+%!  situation_state(+Situation, -State) is semidet.
+%
+%   Situations of the same State, a list of Fluent-Value, have the same
+%   future, but for conditions that ask what was done. Fails if there are
+%   effects that are still to be decided.
+
+situation_state(s(_, _, Values, [], _), State) :-
+    assoc_to_list(Values, Pairs),
+    untimed(Pairs, State).
+
+untimed([], []).
+untimed([F-v(_, V)|Pairs], [F-V|State]) :-
+    untimed(Pairs, State).
 
 %!  situation(+History, -Situation, +Context) is det.
 %
@@ -730,6 +745,8 @@ holds_construct(all(Vs, P0), S, X) :-
 holds_construct(all(V, D, P), S, X) :-
     holds_construct(all((V, D), P), S, X).
 holds_construct(done(A0), S, X) :-
+    context_effort(X, Effort),
+    asks_history(Effort),
     evaluated_arguments(A0, A, S, X),
     was_done(A, S).
 holds_construct(haveExecuted(A), S, X) :-

@@ -5,6 +5,8 @@
             polled/1,                   % +Effort
             in_trial/1,                 % +Effort
             effort_id/2,                % +Effort, -Id
+            asked_history/1,            % +Effort
+            asks_history/1,             % +Effort
             how_far/2                   % +Effort, -Far
           ]).
 
@@ -13,14 +15,15 @@
 An effort counts the steps of a search, and knows its limits:
 
     effort(Id, Steps, Deepest, Limits, Wall0, Inferences0, Trial, Watch,
-           Outer)
+           Outer, Asked)
 
 A limit is steps(N), inferences(N) or seconds(S), by the wall clock. At one of
 them '$golog_gave_up'(Id, Limit) is thrown. A search within another one counts
 for both. Watch is watch(Closure, Record, Next): of an online run, what else
 may end it. From the time Next on call(Closure, Record, Effort) is called;
 then again after 15 ms. Trial is true if the search tries actions in the
-simulator. An effort is changed in place, also when a search goes back.
+simulator, Asked if a condition has asked what was done before. An effort is
+changed in place, also when a search goes back.
 */
 
 :- meta_predicate watched_effort(2, +, -).
@@ -31,7 +34,8 @@ simulator. An effort is changed in place, also when a search goes back.
 %   words of its context.
 
 effort(Limits, Options, Outer, Effort) :-
-    Effort = effort(Id, 0, 0, Limits, Wall, Inferences, Trial, Watch, Outer),
+    Effort = effort(Id, 0, 0, Limits, Wall, Inferences, Trial, Watch, Outer,
+                    false),
     flag(ev3dev_golog_effort, Id, Id+1),
     get_time(Wall),
     statistics(inferences, Inferences),
@@ -54,7 +58,7 @@ watched_effort(Watch, Record, Effort) :-
     get_time(Wall),
     next_look(Wall, Next),
     Effort = effort(none, 0, 0, [], Wall, 0, false,
-                    watch(Watch, Record, Next), none).
+                    watch(Watch, Record, Next), none, false).
 
 next_look(Now, Next) :-
     Next is Now+0.015.
@@ -125,7 +129,8 @@ is_reached(seconds(Most), Effort) :-
     spent(Effort, _, Seconds),
     Seconds >= Most.
 
-spent(effort(_, _, _, _, Wall0, Inferences0, _, _, _), Inferences, Seconds) :-
+spent(effort(_, _, _, _, Wall0, Inferences0, _, _, _, _), Inferences,
+      Seconds) :-
     statistics(inferences, Inferences1),
     Inferences is Inferences1-Inferences0,
     get_time(Wall),
@@ -148,6 +153,22 @@ looked(Watch, Effort) :-
 
 in_trial(Effort) :-
     arg(7, Effort, true).
+
+%!  asks_history(+Effort) is det.
+%!  asked_history(+Effort) is semidet.
+%
+%   A condition asks what was done before, in this search or around it.
+
+asks_history(Effort) :-
+    (   Effort == none
+    ->  true
+    ;   nb_setarg(10, Effort, true),
+        arg(9, Effort, Outer),
+        asks_history(Outer)
+    ).
+
+asked_history(Effort) :-
+    arg(10, Effort, true).
 
 %!  effort_id(+Effort, -Id) is det.
 

@@ -14,6 +14,7 @@
                 situation_history/2
               ]).
 :- use_module(effort, [counted/2, effort_id/2, how_far/2, polled/1]).
+:- use_module(known_states, [state_key/4, states_forgotten/1, tried/5]).
 :- use_module(relaxed, [task/5, task_plan/4]).
 :- use_module(theory, [has_clauses/2, is_kind/3, is_sensing_action/2]).
 :- use_module(transitions, [in_atom/3, is_final/3, step/5]).
@@ -250,10 +251,13 @@ search_path(E, Options, S, Path, X) :-
     effort_id(Effort, Id),
     Budget = budget(Steps, Depth, Id, Effort),
     Found = found(no),
-    (   catch(deep(E, S, Path, 0, Budget, X), '$golog_deepen'(Id),
-              ( arg(1, Found, no),
-                deepened(8, E, S, Path, X) )),
+    (   call_cleanup(
+            catch(deep(E, S, Path, 0, Budget, X), '$golog_deepen'(Id),
+                  ( arg(1, Found, no),
+                    deepened(8, E, S, Path, X) )),
+            states_forgotten(Effort)),
         nb_setarg(1, Found, yes),
+        states_forgotten(Effort),
         told(Options, found)
     ;   arg(1, Found, no),
         told(Options, none),
@@ -283,7 +287,12 @@ deep(E, S, Path, Depth, Budget, X) :-
             ;   throw('$golog_committed')
             )
         ;   Path = [p(E1, Entry)|Path1],
-            deep(E1, S1, Path1, Depth1, Budget, X)
+            (   Entry \== none,
+                state_key(E1, S1, X, Key)
+            ->  tried(deep(E1, S1, Path1, Depth1, Budget, X),
+                      Key, inf, none, X)
+            ;   deep(E1, S1, Path1, Depth1, Budget, X)
+            )
         )
     ).
 
@@ -356,7 +365,13 @@ within(E, S, Path, Depth, Cut, X) :-
             ;   throw('$golog_committed')
             )
         ;   Path = [p(E1, Entry)|Path1],
-            within(E1, S1, Path1, Depth1, Cut, X)
+            (   Entry \== none,
+                state_key(E1, S1, X, Key)
+            ->  Left is Limit-Depth1,
+                tried(within(E1, S1, Path1, Depth1, Cut, X),
+                      Key, Left, Cut, X)
+            ;   within(E1, S1, Path1, Depth1, Cut, X)
+            )
         )
     ).
 
