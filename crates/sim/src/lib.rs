@@ -121,6 +121,7 @@ pub use ev3_os::linux::Errno;
 pub use files::attr::Access;
 #[cfg(feature = "fuse")]
 pub use fuse::{Mount, MountError};
+pub use machine::crowd::{Misplaced, robot_of};
 pub use machine::descriptor::Descriptor;
 pub use machine::dev::DevDescriptor;
 pub use machine::film::Sample;

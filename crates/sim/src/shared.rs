@@ -1,12 +1,12 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
 
 use ev3_os::Instant;
-use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::time::Duration;
 
 use crate::clock::pace::Pace;
 use crate::lock::locked;
-use crate::machine::Machine;
+use crate::machine::{Machine, crowd};
 
 /// A machine behind a lock. The thread with the clock calls [`Shared::step`], or steps under the
 /// lock and calls [`Shared::wake`]. A thread that waits for a change calls [`Shared::wait`] and
@@ -18,6 +18,43 @@ pub struct Shared {
     /// Locked after the machine.
     wall: OnceLock<Mutex<Wall>>,
     pace: Pace,
+    /// Those in whose world it is, and its place among them.
+    crowd: OnceLock<(Weak<Crowd>, usize)>,
+}
+
+/// Machines in one world, whose time passes together. Their locks are taken in their order.
+#[derive(Debug)]
+pub(crate) struct Crowd {
+    members: Vec<Arc<Shared>>,
+}
+
+impl Crowd {
+    /// Machines that [`crowd::join`] has put together.
+    pub(crate) fn new(machines: Vec<Machine>) -> Arc<Crowd> {
+        let members = machines.into_iter().map(Shared::new).map(Arc::new).collect();
+        let crowd = Arc::new(Crowd { members });
+        for (index, member) in crowd.members.iter().enumerate() {
+            member.crowd.get_or_init(|| (Arc::downgrade(&crowd), index));
+        }
+        crowd
+    }
+
+    pub(crate) fn members(&self) -> &[Arc<Shared>] {
+        &self.members
+    }
+
+    fn with_all<T>(&self, act: impl FnOnce(&mut [&mut Machine]) -> T) -> T {
+        let mut guards: Vec<_> = self.members.iter().map(|member| member.lock_as_it_is()).collect();
+        let mut machines: Vec<_> = guards.iter_mut().map(|guard| &mut **guard).collect();
+        act(&mut machines)
+    }
+
+    fn step(&self, dt: Duration) {
+        self.with_all(|machines| crowd::step(machines, dt));
+        for member in &self.members {
+            member.changed.notify_all();
+        }
+    }
 }
 
 /// How the machine follows the wall clock.
@@ -40,6 +77,54 @@ impl Shared {
             changed: Condvar::new(),
             wall: OnceLock::new(),
             pace: Pace::default(),
+            crowd: OnceLock::new(),
+        }
+    }
+
+    fn crowd(&self) -> Option<(Arc<Crowd>, usize)> {
+        let (crowd, index) = self.crowd.get()?;
+        Some((crowd.upgrade()?, *index))
+    }
+
+    /// The one whose clock and pace are those of all in this world.
+    fn first<T>(&self, ask: impl FnOnce(&Shared) -> T) -> T {
+        match self.crowd() {
+            Some((crowd, 1..)) => ask(&crowd.members[0]),
+            _ => ask(self),
+        }
+    }
+
+    /// Lets time pass for a machine that is locked, and those in its world. Their locks are open
+    /// meanwhile.
+    pub(crate) fn pass<'a>(
+        &'a self,
+        mut machine: MutexGuard<'a, Machine>,
+        dt: Duration,
+    ) -> MutexGuard<'a, Machine> {
+        match self.crowd() {
+            None => {
+                machine.step(dt);
+                machine
+            }
+            Some(_) if dt.is_zero() => machine,
+            Some((crowd, _)) => {
+                drop(machine);
+                crowd.step(dt);
+                self.lock_as_it_is()
+            }
+        }
+    }
+
+    /// Changes the world, or a place in it, for all that are there.
+    pub fn change_world<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
+        drop(self.lock());
+        match self.crowd() {
+            None => act(&mut self.lock_as_it_is()),
+            Some((crowd, index)) => crowd.with_all(|machines| {
+                let answer = act(machines[index]);
+                crowd::share_world(machines, index);
+                answer
+            }),
         }
     }
 
@@ -50,11 +135,12 @@ impl Shared {
     /// last step: so a program that waits 10 ms between two accesses waits 10 ms of the machine's
     /// time, also on a busy computer.
     pub fn lock(&self) -> MutexGuard<'_, Machine> {
-        let mut machine = self.lock_as_it_is();
-        if self.wall.get().is_some() {
-            machine.step(self.behind());
+        let machine = self.lock_as_it_is();
+        if !self.first(|first| first.wall.get().is_some()) {
+            return machine;
         }
-        machine
+        let behind = self.behind();
+        self.pass(machine, behind)
     }
 
     /// The same, whatever the time.
@@ -71,24 +157,26 @@ impl Shared {
     /// How far the machine is behind the wall clock, in its own time. The caller makes up for it. A
     /// machine that cannot keep up falls behind, but not without limit.
     pub(crate) fn behind(&self) -> Duration {
-        let Some(wall) = self.wall.get() else {
-            return Duration::ZERO;
-        };
-        let Wall { factor, last } = &mut *locked(wall);
-        let now = Instant::now();
-        let passed = now - *last;
-        *last = now;
-        self.pace.of_wall(passed.min(LATE), *factor)
+        self.first(|first| {
+            let Some(wall) = first.wall.get() else {
+                return Duration::ZERO;
+            };
+            let Wall { factor, last } = &mut *locked(wall);
+            let now = Instant::now();
+            let passed = now - *last;
+            *last = now;
+            first.pace.of_wall(passed.min(LATE), *factor)
+        })
     }
 
     /// How fast time may pass.
-    pub(crate) fn pace(&self) -> &Pace {
-        &self.pace
+    pub(crate) fn with_pace<T>(&self, ask: impl FnOnce(&Pace) -> T) -> T {
+        self.first(|first| ask(&first.pace))
     }
 
     /// Lets virtual time pass and wakes all waiting threads.
     pub fn step(&self, dt: Duration) {
-        self.lock().step(dt);
+        drop(self.pass(self.lock(), dt));
         self.wake();
     }
 

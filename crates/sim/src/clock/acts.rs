@@ -62,8 +62,7 @@ impl PeriodicActs {
         let end = machine.now().saturating_add(time);
         while let Some(Due { at, mut act, .. }) = self.due(machine.now(), end) {
             let left = at.saturating_sub(machine.now());
-            machine.step(left);
-            drop(machine);
+            drop(shared.pass(machine, left));
             let next = act();
             self.ends();
             machine = shared.lock();
@@ -75,8 +74,7 @@ impl PeriodicActs {
             }
         }
         let left = end.saturating_sub(machine.now());
-        machine.step(left);
-        machine
+        shared.pass(machine, left)
     }
 
     /// Takes the first act that is due by `end`, for this thread to run. There is one

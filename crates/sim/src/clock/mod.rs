@@ -23,15 +23,17 @@ mod wall;
 use ev3_os::Instant;
 use std::cell::Cell;
 use std::io;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, MutexGuard};
 use std::time::Duration;
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
-use self::pace::Leave;
+use self::pace::{Leave, Pace};
 use self::wall::{STEP, Stepper};
 use crate::machine::Machine;
-use crate::shared::Shared;
+use crate::machine::crowd::{self, Misplaced};
+use crate::shared::{Crowd, Shared};
 
 pub use self::acts::Act;
 
@@ -83,12 +85,36 @@ pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
     clock: Passing,
+    /// The other robots in its world, whose time passes with its own.
+    crowd: Option<Arc<Crowd>>,
+    /// Up to when the processor of this brick is busy, in nanoseconds: of one in a crowd, on the
+    /// virtual clock.
+    busy: AtomicU64,
 }
 
-#[derive(Debug)]
+/// How the time of a simulation, or of a crowd, passes.
+#[derive(Clone, Debug)]
 enum Passing {
-    Wall { _stepper: Stepper, factor: f64 },
-    Virtual { baton: Baton, has_others: fn() -> bool },
+    Wall { _stepper: Arc<Stepper>, factor: f64 },
+    Virtual { baton: Arc<Baton>, has_others: fn() -> bool },
+}
+
+fn started(
+    shared: &Arc<Shared>,
+    crowd: Option<&Arc<Crowd>>,
+    clock: Clock,
+    has_others: fn() -> bool,
+) -> io::Result<(Arc<PeriodicActs>, Passing)> {
+    let acts = Arc::new(PeriodicActs::default());
+    let passing = match clock {
+        Clock::Wall(factor) => {
+            let stepper =
+                Stepper::start(Arc::clone(shared), crowd.cloned(), Arc::clone(&acts), factor)?;
+            Passing::Wall { _stepper: Arc::new(stepper), factor }
+        }
+        Clock::Virtual => Passing::Virtual { baton: Arc::new(Baton::new()), has_others },
+    };
+    Ok((acts, passing))
 }
 
 impl Simulation {
@@ -99,16 +125,63 @@ impl Simulation {
     /// If the wall clock's thread cannot be started.
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
-        let acts = Arc::new(PeriodicActs::default());
-        let clock = match clock {
-            Clock::Wall(factor) => {
-                let (shared, acts) = (Arc::clone(&shared), Arc::clone(&acts));
-                let stepper = Stepper::start(shared, acts, factor)?;
-                Passing::Wall { _stepper: stepper, factor }
-            }
-            Clock::Virtual => Passing::Virtual { baton: Baton::new(), has_others },
+        let (acts, clock) = started(&shared, None, clock, has_others)?;
+        Ok(Self { shared, acts, clock, crowd: None, busy: AtomicU64::new(0) })
+    }
+
+    /// The same for several robots, which come into the world of the first one. They have one time.
+    /// Each has a processor of its own: an access to a file takes the time of its own program only.
+    ///
+    /// # Errors
+    /// The outer one if the wall clock's thread cannot be started; the inner one names the robot,
+    /// by its index, that stands where another one does, or something else.
+    pub fn crowd(
+        mut machines: Vec<Machine>,
+        clock: Clock,
+        has_others: fn() -> bool,
+    ) -> io::Result<Result<Vec<Self>, Misplaced>> {
+        if let Err(fault) = crowd::join(&mut machines) {
+            return Ok(Err(fault));
+        }
+        let crowd = Crowd::new(machines);
+        let Some(first) = crowd.members().first() else {
+            return Ok(Ok(Vec::new()));
         };
-        Ok(Self { shared, acts, clock })
+        let (acts, clock) = started(first, Some(&crowd), clock, has_others)?;
+        let simulation = |shared: &Arc<Shared>| Self {
+            shared: Arc::clone(shared),
+            acts: Arc::clone(&acts),
+            clock: clock.clone(),
+            crowd: Some(Arc::clone(&crowd)),
+            busy: AtomicU64::new(0),
+        };
+        Ok(Ok(crowd.members().iter().map(simulation).collect()))
+    }
+
+    /// How many robots are in its world.
+    #[must_use]
+    pub fn robots(&self) -> usize {
+        self.crowd.as_ref().map_or(1, |crowd| crowd.members().len())
+    }
+
+    /// Changes the world, or a place in it, for all robots in it.
+    pub fn change_world<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
+        self.shared.change_world(act)
+    }
+
+    /// Up to when the processor of this brick is busy.
+    fn busy(&self) -> Duration {
+        Duration::from_nanos(self.busy.load(Ordering::SeqCst))
+    }
+
+    fn is_busy(&self) -> bool {
+        self.crowd.is_some() && self.busy() > self.machine().now()
+    }
+
+    /// It is busy for this much longer.
+    fn work(&self, takes: Duration) {
+        let end = self.busy().max(self.machine().now()) + takes;
+        self.busy.store(u64::try_from(end.as_nanos()).unwrap_or(u64::MAX), Ordering::SeqCst);
     }
 
     /// The machine behind its lock, as a mount needs it.
@@ -138,6 +211,9 @@ impl Simulation {
         if self.acts.is_acting() || IS_OUTSIDE.get() {
             return true;
         }
+        if self.is_busy() && !self.pause(self.busy()) {
+            return false;
+        }
         let mut takes = Duration::ZERO;
         if !baton.is_freely_mine() || has_others() {
             let wish = Wish::Turn(self.machine().now());
@@ -159,15 +235,15 @@ impl Simulation {
     /// Holds this thread back, which has its turn, if time is to pass more slowly; `false` if it
     /// has to handle signals, and to call again.
     fn may_go_on(&self) -> bool {
-        if !self.shared.pace().is_limited() {
+        if !self.shared.with_pace(Pace::is_limited) {
             return true;
         }
         let now = self.machine().now();
-        match self.shared.pace().leave(now) {
+        match self.shared.with_pace(|pace| pace.leave(now)) {
             Leave::Go(_) => true,
             Leave::Wait(sleep) => {
                 ev3_os::sleep(sleep);
-                matches!(self.shared.pace().leave(now), Leave::Go(_))
+                matches!(self.shared.with_pace(|pace| pace.leave(now)), Leave::Go(_))
             }
         }
     }
@@ -175,30 +251,30 @@ impl Simulation {
     /// The fastest that simulated time may pass, in seconds in a second of the wall clock. By the
     /// wall clock it multiplies the factor of the clock. `None` is no limit.
     pub fn set_pace(&self, factor: Option<f64>) {
-        self.shared.pace().set_factor(factor);
+        self.shared.with_pace(|pace| pace.set_factor(factor));
     }
 
     /// The limit of [`Simulation::set_pace`].
     #[must_use]
     pub fn pace(&self) -> Option<f64> {
-        self.shared.pace().factor()
+        self.shared.with_pace(Pace::factor)
     }
 
     /// Lets time stand, with any clock, or pass again. A program that waits, waits on.
     pub fn set_paused(&self, is_paused: bool) {
-        self.shared.pace().set_paused(is_paused);
+        self.shared.with_pace(|pace| pace.set_paused(is_paused));
     }
 
     /// Whether time stands.
     #[must_use]
     pub fn is_paused(&self) -> bool {
-        self.shared.pace().is_paused()
+        self.shared.with_pace(Pace::is_paused)
     }
 
     /// Lets this time pass while paused, as far as the program uses it.
     pub fn allow(&self, time: Duration) {
         let now = self.machine().now();
-        self.shared.pace().allow(now, time);
+        self.shared.with_pace(|pace| pace.allow(now, time));
     }
 
     /// How time passes.
@@ -234,9 +310,11 @@ impl Simulation {
             let wish = Wish::Turn(self.machine().now());
             baton.stand(wish, &mut String::new, SLICE);
         }
-        let mut machine = self.shared.lock();
-        machine.step(takes);
-        machine
+        if self.crowd.is_some() {
+            self.work(takes);
+            return self.shared.lock();
+        }
+        self.shared.pass(self.shared.lock(), takes)
     }
 
     /// Runs an act at a fixed period from now on. A thread that lets time pass runs
@@ -281,6 +359,7 @@ impl Simulation {
             ev3_os::sleep(SLICE);
             return true;
         }
+        let end = end.max(self.busy());
         match &self.clock {
             Passing::Wall { .. } => self.pause_by_wall(end, is_done),
             Passing::Virtual { baton, has_others } => {
@@ -303,7 +382,8 @@ impl Simulation {
     fn pass_until(&self, end: Duration) -> bool {
         let machine = self.shared.lock();
         let left = end.saturating_sub(machine.now());
-        let most = match self.shared.pace().leave(machine.now()) {
+        let now = machine.now();
+        let most = match self.shared.with_pace(|pace| pace.leave(now)) {
             Leave::Go(most) => most,
             Leave::Wait(sleep) => {
                 drop(machine);

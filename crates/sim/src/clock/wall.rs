@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::acts::PeriodicActs;
-use crate::shared::Shared;
+use crate::shared::{Crowd, Shared};
 
 /// How often the machine is stepped.
 pub(super) const STEP: Duration = Duration::from_millis(2);
@@ -22,6 +22,7 @@ pub(super) struct Stepper {
 impl Stepper {
     pub(super) fn start(
         shared: Arc<Shared>,
+        crowd: Option<Arc<Crowd>>,
         acts: Arc<PeriodicActs>,
         factor: f64,
     ) -> io::Result<Self> {
@@ -29,6 +30,8 @@ impl Stepper {
         let stop = Arc::new(AtomicBool::new(false));
         let is_over = Arc::clone(&stop);
         let thread = std::thread::Builder::new().name("ev3-sim".to_owned()).spawn(move || {
+            // Its robots are there as long as this.
+            let _crowd = crowd;
             while !is_over.load(Ordering::Relaxed) {
                 std::thread::sleep(STEP);
                 let machine = shared.lock_as_it_is();

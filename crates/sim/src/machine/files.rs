@@ -273,6 +273,7 @@ impl Machine {
         let sample = self.tick / JIFFY_TICKS;
         View {
             scene: &self.scene,
+            others: self.others(),
             pose: self.body.pose.compose(&pose),
             angle: sensor.angle,
             rate: sensor.rate,

@@ -1,8 +1,9 @@
 //! The whole: brick, robot and world, and their state.
 //!
 //! `files` has the accesses of a program, `plugs` connects and disconnects devices, `time` lets
-//! time pass, `shown` says how everything is.
+//! time pass, `shown` says how everything is, `crowd` puts several into one world.
 
+pub(crate) mod crowd;
 pub(crate) mod descriptor;
 pub(crate) mod dev;
 mod facts;
@@ -36,7 +37,8 @@ use crate::robot::{RobotSpec, Wheels};
 use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
-use crate::world::scene::Scene;
+use crate::world::obstacle::Obstacle;
+use crate::world::scene::{Others, Scene};
 use crate::world::{Item, ItemId, Part, SpecError, WorldSpec};
 use ev3_os::linux::Errno;
 
@@ -83,6 +85,9 @@ pub struct Machine {
     robot: Arc<RobotSpec>,
     body: Body,
     scene: Arc<Scene>,
+    /// The robots of this world as obstacles, if there are several, and which of them is this one.
+    robots: Arc<Vec<Obstacle>>,
+    number: usize,
     panel: Panel,
     /// Which touch sensors a hand holds down, by port.
     held: [bool; Port::ALL.len()],
@@ -139,6 +144,8 @@ impl Machine {
             robot: Arc::new(robot.clone()),
             body: Body::new(robot, world.start),
             scene: Arc::new(scene),
+            robots: Arc::default(),
+            number: 0,
             panel: Panel::new(options.depth),
             held: Default::default(),
             trace: Trace::new(),
@@ -201,8 +208,19 @@ impl Machine {
         }
     }
 
+    /// The other robots.
+    fn others(&self) -> Others<'_> {
+        match self.robots.split_at_checked(self.number) {
+            Some((before, [_, after @ ..])) => Others { before, after },
+            _ => Others::default(),
+        }
+    }
+
     fn check_free(&self, pose: &Pose) -> Result<(), SpecError> {
         let robot = |is: String| SpecError::new(format!("robot at {}, {}", pose.x, pose.y), is);
+        if self.others().iter().any(|other| other.overlaps(self.robot.hull, pose)) {
+            return Err(robot("is inside another robot".to_owned()).in_part(Part::Start));
+        }
         if let Some(id) = self.scene.overlap(self.robot.hull, pose) {
             let items = self.scene.items();
             let index = items.iter().position(|(other, _)| *other == id);
@@ -233,13 +251,19 @@ impl Machine {
         let name = item.to_string();
         let scene = Arc::make_mut(&mut self.scene);
         let id = scene.add(item)?;
-        if scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
-            scene.remove(id);
+        if self.is_at_robot(id) {
+            Arc::make_mut(&mut self.scene).remove(id);
             return Err(SpecError::new(name, "is where the robot stands"));
         }
         self.body.world_changed();
         self.hand_is_done();
         Ok(id)
+    }
+
+    /// Whether an item is where a robot stands.
+    fn is_at_robot(&self, id: ItemId) -> bool {
+        self.scene.overlap(self.robot.hull, &self.body.pose) == Some(id)
+            || self.scene.is_at(id, self.others())
     }
 
     /// Takes something out of the world; false if there is no such item.
@@ -268,9 +292,9 @@ impl Machine {
         let name = moved.to_string();
         let scene = Arc::make_mut(&mut self.scene);
         let before = scene.replace(id, moved)?;
-        if scene.overlap(self.robot.hull, &self.body.pose) == Some(id) {
+        if self.is_at_robot(id) {
             if let Some(before) = before {
-                scene.replace(id, before)?;
+                Arc::make_mut(&mut self.scene).replace(id, before)?;
             }
             return Err(SpecError::new(name, "is where the robot stands"));
         }

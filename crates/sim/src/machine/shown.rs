@@ -94,7 +94,9 @@ impl Machine {
     /// Whether the robot or one of its motors moves.
     #[must_use]
     pub fn is_moving(&self) -> bool {
-        self.body.slip != 0.0 || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
+        self.body.slip != 0.0
+            || self.body.spins.into_iter().flatten().any(|speed| speed != 0.0)
+            || self.shafts.iter().any(|shaft| shaft.omega != 0.0)
     }
 
     /// The walls around the world.

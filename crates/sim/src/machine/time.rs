@@ -8,9 +8,11 @@ use crate::machine::Machine;
 use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::mechanics::Load;
+use crate::mechanics::pair::Rider;
 use crate::noise::{Noise, Source};
 use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
+use crate::world::ItemId;
 
 const OUTPUTS: [Port; 4] = [Port::OutA, Port::OutB, Port::OutC, Port::OutD];
 /// A clock that jumps is not asked to jump farther than this.
@@ -25,10 +27,8 @@ impl Machine {
 
     /// Lets exactly this much time pass.
     pub fn step(&mut self, dt: Duration) {
-        self.now += dt;
-        let micros = u64::from(self.now.subsec_micros());
-        let now_us = self.now.as_secs().saturating_mul(1_000_000).saturating_add(micros);
-        while (self.tick + 1) * TICK_US <= now_us {
+        self.pass(dt);
+        while self.is_behind() {
             self.advance();
         }
     }
@@ -63,9 +63,33 @@ impl Machine {
 
     /// One tick.
     fn advance(&mut self) {
-        let start_us = self.tick * TICK_US;
+        let start_us = self.begin_tick();
+        if self.is_at_rest() {
+            self.rest(start_us);
+        } else {
+            self.turn_shafts(start_us);
+        }
+        self.end_tick();
+    }
+
+    /// Whether another tick is over by now.
+    pub(crate) fn is_behind(&self) -> bool {
+        let micros = u64::from(self.now.subsec_micros());
+        let now_us = self.now.as_secs().saturating_mul(1_000_000).saturating_add(micros);
+        (self.tick + 1) * TICK_US <= now_us
+    }
+
+    /// Lets time pass, and does not step yet.
+    pub(crate) fn pass(&mut self, dt: Duration) {
+        self.now += dt;
+    }
+
+    pub(crate) fn begin_tick(&mut self) -> u64 {
         self.tick += 1;
-        self.turn_shafts(start_us);
+        (self.tick - 1) * TICK_US
+    }
+
+    pub(crate) fn end_tick(&mut self) {
         self.run_drivers();
         for port in Port::ALL {
             self.look_at_plug(port, self.tick);
@@ -128,23 +152,43 @@ impl Machine {
         (loads, amperes)
     }
 
-    fn turn_shafts(&mut self, start_us: u64) {
+    /// Whether nothing moves, and no motor is driven.
+    pub(crate) fn is_at_rest(&self) -> bool {
         let undriven =
             |port| matches!(self.bridge(port), Bridge::Float | Bridge::Short | Bridge::Driven(0));
-        if !self.is_moving() && OUTPUTS.into_iter().all(undriven) {
-            self.set_current(0.0);
-            self.body.turn_rate = 0.0;
-            for shaft in &mut self.shafts {
-                shaft.rest(start_us);
-            }
-            return;
+        !self.is_moving() && OUTPUTS.into_iter().all(undriven)
+    }
+
+    pub(crate) fn rest(&mut self, start_us: u64) {
+        self.set_current(0.0);
+        self.body.turn_rate = 0.0;
+        for shaft in &mut self.shafts {
+            shaft.rest(start_us);
         }
-        let (loads, amperes) = self.loads();
-        self.set_current(amperes);
-        let wheels = self.robot.wheels.map(|wheels| wheels.ports());
-        if let Some(wheels) = wheels {
+    }
+
+    pub(crate) fn turn_shafts(&mut self, start_us: u64) {
+        let loads = self.loaded();
+        if let Some(wheels) = self.wheels() {
             self.turn_wheels(&loads, wheels);
         }
+        self.turn_others(&loads, start_us);
+    }
+
+    fn wheels(&self) -> Option<[Port; 2]> {
+        self.robot.wheels.map(|wheels| wheels.ports())
+    }
+
+    /// The loads on the four shafts, whose motors draw their current.
+    pub(crate) fn loaded(&mut self) -> [Load; 4] {
+        let (loads, amperes) = self.loads();
+        self.set_current(amperes);
+        loads
+    }
+
+    /// The shafts that drive no wheel, and what all have turned.
+    pub(crate) fn turn_others(&mut self, loads: &[Load; 4], start_us: u64) {
+        let wheels = self.wheels();
         for port in OUTPUTS {
             let wired = self.wired(port);
             let shaft = &mut self.shafts[port.slot()];
@@ -162,8 +206,23 @@ impl Machine {
         let wheel_loads = [loads[left], loads[right]];
         let hit = |item| hits.push(item);
         self.body.advance(&mut omega, &wheel_loads, &self.robot, &self.scene, hit);
-        self.shafts[left].omega = omega[0];
-        self.shafts[right].omega = omega[1];
+        self.wheels_turned(omega, hits);
+    }
+
+    /// The robot as one near another one.
+    pub(crate) fn rider(&mut self, id: ItemId, loads: &[Load; 4]) -> Rider<'_> {
+        let slots = self.wheels().map(|wheels| wheels.map(Port::slot));
+        let omega = slots.map_or([0.0; 2], |slots| slots.map(|slot| self.shafts[slot].omega));
+        let loads = slots.map_or([Load::default(); 2], |slots| slots.map(|slot| loads[slot]));
+        let Machine { body, robot, scene, .. } = self;
+        Rider { id, body, omega, loads, robot, scene, hits: Vec::new() }
+    }
+
+    /// The new speeds of the wheels' shafts, and what the robot has run into.
+    pub(crate) fn wheels_turned(&mut self, omega: [f64; 2], hits: Vec<ItemId>) {
+        for (port, omega) in self.wheels().into_iter().flatten().zip(omega) {
+            self.shafts[port.slot()].omega = omega;
+        }
         for item in hits {
             self.hit(item);
         }

@@ -8,9 +8,13 @@
 //! one that runs into it at an angle slides along, and a motor too weak for its friction does not
 //! creep.
 //!
-//! Along their way the wheels hold without limit. Those of a light robot on a smooth table would
-//! spin before the motors stall; here a wall stalls them, as it stalls those of a heavy robot.
+//! Along their way the wheels of a robot that is alone hold without limit. Those of a light robot
+//! on a smooth table would spin before the motors stall; here a wall stalls them, as it stalls
+//! those of a heavy robot. Between robots it is their grip that decides who pushes whom: see
+//! `pair`. There the body has speeds of its own, ahead and turning, and the tires tie them to the
+//! shafts as far as they hold.
 
+pub(crate) mod pair;
 pub(crate) mod shaft;
 
 use crate::ItemId;
@@ -32,6 +36,8 @@ const REST: f64 = 1e-7;
 const NO_SLIP: f64 = 1e-6;
 /// The most rounds of the solver. Without contacts it needs two.
 const ROUNDS: usize = 64;
+/// It ends when no speed changes by more in a round.
+const SOLVED: f64 = 1e-9;
 /// Near obstacles no point of the hull moves further than this at once, in cm: a fifth of
 /// [`MARGIN`], so no wall is jumped over, and on an arc of this length the direction of a contact
 /// is still true.
@@ -76,20 +82,22 @@ impl Load {
     }
 }
 
-/// Speeds: of the left and the right shaft in rad/s, and sideways to the right in cm/s. As a
-/// `gain`, how much each of them adds to a speed that is limited.
-type Speeds = [f64; 3];
+/// Speeds: of the left and the right shaft in rad/s; sideways to the right and ahead in cm/s, and
+/// clockwise in rad/s. As a `gain`, how much each of them adds to a speed that is limited. Where
+/// the wheels roll, the last two follow from the first, and have no gain.
+type Speeds = [f64; 5];
 
 /// How speeds answer an impulse. Only the two shafts act on each other.
 struct Answer {
     shafts: [[f64; 2]; 2],
-    sideways: f64,
+    body: [f64; 3],
 }
 
 impl Answer {
     fn of(&self, gain: Speeds) -> Speeds {
         let [left, right] = apply(&self.shafts, [gain[0], gain[1]]);
-        [left, right, self.sideways * gain[2]]
+        let [aside, ahead, turn] = self.body;
+        [left, right, aside * gain[2], ahead * gain[3], turn * gain[4]]
     }
 }
 
@@ -99,30 +107,42 @@ struct Limit {
     target: f64,
     low: f64,
     high: f64,
+    /// Of a friction, the most that it ever gives.
+    whole: f64,
     impulse: f64,
 }
 
 impl Limit {
     /// The impulse that brings a speed to rest, at most this one.
     fn friction(gain: Speeds, most: f64) -> Limit {
-        Limit { gain, target: 0.0, low: -most, high: most, impulse: 0.0 }
+        Limit { gain, target: 0.0, low: -most, high: most, whole: most, impulse: 0.0 }
+    }
+
+    /// An obstacle at this distance, in cm, which only pushes.
+    fn push(gain: Speeds, gap: f64, seconds: f64) -> Limit {
+        let target = (SKIN - gap).min(0.0) / seconds;
+        Limit { gain, target, low: 0.0, high: f64::INFINITY, whole: f64::INFINITY, impulse: 0.0 }
     }
 
     /// Gives the impulse that is missing, and answers by how much that changes the speed.
     fn apply(&mut self, speeds: &mut Speeds, answer: &Answer) -> f64 {
         let answer = answer.of(self.gain);
         let softness = dot(self.gain, answer);
+        let step = self.step(dot(self.gain, *speeds), softness);
+        add(speeds, answer, step);
+        (step * softness).abs()
+    }
+
+    /// The impulse that is missing where the limited speed is this one.
+    fn step(&mut self, speed: f64, softness: f64) -> f64 {
         if softness < 1e-12 {
             return 0.0;
         }
-        let wanted = self.impulse + (self.target - dot(self.gain, *speeds)) / softness;
+        let wanted = self.impulse + (self.target - speed) / softness;
         let impulse = wanted.clamp(self.low, self.high);
         let step = impulse - self.impulse;
         self.impulse = impulse;
-        for (speed, answer) in speeds.iter_mut().zip(answer) {
-            *speed += answer * step;
-        }
-        (step * softness).abs()
+        step
     }
 }
 
@@ -132,32 +152,62 @@ struct Touch {
     rub: Limit,
 }
 
+/// A part of a tick: the speeds so far, how they answer, and what limits them.
+struct Step {
+    speeds: Speeds,
+    answer: Answer,
+    limits: Limits,
+}
+
 /// All limits of a step.
 struct Limits {
     shafts: [Limit; 2],
     /// The tires against slipping sideways; `None` if nothing makes them slip.
     tires: Option<Limit>,
+    /// The tires along their way, left and right, if they do not hold without limit.
+    grips: Option<[Limit; 2]>,
     touches: Vec<Touch>,
 }
 
 impl Limits {
-    /// Finds the impulses by turns (projected Gauss–Seidel). Obstacles come last and win.
+    /// Finds the impulses by turns (projected Gauss–Seidel).
     fn solve(&mut self, speeds: &mut Speeds, answer: &Answer) {
         for _ in 0..ROUNDS {
-            let mut change: f64 = 0.0;
-            for limit in self.shafts.iter_mut().chain(&mut self.tires) {
-                change = change.max(limit.apply(speeds, answer));
-            }
-            for Touch { push, rub } in &mut self.touches {
-                rub.high = WALL_FRICTION * push.impulse;
-                rub.low = -rub.high;
-                change = change.max(rub.apply(speeds, answer));
-                change = change.max(push.apply(speeds, answer));
-            }
-            if change < 1e-9 {
+            if self.round(speeds, answer) < SOLVED {
                 break;
             }
         }
+    }
+
+    /// Each limit once, obstacles last: they win. Answers the largest change of a speed.
+    fn round(&mut self, speeds: &mut Speeds, answer: &Answer) -> f64 {
+        let mut change: f64 = 0.0;
+        for limit in self.shafts.iter_mut().chain(&mut self.tires) {
+            change = change.max(limit.apply(speeds, answer));
+        }
+        if let Some(grips) = &mut self.grips {
+            // What the tires hold aside they do not hold along.
+            let aside = self.tires.as_ref().map_or(0.0, |tires| tires.impulse);
+            for grip in grips {
+                let whole = grip.whole;
+                grip.high = libm::sqrt((whole * whole - aside * aside / 4.0).max(0.0));
+                grip.low = -grip.high;
+                change = change.max(grip.apply(speeds, answer));
+            }
+        }
+        for touch in &mut self.touches {
+            change = change.max(touch.round(|limit| limit.apply(speeds, answer)));
+        }
+        change
+    }
+}
+
+impl Touch {
+    fn round(&mut self, mut apply: impl FnMut(&mut Limit) -> f64) -> f64 {
+        self.rub.high = WALL_FRICTION * self.push.impulse;
+        self.rub.low = -self.rub.high;
+        let change = apply(&mut self.rub);
+        change.max(apply(&mut self.push))
     }
 }
 
@@ -175,10 +225,15 @@ pub(crate) struct Body {
     pub(crate) turn_rate: f64,
     /// How fast it slips to the right, pushed by an obstacle, in cm/s.
     pub(crate) slip: f64,
+    /// Its speeds ahead (cm/s) and clockwise (rad/s), where its wheels may spin: at another robot,
+    /// and until they roll again.
+    pub(crate) spins: Option<[f64; 2]>,
     /// How far the hull may still move before contacts have to be looked for again, in cm.
     free_way: f64,
     contacts: Vec<Contact>,
     touching: Vec<ItemId>,
+    /// The robots that it pushes, or is pushed by.
+    bumps: Vec<ItemId>,
 }
 
 fn roll(wheel: Wheel) -> f64 {
@@ -198,9 +253,11 @@ impl Body {
             moment: robot.mass * reach_m * reach_m / 2.0,
             turn_rate: 0.0,
             slip: 0.0,
+            spins: None,
             free_way: 0.0,
             contacts: Vec::new(),
             touching: Vec::new(),
+            bumps: Vec::new(),
         }
     }
 
@@ -209,6 +266,7 @@ impl Body {
         self.pose = pose;
         self.turn_rate = 0.0;
         self.slip = 0.0;
+        self.spins = None;
         self.world_changed();
         self.touching.clear();
     }
@@ -253,7 +311,7 @@ impl Body {
         scene: &Scene,
         mut hit: impl FnMut(ItemId),
     ) {
-        let way = self.way_bound([omega[0], omega[1], self.slip], robot, TICK_SECONDS);
+        let way = self.way_in_a_tick(*omega, robot);
         let is_near = way > STRIDE && self.free_way < 2.0 * way;
         let parts = if is_near { (way / STRIDE).ceil() } else { 1.0 };
         let mut part = 0.0;
@@ -272,6 +330,41 @@ impl Body {
         scene: &Scene,
         hit: &mut impl FnMut(ItemId),
     ) {
+        let mut step = self.begin(seconds, *omega, loads, robot, scene);
+        step.limits.solve(&mut step.speeds, &step.answer);
+        *omega = self.finish(step, seconds, loads, robot, scene, hit);
+    }
+
+    /// The speeds that the motors alone would give, and what limits them.
+    fn begin(
+        &mut self,
+        seconds: f64,
+        omega: [f64; 2],
+        loads: &[Load; 2],
+        robot: &RobotSpec,
+        scene: &Scene,
+    ) -> Step {
+        let (mut speeds, answer) = match self.spins {
+            None => self.rolling(seconds, omega, loads),
+            Some(spins) => self.spinning(seconds, omega, spins, loads),
+        };
+        if self.spins.is_none() {
+            let (ahead, turn) = self.twist([speeds[0], speeds[1]]);
+            (speeds[3], speeds[4]) = (ahead, turn);
+        }
+        let way = way_bound(speeds, robot, seconds).max(0.01);
+        if self.free_way <= way {
+            let frame = self.pose.frame();
+            let free = scene.contacts(robot.hull, &frame, MARGIN, &mut self.contacts);
+            self.free_way = free - MARGIN;
+        } else {
+            self.contacts.clear();
+        }
+        let limits = self.limits(loads, seconds);
+        Step { speeds, answer, limits }
+    }
+
+    fn rolling(&self, seconds: f64, omega: [f64; 2], loads: &[Load; 2]) -> (Speeds, Answer) {
         let mut m = self.inertia(loads);
         let momentum =
             |i: usize| m[i][0] * omega[0] + m[i][1] * omega[1] + loads[i].torque * seconds;
@@ -284,21 +377,47 @@ impl Body {
             [-m[1][0] / determinant, m[0][0] / determinant],
         ];
         let [left, right] = apply(&shafts, push);
-        let mut speeds = [left, right, self.slip];
+        let answer = Answer { shafts, body: [self.lightness(), 0.0, 0.0] };
+        ([left, right, self.slip, 0.0, 0.0], answer)
+    }
 
-        let way = self.way_bound(speeds, robot, seconds).max(0.01);
-        if self.free_way <= way {
-            let frame = self.pose.frame();
-            let free = scene.contacts(robot.hull, &frame, MARGIN, &mut self.contacts);
-            self.free_way = free - MARGIN;
-        } else {
-            self.contacts.clear();
-        }
+    /// The same where only the tires' grip ties the shafts to the body.
+    fn spinning(
+        &self,
+        seconds: f64,
+        omega: [f64; 2],
+        [ahead, turn]: [f64; 2],
+        loads: &[Load; 2],
+    ) -> (Speeds, Answer) {
+        let shaft = |i: usize| {
+            let inertia = loads[i].inertia.max(1e-6);
+            let softness = 1.0 / (inertia + loads[i].damping * seconds);
+            (softness * (inertia * omega[i] + loads[i].torque * seconds), softness)
+        };
+        let ((left, soft_left), (right, soft_right)) = (shaft(0), shaft(1));
+        let answer = Answer {
+            shafts: [[soft_left, 0.0], [0.0, soft_right]],
+            body: [self.lightness(), self.lightness(), 1.0 / self.moment],
+        };
+        ([left, right, self.slip, ahead, turn], answer)
+    }
 
-        let mut limits = self.limits(loads, seconds);
-        // The impulse on a mass of 1 kg that changes its speed by 1 cm/s is 0.01 N s.
-        let answer = Answer { shafts, sideways: 10_000.0 / self.mass };
-        limits.solve(&mut speeds, &answer);
+    /// The impulse on a mass of 1 kg that changes its speed by 1 cm/s is 0.01 N s.
+    fn lightness(&self) -> f64 {
+        10_000.0 / self.mass
+    }
+
+    /// Moves on with the speeds of a step that is solved; the new speeds of the shafts.
+    fn finish(
+        &mut self,
+        step: Step,
+        seconds: f64,
+        loads: &[Load; 2],
+        robot: &RobotSpec,
+        scene: &Scene,
+        hit: &mut impl FnMut(ItemId),
+    ) -> [f64; 2] {
+        let Step { mut speeds, limits, .. } = step;
         for (speed, load) in speeds.iter_mut().zip(loads) {
             if load.jammed || speed.abs() < REST {
                 *speed = 0.0;
@@ -307,59 +426,68 @@ impl Body {
         if speeds[2].abs() < NO_SLIP {
             speeds[2] = 0.0;
         }
-        self.report(&limits.touches, hit);
-        self.free_way -= self.way_bound(speeds, robot, seconds);
-        if !self.move_on(speeds, seconds, robot, scene) {
-            speeds = [0.0; 3];
+        if self.spins.is_none() {
+            (speeds[3], speeds[4]) = self.twist([speeds[0], speeds[1]]);
+        } else if speeds[3].abs() < NO_SLIP && speeds[4].abs() < REST {
+            (speeds[3], speeds[4]) = (0.0, 0.0);
         }
-        *omega = [speeds[0], speeds[1]];
+        self.report(&limits.touches, hit);
+        self.free_way -= way_bound(speeds, robot, seconds);
+        if !self.move_on(speeds, seconds, robot, scene) {
+            speeds = [0.0; 5];
+        }
         self.slip = speeds[2];
-        self.turn_rate = self.twist(*omega).1.to_degrees();
+        if self.spins.is_some() {
+            self.spins = Some([speeds[3], speeds[4]]);
+        }
+        self.turn_rate = speeds[4].to_degrees();
+        [speeds[0], speeds[1]]
     }
 
-    /// No point of the hull moves further than this in this time, in cm.
-    fn way_bound(&self, speeds: Speeds, robot: &RobotSpec, seconds: f64) -> f64 {
-        let (ahead, turn) = self.twist([speeds[0], speeds[1]]);
-        (ahead.abs() + speeds[2].abs() + turn.abs() * robot.hull.reach()) * seconds
+    /// No point of the hull moves further than this in a tick at its present speeds, in cm.
+    fn way_in_a_tick(&self, omega: [f64; 2], robot: &RobotSpec) -> f64 {
+        let (ahead, turn) = self.spins.map_or_else(|| self.twist(omega), |[a, t]| (a, t));
+        way_bound([0.0, 0.0, self.slip, ahead, turn], robot, TICK_SECONDS)
     }
 
     fn limits(&self, loads: &[Load; 2], seconds: f64) -> Limits {
         let shaft = |index: usize| {
             let load = &loads[index];
             let most = if load.jammed { f64::INFINITY } else { load.friction * seconds };
-            let mut gain = [0.0; 3];
+            let mut gain = [0.0; 5];
             gain[index] = 1.0;
             Limit::friction(gain, most)
         };
-        let slips = self.slip != 0.0 || !self.contacts.is_empty();
-        let tires = slips.then(|| {
-            let most = TIRE_FRICTION * self.mass * GRAVITY * seconds / 100.0;
-            Limit::friction([0.0, 0.0, 1.0], most)
+        let grip = TIRE_FRICTION * self.mass * GRAVITY * seconds / 100.0;
+        let slips = self.slip != 0.0 || !self.contacts.is_empty() || self.spins.is_some();
+        let tires = slips.then(|| Limit::friction([0.0, 0.0, 1.0, 0.0, 0.0], grip));
+        let grips = self.spins.map(|_| {
+            let half = self.axle / 2.0;
+            [
+                Limit::friction([self.roll[0], 0.0, 0.0, -1.0, -half], grip / 2.0),
+                Limit::friction([0.0, self.roll[1], 0.0, -1.0, half], grip / 2.0),
+            ]
         });
-        let ahead = direction(self.pose.heading);
-        let right = Vec2::new(ahead.y, -ahead.x);
-        // How fast a point of the hull moves into a direction.
-        let gain = |point: Vec2, into: Vec2| {
-            let arm = point - self.pose.point();
-            let rolls = ahead.dot(&into) / 2.0;
-            let turns = Vec2::new(arm.y, -arm.x).dot(&into) / self.axle;
-            [self.roll[0] * (rolls + turns), self.roll[1] * (rolls - turns), right.dot(&into)]
-        };
         let touch = |contact: &Contact| Touch {
-            push: Limit {
-                gain: gain(contact.point, contact.normal),
-                target: (SKIN - contact.gap).min(0.0) / seconds,
-                low: 0.0,
-                high: f64::INFINITY,
-                impulse: 0.0,
-            },
-            rub: {
-                let along = Vec2::new(-contact.normal.y, contact.normal.x);
-                Limit::friction(gain(contact.point, along), 0.0)
-            },
+            push: Limit::push(self.gain(contact.point, contact.normal), contact.gap, seconds),
+            rub: Limit::friction(self.gain(contact.point, contact.along()), 0.0),
         };
         let touches = self.contacts.iter().map(touch).collect();
-        Limits { shafts: [shaft(0), shaft(1)], tires, touches }
+        Limits { shafts: [shaft(0), shaft(1)], tires, grips, touches }
+    }
+
+    /// How fast a point of the hull moves into a direction.
+    fn gain(&self, point: Vec2, into: Vec2) -> Speeds {
+        let ahead = direction(self.pose.heading);
+        let right = Vec2::new(ahead.y, -ahead.x);
+        let arm = point - self.pose.point();
+        let turns = Vec2::new(arm.y, -arm.x).dot(&into);
+        if self.spins.is_some() {
+            return [0.0, 0.0, right.dot(&into), ahead.dot(&into), turns];
+        }
+        let rolls = ahead.dot(&into) / 2.0;
+        let turns = turns / self.axle;
+        [self.roll[0] * (rolls + turns), self.roll[1] * (rolls - turns), right.dot(&into), 0.0, 0.0]
     }
 
     /// A collision is counted when an obstacle begins to push back.
@@ -383,7 +511,7 @@ impl Body {
         }
         let nearest = self.contacts.iter().map(|c| c.gap).fold(f64::INFINITY, f64::min);
         let next = self.after(speeds, seconds);
-        if nearest >= 2.0 * SKIN + self.way_bound(speeds, robot, seconds) {
+        if nearest >= 2.0 * SKIN + way_bound(speeds, robot, seconds) {
             self.pose = next;
             return true;
         }
@@ -398,10 +526,9 @@ impl Body {
 
     /// Where it is after this time.
     fn after(&self, speeds: Speeds, seconds: f64) -> Pose {
-        let (ahead, turn) = self.twist([speeds[0], speeds[1]]);
+        let [_, _, aside, ahead, turn] = speeds;
         let turned = turn.to_degrees() * seconds;
         let (sin, cos) = sin_cos(self.pose.heading + turned / 2.0);
-        let aside = speeds[2];
         Pose {
             x: self.pose.x + sin * ahead * seconds + cos * aside * seconds,
             y: self.pose.y + cos * ahead * seconds - sin * aside * seconds,
@@ -441,6 +568,18 @@ fn apply(matrix: &[[f64; 2]; 2], vector: [f64; 2]) -> [f64; 2] {
     ]
 }
 
+/// No point of the hull moves further than this in this time, in cm.
+fn way_bound(speeds: Speeds, robot: &RobotSpec, seconds: f64) -> f64 {
+    let [_, _, aside, ahead, turn] = speeds;
+    (ahead.abs() + aside.abs() + turn.abs() * robot.hull.reach()) * seconds
+}
+
 fn dot(a: Speeds, b: Speeds) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4]
+}
+
+fn add(speeds: &mut Speeds, answer: Speeds, step: f64) {
+    for (speed, answer) in speeds.iter_mut().zip(answer) {
+        *speed += answer * step;
+    }
 }

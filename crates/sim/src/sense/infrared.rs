@@ -36,7 +36,7 @@ impl View<'_> {
             let distance = length(way);
             let is_meant = channel.is_none_or(|channel| channel == on);
             let limit = nearest.map_or(BEACON_FAR, |seen| seen.distance);
-            if is_meant && distance <= limit && self.scene.clear_between(here, at) {
+            if is_meant && distance <= limit && self.scene.clear_between(self.others, here, at) {
                 let heading = libm::atan2(way.x, way.y).to_degrees();
                 let bearing = turn_of(heading - self.pose.heading);
                 nearest = Some(Seen { bearing, distance });

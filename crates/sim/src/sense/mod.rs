@@ -7,7 +7,7 @@ pub(crate) mod sight;
 use crate::noise::Source;
 use crate::sensor::{Axle, Reading, SUPPLY_MV, SWITCHED_MV, Sense};
 use crate::world::geometry::{Pose, Vec2, direction, length};
-use crate::world::scene::Scene;
+use crate::world::scene::{Others, Scene};
 
 /// The ultrasonic cone: how far it goes to each side, in degrees, and its number of rays.
 const SONAR_HALF_ANGLE: f64 = 15.0;
@@ -44,6 +44,7 @@ const COUNTS_PER_G: i32 = 200;
 /// The world as one sensor sees it.
 pub(crate) struct View<'a> {
     pub(crate) scene: &'a Scene,
+    pub(crate) others: Others<'a>,
     /// The place of the sensor in the world, and its heading.
     pub(crate) pose: Pose,
     /// Degrees since the last reset, for a gyro.
@@ -217,7 +218,7 @@ impl View<'_> {
             let way = lamp - here;
             let distance = length(way);
             let facing = if distance < 1e-9 { 1.0 } else { way.dot(&ahead) / distance };
-            if facing > 0.0 && self.scene.clear_between(here, lamp) {
+            if facing > 0.0 && self.scene.clear_between(self.others, here, lamp) {
                 let square = distance * distance + LAMP_HEIGHT * LAMP_HEIGHT;
                 light += intensity * facing * full / square;
             }
@@ -234,7 +235,7 @@ impl View<'_> {
         for (ray, towards) in (0..rays).zip(directions.iter_mut()) {
             *towards = direction(self.pose.heading - half_angle + step * f64::from(ray));
         }
-        self.scene.cast_all(here, directions, far)
+        self.scene.cast_all(self.others, here, directions, far)
     }
 
     fn distance(&mut self, inches: bool) -> i32 {
@@ -264,7 +265,13 @@ impl View<'_> {
 
     fn pressed(&self) -> bool {
         let end = |x: f64| self.pose.compose(&Pose::new(x, 0.0, 0.0)).point();
-        self.is_held || self.scene.near_bumper(end(-BUMPER_HALF), end(BUMPER_HALF), BUMPER_TRAVEL)
+        self.is_held
+            || self.scene.near_bumper(
+                self.others,
+                end(-BUMPER_HALF),
+                end(BUMPER_HALF),
+                BUMPER_TRAVEL,
+            )
     }
 }
 

@@ -76,7 +76,7 @@ impl View<'_> {
         let mut nearest: Option<(f64, Point)> = None;
         let mut end = |ray: u32| {
             let way = direction(self.pose.heading - half_angle + step * f64::from(ray));
-            let hit = self.scene.cast(here, way, far);
+            let hit = self.scene.cast(self.others, here, way, far);
             let end = point(here + way * hit.unwrap_or(far));
             if let Some(distance) = hit.filter(|hit| nearest.is_none_or(|(near, _)| *hit < near)) {
                 nearest = Some((distance, end));
@@ -91,7 +91,7 @@ impl View<'_> {
         let here = self.pose.point();
         let away = |(at, _): &(Vec2, u8)| length(*at - here);
         let seen = self.scene.beacons().filter(|beacon| {
-            away(beacon) <= BEACON_FAR && self.scene.clear_between(here, beacon.0)
+            away(beacon) <= BEACON_FAR && self.scene.clear_between(self.others, here, beacon.0)
         });
         seen.min_by(|a, b| away(a).total_cmp(&away(b)))
     }

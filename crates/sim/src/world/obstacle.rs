@@ -39,6 +39,13 @@ pub(crate) struct Contact {
     pub(crate) point: Vec2,
 }
 
+impl Contact {
+    /// The direction in which the hull may rub.
+    pub(crate) fn along(&self) -> Vec2 {
+        Vec2::new(-self.normal.y, self.normal.x)
+    }
+}
+
 impl Obstacle {
     /// The solid form of an item, if it has one.
     pub(crate) fn new(id: ItemId, item: &Item) -> Option<Obstacle> {
@@ -64,6 +71,22 @@ impl Obstacle {
             | Item::Lamp { .. }
             | Item::Bulb { .. }
             | Item::Beacon { .. } => None,
+        }
+    }
+
+    /// A robot in its place.
+    pub(crate) fn robot(id: ItemId, hull: Hull, pose: &Pose) -> Obstacle {
+        match hull_box(hull, &pose.frame()) {
+            Some((outline, frame)) => {
+                let half = outline.half_extents;
+                Obstacle::cuboid(id, frame, half.x, half.y)
+            }
+            None => Obstacle {
+                id,
+                solid: Solid::Ball(Ball::new(hull.reach())),
+                frame: pose.frame(),
+                reach: hull.reach(),
+            },
         }
     }
 
@@ -136,6 +159,12 @@ impl Obstacle {
             let outline = Ball::new(hull.reach());
             query::intersection_test(&frame, &outline, &self.frame, self.shape())
         };
+        test.unwrap_or(false)
+    }
+
+    /// True if it overlaps another one.
+    pub(crate) fn meets(&self, other: &Obstacle) -> bool {
+        let test = query::intersection_test(&self.frame, self.shape(), &other.frame, other.shape());
         test.unwrap_or(false)
     }
 

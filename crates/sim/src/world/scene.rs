@@ -14,6 +14,19 @@ use crate::world::{Bounds, Item, ItemId, SpecError, WorldSpec};
 
 const BOUNDS: ItemId = ItemId(0);
 
+/// The other robots of a world, as obstacles.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Others<'a> {
+    pub(crate) before: &'a [Obstacle],
+    pub(crate) after: &'a [Obstacle],
+}
+
+impl<'a> Others<'a> {
+    pub(crate) fn iter(self) -> impl Iterator<Item = &'a Obstacle> {
+        self.before.iter().chain(self.after)
+    }
+}
+
 /// A world in working order.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
@@ -101,11 +114,17 @@ impl Scene {
     }
 
     /// How far a ray goes before it meets something, at most `max`.
-    pub(crate) fn cast(&self, from: Vec2, direction: Vec2, max: f64) -> Option<f64> {
+    pub(crate) fn cast(
+        &self,
+        others: Others,
+        from: Vec2,
+        direction: Vec2,
+        max: f64,
+    ) -> Option<f64> {
         let ray = Ray::new(Point::from(from), direction);
         let mut nearest = None;
         let mut limit = max;
-        for obstacle in &self.obstacles {
+        for obstacle in self.obstacles.iter().chain(others.iter()) {
             if let Some(distance) = obstacle.cast(&ray, limit) {
                 limit = distance;
                 nearest = Some(distance);
@@ -116,11 +135,17 @@ impl Scene {
 
     /// How far the first of some rays goes to meet something, at most `max`. What the middle one
     /// meets leaves few obstacles that the others could meet before.
-    pub(crate) fn cast_all(&self, from: Vec2, directions: &[Vec2], max: f64) -> Option<f64> {
+    pub(crate) fn cast_all(
+        &self,
+        others: Others,
+        from: Vec2,
+        directions: &[Vec2],
+        max: f64,
+    ) -> Option<f64> {
         let middle = directions.get(directions.len() / 2)?;
-        let mut nearest = self.cast(from, *middle, max);
+        let mut nearest = self.cast(others, from, *middle, max);
         let mut limit = nearest.unwrap_or(max);
-        for obstacle in &self.obstacles {
+        for obstacle in self.obstacles.iter().chain(others.iter()) {
             if obstacle.is_beyond(from, limit) {
                 continue;
             }
@@ -136,10 +161,10 @@ impl Scene {
     }
 
     /// True if nothing stands between two points.
-    pub(crate) fn clear_between(&self, from: Vec2, to: Vec2) -> bool {
+    pub(crate) fn clear_between(&self, others: Others, from: Vec2, to: Vec2) -> bool {
         let way = to - from;
         let far = length(way);
-        far < 1e-9 || self.cast(from, way / far, far).is_none()
+        far < 1e-9 || self.cast(others, from, way / far, far).is_none()
     }
 
     /// The lamps: where they hang and how bright they are, those on output ports by the share of
@@ -220,9 +245,16 @@ impl Scene {
         obstacles.find(|obstacle| obstacle.overlaps(hull, pose)).map(|obstacle| obstacle.id)
     }
 
+    /// True if an item overlaps a robot.
+    pub(crate) fn is_at(&self, id: ItemId, others: Others) -> bool {
+        let mut obstacles = self.obstacles.iter().filter(|obstacle| obstacle.id == id);
+        obstacles.any(|obstacle| others.iter().any(|other| obstacle.meets(other)))
+    }
+
     /// True if an obstacle is within `distance` of a straight bumper.
-    pub(crate) fn near_bumper(&self, from: Vec2, to: Vec2, distance: f64) -> bool {
-        self.obstacles.iter().any(|obstacle| obstacle.near_line(from, to, distance))
+    pub(crate) fn near_bumper(&self, others: Others, from: Vec2, to: Vec2, distance: f64) -> bool {
+        let mut obstacles = self.obstacles.iter().chain(others.iter());
+        obstacles.any(|obstacle| obstacle.near_line(from, to, distance))
     }
 }
 
@@ -234,10 +266,10 @@ mod tests {
     fn rays_meet_walls_boxes_and_circles() {
         let mut scene = Scene::new(&WorldSpec::default()).unwrap();
         let up = Vec2::new(0.0, 1.0);
-        assert_eq!(scene.cast(Vec2::zeros(), up, 255.0), None);
+        assert_eq!(scene.cast(Others::default(), Vec2::zeros(), up, 255.0), None);
         let wall = scene.add(Item::wall([-50.0, 100.0], [50.0, 100.0])).unwrap();
         let near = |expected: f64, scene: &Scene| {
-            let distance = scene.cast(Vec2::zeros(), up, 255.0).unwrap();
+            let distance = scene.cast(Others::default(), Vec2::zeros(), up, 255.0).unwrap();
             assert!((distance - expected).abs() < 1e-9, "{distance}");
         };
         near(99.5, &scene);
@@ -246,7 +278,7 @@ mod tests {
         let pose = Pose::new(0.0, 50.0, 45.0);
         let diamond = scene.add(Item::Box { pose, width: 10.0, depth: 10.0 }).unwrap();
         near(50.0 - 50.0_f64.sqrt(), &scene);
-        assert!(!scene.clear_between(Vec2::zeros(), Vec2::new(0.0, 60.0)));
+        assert!(!scene.clear_between(Others::default(), Vec2::zeros(), Vec2::new(0.0, 60.0)));
         assert!(scene.remove(diamond) && scene.remove(wall) && !scene.remove(wall));
         near(75.0, &scene);
     }

@@ -1,0 +1,171 @@
+//! Several robots in one world: their machines take each tick together.
+//!
+//! A robot that is alone takes it as if it had the world for itself. Those near each other take it
+//! as pairs (`mechanics::pair`). All see the others where they were after the last tick.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::machine::Machine;
+use crate::mechanics::pair::{self, Rider};
+use crate::world::obstacle::Obstacle;
+use crate::world::{ItemId, SpecError};
+
+/// Robots whose hulls may come nearer than this in a tick may touch, in cm. The fastest ones move
+/// by 0.4 cm.
+const NEAR: f64 = 2.0;
+
+/// A robot's number among the obstacles: the last ones.
+fn id_of(index: usize) -> ItemId {
+    ItemId(u32::MAX - u32::try_from(index).unwrap_or_default())
+}
+
+/// Which of several robots a collision was with, if it was with one.
+#[must_use]
+pub fn robot_of(id: ItemId) -> Option<usize> {
+    let index = u32::MAX - id.0;
+    (index < 1 << 16).then_some(index as usize)
+}
+
+/// A robot, by its index, and what is wrong with its place.
+pub type Misplaced = (usize, SpecError);
+
+/// Puts robots, each in a machine of its own at the same moment, into the world of the first one.
+///
+/// # Errors
+/// Names the robot, by its index, that stands where another one does, or something else.
+pub(crate) fn join(machines: &mut [Machine]) -> Result<(), Misplaced> {
+    let scene = machines.first().map(|first| Arc::clone(&first.scene));
+    let mut machines: Vec<_> = machines.iter_mut().collect();
+    for (index, machine) in machines.iter_mut().enumerate() {
+        machine.number = index;
+        machine.scene.clone_from(scene.as_ref().unwrap_or(&Arc::clone(&machine.scene)));
+    }
+    see_each_other(&mut machines);
+    for (index, machine) in machines.iter().enumerate() {
+        machine.check_free(&machine.pose()).map_err(|error| (index, error))?;
+    }
+    Ok(())
+}
+
+/// Lets this time pass for all of them.
+pub(crate) fn step(machines: &mut [&mut Machine], dt: Duration) {
+    for machine in &mut *machines {
+        machine.pass(dt);
+    }
+    while machines.first().is_some_and(|first| first.is_behind()) {
+        advance(machines);
+    }
+}
+
+/// The world of one of them has changed.
+pub(crate) fn share_world(machines: &mut [&mut Machine], changed: usize) {
+    let Some(scene) = machines.get(changed).map(|machine| Arc::clone(&machine.scene)) else {
+        return;
+    };
+    for machine in machines.iter_mut() {
+        if !Arc::ptr_eq(&machine.scene, &scene) {
+            machine.scene = Arc::clone(&scene);
+            machine.body.world_changed();
+        }
+    }
+    see_each_other(machines);
+}
+
+/// Where they are now.
+fn see_each_other(machines: &mut [&mut Machine]) {
+    let robot = |machine: &&mut Machine| {
+        Obstacle::robot(id_of(machine.number), machine.robot.hull, &machine.body.pose)
+    };
+    let robots: Arc<Vec<_>> = Arc::new(machines.iter().map(robot).collect());
+    for machine in machines {
+        machine.robots = Arc::clone(&robots);
+    }
+}
+
+fn advance(machines: &mut [&mut Machine]) {
+    let starts: Vec<_> = machines.iter_mut().map(|machine| machine.begin_tick()).collect();
+    let groups = groups(machines);
+    let mut has_moved = false;
+    for (index, machine) in machines.iter_mut().enumerate() {
+        if groups[index] == index && !groups[index + 1..].contains(&index) {
+            if machine.body.spins.is_some() {
+                ride(&mut [machine], &[index], &starts);
+                has_moved = true;
+            } else if machine.is_at_rest() {
+                machine.rest(starts[index]);
+            } else {
+                machine.turn_shafts(starts[index]);
+                has_moved = true;
+            }
+        }
+    }
+    for group in 0..machines.len() {
+        let members: Vec<_> = (0..groups.len()).filter(|index| groups[*index] == group).collect();
+        if members.len() < 2 {
+            continue;
+        }
+        let mut riding: Vec<_> = machines
+            .iter_mut()
+            .enumerate()
+            .filter(|(index, _)| groups[*index] == group)
+            .map(|(_, machine)| &mut **machine)
+            .collect();
+        if riding.iter().all(|machine| machine.is_at_rest()) {
+            for (machine, index) in riding.iter_mut().zip(&members) {
+                machine.rest(starts[*index]);
+            }
+        } else {
+            ride(&mut riding, &members, &starts);
+            has_moved = true;
+        }
+    }
+    if has_moved {
+        see_each_other(machines);
+    }
+    for machine in machines {
+        machine.end_tick();
+    }
+}
+
+/// A tick of robots that are near each other.
+fn ride(machines: &mut [&mut Machine], members: &[usize], starts: &[u64]) {
+    let loads: Vec<_> = machines.iter_mut().map(|machine| machine.loaded()).collect();
+    let mut riders: Vec<_> = (machines.iter_mut().zip(members).zip(&loads))
+        .map(|((machine, index), loads)| machine.rider(id_of(*index), loads))
+        .collect();
+    pair::advance(&mut riders);
+    let after: Vec<_> = riders.into_iter().map(|Rider { omega, hits, .. }| (omega, hits)).collect();
+    for ((machine, (omega, hits)), (index, loads)) in
+        machines.iter_mut().zip(after).zip(members.iter().zip(&loads))
+    {
+        machine.wheels_turned(omega, hits);
+        machine.turn_others(loads, starts[*index]);
+    }
+}
+
+/// The group of each robot: the lowest number of those that it is near to, directly or through
+/// others.
+fn groups(machines: &[&mut Machine]) -> Vec<usize> {
+    let mut groups: Vec<usize> = (0..machines.len()).collect();
+    let reach = |index: usize| machines[index].robot.hull.reach() + NEAR / 2.0;
+    let widest = (0..machines.len()).map(reach).fold(0.0, f64::max);
+    let mut by_x = groups.clone();
+    let x = |index: usize| machines[index].body.pose.x;
+    by_x.sort_by(|a, b| x(*a).total_cmp(&x(*b)).then(a.cmp(b)));
+    for (place, &first) in by_x.iter().enumerate() {
+        for &second in &by_x[place + 1..] {
+            if x(second) - x(first) > reach(first) + widest {
+                break;
+            }
+            let way = machines[second].body.pose.point() - machines[first].body.pose.point();
+            let near = reach(first) + reach(second);
+            if way.dot(&way) <= near * near {
+                let (low, high) =
+                    (groups[first].min(groups[second]), groups[first].max(groups[second]));
+                groups.iter_mut().filter(|group| **group == high).for_each(|group| *group = low);
+            }
+        }
+    }
+    groups
+}
