@@ -127,6 +127,9 @@ fn read<'a, C: QueryableContextType>(
         ("temperature", [celsius]) => Fact::Temperature(number(celsius)?),
         ("loudness", [percent]) => Fact::Loudness(number(percent)?),
         ("start", [x, y, heading]) => Fact::Start(pose(call, [x, y, heading])?),
+        ("start", [name, x, y, heading]) => {
+            Fact::NamedStart(call.text(name)?.into(), pose(call, [x, y, heading])?)
+        }
         ("map", [size, rows]) => Fact::Map(drawn(call, size, rows)?),
         ("left_wheel", [port, diameter, options @ ..]) => {
             Fact::LeftWheel(wheel(call, port, diameter, options)?)

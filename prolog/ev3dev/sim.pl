@@ -9,12 +9,14 @@
 :- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, existence_error/2, goal_of_program/1,
-                must_be/2, must_be_goal/1, term_expansion/4
+                must_be/2, must_be_goal/1, term_expansion/4, throw_error/3
               ]).
-:- use_module(library(lists), [nth1/3]).
+:- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
-:- use_module(private/brick, [in_new_brick/1]).
+:- use_module(private/brick,
+              [ end_brick/1, in_brick/2, in_new_brick/1, name_brick/3,
+                named_brick/3, new_brick/1 ]).
 :- use_module(private/chance,
               [begin_chance_of/1, end_chance/0, with_own_chance/1]).
 :- use_module(private/facts,
@@ -29,7 +31,7 @@
 :- reexport(sim_time).
 :- reexport(sim_views).
 :- use_module(private/native,
-              [sim_active_/0, sim_start_/4, sim_stop_/0]).
+              [sim_active_/0, sim_crowd_/4, sim_start_/4, sim_stop_/0]).
 
 :- meta_predicate
     with_sim(+, 0),
@@ -96,6 +98,8 @@ It may contain any number of
     The loudness, by default 0: see nxt_sound/2.
   - start(X, Y, Heading)
     The robot's start, by default at 0, 0 with heading 0.
+  - start(Name, X, Y, Heading)
+    The start of the robot Name, if there are several.
   - map(CellSize, Rows)
     A drawn world. Rows are strings or atoms, with a character for each cell;
     the lower left corner of the last row is at 0, 0. `#` is a wall, `O` a
@@ -211,6 +215,13 @@ time (sleep/1, timeouts) or waits for a person.
 %       `realtime` (default), `scaled(Factor)` or `virtual`.
 %     - robot(+Robot)
 %       The robot, given like World. Default is `default`.
+%     - robots(+Robots)
+%       Several robots: a list of Name-Robot, each Robot given like World. Each
+%       becomes a brick Name of library(ev3dev/bricks), with a processor of its
+%       own; the brick in use stays what it is. The world has a fact
+%       `start(Name, X, Y, Heading)` for each. They have one time, and see and
+%       push each other. sim_snapshot/1 is not for them. When one is closed,
+%       it stays where it is.
 %     - noise(+Boolean)
 %       If `true`, sensors and motors have errors like real ones, and encoders
 %       an error of half a degree. Default is `false`.
@@ -241,6 +252,7 @@ time (sleep/1, timeouts) or waits for a person.
 %   @error domain_error(sim_option, Option) if Option is not an option of this
 %          predicate
 %   @error domain_error(screen_bits, Bits)
+%   @error permission_error(open, brick, Name) if there is one of that name
 %   @error existence_error(feature, sim) if the pack was built without the
 %          simulator
 
@@ -249,7 +261,8 @@ sim_start(World) :-
 
 sim_start(World, Options) :-
     must_be_built,
-    must_be_options(sim_option, [clock, robot, noise, screen, seed], Options),
+    must_be_options(sim_option,
+                    [clock, robot, robots, noise, screen, seed], Options),
     option(clock(Clock), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
@@ -260,18 +273,72 @@ sim_start(World, Options) :-
     must_be(boolean, Noise),
     must_be_screen(Bits),
     located_facts(world, World, LocatedWorld),
-    located_facts(robot, Robot, LocatedRobot),
     pairs_keys(LocatedWorld, WorldFacts),
-    pairs_keys(LocatedRobot, RobotFacts),
-    clock_changes(( sim_start_(WorldFacts, RobotFacts,
-                               options(Clock, Seed, Noise, Bits), Fault),
-                    forget_plans_if(Fault)
-                  )),
-    must_be_faultless(Fault, world(World, LocatedWorld),
-                      robot(Robot, LocatedRobot)),
-    set_added_facts([]),
-    begin_chance_of(Options),
-    note_world(World, Options).
+    Native = options(Clock, Seed, Noise, Bits),
+    (   option(robots(Robots), Options)
+    ->  crowd_started(Robots, World, LocatedWorld, WorldFacts, Native,
+                      Options)
+    ;   located_facts(robot, Robot, LocatedRobot),
+        pairs_keys(LocatedRobot, RobotFacts),
+        clock_changes(( sim_start_(WorldFacts, RobotFacts, Native, Fault),
+                        forget_plans_if(Fault)
+                      )),
+        must_be_faultless(Fault, world(World, LocatedWorld),
+                          robot(Robot, LocatedRobot)),
+        set_added_facts([]),
+        begin_chance_of(Options),
+        note_world(World, Options)
+    ).
+
+%   Each robot gets a brick. Nothing is left of them if one cannot start.
+
+crowd_started(Robots, World, LocatedWorld, WorldFacts, Native, Options) :-
+    must_be(list, Robots),
+    findall(Name-robot(Robot, Located),
+            ( member(Item, Robots), robot_named(Item, Name, Robot, Located) ),
+            Pairs),
+    pairs_keys(Pairs, Names),
+    must_be_new(Names, []),
+    setup_call_cleanup(
+        findall(robot(Brick, Name, Facts),
+                ( member(Name-robot(_, Located), Pairs),
+                  pairs_keys(Located, Facts), new_brick(Brick) ),
+                Natives),
+        ( sim_crowd_(WorldFacts, Natives, Native, Fault),
+          must_be_faultless_crowd(Fault, world(World, LocatedWorld), Pairs),
+          forall(member(robot(Brick, Name, _), Natives),
+                 ( in_brick(Brick, ( set_added_facts([]),
+                                     note_world(World, Options) )),
+                   name_brick(Name, Brick, sim(World)) )),
+          Started = true ),
+        (   Started == true
+        ->  true
+        ;   forall(member(robot(Brick, _, _), Natives), end_brick(Brick))
+        )).
+
+robot_named(Item, Name, Robot, Located) :-
+    must_be(nonvar, Item),
+    (   Item = Name-Robot
+    ->  must_be(atom, Name),
+        located_facts(robot, Robot, Located)
+    ;   throw_error(type_error(pair, Item), _,
+                    'a robot is Name-Robot, as bob-default')
+    ).
+
+must_be_new([], _).
+must_be_new([Name|Names], Others) :-
+    (   ( Name == local ; named_brick(Name, _, _) ; memberchk(Name, Others) )
+    ->  throw_error(permission_error(open, brick, Name), _,
+                    'there is a brick of that name')
+    ;   must_be_new(Names, [Name|Others])
+    ).
+
+must_be_faultless_crowd(Fault, World, Pairs) :-
+    (   Fault = fault(robot(Number), Index, Why)
+    ->  nth1(Number, Pairs, _-Robot),
+        must_be_faultless(fault(robot, Index, Why), World, Robot)
+    ;   must_be_faultless(Fault, World, none)
+    ).
 
 forget_plans_if(Fault) :-
     (   Fault == none

@@ -13,7 +13,7 @@ mod running;
 pub(crate) use self::running::{end_of, end_unless_mounted, has_virtual_clock, running_simulation};
 
 use self::files::SimulatedFiles;
-use self::running::{is_running, simulation, start};
+use self::running::{is_running, simulation, start, start_crowd};
 use crate::facts::{self, channel_of, named, remote_buttons};
 use crate::glue::call::Call;
 use crate::glue::due::Bell;
@@ -27,7 +27,8 @@ use ev3_driver::lock::locked;
 use ev3_driver::wait::Slices;
 use ev3_sim::facts::{Fact, Subject, culprit};
 use ev3_sim::{
-    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, SpecError, WorldSpec,
+    Action, Clock, Depth, Errno, ItemId, Machine, Options, RobotSpec, Simulation, SpecError,
+    WorldSpec,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -73,16 +74,40 @@ natives! {
     semidet fn "sim_start_"(context, world, robot, options, fault) {
         let call = Call::of(context, "sim_start", 2);
         let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
-        let [clock, seed, noise, screen] = call.arguments(options)?;
-        let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
-        let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
-        let options = Options { seed, depth, ..Options::default() };
-        match built(&world, &robot, noise.get_ex()?, options) {
+        let (clock, noise, options) = options_of(&call, options)?;
+        match built(&world, None, &robot, noise, options) {
             Ok(machine) => {
-                start(&call, machine, clock_of(&call, &clock)?)?;
+                start(&call, machine, clock)?;
                 unify_atom(fault, "none")
             }
-            Err(error) => unify_fault(&call, fault, error),
+            Err(error) => unify_fault(&call, fault, None, error),
+        }
+    }
+
+    /// sim_crowd_(+WorldFacts, +Robots, +Options, -Fault): robots is a list of
+    /// robot(Brick, Name, RobotFacts); options and fault are those of sim_start_/4, but a fault in
+    /// a robot has the subject robot(Number), which counts from 1.
+    semidet fn "sim_crowd_"(context, world, robots, options, fault) {
+        let call = Call::of(context, "sim_start", 2);
+        let world = facts_of(&call, Subject::World, world)?;
+        let (clock, noise, options) = options_of(&call, options)?;
+        let robots = call.map_list(robots, |term| {
+            let [brick, name, facts] = call.arguments(&term)?;
+            let brick = u32::try_from(call.integer(&brick)?).unwrap_or(u32::MAX);
+            Ok((brick, call.text(&name)?.into_owned(), facts_of(&call, Subject::Robot, &facts)?))
+        })?;
+        let mut machines = Vec::new();
+        for (index, (_, name, facts)) in robots.iter().enumerate() {
+            let seed = options.seed.wrapping_add(index as u64);
+            match built(&world, Some(name), facts, noise, Options { seed, ..options }) {
+                Ok(machine) => machines.push(machine),
+                Err(error) => return unify_fault(&call, fault, Some(index), error),
+            }
+        }
+        let bricks: Vec<_> = robots.iter().map(|(brick, ..)| *brick).collect();
+        match start_crowd(&call, &bricks, machines, clock)? {
+            Ok(()) => unify_atom(fault, "none"),
+            Err((_, error)) => unify_fault(&call, fault, None, ("world", culprit(&world, &error), error)),
         }
     }
 
@@ -90,9 +115,9 @@ natives! {
     semidet fn "sim_fault_"(context, world, robot, fault) {
         let call = Call::of(context, "sim_start", 2);
         let (world, robot) = (facts_of(&call, Subject::World, world)?, facts_of(&call, Subject::Robot, robot)?);
-        match built(&world, &robot, false, Options::default()) {
+        match built(&world, None, &robot, false, Options::default()) {
             Ok(_) => unify_atom(fault, "none"),
-            Err(error) => unify_fault(&call, fault, error),
+            Err(error) => unify_fault(&call, fault, None, error),
         }
     }
 
@@ -119,7 +144,7 @@ natives! {
     semidet fn "sim_place_"(context, x, y, heading) {
         let call = Call::of(context, "sim_place", 3);
         let pose = facts::pose(&call, [x, y, heading])?;
-        let placed = simulation(context)?.machine().place(pose);
+        let placed = simulation(context)?.change_world(|machine| machine.place(pose));
         possible(&call, placed)
     }
 
@@ -131,7 +156,7 @@ natives! {
             Some(_) => return wrong_value(&call, "world_item", term),
             None => return wrong_value(&call, "world_or_robot_fact", term),
         };
-        let added = simulation(context)?.machine().add_item(item);
+        let added = simulation(context)?.change_world(|machine| machine.add_item(item));
         id.unify(i64::from(possible(&call, added)?.0))
     }
 
@@ -139,7 +164,8 @@ natives! {
     semidet fn "sim_remove_"(context, id) {
         let id = Call::of(context, "sim_remove", 1).integer(id)?;
         let id = u32::try_from(id).map_err(|_| PrologError::Failure)?;
-        into_prolog_result(simulation(context)?.machine().remove_item(ItemId(id)))
+        let act = |machine: &mut Machine| machine.remove_item(ItemId(id));
+        into_prolog_result(simulation(context)?.change_world(act))
     }
 
     /// sim_plug_(+Port, +Type)
@@ -228,7 +254,7 @@ natives! {
     semidet fn "sim_remote_"(context, channel, list) {
         let call = Call::of(context, "sim_remote", 2);
         let (channel, held) = (channel_of(&call, channel)?, remote_buttons(&call, list)?);
-        match simulation(context)?.machine().hold_buttons(channel, &held) {
+        match simulation(context)?.change_world(|machine| machine.hold_buttons(channel, &held)) {
             Ok(()) => Ok(()),
             Err(error) => wrong_because(&call, "ir_buttons", list, &error.reason),
         }
@@ -265,7 +291,7 @@ natives! {
 
     /// sim_snapshot_(-Snapshot)
     semidet fn "sim_snapshot_"(context, snapshot) {
-        let machine = simulation(context)?.machine().clone();
+        let machine = alone(&Call::of(context, "sim_snapshot", 1))?.machine().clone();
         snapshot.unify(Arc::new(Snapshot::of(machine)))
     }
 
@@ -278,7 +304,7 @@ natives! {
     semidet fn "sim_restore_"(context, snapshot) {
         let snapshot: Arc<Snapshot> = snapshot.get_ex()?;
         let machine = locked(&snapshot.machine).clone();
-        let simulation = simulation(context)?;
+        let simulation = alone(&Call::of(context, "sim_restore", 1))?;
         simulation.machine().restore(machine);
         simulation.machine().keep_samples(watch::is_watched());
         watched().begin_film();
@@ -345,6 +371,16 @@ natives! {
     }
 }
 
+/// The running simulation, if it has one robot: several have one time.
+fn alone<C: QueryableContextType>(call: &Call<C>) -> PrologResult<Arc<Simulation>> {
+    let simulation = simulation(call.context)?;
+    if simulation.robots() > 1 {
+        let reason = "several robots have one time, which goes back for none of them";
+        return no_such(call, "feature", "snapshot_of_several_robots", reason);
+    }
+    Ok(simulation)
+}
+
 /// `world` or `robot`.
 fn subject_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Subject> {
     match &*call.text(term)? {
@@ -381,23 +417,49 @@ fn facts_of<'a, C: QueryableContextType>(
 /// An error: the list of facts, and the index of the faulty fact if there is one.
 type Fault = (&'static str, Option<usize>, SpecError);
 
-fn built(world: &[Fact], robot: &[Fact], noise: bool, options: Options) -> Result<Machine, Fault> {
+/// One of several robots has a name.
+fn built(
+    world: &[Fact],
+    name: Option<&str>,
+    robot: &[Fact],
+    noise: bool,
+    options: Options,
+) -> Result<Machine, Fault> {
     let in_robot = |error: SpecError| ("robot", culprit(robot, &error), error);
     let spec = RobotSpec::from_facts(robot).map_err(in_robot)?;
     let spec = if noise { spec.with_typical_noise() } else { spec };
     let in_world = |error: SpecError| ("world", culprit(world, &error), error);
-    Machine::new(&WorldSpec::from_facts(world), &spec, options).map_err(in_world)
+    let seen = WorldSpec::from_facts(world);
+    let seen = name.map_or(Ok(seen.clone()), |name| seen.seen_by(name)).map_err(in_world)?;
+    Machine::new(&seen, &spec, options).map_err(in_world)
 }
 
-/// fault(Subject, Index, Why).
+/// The clock, whether there is noise, and the rest.
+fn options_of<'a, C: QueryableContextType>(
+    call: &Call<'a, C>,
+    options: &Term<'a>,
+) -> PrologResult<(Clock, bool, Options)> {
+    let [clock, seed, noise, screen] = call.arguments(options)?;
+    let seed = u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes());
+    let depth = if call.integer(&screen)? == 1 { Depth::One } else { Depth::ThirtyTwo };
+    Ok((clock_of(call, &clock)?, noise.get_ex()?, Options { seed, depth, ..Options::default() }))
+}
+
+/// fault(Subject, Index, Why); the subject is one of several robots if it has a place among them.
 fn unify_fault<C: QueryableContextType>(
     call: &Call<C>,
     fault: &Term,
+    robot: Option<usize>,
     (subject, index, error): Fault,
 ) -> PrologResult<()> {
     let context = call.context;
     let index = index.map_or(0, |index| index as u64 + 1);
-    let (subject, why) = (atomable(subject), atomable(error.to_string()));
+    let why = atomable(error.to_string());
+    if let (Some(robot), "robot") = (robot, subject) {
+        let robot = robot as u64 + 1;
+        return fault.unify(&term! {context: fault(robot(#robot), #index, #why)}?);
+    }
+    let subject = atomable(subject);
     fault.unify(&term! {context: fault(#subject, #index, #why)}?)
 }
 

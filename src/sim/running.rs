@@ -4,12 +4,15 @@ use super::files::SimulatedFiles;
 use super::mount;
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
-use crate::glue::state::{Selected, brick_number, select, selected, use_dev, use_tree, watched};
+use crate::glue::state::{
+    Selected, brick_number, select, selected, use_brick, use_dev, use_tree, watched,
+};
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
 use ev3_driver::lock::locked;
-use ev3_sim::{Clock, Machine, Simulation};
+use ev3_sim::{Clock, Machine, Misplaced, Simulation};
 use std::collections::BTreeMap;
+use std::io;
 use std::sync::{Arc, Mutex};
 use swipl::fli::has_other_threads;
 use swipl::prelude::*;
@@ -65,10 +68,44 @@ pub(super) fn start<C: QueryableContextType>(
     clock: Clock,
 ) -> PrologResult<()> {
     machine.keep_samples(watch::is_watched());
-    let simulation = match Simulation::new(machine, clock, has_other_threads) {
-        Ok(simulation) => Arc::new(simulation),
-        Err(error) => return no_such(call, "resource", "thread", &error.to_string()),
+    match Simulation::new(machine, clock, has_other_threads) {
+        Ok(simulation) => run(call, simulation),
+        Err(error) => no_thread(call, &error),
+    }
+}
+
+/// Starts a simulation of several robots, each in the brick of this number. The inner error is
+/// that of a robot, by its index.
+pub(super) fn start_crowd<C: QueryableContextType>(
+    call: &Call<C>,
+    bricks: &[u32],
+    machines: Vec<Machine>,
+    clock: Clock,
+) -> PrologResult<Result<(), Misplaced>> {
+    let simulations = match Simulation::crowd(machines, clock, has_other_threads) {
+        Ok(Ok(simulations)) => simulations,
+        Ok(Err(misplaced)) => return Ok(Err(misplaced)),
+        Err(error) => return no_thread(call, &error),
     };
+    let outer = brick_number();
+    let mut started = Ok(());
+    for (brick, simulation) in bricks.iter().zip(simulations) {
+        if started.is_ok() && use_brick(*brick) {
+            simulation.machine().keep_samples(watch::is_watched());
+            started = run(call, simulation);
+        }
+    }
+    use_brick(outer);
+    started.map(Ok)
+}
+
+fn no_thread<T, C: QueryableContextType>(call: &Call<C>, error: &io::Error) -> PrologResult<T> {
+    no_such(call, "resource", "thread", &error.to_string())
+}
+
+/// Runs a simulation in the brick in use, in the place of the running one.
+fn run<C: QueryableContextType>(call: &Call<C>, simulation: Simulation) -> PrologResult<()> {
+    let simulation = Arc::new(simulation);
     mount::end();
     let before = locked(&RUNNING).get(&brick_number()).map(|running| running.before.clone());
     let before = before.unwrap_or_else(selected);

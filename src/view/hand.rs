@@ -83,7 +83,7 @@ natives! {
         let item = ItemId(u32::try_from(call.integer(id)?).map_err(|_| PrologError::Failure)?);
         let to = [call.float(x)?, call.float(y)?];
         let heading = if heading.is_atom() { None } else { Some(call.float(heading)?) };
-        let moved = simulation()?.machine().move_item(item, to, heading);
+        let moved = simulation()?.change_world(|machine| machine.move_item(item, to, heading));
         match moved {
             Ok(is_there) => into_prolog_result(is_there),
             Err(error) => wrong_because(&call, "possible_geometry", id, &error.to_string()),

@@ -291,3 +291,84 @@ test(one_name_for_one_brick,
     with_bricks([anna], brick_open(anna, sim)).
 
 :- end_tests(bricks_bad_input).
+
+% Two robots that look at each other, 60 cm apart.
+duel([start(anna, 0, 0, 0), start(bob, 0, 60, 180)]).
+
+with_duel(Goal) :-
+    with_robots([anna-default, bob-default], Goal).
+
+with_robots(Robots, Goal) :-
+    duel(World),
+    setup_call_cleanup(
+        sim_start(World, [clock(virtual), robots(Robots)]),
+        once(Goal),
+        forall(member(Name-_, Robots), close_if_open(Name))).
+
+place(Name, X-Y) :-
+    with_brick(Name, sim_pose(X0, Y0, _)),
+    maplist(round_, [X0, Y0], [X, Y]).
+
+:- begin_tests(robots).
+
+test(each_is_a_brick_at_its_place, true([A, B, Here] == [0-0, 0-60, local])) :-
+    with_duel(( place(anna, A), place(bob, B), current_name(Here) )).
+test(they_see_each_other, true(D-E == 45-45)) :-
+    with_duel(( with_brick(anna, us_dist_cm(in1, D0)), with_brick(bob, us_dist_cm(in1, E0)) )),
+    maplist(round_, [D0, E0], [D, E]).
+test(each_has_motors_and_a_drive, true([A, B] == [0-20, 0-40])) :-
+    with_duel(( bricks_do([anna, bob], ( two_wheels, go_cm(30, 20) )),
+                place(anna, A), place(bob, B) )).
+test(they_have_one_time, true(A == B)) :-
+    with_duel(( with_brick(anna, sim_wait(3)), with_brick(bob, sim_time(B)),
+                with_brick(anna, sim_time(A)) )).
+test(each_has_a_processor_of_its_own, true(Took =< 0.051)) :-
+    with_duel(( bricks_do([anna, bob], ( position(outB, _), sim_time(_) )),
+                with_brick(anna, sim_time(T0)),
+                bricks_do([anna, bob], forall(between(1, 100, _), position(outB, _))),
+                with_brick(anna, ( sim_time(T1) )) )),
+    Took is round((T1-T0)*1000)/1000.
+test(one_pushes_the_other, true(Pushed > 80)) :-
+    with_duel(( with_brick(anna, ( two_wheels, go(60), sim_wait(6), stop )),
+                with_brick(bob, ( sim_pose(_, Pushed, _), sim_collisions(Cs) )),
+                Cs = [_] )).
+test(what_a_hand_puts_there_is_there_for_both, true(D == 45)) :-
+    with_duel(( with_brick(bob, ( sim_place(200, 200, 0), sim_add(circle(0, 60, 8)) )),
+                with_brick(anna, ( sim_wait(1), us_dist_cm(in1, D0) )) )),
+    round_(D0, D).
+test(one_that_is_closed_stays_where_it_is, true(D == 45)) :-
+    with_duel(( brick_close(bob), with_brick(anna, ( sim_wait(1), us_dist_cm(in1, D0) )) )),
+    round_(D0, D).
+test(the_same_in_each_run, true(A == B)) :-
+    maplist([P]>>with_duel(( bricks_do([anna, bob], ( two_wheels, us_dist_cm(in1, D),
+                                                      Cm is D/2, go_cm(30, Cm), turn(40, 70),
+                                                      go_cm(50, 30) )),
+                             findall(X-Y-H, ( member(N, [anna, bob]),
+                                              with_brick(N, sim_pose(X, Y, H)) ), P) )),
+            [A, B]).
+test(what_is_wrong_with_them,
+     [ forall(member(Robots-Formal,
+                     [ [bob-default, bob-default]-permission_error(open, brick, bob),
+                       [local-default]-permission_error(open, brick, local),
+                       [anna]-type_error(pair, anna), [_]-instantiation_error,
+                       [7-default]-type_error(atom, 7), anna-type_error(list, anna),
+                       [anna-mars]-existence_error(robot, mars),
+                       [anna-default, bob-[mass(1)]]
+                       -domain_error(possible_geometry, [mass(1)]) ])),
+       true(Found-Left == Formal-[local]) ]) :-
+    duel(World),
+    catch(sim_start(World, [robots(Robots)]), error(Found, _), true),
+    findall(Name, brick(Name), Left).
+test(a_world_needs_a_start_for_each, true(Text-Left == 'start(eva, X, Y, Heading) is missing'-[local])) :-
+    duel(World),
+    catch(sim_start(World, [robots([eva-default])]), error(_, context(_, Text)), true),
+    findall(Name, brick(Name), Left).
+test(robots_do_not_start_in_each_other, true(Left == [local])) :-
+    catch(sim_start([start(anna, 0, 0, 0), start(bob, 0, 10, 0)],
+                    [robots([anna-default, bob-default])]),
+          error(domain_error(possible_geometry, _), _), true),
+    findall(Name, brick(Name), Left).
+test(time_does_not_go_back_for_one, error(existence_error(feature, _))) :-
+    with_duel(with_brick(anna, sim_snapshot(_))).
+
+:- end_tests(robots).

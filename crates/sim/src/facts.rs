@@ -34,7 +34,7 @@ impl Subject {
                 ("ambient", &[1]),
                 ("temperature", &[1]),
                 ("loudness", &[1]),
-                ("start", &[3]),
+                ("start", &[3, 4]),
                 ("map", &[2]),
             ],
             Subject::Robot => &[
@@ -86,6 +86,7 @@ pub enum Fact {
     Temperature(f64),
     Loudness(f64),
     Start(Pose),
+    NamedStart(String, Pose),
     Item(Item),
     Map(Drawn),
     LeftWheel(Wheel),
@@ -108,7 +109,10 @@ impl Fact {
             | (Fact::Ambient(_), Part::Ambient)
             | (Fact::Temperature(_), Part::Temperature)
             | (Fact::Loudness(_), Part::Loudness)
-            | (Fact::Start(_) | Fact::Map(Drawn { start: Some(_), .. }), Part::Start)
+            | (
+                Fact::Start(_) | Fact::NamedStart(..) | Fact::Map(Drawn { start: Some(_), .. }),
+                Part::Start,
+            )
             | (Fact::LeftWheel(_), Part::LeftWheel)
             | (Fact::RightWheel(_), Part::RightWheel)
             | (Fact::Axle(_), Part::Axle)
@@ -163,6 +167,7 @@ impl WorldSpec {
                 Fact::Temperature(celsius) => world.temperature = *celsius,
                 Fact::Loudness(percent) => world.loudness = *percent,
                 Fact::Start(pose) => world.start = *pose,
+                Fact::NamedStart(name, pose) => world.starts.push((name.clone(), *pose)),
                 Fact::Item(item) => world.items.push(item.clone()),
                 Fact::Map(map) => {
                     world.items.extend(map.items.iter().cloned());

@@ -119,6 +119,7 @@
             sim_check_/2,
             sim_clock_/1,
             sim_collisions_/1,
+            sim_crowd_/4,
             sim_detecting_/1,
             sim_fault_/3,
             sim_jam_/2,
@@ -410,6 +411,7 @@ missing.
 %!  sim_check_(+Subject, +Fact) is semidet.
 %!  sim_clock_(-Seconds) is semidet.
 %!  sim_collisions_(-Collisions) is semidet.
+%!  sim_crowd_(+World, +Robots, +Options, -Fault) is semidet.
 %!  sim_detecting_(+Port) is semidet.
 %!  sim_fault_(+World, +Robot, -Fault) is semidet.
 %!  sim_jam_(+Port, +Bool) is semidet.

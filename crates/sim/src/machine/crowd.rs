@@ -42,8 +42,9 @@ pub(crate) fn join(machines: &mut [Machine]) -> Result<(), Misplaced> {
         machine.scene.clone_from(scene.as_ref().unwrap_or(&Arc::clone(&machine.scene)));
     }
     see_each_other(&mut machines);
-    for (index, machine) in machines.iter().enumerate() {
+    for (index, machine) in machines.iter_mut().enumerate() {
         machine.check_free(&machine.pose()).map_err(|error| (index, error))?;
+        machine.sample_where(|_| true);
     }
     Ok(())
 }

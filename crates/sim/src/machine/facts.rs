@@ -19,6 +19,10 @@ impl Machine {
         facts.push(format!("loudness({})", scene.loudness));
         let Pose { x, y, heading } = self.pose();
         facts.push(format!("start({x:.2}, {y:.2}, {heading:.1})"));
+        for (name, Pose { x, y, heading }) in &scene.starts {
+            let name = name.replace('\\', "\\\\").replace('\'', "\\'");
+            facts.push(format!("start('{name}', {x}, {y}, {heading})"));
+        }
         facts.extend(scene.items().iter().map(|(_, item)| fact(item)));
         facts.join(".\n") + ".\n"
     }

@@ -34,6 +34,7 @@ use crate::mechanics::Body;
 use crate::mechanics::shaft::Shaft;
 use crate::noise::Teeth;
 use crate::robot::{RobotSpec, Wheels};
+use crate::sensor::Sensor;
 use crate::ticks::TICK_US;
 use crate::trace::{Collision, Trace};
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
@@ -196,10 +197,14 @@ impl Machine {
 
     /// What a hand does takes its time: when it is done, the voltages have been sampled.
     fn hand_is_done(&mut self) {
+        self.sample_where(|sensor| sensor.kind.link.is_analog());
+    }
+
+    fn sample_where(&mut self, is_meant: impl Fn(&Sensor) -> bool) {
         for index in 0..self.sockets.len() {
             let device = self.sockets[index].device;
             let serial = device.filter(|serial| match self.tree.hardware(*serial) {
-                Some(Hardware::Sensor(sensor)) => sensor.kind.link.is_analog(),
+                Some(Hardware::Sensor(sensor)) => is_meant(sensor),
                 _ => false,
             });
             if let Some(serial) = serial {

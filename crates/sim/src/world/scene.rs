@@ -39,6 +39,8 @@ pub(crate) struct Scene {
     pub(crate) loudness: f64,
     /// Where the robot starts.
     pub(crate) start: Pose,
+    /// And those of several robots.
+    pub(crate) starts: Vec<(String, Pose)>,
     /// What is held down on each channel of remote controls.
     pub(crate) remotes: [Remote; CHANNELS],
     next_id: u32,
@@ -56,6 +58,7 @@ impl Scene {
             temperature: spec.temperature,
             loudness: spec.loudness,
             start: spec.start,
+            starts: spec.starts.clone(),
             remotes: [Remote::NONE; CHANNELS],
             next_id: 1,
         };

@@ -53,6 +53,8 @@ pub struct WorldSpec {
     pub loudness: f64,
     /// Where the robot starts.
     pub start: Pose,
+    /// Where robots of these names start, if there are several.
+    pub starts: Vec<(String, Pose)>,
 }
 
 impl Default for WorldSpec {
@@ -66,11 +68,23 @@ impl Default for WorldSpec {
             temperature: 21.5,
             loudness: 0.0,
             start: Pose::default(),
+            starts: Vec::new(),
         }
     }
 }
 
 impl WorldSpec {
+    /// The same for the robot of this name, which starts at its own place.
+    ///
+    /// # Errors
+    /// If it has none.
+    pub fn seen_by(&self, name: &str) -> Result<WorldSpec, SpecError> {
+        let Some((_, start)) = self.starts.iter().rev().find(|(other, _)| other == name) else {
+            return Err(SpecError::new(format!("start({name}, X, Y, Heading)"), "is missing"));
+        };
+        Ok(WorldSpec { start: *start, ..self.clone() })
+    }
+
     /// Checks everything in it, and that the bounds have an inside with the start in it.
     ///
     /// # Errors
@@ -89,7 +103,8 @@ impl WorldSpec {
         if !(0.0..=100.0).contains(&self.loudness) {
             return Err(SpecError::new("loudness", "must be from 0 to 100").in_part(Part::Loudness));
         }
-        if !self.start.is_in_range() {
+        let starts = self.starts.iter().map(|(_, start)| start);
+        if !starts.chain([&self.start]).all(Pose::is_in_range) {
             return Err(SpecError::new("start", OUT_OF_RANGE).in_part(Part::Start));
         }
         if let Some(bounds) = self.bounds {
