@@ -105,7 +105,7 @@ natives! {
     }
 
     /// motors_stop_(+From, +Before): stops the motors whose last command was one of
-    /// these.
+    /// these, of this thread.
     semidet fn "motors_stop_"(context, from, before) {
         let call = Call::of(context, "behave", 2);
         let commands = commands_of(&call, from, before)?;

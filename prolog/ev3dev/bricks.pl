@@ -9,6 +9,8 @@
             bricks_do/2,                % +Names, :Goal
             far/2,                      % +Name, +Goal
             far_load/2,                 % +Name, +File
+            robot_send/2,               % +To, +Term
+            robot_receive/3,            % -From, ?Term, +Options
             stop_all_bricks/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -17,13 +19,16 @@
               [ end_brick/1, in_brick/2,
                 name_brick/3, named_brick/3, new_brick/1, switch_brick/1,
                 unname_brick/1 ]).
+:- use_module(private/arguments, [must_be_options/3, timeout_option/2]).
 :- use_module(private/directory, [directory_path/2]).
 :- use_module(private/errors,
               [ goal_of_program/1, must_be/2, must_be_goal/1,
                 term_expansion/4, throw_error/3 ]).
+:- use_module(private/messages, [next_message/4, send_message/3]).
 :- use_module(private/native, [brick_/1, stop_all_bricks_/0]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(files, [ev3_sysfs/1]).
+:- use_module(time, [ev3_time/1]).
 :- use_module(library(thread), [concurrent/3]).
 
 :- meta_predicate
@@ -324,6 +329,47 @@ far_of(Name, Far) :-
     ;   throw_error(domain_error(far_brick, Name), _,
                     'that brick is not far: with_brick/2 is for it')
     ).
+
+%!  robot_send(+To, +Term) is det.
+%
+%   Send a copy of Term to the brick To, whose program takes it by
+%   robot_receive/3. In a simulation it arrives 10 ms later. Does not wait.
+%
+%   @error existence_error(brick, To)
+%   @error permission_error(use, far_brick, To)
+
+robot_send(To, Term) :-
+    near(To, Brick),
+    brick_(Me),
+    (   numbered(Name, Me)
+    ->  true
+    ;   Name = Me
+    ),
+    send_message(Brick, Name, Term).
+
+%!  robot_receive(-From, ?Term, +Options) is semidet.
+%
+%   Take the first message to the brick in use that unifies with From, the
+%   name of its sender, and Term; the others stay for later. Waits for one,
+%   and fails after a time. Listeners and time limits do their work meanwhile.
+%   Options:
+%
+%     - timeout(+Seconds)
+%       How long to wait; 0 takes what has arrived already. By default there
+%       is no end.
+%
+%   @error domain_error(receive_option, Option)
+
+robot_receive(From, Term, Options) :-
+    must_be_options(receive_option, [timeout], Options),
+    timeout_option(Options, Timeout),
+    (   Timeout == infinite
+    ->  Until = inf
+    ;   ev3_time(Now),
+        Until is Now+Timeout
+    ),
+    next_message(Until, Late, From, Term),
+    Late == false.
 
 %!  stop_all_bricks is det.
 %

@@ -109,7 +109,7 @@ It may contain any number of
 
 The pack has the worlds `room` with walls and boxes, `lights` with a lamp,
 `line` with a track, `grid` with boxes in cells of 20 cm, `maze`, and `sumo`,
-a ring.
+a ring; for several robots `dohyo`, another ring, and `convoy`, a lane.
 
 ## Robots {#sim-robots}
 
@@ -216,9 +216,9 @@ time (sleep/1, timeouts) or waits for a person.
 %     - robot(+Robot)
 %       The robot, given like World. Default is `default`.
 %     - robots(+Robots)
-%       Several robots: a list of Name-Robot, each Robot given like World. Each
-%       becomes a brick Name of library(ev3dev/bricks), with a processor of its
-%       own; the brick in use stays what it is. The world has a fact
+%       Several robots: a list of Name-Robot, each Robot given like World.
+%       Each becomes a brick Name of library(ev3dev/bricks), with a processor
+%       of its own; the brick in use stays what it is. The world has a fact
 %       `start(Name, X, Y, Heading)` for each. They have one time, and see and
 %       push each other. sim_snapshot/1 is not for them. When one is closed,
 %       it stays where it is.

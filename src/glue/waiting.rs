@@ -203,7 +203,7 @@ fn is_tick_due_at_prompt() -> bool {
 }
 
 impl<C: QueryableContextType> Call<'_, C> {
-    /// Stops the motors of all bricks whose last command was one of these.
+    /// Stops the motors of all bricks whose last command was one of these, of this thread.
     pub(crate) fn stop_commanded(&self, commands: &Range<u32>) -> PrologResult<()> {
         let stop = |devices: &_| motor::stop_commanded(devices, commands);
         self.or_throw(state::on_all_bricks(stop))

@@ -90,6 +90,8 @@ bad(brick_close(anna), [_-1, 7-1, anna-1, local-1]).
 bad(with_brick(local, true), [_-1, 7-1, anna-1, 7-2, _-2]).
 bad(use_brick(local), [7-1, anna-1]).
 bad(bricks_do(true), [_-1, 7-1]).
+bad(robot_send(local, x), [_-1, 7-1, anna-1]).
+bad(robot_receive(_, _, [timeout(0)]), [[timeout(-1)]-3, [until(1)]-3, a-3]).
 bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).
 bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).

@@ -5,7 +5,7 @@
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/drive)).
-:- use_module(library(ev3dev/events), [on/2 as when_, both/2]).
+:- use_module(library(ev3dev/events), [on/2 as when_, both/2, every/3]).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -370,5 +370,49 @@ test(robots_do_not_start_in_each_other, true(Left == [local])) :-
     findall(Name, brick(Name), Left).
 test(time_does_not_go_back_for_one, error(existence_error(feature, _))) :-
     with_duel(with_brick(anna, sim_snapshot(_))).
+
+test(a_message_arrives_later, true(Late-From-Took == none-anna-0.01)) :-
+    with_duel(( with_brick(anna, ( sim_time(T0), robot_send(bob, hi(_)) )),
+                with_brick(bob, ( ( robot_receive(_, _, [timeout(0)]) -> Late = found ; Late = none ),
+                                  robot_receive(From, hi(_), []), sim_time(T1) )) )),
+    Took is round((T1-T0)*1000)/1000.
+test(messages_come_in_their_order, true(Ms == [anna-1, bob-2, anna-3, bob-4])) :-
+    with_duel(( with_brick(bob, robot_send(bob, 2)), with_brick(anna, robot_send(bob, 1)),
+                with_brick(anna, ( wait(1), robot_send(bob, 3) )),
+                with_brick(bob, ( robot_send(bob, 4),
+                                  findall(F-M, ( between(1, 4, _), robot_receive(F, M, []) ),
+                                          Ms) )) )).
+test(others_stay_for_later, true(A-B == 2-1)) :-
+    with_duel(( with_brick(anna, forall(member(M, [first(1), second(2)]), robot_send(bob, M))),
+                with_brick(bob, ( robot_receive(anna, second(A), []),
+                                  robot_receive(anna, first(B), []) )) )).
+test(nobody_sends, true(Took == 0.5)) :-
+    with_duel(with_brick(bob, ( sim_time(T0), \+ robot_receive(_, _, [timeout(0.5)]),
+                                sim_time(T1) ))),
+    Took is round((T1-T0)*1000)/1000.
+test(listeners_go_on_while_one_waits, true(N == 4)) :-
+    nb_setval(counted, 0),
+    with_duel(with_brick(bob, ( every(0.1, ( nb_getval(counted, C0), C is C0+1,
+                                             nb_setval(counted, C) ), [count(4)]),
+                                \+ robot_receive(_, _, [timeout(1)]) ))),
+    nb_getval(counted, N).
+test(a_message_to_this_brick_needs_no_simulation, true(From-M == local-f(x))) :-
+    robot_send(local, f(x)),
+    robot_receive(From, M, [timeout(1)]).
+test(messages_end_with_the_brick, fail) :-
+    with_duel(with_brick(anna, robot_send(bob, hi))),
+    with_duel(with_brick(bob, robot_receive(_, _, [timeout(1)]))).
+test(an_attribute_is_not_sent, true(Attributed == no)) :-
+    with_duel(( freeze(X, true), with_brick(anna, robot_send(bob, f(X))),
+                with_brick(bob, robot_receive(_, f(Y), [])) )),
+    ( attvar(Y) -> Attributed = yes ; Attributed = no ).
+test(wrong_messages,
+     [ forall(member(Goal-Formal,
+                     [ robot_send(nobody, x)-existence_error(brick, nobody),
+                       robot_send(_, x)-instantiation_error,
+                       robot_receive(_, _, [timeout(-1)])-domain_error(timeout, -1),
+                       robot_receive(_, _, [until(1)])-domain_error(receive_option, until(1)) ])),
+       error(Formal) ]) :-
+    Goal.
 
 :- end_tests(robots).

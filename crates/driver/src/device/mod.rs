@@ -55,6 +55,8 @@ pub struct Device {
     is_prepared: AtomicBool,
     /// The number of the last command, among those of the whole program.
     commanded: AtomicU32,
+    /// The thread that gave it.
+    commander: AtomicU32,
     /// Learns of commands that start it.
     observer: Arc<Observer>,
     /// Where commands are noted.
@@ -119,6 +121,7 @@ impl Device {
             attributes: List::default(),
             constants: List::default(),
             commanded: AtomicU32::new(u32::MAX),
+            commander: AtomicU32::new(u32::MAX),
             run: Mutex::default(),
             written: Written::default(),
             is_prepared: AtomicBool::default(),
@@ -257,11 +260,13 @@ impl Device {
     /// The program has given the motor a command.
     pub(crate) fn was_commanded(&self) {
         self.commanded.store(motion::next_command(), Ordering::Relaxed);
+        self.commander.store(motion::commander(), Ordering::Relaxed);
     }
 
-    /// Whether the last command of the program to the motor was one of these.
+    /// Whether the last command of the program to the motor was one of these, of this thread.
     pub(crate) fn is_commanded_in(&self, commands: &Range<u32>) -> bool {
         commands.contains(&self.commanded.load(Ordering::Relaxed))
+            && self.commander.load(Ordering::Relaxed) == motion::commander()
     }
 
     /// Reports that the motor was started.

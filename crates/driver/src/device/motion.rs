@@ -16,6 +16,15 @@ pub(super) fn next_command() -> u32 {
     COMMANDS.fetch_add(1, Ordering::Relaxed)
 }
 
+/// A number of this thread.
+pub(super) fn commander() -> u32 {
+    static THREADS: AtomicU32 = AtomicU32::new(0);
+    thread_local! {
+        static ME: u32 = THREADS.fetch_add(1, Ordering::Relaxed);
+    }
+    ME.with(|me| *me)
+}
+
 /// The last command to a motor, as far as a wait for its end needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MotorRun {

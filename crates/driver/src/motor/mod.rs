@@ -110,7 +110,7 @@ pub fn command_count() -> u32 {
 }
 
 /// Stops the motors that were started, and whose last command by the program was one of
-/// these, counted from 0. A robot's motors are commanded when its course begins.
+/// these, counted from 0, and of this thread. A robot's motors are commanded when its course begins.
 ///
 /// # Errors
 /// The first that occurred.

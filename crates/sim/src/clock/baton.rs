@@ -21,7 +21,7 @@ use super::threads::{self, Id, Threads};
 
 /// How long the first in line sleeps, by the wall clock, before it looks whether the others rest.
 /// It sleeps twice as long each time.
-const NAPS: [Duration; 2] = [Duration::from_micros(20), Duration::from_millis(1)];
+const NAPS: [Duration; 2] = [Duration::from_micros(100), Duration::from_millis(1)];
 
 /// The baton, and the line for it.
 #[derive(Debug)]
@@ -132,8 +132,9 @@ impl Baton {
         }
         line.join(me, about, wish);
         let mut has_slept = false;
+        let mut watches = false;
         loop {
-            self.pass(&mut line);
+            watches |= self.pass(&mut line);
             if self.is_mine() {
                 self.take(&mut line);
                 if has_slept {
@@ -146,10 +147,11 @@ impl Baton {
                 line.leave(me);
                 return false;
             }
-            // One thread looks at the others, that is enough.
-            let is_first = line.first().is_some_and(|first| first.id == me);
+            // One thread looks at the others, that is enough: the one that has passed the baton
+            // on is awake.
+            watches |= line.first().is_some_and(|first| first.id == me);
             drop(line);
-            thread::park_timeout(if is_first { nap.min(left) } else { left });
+            thread::park_timeout(if watches { nap.min(left) } else { left });
             has_slept = true;
             nap = longest.min(nap * 2);
             line = self.line();
@@ -181,14 +183,15 @@ impl Baton {
         self.line().clients.len() > 1
     }
 
-    /// Passes the baton on to the first in line, if everyone else rests.
-    fn pass(&self, line: &mut Line) {
+    /// Passes the baton on to the first in line, if everyone else rests; whether that is another
+    /// thread than this one.
+    fn pass(&self, line: &mut Line) -> bool {
         let holder = self.holder.load(Ordering::SeqCst);
         if line.stands(holder) || !self.is_rest(line) {
-            return;
+            return false;
         }
         let Some(first) = line.first() else {
-            return;
+            return false;
         };
         if first
             .stands
@@ -196,18 +199,17 @@ impl Baton {
             .and_then(|stand| stand.wall)
             .is_some_and(|wall| Instant::now() < wall)
         {
-            return;
+            return false;
         }
         let (id, thread) = (first.id, first.thread.clone());
         self.holder.store(id, Ordering::SeqCst);
         // Those that sleep elsewhere lose their places.
         line.clients.retain(|client| client.stands.is_some());
-        thread.unpark();
-        // From now on the second one looks at the others.
-        let second = line.clients.iter().filter(|client| client.id != id);
-        if let Some(second) = second.min_by(|a, b| line.order(a).cmp(&line.order(b))) {
-            second.thread.unpark();
+        if id == threads::me() {
+            return false;
         }
+        thread.unpark();
+        true
     }
 
     /// Whether all other threads are asleep.

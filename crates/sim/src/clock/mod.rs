@@ -23,14 +23,14 @@ mod wall;
 use ev3_os::Instant;
 use std::cell::Cell;
 use std::io;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
 use self::pace::{Leave, Pace};
 use self::wall::{STEP, Stepper};
+use crate::lock::locked;
 use crate::machine::Machine;
 use crate::machine::crowd::{self, Misplaced};
 use crate::shared::{Crowd, Shared};
@@ -87,9 +87,8 @@ pub struct Simulation {
     clock: Passing,
     /// The other robots in its world, whose time passes with its own.
     crowd: Option<Arc<Crowd>>,
-    /// Up to when the processor of this brick is busy, in nanoseconds: of one in a crowd, on the
-    /// virtual clock.
-    busy: AtomicU64,
+    /// Up to when the processor of this brick is busy: of one in a crowd, on the virtual clock.
+    busy: Mutex<Duration>,
 }
 
 /// How the time of a simulation, or of a crowd, passes.
@@ -126,7 +125,7 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
-        Ok(Self { shared, acts, clock, crowd: None, busy: AtomicU64::new(0) })
+        Ok(Self { shared, acts, clock, crowd: None, busy: Mutex::default() })
     }
 
     /// The same for several robots, which come into the world of the first one. They have one time.
@@ -153,7 +152,7 @@ impl Simulation {
             acts: Arc::clone(&acts),
             clock: clock.clone(),
             crowd: Some(Arc::clone(&crowd)),
-            busy: AtomicU64::new(0),
+            busy: Mutex::default(),
         };
         Ok(Ok(crowd.members().iter().map(simulation).collect()))
     }
@@ -171,7 +170,7 @@ impl Simulation {
 
     /// Up to when the processor of this brick is busy.
     fn busy(&self) -> Duration {
-        Duration::from_nanos(self.busy.load(Ordering::SeqCst))
+        *locked(&self.busy)
     }
 
     fn is_busy(&self) -> bool {
@@ -180,8 +179,9 @@ impl Simulation {
 
     /// It is busy for this much longer.
     fn work(&self, takes: Duration) {
-        let end = self.busy().max(self.machine().now()) + takes;
-        self.busy.store(u64::try_from(end.as_nanos()).unwrap_or(u64::MAX), Ordering::SeqCst);
+        let now = self.machine().now();
+        let mut busy = locked(&self.busy);
+        *busy = busy.max(now) + takes;
     }
 
     /// The machine behind its lock, as a mount needs it.

@@ -6,7 +6,9 @@
 use crate::lock::locked;
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
-use std::io::Read;
+use std::io;
+#[cfg(unix)]
+use std::os::unix::fs::{FileExt, MetadataExt};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -61,16 +63,27 @@ pub(super) fn stay_outside(is_outside: bool) {
     });
 }
 
-/// The threads of this process when they last rested.
+/// The threads of this process, and how they were when they last rested.
 #[derive(Debug, Default)]
 pub(super) struct Threads {
     /// In the order of their creation, as the kernel lists them.
     seen: Vec<Seen>,
+    tasks: Tasks,
 }
 
 /// What was seen of a thread: its number, and how often it had left its processor, unless it was
 /// not looked at.
 type Seen = (Id, Option<u64>);
+
+/// The kernel's files about the threads. They stay open, as a look is taken at each hand-over.
+#[derive(Debug, Default)]
+struct Tasks {
+    process: u32,
+    directory: Option<File>,
+    /// A directory has two more links than threads in it.
+    links: u64,
+    files: Vec<(Id, Option<File>)>,
+}
 
 impl Threads {
     /// Whether there was a moment at which all threads but this one were asleep. Those that stand
@@ -82,12 +95,13 @@ impl Threads {
     /// since the last time, but those in line.
     pub(super) fn rest(&mut self, stands: impl Fn(Id) -> bool) -> bool {
         let elsewhere = |id| !stands(id);
-        let Some(seen) = look(elsewhere) else {
+        let Some(seen) = self.tasks.look(elsewhere) else {
             return false;
         };
         let is_as_before = seen.iter().all(|one| one.1.is_none() || self.seen.contains(one));
         let rest = is_as_before
-            || look(&stands).is_some() && look(elsewhere).is_some_and(|again| again == seen);
+            || self.tasks.look(&stands).is_some()
+                && self.tasks.look(elsewhere).is_some_and(|again| again == seen);
         if rest {
             self.seen = seen;
         }
@@ -100,43 +114,91 @@ impl Threads {
     }
 }
 
-/// The threads; `None` if one of those that are looked at is awake. This one is not looked at.
-fn look(is_looked_at: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
-    let mut seen = Vec::new();
-    let outside = locked(&OUTSIDE).clone();
-    for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
-        let Some(id) = task.file_name().to_str().and_then(|name| name.parse().ok()) else {
-            continue;
-        };
-        if outside.contains(&id) {
-            continue;
+impl Tasks {
+    /// The threads; `None` if one of those that are looked at is awake. This one is not looked at.
+    fn look(&mut self, is_looked_at: impl Fn(Id) -> bool) -> Option<Vec<Seen>> {
+        let outside = locked(&OUTSIDE).clone();
+        'again: loop {
+            self.list();
+            let mut seen = Vec::with_capacity(self.files.len());
+            for (id, file) in self.files.iter().filter(|(id, _)| !outside.contains(id)) {
+                let is_looked_at = *id != me() && is_looked_at(*id);
+                let Some(file) = file.as_ref().filter(|_| is_looked_at) else {
+                    seen.push((*id, is_looked_at.then_some(u64::MAX)));
+                    continue;
+                };
+                let Ok(switches) = switches(file) else {
+                    // It has ended, maybe in the place of a new one.
+                    self.links = 0;
+                    continue 'again;
+                };
+                seen.push((*id, Some(switches?)));
+            }
+            return Some(seen);
         }
-        let is_looked_at = id != me() && is_looked_at(id);
-        seen.push((id, if is_looked_at { Some(switches(id)?) } else { None }));
     }
-    Some(seen)
+
+    /// Lists the threads again, if there are more or less of them.
+    fn list(&mut self) {
+        if self.process != std::process::id() {
+            let directory = File::open(TASKS).ok();
+            *self = Tasks { process: std::process::id(), directory, ..Tasks::default() };
+        }
+        let links = self.directory.as_ref().map_or(0, links);
+        if links != 0 && links == self.links {
+            return;
+        }
+        self.links = links;
+        self.files.clear();
+        for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
+            let id = task.file_name().to_str().and_then(|name| name.parse().ok());
+            if let Some(id) = id {
+                self.files.push((id, File::open(task.path().join("status")).ok()));
+            }
+        }
+    }
 }
 
-/// How often a thread has left its processor; `None` if it is awake. One that has ended is asleep
-/// for ever, and our own threads count as asleep.
-fn switches(thread: Id) -> Option<u64> {
+/// How often a thread has left its processor; `None` if it is awake. Our own threads count as
+/// asleep for ever.
+fn switches(status: &File) -> io::Result<Option<u64>> {
     let mut buffer = [0; 4096];
-    let file = File::open(format!("{TASKS}/{thread}/status"));
-    let Ok(length) = file.and_then(|mut file| file.read(&mut buffer)) else {
-        return Some(u64::MAX);
-    };
-    let text = String::from_utf8_lossy(&buffer[..length]);
+    let length = read(status, &mut buffer)?;
+    let text = std::str::from_utf8(&buffer[..length]).unwrap_or_default();
     let value = |name| text.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
-    let count = |name| value(name)?.parse::<u64>().ok();
-    if value("Name:")?.starts_with(OURS) {
-        return Some(u64::MAX);
+    let count = |name| value(name).and_then(|count| count.parse::<u64>().ok()).unwrap_or(0);
+    if value("Name:").is_some_and(|name| name.starts_with(OURS)) {
+        return Ok(Some(u64::MAX));
     }
-    match value("State:")?.as_bytes().first()? {
+    Ok(match value("State:").and_then(|state| state.bytes().next()) {
         // One that is about to fall asleep is said to be asleep, and may lose its processor just
         // then, before that sleep counts.
-        b'S' => Some(count("voluntary_ctxt_switches:")? + count("nonvoluntary_ctxt_switches:")?),
-        b'X' | b'Z' => Some(u64::MAX),
+        Some(b'S') => {
+            Some(count("voluntary_ctxt_switches:") + count("nonvoluntary_ctxt_switches:"))
+        }
+        Some(b'X' | b'Z') => Some(u64::MAX),
         // It can run, waits for a disk or its memory, or was halted by a debugger.
         _ => None,
-    }
+    })
+}
+
+#[cfg(unix)]
+fn links(directory: &File) -> u64 {
+    directory.metadata().map_or(0, |metadata| metadata.nlink())
+}
+
+#[cfg(unix)]
+fn read(file: &File, buffer: &mut [u8]) -> io::Result<usize> {
+    file.read_at(buffer, 0)
+}
+
+/// In a browser there are no threads.
+#[cfg(not(unix))]
+fn links(_directory: &File) -> u64 {
+    0
+}
+
+#[cfg(not(unix))]
+fn read(_file: &File, _buffer: &mut [u8]) -> io::Result<usize> {
+    Ok(0)
 }
