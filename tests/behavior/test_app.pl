@@ -55,7 +55,7 @@ with_program(Lines, File, Goal) :-
 %   Loads no view and drives no motor: the command line alone is wrong.
 refused("frob", "there is no command frob; there are: view, sim, run, ").
 refused("run", "run needs a program: ").
-refused("sim", "sim needs a world: delivery, grid, lights, ").
+refused("sim", "sim needs a world: convoy, delivery, dohyo, ").
 refused("run a.pl b.pl", "run does not take b.pl").
 refused("devices a.pl", "devices does not take a.pl").
 refused("run a.pl --world", "--world needs a world").
@@ -69,7 +69,7 @@ refused("jog --loud", "jog has no option --loud").
 refused("run nothing_such.pl --world room",
         "there is no program nothing_such.pl; there are: braitenberg, ").
 refused("run square --world moon",
-        "there is no world moon; there are: delivery, grid, ").
+        "there is no world moon; there are: convoy, delivery, ").
 refused("run square --world room --robot tuch",
         "there is no robot tuch; there are: default, touch").
 refused("run square --world room --clock fast",
