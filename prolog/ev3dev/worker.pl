@@ -6,7 +6,7 @@
 :- use_module(private/far_frames,
               [ beat/1, protocol/1, receive_frames/2, send_frame/4 ]).
 :- use_module(private/native, [stop_all_bricks_/0]).
-:- use_module(user:library(ev3dev)).
+:- user:use_module(library(ev3dev)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(unix), [dup/2]).
 

@@ -6,7 +6,6 @@
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(aggregate)).
-:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(thread)).
 
@@ -52,8 +51,8 @@ test(a_convoy_says_where_it_is, Line == "the first drove to 268 cm; 40 and 40 cm
 test(two_robots_draw_one_map, Near-Far == true-true) :-
     printed(map_together:start, Lines),
     length(Lines, 20),
-    findall(D, ( map_together:seen(X, Y), D is sqrt((X-150)**2 + (Y-60)**2) ), Ds),
-    include([D]>>between_(8, D, 16), Ds, OnPillar),
+    findall(D, ( map_together:seen(X, Y), D is sqrt((X-150)**2 + (Y-60)**2),
+                 between_(8, D, 16) ), OnPillar),
     length(OnPillar, Count),
     ( Count > 2 -> Near = true ; Near = Count ),
     % What only the scout has seen
