@@ -108,6 +108,14 @@ impl Baton {
         self.is_mine() && !self.is_kept.load(Ordering::SeqCst)
     }
 
+    /// Whether those in line that have had a turn all wait for a later moment. A newcomer may be
+    /// there or not yet.
+    pub(super) fn is_before_others(&self, now: Duration) -> bool {
+        let line = self.line();
+        let mut standing = line.clients.iter().filter_map(|client| client.stands.as_ref());
+        standing.all(|stand| stand.moment.is_none_or(|moment| moment > now))
+    }
+
     /// Stands in line for the next turn; `false` if the caller has to handle signals, and to stand
     /// in line again. If the turn does not come within this wall time, the thread keeps its place
     /// meanwhile. If the turn came after a sleep in line, the thread has it already: so a signal

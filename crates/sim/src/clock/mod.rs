@@ -47,6 +47,9 @@ const WRITE_TAKES: Duration = Duration::from_micros(100);
 /// for the time lets the others go on.
 const CALL_TAKES: Duration = Duration::from_micros(10);
 
+/// How many calls of one in a crowd begin at one moment before other threads are looked at.
+const CALLS: u32 = 32;
+
 /// Longest wait, by the wall clock, before the caller can handle signals.
 const SLICE: Duration = Duration::from_millis(20);
 
@@ -89,6 +92,8 @@ pub struct Simulation {
     crowd: Option<Arc<Crowd>>,
     /// Up to when the processor of this brick is busy: of one in a crowd, on the virtual clock.
     busy: Mutex<Duration>,
+    /// How many calls of one in a crowd began at this moment without a look at other threads.
+    begun: Mutex<(Duration, u32)>,
 }
 
 /// How the time of a simulation, or of a crowd, passes.
@@ -125,7 +130,14 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
-        Ok(Self { shared, acts, clock, crowd: None, busy: Mutex::default() })
+        Ok(Self {
+            shared,
+            acts,
+            clock,
+            crowd: None,
+            busy: Mutex::default(),
+            begun: Mutex::default(),
+        })
     }
 
     /// The same for several robots, which come into the world of the first one. They have one time.
@@ -153,6 +165,7 @@ impl Simulation {
             clock: clock.clone(),
             crowd: Some(Arc::clone(&crowd)),
             busy: Mutex::default(),
+            begun: Mutex::default(),
         };
         Ok(Ok(crowd.members().iter().map(simulation).collect()))
     }
@@ -215,7 +228,7 @@ impl Simulation {
             return false;
         }
         let mut takes = Duration::ZERO;
-        if !baton.is_freely_mine() || has_others() {
+        if !self.begins_at_once(baton) && (!baton.is_freely_mine() || has_others()) {
             let wish = Wish::Turn(self.machine().now());
             if !baton.stand(wish, about, SLICE) {
                 return false;
@@ -230,6 +243,21 @@ impl Simulation {
         }
         drop(self.acts.step(&self.shared, self.shared.lock(), takes));
         true
+    }
+
+    /// Whether a call of one in a crowd, which has its turn, begins before anybody else goes on: as
+    /// no time passes, but not for ever. It need not look at all threads, as most calls would.
+    fn begins_at_once(&self, baton: &Baton) -> bool {
+        if self.crowd.is_none() || !baton.is_freely_mine() {
+            return false;
+        }
+        let now = self.machine().now();
+        let mut begun = locked(&self.begun);
+        if begun.0 != now {
+            *begun = (now, 0);
+        }
+        begun.1 += 1;
+        begun.1 < CALLS && baton.is_before_others(now)
     }
 
     /// Holds this thread back, which has its turn, if time is to pass more slowly; `false` if it

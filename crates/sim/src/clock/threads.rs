@@ -153,23 +153,23 @@ impl Tasks {
         for task in fs::read_dir(TASKS).into_iter().flatten().flatten() {
             let id = task.file_name().to_str().and_then(|name| name.parse().ok());
             if let Some(id) = id {
-                self.files.push((id, File::open(task.path().join("status")).ok()));
+                // Our own threads count as asleep for ever.
+                let name = fs::read_to_string(task.path().join("comm")).unwrap_or_default();
+                let is_ours = name.starts_with(OURS);
+                let file = File::open(task.path().join("status")).ok().filter(|_| !is_ours);
+                self.files.push((id, file));
             }
         }
     }
 }
 
-/// How often a thread has left its processor; `None` if it is awake. Our own threads count as
-/// asleep for ever.
+/// How often a thread has left its processor; `None` if it is awake.
 fn switches(status: &File) -> io::Result<Option<u64>> {
     let mut buffer = [0; 4096];
     let length = read(status, &mut buffer)?;
     let text = std::str::from_utf8(&buffer[..length]).unwrap_or_default();
     let value = |name| text.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
     let count = |name| value(name).and_then(|count| count.parse::<u64>().ok()).unwrap_or(0);
-    if value("Name:").is_some_and(|name| name.starts_with(OURS)) {
-        return Ok(Some(u64::MAX));
-    }
     Ok(match value("State:").and_then(|state| state.bytes().next()) {
         // One that is about to fall asleep is said to be asleep, and may lose its processor just
         // then, before that sleep counts.
