@@ -27,10 +27,11 @@ start :-
 match(Winner) :-
     match(Winner, []).
 
-%   Options are those of sim_start/2. Nobody wins who has not won in a minute.
+%   Options are those of sim_start/2. Nobody wins who has not won in two
+%   minutes.
 
 match(Winner, Options) :-
-    sumo_robot(1.4, 10, Heavy),
+    sumo_robot(1.6, 15, Heavy),
     sumo_robot(0.8, 0, Light),
     setup_call_cleanup(
         sim_start(dohyo, [ clock(virtual), robots([east-Heavy, west-Light])
@@ -47,7 +48,7 @@ match(Winner, Options) :-
 fight :-
     set_robot(5.6, 10.6, outB, outC),
     behave([edge_left, edge_right, push, find],
-           [until(( is_out(east) ; is_out(west) )), timeout(60)]).
+           [until(( is_out(east) ; is_out(west) )), timeout(120)]).
 
 is_out(Name) :-
     with_brick(Name, sim_pose(X, Y, _)),

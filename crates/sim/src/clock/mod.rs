@@ -47,6 +47,10 @@ const WRITE_TAKES: Duration = Duration::from_micros(100);
 /// for the time lets the others go on.
 const CALL_TAKES: Duration = Duration::from_micros(10);
 
+/// How far the processor of one in a crowd may be behind with its accesses before the next call
+/// waits for it: a tick of the kernel's motor loop.
+const BEHIND: Duration = Duration::from_millis(2);
+
 /// How many calls of one in a crowd begin at one moment before other threads are looked at.
 const CALLS: u32 = 32;
 
@@ -186,8 +190,8 @@ impl Simulation {
         *locked(&self.busy)
     }
 
-    fn is_busy(&self) -> bool {
-        self.crowd.is_some() && self.busy() > self.machine().now()
+    fn is_far_behind(&self) -> bool {
+        self.crowd.is_some() && self.busy() >= self.machine().now() + BEHIND
     }
 
     /// It is busy for this much longer.
@@ -224,7 +228,7 @@ impl Simulation {
         if self.acts.is_acting() || IS_OUTSIDE.get() {
             return true;
         }
-        if self.is_busy() && !self.pause(self.busy()) {
+        if self.is_far_behind() && !self.pause(self.busy()) {
             return false;
         }
         let mut takes = Duration::ZERO;
