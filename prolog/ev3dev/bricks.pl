@@ -11,6 +11,8 @@
             far_load/2,                 % +Name, +File
             robot_send/2,               % +To, +Term
             robot_receive/3,            % -From, ?Term, +Options
+            robots_join/1,              % +Redis
+            robots_leave/0,
             stop_all_bricks/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
@@ -25,8 +27,10 @@
               [ goal_of_program/1, must_be/2, must_be_goal/1,
                 term_expansion/4, throw_error/3 ]).
 :- use_module(private/messages, [next_message/4, send_message/3]).
-:- use_module(private/native, [brick_/1, stop_all_bricks_/0]).
+:- use_module(private/native, [brick_/1, sim_active_/0, stop_all_bricks_/0]).
 :- use_module(private/one_of, [one_of/2]).
+:- use_module(private/redis, [redis_address/2]).
+:- use_module(private/world_name, [noted_world/2]).
 :- use_module(files, [ev3_sysfs/1]).
 :- use_module(time, [ev3_time/1]).
 :- use_module(library(thread), [concurrent/3]).
@@ -334,18 +338,70 @@ far_of(Name, Far) :-
 %
 %   Send a copy of Term to the brick To, whose program takes it by
 %   robot_receive/3. In a simulation it arrives 10 ms later. Does not wait.
+%   After robots_join/1, To may be a brick of another program. Nobody knows
+%   whether there is one; what no program takes is lost.
 %
 %   @error existence_error(brick, To)
 %   @error permission_error(use, far_brick, To)
 
 robot_send(To, Term) :-
-    near(To, Brick),
+    must_be(atom, To),
     brick_(Me),
-    (   numbered(Name, Me)
+    (   named_brick(Name, Me, _)
+    ->  true
+    ;   numbered(Name, Me)
     ->  true
     ;   Name = Me
     ),
-    send_message(Brick, Name, Term).
+    (   \+ numbered(To, _),
+        current_predicate(ev3dev_mail:send_mail/3),
+        ev3dev_mail:send_mail(To, Name, Term)
+    ->  true
+    ;   near(To, Brick),
+        send_message(Brick, Name, Term)
+    ).
+
+%!  robots_join(+Redis) is det.
+%!  robots_leave is det.
+%
+%   From now on robot_send/2 and robot_receive/3 are also for the bricks of
+%   other programs that have joined, on this machine and on others, by a Redis
+%   server: redis(Host) or redis(Host:Port). Each brick needs a name of its
+%   own: `brick_open(anna, local)` gives one to this machine. Time is that of
+%   the wall clock. Who can write to that server can send messages. If it goes
+%   away, the program tries to reach it again each second.
+%
+%   @error domain_error(redis_address, Address)
+%   @error permission_error(join, redis, HostPort) if it has joined already
+%   @error permission_error(join, clock, virtual) where the brick in use is
+%          simulated on the virtual clock
+%   @error existence_error(redis_server, HostPort)
+%   @error existence_error(library, redis) in a Prolog without it
+
+robots_join(Redis) :-
+    must_be(nonvar, Redis),
+    (   Redis = redis(Address)
+    ->  must_be(nonvar, Address),
+        redis_address(Address, HostPort)
+    ;   throw_error(domain_error(redis_address, Redis), _,
+                    'robots join by redis(Host) or redis(Host:Port)')
+    ),
+    (   predicate_property(sim_active_, foreign),
+        sim_active_,
+        noted_world(_, Options),
+        memberchk(clock(virtual), Options)
+    ->  throw_error(permission_error(join, clock, virtual), _,
+                    'other programs do not wait for this clock')
+    ;   true
+    ),
+    use_module(library(ev3dev/private/mail), []),
+    ev3dev_mail:join_mail(HostPort).
+
+robots_leave :-
+    (   current_predicate(ev3dev_mail:leave_mail/0)
+    ->  ev3dev_mail:leave_mail
+    ;   true
+    ).
 
 %!  robot_receive(-From, ?Term, +Options) is semidet.
 %

@@ -58,6 +58,7 @@ unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
 unit(sim, ['ev3dev/sim']).
 unit(sim_batch, ['ev3dev/private/batch_pool', 'ev3dev/sim_batch']).
 unit(batch_redis, ['ev3dev/private/batch_redis']).
+unit(mail, ['ev3dev/private/mail']).
 unit(bricks, ['ev3dev/bricks']).
 unit(far, ['ev3dev/private/far']).
 unit(worker, ['ev3dev/worker']).

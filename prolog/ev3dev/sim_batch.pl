@@ -9,10 +9,11 @@
               [ must_be_options/3, number_option/4, number_value/3, option/3,
                 take_options/4 ]).
 :- use_module(private/errors,
-              [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
+              [in_own_name/1, must_be/2, term_expansion/4]).
 :- use_module(private/batch_pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
+:- use_module(private/redis, [redis_address/2]).
 :- use_module(library(lists), [member/2]).
 
 /** <module> The same program in many simulations
@@ -166,23 +167,6 @@ own_options(Options, Workers, Wall, Cpu, Progress) :-
     ),
     option(progress(Progress), Options, Terminal),
     must_be(boolean, Progress).
-
-%   The port is by default that of Redis.
-
-redis_address(Address, HostPort) :-
-    (   Address = Host:Port,
-        atom(Host),
-        integer(Port)
-    ->  HostPort = Host:Port
-    ;   atom(Address)
-    ->  (   atomic_list_concat([Host, Text], :, Address),
-            atom_number(Text, Port)
-        ->  HostPort = Host:Port
-        ;   HostPort = Address:6379
-        )
-    ;   throw_error(domain_error(redis_address, Address), _,
-                    'an address is Host or Host:Port')
-    ).
 
 numbered([], _, []).
 numbered([Seed|Seeds], Number, [todo(Number, Seed, 1)|Todos]) :-

@@ -90,6 +90,7 @@ bad(brick_close(anna), [_-1, 7-1, anna-1, local-1]).
 bad(with_brick(local, true), [_-1, 7-1, anna-1, 7-2, _-2]).
 bad(use_brick(local), [7-1, anna-1]).
 bad(bricks_do(true), [_-1, 7-1]).
+bad(robots_join(redis(localhost)), [_-1, 7-1, redis(1)-1]).
 bad(robot_send(local, x), [_-1, 7-1, anna-1]).
 bad(robot_receive(_, _, [timeout(0)]), [[timeout(-1)]-3, [until(1)]-3, a-3]).
 bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).

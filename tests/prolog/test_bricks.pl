@@ -1,5 +1,7 @@
 % library(ev3dev/bricks): each brick has its own robot, and a name says which is meant.
 
+:- use_module('../support/child').
+:- use_module('../support/redis').
 :- use_module('../support/trees').
 :- use_module('../support/simulation').
 :- use_module(library(ev3dev)).
@@ -419,3 +421,94 @@ test(wrong_messages,
     Goal.
 
 :- end_tests(robots).
+
+% Another program, with the brick bob, does this.
+with_other(Port, Text, Goal) :-
+    format(string(Program),
+           ":- use_module(library(ev3dev)).
+            :- use_module(library(ev3dev/bricks)).
+            go :- brick_open(bob, local), robots_join(redis(localhost:~d)), ~s.",
+           [Port, Text]),
+    start_program(Program, [goal(go)], Child),
+    call_cleanup(once(Goal), catch(kill_program(Child), error(_, _), true)).
+
+joined(Port, Goal) :-
+    setup_call_cleanup(
+        ( brick_open(anna, local), robots_join(redis(localhost:Port)) ),
+        once(Goal),
+        ( robots_leave, read_all, brick_close(anna) )).
+
+read_all :-
+    repeat,
+    \+ robot_receive(_, _, [timeout(0)]),
+    !.
+
+% Sends until the other program, which may still start, has answered.
+answer(Term, From, Answer) :-
+    between(1, 200, _),
+    robot_send(bob, Term),
+    robot_receive(From, Answer, [timeout(0.1)]),
+    !.
+
+answered_at_last(Term, Answer) :-
+    eventually(catch(answer(Term, _, Answer), error(_, _), fail)).
+
+:- ( exists_source(library(redis)) -> use_module(library(redis), [redis/3]) ; true ).
+
+:- begin_tests(robots_joined, [condition(can_use_redis)]).
+
+test(a_message_goes_and_one_comes, From-X =@= bob-f("a b", 'C', [_])) :-
+    with_redis_server(Port,
+      with_other(Port, "robot_receive(F, ping(X), []), robot_send(F, pong(X))",
+        joined(Port, answer(ping(f("a b", 'C', [_])), From, pong(X))))).
+test(a_server_that_went_away_is_found_again,
+     [ setup(assertz((user:message_hook(ev3dev(mail_lost(_)), _, _)), Told)),
+       cleanup(erase(Told)), true(X == 2) ]) :-
+    with_redis_server(Port,
+      with_other(Port, "repeat, robot_receive(F, ping(X), []),
+                        catch(robot_send(F, pong(X)), _, true), fail",
+        joined(Port,
+          ( answer(ping(1), _, pong(1)),
+            with_server_again(Port, answered_at_last(ping(2), pong(X))) )))).
+test(what_comes_twice_is_dropped, Terms == [a, b]) :-
+    with_redis_server(Port,
+      joined(Port,
+        ( with_client(Port, Redis,
+              forall(member(Number-Term, [1-a, 1-a, 2-b, 1-a]),
+                     redis(Redis, xadd('ev3dev:mail', *, to, anna, from, bob, program, p,
+                                       number, Number, term, Term), _))),
+          robot_receive(bob, A, [timeout(5)]), robot_receive(bob, B, [timeout(5)]),
+          ( robot_receive(_, C, [timeout(0.5)]) -> Terms = [A, B, C] ; Terms = [A, B] ) ))).
+test(what_cannot_be_read_is_dropped, Term == b) :-
+    with_redis_server(Port,
+      joined(Port,
+        ( with_client(Port, Redis,
+              forall(member(Number-Text, [1-"f(", 2-"b"]),
+                     redis(Redis, xadd('ev3dev:mail', *, to, anna, from, bob, program, p,
+                                       number, Number, term, Text), _))),
+          robot_receive(bob, Term, [timeout(5)]) ))).
+test(own_bricks_are_reached_without_the_server, Got == here-none) :-
+    with_redis_server(Port,
+      joined(Port,
+        ( robot_send(anna, here), robot_receive(anna, A, [timeout(1)]),
+          ( robot_receive(_, B, [timeout(0.5)]) -> true ; B = none ) ))),
+    Got = A-B.
+test(after_leaving_others_are_unknown, error(existence_error(brick, bob))) :-
+    with_redis_server(Port, joined(Port, true)),
+    robot_send(bob, x).
+test(who_cannot_join,
+     [ forall(member(Goal-Formal,
+                     [ robots_join(redis('localhost:1'))
+                       -existence_error(redis_server, localhost:1),
+                       robots_join(_)-instantiation_error,
+                       robots_join(redis(_))-instantiation_error,
+                       robots_join(redis(1))-domain_error(redis_address, 1),
+                       robots_join(here)-domain_error(redis_address, here),
+                       with_sim(room, robots_join(redis(localhost)), [clock(virtual)])
+                       -permission_error(join, clock, virtual) ])),
+       error(Formal) ]) :-
+    Goal.
+test(one_joins_once, error(permission_error(join, redis, _))) :-
+    with_redis_server(Port, joined(Port, robots_join(redis(localhost:Port)))).
+
+:- end_tests(robots_joined).

@@ -196,21 +196,12 @@ no_run_is_left(Port) :-
         eventually(( redis(Redis, xlen('ev3dev:runs'), 0),
                      \+ redis(Redis, keys('ev3dev:batch:*'), [_|_]) ))).
 
-with_client(Port, Redis, Goal) :-
-    setup_call_cleanup(redis_connect(localhost:Port, Redis, []), once(Goal),
-                       redis_disconnect(Redis)).
-
-% The server at this port ends, and begins again empty.
-with_server_again(Port, Goal) :-
-    catch(with_client(Port, Redis, redis(Redis, shutdown(nosave))), error(_, _), true),
-    setup_call_cleanup(eventually(start_redis(Port, Server)), once(Goal), stop_redis(Server)).
-
 as_here(File, Port, Test, Same) :-
     scores(File, Test, [1, 2, 3], Here),
     scores(File, Test, [1, 2, 3], [redis(localhost:Port)], There),
     ( Here == There -> Same = same ; Same = There ).
 
-:- ( exists_source(library(redis)) -> use_module(library(redis)) ; true ).
+:- ( exists_source(library(redis)) -> use_module(library(redis), [redis/3]) ; true ).
 
 :- begin_tests(sim_batch_redis, [condition(( can_use_redis, starts_itself ))]).
 

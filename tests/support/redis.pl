@@ -1,9 +1,10 @@
 :- module(redis_server,
           [ can_use_redis/0,
             with_redis_server/2,        % -Port, :Goal
-            start_redis/2,              % +Port, -Process
-            stop_redis/1                % +Process
+            with_server_again/2,        % +Port, :Goal
+            with_client/3               % +Port, -Redis, :Goal
           ]).
+:- use_module(trees, [eventually/1]).
 :- use_module(library(process)).
 :- use_module(library(random)).
 :- use_module(library(socket)).
@@ -11,7 +12,12 @@
 /** <module> A Redis server of one test, on a port of the loopback device
 */
 
-:- meta_predicate with_redis_server(-, 0).
+:- meta_predicate
+    with_redis_server(-, 0),
+    with_server_again(+, 0),
+    with_client(+, -, 0).
+
+:- ( exists_source(library(redis)) -> use_module(library(redis)) ; true ).
 
 %!  can_use_redis
 %
@@ -33,8 +39,6 @@ with_redis_server(Port, Goal) :-
     !,
     call_cleanup(once(Goal), stop_redis(Server)).
 
-%!  start_redis(+Port, -Process) is semidet.
-%
 %   Fails if it does not answer, as where the port is taken.
 
 start_redis(Port, Server) :-
@@ -52,8 +56,20 @@ answers(Port) :-
     catch(setup_call_cleanup(tcp_connect(localhost:Port, Stream, []), true, close(Stream)),
           error(_, _), fail).
 
-%!  stop_redis(+Process)
-
 stop_redis(Server) :-
     catch(process_kill(Server, kill), error(_, _), true),
     catch(process_wait(Server, _), error(_, _), true).
+
+%!  with_client(+Port, -Redis, :Goal)
+
+with_client(Port, Redis, Goal) :-
+    setup_call_cleanup(redis_connect(localhost:Port, Redis, []), once(Goal),
+                       redis_disconnect(Redis)).
+
+%!  with_server_again(+Port, :Goal)
+%
+%   The server at this port ends, and begins again empty.
+
+with_server_again(Port, Goal) :-
+    catch(with_client(Port, Redis, redis(Redis, shutdown(nosave))), error(_, _), true),
+    setup_call_cleanup(eventually(start_redis(Port, Server)), once(Goal), stop_redis(Server)).

@@ -6,7 +6,8 @@
 :- use_module(batch_pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
-:- use_module(errors, [must_be/2, throw_error/3]).
+:- use_module(errors, [must_be/2]).
+:- use_module(redis, [ask/3, connection_lost/1, with_redis/3]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
@@ -145,15 +146,6 @@ redis_work_(Address, Work) :-
     ;   !,
         throw(Error)
     ).
-
-connection_lost(Error) :-
-    nonvar(Error),
-    Error = error(Formal, _),
-    (   Formal = io_error(_, _)
-    ;   Formal = socket_error(_, _)
-    ;   Formal = syntax_error(unexpected_eof)
-    ),
-    !.
 
 works(Redis, work(Me, Number)) :-
     catch(ask(Redis, xgroup(create, 'ev3dev:runs', workers, '0', mkstream),
@@ -346,42 +338,6 @@ stepped(Redis, Number, Now0, Now) :-
 
 batch_key(Kind, Batch, Key) :-
     atomic_list_concat([ev3dev, Kind, Batch], :, Key).
-
-:- meta_predicate with_redis(+, -, 0).
-
-%   library(redis) would try for a day to reach a server that is not there.
-
-with_redis(Address, Redis, Goal) :-
-    redis_loaded,
-    setup_call_cleanup(
-        connected(Address, Redis),
-        once(Goal),
-        catch(of_redis(redis_disconnect(Redis, [force(true)])), error(_, _),
-              true)).
-
-connected(Address, Redis) :-
-    catch(of_redis(redis_connect(Address, Redis, [reconnect(false)])),
-          error(_, _),
-          ( format(atom(Text), 'no Redis server answers at ~w', [Address]),
-            throw_error(existence_error(redis_server, Address), _, Text) )).
-
-redis_loaded :-
-    Library = redis,
-    (   catch(use_module(library(Library), []), error(_, _), fail)
-    ->  true
-    ;   throw_error(existence_error(library, redis), _,
-                    'this Prolog comes without library(redis)')
-    ).
-
-%   Fails if there is no answer: Redis says nil.
-
-ask(Redis, Command, Answer) :-
-    of_redis(redis(Redis, Command, Answer)).
-
-%   7.2.3 has no such library.
-
-of_redis(Goal) :-
-    call(redis:Goal).
 
 :- multifile prolog:message//1.
 

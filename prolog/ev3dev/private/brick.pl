@@ -63,9 +63,15 @@ switch_brick(Brick) :-
 %   Its clock may be another one: library(ev3dev/sim) adds the clause.
 :- multifile switch/1.
 
+%   In 10.1 a flag that is made, and not set, is one of all threads.
+
 switched(Brick) :-
     brick_use_(Brick),
-    create_prolog_flag(ev3dev_brick, Brick, []).
+    (   current_prolog_flag(ev3dev_brick, _)
+    ->  true
+    ;   create_prolog_flag(ev3dev_brick, 0, [])
+    ),
+    set_prolog_flag(ev3dev_brick, Brick).
 
 no_brick(Brick) :-
     throw_error(existence_error(brick, Brick), _, 'that brick was closed').

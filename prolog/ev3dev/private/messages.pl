@@ -1,5 +1,6 @@
 :- module(ev3dev_messages,
           [ send_message/3,             % +Brick, +Name, +Term
+            receive_message/3,          % +Brick, +Name, +Term
             next_message/4              % +Until, +Late, -From, ?Term
           ]).
 :- use_module(brick, [brick/1, in_brick/2]).
@@ -30,9 +31,19 @@ look(0.02).
 %
 %   The brick in use, which is called Name, sends Term to Brick.
 
-send_message(Brick, Name, Term0) :-
+send_message(Brick, Name, Term) :-
     brick(Sender),
     in_brick(Brick, arrival(At)),
+    put(Brick, At, Sender, Name, Term).
+
+%!  receive_message(+Brick, +Name, +Term) is det.
+%
+%   One from another program arrives now.
+
+receive_message(Brick, Name, Term) :-
+    put(Brick, 0, -1, Name, Term).
+
+put(Brick, At, Sender, Name, Term0) :-
     copy_term_nat(Term0, Term),
     flag(ev3dev_message, Number, Number+1),
     assertz(message(Brick, At, Sender, Number, Name, Term)).
