@@ -42,7 +42,9 @@ pub(super) fn state(simulation: &Simulation) -> (Duration, String) {
     let keys = ["up", "down", "left", "right", "enter", "back"].into_iter().filter(is_down);
     let [volts, amps] = machine.battery().map_or([None; 2], |both| fine(both).map(Some));
     let mut json = Json::new();
-    Surroundings { robot, see: see.collect(), beams: beams.collect() }.members(&mut json);
+    let others: Vec<_> = machine.other_robots().map(|(id, item)| item_of(id, &item)).collect();
+    let others = (!others.is_empty()).then_some(others);
+    Surroundings { robot, see: see.collect(), beams: beams.collect(), others }.members(&mut json);
     let ports = PORTS.iter().map(|port| shown(&machine, *port)).collect();
     let (lights, tone) = (Lights { left, right }, machine.tone().into());
     let brick = Brick { lights, keys: keys.collect(), volts, amps, tone };

@@ -138,6 +138,7 @@ objects! {
         robot: Robot,
         see: Vec<Sight>,
         beams: Vec<Beam>,
+        others: Option<Vec<Item>>,
     }
 
     /// The brick and what is plugged in.

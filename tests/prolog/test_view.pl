@@ -4,6 +4,7 @@
 :- use_module('../support/trees').
 :- use_module('../support/web').
 :- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
 :- use_module(library(ev3dev/drive)).
@@ -498,6 +499,16 @@ test(a_robot_without_wheels_has_none_on_the_page) :-
             \+ get_dict(left, Frame.spec, _),
             \+ get_dict(axle, Frame.spec, _),
             Frame.robot.true = [5, 6, 90] )).
+test(the_other_robots_are_seen, true(Others == [[0, 60, 8]])) :-
+    paged(Page,
+          setup_call_cleanup(
+              ( sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)],
+                          [clock(virtual), robots([anna-default, bob-default])]),
+                use_brick(anna) ),
+              page_ask(Page, "next", Frame),
+              ( use_brick(local), brick_close(anna), brick_close(bob) ))),
+    findall([X, Y, R], ( member(Other, Frame.others), X = Other.x, Y = Other.y, R = Other.r ),
+            Others).
 test(the_next_frame_has_what_is_new) :-
     paged(Page,
           ( page_ask(Page, "next", First),

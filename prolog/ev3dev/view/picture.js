@@ -144,7 +144,8 @@ export class Picture extends Camera {
 
   drawItems(c) {
     const { frame, world } = this.model;
-    for (const item of world?.items ?? []) {
+    const others = frame.others ?? [];
+    for (const item of [...(world?.items ?? []), ...others]) {
       if (item.kind === 'patch' || item.kind === 'line') continue;
       const moving = this.drag?.kind === 'item' && this.drag.item.id === item.id ? this.drag.at : item;
       if (item.kind === 'lamp') this.drawLamp(c, item, moving, frame);
@@ -155,7 +156,7 @@ export class Picture extends Camera {
         c.shadowColor = this.dark ? 'rgb(0 0 0 / .45)' : 'rgb(50 44 20 / .22)';
         c.shadowBlur = 7 * this.ratio;
         c.shadowOffsetY = 2.5 * this.ratio;
-        c.fillStyle = item.kind === 'wall' ? this.paint.wall : this.paint.block;
+        c.fillStyle = item.kind === 'wall' ? this.paint.wall : others.includes(item) ? '#e8a33d' : this.paint.block;
         c.fill(path);
         c.restore();
         if (item.kind !== 'wall') {

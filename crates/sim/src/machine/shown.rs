@@ -118,6 +118,11 @@ impl Machine {
         [scene.ambient, scene.temperature, scene.loudness]
     }
 
+    /// The other robots in this world, as things of the same outline.
+    pub fn other_robots(&self) -> impl Iterator<Item = (ItemId, Item)> {
+        self.others().iter().map(|robot| (robot.id, robot.outline()))
+    }
+
     /// Where the robot starts in this world.
     #[must_use]
     pub fn start(&self) -> Pose {

@@ -145,6 +145,19 @@ impl Obstacle {
         (aside.abs() - half).max() > limit + 1e-6
     }
 
+    /// The item that it would be, a circle or a box.
+    pub(crate) fn outline(&self) -> Item {
+        let place = self.frame.translation.vector;
+        match &self.solid {
+            Solid::Ball(ball) => Item::Circle { center: [place.x, place.y], radius: ball.radius },
+            Solid::Box(Cuboid { half_extents: half }) => Item::Box {
+                pose: Pose::new(place.x, place.y, -self.frame.rotation.angle().to_degrees()),
+                width: 2.0 * half.x,
+                depth: 2.0 * half.y,
+            },
+        }
+    }
+
     /// Not farther than this obstacle is from a circle: cheap.
     pub(crate) fn at_least(&self, center: Vec2, radius: f64) -> f64 {
         length(self.frame.translation.vector - center) - self.reach - radius
