@@ -737,7 +737,7 @@ group('other worlds and robots', [`working_directory(_, '${folder}')`, ...ROOM],
 
   test('are listed: those of the pack and files of facts, with what is in use', async () => {
     const [worlds, now] = await choose('world');
-    assert.deepEqual(worlds.slice(0, 3), ['blocked.pl', 'mine.pl', 'delivery']);
+    assert.deepEqual(worlds.slice(0, 3), ['blocked.pl', 'mine.pl', 'convoy']);
     assert.equal(now, 'room');
     const [robots, robot] = await choose('robot');
     assert.deepEqual(robots, ['default', 'touch']);
