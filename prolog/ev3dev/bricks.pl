@@ -18,7 +18,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/brick,
-              [ end_brick/1, in_brick/2,
+              [ end_brick/1, in_brick/2, is_simulated/0, must_be_new_names/1,
                 name_brick/3, named_brick/3, new_brick/1, switch_brick/1,
                 unname_brick/1 ]).
 :- use_module(private/arguments, [must_be_options/3, timeout_option/2]).
@@ -27,7 +27,7 @@
               [ goal_of_program/1, must_be/2, must_be_goal/1,
                 term_expansion/4, throw_error/3 ]).
 :- use_module(private/messages, [next_message/4, send_message/3]).
-:- use_module(private/native, [brick_/1, sim_active_/0, stop_all_bricks_/0]).
+:- use_module(private/native, [brick_/1, stop_all_bricks_/0]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/redis, [redis_address/2]).
 :- use_module(private/world_name, [noted_world/2]).
@@ -96,10 +96,8 @@ brick_open(Name, Where) :-
     ->  brick_close(Name)
     ;   true
     ),
-    (   brick(Name)
-    ->  throw_error(permission_error(open, brick, Name), _,
-                    'there is a brick of that name; brick_close/1 closes it')
-    ;   opened(Where, Name, Brick)
+    must_be_new_names([Name]),
+    (   opened(Where, Name, Brick)
     ->  name_brick(Name, Brick, Where)
     ;   throw_error(domain_error(brick_place, Where), _,
                     'a place is local, dir(Directory), sim, sim(World), \c
@@ -386,8 +384,7 @@ robots_join(Redis) :-
     ;   throw_error(domain_error(redis_address, Redis), _,
                     'robots join by redis(Host) or redis(Host:Port)')
     ),
-    (   predicate_property(sim_active_, foreign),
-        sim_active_,
+    (   is_simulated,
         noted_world(_, Options),
         memberchk(clock(virtual), Options)
     ->  throw_error(permission_error(join, clock, virtual), _,

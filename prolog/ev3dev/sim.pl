@@ -15,8 +15,8 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(private/arguments, [must_be_options/3, option/2, option/3]).
 :- use_module(private/brick,
-              [ end_brick/1, in_brick/2, in_new_brick/1, name_brick/3,
-                named_brick/3, new_brick/1 ]).
+              [ end_brick/1, in_brick/2, in_new_brick/1,
+                must_be_new_names/1, name_brick/3, new_brick/1 ]).
 :- use_module(private/chance,
               [begin_chance_of/1, end_chance/0, with_own_chance/1]).
 :- use_module(private/facts,
@@ -298,7 +298,7 @@ crowd_started(Robots, World, LocatedWorld, WorldFacts, Native, Options) :-
             ( member(Item, Robots), robot_named(Item, Name, Robot, Located) ),
             Pairs),
     pairs_keys(Pairs, Names),
-    must_be_new(Names, []),
+    must_be_new_names(Names),
     setup_call_cleanup(
         findall(robot(Brick, Name, Facts),
                 ( member(Name-robot(_, Located), Pairs),
@@ -323,14 +323,6 @@ robot_named(Item, Name, Robot, Located) :-
         located_facts(robot, Robot, Located)
     ;   throw_error(type_error(pair, Item), _,
                     'a robot is Name-Robot, as bob-default')
-    ).
-
-must_be_new([], _).
-must_be_new([Name|Names], Others) :-
-    (   ( Name == local ; named_brick(Name, _, _) ; memberchk(Name, Others) )
-    ->  throw_error(permission_error(open, brick, Name), _,
-                    'there is a brick of that name')
-    ;   must_be_new(Names, [Name|Others])
     ).
 
 must_be_faultless_crowd(Fault, World, Pairs) :-

@@ -429,8 +429,10 @@ fn built(
     let spec = RobotSpec::from_facts(robot).map_err(in_robot)?;
     let spec = if noise { spec.with_typical_noise() } else { spec };
     let in_world = |error: SpecError| ("world", culprit(world, &error), error);
-    let seen = WorldSpec::from_facts(world);
-    let seen = name.map_or(Ok(seen.clone()), |name| seen.seen_by(name)).map_err(in_world)?;
+    let mut seen = WorldSpec::from_facts(world);
+    if let Some(name) = name {
+        seen = seen.seen_by(name).map_err(in_world)?;
+    }
     Machine::new(&seen, &spec, options).map_err(in_world)
 }
 

@@ -8,10 +8,13 @@
             name_brick/3,               % +Name, +Brick, +Where
             unname_brick/1,             % +Name
             named_brick/3,              % ?Name, ?Brick, ?Where
+            must_be_new_names/1,        % +Names
+            is_simulated/0,
             is_apart/1                  % +Brick
           ]).
 :- use_module(native,
-              [ brick_/1, brick_close_/1, brick_open_/1, brick_use_/1 ]).
+              [ brick_/1, brick_close_/1, brick_open_/1, brick_use_/1,
+                sim_active_/0 ]).
 :- use_module(errors, [throw_error/3]).
 
 :- meta_predicate
@@ -160,3 +163,26 @@ unname_brick(Name) :-
 
 named_brick(Name, Brick, Where) :-
     named(Name, Brick, Where).
+
+%!  must_be_new_names(+Names) is det.
+%
+%   Names may be those of new bricks: none has one, and no two are the same.
+%
+%   @error permission_error(open, brick, Name)
+
+must_be_new_names([]).
+must_be_new_names([Name|Names]) :-
+    (   ( Name == local ; named(Name, _, _) ; memberchk(Name, Names) )
+    ->  throw_error(permission_error(open, brick, Name), _,
+                    'there is a brick of that name; brick_close/1 closes it')
+    ;   must_be_new_names(Names)
+    ).
+
+%!  is_simulated is semidet.
+%
+%   A simulation runs in the brick in use. Fails where the pack was built
+%   without the simulator.
+
+is_simulated :-
+    predicate_property(sim_active_, foreign),
+    sim_active_.

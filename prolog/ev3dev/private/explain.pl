@@ -3,10 +3,11 @@
             advise/1,                   % +Cause
             explain/2                   % +Format, +Arguments
           ]).
+:- use_module(brick, [is_simulated/0]).
 :- use_module(errors, [called_by_program/1, throw_error/3]).
 :- use_module(native,
               [ attribute_/4, device_/3, led_/3, motor_gear_/2,
-                sim_active_/0, sim_detecting_/1, sysfs_/1
+                sim_detecting_/1, sysfs_/1
               ]).
 :- use_module(one_of).
 
@@ -455,8 +456,7 @@ yet(Port, Yet) :-
     ).
 
 is_detecting(Port) :-
-    predicate_property(sim_active_, foreign),
-    sim_active_,
+    is_simulated,
     !,
     sim_detecting_(Port).
 is_detecting(Port) :-

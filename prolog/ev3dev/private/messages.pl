@@ -3,8 +3,7 @@
             receive_message/3,          % +Brick, +Name, +Term
             next_message/4              % +Until, +Late, -From, ?Term
           ]).
-:- use_module(brick, [brick/1, in_brick/2]).
-:- use_module(native, [sim_active_/0]).
+:- use_module(brick, [brick/1, in_brick/2, is_simulated/0]).
 :- use_module('../time', [ev3_time/1, wait/1]).
 
 /** <module> Messages from brick to brick
@@ -50,8 +49,7 @@ put(Brick, At, Sender, Name, Term0) :-
 
 arrival(At) :-
     ev3_time(Now),
-    (   predicate_property(sim_active_, foreign),
-        sim_active_
+    (   is_simulated
     ->  delay(Delay),
         At is Now+Delay
     ;   At = Now

@@ -17,20 +17,21 @@
 mod acts;
 mod baton;
 pub(crate) mod pace;
+mod processor;
 mod threads;
 mod wall;
 
 use ev3_os::Instant;
 use std::cell::Cell;
 use std::io;
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, MutexGuard};
 use std::time::Duration;
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
 use self::pace::{Leave, Pace};
+use self::processor::Processor;
 use self::wall::{STEP, Stepper};
-use crate::lock::locked;
 use crate::machine::Machine;
 use crate::machine::crowd::{self, Misplaced};
 use crate::shared::{Crowd, Shared};
@@ -46,13 +47,6 @@ const WRITE_TAKES: Duration = Duration::from_micros(100);
 /// Duration of a call on the virtual clock while another thread waits: so a thread that only asks
 /// for the time lets the others go on.
 const CALL_TAKES: Duration = Duration::from_micros(10);
-
-/// How far the processor of one in a crowd may be behind with its accesses before the next call
-/// waits for it: a tick of the kernel's motor loop.
-const BEHIND: Duration = Duration::from_millis(2);
-
-/// How many calls of one in a crowd begin at one moment before other threads are looked at.
-const CALLS: u32 = 32;
 
 /// Longest wait, by the wall clock, before the caller can handle signals.
 const SLICE: Duration = Duration::from_millis(20);
@@ -92,12 +86,8 @@ pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
     clock: Passing,
-    /// The other robots in its world, whose time passes with its own.
-    crowd: Option<Arc<Crowd>>,
-    /// Up to when the processor of this brick is busy: of one in a crowd, on the virtual clock.
-    busy: Mutex<Duration>,
-    /// How many calls of one in a crowd began at this moment without a look at other threads.
-    begun: Mutex<(Duration, u32)>,
+    /// Of one of several robots in a world.
+    processor: Option<Processor>,
 }
 
 /// How the time of a simulation, or of a crowd, passes.
@@ -134,14 +124,7 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
-        Ok(Self {
-            shared,
-            acts,
-            clock,
-            crowd: None,
-            busy: Mutex::default(),
-            begun: Mutex::default(),
-        })
+        Ok(Self { shared, acts, clock, processor: None })
     }
 
     /// The same for several robots, which come into the world of the first one. They have one time.
@@ -167,9 +150,7 @@ impl Simulation {
             shared: Arc::clone(shared),
             acts: Arc::clone(&acts),
             clock: clock.clone(),
-            crowd: Some(Arc::clone(&crowd)),
-            busy: Mutex::default(),
-            begun: Mutex::default(),
+            processor: Some(Processor::new(Arc::clone(&crowd))),
         };
         Ok(Ok(crowd.members().iter().map(simulation).collect()))
     }
@@ -177,28 +158,12 @@ impl Simulation {
     /// How many robots are in its world.
     #[must_use]
     pub fn robots(&self) -> usize {
-        self.crowd.as_ref().map_or(1, |crowd| crowd.members().len())
+        self.processor.as_ref().map_or(1, |processor| processor.crowd.members().len())
     }
 
     /// Changes the world, or a place in it, for all robots in it.
     pub fn change_world<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
         self.shared.change_world(act)
-    }
-
-    /// Up to when the processor of this brick is busy.
-    fn busy(&self) -> Duration {
-        *locked(&self.busy)
-    }
-
-    fn is_far_behind(&self) -> bool {
-        self.crowd.is_some() && self.busy() >= self.machine().now() + BEHIND
-    }
-
-    /// It is busy for this much longer.
-    fn work(&self, takes: Duration) {
-        let now = self.machine().now();
-        let mut busy = locked(&self.busy);
-        *busy = busy.max(now) + takes;
     }
 
     /// The machine behind its lock, as a mount needs it.
@@ -228,7 +193,8 @@ impl Simulation {
         if self.acts.is_acting() || IS_OUTSIDE.get() {
             return true;
         }
-        if self.is_far_behind() && !self.pause(self.busy()) {
+        let far_behind = |processor: &Processor| processor.far_behind(self.machine().now());
+        if self.processor.as_ref().and_then(far_behind).is_some_and(|busy| !self.pause(busy)) {
             return false;
         }
         let mut takes = Duration::ZERO;
@@ -252,16 +218,11 @@ impl Simulation {
     /// Whether a call of one in a crowd, which has its turn, begins before anybody else goes on: as
     /// no time passes, but not for ever. It need not look at all threads, as most calls would.
     fn begins_at_once(&self, baton: &Baton) -> bool {
-        if self.crowd.is_none() || !baton.is_freely_mine() {
+        let Some(processor) = self.processor.as_ref().filter(|_| baton.is_freely_mine()) else {
             return false;
-        }
+        };
         let now = self.machine().now();
-        let mut begun = locked(&self.begun);
-        if begun.0 != now {
-            *begun = (now, 0);
-        }
-        begun.1 += 1;
-        begun.1 < CALLS && baton.is_before_others(now)
+        processor.may_begin(now) && baton.is_before_others(now)
     }
 
     /// Holds this thread back, which has its turn, if time is to pass more slowly; `false` if it
@@ -342,11 +303,12 @@ impl Simulation {
             let wish = Wish::Turn(self.machine().now());
             baton.stand(wish, &mut String::new, SLICE);
         }
-        if self.crowd.is_some() {
-            self.work(takes);
-            return self.shared.lock();
-        }
-        self.shared.pass(self.shared.lock(), takes)
+        let machine = self.shared.lock();
+        let Some(processor) = &self.processor else {
+            return self.shared.pass(machine, takes);
+        };
+        processor.work(machine.now(), takes);
+        machine
     }
 
     /// Runs an act at a fixed period from now on. A thread that lets time pass runs
@@ -391,7 +353,7 @@ impl Simulation {
             ev3_os::sleep(SLICE);
             return true;
         }
-        let end = end.max(self.busy());
+        let end = self.processor.as_ref().map_or(end, |processor| end.max(processor.busy()));
         match &self.clock {
             Passing::Wall { .. } => self.pause_by_wall(end, is_done),
             Passing::Virtual { baton, has_others } => {

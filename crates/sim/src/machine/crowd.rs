@@ -35,13 +35,11 @@ pub type Misplaced = (usize, SpecError);
 /// # Errors
 /// Names the robot, by its index, that stands where another one does, or something else.
 pub(crate) fn join(machines: &mut [Machine]) -> Result<(), Misplaced> {
-    let scene = machines.first().map(|first| Arc::clone(&first.scene));
     let mut machines: Vec<_> = machines.iter_mut().collect();
     for (index, machine) in machines.iter_mut().enumerate() {
         machine.number = index;
-        machine.scene.clone_from(scene.as_ref().unwrap_or(&Arc::clone(&machine.scene)));
     }
-    see_each_other(&mut machines);
+    share_world(&mut machines, 0);
     for (index, machine) in machines.iter_mut().enumerate() {
         machine.check_free(&machine.pose()).map_err(|error| (index, error))?;
         machine.sample_where(|_| true);
@@ -85,41 +83,14 @@ fn see_each_other(machines: &mut [&mut Machine]) {
 }
 
 fn advance(machines: &mut [&mut Machine]) {
-    let starts: Vec<_> = machines.iter_mut().map(|machine| machine.begin_tick()).collect();
     let groups = groups(machines);
     let mut has_moved = false;
-    for (index, machine) in machines.iter_mut().enumerate() {
-        if groups[index] == index && !groups[index + 1..].contains(&index) {
-            if machine.body.spins.is_some() {
-                ride(&mut [machine], &[index], &starts);
-                has_moved = true;
-            } else if machine.is_at_rest() {
-                machine.rest(starts[index]);
-            } else {
-                machine.turn_shafts(starts[index]);
-                has_moved = true;
-            }
-        }
-    }
     for group in 0..machines.len() {
-        let members: Vec<_> = (0..groups.len()).filter(|index| groups[*index] == group).collect();
-        if members.len() < 2 {
-            continue;
-        }
-        let mut riding: Vec<_> = machines
-            .iter_mut()
-            .enumerate()
-            .filter(|(index, _)| groups[*index] == group)
-            .map(|(_, machine)| &mut **machine)
+        let mut members: Vec<_> = (machines.iter_mut().zip(&groups))
+            .filter(|(_, of)| **of == group)
+            .map(|(machine, _)| &mut **machine)
             .collect();
-        if riding.iter().all(|machine| machine.is_at_rest()) {
-            for (machine, index) in riding.iter_mut().zip(&members) {
-                machine.rest(starts[*index]);
-            }
-        } else {
-            ride(&mut riding, &members, &starts);
-            has_moved = true;
-        }
+        has_moved |= turn(&mut members);
     }
     if has_moved {
         see_each_other(machines);
@@ -129,19 +100,36 @@ fn advance(machines: &mut [&mut Machine]) {
     }
 }
 
-/// A tick of robots that are near each other.
-fn ride(machines: &mut [&mut Machine], members: &[usize], starts: &[u64]) {
+/// The shafts of a group take their tick; whether something may have moved.
+fn turn(machines: &mut [&mut Machine]) -> bool {
+    let starts: Vec<_> = machines.iter_mut().map(|machine| machine.begin_tick()).collect();
+    let may_spin = machines.len() == 1 && machines[0].body.spins.is_some();
+    if !may_spin && machines.iter().all(|machine| machine.is_at_rest()) {
+        for (machine, start_us) in machines.iter_mut().zip(starts) {
+            machine.rest(start_us);
+        }
+        return false;
+    }
+    match machines {
+        [alone] if !may_spin => alone.turn_shafts(starts[0]),
+        _ => ride(machines, &starts),
+    }
+    true
+}
+
+/// A tick of robots that are near each other, or whose wheels still spin.
+fn ride(machines: &mut [&mut Machine], starts: &[u64]) {
     let loads: Vec<_> = machines.iter_mut().map(|machine| machine.loaded()).collect();
-    let mut riders: Vec<_> = (machines.iter_mut().zip(members).zip(&loads))
-        .map(|((machine, index), loads)| machine.rider(id_of(*index), loads))
+    let mut riders: Vec<_> = (machines.iter_mut().zip(&loads))
+        .map(|(machine, loads)| machine.rider(id_of(machine.number), loads))
         .collect();
     pair::advance(&mut riders);
     let after: Vec<_> = riders.into_iter().map(|Rider { omega, hits, .. }| (omega, hits)).collect();
-    for ((machine, (omega, hits)), (index, loads)) in
-        machines.iter_mut().zip(after).zip(members.iter().zip(&loads))
+    for ((machine, (omega, hits)), (loads, start_us)) in
+        machines.iter_mut().zip(after).zip(loads.iter().zip(starts))
     {
         machine.wheels_turned(omega, hits);
-        machine.turn_others(loads, starts[*index]);
+        machine.turn_others(loads, *start_us);
     }
 }
 

@@ -344,14 +344,10 @@ impl Body {
         robot: &RobotSpec,
         scene: &Scene,
     ) -> Step {
-        let (mut speeds, answer) = match self.spins {
+        let (speeds, answer) = match self.spins {
             None => self.rolling(seconds, omega, loads),
             Some(spins) => self.spinning(seconds, omega, spins, loads),
         };
-        if self.spins.is_none() {
-            let (ahead, turn) = self.twist([speeds[0], speeds[1]]);
-            (speeds[3], speeds[4]) = (ahead, turn);
-        }
         let way = way_bound(speeds, robot, seconds).max(0.01);
         if self.free_way <= way {
             let frame = self.pose.frame();
@@ -378,7 +374,8 @@ impl Body {
         ];
         let [left, right] = apply(&shafts, push);
         let answer = Answer { shafts, body: [self.lightness(), 0.0, 0.0] };
-        ([left, right, self.slip, 0.0, 0.0], answer)
+        let (ahead, turn) = self.twist([left, right]);
+        ([left, right, self.slip, ahead, turn], answer)
     }
 
     /// The same where only the tires' grip ties the shafts to the body.
