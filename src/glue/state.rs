@@ -116,6 +116,12 @@ static FILES: AtomicU32 = AtomicU32::new(0);
 /// The brick of Prolog's main thread, by its number: pages show this one.
 static SHOWN: AtomicU32 = AtomicU32::new(0);
 
+/// The brick that a person at a page has chosen instead, while it is open.
+static CHOSEN: AtomicU32 = AtomicU32::new(NOBODY);
+
+/// No brick has this number.
+const NOBODY: u32 = u32::MAX;
+
 /// The number of Prolog's main thread.
 const MAIN_THREAD: i32 = 1;
 
@@ -138,7 +144,7 @@ fn current() -> &'static Brick {
 fn inherited() -> &'static Brick {
     let thread = this_thread();
     if FOLLOWS.get() || thread < 1 {
-        return brick(SHOWN.load(Ordering::Acquire)).unwrap_or_else(first);
+        return shown();
     }
     let number = integer_flag(FLAG).and_then(|number| u32::try_from(number).ok());
     // One that was closed meanwhile has no files, and says so.
@@ -146,6 +152,14 @@ fn inherited() -> &'static Brick {
         number.map_or_else(first, |number| brick(number).unwrap_or_else(|| Brick::new(number)));
     CURRENT.set(Some(brick));
     brick
+}
+
+/// The brick that pages show.
+fn shown() -> &'static Brick {
+    [&CHOSEN, &SHOWN]
+        .into_iter()
+        .find_map(|number| brick(number.load(Ordering::Acquire)))
+        .unwrap_or_else(first)
 }
 
 fn first() -> &'static Brick {
@@ -176,6 +190,21 @@ pub(crate) fn on_all_bricks(
 pub(crate) fn follow_main_thread(follows: bool) {
     FOLLOWS.set(follows);
     CURRENT.set(None);
+}
+
+/// Pages show this brick from now on, whichever the main thread has in use, or that one again;
+/// `false` if it is not open.
+pub(crate) fn show_brick(number: Option<u32>) -> bool {
+    let is_open = number.is_none_or(|number| brick(number).is_some());
+    if is_open {
+        CHOSEN.store(number.unwrap_or(NOBODY), Ordering::Release);
+    }
+    is_open
+}
+
+/// Whether it is settled which tree is that of a brick.
+pub(crate) fn has_tree(number: u32) -> bool {
+    brick(number).is_some_and(|brick| brick.chosen_devices().is_some())
 }
 
 /// The time of a brick, by its own clock.

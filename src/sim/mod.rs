@@ -10,7 +10,10 @@ mod mount;
 mod mount;
 mod running;
 
-pub(crate) use self::running::{end_of, end_unless_mounted, has_virtual_clock, running_simulation};
+pub(crate) use self::running::{
+    end_of, end_unless_mounted, has_virtual_clock, robot_name, running_simulation,
+    running_simulations,
+};
 
 use self::files::SimulatedFiles;
 use self::running::{is_running, simulation, start, start_crowd};
@@ -104,8 +107,8 @@ natives! {
                 Err(error) => return unify_fault(&call, fault, Some(index), error),
             }
         }
-        let bricks: Vec<_> = robots.iter().map(|(brick, ..)| *brick).collect();
-        match start_crowd(&call, &bricks, machines, clock)? {
+        let robots: Vec<_> = robots.into_iter().map(|(brick, name, _)| (brick, name)).collect();
+        match start_crowd(&call, &robots, machines, clock)? {
             Ok(()) => unify_atom(fault, "none"),
             Err((_, error)) => unify_fault(&call, fault, None, ("world", culprit(&world, &error), error)),
         }

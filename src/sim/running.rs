@@ -10,7 +10,7 @@ use crate::glue::state::{
 use crate::glue::waiting::tick_at_once;
 use crate::glue::watch;
 use ev3_driver::lock::locked;
-use ev3_sim::{Clock, Machine, Misplaced, Simulation};
+use ev3_sim::{Clock, ItemId, Machine, Misplaced, Simulation, robot_of};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Mutex};
@@ -24,6 +24,8 @@ struct Running {
     simulation: Arc<Simulation>,
     /// The files that were in use before.
     before: Selected,
+    /// All robots in its world by their numbers, if it is one of several.
+    names: Arc<[String]>,
 }
 
 /// The running simulation, in which it is this thread's turn; fails if there is none.
@@ -42,6 +44,16 @@ pub(super) fn simulation<C: QueryableContextType>(
 /// The running simulation, for somebody who only looks or reaches in from outside.
 pub(crate) fn running_simulation() -> Option<Arc<Simulation>> {
     locked(&RUNNING).get(&brick_number()).map(|running| Arc::clone(&running.simulation))
+}
+
+/// Those of all bricks.
+pub(crate) fn running_simulations() -> Vec<Arc<Simulation>> {
+    locked(&RUNNING).values().map(|running| Arc::clone(&running.simulation)).collect()
+}
+
+/// The name of another robot in the world of the brick in use.
+pub(crate) fn robot_name(id: ItemId) -> Option<String> {
+    locked(&RUNNING).get(&brick_number())?.names.get(robot_of(id)?).cloned()
 }
 
 /// Whether a simulation on the virtual clock runs in a brick.
@@ -69,16 +81,16 @@ pub(super) fn start<C: QueryableContextType>(
 ) -> PrologResult<()> {
     machine.keep_samples(watch::is_watched());
     match Simulation::new(machine, clock, has_other_threads) {
-        Ok(simulation) => run(call, simulation),
+        Ok(simulation) => run(call, simulation, Arc::default()),
         Err(error) => no_thread(call, &error),
     }
 }
 
-/// Starts a simulation of several robots, each in the brick of this number. The inner error is
-/// that of a robot, by its index.
+/// Starts a simulation of several robots, each in the brick of this number and with its name. The
+/// inner error is that of a robot, by its index.
 pub(super) fn start_crowd<C: QueryableContextType>(
     call: &Call<C>,
-    bricks: &[u32],
+    robots: &[(u32, String)],
     machines: Vec<Machine>,
     clock: Clock,
 ) -> PrologResult<Result<(), Misplaced>> {
@@ -88,11 +100,12 @@ pub(super) fn start_crowd<C: QueryableContextType>(
         Err(error) => return no_thread(call, &error),
     };
     let outer = brick_number();
+    let names: Arc<[String]> = robots.iter().map(|(_, name)| name.clone()).collect();
     let mut started = Ok(());
-    for (brick, simulation) in bricks.iter().zip(simulations) {
+    for ((brick, _), simulation) in robots.iter().zip(simulations) {
         if started.is_ok() && use_brick(*brick) {
             simulation.machine().keep_samples(watch::is_watched());
-            started = run(call, simulation);
+            started = run(call, simulation, Arc::clone(&names));
         }
     }
     use_brick(outer);
@@ -104,12 +117,16 @@ fn no_thread<T, C: QueryableContextType>(call: &Call<C>, error: &io::Error) -> P
 }
 
 /// Runs a simulation in the brick in use, in the place of the running one.
-fn run<C: QueryableContextType>(call: &Call<C>, simulation: Simulation) -> PrologResult<()> {
+fn run<C: QueryableContextType>(
+    call: &Call<C>,
+    simulation: Simulation,
+    names: Arc<[String]>,
+) -> PrologResult<()> {
     let simulation = Arc::new(simulation);
     mount::end();
     let before = locked(&RUNNING).get(&brick_number()).map(|running| running.before.clone());
     let before = before.unwrap_or_else(selected);
-    let running = Running { simulation: Arc::clone(&simulation), before };
+    let running = Running { simulation: Arc::clone(&simulation), before, names };
     let ended = locked(&RUNNING).insert(brick_number(), running);
     drop(ended);
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));

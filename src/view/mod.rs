@@ -22,9 +22,10 @@ mod threads;
 pub(crate) use self::believed::{counting_begins, pose_is_set};
 
 use self::notes::notes;
-use self::reach::{keep_samples, running_simulation, seconds, stop_motors};
+use self::reach::{keep_samples, running_simulations, seconds, stop_motors};
 use self::state::{Decimal, Entry};
 use crate::glue::call::Call;
+use crate::glue::state::{has_tree, show_brick};
 use crate::glue::terms::unify_atom;
 use crate::glue::watch;
 use ev3_signals::latch::{self, Reason};
@@ -45,7 +46,8 @@ natives! {
         keep_samples(false);
         printed::keep(false);
         swipl::fli::see_output_no_more();
-        if let Some(simulation) = running_simulation() {
+        show_brick(None);
+        for simulation in running_simulations() {
             simulation.set_pace(None);
             simulation.set_paused(false);
         }
@@ -58,6 +60,18 @@ natives! {
     semidet fn "view_thread_"(_context, serves) {
         threads::serve(serves.get_ex()?);
         Ok(())
+    }
+
+    /// view_show_(+Brick): pages show this brick from now on; fails if it is not open.
+    semidet fn "view_show_"(context, number) {
+        let number = Call::of(context, "view", 1).integer(number)?;
+        into_prolog_result(u32::try_from(number).is_ok_and(|number| show_brick(Some(number))))
+    }
+
+    /// view_has_robot_(+Brick): a tree was chosen for it.
+    semidet fn "view_has_robot_"(context, number) {
+        let number = Call::of(context, "view", 1).integer(number)?;
+        into_prolog_result(u32::try_from(number).is_ok_and(has_tree))
     }
 
     /// view_frame_(+Page, +Have, +State, +Rate, +Goals): sends a page that has some the next frame.

@@ -2,7 +2,7 @@
 use super::threads;
 use crate::glue::state::{devices, on_all_bricks, watched};
 use ev3_driver::{Error, motor};
-use ev3_sim::{Simulation, stay_outside};
+use ev3_sim::{ItemId, Simulation, stay_outside};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -15,6 +15,26 @@ pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
 /// There is none.
 #[cfg(not(feature = "sim"))]
 pub(super) fn running_simulation() -> Option<Arc<Simulation>> {
+    None
+}
+
+/// Those of all bricks.
+#[cfg(feature = "sim")]
+pub(super) fn running_simulations() -> Vec<Arc<Simulation>> {
+    crate::sim::running_simulations()
+}
+
+/// There are none.
+#[cfg(not(feature = "sim"))]
+pub(super) fn running_simulations() -> Vec<Arc<Simulation>> {
+    Vec::new()
+}
+
+/// The name of another robot in the world of the one that is shown.
+pub(super) fn robot_name(id: ItemId) -> Option<String> {
+    #[cfg(feature = "sim")]
+    return crate::sim::robot_name(id);
+    #[cfg(not(feature = "sim"))]
     None
 }
 
@@ -41,7 +61,7 @@ pub(super) fn seconds() -> f64 {
 
 /// Keeps samples from now on, or none.
 pub(super) fn keep_samples(keep: bool) {
-    if let Some(simulation) = running_simulation() {
+    for simulation in running_simulations() {
         simulation.machine().keep_samples(keep);
     }
 }

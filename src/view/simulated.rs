@@ -2,10 +2,11 @@
 use super::believed::{ToWorld, believe, believed};
 use super::hand::pulled;
 use super::notes::notes;
+use super::reach::robot_name;
 use super::state::{
     Beam, Brick, Clock, Decimal, Devices, Fine, Hull, Item, Lights, OrNull, Plugs, Port, Robot,
-    Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Wheel, Words, World, fine, points,
-    text,
+    Row, Samples, Screen, Sensor, Sight, Spec, Surroundings, Text, Wheel, Words, World, fine,
+    points, text,
 };
 use crate::glue::state::watched;
 use ev3_driver::lock::locked;
@@ -42,7 +43,8 @@ pub(super) fn state(simulation: &Simulation) -> (Duration, String) {
     let keys = ["up", "down", "left", "right", "enter", "back"].into_iter().filter(is_down);
     let [volts, amps] = machine.battery().map_or([None; 2], |both| fine(both).map(Some));
     let mut json = Json::new();
-    let others: Vec<_> = machine.other_robots().map(|(id, item)| item_of(id, &item)).collect();
+    let other = |(id, item)| Item { name: robot_name(id).map(Text::from), ..item_of(id, &item) };
+    let others: Vec<_> = machine.other_robots().map(other).collect();
     let others = (!others.is_empty()).then_some(others);
     Surroundings { robot, see: see.collect(), beams: beams.collect(), others }.members(&mut json);
     let ports = PORTS.iter().map(|port| shown(&machine, *port)).collect();

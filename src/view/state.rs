@@ -304,6 +304,7 @@ objects! {
         intensity: Option<Fine>,
         port: Option<&'static str>,
         channel: Option<u64>,
+        name: Option<Text>,
     }
 
     /// Its pixels line by line: one bit each, where 1 is black, a shade of gray, or a color.

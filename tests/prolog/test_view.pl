@@ -52,6 +52,18 @@ paged(Page, Goal) :-
 
 :- meta_predicate paged(?, 0).
 
+%   In one world, where they look at each other, and the page of both
+two_robots(Page, Goal) :-
+    paged(Page,
+          setup_call_cleanup(
+              sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)],
+                        [clock(virtual), robots([anna-default, bob-default])]),
+              Goal,
+              ( use_brick(local),
+                forall(member(Name, [anna, bob]), catch(brick_close(Name), _, true)) ))).
+
+:- meta_predicate two_robots(?, 0).
+
 frame(Page, Have, Frame) :-
     format(string(Line), "next ~w", [Have]),
     page_ask(Page, Line, Frame).
@@ -499,16 +511,51 @@ test(a_robot_without_wheels_has_none_on_the_page) :-
             \+ get_dict(left, Frame.spec, _),
             \+ get_dict(axle, Frame.spec, _),
             Frame.robot.true = [5, 6, 90] )).
-test(the_other_robots_are_seen, true(Others == [[0, 60, 8]])) :-
-    paged(Page,
-          setup_call_cleanup(
-              ( sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)],
-                          [clock(virtual), robots([anna-default, bob-default])]),
-                use_brick(anna) ),
-              page_ask(Page, "next", Frame),
-              ( use_brick(local), brick_close(anna), brick_close(bob) ))),
-    findall([X, Y, R], ( member(Other, Frame.others), X = Other.x, Y = Other.y, R = Other.r ),
+test(the_other_robots_are_seen, true(Others == [["bob", 0, 60, 8]])) :-
+    two_robots(Page,
+               ( use_brick(anna), page_ask(Page, "next", Frame) )),
+    findall([Name, X, Y, R],
+            ( member(Other, Frame.others),
+              [Name, X, Y, R] = [Other.name, Other.x, Other.y, Other.r] ),
             Others).
+test(a_page_chooses_the_brick) :-
+    two_robots(Page,
+               ( use_brick(anna),
+                 page_ask(Page, "next", Frame1),
+                 Frame1.bricks = _{names: ["anna", "bob"], shown: "anna"},
+                 page_ask(Page, "brick bob", Done),
+                 Done.type == "done",
+                 frame(Page, Frame1.have, Frame2),
+                 Frame2.new == true,
+                 Frame2.bricks = _{names: ["anna", "bob"], shown: "bob"},
+                 Frame2.robot.true = [0, 60, 180],
+                 [Other] = Frame2.others,
+                 Other.name == "anna",
+                 page_ask(Page, "place 0 70 90", _),
+                 with_brick(bob, sim_pose(0.0, 70.0, 90.0)),
+                 use_brick(bob), use_brick(anna),
+                 page_ask(Page, "next", Frame3),
+                 Frame3.bricks.shown == "bob",
+                 brick_close(bob),
+                 page_ask(Page, "next", Frame4),
+                 Frame4.robot.true = [0, 0, 0] )).
+test(both_robots_have_samples_from_the_start) :-
+    two_robots(Page,
+               ( page_ask(Page, "brick bob", _),
+                 use_brick(anna),
+                 with_brick(bob, motor_run(outB, 20)),
+                 wait(2),
+                 page_ask(Page, "next", Frame),
+                 length(Frame.samples.rows, Rows),
+                 Rows > 10 )).
+test(there_is_no_such_brick) :-
+    two_robots(Page,
+               ( page_ask(Page, "brick eve", Answer),
+                 Answer.why == "There is no brick eve." )).
+test(one_brick_is_no_choice) :-
+    paged(Page,
+          ( page_ask(Page, "next", Frame),
+            Frame.bricks == null )).
 test(the_next_frame_has_what_is_new) :-
     paged(Page,
           ( page_ask(Page, "next", First),

@@ -57,6 +57,29 @@ function group(name, queries, options, tests) {
   });
 }
 
+const TWO = ['use_module(library(ev3dev/bricks))',
+  'sim_start([start(anna, 0, 0, 0), start(bob, 0, 60, 180)], [clock(realtime), robots([anna-default, bob-default])]), use_brick(anna)'];
+
+group('one of several robots', TWO, '', (it) => {
+  const names = () => it.page.$$eval('#bricks button', (all) => all.map((button) => `${button.textContent} ${button.ariaPressed}`));
+
+  test('is chosen by its name', async () => {
+    await shows(it.page, (s) => s.others[0]?.name === 'bob', 'bob as the other one');
+    assert.deepEqual(await names(), ['anna true', 'bob false']);
+    await it.page.click('#bricks button:nth-child(2)');
+    await shows(it.page, (s) => s.bricks.shown === 'bob' && s.others[0].name === 'anna' && near(s.robot.true[1], 60, 0.1), 'the panels of bob');
+    assert.deepEqual(await names(), ['anna false', 'bob true']);
+  });
+
+  test('is chosen by a click, and not by a drag', async () => {
+    await drag(it.page, [0, 0], [10, 0]);
+    assert.equal((await state(it.page)).bricks.shown, 'bob');
+    await it.page.mouse.click(...await it.page.evaluate(() => window.ev3view.pixel(0, 0)));
+    await shows(it.page, (s) => s.bricks.shown === 'anna' && near(s.robot.true[1], 0, 0.1), 'the panels of anna');
+    assert.equal((await it.session.ask('use_brick(B), write(user_error, B)')).trim(), 'anna');
+  });
+});
+
 group('a simulated robot', ROOM, '', (it) => {
   test('has an address that is said, even by swipl -q', () => {
     assert.ok(it.session.output.includes(`The robot is at ${it.url}`), it.session.output);
@@ -108,8 +131,11 @@ group('a simulated robot', ROOM, '', (it) => {
     const { robot } = await state(it.page);
     await drag(it.page, robot.true, [250, 200]);
     await shows(it.page, (s) => near(s.robot.true[0], 250, 2) && near(s.robot.true[1], 200, 2), 'the robot over there');
-    const [x, y] = await it.session.pose();
-    assert.ok(near(x, 250, 2) && near(y, 200, 2));
+    // The page shows it there at once.
+    await until(async () => {
+      const [x, y] = await it.session.pose();
+      return near(x, 250, 2) && near(y, 200, 2);
+    }, 'the robot in the simulation');
   });
 
   test('stays where a hand has put it, though frames of before still come', async () => {

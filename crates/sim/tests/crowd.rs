@@ -213,6 +213,19 @@ fn collisions_name_the_other_robot() {
 }
 
 #[test]
+fn a_picture_shows_all_robots() {
+    let crowd = pair(
+        &default_robot(),
+        &default_robot(),
+        [Pose::new(0.0, 0.0, 0.0), Pose::new(0.0, 200.0, 180.0)],
+    );
+    let picture = crowd[0].machine().svg();
+    assert!(picture.contains("cx=\"0.00\" cy=\"200.00\" r=\"8.00\""), "{picture}");
+    let top = crowd[0].machine().frame().high[1];
+    assert!(top > 200.0 + RADIUS, "{top}");
+}
+
+#[test]
 fn the_same_in_each_run() {
     let run = || {
         let machines: Vec<_> = (0..12u32)

@@ -153,6 +153,7 @@
             view_close_/0,
             view_end_/2,
             view_frame_/5,
+            view_has_robot_/1,
             view_hear_/3,
             view_keep_/2,
             view_latch_/0,
@@ -171,6 +172,7 @@
             view_say_/2,
             view_serve_/5,
             view_serves_/0,
+            view_show_/1,
             view_shut_/1,
             view_source_/1,
             view_stands_/0,
@@ -443,6 +445,7 @@ missing.
 
 %!  view_close_ is det.
 %!  view_frame_(+Page, +Have, +State, +Rate, +Goals) is det.
+%!  view_has_robot_(+Brick) is semidet.
 %!  view_keep_(+Name, +Json) is det.
 %!  view_latch_ is det.
 %!  view_lift_ is det.
@@ -452,6 +455,7 @@ missing.
 %!  view_printed_(+Ended, -Times, -Texts) is det.
 %!  view_prints_(+Keeps) is det.
 %!  view_serves_ is semidet.
+%!  view_show_(+Brick) is semidet.
 %!  view_source_(-Source) is det.
 %!  view_stop_motors_ is det.
 %!  view_thread_(+Serves) is det.

@@ -1,6 +1,6 @@
 // The page: takes frames, shows them, and asks for the next.
 
-import { $, clock, notice, text, toggle } from './dom.js';
+import { $, clock, el, notice, text, toggle } from './dom.js';
 import { Brick } from './brick.js';
 import { Charts } from './charts.js';
 import { Editor } from './editor.js';
@@ -82,6 +82,7 @@ function frame(next) {
   }
   heading();
   if (came.has('world')) layout();
+  if (came.has('bricks')) robots(model.bricks);
   waiting = true;
   if (!animation) animation = requestAnimationFrame(draw);
 }
@@ -143,6 +144,16 @@ function heading() {
   emptiness();
 }
 
+/** The robots to choose from. */
+function robots(bricks) {
+  $('bricks').hidden = !bricks;
+  $('bricks').replaceChildren(...(bricks?.names ?? []).map((name) => {
+    const button = el('button', { type: 'button', 'aria-pressed': String(name === bricks.shown) }, name);
+    button.addEventListener('click', () => send(`brick ${name}`));
+    return button;
+  }));
+}
+
 function emptiness() {
   const { frame: now } = model;
   const known = now?.robot?.true || now?.robot?.believed;
@@ -191,6 +202,8 @@ function shown() {
     see: now?.see ?? [],
     ports: now?.ports ?? [],
     brick: { ...now?.brick, pixels: brick.black },
+    bricks: model.bricks,
+    others: now?.others ?? [],
     path: model.path,
     grid: model.grid,
     snapshots: model.snapshots ?? [],

@@ -164,6 +164,7 @@ export class Picture extends Camera {
           c.lineWidth = (this.selected?.id === item.id ? 2 : 1) * this.dot;
           c.stroke(path);
         }
+        if (item.name) this.label(c, item.name, item.x, item.y + (item.r ?? Math.hypot(item.w, item.d) / 2) + 9 * this.dot, this.paint.ink, 600, this.paint.card);
       }
     }
   }
@@ -206,13 +207,18 @@ export class Picture extends Camera {
     this.label(c, String(item.channel), at.x, at.y, this.paint.violet, 700);
   }
 
-  label(c, words, x, y, color = this.paint.soft, weight = 500) {
+  label(c, words, x, y, color = this.paint.soft, weight = 500, halo = null) {
     c.save();
     c.translate(x, y);
     c.scale(this.dot, -this.dot);
     c.font = `${weight} 11px ${this.font}`;
     c.textAlign = 'center';
     c.textBaseline = 'middle';
+    if (halo) {
+      c.strokeStyle = halo;
+      c.lineWidth = 3;
+      c.strokeText(words, 0, 0);
+    }
     c.fillStyle = color;
     c.fillText(words, 0, 0);
     c.restore();

@@ -180,13 +180,15 @@ export class World extends Picture {
     this.draw();
   }
 
-  /** What is at a place: the turning handle, the robot, a thing, nothing. */
+  /** What is at a place: the turning handle, the robot, another one, a thing, nothing. */
   at(place) {
     const { frame, world } = this.model ?? {};
     if (!this.model?.simulated) return null;
     const near = (point, reach) => point && Math.hypot(place[0] - point[0], place[1] - point[1]) <= reach;
     if (this.selected === 'robot' && near(this.handle(), GRAB * this.dot)) return { kind: 'turn' };
     if (near(frame.robot?.true, Math.max(this.reach(), GRAB * this.dot))) return { kind: 'robot' };
+    const other = frame.others?.find((each) => this.covers(each, place));
+    if (other) return { kind: 'other', name: other.name };
     const item = [...(world?.items ?? [])].reverse().find((each) => ['box', 'circle', 'lamp', 'beacon'].includes(each.kind) && this.covers(each, place));
     return item ? { kind: 'item', item } : null;
   }
@@ -230,6 +232,8 @@ export class World extends Picture {
         const pose = this.model.frame.robot.true;
         this.drag = { kind: 'robot', turn: found.kind === 'turn', at: [...pose], off: [pose[0] - place[0], pose[1] - place[1]] };
         this.select('robot');
+      } else if (found?.kind === 'other') {
+        this.drag = { kind: 'pan', place, name: found.name };
       } else if (found) {
         const { item } = found;
         this.drag = { kind: 'item', item, at: { x: item.x, y: item.y }, off: [item.x - place[0], item.y - place[1]] };
@@ -259,6 +263,7 @@ export class World extends Picture {
         const kind = this.at(place)?.kind;
         toggle(this.canvas, 'over-robot', kind === 'robot' || kind === 'turn');
         toggle(this.canvas, 'over-box', kind === 'item');
+        toggle(this.canvas, 'over-other', kind === 'other');
       }
       if (this.measured && !this.measured[1]) this.draw();
       this.editing?.move(place);
@@ -300,7 +305,11 @@ export class World extends Picture {
     toggle(this.canvas, 'grabbing', false);
     if (drag?.kind === 'edit') return this.editing?.up(canceled);
     if (!drag || canceled) return this.draw();
-    if (drag.kind === 'pan' && !this.moved) this.beside?.();
+    if (drag.kind === 'pan' && !this.moved) {
+      this.beside?.();
+      // A click on another robot chooses its brick.
+      if (drag.name !== undefined) this.send(`brick ${drag.name}`);
+    }
     if (drag.kind === 'box') {
       const size = (a, b) => Math.abs(a - b);
       const [w, d] = this.moved ? [size(drag.from[0], drag.to[0]), size(drag.from[1], drag.to[1])] : [20, 20];

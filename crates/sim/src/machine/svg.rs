@@ -61,6 +61,9 @@ impl Machine {
         for (id, item) in self.scene.items() {
             draw_item(&mut svg, id.0, item);
         }
+        for (id, item) in self.other_robots() {
+            draw_item(&mut svg, id.0, &item);
+        }
         let path = list(self.trace.path().map(|(_, p)| [p.x, p.y]).chain([[pose.x, pose.y]]));
         line(
             &mut svg,
@@ -91,6 +94,7 @@ impl Machine {
         frame.include([pose.x, pose.y], self.robot.hull.reach());
         self.trace.path().for_each(|(_, pose)| frame.include([pose.x, pose.y], 0.0));
         self.scene.items().iter().for_each(|(_, item)| frame.include_item(item));
+        self.other_robots().for_each(|(_, item)| frame.include_item(&item));
         if let Some(bounds) = self.scene.bounds {
             frame.include(bounds.low, 0.0);
             frame.include(bounds.high, 0.0);

@@ -1,18 +1,20 @@
 :- module(ev3dev_view_known,
           [ renew_kept/0,
+            brick_show/1,               % +Text
             watch_add/2,                % +Name, +Column
             watches_end/0
           ]).
 :- use_module('../native',
-              [ view_keep_/2, view_to_world_/5 ]).
+              [ view_has_robot_/1, view_keep_/2, view_show_/1,
+                view_to_world_/5 ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../brick', [brick/1]).
+:- use_module('../brick', [brick/1, named_brick/3]).
 :- use_module('../world_name', [world_name/1]).
 
 /** <module> What seldom changes on a page
 
-What the program knows of its grid, the name of the world, and what it wants
-to be plotted. A page is sent what has changed.
+What the program knows of its grid, the name of the world, the bricks, and
+what it wants to be plotted. A page is sent what has changed.
 */
 
 :- dynamic
@@ -34,7 +36,44 @@ renew_kept :-
         assertz(renewed(Now)),
         catch(keep_grid, _, true),
         keep_name
+    ),
+    keep_bricks.
+
+%!  brick_show(+Text) is semidet.
+%
+%   Pages show the brick of that name from now on. Fails if there is none.
+
+brick_show(Text) :-
+    robot(Name, Brick),
+    atom_string(Name, Text),
+    view_show_(Brick),
+    keep_bricks.
+
+%   Nothing to choose from is no list. Of those that are no robot yet, only
+%   the one that is shown is in it.
+keep_bricks :-
+    brick(Shown),
+    findall(Name-Brick,
+            ( robot(Name, Brick),
+              ( Brick == Shown -> true ; view_has_robot_(Brick) ) ),
+            Robots),
+    (   Robots = [_, _|_]
+    ->  findall(Text,
+                ( member(Name-_, Robots), atom_string(Name, Text) ),
+                Names),
+        (   member(Name-Shown, Robots)
+        ->  atom_string(Name, Now)
+        ;   Now = null
+        ),
+        view_keep_(bricks, json([names=Names, shown=Now]))
+    ;   view_keep_(bricks, null)
     ).
+
+%   A far brick has no number.
+robot(local, 0).
+robot(Name, Brick) :-
+    named_brick(Name, Brick, _),
+    integer(Brick).
 
 keep_name :-
     (   world_name(Name)

@@ -9,7 +9,7 @@
                 view_say_/2, view_serve_/5, view_shut_/1, view_visit_/1 ]).
 :- use_module(goals, [goal_line/4, goals_end/1]).
 :- use_module(hands, [hand_line/3]).
-:- use_module(known, [renew_kept/0]).
+:- use_module(known, [brick_show/1, renew_kept/0]).
 :- use_module(log, [error_text/2, log_commands/1, mark/1, note/2]).
 :- use_module(program,
               [ lift_latch/0, probe_program/0, program_state/1,
@@ -184,6 +184,13 @@ line(mark, Text0, Page) :-
     sub_string(Text0, 0, End, _, Text),
     mark(Text),
     done(Page, mark, []).
+line(brick, Name, Page) :-
+    !,
+    (   brick_show(Name)
+    ->  done(Page, brick, [])
+    ;   format(string(Why), "There is no brick ~w.", [Name]),
+        refused(Page, brick, Why)
+    ).
 line(Word, Rest, Page) :-
     memberchk(Word, [goal, more, enough]),
     !,
