@@ -71,6 +71,8 @@ pub extern "C" fn install() {
     {
         sim::register();
         sim::buttons::register();
+        #[cfg(unix)]
+        sim::fence::register();
         sim::limit::register();
     }
 }

@@ -54,8 +54,8 @@ main() {
     check_symbols "$file"
     check_texts "$file"
 
-    limit=$((3 << 20))
-    [[ $name == armel ]] && limit=2030000
+    limit=3300000
+    [[ $name == armel ]] && limit=2050000
     size=$(stat -c %s "$file")
     [[ $size -le $limit ]] || complain "has $size bytes; $limit is the limit"
 

@@ -43,6 +43,7 @@
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
+:- use_module(library(ev3dev/sim_fenced)).
 :- use_module(library(ev3dev/worker)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
@@ -57,7 +58,8 @@ task('Use the brick itself',
      [lights, buttons, sound, screen, console, battery, ports, time, compile]).
 task('See what is connected', [device_table, driver, files]).
 task('Ask why it did that', [journal]).
-task('Try it without a robot', [sim, sim_hand, sim_time, sim_views, sim_batch]).
+task('Try it without a robot',
+     [sim, sim_hand, sim_time, sim_views, sim_batch, sim_fenced]).
 task('Drive several robots', [bricks, worker]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).

@@ -11,8 +11,8 @@
 :- use_module(private/directory, [directory_path/2, environment_directory/2]).
 :- use_module(private/native,
               [ dev_/1, dev_use_/1, file_read_/2, file_write_/2,
-                sim_active_/0, subsystem_detect_/4, sysfs_/1, sysfs_use_/1
-              ]).
+                sim_active_/0, sim_fence_join_/1, subsystem_detect_/4,
+                sysfs_/1, sysfs_use_/1 ]).
 
 /** <module> Files of devices
 
@@ -90,8 +90,14 @@ ev3_sysfs(Directory) :-
     directory_path(Directory, Path),
     sysfs_use_(Path).
 
+%   A program of sim_fenced/3 has its robot by a socket, and its own processes
+%   have none.
 use_environment :-
-    (   environment_directory('EV3DEV_SYSFS', Directory)
+    (   getenv('EV3DEV_FENCE', Socket)
+    ->  unsetenv('EV3DEV_FENCE'),
+        use_module(library(ev3dev/private/turn), []),
+        sim_fence_join_(Socket)
+    ;   environment_directory('EV3DEV_SYSFS', Directory)
     ->  ev3_sysfs(Directory)
     ;   true
     ).

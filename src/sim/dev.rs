@@ -3,7 +3,7 @@ use ev3_driver::devfs::{Speaker, Stream};
 use ev3_driver::error::Access;
 use ev3_driver::lock::locked;
 use ev3_driver::{Devfs, Errno};
-use ev3_sim::{DevDescriptor, Simulation};
+use ev3_sim::{OpenDevice, Simulation};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -39,10 +39,8 @@ impl Devfs for SimulatedDev {
     fn open(&self, path: &Path, _access: Access) -> io::Result<Box<dyn Stream>> {
         let below = path.strip_prefix(&self.root).ok().and_then(Path::to_str);
         let below = below.ok_or(Errno::NOENT)?;
-        let descriptor =
-            DevDescriptor::open(&self.simulation.machine(), below).map_err(io::Error::from)?;
-        let place = Mutex::new(Place { descriptor, offset: 0 });
-        Ok(Box::new(SimulatedStream { simulation: Arc::clone(&self.simulation), place }))
+        let device = Mutex::new(self.simulation.open_device(below).map_err(io::Error::from)?);
+        Ok(Box::new(SimulatedStream { simulation: Arc::clone(&self.simulation), device }))
     }
 
     fn now(&self) -> Duration {
@@ -63,57 +61,41 @@ impl Devfs for SimulatedDev {
 
 impl Speaker for SimulatedDev {
     fn say(&self, text: &str) -> Duration {
-        self.simulation.machine().say(text)
+        self.simulation.say(text)
     }
 
     fn play(&self, file: &str) {
-        self.simulation.machine().play(file);
+        self.simulation.play(file);
     }
 
     fn silence(&self) {
-        self.simulation.machine().silence();
+        self.simulation.silence();
     }
 
     fn volume(&self) -> u8 {
-        self.simulation.machine().volume()
+        self.simulation.volume()
     }
 
     fn set_volume(&self, percent: u8) {
-        self.simulation.machine().set_volume(percent);
+        self.simulation.set_volume(percent);
     }
 }
 
 /// An open device of a simulation.
 struct SimulatedStream {
     simulation: Arc<Simulation>,
-    place: Mutex<Place>,
+    device: Mutex<OpenDevice>,
 }
-
-/// The offset of the next read or write.
-struct Place {
-    descriptor: DevDescriptor,
-    offset: usize,
-}
-
-impl SimulatedStream {}
 
 impl Stream for SimulatedStream {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.simulation.read(|machine| {
-            let Place { descriptor, offset } = &mut *locked(&self.place);
-            let length = descriptor.read(machine, *offset, buffer).map_err(io::Error::from)?;
-            *offset += length;
-            Ok(length)
-        })
+        let read = self.simulation.read_device(&mut locked(&self.device), buffer);
+        read.map_err(io::Error::from)
     }
 
     fn write(&self, bytes: &[u8]) -> io::Result<usize> {
-        self.simulation.write(|machine| {
-            let Place { descriptor, offset } = &mut *locked(&self.place);
-            let length = descriptor.write(machine, *offset, bytes).map_err(io::Error::from)?;
-            *offset += length;
-            Ok(length)
-        })
+        let written = self.simulation.write_device(&mut locked(&self.device), bytes);
+        written.map_err(io::Error::from)
     }
 
     fn skip(&self) -> io::Result<()> {
@@ -121,19 +103,15 @@ impl Stream for SimulatedStream {
     }
 
     fn key_state(&self, bits: &mut [u8]) -> io::Result<()> {
-        let command = eviocgkey(bits.len());
-        let state =
-            self.simulation.read(|machine| locked(&self.place).descriptor.ioctl(machine, command));
-        let (_, state) = state.map_err(io::Error::from)?;
-        let (known, rest) = bits.split_at_mut(state.len());
-        known.copy_from_slice(&state);
+        let state = self.simulation.ioctl(&locked(&self.device), eviocgkey(bits.len()));
+        let state = state.map_err(io::Error::from)?;
+        let (known, rest) = bits.split_at_mut(state.len().min(bits.len()));
+        known.copy_from_slice(&state[..known.len()]);
         rest.fill(0);
         Ok(())
     }
 
     fn length(&self) -> Option<u64> {
-        let machine = self.simulation.machine();
-        let length = locked(&self.place).descriptor.length(&machine);
-        length.map(|length| length as u64)
+        locked(&self.device).length()
     }
 }

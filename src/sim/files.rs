@@ -31,11 +31,8 @@ impl SimulatedFiles {
     }
 
     fn list_below(&self, path: &str) -> io::Result<Vec<Entry>> {
-        let machine = self.simulation.machine();
-        let directory = machine.resolve(path).map_err(io::Error::from)?;
-        let entries = machine.read_dir(directory).map_err(io::Error::from)?;
-        let entry = |entry: ev3_sim::Entry| Entry { name: entry.name, inode: entry.node.0 };
-        Ok(entries.into_iter().map(entry).collect())
+        let entries = self.simulation.list(path).map_err(io::Error::from)?;
+        Ok(entries.into_iter().map(|(name, node)| Entry { name, inode: node.0 }).collect())
     }
 }
 
@@ -56,7 +53,7 @@ impl Sysfs for SimulatedFiles {
             Access::Read => ev3_sim::Access::ReadOnly,
             Access::Write => ev3_sim::Access::WriteOnly,
         };
-        let node = self.simulation.machine().open(below, wanted).map_err(io::Error::from)?;
+        let node = self.simulation.open(below, wanted).map_err(io::Error::from)?;
         Ok(Box::new(SimulatedFile { simulation: Arc::clone(&self.simulation), node }))
     }
 
@@ -108,11 +105,7 @@ struct SimulatedFile {
 
 impl AttributeFile for SimulatedFile {
     fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
-        let text = self.simulation.read(|machine| machine.read(self.node));
-        let text = text.map_err(io::Error::from)?;
-        let length = text.len().min(buffer.len());
-        buffer[..length].copy_from_slice(&text[..length]);
-        Ok(length)
+        self.read_at(buffer, 0)
     }
 
     fn write(&self, text: &[u8]) -> io::Result<()> {
@@ -120,19 +113,11 @@ impl AttributeFile for SimulatedFile {
     }
 
     fn read_at(&self, buffer: &mut [u8], offset: u8) -> io::Result<usize> {
-        let count = buffer.len();
-        let read = self.simulation.read(|machine| machine.read_at(self.node, offset.into(), count));
-        let bytes = read.map_err(io::Error::from)?;
-        buffer[..bytes.len()].copy_from_slice(&bytes);
-        Ok(bytes.len())
+        self.simulation.read(self.node, offset.into(), buffer).map_err(io::Error::from)
     }
 
     fn write_at(&self, bytes: &[u8], offset: u8) -> io::Result<()> {
-        let written = self.simulation.write(|machine| {
-            machine
-                .write_at(self.node, offset.into(), bytes)
-                .map(|written| (written, machine.now()))
-        });
+        let written = self.simulation.write(self.node, offset.into(), bytes);
         let (written, start) = written.map_err(io::Error::from)?;
         let end = start + written.blocks;
         while self.simulation.machine().now() < end && !self.simulation.is_acting() {

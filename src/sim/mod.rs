@@ -1,6 +1,8 @@
 //! `prolog/ev3dev/sim.pl`, `sim_hand.pl`, `sim_time.pl`, `sim_views.pl`: the simulator.
 pub(crate) mod buttons;
 mod dev;
+#[cfg(unix)]
+pub(crate) mod fence;
 mod files;
 pub(crate) mod limit;
 #[cfg(feature = "fuse")]

@@ -15,6 +15,7 @@
 :- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
+:- use_module(library(ev3dev/sim_fenced)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
@@ -95,6 +96,8 @@ bad(robot_send(local, x), [_-1, 7-1, anna-1]).
 bad(robot_receive(_, _, [timeout(0)]), [[timeout(-1)]-3, [until(1)]-3, a-3]).
 bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).
 bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
+bad(sim_fenced(nofile, _), [_-1]).
+bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [wall(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).
 bad(sim_batch(nofile, a, [1], _, []), [_-1, [redis(1)]-5, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).

@@ -42,6 +42,12 @@ pub use survivor::survive;
 #[cfg(unix)]
 pub use watchdog::{Asked, PATIENCE, halts, is_to_halt, watch};
 
+/// Ends this process at once, by SIGKILL.
+#[cfg(unix)]
+pub fn vanish() {
+    let _ = nix::sys::signal::raise(nix::sys::signal::SIGKILL);
+}
+
 /// Stops the motors that run and whose files are kept, and keeps all from starting.
 #[cfg(unix)]
 pub fn stop_for(reason: latch::Reason) {

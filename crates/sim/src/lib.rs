@@ -88,12 +88,15 @@
 //! - `log.rs`, `trace.rs`: what has happened;
 //! - `machine`: all of these as one value, its file tree, and time;
 //! - `shared.rs`, `clock`: a machine that several threads use, and how time passes for it;
+//! - `access.rs`, [`far`]: what a program does with its files, here or from another process;
 //! - `fuse`: the tree as real files.
 #![forbid(unsafe_code)]
 
+mod access;
 mod brick;
 mod clock;
 pub mod facts;
+pub mod far;
 mod files;
 #[cfg(feature = "fuse")]
 mod fuse;
@@ -112,6 +115,7 @@ mod trace;
 mod wheel;
 mod world;
 
+pub use access::OpenDevice;
 pub use brick::panel::{Button, UnknownButton};
 pub use brick::port::{Port, UnknownPort};
 pub use brick::remote::RemoteButton;

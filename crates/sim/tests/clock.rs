@@ -4,6 +4,8 @@
 //! The clock looks at all threads of the process, so these tests run one after the other, and in a
 //! process of their own.
 
+#[path = "it/access.rs"]
+mod access;
 #[path = "it/robots.rs"]
 mod robots;
 
@@ -111,9 +113,9 @@ fn a_virtual_pause_jumps_to_its_end() {
 fn virtual_reads_and_writes_take_a_little_time_and_a_call_takes_none() {
     let simulation = simulation(Clock::Virtual);
     call(&simulation, "");
-    simulation.read(|_| ());
+    access::read(&simulation, access::SOME);
     assert_eq!(now(&simulation), Duration::from_micros(500));
-    simulation.write(|_| ());
+    access::write(&simulation, "tacho-motor/motor1/speed_sp", "0");
     call(&simulation, "");
     assert_eq!(now(&simulation), Duration::from_micros(600));
 }
@@ -148,7 +150,7 @@ fn threads_that_wait_in_turn_do_the_same_each_time() {
                 scope.spawn(move || {
                     for _ in 0..20 {
                         call(&simulation, what);
-                        simulation.read(|_| ());
+                        access::read(&simulation, access::SOME);
                         diary.note(&simulation, what);
                         wait(&simulation, ms(period));
                     }
@@ -249,7 +251,7 @@ fn a_turn_that_was_kept_for_one_call_is_not_kept_for_later_ones() {
         })
     };
     call(&simulation, "");
-    simulation.read(|_| ());
+    access::read(&simulation, access::SOME);
     wait(&simulation, ms(1000));
     assert_eq!(child.join().unwrap(), Duration::from_micros(10));
 }
@@ -319,7 +321,7 @@ fn a_thread_that_polls_sees_each_moment_beside_one_that_waits_for_long() {
     let mut last = now(&simulation);
     for _ in 0..100 {
         call(&simulation, "");
-        simulation.read(|_| ());
+        access::read(&simulation, access::SOME);
         assert!(now(&simulation) < last + ms(1));
         last = now(&simulation);
     }
@@ -402,7 +404,7 @@ fn an_access_without_a_turn_does_not_wait_for_ever() {
     call(&simulation, "");
     let child = {
         let simulation = Arc::clone(&simulation);
-        thread::spawn(move || simulation.write(|_| ()))
+        thread::spawn(move || access::write(&simulation, "tacho-motor/motor1/speed_sp", "0"))
     };
     while !child.is_finished() {}
     child.join().unwrap();
@@ -451,8 +453,8 @@ fn reads_and_waits_within_an_act_take_no_turn_of_their_own() {
     let act = move || {
         let simulation = inner.upgrade()?;
         let before = simulation.machine().now();
-        simulation.read(|_| ());
-        simulation.write(|_| ());
+        access::read(&simulation, access::SOME);
+        access::write(&simulation, "tacho-motor/motor1/speed_sp", "0");
         let after = simulation.machine().now();
         sender.send((simulation.is_acting(), before == after)).ok().map(|()| ms(10))
     };
@@ -468,8 +470,8 @@ fn accesses_run_no_act_and_the_next_call_does() {
     let (act, times) = reporter(&simulation, ms(1));
     simulation.repeat(Duration::from_micros(50), act);
     call(&simulation, "");
-    simulation.write(|_| ());
-    simulation.read(|_| ());
+    access::write(&simulation, "tacho-motor/motor1/speed_sp", "0");
+    access::read(&simulation, access::SOME);
     assert_eq!(times.try_iter().count(), 0);
     call(&simulation, "");
     assert_eq!(times.try_iter().collect::<Vec<_>>(), [Duration::from_micros(600)]);
@@ -555,16 +557,14 @@ fn a_short_wait_by_the_wall_is_no_shorter_for_the_machine() {
 /// What a program does that drives, waits and reads, with the time at each step.
 fn drives(simulation: &Simulation) -> Vec<(Duration, String)> {
     let mut seen = Vec::new();
-    let write = |path: &str, text: &str| {
-        simulation.write(|machine| machine.write_path(path, text)).unwrap();
-    };
+    let write = |path, text| access::write(simulation, path, text);
     write("tacho-motor/motor1/speed_sp", "300");
     write("tacho-motor/motor1/command", "run-forever");
     for _ in 0..3 {
         wait(simulation, ms(70));
         call(simulation, "read");
-        let text = simulation.read(|machine| machine.read_path("tacho-motor/motor1/position"));
-        seen.push((now(simulation), text.unwrap()));
+        let text = access::read(simulation, "tacho-motor/motor1/position");
+        seen.push((now(simulation), text));
     }
     seen
 }
@@ -612,9 +612,9 @@ fn a_hand_from_outside_needs_no_turn_and_takes_no_time() {
         thread::spawn(move || {
             ev3_sim::stay_outside(true);
             call(&simulation, "reach in");
-            simulation.write(|machine| machine.write_path("tacho-motor/motor1/command", "stop"))
+            access::write(&simulation, "tacho-motor/motor1/command", "stop");
         })
     };
-    hand.join().unwrap().unwrap();
+    hand.join().unwrap();
     assert_eq!(now(&simulation), before);
 }

@@ -1,6 +1,8 @@
 //! Several robots in one world: they see each other, push as far as their tires grip, and each has
 //! a processor of its own.
 
+#[path = "it/access.rs"]
+mod access;
 #[path = "it/robots.rs"]
 mod robots;
 
@@ -294,7 +296,7 @@ fn each_has_a_processor_of_its_own() {
     for _ in 0..100 {
         for simulation in &crowd {
             call(simulation);
-            simulation.read(|machine| machine.read_path("tacho-motor/motor0/position")).unwrap();
+            access::read(simulation, "tacho-motor/motor0/position");
         }
     }
     for simulation in &crowd {

@@ -122,6 +122,10 @@
             sim_crowd_/4,
             sim_detecting_/1,
             sim_fault_/3,
+            sim_fence_close_/0,
+            sim_fence_join_/1,
+            sim_fence_open_/1,
+            sim_fence_serve_/3,
             sim_jam_/2,
             sim_mount_/2,
             sim_place_/3,
@@ -440,6 +444,13 @@ missing.
 %!  sim_wait_(+Seconds, -Reason) is nondet.
 %
 %   `src/sim/mod.rs`
+
+%!  sim_fence_close_ is det.
+%!  sim_fence_join_(+Path) is det.
+%!  sim_fence_open_(+Path) is semidet.
+%!  sim_fence_serve_(+Until, +Wall, -State) is semidet.
+%
+%   `src/sim/fence.rs`
 
 % The view
 

@@ -29,7 +29,7 @@ pub(super) struct Baton {
     /// Whose turn it is. A thread to which this was passed, and that still stands in line, has not
     /// woken up yet.
     holder: AtomicU32,
-    /// How many threads are about to lock the line. They may sleep, but do not rest.
+    /// How many threads are about to lock the line, or busy. They may sleep, but do not rest.
     arriving: AtomicUsize,
     /// Whether a thread has the turn for a wish that it has to make again.
     is_kept: AtomicBool,
@@ -95,6 +95,14 @@ impl Baton {
             is_kept: AtomicBool::new(false),
             line: Mutex::default(),
         }
+    }
+
+    /// Has something done for which this thread may sleep, while it goes on as if awake.
+    pub(super) fn busy<T>(&self, act: impl FnOnce() -> T) -> T {
+        self.arriving.fetch_add(1, Ordering::SeqCst);
+        let done = act();
+        self.arriving.fetch_sub(1, Ordering::SeqCst);
+        done
     }
 
     /// Whether it is this thread's turn.
@@ -228,10 +236,7 @@ impl Baton {
     }
 
     fn line(&self) -> MutexGuard<'_, Line> {
-        self.arriving.fetch_add(1, Ordering::SeqCst);
-        let line = locked(&self.line);
-        self.arriving.fetch_sub(1, Ordering::SeqCst);
-        line
+        self.busy(|| locked(&self.line))
     }
 }
 

@@ -23,26 +23,21 @@ mod wall;
 
 use ev3_os::Instant;
 use std::cell::Cell;
-use std::io;
 use std::sync::{Arc, MutexGuard};
 use std::time::Duration;
+use std::{fmt, io};
 
 use self::acts::PeriodicActs;
 use self::baton::{Baton, Wish};
 use self::pace::{Leave, Pace};
 use self::processor::Processor;
 use self::wall::{STEP, Stepper};
+use crate::far::{Answer, Far, Kind, Question};
 use crate::machine::Machine;
 use crate::machine::crowd::{self, Misplaced};
 use crate::shared::{Crowd, Shared};
 
 pub use self::acts::Act;
-
-/// Duration of a read on the virtual clock: that of a fast program on a brick.
-const READ_TAKES: Duration = Duration::from_micros(500);
-
-/// Duration of a write on the virtual clock.
-const WRITE_TAKES: Duration = Duration::from_micros(100);
 
 /// Duration of a call on the virtual clock while another thread waits: so a thread that only asks
 /// for the time lets the others go on.
@@ -81,13 +76,20 @@ pub fn is_outside() -> bool {
 }
 
 /// A machine whose time passes.
-#[derive(Debug)]
 pub struct Simulation {
     shared: Arc<Shared>,
     acts: Arc<PeriodicActs>,
     clock: Passing,
     /// Of one of several robots in a world.
     processor: Option<Processor>,
+    /// The machine that is meant, if this one is but its clock.
+    far: Option<Box<dyn Far>>,
+}
+
+impl fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation").field("clock", &self.clock).finish_non_exhaustive()
+    }
 }
 
 /// How the time of a simulation, or of a crowd, passes.
@@ -124,7 +126,18 @@ impl Simulation {
     pub fn new(machine: Machine, clock: Clock, has_others: fn() -> bool) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(machine));
         let (acts, clock) = started(&shared, None, clock, has_others)?;
-        Ok(Self { shared, acts, clock, processor: None })
+        Ok(Self { shared, acts, clock, processor: None, far: None })
+    }
+
+    /// The virtual clock, which begins at this moment, of a machine in another process.
+    ///
+    /// # Errors
+    /// None: as those of [`Simulation::new`].
+    pub fn far(far: Box<dyn Far>, now: Duration, has_others: fn() -> bool) -> io::Result<Self> {
+        let machine = Machine::bare().map_err(io::Error::other)?;
+        let simulation = Self::new(machine, Clock::Virtual, has_others)?;
+        simulation.shared.step(now);
+        Ok(Self { far: Some(far), ..simulation })
     }
 
     /// The same for several robots, which come into the world of the first one. They have one time.
@@ -151,6 +164,7 @@ impl Simulation {
             acts: Arc::clone(&acts),
             clock: clock.clone(),
             processor: Some(Processor::new(Arc::clone(&crowd))),
+            far: None,
         };
         Ok(Ok(crowd.members().iter().map(simulation).collect()))
     }
@@ -190,7 +204,7 @@ impl Simulation {
         let Passing::Virtual { baton, has_others } = &self.clock else {
             return true;
         };
-        if self.acts.is_acting() || IS_OUTSIDE.get() {
+        if self.takes_no_time() {
             return true;
         }
         let far_behind = |processor: &Processor| processor.far_behind(self.machine().now());
@@ -279,23 +293,18 @@ impl Simulation {
         }
     }
 
-    /// A read of a file by this thread. On the virtual clock it takes some time.
-    pub fn read<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
-        act(&mut self.access(READ_TAKES))
+    /// Whether what this thread does takes no time.
+    fn takes_no_time(&self) -> bool {
+        self.acts.is_acting() || IS_OUTSIDE.get()
     }
 
-    /// A write to a file by this thread.
-    pub fn write<T>(&self, act: impl FnOnce(&mut Machine) -> T) -> T {
-        act(&mut self.access(WRITE_TAKES))
-    }
-
-    /// No periodic act runs, and no other thread has a turn: the caller may hold a lock that
+    /// An access by this thread to a file, which on the virtual clock takes some time. No periodic act runs, and no other thread has a turn: the caller may hold a lock that
     /// these would wait for.
-    fn access(&self, takes: Duration) -> MutexGuard<'_, Machine> {
+    pub(crate) fn access(&self, takes: Duration) -> MutexGuard<'_, Machine> {
         let Passing::Virtual { baton, .. } = &self.clock else {
             return self.shared.lock();
         };
-        if self.acts.is_acting() || IS_OUTSIDE.get() {
+        if self.takes_no_time() {
             return self.shared.lock();
         }
         // A thread without a turn, as at the end of the program, waits, but not for ever.
@@ -309,6 +318,30 @@ impl Simulation {
         };
         processor.work(machine.now(), takes);
         machine
+    }
+
+    /// The answer of a far machine; `None` if it is here.
+    pub(crate) fn elsewhere(&self, question: Question, takes: Duration) -> Option<Answer> {
+        let far = self.far.as_ref()?;
+        let is_free = takes.is_zero() || self.takes_no_time();
+        let machine = if is_free { self.shared.lock() } else { self.access(takes) };
+        let question = Question { at: machine.now(), is_free, ..question };
+        drop(machine);
+        // Until the answer comes, nobody else has a turn.
+        match &self.clock {
+            Passing::Virtual { baton, .. } => Some(baton.busy(|| far.ask(&question))),
+            Passing::Wall { .. } => Some(far.ask(&question)),
+        }
+    }
+
+    /// How many events of buttons there were, and when the next planned one is.
+    fn buttons(&self) -> (u64, Option<Duration>) {
+        let far = self.elsewhere(Question::of(Kind::Buttons, &[]), Duration::ZERO);
+        if let Some(answer) = far {
+            return (answer.number, answer.number_in_bytes().map(Duration::from_nanos));
+        }
+        let machine = self.machine();
+        (machine.button_events(), machine.next_button())
     }
 
     /// Runs an act at a fixed period from now on. A thread that lets time pass runs
@@ -334,10 +367,7 @@ impl Simulation {
     /// The same, but at most until a button is pressed or released. The virtual clock jumps only to
     /// a planned press: a person may press a button at any time.
     pub fn pause_for_button(&self, end: Duration) -> bool {
-        let (count, planned) = {
-            let machine = self.machine();
-            (machine.button_events(), machine.next_button())
-        };
+        let (count, planned) = self.buttons();
         let end = end.min(planned.map_or(end, |at| at.saturating_add(STEP)));
         let wall = planned.is_none().then(|| Instant::now() + PRESS);
         self.pause_until(end, |machine| machine.button_events() != count, wall)
@@ -387,6 +417,8 @@ impl Simulation {
         };
         drop(self.acts.step(&self.shared, machine, left.min(most)));
         self.shared.wake();
+        // A far machine goes as far as the clock here has.
+        self.elsewhere(Question::of(Kind::Pass, &[]), Duration::ZERO);
         left <= most
     }
 

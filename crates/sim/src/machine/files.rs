@@ -44,6 +44,15 @@ impl Machine {
         self.tree.list(directory)
     }
 
+    /// The names in the directory of a path, with their nodes.
+    ///
+    /// # Errors
+    /// As [`Machine::resolve`] and [`Machine::read_dir`].
+    pub(crate) fn list(&self, path: &str) -> Result<Vec<(String, NodeId)>, Errno> {
+        let entries = self.read_dir(self.resolve(path)?)?;
+        Ok(entries.into_iter().map(|entry| (entry.name, entry.node)).collect())
+    }
+
     /// Kind, permission bits and size of a node.
     ///
     /// # Errors
@@ -118,6 +127,9 @@ impl Machine {
             return Ok(bytes);
         }
         let text = self.read(node)?;
+        if offset == 0 && text.len() <= count {
+            return Ok(text);
+        }
         Ok(text.into_iter().skip(offset).take(count).collect())
     }
 

@@ -98,6 +98,18 @@ pub struct Machine {
 }
 
 impl Machine {
+    /// A brick with nothing plugged in, in an empty world.
+    pub(crate) fn bare() -> Result<Machine, SpecError> {
+        let robot = RobotSpec {
+            wheels: None,
+            hull: crate::world::Hull::Circle { radius: 1.0 },
+            mass: 1.0,
+            motors: Vec::new(),
+            sensors: Vec::new(),
+        };
+        Machine::new(&WorldSpec::default(), &robot, Options::default())
+    }
+
     /// Boots a brick with everything plugged in, standing at the start of the world.
     ///
     /// # Errors

@@ -1,0 +1,275 @@
+//! Questions and answers through a socket between two processes of one machine.
+//!
+//! Numbers are little-endian. The host begins with [`HELLO`] and its time in nanoseconds. A
+//! question is 32 bytes and its text: the text's length (4 bytes), kind (1), whether it takes no
+//! time (1), nothing (2), its moment in nanoseconds (8), number (8), offset (4), count (4). An
+//! answer is 16 bytes and its bytes: their length (4), error (4), number (8).
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Duration;
+
+use super::{Answer, Far, Host, Kind, Question};
+use crate::lock::locked;
+use crate::machine::Machine;
+
+const HELLO: &[u8; 8] = b"ev3far1\n";
+
+/// The most bytes of a question, or wanted by one: more than a screen has.
+const MOST: u32 = 1 << 18;
+
+const HEAD: usize = 32;
+
+/// How long a program has to make room for an answer, which it waits for.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// The error of a line that is lost: EIO.
+const LOST: i32 = 5;
+
+fn nanos(time: Duration) -> u64 {
+    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
+}
+
+fn part<const N: usize>(bytes: &[u8], from: usize) -> [u8; N] {
+    bytes.get(from..from + N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
+}
+
+/// The program's end.
+#[derive(Debug)]
+pub struct Line {
+    stream: Mutex<UnixStream>,
+    /// Called once there are no more answers.
+    lost: fn(),
+}
+
+impl Line {
+    /// Connects to the socket of this path; also the time there.
+    ///
+    /// # Errors
+    /// The system's; `InvalidData` if nobody speaks so there.
+    pub fn connect(path: &Path, lost: fn()) -> io::Result<(Line, Duration)> {
+        Line::new(UnixStream::connect(path)?, lost)
+    }
+
+    /// Over a socket that is connected.
+    ///
+    /// # Errors
+    /// As [`Line::connect`].
+    pub fn new(mut stream: UnixStream, lost: fn()) -> io::Result<(Line, Duration)> {
+        let mut hello = [0; 16];
+        stream.read_exact(&mut hello)?;
+        if hello[..8] != *HELLO {
+            return Err(io::Error::new(ErrorKind::InvalidData, "that is no host of a fence"));
+        }
+        let now = Duration::from_nanos(u64::from_le_bytes(part(&hello, 8)));
+        Ok((Line { stream: Mutex::new(stream), lost }, now))
+    }
+
+    fn exchanged(&self, question: &Question) -> io::Result<Answer> {
+        let mut frame = Vec::with_capacity(HEAD + question.bytes.len());
+        let length = u32::try_from(question.bytes.len()).map_err(io::Error::other)?;
+        frame.extend(length.to_le_bytes());
+        frame.extend([question.kind as u8, u8::from(question.is_free), 0, 0]);
+        frame.extend(nanos(question.at).to_le_bytes());
+        frame.extend(question.number.to_le_bytes());
+        frame.extend(question.offset.to_le_bytes());
+        frame.extend(question.count.to_le_bytes());
+        frame.extend(question.bytes);
+        let mut stream = locked(&self.stream);
+        stream.write_all(&frame)?;
+        // Most answers come whole in one read.
+        let mut head = [0; 256];
+        let mut got = 0;
+        while got < 16 {
+            match stream.read(&mut head[got..]) {
+                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+                Ok(count) => got += count,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        let length = u32::from_le_bytes(part(&head, 0)) as usize;
+        let mut bytes = head[16..got].to_vec();
+        let here = bytes.len().min(length);
+        bytes.resize(length, 0);
+        stream.read_exact(&mut bytes[here..])?;
+        let error = i32::from_le_bytes(part(&head, 4));
+        Ok(Answer { error, number: u64::from_le_bytes(part(&head, 8)), bytes })
+    }
+}
+
+impl Far for Line {
+    fn ask(&self, question: &Question) -> Answer {
+        self.exchanged(question).unwrap_or_else(|_| {
+            (self.lost)();
+            Answer { error: LOST, ..Answer::default() }
+        })
+    }
+}
+
+/// What a [`Desk`] has got.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Next {
+    /// Nothing within that time.
+    Idle,
+    /// A question for this moment.
+    Asked(Duration),
+    /// The program has ended.
+    Gone,
+    /// A question that is not answered, nor any more.
+    Refused(&'static str),
+}
+
+/// The machine's end, which reads one question after the other.
+#[derive(Debug)]
+pub struct Desk {
+    stream: UnixStream,
+    host: Host,
+    received: Vec<u8>,
+    is_admitted: bool,
+    is_lost: bool,
+}
+
+impl Desk {
+    /// Greets a program that has connected, at this time. [`Desk::hear`] waits `within`.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn new(mut stream: UnixStream, now: Duration, within: Duration) -> io::Result<Desk> {
+        stream.write_all(HELLO)?;
+        stream.write_all(&nanos(now).to_le_bytes())?;
+        stream.set_read_timeout(Some(within))?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        let host = Host::default();
+        Ok(Desk { stream, host, received: Vec::new(), is_admitted: false, is_lost: false })
+    }
+
+    /// The next question, or the one that was not answered yet.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn hear(&mut self) -> io::Result<Next> {
+        let mut buffer = [0; 4096];
+        if self.is_lost {
+            return Ok(Next::Gone);
+        }
+        loop {
+            match parsed(&self.received) {
+                Err(why) => return Ok(Next::Refused(why)),
+                Ok(Some((question, _))) => {
+                    if !self.is_admitted {
+                        if let Err(refused) = self.host.admit(&question) {
+                            return Ok(Next::Refused(refused.words()));
+                        }
+                        self.is_admitted = true;
+                    }
+                    return Ok(Next::Asked(question.at));
+                }
+                Ok(None) => {}
+            }
+            match self.stream.read(&mut buffer) {
+                Ok(0) => return Ok(Next::Gone),
+                Ok(count) => self.received.extend(&buffer[..count]),
+                Err(error) => match error.kind() {
+                    ErrorKind::WouldBlock | ErrorKind::TimedOut => return Ok(Next::Idle),
+                    ErrorKind::Interrupted => {}
+                    ErrorKind::ConnectionReset => return Ok(Next::Gone),
+                    _ => return Err(error),
+                },
+            }
+        }
+    }
+
+    /// Answers the question that was received, if one was. A program that is gone is not told.
+    pub fn answer(&mut self, machine: &mut Machine) {
+        let Ok(Some((question, length))) = parsed(&self.received) else { return };
+        let Answer { error, number, bytes } = self.host.answer(machine, &question);
+        let count = u32::try_from(bytes.len()).unwrap_or(0);
+        let mut frame = Vec::with_capacity(16 + bytes.len());
+        frame.extend(count.to_le_bytes());
+        frame.extend(error.to_le_bytes());
+        frame.extend(number.to_le_bytes());
+        frame.extend(bytes);
+        self.received.drain(..length);
+        self.is_admitted = false;
+        self.is_lost = self.stream.write_all(&frame).is_err();
+    }
+}
+
+/// The question at the beginning, and its length; `None` if not all of it has come.
+fn parsed(received: &[u8]) -> Result<Option<(Question<'_>, usize)>, &'static str> {
+    let Some(head) = received.get(..HEAD) else { return Ok(None) };
+    let [length, offset, count] = [0, 24, 28].map(|from| u32::from_le_bytes(part(head, from)));
+    let [at, number] = [8, 16].map(|from| u64::from_le_bytes(part(head, from)));
+    let Some(kind) = Kind::of(head[4]) else { return Err(NO_QUESTION) };
+    if length > MOST || (count > MOST && kind != Kind::Ioctl) {
+        return Err(NO_QUESTION);
+    }
+    let end = HEAD + length as usize;
+    let Some(bytes) = received.get(HEAD..end) else { return Ok(None) };
+    let at = Duration::from_nanos(at);
+    Ok(Some((Question { kind, at, is_free: head[5] != 0, number, offset, count, bytes }, end)))
+}
+
+const NO_QUESTION: &str = "that was no question";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread;
+
+    const WITHIN: Duration = Duration::from_secs(5);
+
+    /// A desk at whose other end these bytes were written.
+    fn desk(bytes: &[u8]) -> Desk {
+        let (mut program, host) = UnixStream::pair().unwrap();
+        let desk = Desk::new(host, Duration::ZERO, WITHIN).unwrap();
+        program.write_all(bytes).unwrap();
+        desk
+    }
+
+    fn next(bytes: &[u8]) -> Next {
+        desk(bytes).hear().unwrap()
+    }
+
+    #[test]
+    fn garbage_is_refused() {
+        assert_eq!(next(&[255; 64]), Next::Refused(NO_QUESTION));
+        let mut long = [0; HEAD];
+        long[..4].copy_from_slice(&(MOST + 1).to_le_bytes());
+        assert_eq!(next(&long), Next::Refused(NO_QUESTION));
+        let mut wants_much = [0; HEAD];
+        wants_much[4] = Kind::Read as u8;
+        wants_much[28..].copy_from_slice(&(MOST + 1).to_le_bytes());
+        assert_eq!(next(&wants_much), Next::Refused(NO_QUESTION));
+    }
+
+    #[test]
+    fn half_a_question_and_then_the_end() {
+        assert_eq!(next(&[0; HEAD - 1]), Next::Gone);
+        let (mut program, host) = UnixStream::pair().unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO, Duration::from_millis(1)).unwrap();
+        program.write_all(&[0; HEAD - 1]).unwrap();
+        assert_eq!(desk.hear().unwrap(), Next::Idle);
+        program.write_all(&[0]).unwrap();
+        assert_eq!(desk.hear().unwrap(), Next::Asked(Duration::ZERO));
+    }
+
+    #[test]
+    fn one_that_never_reads_is_gone() {
+        let (mut program, host) = UnixStream::pair().unwrap();
+        let mut desk = Desk::new(host, Duration::ZERO, Duration::from_millis(1)).unwrap();
+        let mut machine = Machine::bare().unwrap();
+        let asks = thread::spawn(move || while program.write_all(&[0; HEAD]).is_ok() {});
+        let mut answered = 0;
+        while desk.hear().unwrap() != Next::Gone {
+            desk.answer(&mut machine);
+            answered += 1;
+        }
+        assert!(answered > 10);
+        drop(desk);
+        asks.join().unwrap();
+    }
+}

@@ -1,0 +1,184 @@
+:- module(ev3dev_sim_fenced,
+          [ sim_fenced/2,               % +File, -Ended
+            sim_fenced/3                % +File, -Ended, +Options
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
+:- use_module(private/arguments,
+              [must_be_options/3, number_option/4, option/3]).
+:- use_module(private/errors,
+              [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
+:- use_module(private/native,
+              [ sim_fence_close_/0, sim_fence_open_/1,
+                sim_fence_serve_/3 ]).
+:- use_module(sim_time, [sim_time/1]).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(process),
+              [process_create/3, process_group_kill/2, process_wait/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> A program that cannot see the world
+
+The running simulation shows its robot to a program in another process: the
+files of motors, sensors, buttons and screen, and nothing else. There are no
+sim_pose/3, no world and no seed. The clock is virtual all the same, so each
+run is the same.
+
+```
+?- sim_start(maze, [clock(virtual), seed(7)]),
+   sim_fenced('explorer.pl', Ended, [goal(start), seconds(60)]),
+   sim_pose(X, Y, _), sim_collisions(Collisions).
+Ended = over,
+```
+*/
+
+%!  sim_fenced(+File, -Ended) is semidet.
+%!  sim_fenced(+File, -Ended, +Options) is semidet.
+%
+%   Run the program File in a process of its own, with the robot of the
+%   running simulation, whose clock must be virtual. The program needs no
+%   change; its time begins at the simulation's. Ended is
+%
+%     - exit(Status)
+%       It has ended by itself.
+%     - killed(Signal)
+%       It has crashed.
+%     - over
+%       Its simulated time was over.
+%     - limit(wall)
+%     - limit(cpu)
+%     - limit(output)
+%       It took too long, or has printed too much.
+%     - refused(Why)
+%       It has sent what no program sends by these libraries. Why is a string.
+%
+%   Only in the first two cases did it end by itself; in the others it is
+%   killed with all its processes, and its motors may still run. Options:
+%
+%     - goal(Goal)
+%       What to call after File was loaded. Default is `main`.
+%     - seconds(Seconds)
+%       When its simulated time is over, counted from now. By default never.
+%     - wall(Seconds)
+%       Default is 60.
+%     - cpu(Seconds)
+%       How much time of a processor it may use, in whole seconds. By default
+%       as much as it likes.
+%     - output(Text)
+%       Text is a string of what it has printed, errors and warnings, too: at
+%       most 1 MB.
+%
+%   While it runs, no other thread may let simulated time pass. Fails if no
+%   simulation runs.
+%
+%   @error existence_error(source_sink, File)
+%   @error permission_error(fence, clock, realtime) if it is not virtual
+%   @error domain_error(sim_fenced_option, Option)
+
+sim_fenced(File, Ended) :-
+    sim_fenced(File, Ended, []).
+
+sim_fenced(File, Ended, Options) :-
+    must_be_options(sim_fenced_option, [goal, seconds, wall, cpu, output],
+                    Options),
+    option(goal(Goal), Options, main),
+    must_be(callable, Goal),
+    number_option(wall(Wall), seconds, Options, 60),
+    limit_option(seconds(Seconds), Options),
+    limit_option(cpu(Cpu), Options),
+    option(output(Text), Options, _),
+    in_own_name(absolute_file_name(File, Path,
+                                   [file_type(prolog), access(read)])),
+    setup_call_cleanup(
+        new_directory(Directory),
+        in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu),
+                     Ended, Text),
+        ( sim_fence_close_, delete_directory_and_contents(Directory) )).
+
+limit_option(Option, Options) :-
+    functor(Option, Name, 1),
+    functor(Given, Name, 1),
+    option(Given, Options, infinite),
+    (   arg(1, Given, infinite)
+    ->  Option = Given
+    ;   number_option(Option, seconds, Options, 0)
+    ).
+
+new_directory(Directory) :-
+    tmp_file(ev3dev_fence, Directory),
+    make_directory(Directory).
+
+in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu), Ended,
+             Text) :-
+    atom_concat(Directory, '/robot', Socket),
+    atom_concat(Directory, '/output', Output),
+    sim_time(Now),
+    (   sim_fence_open_(Socket)
+    ->  true
+    ;   throw_error(permission_error(fence, clock, realtime), _,
+                    'the clock of the simulation must be virtual')
+    ),
+    (   Seconds == infinite
+    ->  Until = inf
+    ;   Until is Now + Seconds
+    ),
+    get_time(Began),
+    Deadline is Began + Wall,
+    setup_call_cleanup(
+        start(Socket, Output, Path, Goal, Cpu, Pid),
+        served(Pid, Until, Deadline, Ended0),
+        catch(process_group_kill(Pid, kill), _, true)),
+    size_file(Output, Size),
+    (   Size >= 1 << 20
+    ->  Ended = limit(output)
+    ;   Ended0 == killed(9),
+        Cpu \== infinite
+    ->  Ended = limit(cpu)
+    ;   Ended = Ended0
+    ),
+    read_file_to_string(Output, Text, []).
+
+%   The shell's limits: no file longer than 1 MB (2048 blocks of 512 bytes),
+%   and no core dump. Prolog is the one that runs this.
+start(Socket, Output, Path, Goal, Cpu, Pid) :-
+    current_prolog_flag(executable, Prolog),
+    module_property(ev3dev_sim_fenced, file(This)),
+    file_directory_name(This, Ev3dev),
+    file_directory_name(Ev3dev, Library),
+    atom_concat('library=', Library, Alias),
+    format(atom(GoalText), '~q', [Goal]),
+    (   Cpu == infinite
+    ->  Limit = unlimited
+    ;   Limit is max(1, ceiling(Cpu))
+    ),
+    process_create(
+        path(sh),
+        [ '-c', 'ulimit -c 0; ulimit -f 2048; output=$2
+                 ulimit -t "$1"
+                 EV3DEV_FENCE=$3; export EV3DEV_FENCE; shift 3
+                 exec "$@" </dev/null >"$output" 2>&1',
+          sh, Limit, file(Output), file(Socket),
+          Prolog, '-q', '-f', none, '-p', Alias, '-g', GoalText, '-t', halt,
+          '-s', file(Path) ],
+        [ process(Pid), detached(true) ]).
+
+served(Pid, Until, Deadline, Ended) :-
+    sim_fence_serve_(Until, 0.2, State),
+    get_time(Now),
+    (   over(State, Ended)
+    ->  true
+    ;   process_wait(Pid, Status, [timeout(0)]),
+        Status \== timeout
+    ->  Ended = Status
+    ;   Now > Deadline
+    ->  Ended = limit(wall)
+    ;   State == ended
+    ->  sleep(0.005),
+        served(Pid, Until, Deadline, Ended)
+    ;   served(Pid, Until, Deadline, Ended)
+    ).
+
+over(over, over).
+over(refused(Why0), refused(Why)) :-
+    atom_string(Why0, Why).
+

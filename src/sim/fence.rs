@@ -1,0 +1,162 @@
+//! `prolog/ev3dev/sim_fenced.pl`: a program in a process of its own, which sees the files of the
+//! simulated robot, and nothing else of the simulation.
+use super::dev::SimulatedDev;
+use super::files::SimulatedFiles;
+use super::running::simulation;
+use crate::glue::call::Call;
+use crate::glue::error::no_such;
+use crate::glue::state::{brick_number, use_dev, use_tree, watched};
+use crate::glue::terms::unify_atom;
+use crate::glue::waiting::tick_at_once;
+use ev3_driver::Error;
+use ev3_driver::lock::locked;
+use ev3_sim::far::wire::{Desk, Line, Next};
+use ev3_sim::{Clock, Simulation};
+use std::collections::BTreeMap;
+use std::io;
+use std::os::unix::net::UnixListener;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use swipl::fli::has_other_threads;
+use swipl::prelude::*;
+
+/// By the number of the brick whose robot the program has.
+static FENCES: Mutex<BTreeMap<u32, Fence>> = Mutex::new(BTreeMap::new());
+
+struct Fence {
+    listener: UnixListener,
+    /// Once the program has connected.
+    desk: Option<Desk>,
+}
+
+/// How long a wait for a question is, before signals are handled.
+const SLICE: Duration = Duration::from_millis(20);
+
+/// What a program does.
+enum State {
+    /// Nothing for a while, or much: ask again.
+    Waiting,
+    /// It has ended, or has closed its end.
+    Ended,
+    /// Its simulated time is over.
+    Over,
+    /// There is an exception.
+    Interrupted,
+    Refused(&'static str),
+}
+
+impl Fence {
+    /// Serves for some wall time. `interrupted` handles signals, and runs what was planned for a
+    /// moment of the simulation.
+    fn serve(
+        &mut self,
+        simulation: &Simulation,
+        [end, wall]: [Duration; 2],
+        mut interrupted: impl FnMut() -> bool,
+    ) -> io::Result<State> {
+        let since = Instant::now();
+        while since.elapsed() < wall {
+            let Some(desk) = &mut self.desk else {
+                match self.listener.accept() {
+                    Ok((stream, _)) => {
+                        stream.set_nonblocking(false)?;
+                        self.desk = Some(Desk::new(stream, simulation.machine().now(), SLICE)?);
+                    }
+                    Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
+                        ev3_os::sleep(Duration::from_millis(2));
+                    }
+                    Err(error) => return Err(error),
+                }
+                continue;
+            };
+            match desk.hear()? {
+                Next::Idle => return Ok(State::Waiting),
+                Next::Gone => return Ok(State::Ended),
+                Next::Refused(why) => return Ok(State::Refused(why)),
+                Next::Asked(at) => {
+                    let at_most = at.min(end);
+                    let mut is_then = simulation.machine().now() >= at_most;
+                    while !is_then {
+                        is_then = simulation.pause(at_most);
+                        if interrupted() {
+                            return Ok(State::Interrupted);
+                        }
+                    }
+                    if at > end {
+                        return Ok(State::Over);
+                    }
+                    desk.answer(&mut simulation.machine());
+                }
+            }
+        }
+        Ok(State::Waiting)
+    }
+}
+
+natives! {
+    /// sim_fence_open_(+Path): a program may connect to the robot of the running simulation, once;
+    /// fails if that has no virtual clock.
+    semidet fn "sim_fence_open_"(context, path) {
+        let call = Call::of(context, "sim_fenced", 3);
+        let simulation = simulation(context)?;
+        if simulation.clock() != Clock::Virtual {
+            return Err(PrologError::Failure);
+        }
+        let path = call.text(path)?;
+        let listener = UnixListener::bind(&*path)
+            .and_then(|listener| listener.set_nonblocking(true).map(|()| listener));
+        match listener {
+            Ok(listener) => {
+                locked(&FENCES).insert(brick_number(), Fence { listener, desk: None });
+                Ok(())
+            }
+            Err(error) => no_such(&call, "socket", &path, &error.to_string()),
+        }
+    }
+
+    /// sim_fence_serve_(+Until, +Wall, -State): the machine answers for Wall seconds at most, but
+    /// not after Until, a number of seconds or `inf`. State is `waiting`, `ended`, `over` or
+    /// refused(Why).
+    semidet fn "sim_fence_serve_"(context, until, wall, state) {
+        let call = Call::of(context, "sim_fenced", 3);
+        let (until, wall) = (call.seconds(until)?.unwrap_or(Duration::MAX), call.time(wall)?);
+        let simulation = simulation(context)?;
+        let number = brick_number();
+        let Some(mut fence) = locked(&FENCES).remove(&number) else {
+            return Err(PrologError::Failure);
+        };
+        let served = fence.serve(&simulation, [until, wall], call.interrupted());
+        locked(&FENCES).insert(number, fence);
+        match served {
+            Ok(State::Waiting) => unify_atom(state, "waiting"),
+            Ok(State::Interrupted) => call.or_throw(Err(Error::Interrupted)),
+            Ok(State::Ended) => unify_atom(state, "ended"),
+            Ok(State::Over) => unify_atom(state, "over"),
+            Ok(State::Refused(why)) => state.unify(&term! {context: refused(#why)}?),
+            Err(error) => no_such(&call, "program", "fenced", &error.to_string()),
+        }
+    }
+
+    /// sim_fence_close_: the program is not answered any more.
+    semidet fn "sim_fence_close_"(_context) {
+        drop(locked(&FENCES).remove(&brick_number()));
+        into_prolog_result(true)
+    }
+
+    /// sim_fence_join_(+Path): this process is such a program.
+    semidet fn "sim_fence_join_"(context, path) {
+        let call = Call::of(context, "sim_fenced", 3);
+        let path = call.text(path)?;
+        let joined = Line::connect(Path::new(&*path), ev3_signals::vanish)
+            .and_then(|(line, now)| Simulation::far(Box::new(line), now, has_other_threads));
+        let simulation = match joined {
+            Ok(simulation) => Arc::new(simulation),
+            Err(error) => return no_such(&call, "socket", &path, &error.to_string()),
+        };
+        use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
+        watched().set_simulated(false);
+        tick_at_once();
+        call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
+    }
+}

@@ -1,0 +1,166 @@
+:- use_module(library(plunit)).
+:- use_module('../support/trees').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/sim_fenced)).
+:- use_module(library(socket), []).
+
+has_unix_sockets :-
+    predicate_property(socket:unix_domain_socket(_), defined).
+
+%   A file with this text, for Goal.
+with_program(Lines, File, Goal) :-
+    setup_call_cleanup(
+        ( tmp_file(fenced, Base),
+          atom_concat(Base, '.pl', File),
+          setup_call_cleanup(open(File, write, Out),
+                             forall(member(Line, [':- use_module(library(ev3dev)).'|Lines]),
+                                    ( write(Out, Line), nl(Out) )),
+                             close(Out)) ),
+        once(Goal),
+        catch(delete_file(File), _, true)).
+
+:- meta_predicate
+    with_program(+, ?, 0),
+    in_room(0).
+
+in_room(Goal) :-
+    with_sim(room, Goal, [clock(virtual), noise(true), seed(4)]).
+
+%   How a program of these lines ended, what it printed, and when and where that was.
+fenced(Lines, Ended, Text, at(Seconds, Pose), Options) :-
+    with_program(Lines, File,
+                 in_room(( sim_fenced(File, Ended, [output(Text)|Options]),
+                           sim_time(Seconds),
+                           sim_pose(X, Y, Heading),
+                           Pose = [X, Y, Heading] ))).
+
+:- begin_tests(sim_fenced).
+
+drives(["main :- drives.",
+        "drives :- set_robot(5.6, 10.6, outB, outC), go_cm(20, 30),",
+        "    forall(between(1, 100, _), us_dist_cm(in1, _)), us_dist_cm(in1, Cm),",
+        "    concurrent(2, [motor_run(outB, 40, 180), motor_run(outC, 20, 90)], []),",
+        "    col_ambient(_, Light), position(outB, Degrees), gyro_ang(_, Turned),",
+        "    say('Hello', [wait(true)]), print([Cm, Light, Degrees, Turned]), nl."]).
+
+test(as_in_one_process, Ended-Text-Pose == exit(0)-Printed-[X, Y, Heading]) :-
+    drives(Lines),
+    fenced(Lines, Ended, Text, at(_, Pose), []),
+    with_program(Lines, File,
+                 in_room(( load_files(fenced_here:File, [silent(true)]),
+                           with_output_to(string(Printed), fenced_here:drives),
+                           sim_pose(X, Y, Heading) ))).
+test(both_clocks_go_on_together, Text-Seconds == "[12.5,20.0]\n"-20.0) :-
+    with_program(["main :- ev3_time(A), wait(7.5), ev3_time(B), print([A, B]), nl."],
+                 File,
+                 in_room(( sim_step(12.5), sim_fenced(File, exit(0), [output(Text)]),
+                           sim_time(Seconds) ))).
+test(buttons_and_screen, Text == "shown\nenter at 3 s\n[up]\n") :-
+    with_program(["main :- screen_text(0, 0, hello), screen_show, writeln(shown),",
+                  "    button_wait(Button, pressed), ev3_time(T),",
+                  "    format(\"~w at ~0f s~n\", [Button, T]),",
+                  "    wait(2), findall(B, button(B), Bs), print(Bs), nl."],
+                 File,
+                 in_room(( sim_press(enter, [after(3), for(1)]),
+                           sim_at(4, sim_press(up)),
+                           sim_fenced(File, exit(0), [output(Text)]) ))).
+test(the_world_is_not_seen, Text == "existence_error\n") :-
+    fenced(["main :- catch(sim_pose(_, _, _), error(E, _), true), functor(E, Name, _),",
+            "    print(Name), nl."], exit(0), Text, _, []).
+test(a_simulation_of_its_own_is_another_one, Pose == [40.0, 40.0, 40.0]) :-
+    fenced([":- use_module(library(ev3dev/sim)).",
+            "main :- sim_start([], [clock(virtual)]), motor_run(outB, 50), wait(3)."],
+           exit(0), _, at(_, Pose), []).
+test(its_time_is_over, Ended-Seconds == over-2.0) :-
+    fenced(["main :- motor_run(outB, 50), repeat, wait(0.3), fail."],
+           Ended, _, at(Seconds, _), [seconds(2)]).
+test(it_computes_for_ever, Ended == limit(wall)) :-
+    fenced(["main :- repeat, fail."], Ended, _, _, [wall(0.5)]).
+test(it_catches_all_and_goes_on, Ended == limit(wall)) :-
+    fenced(["main :- repeat, catch((repeat, fail), _, true), fail."], Ended, _, _, [wall(0.5)]).
+test(it_takes_too_much_of_the_processor, Ended == limit(cpu)) :-
+    fenced(["main :- repeat, fail."], Ended, _, _, [cpu(1)]).
+test(it_prints_without_end, Ended-Length == limit(output)-1048576) :-
+    fenced(["main :- repeat, write('so it goes'), nl, fail."], Ended, Text, _, []),
+    string_length(Text, Length).
+test(it_halts, Ended == exit(3)) :-
+    fenced(["main :- halt(3)."], Ended, _, _, []).
+test(it_fails, Ended == exit(1)) :-
+    fenced(["main :- us_dist_cm(in1, 0)."], Ended, _, _, []).
+test(it_is_killed, Ended == killed(9)) :-
+    fenced(["main :- current_prolog_flag(pid, Pid), format(atom(Kill), 'kill -9 ~w', [Pid]),",
+            "    shell(Kill)."], Ended, _, _, []).
+test(it_does_not_use_the_robot, Ended-Text-Seconds == exit(0)-"hello\n"-0.0) :-
+    fenced(["main :- write(hello), nl."], Ended, Text, at(Seconds, _), []).
+test(it_does_not_parse, true(sub_string(Text, _, _, _, "Syntax error"))) :-
+    fenced(["main :- a b."], _, Text, _, []).
+test(it_is_called_by_another_goal, Text == "[a,'B']\n") :-
+    fenced(["shows(X) :- print(X), nl."], exit(0), Text, _, [goal(shows([a, 'B']))]).
+test(its_processes_have_no_robot, Text == "none\n") :-
+    fenced(["main :- shell('echo ${EV3DEV_FENCE-none}')."], exit(0), Text, _, []).
+
+%   A program may know the socket, and speak for itself. An answer that is an error is as
+%   long as the greeting, which comes before.
+speaks(Questions, Ended) :-
+    with_program([], File, true),
+    setup_call_cleanup(
+        open(File, write, Out),
+        ( format(Out, ":- use_module(library(socket)).\nmain :- getenv('EV3DEV_FENCE', Path), unix_domain_socket(Socket),
+    tcp_connect(Socket, Path), tcp_open_socket(Socket, In, Out),
+    forall(member(Stream, [In, Out]), set_stream(Stream, encoding(octet))),
+    forall(member(Bytes, ~w),
+           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),
+             forall(between(1, 16, _), get_byte(In, _)) )),
+    sleep(10).~n", [Questions]) ),
+        close(Out)),
+    in_room(sim_fenced(File, Ended, [wall(5)])),
+    delete_file(File).
+
+%   Kind, whether it is free, and time in nanoseconds.
+question([Kind, Free, Time], Bytes) :-
+    findall(Byte, ( between(0, 7, N), Byte is Time >> (8*N) /\ 255 ), At),
+    length(Rest, 16),
+    maplist(=(0), Rest),
+    append([[0, 0, 0, 0, Kind, Free, 0, 0], At, Rest], Bytes).
+
+test(it_sends_garbage,
+     [condition(has_unix_sockets), Ended == refused("that was no question")]) :-
+    findall(255, between(1, 64, _), Bytes),
+    speaks([Bytes], Ended).
+test(it_turns_time_back,
+     [ condition(has_unix_sockets),
+       Ended == refused("its time went back") ]) :-
+    question([0, 0, 1000000], First),
+    question([0, 0, 999999], Second),
+    speaks([First, Second], Ended).
+test(it_reads_faster_than_the_brick_can,
+     [ condition(has_unix_sockets),
+       Ended == refused("its time went back") ]) :-
+    question([4, 0, 500000], First),
+    question([4, 0, 999999], Second),
+    speaks([First, Second], Ended).
+test(it_pretends_that_reads_take_no_time,
+     [ condition(has_unix_sockets),
+       Ended == refused("too many accesses took no time") ]) :-
+    question([4, 1, 0], Question),
+    findall(Question, between(1, 2001, _), Questions),
+    speaks(Questions, Ended).
+
+test(after_one_comes_the_next, Texts == ["1\n", "1\n"]) :-
+    with_program(["main :- us_dist_cm(in1, _), write(1), nl."], File,
+                 in_room(findall(Text,
+                                 ( between(1, 2, _),
+                                   sim_fenced(File, exit(0), [output(Text)]) ),
+                                 Texts))).
+test(only_the_virtual_clock, error(permission_error(fence, clock, realtime))) :-
+    with_program(["main."], File,
+                 with_sim(room, sim_fenced(File, _), [clock(realtime)])).
+test(no_simulation, fail) :-
+    with_program(["main."], File, sim_fenced(File, _)).
+test(no_file, error(existence_error(source_sink, nowhere))) :-
+    in_room(sim_fenced(nowhere, _)).
+test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
+    in_room(sim_fenced(nowhere, _, [seed(1)])).
+
+:- end_tests(sim_fenced).
