@@ -16,6 +16,7 @@
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/sim_fenced)).
+:- use_module(library(ev3dev/grid_belief)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
@@ -96,6 +97,10 @@ bad(robot_send(local, x), [_-1, 7-1, anna-1]).
 bad(robot_receive(_, _, [timeout(0)]), [[timeout(-1)]-3, [until(1)]-3, a-3]).
 bad(bricks_do([local], true), [_-1, anna-1, [anna]-1, [_]-1, _-2, 7-2]).
 bad(sim_batch(nofile, a, [1], _), [_-1, _-2, 7-2, a-3, [a]-3, _-3]).
+bad(grid_sense(0, belief(none, []), _), [_-1, a-1, -1-1]).
+bad(grid_motion(move, belief(none, []), _), [_-1, jump-1]).
+bad(grid_localize(map(bounds(0, 0, 0, 0), 4, none, t, any, none), _, []),
+    [_-3, [sure(a)]-3, [actions(-1)]-3, [cell_cm(0)]-3, [speed(0)]-3, [soon(1)]-3]).
 bad(sim_fenced(nofile, _), [_-1]).
 bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [wall(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).
