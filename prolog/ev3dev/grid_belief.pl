@@ -12,9 +12,10 @@
 :- use_module(private/compiled, []).
 :- use_module(private/arguments, [must_be_options/3, number_option/4]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
-:- use_module(private/grid/compass).
 :- use_module(private/grid/map).
-:- use_module(drive, [go_cm/3, go_to/4, set_pose/3]).
+:- use_module(private/grid/moves, [go_to_cell/5]).
+:- use_module(private/grid/place, [grid_metric/2, set_pose_in/3]).
+:- use_module(drive, [go_cm/3, set_pose/3]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists), [max_member/2, member/2, sum_list/2]).
@@ -231,15 +232,14 @@ grid_localize(Map, State, Module:Options0) :-
     option(policy(Policy0), Options, Module:entropy),
     policy_meant(Policy0, Policy),
     option(tell(Tell), Options, ev3dev_grid_belief:nobody),
-    number_option(cell_cm(Cm), positive_number, Options, 20),
-    number_option(eye(Eye), finite_number, Options, 7),
-    number_option(speed(Speed), speed_ahead, Options, 20),
+    grid_metric(Options, Metric),
     grid_belief(Map, Belief),
     Here = state([0, 0], [0, 1]),
     set_pose(0, 0, 0),
-    seek(Most, trip(Map, Sure, Policy, Tell, metric(Cm, Eye, Speed)), Here,
-         [], Belief, State),
-    stand(State, Cm).
+    seek(Most, trip(Map, Sure, Policy, Tell, Metric), Here, [], Belief,
+         State),
+    State = state(Cell, Direction),
+    set_pose_in(Metric, Cell, Direction).
 
 closure(policy).
 closure(tell).
@@ -262,7 +262,6 @@ seek(Left, Trip, Here, Done, Belief0, State) :-
     ->  State = Best
     ;   Left > 0,
         once(call(Policy, Free, Done, Belief1, Action)),
-        must_be_action(Action),
         act(Action, Map, Metric, Here, There),
         (   There == Here               % there was something, unseen
         ->  grid_sense(0, Belief1, Belief)
@@ -274,43 +273,35 @@ seek(Left, Trip, Here, Done, Belief0, State) :-
 
 %   What is seen of a wall or a box stands 10 to 13 cm from the middle of a
 %   cell of 20 cm, or one or two cells farther on.
-free_seen(metric(Cm, Eye, _), Free) :-
+free_seen(metric(Cm, _, _, Eye, _), Free) :-
     us_dist_cm(_, Distance),
     Free is max(0, round((Distance + Eye) / Cm - 0.575)).
 
-act(Action, Map, metric(Cm, _, Speed), Here, There) :-
+act(Action, Map, Metric, Here, There) :-
+    Metric = metric(_, _, _, _, Speed),
     grid_step(Map, Action, Here, Next),
-    go_to_state(Next, Cm, Speed, Reason),
+    go_to_state(Next, Metric, Speed, Reason),
     (   Reason == reached
     ->  There = Next
     ;   Reason == stalled,
         loosened(Speed),
-        go_to_state(Next, Cm, Speed, reached)
+        go_to_state(Next, Metric, Speed, reached)
     ->  There = Next
     ;   Reason == stalled,
         Action == move,
         Reverse is -Speed,
-        go_to_state(Here, Cm, Reverse, reached),
+        go_to_state(Here, Metric, Reverse, reached),
         There = Here
     ).
+
+go_to_state(state(Cell, Direction), Metric, Speed, Reason) :-
+    go_to_cell(Cell, Direction, Metric, Speed, Reason).
 
 %   It touches something, and cannot turn: a little back or ahead.
 loosened(Speed) :-
     member(Cm, [-3, 3]),
     go_cm(Speed, Cm, [reason(reached)]),
     !.
-
-go_to_state(state([CX, CY], Direction), Cm, Speed, Reason) :-
-    X is Cm*CX,
-    Y is Cm*CY,
-    direction_heading(Direction, Heading),
-    go_to(X, Y, Heading, [speed(Speed), reason(Reason)]).
-
-stand(state([CX, CY], Direction), Cm) :-
-    X is Cm*CX,
-    Y is Cm*CY,
-    direction_heading(Direction, Heading),
-    set_pose(X, Y, Heading).
 
 %   The policies: call(Policy, +Free, +Done, +Belief, -Action)
 
@@ -319,23 +310,21 @@ stand(state([CX, CY], Direction), Cm) :-
 ahead(Free, Done, belief(Map, Pairs), Action) :-
     (   Free > 0
     ->  Action = move
-    ;   side_open(left, Map, Pairs, Left),
-        side_open(right, Map, Pairs, Right),
-        (   Done = [move|_],
-            member(Last, Done),
-            other(Last, Other)
-        ->  (   Last == left
-            ->  Better is Right / max(Left, 0.01)
-            ;   Better is Left / max(Right, 0.01)
-            ),
-            (   Better > 0.3
-            ->  Action = Other
-            ;   Action = Last
-            )
-        ;   Left > Right
-        ->  Action = left
-        ;   Action = right
-        )
+    ;   Done = [move|_],
+        member(Last, Done),
+        other(Last, Other)
+    ->  more_open(Other, Last, 0.3, Map, Pairs, Action)
+    ;   more_open(left, right, 1, Map, Pairs, Action)
+    ).
+
+%   Turn is One where that way is free with more than Share of the probability
+%   of the way to the side of Two, and else Two.
+more_open(One, Two, Share, Map, Pairs, Turn) :-
+    side_open(One, Map, Pairs, P1),
+    side_open(Two, Map, Pairs, P2),
+    (   P1 > Share * P2
+    ->  Turn = One
+    ;   Turn = Two
     ).
 
 %   How probable it is that the cell at that side is free.

@@ -6,7 +6,7 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/arguments,
-              [ must_be_options/3, number_option/4, number_value/3, option/3,
+              [ limit_option/2, must_be_options/3, number_option/4, option/3,
                 take_options/4 ]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4]).
@@ -156,11 +156,7 @@ own_options(Options, Workers, Wall, Cpu, Progress) :-
     option(workers(Workers), Options, Processors),
     must_be(positive_integer, Workers),
     number_option(wall(Wall), seconds, Options, 60),
-    option(cpu(Cpu0), Options, infinite),
-    (   Cpu0 == infinite
-    ->  Cpu = infinite
-    ;   number_value(seconds, Cpu0, Cpu)
-    ),
+    limit_option(cpu(Cpu), Options),
     (   stream_property(user_error, tty(true))
     ->  Terminal = true
     ;   Terminal = false

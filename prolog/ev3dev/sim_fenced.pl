@@ -5,7 +5,8 @@
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/arguments,
-              [must_be_options/3, number_option/4, option/3]).
+              [ limit_option/2, must_be_options/3, number_option/4,
+                option/3 ]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/native,
@@ -94,15 +95,6 @@ sim_fenced(File, Ended, Options) :-
         in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu),
                      Ended, Text),
         ( sim_fence_close_, delete_directory_and_contents(Directory) )).
-
-limit_option(Option, Options) :-
-    functor(Option, Name, 1),
-    functor(Given, Name, 1),
-    option(Given, Options, infinite),
-    (   arg(1, Given, infinite)
-    ->  Option = Given
-    ;   number_option(Option, seconds, Options, 0)
-    ).
 
 new_directory(Directory) :-
     tmp_file(ev3dev_fence, Directory),

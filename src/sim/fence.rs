@@ -1,13 +1,10 @@
 //! `prolog/ev3dev/sim_fenced.pl`: a program in a process of its own, which sees the files of the
 //! simulated robot, and nothing else of the simulation.
-use super::dev::SimulatedDev;
-use super::files::SimulatedFiles;
-use super::running::simulation;
+use super::running::{simulation, use_simulated};
 use crate::glue::call::Call;
 use crate::glue::error::no_such;
-use crate::glue::state::{brick_number, use_dev, use_tree, watched};
+use crate::glue::state::brick_number;
 use crate::glue::terms::unify_atom;
-use crate::glue::waiting::tick_at_once;
 use ev3_driver::Error;
 use ev3_driver::lock::locked;
 use ev3_sim::far::wire::{Desk, Line, Next};
@@ -150,13 +147,9 @@ natives! {
         let path = call.text(path)?;
         let joined = Line::connect(Path::new(&*path), ev3_signals::vanish)
             .and_then(|(line, now)| Simulation::far(Box::new(line), now, has_other_threads));
-        let simulation = match joined {
-            Ok(simulation) => Arc::new(simulation),
-            Err(error) => return no_such(&call, "socket", &path, &error.to_string()),
-        };
-        use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
-        watched().set_simulated(false);
-        tick_at_once();
-        call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
+        match joined {
+            Ok(simulation) => use_simulated(&call, Arc::new(simulation), false),
+            Err(error) => no_such(&call, "socket", &path, &error.to_string()),
+        }
     }
 }

@@ -129,8 +129,17 @@ fn run<C: QueryableContextType>(
     let running = Running { simulation: Arc::clone(&simulation), before, names };
     let ended = locked(&RUNNING).insert(brick_number(), running);
     drop(ended);
+    use_simulated(call, simulation, true)
+}
+
+/// Uses the files of a simulation from now on; its machine may be in another process.
+pub(super) fn use_simulated<C: QueryableContextType>(
+    call: &Call<C>,
+    simulation: Arc<Simulation>,
+    is_here: bool,
+) -> PrologResult<()> {
     use_dev(Arc::new(SimulatedDev::new(Arc::clone(&simulation))));
-    watched().set_simulated(true);
+    watched().set_simulated(is_here);
     tick_at_once();
     call.or_throw(use_tree(Arc::new(SimulatedFiles::new(simulation))))
 }

@@ -1,6 +1,7 @@
 % library(ev3dev/grid_belief): probabilities by hand on small maps, and a robot that finds out
 % where it is.
 
+:- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
@@ -14,7 +15,7 @@ row(Map) :-
     grid_map([rows(["..."])], Map).
 
 near(X, Y) :-
-    abs(X-Y) < 1.0e-9.
+    near(X, Y, 1.0e-9).
 
 probability(belief(_, Pairs), State, P) :-
     memberchk(State-P, Pairs).

@@ -8,19 +8,22 @@
 has_unix_sockets :-
     predicate_property(socket:unix_domain_socket(_), defined).
 
-%   A file with this text, for Goal.
+%   A file with these lines, for Goal; or with those of a program for the robot.
 with_program(Lines, File, Goal) :-
+    with_file([":- use_module(library(ev3dev))."|Lines], File, Goal).
+
+with_file(Lines, File, Goal) :-
     setup_call_cleanup(
         ( tmp_file(fenced, Base),
           atom_concat(Base, '.pl', File),
           setup_call_cleanup(open(File, write, Out),
-                             forall(member(Line, [':- use_module(library(ev3dev)).'|Lines]),
-                                    ( write(Out, Line), nl(Out) )),
+                             forall(member(Line, Lines), ( write(Out, Line), nl(Out) )),
                              close(Out)) ),
         once(Goal),
         catch(delete_file(File), _, true)).
 
 :- meta_predicate
+    with_file(+, ?, 0),
     with_program(+, ?, 0),
     in_room(0).
 
@@ -100,53 +103,6 @@ test(it_is_called_by_another_goal, Text == "[a,'B']\n") :-
 test(its_processes_have_no_robot, Text == "none\n") :-
     fenced(["main :- shell('echo ${EV3DEV_FENCE-none}')."], exit(0), Text, _, []).
 
-%   A program may know the socket, and speak for itself. An answer that is an error is as
-%   long as the greeting, which comes before.
-speaks(Questions, Ended) :-
-    with_program([], File, true),
-    setup_call_cleanup(
-        open(File, write, Out),
-        ( format(Out, ":- use_module(library(socket)).\nmain :- getenv('EV3DEV_FENCE', Path), unix_domain_socket(Socket),
-    tcp_connect(Socket, Path), tcp_open_socket(Socket, In, Out),
-    forall(member(Stream, [In, Out]), set_stream(Stream, encoding(octet))),
-    forall(member(Bytes, ~w),
-           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),
-             forall(between(1, 16, _), get_byte(In, _)) )),
-    sleep(10).~n", [Questions]) ),
-        close(Out)),
-    in_room(sim_fenced(File, Ended, [wall(5)])),
-    delete_file(File).
-
-%   Kind, whether it is free, and time in nanoseconds.
-question([Kind, Free, Time], Bytes) :-
-    findall(Byte, ( between(0, 7, N), Byte is Time >> (8*N) /\ 255 ), At),
-    length(Rest, 16),
-    maplist(=(0), Rest),
-    append([[0, 0, 0, 0, Kind, Free, 0, 0], At, Rest], Bytes).
-
-test(it_sends_garbage,
-     [condition(has_unix_sockets), Ended == refused("that was no question")]) :-
-    findall(255, between(1, 64, _), Bytes),
-    speaks([Bytes], Ended).
-test(it_turns_time_back,
-     [ condition(has_unix_sockets),
-       Ended == refused("its time went back") ]) :-
-    question([0, 0, 1000000], First),
-    question([0, 0, 999999], Second),
-    speaks([First, Second], Ended).
-test(it_reads_faster_than_the_brick_can,
-     [ condition(has_unix_sockets),
-       Ended == refused("its time went back") ]) :-
-    question([4, 0, 500000], First),
-    question([4, 0, 999999], Second),
-    speaks([First, Second], Ended).
-test(it_pretends_that_reads_take_no_time,
-     [ condition(has_unix_sockets),
-       Ended == refused("too many accesses took no time") ]) :-
-    question([4, 1, 0], Question),
-    findall(Question, between(1, 2001, _), Questions),
-    speaks(Questions, Ended).
-
 test(after_one_comes_the_next, Texts == ["1\n", "1\n"]) :-
     with_program(["main :- us_dist_cm(in1, _), write(1), nl."], File,
                  in_room(findall(Text,
@@ -164,3 +120,47 @@ test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
     in_room(sim_fenced(nowhere, _, [seed(1)])).
 
 :- end_tests(sim_fenced).
+
+:- begin_tests(sim_fenced_wire, [condition(has_unix_sockets)]).
+
+%   A program may know the socket, and speak for itself. An answer that is an error is as
+%   long as the greeting, which comes before.
+speaks(Questions, Ended) :-
+    format(string(Asks), "    forall(member(Bytes, ~w),", [Questions]),
+    with_file([":- use_module(library(socket)).",
+               "main :- getenv('EV3DEV_FENCE', Path), unix_domain_socket(Socket),",
+               "    tcp_connect(Socket, Path), tcp_open_socket(Socket, In, Out),",
+               "    forall(member(Stream, [In, Out]), set_stream(Stream, encoding(octet))),",
+               Asks,
+               "           ( forall(member(B, Bytes), put_byte(Out, B)), flush_output(Out),",
+               "             forall(between(1, 16, _), get_byte(In, _)) )),",
+               "    sleep(10)."], File,
+              in_room(sim_fenced(File, Ended, [wall(5)]))).
+
+%   Kind, whether it is free, and time in nanoseconds.
+question([Kind, Free, Time], Bytes) :-
+    findall(Byte, ( between(0, 7, N), Byte is Time >> (8*N) /\ 255 ), At),
+    length(Rest, 16),
+    maplist(=(0), Rest),
+    append([[0, 0, 0, 0, Kind, Free, 0, 0], At, Rest], Bytes).
+
+test(it_sends_garbage, Ended == refused("that was no question")) :-
+    findall(255, between(1, 64, _), Bytes),
+    speaks([Bytes], Ended).
+test(it_turns_time_back,
+     Ended == refused("its time went back")) :-
+    question([0, 0, 1000000], First),
+    question([0, 0, 999999], Second),
+    speaks([First, Second], Ended).
+test(it_reads_faster_than_the_brick_can,
+     Ended == refused("its time went back")) :-
+    question([4, 0, 500000], First),
+    question([4, 0, 999999], Second),
+    speaks([First, Second], Ended).
+test(it_pretends_that_reads_take_no_time,
+     Ended == refused("too many accesses took no time")) :-
+    question([4, 1, 0], Question),
+    findall(Question, between(1, 2001, _), Questions),
+    speaks(Questions, Ended).
+
+:- end_tests(sim_fenced_wire).

@@ -9,6 +9,7 @@
             speed_unit/3,               % ?Speed, ?Expression, -Factor
             angle_value/2,              % +Angle, -Degrees
             number_option/4,            % ?Option, +Domain, +Options, +Default
+            limit_option/2,             % ?Option, +Options
             timeout_option/2,           % +Options, -Seconds
             must_be_within/4,           % +Lowest, +Highest, +Domain, +Integer
             word/2,                     % +Text, -Atom
@@ -223,6 +224,22 @@ number_option(Option, Domain, Options, Default) :-
     arg(1, Given, Expression),
     option(Given, Options, Default),
     number_value(Domain, Expression, Number).
+
+%!  limit_option(?Option, +Options) is det.
+%
+%   True if Option, Name(Seconds), is in Options with an expression of that
+%   value, or `infinite`; where there is none, Seconds is `infinite`.
+
+limit_option(Option, Options) :-
+    functor(Option, Name, 1),
+    functor(Given, Name, 1),
+    option(Given, Options, infinite),
+    arg(1, Given, Expression),
+    arg(1, Option, Seconds),
+    (   Expression == infinite
+    ->  Seconds = infinite
+    ;   number_value(seconds, Expression, Seconds)
+    ).
 
 %!  timeout_option(+Options, -Seconds) is det.
 %

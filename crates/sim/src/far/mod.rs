@@ -145,6 +145,10 @@ impl Answer {
         Answer { bytes, ..Answer::default() }
     }
 
+    fn time(time: Duration) -> Answer {
+        Answer::number(nanos(time))
+    }
+
     /// The second number of some answers.
     pub(crate) fn number_in_bytes(&self) -> Option<u64> {
         self.bytes[..].try_into().ok().map(u64::from_le_bytes)
@@ -160,26 +164,6 @@ impl Answer {
 pub trait Far: Send + Sync {
     /// Its answer. Where it is lost, that is EIO.
     fn ask(&self, question: &Question) -> Answer;
-}
-
-/// Why a host answers no more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refused {
-    /// The question is of before the last one, or of before that one can be over.
-    Back,
-    /// There were too many accesses that take no time.
-    Free,
-}
-
-impl Refused {
-    /// The same in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Refused::Back => "its time went back",
-            Refused::Free => "too many accesses took no time",
-        }
-    }
 }
 
 /// How many accesses that take no time a program may have, and in each millisecond as many more.
@@ -201,12 +185,12 @@ impl Host {
     /// the question answered.
     ///
     /// # Errors
-    /// If it cannot.
-    pub fn admit(&mut self, question: &Question) -> Result<(), Refused> {
+    /// Why it cannot, in words.
+    pub fn admit(&mut self, question: &Question) -> Result<(), &'static str> {
         let begun = *self.begun.get_or_insert(question.at);
         let takes = if question.is_free { Duration::ZERO } else { question.kind.takes() };
         if question.at < self.last.saturating_add(takes) {
-            return Err(Refused::Back);
+            return Err("its time went back");
         }
         self.last = question.at;
         if takes.is_zero() && question.kind != Kind::Pass {
@@ -214,7 +198,7 @@ impl Host {
             let passed = question.at.saturating_sub(begun).as_millis();
             let most = u64::try_from(passed).unwrap_or(u64::MAX).saturating_mul(FREE_IN_A_MS);
             if self.free > most.saturating_add(FREE) {
-                return Err(Refused::Free);
+                return Err("too many accesses took no time");
             }
         }
         Ok(())
@@ -222,42 +206,32 @@ impl Host {
 
     /// Answers. No time passes.
     pub fn answer(&mut self, machine: &mut Machine, question: &Question) -> Answer {
-        let answered = self.of_device(machine, question);
-        let answered = answered.unwrap_or_else(|| answer(machine, question));
-        answered.unwrap_or_else(|Errno(error)| Answer { error, ..Answer::default() })
+        self.answered(machine, question)
+            .unwrap_or_else(|Errno(error)| Answer { error, ..Answer::default() })
     }
 
-    /// The answer to what is about an open device.
-    fn of_device(
-        &mut self,
-        machine: &mut Machine,
-        question: &Question,
-    ) -> Option<Result<Answer, Errno>> {
+    fn answered(&mut self, machine: &mut Machine, question: &Question) -> Result<Answer, Errno> {
         let Question { kind, number, offset, count, bytes, .. } = *question;
-        if kind == Kind::OpenDevice {
-            return Some(self.open(machine, bytes));
-        }
-        if !matches!(kind, Kind::ReadDevice | Kind::WriteDevice | Kind::Ioctl) {
-            return None;
-        }
-        let Some(device) = self.devices.get_mut(usize::try_from(number).unwrap_or(usize::MAX))
-        else {
-            return Some(Err(Errno::EINVAL));
-        };
-        Some(match kind {
+        match kind {
+            Kind::OpenDevice => self.open(machine, bytes),
             Kind::ReadDevice => {
                 let mut buffer = vec![0; count as usize];
-                device.read(machine, offset as usize, &mut buffer).map(|length| {
-                    buffer.truncate(length);
-                    Answer::bytes(buffer)
-                })
+                let length = self.device(number)?.read(machine, offset as usize, &mut buffer)?;
+                buffer.truncate(length);
+                Ok(Answer::bytes(buffer))
             }
             Kind::WriteDevice => {
-                let taken = device.write(machine, offset as usize, bytes);
-                taken.map(|taken| Answer::number(taken as u64))
+                let taken = self.device(number)?.write(machine, offset as usize, bytes)?;
+                Ok(Answer::number(taken as u64))
             }
-            _ => device.ioctl(machine, count).map(|(_, state)| Answer::bytes(state)),
-        })
+            Kind::Ioctl => Ok(Answer::bytes(self.device(number)?.ioctl(machine, count)?.1)),
+            _ => answer(machine, question),
+        }
+    }
+
+    fn device(&mut self, number: u64) -> Result<&mut DevDescriptor, Errno> {
+        let index = usize::try_from(number).unwrap_or(usize::MAX);
+        self.devices.get_mut(index).ok_or(Errno::EINVAL)
     }
 
     fn open(&mut self, machine: &Machine, path: &[u8]) -> Result<Answer, Errno> {
@@ -284,14 +258,14 @@ pub(crate) fn answer(machine: &mut Machine, question: &Question) -> Result<Answe
         Kind::Read => Answer::bytes(machine.read_at(node, offset as usize, count as usize)?),
         Kind::Write => {
             let Written { outcome, blocks } = machine.write_at(node, offset as usize, bytes)?;
-            Answer { error: outcome.err().map_or(0, |Errno(error)| error), ..nanos(blocks) }
+            Answer { error: outcome.err().map_or(0, |Errno(error)| error), ..Answer::time(blocks) }
         }
         Kind::Buttons => {
-            let next = machine.next_button().map(|at| nanos(at).number.to_le_bytes().to_vec());
+            let next = machine.next_button().map(|at| nanos(at).to_le_bytes().to_vec());
             let number = machine.button_events();
             Answer { number, bytes: next.unwrap_or_default(), ..Answer::default() }
         }
-        Kind::Say => nanos(machine.say(text(bytes)?)),
+        Kind::Say => Answer::time(machine.say(text(bytes)?)),
         Kind::Play => {
             machine.play(text(bytes)?);
             Answer::default()
@@ -317,6 +291,6 @@ fn text(bytes: &[u8]) -> Result<&str, Errno> {
     std::str::from_utf8(bytes).map_err(|_| Errno::EINVAL)
 }
 
-fn nanos(time: Duration) -> Answer {
-    Answer::number(u64::try_from(time.as_nanos()).unwrap_or(u64::MAX))
+fn nanos(time: Duration) -> u64 {
+    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
 
-use super::{Answer, Far, Host, Kind, Question};
+use super::{Answer, Far, Host, Kind, Question, nanos};
 use crate::lock::locked;
 use crate::machine::Machine;
 
@@ -27,10 +27,6 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The error of a line that is lost: EIO.
 const LOST: i32 = 5;
-
-fn nanos(time: Duration) -> u64 {
-    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
-}
 
 fn part<const N: usize>(bytes: &[u8], from: usize) -> [u8; N] {
     bytes.get(from..from + N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
@@ -160,8 +156,8 @@ impl Desk {
                 Err(why) => return Ok(Next::Refused(why)),
                 Ok(Some((question, _))) => {
                     if !self.is_admitted {
-                        if let Err(refused) = self.host.admit(&question) {
-                            return Ok(Next::Refused(refused.words()));
+                        if let Err(why) = self.host.admit(&question) {
+                            return Ok(Next::Refused(why));
                         }
                         self.is_admitted = true;
                     }

@@ -1,5 +1,7 @@
 :- module(ev3dev_grid_moves,
           [ carry_out/3,                % +Plan, :Tell_1, -Outcome
+            go_to_cell/5,               % +Cell, +Direction, +Metric,
+                                        % +Speed, -Reason
             planned/2                   % ?Brick, -Cells
           ]).
 :- use_module(library(lists), [member/2]).
@@ -229,6 +231,11 @@ may_be_in(Cell, Direction, Metric) :-
     uncertainty(Direction, Deviation),
     Left is ((X - AtX)*DX + (Y - AtY)*DY) / sqrt(DX*DX + DY*DY),
     Left =< min(Cm / 4, 2 * Deviation).
+
+%!  go_to_cell(+Cell, +Direction, +Metric, +Speed, -Reason) is det.
+%
+%   Go to the middle of Cell, and turn to Direction there. Reason is that of
+%   go_to/4, or `no_robot`.
 
 go_to_cell(Cell, Direction, Metric, Speed, Reason) :-
     cell_place(Metric, Cell, X, Y),

@@ -5,7 +5,9 @@
             grid_place/2,               % +Cell, +Direction
             state_position/2,           % ?Cell, ?Direction
             set_state/2,                % +Cell, +Direction
-            cell_place/4                % +Metric, +Cell, -X, -Y
+            cell_place/4,               % +Metric, +Cell, -X, -Y
+            grid_metric/2,              % +Options, -Metric
+            set_pose_in/3               % +Metric, +Cell, +Direction
           ]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [term_expansion/4]).
@@ -77,7 +79,7 @@ set_grid(Options) :-
             Obstructed),
     grid_unknown(Map0, ev3dev_grid_knowledge:unblocked, Map),
     start(Own, Map0, Cell, Direction),
-    metric(Own, Metric),
+    grid_metric(Own, Metric),
     fade(Own, Fade),
     set_pose_in(Metric, Cell, Direction),
     forget_all(Fade, Obstructed),
@@ -96,7 +98,11 @@ start(Options, Map, Cell, Direction) :-
     ),
     must_be_state(Map, state(Cell, Direction)).
 
-metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
+%!  grid_metric(+Options, -Metric) is det.
+%
+%   Metric, as of grid/2, is what the options of set_grid/1 tell.
+
+grid_metric(Options, metric(Cm, X, Y, Eye, Speed)) :-
     number_option(cell_cm(Cm), positive_number, Options, 20),
     (   option(origin(X0, Y0), Options)
     ->  number_value(X0, X),
@@ -126,6 +132,10 @@ grid_place(Cell, Direction) :-
     must_be_state(Map, state(Cell, Direction)),
     set_pose_in(Metric, Cell, Direction),
     set_state(Cell, Direction).
+
+%!  set_pose_in(+Metric, +Cell, +Direction) is semidet.
+%
+%   The robot is in the middle of Cell: set pose/3 to that.
 
 set_pose_in(Metric, Cell, Direction) :-
     cell_place(Metric, Cell, X, Y),
