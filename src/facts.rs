@@ -6,8 +6,8 @@ use crate::glue::places::places;
 use crate::glue::terms::Ask as _;
 use ev3_sim::facts::{Fact, Subject};
 use ev3_sim::{
-    Bounds, Drawing, Drawn, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount, SpecError,
-    Wheel,
+    Bounds, Drawing, Drawn, Echo, Hull, Item, MotorMount, Noise, Part, Pose, SensorMount,
+    SpecError, Wheel,
 };
 use std::str::FromStr;
 use swipl::prelude::*;
@@ -143,20 +143,22 @@ fn read<'a, C: QueryableContextType>(
         ("motor", [port, driver, options @ ..]) => Fact::Motor(MotorMount {
             port: named(call, "port", port)?,
             driver: call.text(driver)?.into(),
-            noise: Noise::NONE,
-            encoder_noise: 0.0,
+            noise: None,
+            encoder_noise: None,
             stops: stops(call, options)?,
         }),
         ("sensor", [port, driver, x, y, heading]) => Fact::Sensor(SensorMount {
             port: named(call, "port", port)?,
             driver: call.text(driver)?.into(),
             pose: pose(call, [x, y, heading])?,
-            noise: Noise::NONE,
+            noise: None,
+            echo: Echo::default(),
         }),
         ("noise", [port, sigma, bias]) => Fact::Noise(
             named(call, "port", port)?,
             Noise { sigma: number(sigma)?, bias: number(bias)? },
         ),
+        ("echo", [port, options]) => Fact::Echo(named(call, "port", port)?, echo(call, options)?),
         ("encoder_noise", [port, sigma]) => {
             Fact::EncoderNoise(named(call, "port", port)?, number(sigma)?)
         }
@@ -259,6 +261,26 @@ fn wheel<'a, C: QueryableContextType>(
         }
     }
     Ok(wheel)
+}
+
+/// A list of `half_angle(Degrees)`, `incidence(Degrees)`, `miss(Share)`, `spurious(Share)`.
+fn echo<'a, C: QueryableContextType>(call: &Call<'a, C>, options: &Term<'a>) -> PrologResult<Echo> {
+    let mut echo = Echo::default();
+    for option in call.list(options)? {
+        let (name, values) = call.compound(&option)?.unwrap_or_default();
+        let field = match &*name {
+            "half_angle" => &mut echo.half_angle,
+            "incidence" => &mut echo.incidence,
+            "miss" => &mut echo.miss,
+            "spurious" => &mut echo.spurious,
+            _ => return wrong_because(call, "echo_option", &option, ""),
+        };
+        let [value] = &*values else {
+            return wrong_because(call, "echo_option", &option, "");
+        };
+        *field = call.float(value)?;
+    }
+    Ok(echo)
 }
 
 /// What an optional list of `stops(Min, Max)` says, in degrees.

@@ -153,6 +153,13 @@ A robot is a file of facts, too:
     standard deviation, in degrees, of the error of each tooth of its disc, by
     default 0. The error of `position` is the same whenever the shaft is at
     the same angle.
+  - echo(Port, Options)
+    What the ultrasonic sensor hears that an earlier fact names: how far its
+    cone goes to each side, half_angle(Degrees), 15 by default; from which
+    incidence(Degrees) on a slanted surface sends no echo, 90 by default,
+    which is never; and which share of its samples misses all echoes,
+    miss(Share), or hears something nearer where nothing is, spurious(Share),
+    both 0 by default.
 
 The pack has two robots: `default`, the robot of
 set_robot(5.6, 10.6, outB, outC), with an ultrasonic sensor at in1, color
@@ -224,7 +231,8 @@ time (sleep/1, timeouts) or waits for a person.
 %       it stays where it is.
 %     - noise(+Boolean)
 %       If `true`, sensors and motors have errors like real ones, and encoders
-%       an error of half a degree. Default is `false`.
+%       an error of half a degree, unless the robot has facts about its own.
+%       Default is `false`.
 %     - seed(+Integer)
 %       The seed of the random numbers: of noise, and of what this thread
 %       draws by random/1, random_between/3 and so on, also in race/2, until

@@ -87,7 +87,10 @@ test(takes_all_facts) :-
                       motor(outC, 'lego-ev3-l-motor'),
                       sensor(in1, 'lego-ev3-ir', 0, 7, 0),
                       sensor(in2, 'lego-ev3-color', 0, 6, 0),
-                      noise(in1, 1, 0)
+                      noise(in1, 1, 0),
+                      sensor(in3, 'lego-ev3-us', 0, 7, 0),
+                      echo(in3, [half_angle(20), incidence(40), miss(0.1),
+                                 spurious(0.1)])
                     ])]).
 test(fails_for_no_goal_without_a_simulation,
      [ forall(member(Goal, [ sim_stop, sim_pose(_, _, _), sim_place(0, 0, 0),
@@ -275,6 +278,19 @@ test(an_encoder_that_is_more_than_exact) :-
     Formal = domain_error(possible_geometry, _),
     says(Message, 'FILE:3:0: '),
     says(Message, 'must not be below 0').
+test(an_impossible_echo,
+     [ forall(member(Option, [ half_angle(61), incidence(0), miss(-1),
+                               spurious(1.1) ])),
+       throws(error(domain_error(possible_geometry,
+                                 echo(in1, [Option])), _)) ]) :-
+    with_sim([], true,
+             [robot([sensor(in1, 'lego-ev3-us', 0, 0, 0),
+                     echo(in1, [Option])])]).
+test(an_unknown_echo_option,
+     throws(error(domain_error(echo_option, louder(2)), _))) :-
+    with_sim([], true,
+             [robot([sensor(in1, 'lego-ev3-us', 0, 0, 0),
+                     echo(in1, [louder(2)])])]).
 test(encoder_noise_without_a_number) :-
     robot_complaint("mass(1).\nencoder_noise(outB).\n", Formal, Message),
     Formal == domain_error(robot_fact, encoder_noise(outB)),
@@ -490,12 +506,58 @@ test(another_seed_makes_other_noise) :-
     readings(7, true, Readings7),
     readings(8, true, Readings8),
     Readings7 \== Readings8.
+test(a_robot_keeps_its_own_errors, Readings == [10.0]) :-
+    heard([circle(0, 20, 10)], [noise(in1, 0, 0)], [noise(true)], Readings).
+test(a_slanted_wall_sends_no_echo_beyond_its_incidence,
+     At40-At50 == [255.0]-Always) :-
+    maplist(slanted, [40, 50, 90], [At40, At50, Always]).
+test(what_a_slanted_wall_hides_is_not_heard, Readings == [255.0]) :-
+    heard([wall(-50, -30, 50, 70), wall(-50, 40, 50, 40)],
+          [echo(in1, [half_angle(0), incidence(40)])], [], Readings).
+test(a_wider_cone_hears_what_is_aside, Narrow-Wide == [255.0]-true) :-
+    heard([circle(20, 40, 3)], [], [], Narrow),
+    heard([circle(20, 40, 3)], [echo(in1, [half_angle(30)])], [], [D]),
+    (   D < 45
+    ->  Wide = true
+    ;   Wide = D
+    ).
+test(echoes_are_missed_and_made_up, Counts == true) :-
+    heard([wall(-50, 100, 50, 100)],
+          [echo(in1, [miss(0.2), spurious(0.3)])], [], 300, Readings),
+    aggregate_all(count, member(255.0, Readings), Missed),
+    aggregate_all(count, ( member(D, Readings), D < 99 ), Nearer),
+    aggregate_all(count, ( member(D, Readings), D < 20 ), Near),
+    (   abs(Missed-60) < 25,
+        abs(Nearer-90) < 30,
+        Near > 5
+    ->  Counts = true
+    ;   Counts = [Missed, Nearer, Near]
+    ).
 test(encoders_err_if_asked_for, true(Wrong \== Right)) :-
     positions([], Right),
     positions([encoder_noise(outA, 2)], Wrong).
 test(the_same_seed_makes_the_same_errors_of_encoders, true(A == B)) :-
     positions([encoder_noise(outA, 2)], A),
     positions([encoder_noise(outA, 2)], B).
+
+%   The wall is met at 45 degrees.
+slanted(Incidence, Readings) :-
+    heard([wall(-50, -30, 50, 70)],
+          [echo(in1, [half_angle(0), incidence(Incidence)])], [], Readings).
+
+%   What a sonar at 0, 0 hears ahead, a list without doubles, or of Count
+%   readings.
+heard(World, Facts, Options, Readings) :-
+    heard(World, Facts, Options, 20, Readings0),
+    sort(Readings0, Readings).
+
+heard(World, Facts, Options, Count, Readings) :-
+    with_sim([start(0, 0, 0)|World],
+             findall(D,
+                     ( between(1, Count, _), sim_step(0.1),
+                       us_dist_cm(in1, D) ),
+                     Readings),
+             [robot([sensor(in1, 'lego-ev3-us', 0, 0, 0)|Facts])|Options]).
 
 %   What a motor shows that turns by a fixed duty.
 positions(Errors, Positions) :-

@@ -1,7 +1,7 @@
 //! The vocabulary of world and robot files, for everyone who reads them.
 
 use crate::brick::port::Port;
-use crate::noise::Noise;
+use crate::noise::{Echo, Noise};
 use crate::robot::{Chassis, MotorMount, RobotSpec, SensorMount, Wheel};
 use crate::world::color::Color;
 use crate::world::geometry::Pose;
@@ -47,6 +47,7 @@ impl Subject {
                 ("sensor", &[5]),
                 ("noise", &[3]),
                 ("encoder_noise", &[2]),
+                ("echo", &[2]),
             ],
         }
     }
@@ -98,6 +99,7 @@ pub enum Fact {
     Sensor(SensorMount),
     Noise(Port, Noise),
     EncoderNoise(Port, f64),
+    Echo(Port, Echo),
 }
 
 impl Fact {
@@ -124,7 +126,8 @@ impl Fact {
             }
             (Fact::Motor(_), Part::Motor(index)) => index == motors,
             (Fact::Sensor(_), Part::Sensor(index)) => index == sensors,
-            (Fact::EncoderNoise(at, _), Part::EncoderNoise(other)) => *at == other,
+            (Fact::EncoderNoise(at, _), Part::EncoderNoise(other))
+            | (Fact::Echo(at, _), Part::Echo(other)) => *at == other,
             _ => false,
         }
     }
@@ -200,15 +203,20 @@ impl RobotSpec {
                 Fact::Sensor(sensor) => sensors.push(sensor.clone()),
                 Fact::Noise(port, noise) => {
                     for motor in motors.iter_mut().filter(|motor| motor.port == *port) {
-                        motor.noise = *noise;
+                        motor.noise = Some(*noise);
                     }
                     for sensor in sensors.iter_mut().filter(|sensor| sensor.port == *port) {
-                        sensor.noise = *noise;
+                        sensor.noise = Some(*noise);
                     }
                 }
                 Fact::EncoderNoise(port, sigma) => {
                     for motor in motors.iter_mut().filter(|motor| motor.port == *port) {
-                        motor.encoder_noise = *sigma;
+                        motor.encoder_noise = Some(*sigma);
+                    }
+                }
+                Fact::Echo(port, echo) => {
+                    for sensor in sensors.iter_mut().filter(|sensor| sensor.port == *port) {
+                        sensor.echo = *echo;
                     }
                 }
                 _ => {}

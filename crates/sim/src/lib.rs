@@ -17,8 +17,8 @@
 //! let motor = |port| MotorMount {
 //!     port,
 //!     driver: "lego-ev3-l-motor".to_owned(),
-//!     noise: Noise::NONE,
-//!     encoder_noise: 0.0,
+//!     noise: None,
+//!     encoder_noise: None,
 //!     stops: None,
 //! };
 //! let robot = RobotSpec::from_facts(&[
@@ -133,7 +133,7 @@ pub use machine::shown::{Shown, ShownMotor, ShownSensor};
 pub use machine::tree::{Entry, FileKind, NodeId, Stat};
 pub use machine::{Machine, Options, Written};
 pub use motor::{MOTOR_KINDS, MotorKind};
-pub use noise::Noise;
+pub use noise::{Echo, Noise};
 pub use robot::{MotorMount, RobotSpec, SensorMount, Wheel, Wheels};
 pub use sense::sight::Sight;
 pub use sensor::{Link, SensorKind};

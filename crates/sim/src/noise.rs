@@ -4,7 +4,7 @@
 //! how often a program looked: two reads in one sample agree, and an additional read somewhere
 //! changes nothing elsewhere.
 
-use rand_distr::{Distribution, StandardNormal};
+use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rand_pcg::Pcg32;
 
 /// Errors of a sensor (in the units of its value) or a motor (in % duty).
@@ -36,6 +36,74 @@ impl Noise {
         };
         Noise { sigma, bias }
     }
+}
+
+/// What an ultrasonic sensor hears of its own sound. By default it hears all in a cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Echo {
+    /// How far the cone goes to each side, in degrees.
+    pub half_angle: f64,
+    /// A surface sends no echo if the sound meets it at a larger angle than this, in degrees
+    /// from straight on.
+    pub incidence: f64,
+    /// The share of samples that hear nothing.
+    pub miss: f64,
+    /// The share of samples that hear something nearer, where there is nothing.
+    pub spurious: f64,
+}
+
+impl Default for Echo {
+    fn default() -> Self {
+        Echo { half_angle: 15.0, incidence: 90.0, miss: 0.0, spurious: 0.0 }
+    }
+}
+
+impl Echo {
+    /// Apart from all disturbances of the same port.
+    const STREAM: u64 = 0xec40;
+
+    /// # Errors
+    /// What is out of range.
+    pub(crate) fn validate(&self) -> Result<(), &'static str> {
+        if !(0.0..=60.0).contains(&self.half_angle) {
+            return Err("needs a half_angle from 0 to 60 degrees");
+        }
+        if !(1.0..=90.0).contains(&self.incidence) {
+            return Err("needs an incidence from 1 to 90 degrees");
+        }
+        let shares = [self.miss, self.spurious, self.miss + self.spurious];
+        if !shares.iter().all(|share| (0.0..=1.0).contains(share)) {
+            return Err("needs shares miss and spurious from 0 to 1, together at most 1");
+        }
+        Ok(())
+    }
+
+    /// What happens in one sample.
+    pub(crate) fn at(self, seed: u64, port: usize, sample: u64) -> Heard {
+        let mut heard = Heard { cone: self, is_missed: false, spurious: None };
+        if self.miss + self.spurious > 0.0 {
+            let mut generator = sampled(seed ^ Self::STREAM, port, sample);
+            let chance: f64 = StandardUniform.sample(&mut generator);
+            heard.is_missed = chance < self.miss;
+            if !heard.is_missed && chance < self.miss + self.spurious {
+                heard.spurious = Some(StandardUniform.sample(&mut generator));
+            }
+        }
+        heard
+    }
+}
+
+/// What an ultrasonic sensor hears in one sample.
+pub(crate) struct Heard {
+    pub(crate) cone: Echo,
+    pub(crate) is_missed: bool,
+    /// Something at this share of the distance.
+    pub(crate) spurious: Option<f64>,
+}
+
+/// The random numbers of a sample.
+fn sampled(seed: u64, port: usize, sample: u64) -> Pcg32 {
+    Pcg32::new(seed ^ sample.wrapping_mul(0x9e37_79b9_7f4a_7c15), port as u64)
 }
 
 /// Standard deviation of the errors of an encoder's teeth that is plausible, in degrees.
@@ -88,10 +156,7 @@ pub(crate) struct Source {
 
 impl Source {
     pub(crate) fn new(noise: Noise, seed: u64, port: usize, sample: u64) -> Self {
-        let generator = (noise.sigma > 0.0).then(|| {
-            let state = seed ^ sample.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-            Pcg32::new(state, port as u64)
-        });
+        let generator = (noise.sigma > 0.0).then(|| sampled(seed, port, sample));
         Source { noise, generator }
     }
 

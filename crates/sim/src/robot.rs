@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::brick::port::Port;
 use crate::motor::{MOTOR_KINDS, MotorKind};
-use crate::noise::{Noise, TYPICAL_TEETH};
+use crate::noise::{Echo, Noise, TYPICAL_TEETH};
 use crate::sensor::SensorKind;
 use crate::world::geometry::{OUT_OF_RANGE, Pose};
 use crate::world::{Hull, Part, SpecError};
@@ -58,11 +58,11 @@ pub struct MotorMount {
     pub port: Port,
     /// The driver's name, such as `lego-ev3-l-motor`: see [`MOTOR_KINDS`](crate::MOTOR_KINDS).
     pub driver: String,
-    /// Its errors.
-    pub noise: Noise,
+    /// Its errors; `None` if nothing is said about them.
+    pub noise: Option<Noise>,
     /// Standard deviation of the errors of its encoder's teeth, in degrees. They add to
-    /// `position`, are the same at every turn, and depend on the seed.
-    pub encoder_noise: f64,
+    /// `position`, are the same at every turn, and depend on the seed. `None` as above.
+    pub encoder_noise: Option<f64>,
     /// Between which angles its shaft can turn, in degrees from where it is at the start; `None`
     /// without end.
     pub stops: Option<[f64; 2]>,
@@ -79,8 +79,10 @@ pub struct SensorMount {
     /// color sensor sees the floor below this point, and lamps in its direction; a touch
     /// sensor is an 8 cm wide bumper across its heading.
     pub pose: Pose,
-    /// Its errors.
-    pub noise: Noise,
+    /// Its errors; `None` if nothing is said about them.
+    pub noise: Option<Noise>,
+    /// What an ultrasonic sensor hears.
+    pub echo: Echo,
 }
 
 /// A robot: with two driven wheels, or one that stays where it is.
@@ -99,15 +101,16 @@ pub struct RobotSpec {
 }
 
 impl RobotSpec {
-    /// Gives every device the errors that such a device might plausibly have.
+    /// Gives every device the errors that such a device might plausibly have, unless its own
+    /// are known.
     #[must_use]
     pub fn with_typical_noise(mut self) -> RobotSpec {
         for motor in &mut self.motors {
-            motor.noise = Noise::typical(&motor.driver);
-            motor.encoder_noise = TYPICAL_TEETH;
+            motor.noise.get_or_insert_with(|| Noise::typical(&motor.driver));
+            motor.encoder_noise.get_or_insert(TYPICAL_TEETH);
         }
         for sensor in &mut self.sensors {
-            sensor.noise = Noise::typical(&sensor.driver);
+            sensor.noise.get_or_insert_with(|| Noise::typical(&sensor.driver));
         }
         self
     }
@@ -238,7 +241,7 @@ fn validate_devices(
         if !port.is_output() || used.contains(port) {
             return fault("needs an output port of its own");
         }
-        if !(encoder_noise.is_finite() && *encoder_noise >= 0.0) {
+        if encoder_noise.is_some_and(|sigma| !(sigma.is_finite() && sigma >= 0.0)) {
             let item = format!("encoder noise on {port}");
             let error = SpecError::new(item, "must not be below 0");
             return Err(error.in_part(Part::EncoderNoise(*port)).in_part(Part::Motor(index)));
@@ -261,7 +264,7 @@ fn validate_devices(
         }
         used.push(*port);
     }
-    for (index, SensorMount { port, driver, pose, .. }) in sensors.iter().enumerate() {
+    for (index, SensorMount { port, driver, pose, echo, .. }) in sensors.iter().enumerate() {
         let fault = |reason: &str| {
             Err(SpecError::new(format!("sensor {driver} on {port}"), reason)
                 .in_part(Part::Sensor(index)))
@@ -274,6 +277,10 @@ fn validate_devices(
         }
         if !pose.is_in_range() {
             return fault(OUT_OF_RANGE);
+        }
+        if let Err(reason) = echo.validate() {
+            let error = SpecError::new(format!("echo of the sensor on {port}"), reason);
+            return Err(error.in_part(Part::Echo(*port)).in_part(Part::Sensor(index)));
         }
         used.push(*port);
     }

@@ -133,6 +133,9 @@ allowed(tone,
         [ tone('Hertz', 'Milliseconds'), note('Note', 'Length'),
           rest('Length') ]).
 allowed(volume,             'a volume is a number from 0 to 100').
+allowed(echo_option,
+        [ half_angle('Degrees'), incidence('Degrees'), miss('Share'),
+          spurious('Share') ]).
 allowed(mounting_option,    [stops('Min', 'Max')]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
 allowed(world_item,         Items) :-

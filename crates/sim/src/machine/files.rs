@@ -8,7 +8,7 @@ use crate::machine::descriptor::Descriptor;
 use crate::machine::socket::Plug;
 use crate::machine::tree::{Entry, Hardware, NodeId, PAGE, Stat, Tree};
 use crate::machine::{Machine, Written};
-use crate::noise::{Noise, Source};
+use crate::noise::{Echo, Noise, Source};
 use crate::sense::View;
 use crate::sensor::{Link, Mode, Reading, SUPPLY_MV, Sensor};
 use crate::ticks::JIFFY_TICKS;
@@ -281,7 +281,7 @@ impl Machine {
     /// The world as a sensor sees it now.
     pub(crate) fn view(&self, sensor: &Sensor) -> View<'_> {
         let port = sensor.port();
-        let (pose, noise) = self.mount(port);
+        let (pose, noise, echo) = self.mount(port);
         let sample = self.tick / JIFFY_TICKS;
         View {
             scene: &self.scene,
@@ -293,11 +293,14 @@ impl Machine {
             axle: sensor.axle,
             is_held: self.held[port as usize],
             noise: Source::new(noise, self.options.seed, port as usize, sample),
+            echo: echo.at(self.options.seed, port as usize, sample),
         }
     }
 
-    pub(crate) fn mount(&self, port: Port) -> (Pose, Noise) {
+    pub(crate) fn mount(&self, port: Port) -> (Pose, Noise, Echo) {
         let mount = self.robot.sensors.iter().find(|mount| mount.port == port);
-        mount.map_or((SPARE_MOUNT, Noise::NONE), |mount| (mount.pose, mount.noise))
+        mount.map_or((SPARE_MOUNT, Noise::NONE, Echo::default()), |mount| {
+            (mount.pose, mount.noise.unwrap_or_default(), mount.echo)
+        })
     }
 }

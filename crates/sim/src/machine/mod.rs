@@ -142,7 +142,7 @@ impl Machine {
         };
         let shafts = std::array::from_fn(|slot| {
             let mount = robot.motors.iter().find(|mount| mount.port.slot() == slot);
-            let sigma = mount.map_or(0.0, |mount| mount.encoder_noise);
+            let sigma = mount.and_then(|mount| mount.encoder_noise).unwrap_or_default();
             let stops = mount.and_then(|mount| mount.stops);
             Shaft::new(Teeth::new(sigma, options.seed, slot), stops)
         });

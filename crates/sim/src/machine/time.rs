@@ -9,7 +9,7 @@ use crate::machine::socket::Plug;
 use crate::machine::tree::Hardware;
 use crate::mechanics::Load;
 use crate::mechanics::pair::Rider;
-use crate::noise::{Noise, Source};
+use crate::noise::Source;
 use crate::robot::Wheels;
 use crate::ticks::{JIFFY_TICKS, TICK_US};
 use crate::world::ItemId;
@@ -140,7 +140,7 @@ impl Machine {
         let mut amperes = 0.0;
         let loads = OUTPUTS.map(|port| {
             let mount = self.robot.motors.iter().find(|mount| mount.port == port);
-            let noise = mount.map_or(Noise::NONE, |mount| mount.noise);
+            let noise = mount.and_then(|mount| mount.noise).unwrap_or_default();
             let sample = self.tick / JIFFY_TICKS;
             let mut source = Source::new(noise, self.options.seed, port as usize, sample);
             let strength = 1.0 + noise.bias / 100.0;
@@ -252,7 +252,7 @@ impl Machine {
             let Some(serial) = self.sockets[index].device else {
                 continue;
             };
-            let (_, noise) = self.mount(self.sockets[index].port);
+            let noise = self.mount(self.sockets[index].port).1;
             let (rate, axle_rate) = (self.body.turn_rate, self.axle_rate());
             let Some(Hardware::Sensor(sensor)) = self.tree.hardware_mut(serial) else {
                 continue;

@@ -4,13 +4,12 @@ mod floor;
 mod infrared;
 pub(crate) mod sight;
 
-use crate::noise::Source;
+use crate::noise::{Heard, Source};
 use crate::sensor::{Axle, Reading, SUPPLY_MV, SWITCHED_MV, Sense};
 use crate::world::geometry::{Pose, Vec2, direction, length};
 use crate::world::scene::{Others, Scene};
 
-/// The ultrasonic cone: how far it goes to each side, in degrees, and its number of rays.
-const SONAR_HALF_ANGLE: f64 = 15.0;
+/// The number of rays of the ultrasonic cone.
 const SONAR_RAYS: u32 = 13;
 /// Nearer than this the sensor cannot measure, farther it hears nothing, in cm.
 const SONAR_NEAR: f64 = 3.0;
@@ -58,6 +57,7 @@ pub(crate) struct View<'a> {
     /// Whether a hand presses the sensor.
     pub(crate) is_held: bool,
     pub(crate) noise: Source,
+    pub(crate) echo: Heard,
 }
 
 impl View<'_> {
@@ -166,7 +166,7 @@ impl View<'_> {
     }
 
     fn nxt_distance(&mut self, inches: bool) -> i32 {
-        let distance = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR);
+        let distance = self.echo();
         let heard = self.noise.disturb(distance.unwrap_or(NXT_SONAR_NOTHING));
         let centimeters = whole(heard.clamp(SONAR_NEAR, NXT_SONAR_NOTHING));
         if inches { centimeters * 1000 / 255 } else { centimeters }
@@ -226,21 +226,50 @@ impl View<'_> {
         light
     }
 
+    /// What the sonar hears, before the noise.
+    fn echo(&self) -> Option<f64> {
+        let Heard { cone, is_missed, spurious } = &self.echo;
+        if *is_missed {
+            return None;
+        }
+        let distance = if cone.incidence < 90.0 {
+            self.facing(cone.half_angle, libm::cos(cone.incidence.to_radians()))
+        } else {
+            self.cone(cone.half_angle, SONAR_RAYS, SONAR_FAR)
+        };
+        match spurious {
+            Some(share) => {
+                Some(SONAR_NEAR + share * (distance.unwrap_or(SONAR_FAR) - SONAR_NEAR).max(0.0))
+            }
+            None => distance,
+        }
+    }
+
+    /// The nearest surface in the sonar's cone that a ray meets with at least this cosine of its
+    /// incidence.
+    fn facing(&self, half_angle: f64, least: f64) -> Option<f64> {
+        let here = self.pose.point();
+        let hits = fan(self.pose.heading, half_angle, SONAR_RAYS).filter_map(|ray| {
+            let (distance, normal) = self.scene.surface(self.others, here, ray, SONAR_FAR)?;
+            (-normal.dot(&ray) >= least).then_some(distance)
+        });
+        hits.min_by(f64::total_cmp)
+    }
+
     /// The nearest thing in a cone, if there is one.
     fn cone(&self, half_angle: f64, rays: u32, far: f64) -> Option<f64> {
         let here = self.pose.point();
-        let step = 2.0 * half_angle / f64::from(rays - 1);
         let mut directions = [Vec2::zeros(); SONAR_RAYS as usize];
         let directions = &mut directions[..rays as usize];
-        for (ray, towards) in (0..rays).zip(directions.iter_mut()) {
-            *towards = direction(self.pose.heading - half_angle + step * f64::from(ray));
+        for (towards, ray) in directions.iter_mut().zip(fan(self.pose.heading, half_angle, rays)) {
+            *towards = ray;
         }
         self.scene.cast_all(self.others, here, directions, far)
     }
 
     fn distance(&mut self, inches: bool) -> i32 {
         let (unit, out_of_range) = if inches { (2.54, 1003) } else { (1.0, 2550) };
-        let Some(distance) = self.cone(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR) else {
+        let Some(distance) = self.echo() else {
             return out_of_range;
         };
         let heard = self.noise.disturb(distance).clamp(SONAR_NEAR, SONAR_FAR);
@@ -273,6 +302,12 @@ impl View<'_> {
                 BUMPER_TRAVEL,
             )
     }
+}
+
+/// The directions of rays, from left to right.
+fn fan(heading: f64, half_angle: f64, rays: u32) -> impl Iterator<Item = Vec2> {
+    let step = 2.0 * half_angle / f64::from(rays - 1);
+    (0..rays).map(move |ray| direction(heading - half_angle + step * f64::from(ray)))
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "saturates; sensors' numbers are small")]

@@ -3,12 +3,12 @@
 use super::infrared::BEACON_FAR;
 use super::{
     BUMPER_HALF, INFRARED_FAR, INFRARED_HALF_ANGLE, INFRARED_RAYS, REFLECTOR_FAR, SONAR_FAR,
-    SONAR_HALF_ANGLE, SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
+    SONAR_RAYS, TIME_OF_FLIGHT_FAR, View,
 };
 use crate::sensor::Sense;
 use crate::world::Point;
 use crate::world::color::Color;
-use crate::world::geometry::{Pose, Vec2, direction, length};
+use crate::world::geometry::{Pose, Vec2, length};
 
 /// The part of the world that a sensor sees in a mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl View<'_> {
         let narrow = |far| self.fan(INFRARED_HALF_ANGLE, INFRARED_RAYS, far);
         Some(match sense {
             Sense::Distance { .. } | Sense::NxtDistance { .. } => {
-                self.fan(SONAR_HALF_ANGLE, SONAR_RAYS, SONAR_FAR)
+                self.fan(self.echo.cone.half_angle, SONAR_RAYS, SONAR_FAR)
             }
             Sense::Proximity => narrow(INFRARED_FAR),
             Sense::Millimeters => narrow(TIME_OF_FLIGHT_FAR),
@@ -72,10 +72,8 @@ impl View<'_> {
 
     fn fan(&self, half_angle: f64, rays: u32, far: f64) -> Sight {
         let here = self.pose.point();
-        let step = 2.0 * half_angle / f64::from(rays - 1);
         let mut nearest: Option<(f64, Point)> = None;
-        let mut end = |ray: u32| {
-            let way = direction(self.pose.heading - half_angle + step * f64::from(ray));
+        let mut end = |way: Vec2| {
             let hit = self.scene.cast(self.others, here, way, far);
             let end = point(here + way * hit.unwrap_or(far));
             if let Some(distance) = hit.filter(|hit| nearest.is_none_or(|(near, _)| *hit < near)) {
@@ -83,7 +81,7 @@ impl View<'_> {
             }
             end
         };
-        let fan = (0..rays).map(&mut end).collect();
+        let fan = super::fan(self.pose.heading, half_angle, rays).map(&mut end).collect();
         Sight::Cone { fan, hit: nearest.map(|(_, end)| end) }
     }
 

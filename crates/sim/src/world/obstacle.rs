@@ -132,6 +132,12 @@ impl Obstacle {
         }
     }
 
+    /// As [`cast`](Self::cast), with the surface's normal.
+    pub(crate) fn surface(&self, ray: &Ray, max: f64) -> Option<(f64, Vec2)> {
+        let hit = self.shape().cast_ray_and_get_normal(&self.frame, ray, max, true)?;
+        Some((hit.time_of_impact, hit.normal))
+    }
+
     /// True only if this is certainly farther from a point than `limit`: by the larger of the
     /// distances along two axes, and by more than what rounding may do.
     pub(crate) fn is_beyond(&self, point: Vec2, limit: f64) -> bool {

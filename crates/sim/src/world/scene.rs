@@ -136,6 +136,20 @@ impl Scene {
         nearest
     }
 
+    /// What a ray meets first, at most `max` away: how far it is, and the surface's normal.
+    pub(crate) fn surface(
+        &self,
+        others: Others,
+        from: Vec2,
+        direction: Vec2,
+        max: f64,
+    ) -> Option<(f64, Vec2)> {
+        let ray = Ray::new(Point::from(from), direction);
+        let obstacles = self.obstacles.iter().chain(others.iter());
+        let hits = obstacles.filter_map(|obstacle| obstacle.surface(&ray, max));
+        hits.min_by(|(a, _), (b, _)| a.total_cmp(b))
+    }
+
     /// How far the first of some rays goes to meet something, at most `max`. What the middle one
     /// meets leaves few obstacles that the others could meet before.
     pub(crate) fn cast_all(

@@ -10,7 +10,7 @@ use crate::desk::{A, B, C, Desk};
 fn desk_of(sigma: f64, seed: u64) -> Desk {
     let mut robot = default_robot();
     for motor in &mut robot.motors {
-        motor.encoder_noise = sigma;
+        motor.encoder_noise = Some(sigma);
     }
     let options = Options { seed, ..Options::default() };
     Desk(Machine::new(&WorldSpec::default(), &robot, options).unwrap())
@@ -102,7 +102,7 @@ fn positions_that_are_held_are_those_that_are_shown() {
 fn errors_are_not_below_0() {
     for sigma in [-1.0, f64::NAN, f64::INFINITY] {
         let mut robot = default_robot();
-        robot.motors[1].encoder_noise = sigma;
+        robot.motors[1].encoder_noise = Some(sigma);
         let error = robot.validate().unwrap_err();
         assert!(error.to_string().starts_with("encoder noise on outB"), "{error}");
     }

@@ -2,7 +2,7 @@
 
 use ev3_sim::facts::Fact;
 use ev3_sim::{Access, Descriptor, Errno, Port};
-use ev3_sim::{MotorMount, Noise, Pose, RobotSpec, WorldSpec};
+use ev3_sim::{MotorMount, Pose, RobotSpec, WorldSpec};
 
 use crate::desk::{A, B, C, Desk};
 
@@ -640,8 +640,8 @@ fn an_end_stop_stalls_in_its_direction_only_also_without_wheels() {
     let motor = Fact::Motor(MotorMount {
         port: Port::OutA,
         driver: "lego-ev3-m-motor".into(),
-        noise: Noise::NONE,
-        encoder_noise: 0.0,
+        noise: None,
+        encoder_noise: None,
         stops: Some([-30.0, 90.0]),
     });
     let robot = RobotSpec::from_facts(&[motor]).unwrap();

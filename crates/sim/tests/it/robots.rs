@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each program that includes this uses a part")]
 
 use ev3_sim::facts::Fact;
-use ev3_sim::{Hull, Machine, MotorMount, Noise, Options, Pose, RobotSpec, SensorMount};
+use ev3_sim::{Echo, Hull, Machine, MotorMount, Options, Pose, RobotSpec, SensorMount};
 use ev3_sim::{Wheel, Wheels, WorldSpec};
 
 /// The robot of the paper.
@@ -45,7 +45,6 @@ fn fact(line: &str) -> Fact {
     let number = |index: usize| words[index].parse::<f64>().unwrap();
     let port = || words[0].parse().unwrap();
     let wheel = || Wheel { port: port(), diameter: number(1), inverted: false, slip: 0.0 };
-    let noise = Noise::NONE;
     match name {
         "left_wheel" => Fact::LeftWheel(wheel()),
         "right_wheel" => Fact::RightWheel(wheel()),
@@ -58,13 +57,19 @@ fn fact(line: &str) -> Fact {
         "motor" => Fact::Motor(MotorMount {
             port: port(),
             driver: words[1].into(),
-            noise,
-            encoder_noise: 0.0,
+            noise: None,
+            encoder_noise: None,
             stops: None,
         }),
         "sensor" => {
             let pose = Pose::new(number(2), number(3), number(4));
-            Fact::Sensor(SensorMount { port: port(), driver: words[1].into(), pose, noise })
+            Fact::Sensor(SensorMount {
+                port: port(),
+                driver: words[1].into(),
+                pose,
+                noise: None,
+                echo: Echo::default(),
+            })
         }
         _ => panic!("unknown fact: {line}"),
     }

@@ -235,8 +235,8 @@ fn the_gyro_turns_with_the_robot_and_restarts_with_its_mode() {
 #[test]
 fn gyro_drift_and_noise_are_off_until_asked_for() {
     let mut robot = default_robot();
-    robot.sensors[3].noise = Noise { sigma: 0.0, bias: 0.5 };
-    robot.sensors[0].noise = Noise { sigma: 1.0, bias: 0.0 };
+    robot.sensors[3].noise = Some(Noise { sigma: 0.0, bias: 0.5 });
+    robot.sensors[0].noise = Some(Noise { sigma: 1.0, bias: 0.0 });
     let wall = world(vec![Item::wall([-100.0, 100.0], [100.0, 100.0])]);
     let readings = |seed| {
         let mut desk =

@@ -3,7 +3,7 @@
 use crate::robots::{default_robot, wheels, with_axle};
 use ev3_sim::facts::{Fact, culprit};
 use ev3_sim::{
-    Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Noise, Options, Port, Pose,
+    Action, Bounds, Drawing, Hull, Item, ItemId, Machine, MotorMount, Options, Port, Pose,
     RobotSpec, WorldSpec,
 };
 
@@ -108,13 +108,7 @@ fn errors_are_put_to_the_fact_that_is_to_blame() {
 
     let motor = |port| {
         let driver = "lego-ev3-l-motor".to_owned();
-        Fact::Motor(MotorMount {
-            port,
-            driver,
-            noise: Noise::NONE,
-            encoder_noise: 0.0,
-            stops: None,
-        })
+        Fact::Motor(MotorMount { port, driver, noise: None, encoder_noise: None, stops: None })
     };
     let facts = [Fact::Axle(9.0), motor(Port::OutB), motor(Port::OutB)];
     let error = RobotSpec::from_facts(&facts).unwrap_err();
