@@ -49,7 +49,7 @@ natives! {
         let call = Call::of(context, "pose_uncertainty", 1);
         let drive = drive_of(&call, robot, use_gyro)?;
         let covariance = call.or_fail(drive.uncertainty())?;
-        let lists = covariance.map(|row| floats(&call, &row)).into_iter();
+        let lists = covariance.map(|row| call.floats(&row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
 
@@ -108,7 +108,8 @@ fn robot_of<'a, C: QueryableContextType>(
     Ok(Robot { ports: [call.text(&left)?.into(), call.text(&right)?.into()], wheels })
 }
 
-fn drive_of<'a, C: QueryableContextType>(
+/// The drive of a robot, and whether it is to use its gyro.
+pub(crate) fn drive_of<'a, C: QueryableContextType>(
     call: &Call<'a, C>,
     robot: &Term<'a>,
     use_gyro: &Term<'a>,
@@ -181,14 +182,4 @@ fn options_of<'a, C: QueryableContextType>(
         use_gyro: use_gyro.get_ex()?,
     };
     Ok((options, wait.get_ex()?, call.seconds(&timeout)?))
-}
-
-/// A list of floats.
-fn floats<'a, C: QueryableContextType>(
-    call: &Call<'a, C>,
-    values: &[f64],
-) -> PrologResult<Term<'a>> {
-    let list = call.context.new_term_ref();
-    list.unify(values)?;
-    Ok(list)
 }

@@ -22,6 +22,7 @@ mod grid;
 mod halt;
 mod journal;
 mod lights;
+mod localize;
 mod motors;
 mod navigation;
 mod ports;
@@ -52,6 +53,7 @@ pub extern "C" fn install() {
     swipl::fli::act_at_halt(halt::halts);
     journal::register();
     lights::register();
+    localize::register();
     battery::register();
     ports::register();
     sensors::register();

@@ -10,12 +10,10 @@
 :- use_module(private/causes, [acting_for/2]).
 :- use_module(private/drive_moves, [move/3]).
 :- use_module(private/arguments,
-              [ number_option/4, number_value/2, option/2, option/3,
-                take_options/4
-              ]).
+              [number_option/4, option/2, option/3, take_options/4]).
 :- use_module(private/places, [place/2]).
 :- use_module(private/roadmap_arguments,
-              [roadmap_facts/2, roadmap_options/2]).
+              [roadmap_facts/2, roadmap_options/2, sensor_option/2]).
 :- use_module(robot, [stop/0]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(private/native,
@@ -94,7 +92,7 @@ navigate_to(Map, Goal0, Options) :-
     number_option(tolerance(Tolerance), positive_number, Own, 2),
     option(steps(Steps), Own, 200),
     must_be(nonneg, Steps),
-    sensor(Own, Sensor),
+    sensor_option(Own, Sensor),
     once(us_dist_cm(Port, _)),
     views_new_(Radius, Views),
     Drive = drive(Views, Facts, Goal, Margin, Native,
@@ -109,15 +107,6 @@ navigate_to(Map, Goal0, Options) :-
     option(reason(Reason), Own, reached),
     Obstacles = Obstacles0,
     Reason = Reason0.
-
-sensor(Options, sensor(X, Y, Heading)) :-
-    (   option(sensor(X0, Y0, Heading0), Options)
-    ->  true
-    ;   X0 = 0, Y0 = 7, Heading0 = 0
-    ),
-    number_value(X0, X),
-    number_value(Y0, Y),
-    number_value(Heading0, Heading).
 
 %   Plans with the map alone first: if that leaves no way, nothing moves.
 

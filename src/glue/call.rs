@@ -293,6 +293,13 @@ impl<'a, C: QueryableContextType> Call<'a, C> {
         if found.len() == 0 { self.absent(class, port) } else { Ok(found) }
     }
 
+    /// A list of floats.
+    pub(crate) fn floats(&self, values: &[f64]) -> PrologResult<Term<'a>> {
+        let list = self.context.new_term_ref();
+        list.unify(values)?;
+        Ok(list)
+    }
+
     /// The elements of a list.
     pub(crate) fn list(&self, term: &Term<'a>) -> PrologResult<Vec<Term<'a>>> {
         self.must_be_list(term)?;

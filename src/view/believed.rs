@@ -36,6 +36,11 @@ pub(crate) fn pose_is_set(believed: Pose) {
     *watched().frame() = (!is_near).then_some(Frame { believed, real });
 }
 
+/// The program knows where the robot is in the world.
+pub(crate) fn pose_is_of_world() {
+    *watched().frame() = None;
+}
+
 /// What the drive knows, without looking; with the way after a moment. While a thread of the
 /// program is at it, what it knew last, without the way.
 pub(super) fn believed(after: Duration) -> Option<Believed> {

@@ -19,7 +19,7 @@ mod state;
 mod terms;
 mod threads;
 
-pub(crate) use self::believed::{counting_begins, pose_is_set};
+pub(crate) use self::believed::{counting_begins, pose_is_of_world, pose_is_set};
 
 use self::notes::notes;
 use self::reach::{keep_samples, running_simulations, seconds, stop_motors};

@@ -32,6 +32,18 @@ impl Pose {
         Self { x: self.x + chord * sin, y: self.y + chord * cos, heading: self.heading + turn }
     }
 
+    /// The pose that is to this one as `to` is to `from`.
+    #[must_use]
+    pub fn moved(self, from: Self, to: Self) -> Self {
+        let (sin, cos) = libm::sincos((self.heading - from.heading).to_radians());
+        let [x, y] = [to.x - from.x, to.y - from.y];
+        Self {
+            x: self.x + x * cos + y * sin,
+            y: self.y - x * sin + y * cos,
+            heading: self.heading + to.heading - from.heading,
+        }
+    }
+
     /// Where it is.
     #[must_use]
     pub fn point(self) -> Point {
@@ -81,3 +93,20 @@ const SHORTER_ARC: f64 = 0.005;
 /// The factors of the powers of x², highest first. They take a processor without
 /// floating point unit less time than a sine and a division.
 const SERIES: [f64; 5] = [1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_move_is_the_same_from_another_pose() {
+        let from = Pose { x: 1.0, y: 2.0, heading: 90.0 };
+        let to = Pose { x: 4.0, y: 2.0, heading: 450.0 };
+        let moved = Pose { x: 10.0, y: 10.0, heading: 0.0 }.moved(from, to);
+        // Ahead, and once around.
+        assert!((moved.x - 10.0).abs() < 1e-12 && (moved.y - 13.0).abs() < 1e-12, "{moved:?}");
+        assert!((moved.heading - 360.0).abs() < 1e-12);
+        let back = moved.moved(to, from);
+        assert!((back.x - 10.0).abs() < 1e-12 && (back.y - 10.0).abs() < 1e-12, "{back:?}");
+    }
+}

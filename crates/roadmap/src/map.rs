@@ -121,6 +121,15 @@ impl Obstacle {
             Shape::Circle { .. } => None,
         }
     }
+
+    /// Center and radius of a round one.
+    #[must_use]
+    pub fn round(&self) -> Option<(Point, f64)> {
+        match self.0 {
+            Shape::Circle { center, radius } => Some((center, radius)),
+            Shape::Polygon(_) => None,
+        }
+    }
 }
 
 /// A segment with the box around it.
@@ -190,11 +199,14 @@ impl Map {
         &self.obstacles
     }
 
+    /// The rectangle that the robot does not leave.
+    #[must_use]
+    pub fn bounds(&self) -> Option<&Bounds> {
+        self.bounds.as_ref()
+    }
+
     fn circles(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
-        self.obstacles.iter().filter_map(|obstacle| match obstacle.0 {
-            Shape::Circle { center, radius } => Some((center, radius)),
-            Shape::Polygon(_) => None,
-        })
+        self.obstacles.iter().filter_map(Obstacle::round)
     }
 
     /// How far a point is from the nearest obstacle; 0 inside of one and

@@ -136,6 +136,9 @@ allowed(volume,             'a volume is a number from 0 to 100').
 allowed(echo_option,
         [ half_angle('Degrees'), incidence('Degrees'), miss('Share'),
           spurious('Share') ]).
+allowed(localize_start,
+        [ unknown, pose('X', 'Y', 'Heading'),
+          pose('X', 'Y', 'Heading', 'Sigma') ]).
 allowed(mounting_option,    [stops('Min', 'Max')]).
 allowed(wheel_option,       [inverted('Boolean'), slip('Share')]).
 allowed(world_item,         Items) :-

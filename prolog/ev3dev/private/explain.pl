@@ -68,6 +68,7 @@ itself. A program that asks for messages has loaded it.
 %       The brick has no `buttons`, `screen`, `speaker` or `battery`.
 %     - no_robot
 %     - no_grid
+%     - no_localizer
 %     - no_reading(Reading)
 %     - no_simulation
 
@@ -344,6 +345,8 @@ because(lacking(What), existence_error(What, brick), Text) :-
            [What]).
 because(no_robot, existence_error(robot, any),
         'no robot is set: see set_robot/4').
+because(no_localizer, existence_error(localizer, any),
+        'the robot does not localize: see localize_start/1').
 because(no_grid, existence_error(grid, any),
         'there is no grid: see set_grid/1').
 because(no_reading(Reading), existence_error(reading, Reading), Text) :-

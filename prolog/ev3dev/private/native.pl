@@ -100,6 +100,15 @@
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
+            localize_at_/3,
+            localize_best_/5,
+            localize_clusters_/2,
+            localize_correct_/3,
+            localize_new_/3,
+            localize_particles_/2,
+            localize_reset_/1,
+            localize_step_/6,
+            localize_sure_/4,
             views_block_/2,
             views_forget_/1,
             views_look_/5,
@@ -407,6 +416,21 @@ missing.
 %!  views_step_(+Views, +Facts, +Way, +Options, -Step) is semidet.
 %
 %   `src/navigation.rs`
+
+% Localization
+
+%!  localize_at_(+Localizer, +Pose, +Deviation) is semidet.
+%!  localize_best_(+Localizer, -X, -Y, -Heading, -Covariance) is semidet.
+%!  localize_clusters_(+Localizer, -Clusters) is semidet.
+%!  localize_correct_(+Localizer, +Robot, +UseGyro) is semidet.
+%!  localize_new_(+Facts, +Options, -Localizer) is semidet.
+%!  localize_particles_(+Localizer, -Particles) is semidet.
+%!  localize_reset_(+Localizer) is semidet.
+%!  localize_step_(+Localizer, +Robot, +UseGyro, +Cm, -Step, -Turned) is
+%!      semidet.
+%!  localize_sure_(+Localizer, -Confidence, -Fit, -MustLook) is semidet.
+%
+%   `src/localize.rs`
 
 % Simulator
 

@@ -1,13 +1,14 @@
 :- module(ev3dev_roadmap_arguments,
           [ roadmap_facts/2,            % +Map, -Facts
-            roadmap_options/2           % +Options, -Native
+            roadmap_options/2,          % +Options, -Native
+            sensor_option/2             % +Options, -Sensor
           ]).
 :- use_module(errors, [must_be/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(facts, [located_facts/3]).
 :- use_module(arguments,
               [ must_be_options/3, must_be_within/4, number_option/4,
-                option/3, word/2
+                number_value/2, option/2, option/3, word/2
               ]).
 
 /** <module> Arguments of planning and navigation
@@ -52,3 +53,18 @@ roadmap_options(Options, options(Keep, Arc, Method, Samples, Seed)) :-
     must_be_within(0, 100000, samples, Samples),
     option(seed(Seed), Options, 1),
     must_be(integer, Seed).
+
+%!  sensor_option(+Options, -Sensor) is det.
+%
+%   True if Sensor is the option sensor(X, Y, Heading): where the ultrasonic
+%   sensor is on the robot, and where it looks. The default is the shipped
+%   robot's.
+
+sensor_option(Options, sensor(X, Y, Heading)) :-
+    (   option(sensor(X0, Y0, Heading0), Options)
+    ->  true
+    ;   X0 = 0, Y0 = 7, Heading0 = 0
+    ),
+    number_value(X0, X),
+    number_value(Y0, Y),
+    number_value(Heading0, Heading).

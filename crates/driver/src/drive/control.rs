@@ -40,6 +40,8 @@ pub(super) struct Inner {
     /// When the wheels last turned.
     pub(super) moved: Duration,
     pub(super) estimate: Estimate,
+    /// The pose when it was last set, and the one that it would have had otherwise.
+    was_set: [Pose; 2],
     /// Whether the gyro follows the wheels in the motion under way.
     agreement: Agreement,
     /// The end of the previous motion.
@@ -59,6 +61,7 @@ impl Inner {
             now: Duration::ZERO,
             moved: Duration::ZERO,
             estimate: Estimate::default(),
+            was_set: [Pose::default(); 2],
             agreement: Agreement::default(),
             goal: None,
             active: None,
@@ -85,7 +88,14 @@ impl Inner {
         self.estimate.pose().ahead(-self.robot.wheels.offset)
     }
 
+    /// Where wheels and gyro have brought it, whatever poses have been set.
+    pub(super) fn rolled(&self) -> Pose {
+        let [set, rolled] = self.was_set;
+        rolled.moved(set, self.pose())
+    }
+
     pub(super) fn set_pose(&mut self, pose: Pose) {
+        self.was_set = [pose, self.rolled()];
         self.estimate.set_pose(pose.ahead(self.robot.wheels.offset));
     }
 

@@ -33,10 +33,13 @@ use control::Inner;
 pub use control::{Command, DriveOptions};
 pub use devices::Robot;
 use devices::{angle, counts};
-use ev3_motion::Pose;
+use ev3_motion::{Pose, distance};
 pub use motion::{Outcome, PERIOD};
 use std::sync::{Arc, Mutex, MutexGuard, Weak};
 use std::time::Duration;
+
+/// By how much the pose may be corrected in a motion, in cm and degrees.
+const AWAY: [f64; 2] = [20.0, 20.0];
 
 /// How far the gyro may turn either way before its angle is put back to 0, in
 /// degrees: half of what its 16 bits hold, so that no move fills them.
@@ -116,6 +119,35 @@ impl Drive {
     /// The kernel's.
     pub fn pose(&self) -> Result<Option<Pose>> {
         Ok(self.look()?.map(|inner| inner.pose()))
+    }
+
+    /// Where wheels and gyro have brought it since the start, whatever poses have been set;
+    /// `None` where a motor is absent.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn rolled(&self) -> Result<Option<Pose>> {
+        Ok(self.look()?.map(|inner| inner.rolled()))
+    }
+
+    /// Corrects the pose of the robot, by a map for one. A motion under way goes on, and steers
+    /// back to its course; where that would be too far away, nothing changes. `false` then, and
+    /// where a motor is absent.
+    ///
+    /// # Errors
+    /// The kernel's.
+    pub fn correct_pose(&self, pose: Pose) -> Result<bool> {
+        let Some(mut inner) = self.look()? else {
+            return Ok(false);
+        };
+        let before = inner.pose();
+        let is_far = distance(before.point(), pose.point()) > AWAY[0]
+            || (pose.heading - before.heading).abs() > AWAY[1];
+        if inner.active.is_some() && is_far {
+            return Ok(false);
+        }
+        inner.set_pose(pose);
+        Ok(true)
     }
 
     /// Sets the pose of the robot; `false` where a motor is absent.

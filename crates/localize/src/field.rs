@@ -1,0 +1,278 @@
+//! What a sensor would measure at each place of a map.
+use crate::model::FAR;
+use ev3_motion::{Point, Pose};
+use ev3_roadmap::{Bounds, Map};
+
+/// Side of a cell of the free area, in cm.
+const CELL: f64 = 5.0;
+/// Steps of the table, in cm and degrees.
+const STEP: f64 = 5.0;
+const TURN: f64 = 5.0;
+const TURNS: usize = 72;
+/// A larger table is not made, in bytes.
+const LARGEST_TABLE: usize = 8 << 20;
+/// A wall is so long as the cone is wide at least there, in degrees.
+const NARROWEST: f64 = 0.5;
+/// The most cells of the free area.
+const MOST_CELLS: f64 = 4e6;
+
+/// What is impossible about a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unfit {
+    /// An endless map has no place that is more probable than another.
+    #[error("needs bounds")]
+    Unbounded,
+    /// Beyond what fits into memory.
+    #[error("must not be larger than 10000 square meters")]
+    TooLarge,
+    /// Nowhere is the robot's hull free.
+    #[error("has no place that is wide enough for the robot")]
+    Full,
+}
+
+/// An edge of an obstacle.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    from: Point,
+    along: Point,
+    /// 1 / its length squared.
+    per_square: f64,
+}
+
+/// A map, prepared for many questions about what is heard where.
+#[derive(Clone, Debug)]
+pub struct Field {
+    bounds: Bounds,
+    edges: Vec<Edge>,
+    circles: Vec<(Point, f64)>,
+    /// Tangents of half the cone's angle.
+    half_angle: f64,
+    columns: usize,
+    rows: usize,
+    /// Where the middle of the robot may be, by rows from below.
+    free: Vec<bool>,
+    free_cells: usize,
+    table: Option<Vec<u8>>,
+}
+
+impl Field {
+    /// A map for a robot with a round hull, in cm, and a sensor whose cone goes `half_angle`
+    /// degrees to each side.
+    ///
+    /// # Errors
+    /// If the map has no bounds or no room.
+    pub fn new(map: &Map, hull: f64, half_angle: f64) -> Result<Field, Unfit> {
+        let bounds = *map.bounds().ok_or(Unfit::Unbounded)?;
+        let Bounds { low, high } = bounds;
+        let [width, height] = [high[0] - low[0], high[1] - low[1]];
+        if width * height > MOST_CELLS * CELL * CELL {
+            return Err(Unfit::TooLarge);
+        }
+        let (columns, rows) = (cells(width), cells(height));
+        let mut edges = Vec::new();
+        let mut circles = Vec::new();
+        let around = [low, [high[0], low[1]], high, [low[0], high[1]]];
+        add_edges(&mut edges, &around);
+        for obstacle in map.obstacles() {
+            match (obstacle.corners(), obstacle.round()) {
+                (Some(corners), _) => add_edges(&mut edges, corners),
+                (None, Some(circle)) => circles.push(circle),
+                (None, None) => {}
+            }
+        }
+        let middle = |index: usize, low: f64| low + (float(index) + 0.5) * CELL;
+        let is_free = |cell: usize| {
+            let at = [middle(cell % columns, low[0]), middle(cell / columns, low[1])];
+            map.clearance(at) >= hull - CELL / 4.0
+        };
+        let free: Vec<bool> = (0..columns * rows).map(is_free).collect();
+        let free_cells = free.iter().filter(|free| **free).count();
+        if free_cells == 0 {
+            return Err(Unfit::Full);
+        }
+        let half_angle = half_angle.max(NARROWEST);
+        Ok(Field { bounds, edges, circles, half_angle, columns, rows, free, free_cells, table: None })
+    }
+
+    /// The same with a table of what is heard where: for processors that calculate slowly. It has
+    /// steps of 5 cm and 5 degrees. A map that is very large gets none.
+    #[must_use]
+    pub fn with_table(mut self) -> Field {
+        let size = self.columns * self.rows * TURNS;
+        if size > LARGEST_TABLE {
+            return self;
+        }
+        let mut table = Vec::with_capacity(size);
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                for turn in 0..TURNS {
+                    let [x, y] = self.bounds.low;
+                    let x = x + (float(column) + 0.5) * STEP;
+                    let y = y + (float(row) + 0.5) * STEP;
+                    let pose = Pose { x, y, heading: float(turn) * TURN };
+                    table.push(self.exact(pose).map_or(u8::MAX, byte));
+                }
+            }
+        }
+        self.table = Some(table);
+        self
+    }
+
+    /// Whether it has a table.
+    #[must_use]
+    pub fn has_table(&self) -> bool {
+        self.table.is_some()
+    }
+
+    /// The distance of the nearest thing in the cone of a sensor, in cm; `None` if it is farther
+    /// than the sensor hears.
+    #[must_use]
+    pub fn heard(&self, sensor: Pose) -> Option<f64> {
+        match &self.table {
+            Some(table) => self.looked_up(table, sensor),
+            None => self.exact(sensor),
+        }
+    }
+
+    fn looked_up(&self, table: &[u8], sensor: Pose) -> Option<f64> {
+        let cell = self.cell(sensor.point())?;
+        #[expect(clippy::cast_possible_truncation, reason = "headings are small")]
+        let turn = (sensor.heading * (1.0 / TURN) + 0.5).floor() as i64;
+        let turn = usize::try_from(turn.rem_euclid(TURNS as i64)).unwrap_or(0);
+        let distance = table[cell * TURNS + turn];
+        (distance < u8::MAX).then(|| f64::from(distance))
+    }
+
+    fn exact(&self, sensor: Pose) -> Option<f64> {
+        let at = sensor.point();
+        let edge = |turn: f64| {
+            let (sin, cos) = libm::sincos((sensor.heading + turn).to_radians());
+            [sin, cos]
+        };
+        let (left, right) = (edge(-self.half_angle), edge(self.half_angle));
+        let mut nearest = FAR * FAR;
+        for line in &self.edges {
+            if let Some(square) = line.within(at, left, right) {
+                nearest = nearest.min(square);
+            }
+        }
+        let mut nearest = nearest.sqrt();
+        for (center, radius) in &self.circles {
+            let away = [center[0] - at[0], center[1] - at[1]];
+            if let Some(distance) = round_within(away, *radius, left, right) {
+                nearest = nearest.min(distance);
+            }
+        }
+        (nearest < FAR).then_some(nearest)
+    }
+
+    /// Whether the middle of the robot may be there.
+    #[must_use]
+    pub fn is_free(&self, at: Point) -> bool {
+        self.cell(at).is_some_and(|cell| self.free[cell])
+    }
+
+    fn cell(&self, at: Point) -> Option<usize> {
+        let index = |axis: usize, count: usize| {
+            let steps = (at[axis] - self.bounds.low[axis]) * (1.0 / CELL);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "saturates, and the sign is known"
+            )]
+            let steps = (steps >= 0.0).then_some(steps as usize);
+            steps.filter(|steps| *steps < count)
+        };
+        Some(index(1, self.rows)? * self.columns + index(0, self.columns)?)
+    }
+
+    /// The rectangle around it.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Where the middle of the robot may be, in square meters.
+    #[must_use]
+    pub fn free_area(&self) -> f64 {
+        float(self.free_cells) * CELL * CELL / 1e4
+    }
+}
+
+impl Edge {
+    /// The square of its distance from a place, within a cone between two directions.
+    fn within(&self, at: Point, left: Point, right: Point) -> Option<f64> {
+        let from = [self.from[0] - at[0], self.from[1] - at[1]];
+        let mut range = [0.0, 1.0];
+        let sides = [
+            (cross(right, from), cross(right, self.along)),
+            (-cross(left, from), -cross(left, self.along)),
+        ];
+        for (inside, change) in sides {
+            if inside < 0.0 && inside + change < 0.0 {
+                return None;
+            }
+            if inside < 0.0 {
+                range[0] = f64::max(range[0], -inside / change);
+            } else if inside + change < 0.0 {
+                range[1] = f64::min(range[1], -inside / change);
+            }
+        }
+        if range[0] > range[1] {
+            return None;
+        }
+        let foot = -dot(from, self.along) * self.per_square;
+        let part = foot.clamp(range[0], range[1]);
+        let nearest = [from[0] + part * self.along[0], from[1] + part * self.along[1]];
+        Some(dot(nearest, nearest))
+    }
+}
+
+/// How far a disc is, within a cone between two directions of length 1.
+fn round_within(away: Point, radius: f64, left: Point, right: Point) -> Option<f64> {
+    let beyond = [-cross(right, away), cross(left, away)];
+    let square = dot(away, away);
+    let edge = match beyond {
+        [aside, other] if aside <= 0.0 && other <= 0.0 => {
+            return Some((square.sqrt() - radius).max(0.0));
+        }
+        [aside, other] if aside > other => right,
+        _ => left,
+    };
+    // The border of the cone that is nearer to it.
+    let along = dot(edge, away);
+    let inside = along * along - square + radius * radius;
+    (along > 0.0 && inside >= 0.0).then(|| (along - inside.sqrt()).max(0.0))
+}
+
+fn add_edges(edges: &mut Vec<Edge>, corners: &[Point]) {
+    let next = corners.iter().cycle().skip(1);
+    edges.extend(corners.iter().zip(next).map(|(from, to)| {
+        let along = [to[0] - from[0], to[1] - from[1]];
+        Edge { from: *from, along, per_square: 1.0 / dot(along, along) }
+    }));
+}
+
+fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+pub(crate) fn float(count: usize) -> f64 {
+    count as f64
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be small")]
+fn cells(length: f64) -> usize {
+    libm::ceil(length / CELL - 1e-9).max(1.0) as usize
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+fn byte(distance: f64) -> u8 {
+    libm::round(distance).min(254.0) as u8
+}

@@ -1,0 +1,293 @@
+//! Localization as it goes on: a search, then tracking, and a search again once the robot is lost.
+use crate::field::{Field, float};
+use crate::model::{FAR, Model, Move, Wander};
+use crate::particles::{Cluster, Count, Particle, Particles, beside};
+use crate::start::{Look, particles, places, spread_particles};
+use ev3_motion::{Pose, distance, wrapped};
+use rand_pcg::Pcg32;
+
+/// Looks that a search needs, and over how many degrees.
+const LOOKS: usize = 70;
+const AROUND: f64 = 250.0;
+/// Looks from farther back on the way than this do not count for it, in cm.
+const WAY: f64 = 150.0;
+/// Looks so near to the last one, in degrees and cm, tell nothing new.
+const SAME_LOOK: [f64; 2] = [2.0, 2.0];
+/// A new measurement counts for so much of the fit.
+const SMOOTH: f64 = 0.03;
+/// Below this fit the robot is lost.
+const LOST: f64 = 0.35;
+/// The particles of a place are at least so many.
+const LEAST_OF_PLACE: f64 = 30.0;
+
+/// A cluster of so much of the probability, and of such a deviation in cm, tells where it is.
+const SURE: f64 = 0.9;
+const NARROW: f64 = 10.0;
+
+/// What a localizer does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// How the sensor measures.
+    pub model: Model,
+    /// How the odometry errs.
+    pub wander: Wander,
+    /// Where the sensor is: x to the right and y ahead of the robot's middle, and its heading.
+    pub sensor: Pose,
+    /// How many particles there are.
+    pub count: Count,
+    /// After which way in cm or turn in degrees a measurement counts.
+    pub update: [f64; 2],
+    /// The seed of the random numbers.
+    pub seed: u64,
+    /// Whether an unknown place is searched for by a look around. Else particles are spread over
+    /// all of the map, and weighed from the first measurement on, as textbooks have it: they are
+    /// soon sure of a wrong place.
+    pub search: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            model: Model::default(),
+            wander: Wander::GYRO,
+            sensor: Pose { x: 0.0, y: 7.0, heading: 0.0 },
+            count: Count::Adaptive(500, 5000),
+            update: [2.0, 4.0],
+            seed: 1,
+            search: true,
+        }
+    }
+}
+
+/// What a measurement has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Nothing: the robot has hardly moved, or more looks are needed.
+    Nothing,
+    /// The poses that are possible have been weighed.
+    Tracked,
+    /// A search has found where it may be.
+    Found,
+    /// The measurements contradict all poses: it must look around.
+    Lost,
+}
+
+/// Where a robot may be.
+#[derive(Clone, Debug)]
+pub struct Localizer {
+    field: Field,
+    options: Options,
+    generator: Pcg32,
+    particles: Particles,
+    /// Whether the particles are tracked; else a search begins when enough is seen.
+    is_tracking: bool,
+    looks: Vec<Look>,
+    /// By odometry, where it was when particles were moved, and weighed.
+    moved: Option<Pose>,
+    weighed: Option<Pose>,
+    fit: f64,
+}
+
+impl Localizer {
+    /// A robot that may be anywhere.
+    #[must_use]
+    pub fn new(field: Field, options: Options) -> Localizer {
+        let generator = Pcg32::new(options.seed, 1);
+        let mut localizer = Localizer {
+            field,
+            options,
+            generator,
+            particles: Particles::default(),
+            is_tracking: false,
+            looks: Vec::new(),
+            moved: None,
+            weighed: None,
+            fit: 0.0,
+        };
+        localizer.reset();
+        localizer
+    }
+
+    /// The robot is at a pose, with a standard deviation in cm, and half of that in degrees.
+    pub fn start_at(&mut self, pose: Pose, deviation: f64) {
+        let count = match self.options.count {
+            Count::Fixed(count) => count,
+            Count::Adaptive(least, _) => least,
+        };
+        let deviation = [deviation, deviation / 2.0];
+        let particle = |()| Particle {
+            pose: beside(pose, deviation, &mut self.generator),
+            weight: 1.0 / float(count),
+        };
+        self.particles.all = std::iter::repeat_n((), count).map(particle).collect();
+        self.track(1.0);
+    }
+
+    /// It may be anywhere again.
+    pub fn reset(&mut self) {
+        self.particles.all.clear();
+        self.is_tracking = false;
+        self.looks.clear();
+        self.fit = 0.0;
+        if !self.options.search {
+            let (Count::Fixed(count) | Count::Adaptive(_, count)) = self.options.count;
+            self.particles = spread_particles(&self.field, count, &mut self.generator);
+            self.track(1.0);
+        }
+    }
+
+    fn track(&mut self, fit: f64) {
+        self.is_tracking = true;
+        self.fit = fit;
+        self.moved = None;
+        self.weighed = None;
+    }
+
+    /// Takes a measurement: the pose by odometry, and what is heard, in cm; 255 or more is nothing.
+    pub fn step(&mut self, odometry: Pose, heard: f64) -> Step {
+        let heard = (heard < FAR).then_some(heard);
+        let is_new = self.remember(Look { pose: odometry, heard });
+        if self.is_tracking {
+            return self.follow(odometry, heard);
+        }
+        self.go(odometry);
+        if is_new && self.has_looked_around() { self.search() } else { Step::Nothing }
+    }
+
+    /// Whether the look is kept for a search.
+    fn remember(&mut self, look: Look) -> bool {
+        let is_same = self.looks.last().is_some_and(|last| {
+            !has_moved(last.pose, look.pose, SAME_LOOK)
+        });
+        if is_same {
+            return false;
+        }
+        self.looks.push(look);
+        let pairs = self.looks.windows(2).rev();
+        let mut way = 0.0;
+        let kept = pairs.take_while(|pair| {
+            way += distance(pair[0].pose.point(), pair[1].pose.point());
+            way <= WAY
+        });
+        let kept = kept.count() + 1;
+        let most = 2 * LOOKS;
+        self.looks.drain(..self.looks.len() - kept.min(most));
+        true
+    }
+
+    fn has_looked_around(&self) -> bool {
+        let headings = self.looks.iter().map(|look| look.pose.heading);
+        let low = headings.clone().fold(f64::INFINITY, f64::min);
+        let high = headings.fold(f64::NEG_INFINITY, f64::max);
+        self.looks.len() >= LOOKS && high - low >= AROUND
+    }
+
+    fn sensor(&self) -> Move {
+        Move::between(Pose::default(), self.options.sensor)
+    }
+
+    fn search(&mut self) -> Step {
+        let (field, model, sensor) = (&self.field, &self.options.model, self.sensor());
+        let places = places(field, model, sensor, &self.looks, &mut self.generator);
+        let least = match self.options.count {
+            Count::Fixed(count) => count,
+            Count::Adaptive(least, _) => least,
+        };
+        let fit: f64 = places.iter().map(|place| place.weight * place.fit).sum();
+        if fit < LOST {
+            // The next half turn may fit better.
+            self.looks.drain(..self.looks.len() / 2);
+            return Step::Nothing;
+        }
+        let likely: Vec<_> = places.into_iter().filter(|place| place.weight > 0.002).collect();
+        self.particles = particles(&likely, least, LEAST_OF_PLACE, &mut self.generator);
+        self.track(fit);
+        let last = self.looks.last().map(|look| look.pose);
+        self.moved = last;
+        self.weighed = last;
+        Step::Found
+    }
+
+    /// Moves the particles with the robot.
+    fn go(&mut self, odometry: Pose) {
+        let from = self.moved.replace(odometry).unwrap_or(odometry);
+        let moved = Move::between(from, odometry);
+        self.particles.go(moved, self.options.wander, &mut self.generator);
+    }
+
+    fn follow(&mut self, odometry: Pose, heard: Option<f64>) -> Step {
+        if self.weighed.is_some_and(|last| !has_moved(last, odometry, self.options.update)) {
+            return Step::Nothing;
+        }
+        self.go(odometry);
+        self.weighed = Some(odometry);
+        let sensor = self.sensor();
+        let fit = self.particles.weigh(&self.field, &self.options.model, sensor, heard);
+        self.fit += SMOOTH * (fit - self.fit);
+        if self.fit < LOST && self.options.search {
+            self.is_tracking = false;
+            // What was heard before it was lost fits no place together with what comes.
+            self.looks.clear();
+            return Step::Lost;
+        }
+        if self.particles.effective() < float(self.particles.all.len()) / 2.0 {
+            self.particles.resample(self.options.count, &mut self.generator);
+        }
+        Step::Tracked
+    }
+
+    /// The clusters, the most probable one first; none before the first search.
+    #[must_use]
+    pub fn clusters(&self) -> Vec<Cluster> {
+        self.particles.clusters()
+    }
+
+    /// The most probable cluster.
+    #[must_use]
+    pub fn best(&self) -> Option<Cluster> {
+        self.clusters().first().copied()
+    }
+
+    /// How far it is sure of the most probable cluster, from 0 to 1: that cluster's share of the
+    /// probability, times how well the measurements fit.
+    #[must_use]
+    pub fn confidence(&self) -> f64 {
+        self.best().map_or(0.0, |best| best.weight * self.fit)
+    }
+
+    /// The most probable cluster, if it may correct the odometry.
+    #[must_use]
+    pub fn sure(&self) -> Option<Cluster> {
+        self.best().filter(|best| {
+            self.is_tracking && best.weight >= SURE && best.deviation() <= NARROW
+        })
+    }
+
+    /// How well the measurements fit, from 0 to 1.
+    #[must_use]
+    pub fn fit(&self) -> f64 {
+        self.fit
+    }
+
+    /// Whether it must look around: it does not know where it is.
+    #[must_use]
+    pub fn must_look(&self) -> bool {
+        !self.is_tracking
+    }
+
+    /// All particles.
+    #[must_use]
+    pub fn particles(&self) -> &[Particle] {
+        &self.particles.all
+    }
+
+    /// The map.
+    #[must_use]
+    pub fn field(&self) -> &Field {
+        &self.field
+    }
+}
+
+fn has_moved(from: Pose, to: Pose, [way, turn]: [f64; 2]) -> bool {
+    distance(from.point(), to.point()) >= way || wrapped(to.heading - from.heading).abs() >= turn
+}
