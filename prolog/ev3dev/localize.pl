@@ -71,8 +71,8 @@ ev3dev_brick:forget(Brick) :-
 %!  localize_start(+Map, +Options) is semidet.
 %
 %   Begin to look where the robot is. Map is a world: a name, a file, or a
-%   list of facts, which also has polygons as for roadmap_path/5. It has
-%   bounds; only obstacles count. Fails if no robot is set. Options:
+%   list of facts, which also has polygons as for roadmap_path/5. Only its
+%   bounds and obstacles count. Fails if no robot is set. Options:
 %
 %     - start(+Start)
 %       `unknown` (default), `pose(X, Y, Heading)`, or
@@ -118,7 +118,7 @@ ev3dev_brick:forget(Brick) :-
 %       sure of some place, often a wrong one. Default is `true`.
 %
 %   @error existence_error(world, Map)
-%   @error domain_error(possible_geometry, Facts) if it has no bounds, or no
+%   @error domain_error(possible_geometry, Facts) if it has nothing, or no
 %          place that is wide enough
 %   @error domain_error(localize_option, Option)
 %   @error domain_error(localize_start, Start)

@@ -1,7 +1,7 @@
 //! What a sensor would measure at each place of a map.
 use crate::model::FAR;
 use ev3_motion::{Point, Pose};
-use ev3_roadmap::{Bounds, Map};
+use ev3_roadmap::{Bounds, Map, Obstacle};
 
 /// Side of a cell of the free area, in cm.
 const CELL: f64 = 5.0;
@@ -20,9 +20,9 @@ const MOST_CELLS: f64 = 4e6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unfit {
-    /// An endless map has no place that is more probable than another.
-    #[error("needs bounds")]
-    Unbounded,
+    /// An endless map without anything has no place that is more probable than another.
+    #[error("needs bounds, or obstacles")]
+    Endless,
     /// Beyond what fits into memory.
     #[error("must not be larger than 10000 square meters")]
     TooLarge,
@@ -60,10 +60,12 @@ impl Field {
     /// A map for a robot with a round hull, in cm, and a sensor whose cone goes `half_angle`
     /// degrees to each side.
     ///
+    /// A map without bounds ends where its obstacles end.
+    ///
     /// # Errors
-    /// If the map has no bounds or no room.
+    /// If there is nothing on the map, or no room.
     pub fn new(map: &Map, hull: f64, half_angle: f64) -> Result<Field, Unfit> {
-        let bounds = *map.bounds().ok_or(Unfit::Unbounded)?;
+        let bounds = map.bounds().copied().or_else(|| around(map)).ok_or(Unfit::Endless)?;
         let Bounds { low, high } = bounds;
         let [width, height] = [high[0] - low[0], high[1] - low[1]];
         if width * height > MOST_CELLS * CELL * CELL {
@@ -72,8 +74,9 @@ impl Field {
         let (columns, rows) = (cells(width), cells(height));
         let mut edges = Vec::new();
         let mut circles = Vec::new();
-        let around = [low, [high[0], low[1]], high, [low[0], high[1]]];
-        add_edges(&mut edges, &around);
+        if map.bounds().is_some() {
+            add_edges(&mut edges, &[low, [high[0], low[1]], high, [low[0], high[1]]]);
+        }
         for obstacle in map.obstacles() {
             match (obstacle.corners(), obstacle.round()) {
                 (Some(corners), _) => add_edges(&mut edges, corners),
@@ -244,6 +247,21 @@ fn round_within(away: Point, radius: f64, left: Point, right: Point) -> Option<f
     let along = dot(edge, away);
     let inside = along * along - square + radius * radius;
     (along > 0.0 && inside >= 0.0).then(|| (along - inside.sqrt()).max(0.0))
+}
+
+/// The rectangle around all obstacles.
+fn around(map: &Map) -> Option<Bounds> {
+    let extent = |obstacle: &Obstacle| match (obstacle.corners(), obstacle.round()) {
+        (Some(corners), _) => corners.to_vec(),
+        (None, Some(([x, y], radius))) => vec![[x - radius, y - radius], [x + radius, y + radius]],
+        (None, None) => Vec::new(),
+    };
+    let points = map.obstacles().iter().flat_map(extent);
+    points.fold(None, |bounds, [x, y]| {
+        let Bounds { low, high } = bounds.unwrap_or(Bounds { low: [x, y], high: [x, y] });
+        let (low, high) = ([low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]);
+        Some(Bounds { low, high })
+    })
 }
 
 fn add_edges(edges: &mut Vec<Edge>, corners: &[Point]) {

@@ -2,7 +2,7 @@
 use crate::field::{Field, float};
 use crate::model::{FAR, Model, Move, Wander};
 use crate::particles::{Cluster, Count, Particle, Particles, beside};
-use crate::start::{Look, particles, places, spread_particles};
+use crate::start::{Look, Place, particles, places, spread_particles};
 use ev3_motion::{Pose, distance, wrapped};
 use rand_pcg::Pcg32;
 
@@ -17,8 +17,17 @@ const SAME_LOOK: [f64; 2] = [2.0, 2.0];
 const SMOOTH: f64 = 0.03;
 /// Below this fit the robot is lost.
 const LOST: f64 = 0.35;
+/// Below this fit a look around is searched for though the robot is not lost: it may be at a
+/// place that looks like the right one.
+const DOUBT: f64 = 0.8;
+/// The share of the probability that a search gives the places that it finds.
+const FOUND: [f64; 2] = [0.5, 0.7];
+/// Of those, places that are less probable are left out.
+const LEAST_PROBABLE: f64 = 0.002;
 /// The particles of a place are at least so many.
 const LEAST_OF_PLACE: f64 = 30.0;
+/// A place belongs to a cluster that is so near, in cm and degrees.
+const IN_CLUSTER: [f64; 2] = [20.0, 20.0];
 
 /// A cluster of so much of the probability, and of such a deviation in cm, tells where it is.
 const SURE: f64 = 0.9;
@@ -110,10 +119,7 @@ impl Localizer {
 
     /// The robot is at a pose, with a standard deviation in cm, and half of that in degrees.
     pub fn start_at(&mut self, pose: Pose, deviation: f64) {
-        let count = match self.options.count {
-            Count::Fixed(count) => count,
-            Count::Adaptive(least, _) => least,
-        };
+        let count = self.least_count();
         let deviation = [deviation, deviation / 2.0];
         let particle = |()| Particle {
             pose: beside(pose, deviation, &mut self.generator),
@@ -147,11 +153,14 @@ impl Localizer {
     pub fn step(&mut self, odometry: Pose, heard: f64) -> Step {
         let heard = (heard < FAR).then_some(heard);
         let is_new = self.remember(Look { pose: odometry, heard });
-        if self.is_tracking {
-            return self.follow(odometry, heard);
-        }
-        self.go(odometry);
-        if is_new && self.has_looked_around() { self.search() } else { Step::Nothing }
+        let step = if self.is_tracking {
+            self.follow(odometry, heard)
+        } else {
+            self.go(odometry);
+            Step::Nothing
+        };
+        let may_search = self.options.search && (!self.is_tracking || self.fit < DOUBT);
+        if is_new && may_search && self.has_looked_around() { self.search(step) } else { step }
     }
 
     /// Whether the look is kept for a search.
@@ -186,26 +195,50 @@ impl Localizer {
         Move::between(Pose::default(), self.options.sensor)
     }
 
-    fn search(&mut self) -> Step {
+    /// Searches for the looks on all of the map, and adds the places that are found; what it
+    /// believed before keeps a share.
+    fn search(&mut self, before: Step) -> Step {
         let (field, model, sensor) = (&self.field, &self.options.model, self.sensor());
         let places = places(field, model, sensor, &self.looks, &mut self.generator);
-        let least = match self.options.count {
-            Count::Fixed(count) => count,
-            Count::Adaptive(least, _) => least,
-        };
         let fit: f64 = places.iter().map(|place| place.weight * place.fit).sum();
+        let last = self.looks.last().map(|look| look.pose);
         if fit < LOST {
             // The next half turn may fit better.
             self.looks.drain(..self.looks.len() / 2);
-            return Step::Nothing;
+            return before;
         }
-        let likely: Vec<_> = places.into_iter().filter(|place| place.weight > 0.002).collect();
-        self.particles = particles(&likely, least, LEAST_OF_PLACE, &mut self.generator);
+        self.looks.clear();
+        let known = self.particles.clusters();
+        let is_known = |place: &Place| {
+            known.iter().any(|cluster| !has_moved(cluster.pose, place.pose, IN_CLUSTER))
+        };
+        let is_new = |place: &Place| place.weight > LEAST_PROBABLE && !is_known(place);
+        let new: Vec<Place> = places.into_iter().filter(is_new).collect();
+        let share: f64 = new.iter().map(|place| place.weight).sum();
+        let share = match (known.is_empty(), self.is_tracking) {
+            (true, _) => 1.0,
+            (false, true) => share * FOUND[0],
+            (false, false) => share * FOUND[1],
+        };
+        if !new.is_empty() {
+            let (count, least) = (self.least_count(), LEAST_OF_PLACE);
+            let found = particles(&new, count, least, &mut self.generator);
+            self.particles.add(found, share);
+        }
+        if self.is_tracking {
+            return before;
+        }
         self.track(fit);
-        let last = self.looks.last().map(|look| look.pose);
         self.moved = last;
         self.weighed = last;
         Step::Found
+    }
+
+    fn least_count(&self) -> usize {
+        match self.options.count {
+            Count::Fixed(count) => count,
+            Count::Adaptive(least, _) => least,
+        }
     }
 
     /// Moves the particles with the robot.

@@ -100,10 +100,24 @@ impl Particles {
             self.even();
             return 0.0;
         }
-        for particle in &mut self.all {
-            particle.weight /= sum;
-        }
+        self.scale(1.0);
         fit / sum
+    }
+
+    /// Adds others, which get a share of the probability.
+    pub(crate) fn add(&mut self, mut others: Particles, share: f64) {
+        others.scale(share);
+        self.scale(1.0 - share);
+        self.all.append(&mut others.all);
+    }
+
+    /// Makes the weights sum up to a share.
+    fn scale(&mut self, share: f64) {
+        let sum: f64 = self.all.iter().map(|particle| particle.weight).sum();
+        if share <= 0.0 || sum <= 0.0 {
+            self.all.clear();
+        }
+        self.all.iter_mut().for_each(|particle| particle.weight *= share / sum);
     }
 
     /// Weighs all the same.
@@ -133,10 +147,9 @@ impl Particles {
             let poses = low_variance(from, weight, share, start);
             drawn.extend(poses.map(|pose| Particle { pose, weight: weight / share }));
         }
-        let sum: f64 = drawn.iter().map(|particle| particle.weight).sum();
-        if sum > 0.0 {
-            drawn.iter_mut().for_each(|particle| particle.weight /= sum);
+        if !drawn.is_empty() {
             self.all = drawn;
+            self.scale(1.0);
         }
     }
 
