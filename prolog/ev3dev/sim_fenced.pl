@@ -138,7 +138,11 @@ start(Socket, Output, Path, Goal, Cpu, Pid) :-
     file_directory_name(This, Ev3dev),
     file_directory_name(Ev3dev, Library),
     atom_concat('library=', Library, Alias),
-    format(atom(GoalText), '~q', [Goal]),
+    current_prolog_flag(version, Version),
+    (   Version < 70500                 % where failing is no error
+    ->  format(atom(GoalText), '(~q->true;halt(1))', [Goal])
+    ;   format(atom(GoalText), '~q', [Goal])
+    ),
     (   Cpu == infinite
     ->  Limit = unlimited
     ;   Limit is max(1, ceiling(Cpu))

@@ -463,13 +463,14 @@ test(a_message_goes_and_one_comes, From-X =@= bob-f("a b", 'C', [_])) :-
         joined(Port, answer(ping(f("a b", 'C', [_])), From, pong(X))))).
 test(a_server_that_went_away_is_found_again,
      [ setup(assertz((user:message_hook(ev3dev(mail_lost(_)), _, _)), Told)),
-       cleanup(erase(Told)), true(X == 2) ]) :-
+       cleanup(erase(Told)) ]) :-
     with_redis_server(Port,
       with_other(Port, "repeat, robot_receive(F, ping(X), []),
                         catch(robot_send(F, pong(X)), _, true), fail",
         joined(Port,
           ( answer(ping(1), _, pong(1)),
-            with_server_again(Port, answered_at_last(ping(2), pong(X))) )))).
+            % Of the first pings several may have been answered.
+            with_server_again(Port, answered_at_last(ping(2), pong(2))) )))).
 test(what_comes_twice_is_dropped, Terms == [a, b]) :-
     with_redis_server(Port,
       joined(Port,

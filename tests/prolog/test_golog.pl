@@ -1674,7 +1674,7 @@ test(those_that_never_end_do_not_keep_a_search_from_its_end, H == [c]) :-
     message_queue_create(End),
     thread_create(ringing_on(End), Id, []),
     golog_lab:golog(search(ndet([star(ndet(b, b), 12), ?(done(never))], c)),
-                    [history(H0), timeout(20)]),
+                    [history(H0), timeout(300)]),
     thread_send_message(End, end),
     thread_join(Id, true),
     message_queue_destroy(End),

@@ -81,12 +81,6 @@ call_soon(Goal) :-
         Goal,
         thread_join(Id, _)).
 
-% A Prolog that is emulated cannot.
-starts_itself :-
-    current_prolog_flag(executable, Prolog),
-    process_create(Prolog, ['--version'], [stdout(null), stderr(null), process(Pid)]),
-    process_wait(Pid, exit(0)).
-
 :- begin_tests(sim_batch, [condition(starts_itself)]).
 
 test(a_score_for_each_seed_in_their_order, Seeds == [5, 3, 5, 4]) :-

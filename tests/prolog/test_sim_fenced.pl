@@ -1,4 +1,5 @@
 :- use_module(library(plunit)).
+:- use_module('../support/child').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
@@ -38,7 +39,7 @@ fenced(Lines, Ended, Text, at(Seconds, Pose), Options) :-
                            sim_pose(X, Y, Heading),
                            Pose = [X, Y, Heading] ))).
 
-:- begin_tests(sim_fenced).
+:- begin_tests(sim_fenced, [condition(starts_itself)]).
 
 drives(["main :- drives.",
         "drives :- set_robot(5.6, 10.6, outB, outC), go_cm(20, 30),",

@@ -11,7 +11,8 @@
             end_program/3,              % +Child, -Status, -Output
             end_output/2,               % +Child, -Output
             kill_program/1,             % +Child
-            swipl/1                     % -Program
+            swipl/1,                    % -Program
+            starts_itself/0
           ]).
 :- use_module(library(filesex)).
 :- use_module(library(option)).
@@ -119,6 +120,15 @@ swipl(Swipl) :-
     !.
 swipl(Swipl) :-
     current_prolog_flag(executable, Swipl).
+
+%!  starts_itself
+%
+%   True if a program can start its own Prolog again. One that is emulated cannot.
+
+starts_itself :-
+    current_prolog_flag(executable, Prolog),
+    process_create(Prolog, ['--version'], [stdout(null), stderr(null), process(Pid)]),
+    process_wait(Pid, exit(0)).
 
 status_options(Options) :-
     current_prolog_flag(version, Version),
