@@ -11,6 +11,7 @@
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/events)).
 :- use_module(library(ev3dev/localize)).
+:- use_module(library(ev3dev/roadmap)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(aggregate)).
 
@@ -187,11 +188,11 @@ done(drive(Limit, Farthest), World, Map, Options, result(Reached, Claims, Errors
     anywhere(World),
     sim_pose(X, Y, Heading),
     set_pose(X, Y, Heading),
-    localize_start(Map, [start(pose(X, Y, Heading))|Options]),
-    duration(Seconds),
-    findall(Error-Claim,
-            ( between(1, Seconds, _), wander(1), off(Error, _), claim(Claim) ),
-            Pairs),
+    localize_start(Map, [start(pose(X, Y, Heading)), correct_odometry(true)|Options]),
+    nb_setval(drive, []),
+    every(1, noted, [id(noted)]),
+    drive_about(World),
+    nb_getval(drive, Pairs),
     pairs_keys_values(Pairs, Errors, Claims0),
     append(Claims0, Claims),
     msort(Errors, Sorted),
@@ -199,8 +200,14 @@ done(drive(Limit, Farthest), World, Map, Options, result(Reached, Claims, Errors
     last(Sorted, Most),
     (   P95 < Limit, Most < Farthest -> Reached = true ; Reached = false ).
 
+noted :-
+    off(Error, _),
+    claim(Claim),
+    nb_getval(drive, Pairs),
+    nb_setval(drive, [Error-Claim|Pairs]).
+
 % Twenty minutes.
-duration(1200).
+duration(300).
 
 % Looks around until it is sure, and goes elsewhere between.
 scans(Most, Claims) :-
@@ -269,6 +276,39 @@ wander_until(End) :-
 turn_away :-
     Angle is 60 + random(120),
     turn(30, Angle, [reason(_), timeout(4)]).
+
+% Drives from place to place by the map, from where it believes to be.
+drive_about(World) :-
+    sim_time(Now),
+    duration(Seconds),
+    End is Now+Seconds,
+    drive_until(End, World).
+
+drive_until(End, _) :-
+    sim_time(Now),
+    Now >= End,
+    !.
+drive_until(End, World) :-
+    world_size(World, Width, Height),
+    X is random_float*Width,
+    Y is random_float*Height,
+    pose(X0, Y0, _),
+    (   catch(roadmap_path(World, X0-Y0, X-Y, [_|Points], [margin(6)]), error(_, _), fail)
+    ->  legs(Points)
+    ;   roadmap_path(World, X0-Y0, X-Y, [_|Points], [margin(0.5)])
+    ->  legs(Points)
+    ;   wait(0.2),
+        ignore(go_cm(20, -3, [reason(_), timeout(2)]))
+    ),
+    drive_until(End, World).
+
+legs([]).
+legs([Point|Points]) :-
+    go_to(Point, [speed(cm_per_s(18)), reason(Why), timeout(20)]),
+    (   Why == reached
+    ->  legs(Points)
+    ;   go_cm(20, -5, [reason(_), timeout(2)])
+    ).
 
 % Somebody with a leg of 12 cm, who walks up and down between the boxes.
 walk :-

@@ -1,13 +1,13 @@
 //! `prolog/ev3dev/localize.pl`: where the robot is on a map.
 use crate::drive::drive_of;
-use crate::facts::pose;
 use crate::glue::call::Call;
 use crate::glue::error::wrong_because;
+use crate::glue::places::place_term;
 use crate::glue::terms::unify_atom;
 use crate::roadmap::map_of;
 use crate::view;
 use ev3_driver::lock::locked;
-use ev3_localize::{Cluster, Count, Field, Localizer, Model, Options, Step, Unfit, Wander};
+use ev3_localize::{Cluster, Count, Field, Localizer, Mapper, Model, Options, Step, Unfit, Wander};
 use ev3_motion::{Pose, wrapped};
 use std::sync::{Arc, Mutex};
 use swipl::prelude::*;
@@ -18,7 +18,71 @@ struct LocalizerBlob {
     localizer: Mutex<Localizer>,
 }
 
+/// What a robot has seen for a map.
+#[arc_blob("ev3_mapper", defaults)]
+struct MapperBlob {
+    mapper: Mutex<Mapper>,
+}
+
 natives! {
+    /// map_new_(+sensor(X, Y, Heading), -Mapper)
+    semidet fn "map_new_"(context, sensor, mapper) {
+        let call = Call::of(context, "map_start", 1);
+        let made = Mutex::new(Mapper::new(pose_of(&call, sensor)?));
+        mapper.unify(Arc::new(MapperBlob { mapper: made }))
+    }
+
+    /// map_look_(+Mapper, +pose(X, Y, Heading), +Distance)
+    semidet fn "map_look_"(context, mapper, at, distance) {
+        let call = Call::of(context, "map_start", 1);
+        let (at, heard) = (pose_of(&call, at)?, call.float(distance)?);
+        mapping(mapper, |mapper| { mapper.look(at, heard); Ok(()) })
+    }
+
+    /// map_occupancy_(+Mapper, +X, +Y, -Probability)
+    semidet fn "map_occupancy_"(context, mapper, x, y, probability) {
+        let call = Call::of(context, "map_occupancy", 3);
+        let at = [call.float(x)?, call.float(y)?];
+        probability.unify(mapping(mapper, |mapper| Ok(mapper.occupancy(at)))?)
+    }
+
+    /// map_cells_(+Mapper, -Side, -Cells): cells is a list of cell(X, Y, Probability).
+    semidet fn "map_cells_"(context, mapper, side, list) {
+        side.unify(Mapper::cell_side())?;
+        let cells = mapping(mapper, |mapper| Ok(mapper.cells()))?;
+        let terms = cells.iter().map(|([x, y], probability)| {
+            let (x, y, probability) = (*x, *y, *probability);
+            term! {context: cell(#x, #y, #probability)}
+        });
+        list.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
+    }
+
+    /// map_walls_(+Mapper, -Extent, -Walls): extent is bounds(X1, Y1, X2, Y2), and walls is a
+    /// list of wall(X1, Y1, X2, Y2). Fails if nothing is known.
+    semidet fn "map_walls_"(context, mapper, extent, list) {
+        let (around, walls) =
+            mapping(mapper, |mapper| Ok((mapper.extent(), mapper.walls())))?;
+        let Some([[x1, y1], [x2, y2]]) = around else {
+            return Err(PrologError::Failure);
+        };
+        extent.unify(&term! {context: bounds(#x1, #y1, #x2, #y2)}?)?;
+        let terms = walls.iter().map(|[[x1, y1], [x2, y2]]| {
+            let (x1, y1, x2, y2) = (*x1, *y1, *x2, *y2);
+            term! {context: wall(#x1, #y1, #x2, #y2)}
+        });
+        list.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
+    }
+
+    /// map_frontier_(+Mapper, +X, +Y, +Hull, -Place): fails if all is explored.
+    semidet fn "map_frontier_"(context, mapper, x, y, hull, at) {
+        let call = Call::of(context, "explore", 1);
+        let (from, hull) = ([call.float(x)?, call.float(y)?], call.float(hull)?);
+        match mapping(mapper, |mapper| Ok(mapper.frontier(from, hull)))? {
+            Some(place) => at.unify(&place_term(&call, place)?),
+            None => Err(PrologError::Failure),
+        }
+    }
+
     /// localize_new_(+Facts, +Options, -Localizer): options is `options(Hull, Sensor, Model,
     /// Wander, Count, Update, Seed, Search, Table)`.
     semidet fn "localize_new_"(context, facts, options, localizer) {
@@ -27,12 +91,11 @@ natives! {
         let [hull, sensor, model, wander, count, update, seed, search, table] =
             call.arguments(options)?;
         let model = model_of(&call, &model)?;
-        let [x, y, heading] = call.arguments(&sensor)?;
         let [way, turn] = call.arguments(&update)?;
         let options = Options {
             model,
             wander: wander_of(&call, &wander)?,
-            sensor: Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? },
+            sensor: pose_of(&call, &sensor)?,
             count: count_of(&call, &count)?,
             update: [call.float(&way)?, call.float(&turn)?],
             seed: u64::from_ne_bytes(call.integer(&seed)?.to_ne_bytes()),
@@ -55,9 +118,7 @@ natives! {
     /// localize_at_(+Localizer, +pose(X, Y, Heading), +Deviation)
     semidet fn "localize_at_"(context, localizer, at, deviation) {
         let call = Call::of(context, "localize_start", 2);
-        let [x, y, heading] = call.arguments(at)?;
-        let at = pose(&call, [&x, &y, &heading])?;
-        let at = Pose { x: at.x, y: at.y, heading: at.heading };
+        let at = pose_of(&call, at)?;
         let deviation = call.float(deviation)?;
         with(localizer, |localizer| { localizer.start_at(at, deviation); Ok(()) })
     }
@@ -90,7 +151,8 @@ natives! {
         let call = Call::of(context, "localize_step", 2);
         let drive = drive_of(&call, robot, use_gyro)?;
         let believed = call.or_fail(drive.pose())?;
-        let Some(best) = with(localizer, |localizer| Ok(localizer.sure()))? else {
+        let odometry = call.or_fail(drive.rolled())?;
+        let Some(best) = with(localizer, |localizer| Ok(localizer.sure(odometry)))? else {
             return Err(PrologError::Failure);
         };
         let turn = wrapped(best.pose.heading - believed.heading);
@@ -101,15 +163,15 @@ natives! {
         Ok(())
     }
 
-    /// localize_best_(+Localizer, -X, -Y, -Heading, -Covariance)
-    semidet fn "localize_best_"(context, localizer, x, y, heading, rows) {
+    /// localize_best_(+Localizer, +Robot, +UseGyro, -pose(X, Y, Heading), -Covariance)
+    semidet fn "localize_best_"(context, localizer, robot, use_gyro, pose, rows) {
         let call = Call::of(context, "localized_pose", 4);
-        let Some(best) = with(localizer, |localizer| Ok(localizer.best()))? else {
+        let odometry = call.or_fail(drive_of(&call, robot, use_gyro)?.rolled())?;
+        let Some(best) = with(localizer, |localizer| Ok(localizer.best_now(odometry)))? else {
             return Err(PrologError::Failure);
         };
-        x.unify(best.pose.x)?;
-        y.unify(best.pose.y)?;
-        heading.unify(best.pose.heading)?;
+        let Pose { x, y, heading } = best.pose;
+        pose.unify(&term! {context: pose(#x, #y, #heading)}?)?;
         let lists = best.covariance.map(|row| call.floats(&row)).into_iter();
         rows.unify(lists.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
@@ -145,6 +207,20 @@ natives! {
         });
         list.unify(terms.collect::<PrologResult<Vec<_>>>()?.as_slice())
     }
+}
+
+fn mapping<T>(
+    term: &Term,
+    act: impl FnOnce(&mut Mapper) -> PrologResult<T>,
+) -> PrologResult<T> {
+    let blob: Arc<MapperBlob> = term.get_ex()?;
+    act(&mut locked(&blob.mapper))
+}
+
+/// The three numbers of `pose(X, Y, Heading)` or `sensor(X, Y, Heading)`.
+fn pose_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Pose> {
+    let [x, y, heading] = call.arguments(term)?;
+    Ok(Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? })
 }
 
 fn with<T>(

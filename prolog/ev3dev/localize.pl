@@ -99,8 +99,9 @@ ev3dev_brick:forget(Brick) :-
 %       0.07; and exponent(E), 0.3, to which a likelihood is raised, as
 %       measurements near to one another err in the same way.
 %     - wander(+Way, +Turn, +Drift)
-%       The variance of a move: cm^2 for each cm, degrees^2 for each degree
-%       and for each cm. Default is wander(0.03, 0.03, 0.06) with a gyro, and
+%       The standard deviations of a move: in cm after 1 cm, and in degrees
+%       after a turn by 1 degree and after 1 cm; they grow with the square
+%       root of the way. Default is wander(0.03, 0.03, 0.06) with a gyro, and
 %       wander(0.08, 0.12, 0.3) without.
 %     - sensor(+X, +Y, +Heading)
 %       Where the ultrasonic sensor is, as for navigate_to/3.
@@ -365,13 +366,16 @@ scanned(From, Turns, Localizer, Ended) :-
 
 %!  localized_pose(-X, -Y, -Heading, -Covariance) is semidet.
 %
-%   The middle of the most probable cluster of poses, on the map. Heading is
-%   from -180 to 180. Covariance is as for pose_uncertainty/1. Fails as long
+%   The middle of the most probable cluster of poses, on the map, moved on by
+%   odometry since the last measurement. Heading is from -180 to 180. Covariance is as for pose_uncertainty/1. Fails as long
 %   as nothing is known; localized/1 tells how sure it is.
 
 localized_pose(X, Y, Heading, Covariance) :-
     localizer_now(Localizer, _),
-    localize_best_(Localizer, X, Y, Heading, Covariance).
+    robot_description(Robot),
+    drive_default(use_gyro, UseGyro),
+    localize_best_(Localizer, Robot, UseGyro, pose(X, Y, Heading),
+                   Covariance).
 
 %!  localized(-Confidence) is semidet.
 %

@@ -8,6 +8,8 @@
 //! robot looks around, then searches the whole map once, and from there follows the poses that
 //! are possible as a particle filter.
 //!
+//! A [`Mapper`] makes a first map, where there is none yet.
+//!
 //! Sources: Thrun, Burgard, Fox: Probabilistic Robotics (2005), chapters 4, 6, 8; for the number
 //! of particles Fox: Adapting the sample size in particle filters through KLD-sampling (2003).
 //!
@@ -40,6 +42,7 @@
 
 mod field;
 mod localizer;
+mod mapper;
 mod model;
 mod particles;
 mod start;
@@ -47,5 +50,6 @@ mod start;
 pub use ev3_motion::Pose;
 pub use field::{Field, Unfit};
 pub use localizer::{Localizer, Options, Step};
+pub use mapper::{Mapper, Wall};
 pub use model::{FAR, Model, Wander};
 pub use particles::{Cluster, Count, Particle};

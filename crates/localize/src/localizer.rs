@@ -288,10 +288,19 @@ impl Localizer {
         self.best().map_or(0.0, |best| best.weight * self.fit)
     }
 
+    /// The most probable cluster, moved on by odometry since it was measured.
+    #[must_use]
+    pub fn best_now(&self, odometry: Pose) -> Option<Cluster> {
+        let best = self.best()?;
+        let since = Move::between(self.moved.unwrap_or(odometry), odometry);
+        let pose = since.from(best.pose);
+        Some(Cluster { pose: Pose { heading: wrapped(pose.heading), ..pose }, ..best })
+    }
+
     /// The most probable cluster, if it may correct the odometry.
     #[must_use]
-    pub fn sure(&self) -> Option<Cluster> {
-        self.best().filter(|best| {
+    pub fn sure(&self, odometry: Pose) -> Option<Cluster> {
+        self.best_now(odometry).filter(|best| {
             self.is_tracking && best.weight >= SURE && best.deviation() <= NARROW
         })
     }

@@ -76,14 +76,15 @@ impl Model {
 /// The density of the bell curve in its middle.
 const PEAK: f64 = 0.398_942_280_401_432_7;
 
-/// How the variance of a move grows.
+/// How uncertain a move is: standard deviations after 1 cm or 1 degree, which grow with the
+/// square root of the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wander {
-    /// Of the way: cm² for each cm.
+    /// Of the way, in cm after 1 cm.
     pub way: f64,
-    /// Of the heading: degrees² for each degree.
+    /// Of the heading, in degrees after a turn by 1 degree.
     pub turn: f64,
-    /// Of the heading: degrees² for each cm.
+    /// Of the heading, in degrees after 1 cm.
     pub drift: f64,
 }
 
@@ -125,8 +126,9 @@ impl Move {
 
     /// One of the moves that it may have been.
     pub(crate) fn drawn(self, wander: Wander, generator: &mut Pcg32) -> Move {
-        let along = (wander.way * self.way).sqrt();
-        let around = (wander.turn * self.turn.abs() + wander.drift * self.way).sqrt();
+        let along = wander.way * self.way.sqrt();
+        let turned = wander.turn * wander.turn * self.turn.abs();
+        let around = (turned + wander.drift * wander.drift * self.way).sqrt();
         let [right, ahead] = self.by;
         Move {
             by: [right + bell(generator) * along * 0.5, ahead + bell(generator) * along],

@@ -69,6 +69,7 @@ itself. A program that asks for messages has loaded it.
 %     - no_robot
 %     - no_grid
 %     - no_localizer
+%     - no_map
 %     - no_reading(Reading)
 %     - no_simulation
 
@@ -347,6 +348,8 @@ because(no_robot, existence_error(robot, any),
         'no robot is set: see set_robot/4').
 because(no_localizer, existence_error(localizer, any),
         'the robot does not localize: see localize_start/1').
+because(no_map, existence_error(map, any),
+        'there is no map: see map_start/0').
 because(no_grid, existence_error(grid, any),
         'there is no grid: see set_grid/1').
 because(no_reading(Reading), existence_error(reading, Reading), Text) :-

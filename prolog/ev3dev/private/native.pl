@@ -100,6 +100,12 @@
             roadmap_/5,
             roadmap_svg_/5,
             steer_/5,
+            map_cells_/3,
+            map_frontier_/5,
+            map_look_/3,
+            map_new_/2,
+            map_occupancy_/4,
+            map_walls_/3,
             localize_at_/3,
             localize_best_/5,
             localize_clusters_/2,
@@ -419,8 +425,15 @@ missing.
 
 % Localization
 
+%!  map_cells_(+Mapper, -Side, -Cells) is semidet.
+%!  map_frontier_(+Mapper, +X, +Y, +Hull, -Place) is semidet.
+%!  map_look_(+Mapper, +Pose, +Cm) is semidet.
+%!  map_new_(+Sensor, -Mapper) is semidet.
+%!  map_occupancy_(+Mapper, +X, +Y, -Probability) is semidet.
+%!  map_walls_(+Mapper, -Bounds, -Walls) is semidet.
 %!  localize_at_(+Localizer, +Pose, +Deviation) is semidet.
-%!  localize_best_(+Localizer, -X, -Y, -Heading, -Covariance) is semidet.
+%!  localize_best_(+Localizer, +Robot, +UseGyro, -Pose, -Covariance) is
+%!      semidet.
 %!  localize_clusters_(+Localizer, -Clusters) is semidet.
 %!  localize_correct_(+Localizer, +Robot, +UseGyro) is semidet.
 %!  localize_new_(+Facts, +Options, -Localizer) is semidet.
