@@ -303,8 +303,8 @@ drive_until(End, World) :-
     drive_until(End, World).
 
 legs([]).
-legs([Point|Points]) :-
-    go_to(Point, [speed(cm_per_s(18)), reason(Why), timeout(20)]),
+legs([X-Y|Points]) :-
+    go_to(X, Y, [speed(cm_per_s(18)), reason(Why), timeout(20)]),
     (   Why == reached
     ->  legs(Points)
     ;   go_cm(20, -5, [reason(_), timeout(2)])

@@ -209,10 +209,7 @@ natives! {
     }
 }
 
-fn mapping<T>(
-    term: &Term,
-    act: impl FnOnce(&mut Mapper) -> PrologResult<T>,
-) -> PrologResult<T> {
+fn mapping<T>(term: &Term, act: impl FnOnce(&mut Mapper) -> PrologResult<T>) -> PrologResult<T> {
     let blob: Arc<MapperBlob> = term.get_ex()?;
     act(&mut locked(&blob.mapper))
 }
@@ -223,10 +220,7 @@ fn pose_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult
     Ok(Pose { x: call.float(&x)?, y: call.float(&y)?, heading: call.float(&heading)? })
 }
 
-fn with<T>(
-    term: &Term,
-    act: impl FnOnce(&mut Localizer) -> PrologResult<T>,
-) -> PrologResult<T> {
+fn with<T>(term: &Term, act: impl FnOnce(&mut Localizer) -> PrologResult<T>) -> PrologResult<T> {
     let blob: Arc<LocalizerBlob> = term.get_ex()?;
     act(&mut locked(&blob.localizer))
 }
@@ -241,8 +235,7 @@ fn impossible<T, C: QueryableContextType>(
 
 /// `model(HalfAngle, Sigma, SigmaShare, Hit, Short, Missing, Random, Exponent)`
 fn model_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Model> {
-    let [half_angle, sigma, share, hit, short, missing, random, exponent] =
-        call.arguments(term)?;
+    let [half_angle, sigma, share, hit, short, missing, random, exponent] = call.arguments(term)?;
     Ok(Model {
         half_angle: call.float(&half_angle)?,
         sigma: [call.float(&sigma)?, call.float(&share)?],
@@ -262,9 +255,8 @@ fn wander_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResu
 
 /// `Least-Most`, or a number
 fn count_of<C: QueryableContextType>(call: &Call<C>, term: &Term) -> PrologResult<Count> {
-    let whole = |term: &Term| {
-        call.integer(term).map(|count| usize::try_from(count).unwrap_or(usize::MAX))
-    };
+    let whole =
+        |term: &Term| call.integer(term).map(|count| usize::try_from(count).unwrap_or(usize::MAX));
     if term.is_integer() {
         return Ok(Count::Fixed(whole(term)?));
     }

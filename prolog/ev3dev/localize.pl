@@ -96,13 +96,13 @@ ev3dev_brick:forget(Brick) :-
 %       sigma(Cm, Share), its standard deviation, 2 cm and 0.02 of the
 %       distance; the shares hit(H), 0.75, short(S), of things that the map
 %       lacks, 0.10, missing(M), of echoes not heard, 0.08, and random(R),
-%       0.07; and exponent(E), 0.3, to which a likelihood is raised, as
+%       0.07; and exponent(E), 0.6, to which a likelihood is raised, as
 %       measurements near to one another err in the same way.
 %     - wander(+Way, +Turn, +Drift)
 %       The standard deviations of a move: in cm after 1 cm, and in degrees
 %       after a turn by 1 degree and after 1 cm; they grow with the square
-%       root of the way. Default is wander(0.03, 0.03, 0.06) with a gyro, and
-%       wander(0.08, 0.12, 0.3) without.
+%       root of the way. Default is wander(0.1, 0.12, 0.2) with a gyro, and
+%       wander(0.1, 0.2, 0.5) without.
 %     - sensor(+X, +Y, +Heading)
 %       Where the ultrasonic sensor is, as for navigate_to/3.
 %     - radius(+Cm)
@@ -204,7 +204,7 @@ model(Options, model(HalfAngle, Sigma, Share, Hit, Short, Missing, Random,
     number_option(short(Short), nonnegative_number, Options, 0.10),
     number_option(missing(Missing), positive_number, Options, 0.08),
     number_option(random(Random), positive_number, Options, 0.07),
-    number_option(exponent(Exponent), positive_number, Options, 0.3).
+    number_option(exponent(Exponent), positive_number, Options, 0.6).
 
 wander(Options, wander(Way, Turn, Drift)) :-
     (   option(wander(Way0, Turn0, Drift0), Options)
@@ -213,8 +213,8 @@ wander(Options, wander(Way, Turn, Drift)) :-
         number_value(nonnegative_number, Drift0, Drift)
     ;   drive_default(use_gyro, true),
         gyro_sensor(_)
-    ->  Way = 0.03, Turn = 0.03, Drift = 0.06
-    ;   Way = 0.08, Turn = 0.12, Drift = 0.3
+    ->  Way = 0.1, Turn = 0.12, Drift = 0.2
+    ;   Way = 0.1, Turn = 0.2, Drift = 0.5
     ).
 
 particle_count(Options, Count) :-
@@ -327,7 +327,9 @@ localize_scan(Options) :-
         scanned(Localizer, Turns, Ended),
         ignore(stop)),
     (   Correct == true
-    ->  ignore(localize_correct_(Localizer, Robot, UseGyro))
+    ->  % The motion ends when the drive notices the stop.
+        ignore(drive_wait([timeout(0.5)], _)),
+        ignore(localize_correct_(Localizer, Robot, UseGyro))
     ;   true
     ),
     localize_sure_(Localizer, _, _, MustLook),

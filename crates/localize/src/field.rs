@@ -8,10 +8,10 @@ const CELL: f64 = 5.0;
 /// Steps of the table, in cm and degrees.
 const STEP: f64 = 5.0;
 const TURN: f64 = 5.0;
-const TURNS: usize = 72;
+const TURNS: u16 = 72;
 /// A larger table is not made, in bytes.
 const LARGEST_TABLE: usize = 8 << 20;
-/// A wall is so long as the cone is wide at least there, in degrees.
+/// The narrowest cone, in degrees.
 const NARROWEST: f64 = 0.5;
 /// The most cells of the free area.
 const MOST_CELLS: f64 = 4e6;
@@ -46,7 +46,7 @@ pub struct Field {
     bounds: Bounds,
     edges: Vec<Edge>,
     circles: Vec<(Point, f64)>,
-    /// Tangents of half the cone's angle.
+    /// In degrees.
     half_angle: f64,
     columns: usize,
     rows: usize,
@@ -95,14 +95,24 @@ impl Field {
             return Err(Unfit::Full);
         }
         let half_angle = half_angle.max(NARROWEST);
-        Ok(Field { bounds, edges, circles, half_angle, columns, rows, free, free_cells, table: None })
+        Ok(Field {
+            bounds,
+            edges,
+            circles,
+            half_angle,
+            columns,
+            rows,
+            free,
+            free_cells,
+            table: None,
+        })
     }
 
     /// The same with a table of what is heard where: for processors that calculate slowly. It has
     /// steps of 5 cm and 5 degrees. A map that is very large gets none.
     #[must_use]
     pub fn with_table(mut self) -> Field {
-        let size = self.columns * self.rows * TURNS;
+        let size = self.columns * self.rows * usize::from(TURNS);
         if size > LARGEST_TABLE {
             return self;
         }
@@ -113,7 +123,7 @@ impl Field {
                     let [x, y] = self.bounds.low;
                     let x = x + (float(column) + 0.5) * STEP;
                     let y = y + (float(row) + 0.5) * STEP;
-                    let pose = Pose { x, y, heading: float(turn) * TURN };
+                    let pose = Pose { x, y, heading: f64::from(turn) * TURN };
                     table.push(self.exact(pose).map_or(u8::MAX, byte));
                 }
             }
@@ -142,8 +152,8 @@ impl Field {
         let cell = self.cell(sensor.point())?;
         #[expect(clippy::cast_possible_truncation, reason = "headings are small")]
         let turn = (sensor.heading * (1.0 / TURN) + 0.5).floor() as i64;
-        let turn = usize::try_from(turn.rem_euclid(TURNS as i64)).unwrap_or(0);
-        let distance = table[cell * TURNS + turn];
+        let turn = usize::try_from(turn.rem_euclid(i64::from(TURNS))).unwrap_or(0);
+        let distance = table[cell * usize::from(TURNS) + turn];
         (distance < u8::MAX).then(|| f64::from(distance))
     }
 
@@ -293,4 +303,93 @@ fn cells(length: f64) -> usize {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
 fn byte(distance: f64) -> u8 {
     libm::round(distance).min(254.0) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ev3_roadmap::Obstacle;
+    use proptest::prelude::*;
+
+    fn room(obstacles: Vec<Obstacle>) -> Field {
+        let bounds = Bounds { low: [0.0, 0.0], high: [300.0, 250.0] };
+        Field::new(&Map::new(obstacles, Some(bounds)).unwrap(), 8.0, 15.0).unwrap()
+    }
+
+    fn at(x: f64, y: f64, heading: f64) -> Pose {
+        Pose { x, y, heading }
+    }
+
+    #[test]
+    fn the_nearest_thing_in_the_cone_is_heard() {
+        let thing = Obstacle::circle([100.0, 150.0], 10.0).unwrap();
+        let field = room(vec![thing]);
+        let heard = |pose: Pose| field.heard(pose).unwrap();
+        assert!((heard(at(100.0, 100.0, 0.0)) - 40.0).abs() < 1e-9, "straight ahead");
+        assert!((heard(at(100.0, 100.0, 12.0)) - 40.0).abs() < 1e-9, "within the cone");
+        let edge = heard(at(100.0, 100.0, 24.0));
+        assert!(edge > 40.0 && edge < 50.0, "its border meets it: {edge}");
+        assert!(heard(at(100.0, 100.0, 40.0)) > 100.0, "beside it is the wall");
+        assert!((heard(at(100.0, 100.0, 180.0)) - 100.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_wide_room_is_silent_and_a_map_ends_with_its_obstacles() {
+        let bounds = Bounds { low: [0.0, 0.0], high: [900.0, 900.0] };
+        let field = Field::new(&Map::new(Vec::new(), Some(bounds)).unwrap(), 8.0, 15.0).unwrap();
+        assert_eq!(field.heard(at(450.0, 450.0, 0.0)), None);
+        assert!((field.free_area() - 81.0).abs() < 4.0);
+        let boxes = vec![Obstacle::rectangle([0.0, 0.0], 20.0, 20.0, 0.0).unwrap()];
+        let map = Map::new(boxes, None).unwrap();
+        assert_eq!(Field::new(&map, 8.0, 15.0).unwrap_err(), Unfit::Full);
+        assert_eq!(Field::new(&Map::default(), 8.0, 15.0).unwrap_err(), Unfit::Endless);
+        let wide = Bounds { low: [0.0, 0.0], high: [1e6, 1e6] };
+        let map = Map::new(Vec::new(), Some(wide)).unwrap();
+        assert_eq!(Field::new(&map, 8.0, 15.0).unwrap_err(), Unfit::TooLarge);
+    }
+
+    #[test]
+    fn the_robot_is_where_its_hull_is() {
+        let field = room(vec![Obstacle::rectangle([100.0, 100.0], 40.0, 40.0, 0.0).unwrap()]);
+        for (place, is_free) in [
+            ([100.0, 100.0], false),
+            ([123.0, 100.0], false),
+            ([133.0, 100.0], true),
+            ([3.0, 100.0], false),
+            ([13.0, 100.0], true),
+            ([-1.0, 100.0], false),
+            ([100.0, 251.0], false),
+        ] {
+            assert_eq!(field.is_free(place), is_free, "{place:?}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        /// A dense fan of rays finds the same, but for what lies between two of them.
+        #[test]
+        fn the_cone_is_that_of_many_rays(x in 20.0..280.0, y in 20.0..230.0, h in 0.0..360.0) {
+            let field = room(vec![
+                Obstacle::rectangle([90.0, 165.0], 40.0, 25.0, 20.0).unwrap(),
+                Obstacle::circle([150.0, 125.0], 8.0).unwrap(),
+            ]);
+            let pose = at(x, y, h);
+            prop_assume!(field.is_free(pose.point()));
+            let narrow = Field { half_angle: 0.01, ..field.clone() };
+            let rays = (0..=1500).map(|ray| f64::from(ray) * 0.02 - 15.0);
+            let heard = rays.map(|turn| narrow.heard(at(x, y, h + turn)).unwrap_or(FAR));
+            let nearest = heard.fold(FAR, f64::min);
+            let exact = field.heard(pose).unwrap_or(FAR);
+            prop_assert!((exact - nearest).abs() < 0.5, "{exact} {nearest}");
+        }
+
+        #[test]
+        fn the_table_is_about_right(x in 20.0..280.0, y in 20.0..230.0, h in -720.0..720.0) {
+            let field = room(Vec::new());
+            let table = field.clone().with_table();
+            let [exact, about] = [&field, &table].map(|f| f.heard(at(x, y, h)).unwrap_or(FAR));
+            prop_assert!((exact - about).abs() < 12.0 + 0.15 * exact, "{exact} {about}");
+        }
+    }
 }

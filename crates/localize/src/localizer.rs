@@ -165,9 +165,8 @@ impl Localizer {
 
     /// Whether the look is kept for a search.
     fn remember(&mut self, look: Look) -> bool {
-        let is_same = self.looks.last().is_some_and(|last| {
-            !has_moved(last.pose, look.pose, SAME_LOOK)
-        });
+        let is_same =
+            self.looks.last().is_some_and(|last| !has_moved(last.pose, look.pose, SAME_LOOK));
         if is_same {
             return false;
         }
@@ -221,8 +220,8 @@ impl Localizer {
             (false, false) => share * FOUND[1],
         };
         if !new.is_empty() {
-            let (count, least) = (self.least_count(), LEAST_OF_PLACE);
-            let found = particles(&new, count, least, &mut self.generator);
+            let count = self.least_count();
+            let found = particles(&new, count, LEAST_OF_PLACE, &mut self.generator);
             self.particles.add(found, share);
         }
         if self.is_tracking {
@@ -300,9 +299,8 @@ impl Localizer {
     /// The most probable cluster, if it may correct the odometry.
     #[must_use]
     pub fn sure(&self, odometry: Pose) -> Option<Cluster> {
-        self.best_now(odometry).filter(|best| {
-            self.is_tracking && best.weight >= SURE && best.deviation() <= NARROW
-        })
+        self.best_now(odometry)
+            .filter(|best| self.is_tracking && best.weight >= SURE && best.deviation() <= NARROW)
     }
 
     /// How well the measurements fit, from 0 to 1.
@@ -332,4 +330,103 @@ impl Localizer {
 
 fn has_moved(from: Pose, to: Pose, [way, turn]: [f64; 2]) -> bool {
     distance(from.point(), to.point()) >= way || wrapped(to.heading - from.heading).abs() >= turn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ev3_roadmap::{Bounds, Map, Obstacle};
+
+    fn room() -> Field {
+        let obstacles = vec![
+            Obstacle::rectangle([90.0, 165.0], 40.0, 25.0, 20.0).unwrap(),
+            Obstacle::rectangle([200.0, 90.0], 30.0, 45.0, -15.0).unwrap(),
+            Obstacle::circle([150.0, 125.0], 8.0).unwrap(),
+        ];
+        let bounds = Bounds { low: [0.0, 0.0], high: [300.0, 250.0] };
+        Field::new(&Map::new(obstacles, Some(bounds)).unwrap(), 8.0, 15.0).unwrap()
+    }
+
+    /// Turns once around, by odometry at the origin; returns the last step that changed much.
+    fn look_around(localizer: &mut Localizer, there: Pose, from: Pose) -> Step {
+        let field = localizer.field().clone();
+        let mut last = Step::Nothing;
+        for look in 1..=100 {
+            let turn = f64::from(look) * 3.7;
+            let turned = |pose: Pose| Pose { heading: pose.heading + turn, ..pose };
+            let heard = field.heard(turned(there).ahead(7.0)).unwrap_or(FAR);
+            match localizer.step(turned(from), heard) {
+                step @ (Step::Found | Step::Lost) => last = step,
+                Step::Nothing | Step::Tracked => {}
+            }
+        }
+        last
+    }
+
+    fn off(localizer: &Localizer, there: Pose) -> f64 {
+        let best = localizer.best().unwrap().pose;
+        distance(best.point(), there.point()) + wrapped(best.heading - there.heading).abs()
+    }
+
+    #[test]
+    fn it_finds_itself_and_notices_that_it_was_carried_away() {
+        let mut localizer = Localizer::new(room(), Options::default());
+        let origin = Pose::default();
+        let here = Pose { x: 60.0, y: 60.0, heading: 30.0 };
+        assert!(localizer.must_look() && localizer.best().is_none());
+        assert_eq!(look_around(&mut localizer, here, origin), Step::Found);
+        let end = Pose { heading: here.heading + 370.0, ..here };
+        assert!(off(&localizer, end) < 3.0, "{:?}", localizer.best());
+        assert!(localizer.confidence() > 0.9);
+        let there = Pose { x: 250.0, y: 200.0, heading: 0.0 };
+        look_around(&mut localizer, there, Pose { heading: 370.0, ..origin });
+        look_around(&mut localizer, there, Pose { heading: 740.0, ..origin });
+        let end = Pose { heading: there.heading + 370.0, ..there };
+        assert!(off(&localizer, end) < 3.0, "{:?}", localizer.best());
+    }
+
+    #[test]
+    fn a_known_start_is_followed_and_moves_on_with_odometry() {
+        let mut localizer = Localizer::new(room(), Options::default());
+        let start = Pose { x: 40.0, y: 40.0, heading: 0.0 };
+        localizer.start_at(start, 2.0);
+        for way in 0..150_u32 {
+            let there = start.ahead(f64::from(way));
+            let heard = localizer.field().heard(there.ahead(7.0)).unwrap_or(FAR);
+            // By wheels that are 3 % too small.
+            localizer.step(Pose::default().ahead(f64::from(way) * 1.03), heard);
+        }
+        let end = start.ahead(149.0);
+        assert!(off(&localizer, end) < 4.0, "{:?}", localizer.best());
+        let odometry = Pose::default().ahead(149.0 * 1.03 + 20.0);
+        let now = localizer.best_now(odometry).unwrap().pose;
+        assert!((now.y - localizer.best().unwrap().pose.y - 20.0).abs() < 2.5, "{now:?}");
+        assert!(localizer.sure(odometry).is_some());
+        localizer.reset();
+        assert!(localizer.best().is_none() && localizer.confidence() <= 0.0);
+    }
+
+    #[test]
+    fn where_two_places_look_alike_both_are_told() {
+        let bounds = Bounds { low: [0.0, 0.0], high: [300.0, 200.0] };
+        let field = Field::new(&Map::new(Vec::new(), Some(bounds)).unwrap(), 8.0, 15.0).unwrap();
+        let mut localizer = Localizer::new(field, Options::default());
+        look_around(&mut localizer, Pose { x: 80.0, y: 60.0, heading: 0.0 }, Pose::default());
+        let clusters = localizer.clusters();
+        assert_eq!(clusters.iter().filter(|cluster| cluster.weight > 0.2).count(), 2);
+        assert!(localizer.confidence() < 0.7);
+        let sum: f64 = clusters.iter().map(|cluster| cluster.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_number_of_particles_follows_the_uncertainty() {
+        let mut localizer = Localizer::new(room(), Options::default());
+        localizer.start_at(Pose { x: 40.0, y: 40.0, heading: 0.0 }, 2.0);
+        assert_eq!(localizer.particles().len(), 500);
+        let options = Options { count: Count::Fixed(1000), search: false, ..Options::default() };
+        let spread = Localizer::new(room(), options);
+        assert_eq!(spread.particles().len(), 1000);
+        assert!(!spread.must_look());
+    }
 }

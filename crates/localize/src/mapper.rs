@@ -239,9 +239,8 @@ impl Grid {
         }
         let low = low.map(|side| (side / CELL).floor() * CELL - CELL);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "limited")]
-        let count = |axis: usize| {
-            ((high[axis] - low[axis]) / CELL + 2.0).clamp(1.0, MOST_SIDE) as usize
-        };
+        let count =
+            |axis: usize| ((high[axis] - low[axis]) / CELL + 2.0).clamp(1.0, MOST_SIDE) as usize;
         let (columns, rows) = (count(0), count(1));
         let mut grid = Grid { low, columns, rows, cells: vec![Cell::default(); columns * rows] };
         grid.count_free(looks, trail);
@@ -267,9 +266,8 @@ impl Grid {
     fn share_echoes(&mut self, looks: &[Look]) {
         let heard = looks.iter().filter(|look| look.heard < VAGUE);
         let half = CELL / 2.0;
-        let ring = |look: &Look| {
-            self.sector(look.pose, ECHO, [look.heard - half, look.heard + half])
-        };
+        let ring =
+            |look: &Look| self.sector(look.pose, ECHO, [look.heard - half, look.heard + half]);
         let arcs: Vec<Vec<usize>> = heard.map(ring).collect();
         for _ in 0..ROUNDS {
             let odds: Vec<f64> = self.cells.iter().map(|cell| cell.odds()).collect();
@@ -403,3 +401,67 @@ fn longest(places: &[Point]) -> Option<(Wall, Vec<usize>)> {
 
 /// Half a turn.
 const LINE: f64 = std::f64::consts::PI;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Field;
+    use ev3_roadmap::{Bounds, Map, Obstacle};
+
+    /// Looks around at some places of a room of 3 m by 2 m with a box.
+    fn looked_around(places: &[Point]) -> Mapper {
+        let thing = Obstacle::rectangle([200.0, 100.0], 40.0, 40.0, 0.0).unwrap();
+        let bounds = Bounds { low: [0.0, 0.0], high: [300.0, 200.0] };
+        let field = Field::new(&Map::new(vec![thing], Some(bounds)).unwrap(), 8.0, 15.0).unwrap();
+        let mut mapper = Mapper::new(Pose { x: 0.0, y: 7.0, heading: 0.0 });
+        for [x, y] in places {
+            for turn in 0..120 {
+                let robot = Pose { x: *x, y: *y, heading: f64::from(turn) * 3.0 };
+                mapper.look(robot, field.heard(robot.ahead(7.0)).unwrap_or(FAR));
+            }
+        }
+        mapper
+    }
+
+    const PLACES: [Point; 6] =
+        [[60.0, 60.0], [60.0, 140.0], [150.0, 40.0], [150.0, 160.0], [260.0, 50.0], [260.0, 150.0]];
+
+    #[test]
+    fn what_was_seen_from_many_sides_is_where_it_is() {
+        let mut mapper = looked_around(&PLACES);
+        for free in [[60.0, 60.0], [100.0, 100.0], [150.0, 100.0], [200.0, 50.0]] {
+            assert!(mapper.occupancy(free) < 0.2, "{free:?} {}", mapper.occupancy(free));
+        }
+        for wall in [[181.0, 100.0], [200.0, 119.0], [219.0, 100.0], [0.5, 60.0]] {
+            let near = [-5.0, -2.5, 0.0, 2.5, 5.0];
+            let most = near.into_iter().flat_map(|dx| near.map(|dy| [wall[0] + dx, wall[1] + dy]));
+            let most = most.map(|at| mapper.occupancy(at)).fold(0.0, f64::max);
+            assert!(most > 0.5, "{wall:?} {most}");
+        }
+        let unknown = mapper.occupancy([-500.0, 0.0]);
+        assert!((unknown - 0.5).abs() < 1e-12, "{unknown}");
+    }
+
+    #[test]
+    fn cells_in_a_row_become_walls() {
+        let walls = looked_around(&PLACES).walls();
+        assert!((8..60).contains(&walls.len()), "{}", walls.len());
+        let longest = walls.iter().map(|[a, b]| distance(*a, *b)).fold(0.0, f64::max);
+        assert!((120.0..320.0).contains(&longest), "{longest}");
+        assert!(looked_around(&[]).walls().is_empty());
+        assert!(looked_around(&[]).extent().is_none());
+    }
+
+    #[test]
+    fn the_next_place_is_free_and_told_once() {
+        let mut mapper = looked_around(&PLACES[..1]);
+        let mut places = Vec::new();
+        while let Some(place) = mapper.frontier(PLACES[0], 8.0) {
+            assert!(mapper.occupancy(place) < 0.5, "{place:?}");
+            assert!(places.iter().all(|other| distance(*other, place) > ELSEWHERE));
+            places.push(place);
+            assert!(places.len() < 200);
+        }
+        assert!(!places.is_empty());
+    }
+}

@@ -36,7 +36,7 @@ impl Default for Model {
             short: 0.10,
             missing: 0.08,
             random: 0.07,
-            exponent: 0.3,
+            exponent: 0.6,
         }
     }
 }
@@ -90,9 +90,9 @@ pub struct Wander {
 
 impl Wander {
     /// With a gyro.
-    pub const GYRO: Wander = Wander { way: 0.03, turn: 0.03, drift: 0.06 };
+    pub const GYRO: Wander = Wander { way: 0.1, turn: 0.12, drift: 0.2 };
     /// By the wheels alone.
-    pub const WHEELS: Wander = Wander { way: 0.08, turn: 0.12, drift: 0.3 };
+    pub const WHEELS: Wander = Wander { way: 0.1, turn: 0.2, drift: 0.5 };
 }
 
 /// A move as the robot sees it.

@@ -15,6 +15,8 @@ use rand_pcg::Pcg32;
 const POSES: f64 = 20_000.0;
 const AREA: f64 = 12.0;
 const MOST_POSES: f64 = 400_000.0;
+/// Looks of one turn share more of their errors than those of a drive.
+const LOOK_AROUND: f64 = 0.5;
 /// Looks that are weighed.
 const LOOKS: usize = 36;
 
@@ -123,13 +125,10 @@ pub(crate) fn places(
     }
     let distinct = distinct(found, usize::MAX);
     let best = distinct.first().map_or(0.0, |(_, best)| *best);
-    let weight = |log: f64| libm::exp(model.exponent * (log - best));
+    let weight = |log: f64| libm::exp(model.exponent * LOOK_AROUND * (log - best));
     let sum: f64 = distinct.iter().map(|(_, log)| weight(*log)).sum();
-    let place = |(pose, log): (Pose, f64)| Place {
-        pose,
-        weight: weight(log) / sum,
-        fit: all.fit(pose),
-    };
+    let place =
+        |(pose, log): (Pose, f64)| Place { pose, weight: weight(log) / sum, fit: all.fit(pose) };
     distinct.into_iter().map(place).collect()
 }
 

@@ -40,8 +40,10 @@ pub(super) struct Inner {
     /// When the wheels last turned.
     pub(super) moved: Duration,
     pub(super) estimate: Estimate,
-    /// The pose when it was last set, and the one that it would have had otherwise.
+    /// The estimated pose when it was last set, and the one that it would have had otherwise.
     was_set: [Pose; 2],
+    /// The pose when it was last corrected, and the estimated one.
+    corrected: [Pose; 2],
     /// Whether the gyro follows the wheels in the motion under way.
     agreement: Agreement,
     /// The end of the previous motion.
@@ -62,6 +64,7 @@ impl Inner {
             moved: Duration::ZERO,
             estimate: Estimate::default(),
             was_set: [Pose::default(); 2],
+            corrected: [Pose::default(); 2],
             agreement: Agreement::default(),
             goal: None,
             active: None,
@@ -85,17 +88,48 @@ impl Inner {
 
     /// The pose of the robot's reference point.
     pub(super) fn pose(&self) -> Pose {
+        let [corrected, estimated] = self.corrected;
+        corrected.moved(estimated, self.estimated())
+    }
+
+    /// The pose of the middle of the axle.
+    fn axle(&self) -> Pose {
+        self.pose().ahead(self.robot.wheels.offset)
+    }
+
+    fn estimated(&self) -> Pose {
         self.estimate.pose().ahead(-self.robot.wheels.offset)
+    }
+
+    /// The pose goes on from another one. The estimate does not know: it has learnt how wheels
+    /// and gyro err by how its own pose has become uncertain.
+    pub(super) fn correct_pose(&mut self, pose: Pose) {
+        self.corrected = [pose, self.estimated()];
+    }
+
+    /// The covariance of the pose.
+    pub(super) fn uncertainty(&self) -> [[f64; 3]; 3] {
+        let turn = self.corrected[0].heading - self.corrected[1].heading;
+        let (sin, cos) = libm::sincos(turn.to_radians());
+        let turned = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]];
+        let rows = self.estimate.uncertainty();
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let pairs = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));
+                pairs.map(|(a, b)| turned[i][a] * rows[a][b] * turned[j][b]).sum()
+            })
+        })
     }
 
     /// Where wheels and gyro have brought it, whatever poses have been set.
     pub(super) fn rolled(&self) -> Pose {
         let [set, rolled] = self.was_set;
-        rolled.moved(set, self.pose())
+        rolled.moved(set, self.estimated())
     }
 
     pub(super) fn set_pose(&mut self, pose: Pose) {
         self.was_set = [pose, self.rolled()];
+        self.corrected = [Pose::default(); 2];
         self.estimate.set_pose(pose.ahead(self.robot.wheels.offset));
     }
 
@@ -237,7 +271,7 @@ impl Inner {
                 Steering::cruise(wheels, limits, *speed, *rate)
             }
             Command::Legs(legs, is_backwards) => {
-                let from = self.estimate.pose();
+                let from = self.axle();
                 let longest = legs.iter().map(|leg| leg.wheels_roll(&wheels, from));
                 let is_possible = longest.fold(0.0, f64::max) / slowest <= MOST_COUNTS;
                 if speed == 0 || !is_possible {
@@ -309,6 +343,7 @@ impl Inner {
 
     /// One period of the motion under way; `Some` when it has ended.
     pub(super) fn control(&mut self) -> Result<Option<Reason>> {
+        let pose = self.axle();
         let (Some(active), Some(devices)) = (&mut self.active, &self.devices) else {
             return Ok(None);
         };
@@ -319,7 +354,6 @@ impl Inner {
             self.estimate.forget_gyro();
             return Ok(Some(Reason::Astray));
         }
-        let pose = self.estimate.pose();
         let order = match &mut active.landing {
             Some(landing) => match landing.look(devices.counts, passed) {
                 Landed::NotYet => return Ok(active.is_foreign(devices).then_some(Reason::Stopped)),

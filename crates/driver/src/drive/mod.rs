@@ -146,7 +146,7 @@ impl Drive {
         if inner.active.is_some() && is_far {
             return Ok(false);
         }
-        inner.set_pose(pose);
+        inner.correct_pose(pose);
         Ok(true)
     }
 
@@ -170,7 +170,7 @@ impl Drive {
     /// # Errors
     /// The kernel's.
     pub fn uncertainty(&self) -> Result<Option<[[f64; 3]; 3]>> {
-        Ok(self.look()?.map(|inner| inner.estimate.uncertainty()))
+        Ok(self.look()?.map(|inner| inner.uncertainty()))
     }
 
     /// What is known without looking: the pose, its covariance, and the way after a moment, with
@@ -182,7 +182,7 @@ impl Drive {
         Some(Believed {
             robot: inner.robot.clone(),
             pose: inner.pose(),
-            covariance: inner.estimate.uncertainty(),
+            covariance: inner.uncertainty(),
             way: inner.track.since(after).to_vec(),
             course: inner.active.as_ref().map(|active| active.steering.course()),
         })
