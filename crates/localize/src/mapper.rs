@@ -27,6 +27,9 @@ const ROUNDS: usize = 10;
 /// The odds of something where nothing was heard, and what each free look takes off.
 const PRIOR: f64 = 0.02;
 const AGAINST: f64 = 0.3;
+/// Nothing stands where the robot was: so far around its middle, in cm, and for so many looks.
+const HULL: f64 = 7.5;
+const WAS_THERE: f64 = 10.0;
 /// Odds that are as probable as not.
 const EVEN: f64 = 0.15;
 /// A wall takes cells so near to its line, in cm, and has no wider gap.
@@ -255,10 +258,10 @@ impl Grid {
                 self.cells[cell].free += 1.0;
             }
         }
-        // Where the robot was nothing stands.
-        for at in trail {
-            if let Some(cell) = self.index(*at) {
-                self.cells[cell].free += 10.0;
+        for [x, y] in trail {
+            let around = Pose { x: *x, y: *y, heading: 0.0 };
+            for cell in self.sector(around, 180.0, [0.0, HULL]) {
+                self.cells[cell].free += WAS_THERE;
             }
         }
     }
@@ -299,11 +302,9 @@ impl Grid {
                 let square = way[0] * way[0] + way[1] * way[1];
                 let along = way[0] * ahead[0] + way[1] * ahead[1];
                 let is_far_enough = near <= 0.0 || square >= near * near;
-                if is_far_enough
-                    && square < far * far
-                    && along >= 0.0
-                    && along * along >= cos * cos * square
-                {
+                let is_inside =
+                    half_angle >= 180.0 || along >= 0.0 && along * along >= cos * cos * square;
+                if is_far_enough && square < far * far && is_inside {
                     cells.push(cell);
                 }
             }
