@@ -68,6 +68,9 @@ demo(slalom, Poles, start) :-
 demo(remote_control, [start(0, 0, 0)], drive).
 demo(thermometer, room, thermometer).
 demo(compare_planners, grid, start).
+demo(lost, room, start).
+demo(grid_lost, grid, start).
+demo(explore_room, room, start).
 demo(traffic_light, room, start).
 demo(golog_elevator, room, start(smart)).
 demo(golog_delivery, delivery, start).

@@ -45,6 +45,8 @@
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/sim_fenced)).
 :- use_module(library(ev3dev/grid_belief)).
+:- use_module(library(ev3dev/localize)).
+:- use_module(library(ev3dev/map)).
 :- use_module(library(ev3dev/worker)).
 
 % What one wants to do, and the libraries for it. Each public library is here.
@@ -64,7 +66,7 @@ task('Try it without a robot',
 task('Drive several robots', [bricks, worker]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).
-task('Find out where the robot is', [grid_belief]).
+task('Find out where the robot is', [localize, map, grid_belief]).
 task('Plan, act and react', [golog, pddl]).
 
 main :-

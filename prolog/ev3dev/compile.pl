@@ -58,6 +58,8 @@ unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
 unit(sim, ['ev3dev/sim']).
 unit(sim_batch, ['ev3dev/private/batch_pool', 'ev3dev/sim_batch']).
 unit(grid_belief, ['ev3dev/grid_belief']).
+unit(localize, ['ev3dev/localize']).
+unit(map, ['ev3dev/map']).
 unit(sim_fenced, ['ev3dev/sim_fenced']).
 unit(batch_redis, ['ev3dev/private/batch_redis']).
 unit(mail, ['ev3dev/private/mail']).

@@ -17,6 +17,8 @@
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/sim_fenced)).
 :- use_module(library(ev3dev/grid_belief)).
+:- use_module(library(ev3dev/localize)).
+:- use_module(library(ev3dev/map)).
 :- use_module(library(ev3dev/rules)).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/view)).
@@ -101,6 +103,12 @@ bad(grid_sense(0, belief(none, []), _), [_-1, a-1, -1-1]).
 bad(grid_motion(move, belief(none, []), _), [_-1, jump-1]).
 bad(grid_localize(map(bounds(0, 0, 0, 0), 4, none, t, any, none), _, []),
     [_-3, [sure(a)]-3, [actions(-1)]-3, [cell_cm(0)]-3, [speed(0)]-3, [soon(1)]-3]).
+bad(localize_start(room), [_-1, nowhere-1]).
+bad(localize_start(room, []), [_-1, _-2, [seeds(1)]-2]).
+bad(localize_scan([]), [_-1, [turn(1)]-1]).
+bad(map_start([]), [_-1, [x(1)]-1]).
+bad(map_occupancy(0, 0, _), [_-1, far-2]).
+bad(explore([]), [_-1, [x(1)]-1]).
 bad(sim_fenced(nofile, _), [_-1]).
 bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [wall(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).

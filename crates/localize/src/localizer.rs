@@ -24,7 +24,7 @@ const DOUBT: f64 = 0.8;
 const FOUND: [f64; 2] = [0.5, 0.7];
 /// Of those, places that are less probable are left out.
 const LEAST_PROBABLE: f64 = 0.002;
-/// The particles of a place are at least so many.
+/// The least number of particles of a place.
 const LEAST_OF_PLACE: f64 = 30.0;
 /// A place belongs to a cluster that is so near, in cm and degrees.
 const IN_CLUSTER: [f64; 2] = [20.0, 20.0];

@@ -27,7 +27,7 @@ const ROUNDS: usize = 10;
 /// The odds of something where nothing was heard, and what each free look takes off.
 const PRIOR: f64 = 0.02;
 const AGAINST: f64 = 0.3;
-/// Nothing stands where the robot was: so far around its middle, in cm, and for so many looks.
+/// Nothing stands where the robot was: so far around its middle, in cm, which counts as some looks.
 const HULL: f64 = 7.5;
 const WAS_THERE: f64 = 10.0;
 /// Odds that are as probable as not.

@@ -41,7 +41,7 @@ const BIN: [f64; 2] = [10.0, 15.0];
 /// By how much, and how surely, particles may be wrong about the distribution.
 const ERROR: f64 = 0.05;
 const QUANTILE: f64 = 2.33;
-/// A cluster keeps so many.
+/// The least number that a cluster keeps.
 const LEAST_OF_CLUSTER: f64 = 30.0;
 /// And ends with less of the probability.
 const LEAST_WEIGHT: f64 = 0.001;
@@ -51,7 +51,7 @@ const NOT_FREE: f64 = 1e-3;
 /// How many particles there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// Always so many.
+    /// Always this number.
     Fixed(usize),
     /// As many as the distribution needs, within limits.
     Adaptive(usize, usize),
@@ -132,7 +132,7 @@ impl Particles {
         if squares > 0.0 { 1.0 / squares } else { 0.0 }
     }
 
-    /// Draws them anew, in each cluster as many as it has of the probability, so that none dies
+    /// Draws them again, in each cluster as many as it has of the probability, so that none dies
     /// by chance.
     pub(crate) fn resample(&mut self, count: Count, generator: &mut Pcg32) {
         let total = float(self.needed(count));

@@ -11,7 +11,7 @@ use ev3_motion::{Pose, wrapped};
 use rand_distr::{Distribution, StandardUniform};
 use rand_pcg::Pcg32;
 
-/// Poses to begin with, for a free area of up to so many square meters, and the most.
+/// Poses to begin with, for a free area of up to this in square meters, and the most.
 const POSES: f64 = 20_000.0;
 const AREA: f64 = 12.0;
 const MOST_POSES: f64 = 400_000.0;
@@ -151,7 +151,7 @@ fn spread(field: &Field, count: f64, generator: &mut Pcg32) -> Vec<Pose> {
     poses
 }
 
-/// The most probable places that are not the same, at most so many.
+/// The most probable places that are not the same, up to a number.
 fn distinct(mut found: Vec<(Pose, f64)>, most: usize) -> Vec<(Pose, f64)> {
     found.sort_by(|(_, a), (_, b)| b.total_cmp(a));
     let mut places: Vec<(Pose, f64)> = Vec::new();
