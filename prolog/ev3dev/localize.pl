@@ -370,8 +370,8 @@ scanned(From, Turns, Localizer, Ended) :-
 %
 %   The middle of the most probable cluster of poses, on the map, moved on by
 %   odometry since the last measurement. Heading is from -180 to 180.
-%   Covariance is as for pose_uncertainty/1. Fails as long as nothing is known;
-%   localized/1 tells how sure it is.
+%   Covariance is as for pose_uncertainty/1. Fails as long as nothing is
+%   known; localized/1 tells how sure it is.
 
 localized_pose(X, Y, Heading, Covariance) :-
     localizer_now(Localizer, _),

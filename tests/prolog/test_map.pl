@@ -1,5 +1,6 @@
 % Tests for library(ev3dev/map).
 :- use_module(library(plunit)).
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/localize)).
