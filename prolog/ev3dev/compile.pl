@@ -58,6 +58,7 @@ unit(sim_parts, ['ev3dev/private/turn', 'ev3dev/private/world_name',
 unit(sim, ['ev3dev/sim']).
 unit(sim_batch, ['ev3dev/private/batch_pool', 'ev3dev/sim_batch']).
 unit(grid_belief, ['ev3dev/grid_belief']).
+unit(events, ['ev3dev/events']).
 unit(localize, ['ev3dev/localize']).
 unit(map, ['ev3dev/map']).
 unit(sim_fenced, ['ev3dev/sim_fenced']).
@@ -70,7 +71,6 @@ unit(console, ['ev3dev/console']).
 unit(jog, ['ev3dev/jog']).
 unit(colors, ['ev3dev/colors']).
 unit(raw, ['ev3dev/raw']).
-unit(events, ['ev3dev/events']).
 unit(rules, ['ev3dev/rules']).
 unit(plnxt, ['ev3dev/plnxt']).
 unit(golog, ['ev3dev/golog']).

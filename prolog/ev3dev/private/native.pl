@@ -432,15 +432,13 @@ missing.
 %!  map_occupancy_(+Mapper, +X, +Y, -Probability) is semidet.
 %!  map_walls_(+Mapper, -Bounds, -Walls) is semidet.
 %!  localize_at_(+Localizer, +Pose, +Deviation) is semidet.
-%!  localize_best_(+Localizer, +Robot, +UseGyro, -Pose, -Covariance) is
-%!      semidet.
+%!  localize_best_(+Localizer, +Robot, +UseGyro, -Pose, -Covar) is semidet.
 %!  localize_clusters_(+Localizer, -Clusters) is semidet.
 %!  localize_correct_(+Localizer, +Robot, +UseGyro) is semidet.
 %!  localize_new_(+Facts, +Options, -Localizer) is semidet.
 %!  localize_particles_(+Localizer, -Particles) is semidet.
 %!  localize_reset_(+Localizer) is semidet.
-%!  localize_step_(+Localizer, +Robot, +UseGyro, +Cm, -Step, -Turned) is
-%!      semidet.
+%!  localize_step_(+Localizer, +Robot, +UseGyro, +Cm, -Step, -By) is semidet.
 %!  localize_sure_(+Localizer, -Confidence, -Fit, -MustLook) is semidet.
 %
 %   `src/localize.rs`
