@@ -83,6 +83,16 @@ natives! {
         }
     }
 
+    /// map_show_(+Mapper): pages show it.
+    semidet fn "map_show_"(_context, mapper) {
+        mapping(mapper, |mapper| { view::keep_map(mapper); Ok(()) })
+    }
+
+    /// localize_show_(+Localizer): pages show it.
+    semidet fn "localize_show_"(_context, localizer) {
+        with(localizer, |localizer| { view::keep_localized(localizer); Ok(()) })
+    }
+
     /// localize_new_(+Facts, +Options, -Localizer): options is `options(Hull, Sensor, Model,
     /// Wander, Count, Update, Seed, Search, Table)`.
     semidet fn "localize_new_"(context, facts, options, localizer) {

@@ -5,16 +5,19 @@
             grid_belief_best/3,         % +Belief, -State, -Probability
             grid_belief_cell/3,         % +Belief, ?Cell, -Probability
             grid_belief_entropy/2,      % +Belief, -Bits
+            grid_belief_svg/2,          % +Belief, +File
             grid_localize/2,            % +Map, -State
             grid_localize/3             % +Map, -State, :Options
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
 :- use_module(private/arguments, [must_be_options/3, number_option/4]).
+:- use_module(private/brick, [brick/1]).
 :- use_module(private/errors, [domain_error/2, must_be/2, term_expansion/4]).
 :- use_module(private/grid/map).
 :- use_module(private/grid/moves, [go_to_cell/5]).
 :- use_module(private/grid/place, [grid_metric/2, set_pose_in/3]).
+:- use_module(private/shades, [write_shades/4]).
 :- use_module(drive, [go_cm/3, set_pose/3]).
 :- use_module(sensors, [us_dist_cm/2]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
@@ -45,6 +48,14 @@ up to 1. A state is `state(Cell, Direction)`, as in grid_map/2.
 grid_localize/3 has a robot find out. Source: Thrun, Burgard, Fox:
 Probabilistic Robotics (2005), chapters 2 and 8.
 */
+
+:- dynamic believed/3.                  % Brick, CellCm, Belief
+:- volatile believed/3.
+
+:- multifile ev3dev_brick:forget/1.
+
+ev3dev_brick:forget(Brick) :-
+    retractall(believed(Brick, _, _)).
 
 %   The most free cells ahead that are told apart. Farther on the cone of the
 %   sonar meets what stands beside the way.
@@ -191,6 +202,36 @@ information(_-P, Bits0, Bits) :-
     ;   Bits = Bits0
     ).
 
+%!  grid_belief_svg(+Belief, +File) is det.
+%
+%   Draw the belief: the darker a cell, the more probable; the most probable is
+%   black. What is obstructed has the color of the margin.
+
+grid_belief_svg(Belief, File) :-
+    shares(Belief, bounds(X1, Y1, X2, Y2), Shares),
+    Left is 20*X1 - 10,
+    Low is 20*Y1 - 10,
+    Right is 20*X2 + 10,
+    High is 20*Y2 + 10,
+    findall(cell(X, Y, Share),
+            ( member([CX, CY]-Share, Shares),
+              X is 20*CX,
+              Y is 20*CY ),
+            Drawn),
+    write_shades(File, 20, bounds(Left, Low, Right, High), Drawn).
+
+%   Bounds of the map, and the probability of each free cell as a share of that
+%   of the most probable one.
+shares(Belief, bounds(X1, Y1, X2, Y2), Shares) :-
+    Belief = belief(Map, _),
+    grid_bounds(Map, X1, Y1, X2, Y2),
+    findall(Cell-P, grid_belief_cell(Belief, Cell, P), Pairs),
+    pairs_values(Pairs, Ps),
+    max_member(Most, Ps),
+    findall(Cell-Share,
+            ( member(Cell-P, Pairs), Share is P/Most ),
+            Shares).
+
 %!  grid_localize(+Map, -State) is semidet.
 %!  grid_localize(+Map, -State, :Options) is semidet.
 %
@@ -236,8 +277,13 @@ grid_localize(Map, State, Module:Options0) :-
     grid_belief(Map, Belief),
     Here = state([0, 0], [0, 1]),
     set_pose(0, 0, 0),
-    seek(Most, trip(Map, Sure, Policy, Tell, Metric), Here, [], Belief,
-         State),
+    brick(Brick),
+    setup_call_cleanup(
+        true,
+        seek(Most, trip(Map, Sure, Policy, Tell, Metric), Here, [], Belief,
+             State),
+        retractall(believed(Brick, _, _))),
+    !,
     State = state(Cell, Direction),
     set_pose_in(Metric, Cell, Direction).
 
@@ -256,6 +302,7 @@ seek(Left, Trip, Here, Done, Belief0, State) :-
     Trip = trip(Map, Sure, Policy, Tell, Metric),
     free_seen(Metric, Free),
     grid_sense(Free, Belief0, Belief1),
+    shown(Metric, Belief1),
     ignore(call(Tell, Free, Belief1)),
     grid_belief_best(Belief1, Best, Probability),
     (   Probability >= Sure
@@ -270,6 +317,11 @@ seek(Left, Trip, Here, Done, Belief0, State) :-
         Left1 is Left-1,
         seek(Left1, Trip, There, [Action|Done], Belief, State)
     ).
+
+shown(metric(Cm, _, _, _, _), Belief) :-
+    brick(Brick),
+    retractall(believed(Brick, _, _)),
+    assertz(believed(Brick, Cm, Belief)).
 
 %   What is seen of a wall or a box stands 10 to 13 cm from the middle of a
 %   cell of 20 cm, or one or two cells farther on.

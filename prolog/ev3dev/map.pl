@@ -22,6 +22,7 @@
 :- use_module(private/brick, [brick/1]).
 :- use_module(private/one_of, [one_of/2]).
 :- use_module(private/roadmap_arguments, [sensor_option/2]).
+:- use_module(private/shades, [write_shades/4]).
 :- use_module(private/native,
               [ map_cells_/3, map_frontier_/5, map_look_/3, map_new_/2,
                 map_occupancy_/4, map_walls_/3
@@ -175,24 +176,8 @@ map_save(File) :-
 
 map_svg(File) :-
     map_cells(Side, Cells),
-    map_facts([bounds(X1, Y1, X2, Y2)|_]),
-    Width is X2-X1,
-    Height is Y2-Y1,
-    setup_call_cleanup(
-        open(File, write, Stream, [encoding(utf8)]),
-        ( format(Stream, '<svg xmlns="http://www.w3.org/2000/svg" \c
-                          viewBox="0 0 ~2f ~2f" width="~0f" height="~0f">~n\c
-                          <rect width="100%" height="100%" fill="#ddd"/>~n',
-                 [Width, Height, 2*Width, 2*Height]),
-          forall(one_of(Cells, cell(X, Y, P)),
-                 ( Left is X - Side/2 - X1,
-                   Top is Y2 - Y - Side/2,
-                   Gray is round(255 * (1-P)),
-                   format(Stream, '<rect x="~2f" y="~2f" width="~1f" \c
-                                   height="~1f" fill="rgb(~d,~d,~d)"/>~n',
-                          [Left, Top, Side, Side, Gray, Gray, Gray]) )),
-          format(Stream, '</svg>~n', []) ),
-        close(Stream)).
+    map_facts([Bounds|_]),
+    write_shades(File, Side, Bounds, Cells).
 
 %!  explore is semidet.
 %!  explore(+Options) is semidet.

@@ -94,7 +94,7 @@ impl ToWorld {
 
 /// The ellipse of one standard deviation: its semi-axes, the longer one first, and the heading of
 /// that.
-fn ellipse(covariance: [[f64; 3]; 3]) -> [f64; 3] {
+pub(super) fn ellipse(covariance: [[f64; 3]; 3]) -> [f64; 3] {
     let [[xx, xy, _], [_, yy, _], _] = covariance;
     let (mean, half) = (f64::midpoint(xx, yy), (xx - yy) / 2.0);
     let root = half.hypot(xy);

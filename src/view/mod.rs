@@ -11,6 +11,7 @@ pub(crate) mod door;
 pub(crate) mod door;
 mod frame;
 pub(crate) mod hand;
+mod located;
 mod notes;
 mod printed;
 mod reach;
@@ -20,6 +21,7 @@ mod terms;
 mod threads;
 
 pub(crate) use self::believed::{counting_begins, pose_is_of_world, pose_is_set};
+pub(crate) use self::located::{keep_localized, keep_map};
 
 use self::notes::notes;
 use self::reach::{keep_samples, running_simulations, seconds, stop_motors};

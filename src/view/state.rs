@@ -160,6 +160,27 @@ objects! {
         ellipse: [Fine; 3],
     }
 
+    /// What a localizer believes.
+    Localized {
+        particles: Vec<[Fine; 3]>,
+        clusters: Vec<Cluster>,
+        confidence: Fine,
+    }
+
+    Cluster {
+        weight: Fine,
+        pose: [Fine; 3],
+        ellipse: [Fine; 3],
+    }
+
+    /// Cells by column and row, each with a probability.
+    Raster {
+        cell: Fine,
+        origin: Point,
+        h: Fine,
+        cells: Vec<[Fine; 3]>,
+    }
+
     /// What a sensor sees: a cone, a spot, a bumper or a beacon.
     Sight {
         port: &'static str,

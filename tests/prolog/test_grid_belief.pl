@@ -8,7 +8,9 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/grid)).
 :- use_module(library(ev3dev/grid_belief)).
+:- use_module(library(aggregate)).
 :- use_module(library(lists)).
+:- use_module(library(readutil)).
 
 %   Three cells in a row: the states that look along it see 0, 1 or 2 free cells.
 row(Map) :-
@@ -21,6 +23,18 @@ probability(belief(_, Pairs), State, P) :-
     memberchk(State-P, Pairs).
 
 :- begin_tests(grid_belief).
+
+test(is_a_picture, true(Count-Blacks-Whites == 4-1-1)) :-
+    % The margin, and three free cells: most probable, half so, impossible
+    row(Map),
+    B = belief(Map, [state([0, 0], [0, 1])-0.5, state([1, 0], [0, 1])-0.25, state([1, 0], [1, 0])-0.0]),
+    tmp_file(belief, File),
+    grid_belief_svg(B, File),
+    read_file_to_string(File, Text, []),
+    delete_file(File),
+    aggregate_all(count, sub_string(Text, _, _, _, "<rect"), Count),
+    aggregate_all(count, sub_string(Text, _, _, _, "fill=\"rgb(0,0,0)\""), Blacks),
+    aggregate_all(count, sub_string(Text, _, _, _, "fill=\"rgb(255,255,255)\""), Whites).
 
 test(all_states_alike, true(Length-Different == 12-1)) :-
     row(Map),

@@ -9,6 +9,9 @@
 :- use_module(library(ev3dev/view)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/grid)).
+:- use_module(library(ev3dev/grid_belief)).
+:- use_module(library(ev3dev/localize)).
+:- use_module(library(ev3dev/map)).
 :- use_module(library(ev3dev/rules),
               [after/2, after/3, behave/2, op(1150, xfx, ~>), op(1160, xfx, ::)]).
 :- use_module(library(filesex)).
@@ -717,6 +720,58 @@ test(the_plan_that_is_carried_out, true(Plan-After == [[0,0],[0,1],[0,2],[1,2]]-
                  frame_with(Page, Last, Last.grid.plan == []),
                  After = Last.grid.plan,
                  page_close(Page) ))).
+test(where_it_may_be, true(Ended == null)) :-
+    paged(Page,
+          ( set_robot(5.6, 10.6, outB, outC),
+            localize_start(room), localize_scan,
+            frame_with(Page, Frame, Frame.localized \== null),
+            localize_stop,
+            frame_with(Page, Last, Last.localized == null),
+            Ended = Last.localized )),
+    Frame.localized.clusters = [First|_],
+    First.weight > 0.9,
+    [X, Y, _] = First.pose,
+    near(X, 40, 5),
+    near(Y, 40, 5),
+    Frame.localized.confidence > 0.8,
+    length(Frame.localized.particles, Count),
+    between(100, 400, Count),
+    forall(member([PX, PY, _], Frame.localized.particles),
+           ( PX >= 0, PX =< 300, PY >= 0, PY =< 250 )).
+test(the_map_that_it_makes) :-
+    paged(Page,
+          ( set_robot(5.6, 10.6, outB, outC),
+            map_start, turn(30, 360, []),
+            frame_with(Page, Frame, Frame.map \== null) )),
+    Map = Frame.map,
+    Map.cell =:= 5,
+    % Odometry begins at 0, 0, though the robot stands at 40, 40, and looks to 40 degrees.
+    Map.h =:= 40,
+    length(Map.cells, Count),
+    Count > 300,
+    forall(member([C, R, P], Map.cells), ( C >= 0, R >= 0, P >= 0, P =< 1 )).
+test(the_belief_on_the_grid, true(After == null)) :-
+    token(Token),
+    with_sim(grid,
+        viewed(Port,
+               ( set_robot(5.6, 10.6, outB, outC),
+                 page_open(Port, Token, Page),
+                 grid_map([bounds(0, 0, 7, 7), obstacles([[1, 1], [0, 3]])], Map),
+                 retractall(belief_seen(_)),
+                 ignore(grid_localize(Map, _, [actions(0), tell(remember_belief(Page))])),
+                 belief_seen(Frame),
+                 frame_with(Page, Last, Last.belief == null),
+                 After = Last.belief,
+                 page_close(Page) ))),
+    Belief = Frame.belief,
+    [Belief.cell, Belief.origin, Belief.h] == [20, [-10, -10], 0],
+    length(Belief.cells, 62),
+    \+ memberchk([1, 1, _], Belief.cells),
+    aggregate_all(max(P), member([_, _, P], Belief.cells), Most),
+    Most =:= 1.
+remember_belief(Page, _, _) :-
+    frame_with(Page, Frame, Frame.belief \== null),
+    assertz(belief_seen(Frame)).
 remember_plan(Page) :-
     page_ask(Page, "next", Frame),
     nb_setval(plan, Frame.grid.plan).

@@ -385,6 +385,36 @@ const colors = (page, places) => page.evaluate((all) => {
   });
 }, places);
 
+group('a robot that finds out where it is', [...ROOM, 'use_module(library(ev3dev/drive))', 'use_module(library(ev3dev/localize))', 'use_module(library(ev3dev/map))'], '', (it) => {
+  /** Which of the places look otherwise without a layer. */
+  const drawn = async (places, layer) => {
+    const toggle = () => it.page.$$eval('#layers-menu button', (all, words) => all.find((each) => each.textContent === words).click(), layer);
+    await it.page.click('#layers');
+    const before = await colors(it.page, places);
+    await toggle();
+    const after = await colors(it.page, places);
+    await toggle();
+    await it.page.click('#layers');
+    return places.filter((_, i) => String(before[i]) !== String(after[i]));
+  };
+
+  test('is seen among its particles', async () => {
+    await it.session.ask('localize_start(room, [start(pose(150, 200, 0, 12)), particles(300)])');
+    const { localized } = await shows(it.page, (s) => s.localized?.particles.length === 300, 'particles');
+    const places = localized.particles.map(([x, y]) => [x, y]);
+    assert.ok((await drawn(places, 'Where it may be')).length > 280);
+    assert.equal((await drawn([[280, 20], [20, 230]], 'Where it may be')).length, 0);
+    await it.session.ask('localize_stop');
+    await shows(it.page, (s) => s.localized === null, 'no particles');
+  });
+
+  test('is seen to make a map', async () => {
+    await it.session.ask('sim_pose(X, Y, H), set_pose(X, Y, H), map_start, turn(40, 360)');
+    await until(async () => (await drawn([[40, 70], [70, 40]], 'Maps')).length === 2, 'a map');
+    assert.equal((await drawn([[280, 230]], 'Maps')).length, 0);
+  });
+});
+
 group('a robot that has lost its way', ['sim_start([bounds(0, 0, 120, 120), start(60, 60, 0)], [clock(virtual)])', 'set_robot(5.6, 10.6, outB, outC)', 'use_module(library(ev3dev/drive))', 'drive_option(use_gyro, false)'], '', (it) => {
   test('is uncertain within the world only, and faintly', async () => {
     await it.session.ask('pose(_, _, _), forall(between(1, 12, _), turn(60, 360)), catch(for_seconds(20, ( go(50), wait(30) )), _, true)');

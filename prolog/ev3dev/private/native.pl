@@ -105,6 +105,7 @@
             map_look_/3,
             map_new_/2,
             map_occupancy_/4,
+            map_show_/1,
             map_walls_/3,
             localize_at_/3,
             localize_best_/5,
@@ -113,6 +114,7 @@
             localize_new_/3,
             localize_particles_/2,
             localize_reset_/1,
+            localize_show_/1,
             localize_step_/6,
             localize_sure_/4,
             views_block_/2,
@@ -430,6 +432,7 @@ missing.
 %!  map_look_(+Mapper, +Pose, +Cm) is semidet.
 %!  map_new_(+Sensor, -Mapper) is semidet.
 %!  map_occupancy_(+Mapper, +X, +Y, -Probability) is semidet.
+%!  map_show_(+Mapper) is semidet.
 %!  map_walls_(+Mapper, -Bounds, -Walls) is semidet.
 %!  localize_at_(+Localizer, +Pose, +Deviation) is semidet.
 %!  localize_best_(+Localizer, +Robot, +UseGyro, -Pose, -Covar) is semidet.
@@ -438,6 +441,7 @@ missing.
 %!  localize_new_(+Facts, +Options, -Localizer) is semidet.
 %!  localize_particles_(+Localizer, -Particles) is semidet.
 %!  localize_reset_(+Localizer) is semidet.
+%!  localize_show_(+Localizer) is semidet.
 %!  localize_step_(+Localizer, +Robot, +UseGyro, +Cm, -Step, -By) is semidet.
 %!  localize_sure_(+Localizer, -Confidence, -Fit, -MustLook) is semidet.
 %

@@ -206,6 +206,7 @@ function shown() {
     others: now?.others ?? [],
     path: model.path,
     grid: model.grid,
+    localized: model.localized,
     snapshots: model.snapshots ?? [],
     samples: model.samples.time.length,
     charts: charts.state(),

@@ -1,7 +1,7 @@
 // What the page knows: the latest frame, what is kept between frames, and
 // the samples since the simulation began.
 
-export const KEPT = ['name', 'world', 'spec', 'screen', 'watches', 'path', 'grid', 'snapshots', 'plugs', 'active', 'loaded', 'bricks'];
+export const KEPT = ['name', 'world', 'spec', 'screen', 'watches', 'path', 'grid', 'belief', 'localized', 'map', 'snapshots', 'plugs', 'active', 'loaded', 'bricks'];
 const MOST_SAMPLES = 24000;
 const MOST_LOG = 500;
 

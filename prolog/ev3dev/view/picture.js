@@ -64,12 +64,15 @@ export class Picture extends Camera {
     c.lineJoin = 'round';
     c.lineCap = 'round';
     this.drawFloor(c);
+    if (this.shown.map && this.model.map) this.drawRaster(c, this.model.map, this.paint.ink);
+    if (this.shown.particles && this.model.belief) this.drawRaster(c, this.model.belief, this.paint.red);
     if (this.shown.map && this.model.grid) this.drawGrid(c, this.model.grid);
     if (this.shown.sensors) this.drawSeen(c, false);
     this.drawItems(c);
     if (this.shown.trail) this.drawTrails(c, robot);
     if (this.shown.path && this.model.path) this.drawPath(c, this.model.path);
     if (this.shown.sensors) this.drawSeen(c, true);
+    if (this.shown.particles && this.model.localized) this.drawLocalized(c, this.model.localized);
     this.drawRobots(c, robot);
     this.drawHands(c);
     this.drawn(robot);
@@ -290,6 +293,40 @@ export class Picture extends Camera {
     c.fill();
   }
 
+  /** Cells with a probability each: a belief on a grid, or a map that the robot makes. */
+  drawRaster(c, { cell, origin, h, cells }, color) {
+    c.save();
+    c.translate(...origin);
+    c.rotate(-h * TURN);
+    c.fillStyle = color;
+    for (const [column, row, probability] of cells) {
+      c.globalAlpha = 0.04 + 0.6 * probability;
+      c.fillRect(column * cell, row * cell, cell, cell);
+    }
+    c.restore();
+  }
+
+  /** Particles, as short strokes ahead, and the clusters of them that are worth a number. */
+  drawLocalized(c, { particles, clusters }) {
+    const length = 7 * this.dot;
+    c.beginPath();
+    for (const [x, y, h] of particles) {
+      const [dx, dy] = ahead(h);
+      c.moveTo(x, y);
+      c.lineTo(x + dx * length, y + dy * length);
+    }
+    c.strokeStyle = this.paint.red;
+    c.globalAlpha = 0.55;
+    c.lineWidth = 1.3 * this.dot;
+    c.stroke();
+    c.globalAlpha = 1;
+    for (const { weight, pose, ellipse } of clusters) {
+      if (weight < 0.02) continue;
+      this.drawEllipse(c, pose, ellipse, this.paint.red);
+      this.label(c, `${Math.round(100 * weight)} %`, pose[0], pose[1] - this.reach() - 9 * this.dot, this.paint.red, 600, this.paint.card);
+    }
+  }
+
   drawGrid(c, grid) {
     const { dot } = this;
     const { cell, cols, rows } = grid;
@@ -402,7 +439,7 @@ export class Picture extends Camera {
   }
 
   /** Within the world, and the fainter the less it says. */
-  drawEllipse(c, [x, y], [a, b, h]) {
+  drawEllipse(c, [x, y], [a, b, h], color = this.paint.blue) {
     if (a * SIGMAS < 2 * this.dot) return;
     const [left, bottom, right, top] = this.view;
     const clear = Math.min(1, Math.max(0.15, (0.25 * Math.min(right - left, top - bottom)) / (a * SIGMAS)));
@@ -417,10 +454,10 @@ export class Picture extends Camera {
     // Its long axis along the heading h, which is clockwise from y.
     c.ellipse(x, y, a * SIGMAS, Math.max(b * SIGMAS, this.dot), (90 - h) * TURN, 0, 7);
     c.globalAlpha = 0.16 * clear;
-    c.fillStyle = this.paint.blue;
+    c.fillStyle = color;
     c.fill();
     c.globalAlpha = 0.9 * clear;
-    c.strokeStyle = this.paint.blue;
+    c.strokeStyle = color;
     c.lineWidth = 1.2 * this.dot;
     c.stroke();
     c.restore();

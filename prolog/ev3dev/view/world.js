@@ -6,7 +6,7 @@ import { Picture, TURN, between } from './picture.js';
 
 export const LAYERS = [
   ['floor', 'Centimeter grid'], ['trail', 'Trail'], ['believed', 'Believed pose'],
-  ['sensors', 'What sensors see'], ['path', 'Planned path'], ['map', 'Grid map'],
+  ['sensors', 'What sensors see'], ['path', 'Planned path'], ['map', 'Maps'], ['particles', 'Where it may be'],
 ];
 const GRAB = 14;
 

@@ -5,8 +5,8 @@
             watches_end/0
           ]).
 :- use_module('../native',
-              [ view_has_robot_/1, view_keep_/2, view_show_/1,
-                view_to_world_/5 ]).
+              [ localize_show_/1, map_show_/1, view_has_robot_/1,
+                view_keep_/2, view_show_/1, view_to_world_/5 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../brick', [brick/1, named_brick/3]).
 :- use_module('../world_name', [world_name/1]).
@@ -35,6 +35,7 @@ renew_kept :-
     ;   retractall(renewed(_)),
         assertz(renewed(Now)),
         catch(keep_grid, _, true),
+        keep_places,
         keep_name
     ),
     keep_bricks.
@@ -123,6 +124,36 @@ planned(Brick, Cell) :-
     catch(ev3dev_grid_moves:planned(Brick, Cells), _, fail),
     !,
     member(Cell, Cells).
+
+%   Where the robot may be by localize_start/1 and grid_localize/2, and the map
+%   that it makes.
+
+keep_places :-
+    brick(Brick),
+    (   catch(ev3dev_localize:localizer(Brick, Localizer, _), _, fail)
+    ->  localize_show_(Localizer)
+    ;   view_keep_(localized, null)
+    ),
+    (   catch(ev3dev_map:mapper(Brick, Mapper, _, _, _), _, fail)
+    ->  map_show_(Mapper)
+    ;   view_keep_(map, null)
+    ),
+    (   catch(ev3dev_grid_belief:believed(Brick, Cm, Belief), _, fail)
+    ->  belief_json(Cm, Belief, Json)
+    ;   Json = null
+    ),
+    view_keep_(belief, Json).
+
+%   Its map is taken for the world.
+belief_json(Cm, Belief, Json) :-
+    ev3dev_grid_belief:shares(Belief, bounds(X1, Y1, _, _), Shares),
+    X is Cm*X1 - Cm/2,
+    Y is Cm*Y1 - Cm/2,
+    findall([Column, Row, Share],
+            ( member([CX, CY]-Share, Shares),
+              place([CX, CY], X1, Y1, [Column, Row]) ),
+            Cells),
+    Json = json([cell=Cm, origin=[X, Y], h=0, cells=Cells]).
 
 place([CX, CY], X1, Y1, [X, Y]) :-
     X is CX - X1,

@@ -1,0 +1,66 @@
+//! What is believed and known of places beside the pose: by a localizer, and by a map that the
+//! robot makes.
+use super::believed::{ToWorld, ellipse};
+use super::notes::notes;
+use super::state::{Cluster, Decimal, Fine, Localized, OrNull, Raster, fine, text};
+use ev3_driver::lock::locked;
+use ev3_localize::{Localizer, Mapper};
+use ev3_motion::Pose;
+use ev3_os::Instant;
+use std::sync::Mutex;
+use std::time::Duration;
+
+/// The most particles that are sent.
+const MOST: usize = 400;
+
+/// Pages show this localizer. Its poses are those of its map, which is taken for the world.
+pub(crate) fn keep_localized(localizer: &Localizer) {
+    let all = localizer.particles();
+    let some = all.iter().step_by(all.len().div_ceil(MOST).max(1));
+    let clusters = localizer.clusters();
+    let localized = Localized {
+        particles: some.map(|particle| parts(particle.pose)).collect(),
+        clusters: clusters
+            .iter()
+            .map(|cluster| Cluster {
+                weight: Decimal(cluster.weight),
+                pose: parts(cluster.pose),
+                ellipse: fine(ellipse(cluster.covariance)),
+            })
+            .collect(),
+        confidence: Decimal(localizer.confidence()),
+    };
+    notes().keep("localized", text(&localized));
+}
+
+fn parts(Pose { x, y, heading }: Pose) -> [Fine; 3] {
+    fine([x, y, heading])
+}
+
+/// Pages show this map. To think about all looks again takes a while: that is done so seldom
+/// that it takes at most a twentieth of the time.
+pub(crate) fn keep_map(mapper: &mut Mapper) {
+    static NEXT: Mutex<Option<Instant>> = Mutex::new(None);
+    let began = Instant::now();
+    let mut next = locked(&NEXT);
+    if next.is_some_and(|next| began < next) {
+        return;
+    }
+    notes().keep("map", text(&OrNull(raster(mapper))));
+    let rest = (20 * began.elapsed()).max(Duration::from_secs(1));
+    *next = Some(Instant::now() + rest);
+}
+
+fn raster(mapper: &mut Mapper) -> Option<Raster> {
+    let [[left, low], _] = mapper.extent()?;
+    let side = Mapper::cell_side();
+    let place = |way: f64| (way / side).floor();
+    let cells = mapper.cells().into_iter();
+    let to_world = ToWorld::now();
+    Some(Raster {
+        cell: Decimal(side),
+        origin: fine(to_world.point([left, low])),
+        h: Decimal(to_world.turn()),
+        cells: cells.map(|([x, y], p)| fine([place(x - left), place(y - low), p])).collect(),
+    })
+}
