@@ -4,6 +4,7 @@
     benches/run.py [--rounds N] [--no-callgrind]
     benches/run.py --part view
     benches/run.py --part rules
+    benches/run.py --part localize
     benches/run.py --table
     benches/run.py --count
     benches/run.py --smoke
@@ -20,14 +21,14 @@ sensors:
 Each is one process that lives through the run. In each round every job is
 measured once by everyone who does it, one after the other; what counts is the
 median over the rounds, and ratios of medians. Writes benches/results.json, and
-from that the tables of docs/performance.md; --table does the latter alone. What
+from that the tables of docs/performance.md and docs/localization.md; --table does the latter alone. What
 cannot take part ends the run: no column is left out in silence. --part measures
 one part again, and keeps the others; --count counts instructions again, and writes
 benches/instructions.json.
 
 --smoke measures nothing: in seconds it has each worker do each job a few times,
-and makes sure that docs/performance.md has the figures of benches/results.json,
-if there is one, and that no call takes 3 % more instructions than
+and makes sure that the papers have the figures of benches/results.json, if there is
+one, and that no call takes 3 % more instructions than
 benches/instructions.json says. It says so, and goes on, where python-ev3dev2 cannot be
 installed, there is no FUSE, or instructions cannot be compared.
 """
@@ -49,12 +50,13 @@ TOP = Path(__file__).resolve().parent.parent
 WORK = TOP / "target" / "bench"
 RESULTS = TOP / "benches" / "results.json"
 INSTRUCTIONS = TOP / "benches" / "instructions.json"
-TABLES = TOP / "docs" / "performance.md"
+PAPERS = [TOP / "docs" / name for name in ("performance.md", "localization.md")]
 SWIPL = os.environ.get("SWIPL", "swipl")
 SWIPL_PACK = [SWIPL, "-p", f"library={TOP}/prolog"]
 
 # What can be measured alone, by its name in the results.
-PARTS = {"view": lambda: view.measure(10), "rules": lambda: rules()}
+PARTS = {"view": lambda: view.measure(10), "rules": lambda: rules(),
+         "localize": lambda: localize()}
 
 # Job: how often it is done in a round by the slow ones and by the fast ones
 JOBS = {
@@ -317,6 +319,55 @@ def rules(is_smoke=False):
     return result
 
 
+# Case of benches/localize.pl: what it is
+PLACES = {
+    "room": "`room`, at most 3 looks around",
+    "noise_doubled": "twice the noise, 12",
+    "three_rooms_wide": "three rooms, 3",
+    "real_sonar": "a sonar that misses echoes: `echo(in1, [incidence(40), miss(0.05), "
+                  "spurious(0.02)])`, 1 cm of noise",
+    "cone_25_believed_15": "a cone of 25 degrees, believed to have 15",
+    "moved_box": "a box was moved by 54 cm, 6",
+    "somebody_walks": "somebody walks through the room",
+    "kidnapped": "carried elsewhere: noticed, then 2",
+    "two_alike": "two rooms that look alike: two clusters, neither believed",
+    "textbook": "particles spread and weighed one by one, as textbooks have it",
+    "lejos": "leJOS's model: 200 particles, one ray, a bell curve",
+}
+DRIVES = {
+    "drive": "`noise(true)`",
+    "drive_bad_odometry": "slip 2 %, a wheel 1 % small, axle 2 % long, a gyro that drifts",
+    "drive_no_gyro": "the same without a gyro",
+    "drive_real_sonar": "the sonar that misses",
+}
+
+
+def localize(seeds=20, minutes=20, cases=(*PLACES, *DRIVES)):
+    """Of localization, for each case: how many seeds reached what is asked, the claims, how
+    many of them are wrong; of drives the errors in cm."""
+    output = subprocess.run(
+        [*SWIPL_PACK, "-g", "main", "-t", "halt(1)", "benches/localize.pl", "--",
+         str(seeds), str(minutes), *cases],
+        capture_output=True, text=True, check=True, cwd=TOP).stdout
+    measured = {}
+    for line in output.splitlines()[1:]:
+        case, reached, _, of, claims, wrong, *errors = line.split()
+        measured[case] = {"reached": int(reached), "of": int(of), "claims": int(claims),
+                          "wrong": int(wrong), "errors_cm": [float(error) for error in errors]}
+    return measured
+
+
+def localize_smoke():
+    """Few seeds, with which it goes as always."""
+    least = {"room": 4, "noise_doubled": 4, "three_rooms_wide": 4, "real_sonar": 3,
+             "kidnapped": 4, "drive": 4}
+    for case, result in localize(4, 1, (*least, "lejos")).items():
+        if result["reached"] < least.get(case, 0) or result["wrong"]:
+            sys.exit(f"localize, {case}: {result}")
+        if case == "lejos" and result["reached"] > 1:
+            sys.exit("leJOS's model is as good: what is compared?")
+
+
 def growth(rounds):
     """Median seconds of position/2 with ever more motors."""
     times = {}
@@ -485,6 +536,8 @@ def tables(results):
             "second", "")]
     written["rules"] = rules_table(results["rules"])
     written["view"] = view_table(results["view"])
+    written["places"] = places_table(results["localize"])
+    written["drives"] = drives_table(results["localize"])
     if INSTRUCTIONS.exists():
         counts = json.loads(INSTRUCTIONS.read_text())["counts"]
         written["instructions"] = [
@@ -513,6 +566,21 @@ def rules_table(measured):
             f"{us(measured['journal_seconds'])} us", "", "")]
 
 
+def places_table(measured):
+    return [row("case", "right", "wrong of its claims"), "|---|---|---|",
+            *(row(what, f"{case['reached']} of {case['of']}",
+                  f"{case['wrong']} of {case['claims']}" if case["claims"] else "never sure")
+              for name, what in PLACES.items() for case in [measured[name]])]
+
+
+def drives_table(measured):
+    return [row("case", "median", "95 %", "99 %", "most", "wrong of its claims"),
+            "|---|---|---|---|---|---|",
+            *(row(what, *(f"{error:.1f}" for error in case["errors_cm"]),
+                  f"{case['wrong']} of {case['claims']}")
+              for name, what in DRIVES.items() for case in [measured[name]])]
+
+
 def view_table(measured):
     return [
         row("", ""), "|---|---|",
@@ -525,32 +593,36 @@ def view_table(measured):
                              ("a motor's start until a page is told", "seen_seconds")))]
 
 
-def performance(results):
-    """docs/performance.md with the tables of these results, each between two
-    comments with its name."""
-    text = TABLES.read_text()
+def papers(results):
+    """The papers with the tables of these results, each between two comments with its
+    name."""
+    texts = {paper: paper.read_text() for paper in PAPERS}
     for name, lines in tables(results).items():
         mark = f"<!-- {name}: by benches/run.py -->\n"
-        before, _, after = text.split(mark)
-        text = before + mark + "\n".join(lines) + "\n" + mark + after
-    return text
+        paper = next(paper for paper, text in texts.items() if mark in text)
+        before, _, after = texts[paper].split(mark)
+        texts[paper] = before + mark + "\n".join(lines) + "\n" + mark + after
+    return texts
 
 
 def smoke():
-    """Each worker does each job; docs/performance.md is up to date."""
+    """Each worker does each job; the tables of the papers are up to date."""
     root = plain_tree()
     trees = ["disk"]
     measure(root, 1, is_smoke=True)
     rules(is_smoke=True)
+    localize_smoke()
     if Path("/dev/fuse").exists():
         trees.append("FUSE")
         with Mounted() as tree:
             measure(choose_tree(tree), 1, plain=False, is_smoke=True)
     else:
         print("left out: the mount, there is no FUSE here")
-    if RESULTS.exists() and performance(json.loads(RESULTS.read_text())) != TABLES.read_text():
-        sys.exit("docs/performance.md has other figures than benches/results.json: "
-                 "benches/run.py --table")
+    if RESULTS.exists():
+        for paper, text in papers(json.loads(RESULTS.read_text())).items():
+            if text != paper.read_text():
+                sys.exit(f"{paper.relative_to(TOP)} has other figures than "
+                         "benches/results.json: benches/run.py --table")
     print("the bench answers:", ", ".join(trees))
     compare_instructions(plain_tree())
 
@@ -576,7 +648,8 @@ def main():
     elif not options.table:
         run(options)
     results = json.loads(RESULTS.read_text())
-    TABLES.write_text(performance(results))
+    for paper, text in papers(results).items():
+        paper.write_text(text)
     for lines in tables(results).values():
         print("\n".join(lines), end="\n\n")
 

@@ -57,6 +57,27 @@ pub enum Count {
     Adaptive(usize, usize),
 }
 
+/// What is calculated of whole centimeters, which are all that a table has.
+struct Known([Option<(f64, f64)>; 257]);
+
+impl Default for Known {
+    fn default() -> Self {
+        Known([None; 257])
+    }
+}
+
+impl Known {
+    fn or_else(
+        &mut self,
+        expected: Option<f64>,
+        calculated: impl FnOnce() -> (f64, f64),
+    ) -> (f64, f64) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+        let index = expected.map_or(256, |centimeters| centimeters as usize);
+        *self.0[index].get_or_insert_with(calculated)
+    }
+}
+
 /// All particles, and their clusters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Particles {
@@ -88,13 +109,23 @@ impl Particles {
         heard: Option<f64>,
     ) -> f64 {
         let (mut sum, mut fit) = (0.0, 0.0);
+        let weighed = |expected| {
+            let likelihood = model.likelihood(expected, heard, 0.0);
+            let factor = libm::pow(likelihood, model.exponent);
+            (factor, (likelihood / model.peak(expected)).min(1.0))
+        };
+        let mut known = Known::default();
         for particle in &mut self.all {
             let expected = field.heard(sensor.from(particle.pose));
-            let likelihood = model.likelihood(expected, heard, 0.0);
+            let (factor, fits) = if field.has_table() {
+                known.or_else(expected, || weighed(expected))
+            } else {
+                weighed(expected)
+            };
             let place = if field.is_free(particle.pose.point()) { 1.0 } else { NOT_FREE };
-            particle.weight *= libm::pow(likelihood, model.exponent) * place;
+            particle.weight *= factor * place;
             sum += particle.weight;
-            fit += particle.weight * (likelihood / model.peak(expected)).min(1.0);
+            fit += particle.weight * fits;
         }
         if sum <= 0.0 {
             self.even();
