@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -65,6 +65,7 @@ check-all: lint check
 	$(MAKE) check-torture
 	$(MAKE) mutants SAMPLE=60 LEAST=70 \
 	    SINCE=$$(sed -n 's/.* on commit \([0-9a-f]*\),.*/\1/p' docs/checked.md)
+	$(MAKE) check-playground
 	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
 	@tools/checked.sh
 
@@ -149,6 +150,10 @@ dist: doc
 # A second one made elsewhere has the same bytes
 check-dist: dist
 	@tools/check-dist.sh
+
+# In SWI-Prolog's WebAssembly build, in node: examples do the same as natively
+check-playground: build
+	@tests/playground/check.sh
 
 # On an emulated EV3: installs the binary pack, then the suite
 check-brick: dist

@@ -25,6 +25,8 @@ mod lights;
 mod localize;
 mod motors;
 mod navigation;
+#[cfg(not(unix))]
+mod none;
 mod ports;
 mod roadmap;
 mod screen;
@@ -77,4 +79,17 @@ pub extern "C" fn install() {
         sim::fence::register();
         sim::limit::register();
     }
+    #[cfg(not(unix))]
+    none::register();
+}
+
+/// The same as a predicate of no argument, which a page's loader registers before Prolog starts.
+// Safety: only the loader looks the name up.
+#[cfg(target_family = "wasm")]
+#[unsafe(no_mangle)]
+pub extern "C" fn install_predicate() -> usize {
+    // It ends here: nothing unwinds in WebAssembly.
+    std::panic::set_hook(Box::new(|panic| ev3_os::page::say_to_page(&format!("! {panic}"))));
+    install();
+    1
 }

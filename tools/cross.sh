@@ -5,9 +5,6 @@
 #   target/dist/<target>/ev3dev.so
 #
 # Usage: tools/cross.sh [TARGET...]        default: all of them
-#        tools/cross.sh --example PACKAGE NAME TARGET
-#
-# The second builds an example with the same options; its path is printed.
 #
 # TARGET is armel (EV3), armhf or arm64 (Raspberry Pi) or amd64 (PC). The files
 # hold the simulator, but not its mount as real files: that is for programs in
@@ -24,13 +21,6 @@ source "$root/tools/targets.sh"
 
 main() {
     local name
-    if [[ ${1:-} == --example ]]; then
-        "$root/tools/toolchain.sh"
-        locked cross
-        build "$4" --package "$2" --example "$3"
-        echo "$root/target/cross/$(triple_of "$4")/$(profile_of "$4")/examples/$3"
-        return
-    fi
     [[ $# -gt 0 ]] || set -- "${all_targets[@]}"
     for name; do
         triple_of "$name" >/dev/null
@@ -38,27 +28,16 @@ main() {
     "$root/tools/toolchain.sh"
     locked cross
     for name; do
-        build "$name" --package ev3dev --no-default-features --features sim
-        install -D -m 644 \
-            "$root/target/cross/$(triple_of "$name")/$(profile_of "$name")/libev3dev.so" \
-            "$root/target/dist/$name/ev3dev.so"
+        build "$name"
         "$root/tools/check-elf.sh" "$name" "$root/target/dist/$name/ev3dev.so"
     done
 }
 
-# The brick has little memory.
-profile_of() {
-    case $1 in
-    armel) echo brick ;;
-    *) echo release ;;
-    esac
-}
-
-# build TARGET WHAT...: for cargo
 build() {
-    local name=$1 triple
+    local name=$1 triple profile=release
     triple=$(triple_of "$name")
-    shift
+    # What keeps the simulator below the brick's limit
+    [[ $name != armel ]] || profile=brick
     (
         cd "$root"
         clean_environment
@@ -69,9 +48,12 @@ build() {
         "$toolchain/bin/cargo" fetch --quiet --locked --target "$triple"
         CARGO_ENCODED_RUSTFLAGS=$(rust_flags "$name")
         export CARGO_ENCODED_RUSTFLAGS
-        "$toolchain/bin/cargo" build --quiet --profile "$(profile_of "$name")" --locked \
-            --target "$triple" "$@"
+        "$toolchain/bin/cargo" build --quiet --profile "$profile" --locked \
+            --package ev3dev --target "$triple" \
+            --no-default-features --features sim
     )
+    install -D -m 644 "$root/target/cross/$triple/$profile/libev3dev.so" \
+        "$root/target/dist/$name/ev3dev.so"
 }
 
 # What is set for cargo on this machine must not change the bytes.

@@ -4,7 +4,6 @@
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(time)).
 
 %!  show(+Example, +Seconds, +View)
 %

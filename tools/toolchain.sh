@@ -5,7 +5,9 @@
 # library of every target, as old as the bricks' one; for the EV3 also GCC's
 # floating point.
 #
-# Usage: tools/toolchain.sh
+# Usage: tools/toolchain.sh [page]
+#
+# With `page` it has WebAssembly's standard library, too.
 #
 # May be run again at any time: what is complete is left alone. Afterwards
 # .toolchain/bin holds `cargo` and `rustc`, and .toolchain/zig zig itself.
@@ -47,6 +49,27 @@ main() {
         ;;
     *) die "EV3DEV_RUST is none of rustup, debian, auto: $EV3DEV_RUST" ;;
     esac
+    [[ ${1:-} != page ]] || library_of_pages
+}
+
+# zig has its linker.
+library_of_pages() {
+    local dir=$toolchain/rust/usr/lib/rustlib apt=$toolchain/apt-page
+    if ! is_made "$toolchain/rust" "$(debian_key)"; then
+        rustup target add --toolchain "$rust_version" wasm32-unknown-unknown >>"$toolchain/rustup.log" 2>&1 ||
+            die "rustup cannot fetch WebAssembly's library (see $toolchain/rustup.log)"
+        return
+    fi
+    is_made "$dir/wasm32-unknown-unknown" "$(debian_key)" && return
+    say "fetching WebAssembly's library"
+    rm -rf "$apt" "$toolchain/page"
+    debian_download "$apt" "$debian_suite" amd64 libstd-rust-dev-wasm32
+    debian_unpack "$apt" "$toolchain/page"
+    debian_forget "$apt"
+    rm -rf "$dir/wasm32-unknown-unknown"
+    mv "$toolchain/page/usr/lib/rustlib/wasm32-unknown-unknown" "$dir/"
+    rm -rf "$toolchain/page"
+    made "$dir/wasm32-unknown-unknown" "$(debian_key)"
 }
 
 fetch_zig() {
@@ -143,4 +166,4 @@ write_wrapper() {
     chmod +x "$toolchain/bin/$1"
 }
 
-main
+main "$@"

@@ -204,8 +204,8 @@ information(_-P, Bits0, Bits) :-
 
 %!  grid_belief_svg(+Belief, +File) is det.
 %
-%   Draw the belief: the darker a cell, the more probable; the most probable is
-%   black. What is obstructed has the color of the margin.
+%   Draw the belief: the darker a cell, the more probable; the most probable
+%   is black. What is obstructed has the color of the margin.
 
 grid_belief_svg(Belief, File) :-
     shares(Belief, bounds(X1, Y1, X2, Y2), Shares),
@@ -220,8 +220,8 @@ grid_belief_svg(Belief, File) :-
             Drawn),
     write_shades(File, 20, bounds(Left, Low, Right, High), Drawn).
 
-%   Bounds of the map, and the probability of each free cell as a share of that
-%   of the most probable one.
+%   Bounds of the map, and the probability of each free cell as a share of
+%   that of the most probable one.
 shares(Belief, bounds(X1, Y1, X2, Y2), Shares) :-
     Belief = belief(Map, _),
     grid_bounds(Map, X1, Y1, X2, Y2),

@@ -271,12 +271,13 @@ sim_start(World, Options) :-
     must_be_built,
     must_be_options(sim_option,
                     [clock, robot, robots, noise, screen, seed], Options),
-    option(clock(Clock), Options, realtime),
+    option(clock(Clock0), Options, realtime),
     option(seed(Seed), Options, 1),
     option(noise(Noise), Options, false),
     option(robot(Robot), Options, default),
     option(screen(Bits), Options, 32),
-    must_be_clock(Clock),
+    must_be_clock(Clock0),
+    clock_here(Clock0, Clock),
     must_be(integer, Seed),
     must_be(boolean, Noise),
     must_be_screen(Bits),
@@ -357,6 +358,13 @@ must_be_clock(Clock) :-
     (   clock(Clock)
     ->  true
     ;   domain_error(clock, Clock)
+    ).
+
+%   Where there are no threads, a page lets time pass, and has its own pace.
+clock_here(Clock0, Clock) :-
+    (   current_prolog_flag(threads, false)
+    ->  Clock = virtual
+    ;   Clock = Clock0
     ).
 
 clock(realtime).

@@ -14,10 +14,10 @@ use std::time::Duration;
 const MOST: usize = 400;
 
 /// Pages show this localizer. Its poses are those of its map, which is taken for the world.
-pub(crate) fn keep_localized(localizer: &Localizer) {
-    let all = localizer.particles();
+pub(crate) fn keep_localized(of: &Localizer) {
+    let all = of.particles();
     let some = all.iter().step_by(all.len().div_ceil(MOST).max(1));
-    let clusters = localizer.clusters();
+    let clusters = of.clusters();
     let localized = Localized {
         particles: some.map(|particle| parts(particle.pose)).collect(),
         clusters: clusters
@@ -28,7 +28,7 @@ pub(crate) fn keep_localized(localizer: &Localizer) {
                 ellipse: fine(ellipse(cluster.covariance)),
             })
             .collect(),
-        confidence: Decimal(localizer.confidence()),
+        confidence: Decimal(of.confidence()),
     };
     notes().keep("localized", text(&localized));
 }

@@ -11,9 +11,11 @@ pub mod page;
 #[cfg(not(unix))]
 pub use linux::Errno;
 #[cfg(not(unix))]
-pub use page::{Instant, sleep};
+pub use page::{Instant, process_id, sleep};
 #[cfg(unix)]
 pub use rustix::io::Errno;
+#[cfg(unix)]
+pub use std::process::id as process_id;
 #[cfg(unix)]
 pub use std::thread::sleep;
 #[cfg(unix)]

@@ -39,14 +39,21 @@ load_once :-
     loaded,
     !.
 load_once :-
-    library_file(File),
-    open_shared_object(File, Library),
+    installer(Install),
     current_prolog_flag(access_level, Level),
     setup_call_cleanup(
         set_prolog_flag(access_level, system),  % no tracer shows them
-        call_shared_object_function(Library, install),
+        Install,
         set_prolog_flag(access_level, Level)),
     assertz(loaded).
+
+%   In a page the loader has it already, beside Prolog.
+installer(system:ev3dev_install) :-
+    predicate_property(system:ev3dev_install, foreign),
+    !.
+installer(call_shared_object_function(Library, install)) :-
+    library_file(File),
+    open_shared_object(File, Library).
 
 %!  library_file(-File) is det.
 %

@@ -6,9 +6,9 @@
 
 %!  write_shades(+File, +Side, +Bounds, +Cells) is det.
 %
-%   Draw squares of Side cm as SVG: Cells is a list of `cell(X, Y, Shade)` with
-%   their middles, white at shade 0 and black at 1. Bounds is `bounds(X1, Y1,
-%   X2, Y2)`, what is seen.
+%   Draw squares of Side cm as SVG: Cells is a list of `cell(X, Y, Shade)`
+%   with their middles, white at shade 0 and black at 1. Bounds is
+%   `bounds(X1, Y1, X2, Y2)`, what is seen.
 
 write_shades(File, Side, bounds(X1, Y1, X2, Y2), Cells) :-
     Width is X2-X1,

@@ -4,6 +4,7 @@
 //! here depends on how much wall time passes.
 
 use crate::lock::locked;
+use ev3_os::process_id;
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File};
 use std::io;
@@ -140,9 +141,9 @@ impl Tasks {
 
     /// Lists the threads again, if there are more or less of them.
     fn list(&mut self) {
-        if self.process != std::process::id() {
+        if self.process != process_id() {
             let directory = File::open(TASKS).ok();
-            *self = Tasks { process: std::process::id(), directory, ..Tasks::default() };
+            *self = Tasks { process: process_id(), directory, ..Tasks::default() };
         }
         let links = self.directory.as_ref().map_or(0, links);
         if links != 0 && links == self.links {

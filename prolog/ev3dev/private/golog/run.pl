@@ -17,6 +17,7 @@
                 situation_count/2, situation_history/2
               ]).
 :- use_module(effort, [how_far/2, in_trial/1]).
+:- use_module(queue, [queue_put/2]).
 :- use_module(search, [replanned_since/1]).
 :- use_module(theory,
               [ has_clauses/2, is_kind/3, prepare/1, proc_place/4
@@ -572,7 +573,7 @@ waited(E, State0, R, State) :-
         State = at(E, S, quiet),
         (   Stop == stop
         ->  % It is seen by the next cycle.
-            thread_send_message(Queue, exogenous(end_indi))
+            queue_put(Queue, exogenous(end_indi))
         ;   true
         )
     ;   is_over(R)

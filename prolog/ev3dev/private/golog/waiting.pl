@@ -9,7 +9,7 @@
             clock/2,                    % +Robot, -Seconds
             robot_stopped/2             % +Robot, +Cause
           ]).
-
+:- use_module(queue, [queue_wait/3]).
 
 /** <module> How library(ev3dev/golog) waits
 
@@ -101,9 +101,7 @@ pause(Robot, Queue, Deadline, Message) :-
     ->  ev3dev_time:wait(0.02),
         Message = none
     ;   at_most(Robot, Deadline, Seconds),
-        (   Seconds == infinite
-        ->  thread_get_message(Queue, Message)
-        ;   thread_get_message(Queue, Message0, [timeout(Seconds)])
+        (   queue_wait(Queue, Seconds, Message0)
         ->  Message = Message0
         ;   Message = none
         )

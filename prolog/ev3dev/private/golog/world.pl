@@ -21,6 +21,8 @@
               [ has_clauses/2, has_possible_values/1, is_sensing_action/2,
                 rules_out/2
               ]).
+:- use_module(queue,
+              [queue_end/1, queue_new/1, queue_put/2, queue_take/2]).
 :- use_module(waiting, [guarded/2, run_watched/3]).
 :- use_module('../brick', [brick/1]).
 :- use_module('../errors', [goal_of_program/1, throw_error/3]).
@@ -44,8 +46,7 @@ closure of the option `device`.
 
 ev3dev_brick:forget(Brick) :-
     retractall(running(Brick, _)),
-    forall(retract(queue(Brick, _, Queue)),
-           catch(message_queue_destroy(Queue), error(_, _), true)).
+    forall(retract(queue(Brick, _, Queue)), queue_end(Queue)).
 
 %!  robot_kind(+Module, -Robot) is det.
 %
@@ -69,7 +70,7 @@ queue_of(Module, Queue) :-
     with_mutex(ev3dev_golog,
                (   queue(Brick, Module, Queue0)
                ->  true
-               ;   message_queue_create(Queue0),
+               ;   queue_new(Queue0),
                    assertz(queue(Brick, Module, Queue0))
                )),
     Queue = Queue0.
@@ -100,7 +101,7 @@ send_exogenous(Module, Code) :-
     ),
     forall(member(M, Modules),
            ( queue_of(M, Queue),
-             thread_send_message(Queue, exogenous(Code)) )).
+             queue_put(Queue, exogenous(Code)) )).
 
 %!  agent_begins(+Module) is det.
 %!  agent_ends(+Module) is det.
@@ -177,8 +178,7 @@ look_around(Agent) :-
     ).
 
 take_messages(Queue, Module) :-
-    (   thread_peek_message(Queue, exogenous(_)),
-        thread_get_message(Queue, exogenous(Code))
+    (   queue_take(Queue, exogenous(Code))
     ->  seen_code(Code, Module),
         take_messages(Queue, Module)
     ;   true

@@ -125,8 +125,8 @@ planned(Brick, Cell) :-
     !,
     member(Cell, Cells).
 
-%   Where the robot may be by localize_start/1 and grid_localize/2, and the map
-%   that it makes.
+%   Where the robot may be by localize_start/1 and grid_localize/2, and the
+%   map that it makes.
 
 keep_places :-
     brick(Brick),
