@@ -33,6 +33,6 @@ export const library = () => fs.readFileSync(path.join(home, 'target/page/ev3dev
 
 /** The pack as it is loaded in a page. */
 export const pack = () => ({
-  ...folder(path.join(home, 'prolog'), '/pack/prolog', (file) => !/\/view\/(?!.*\.pl$)/.test(file) && !file.includes('/compiled')),
+  ...folder(path.join(home, 'prolog'), '/pack/prolog', (file) => !/\/view\/[^/]*\.(?!pl$)/.test(file)),
   '/pack/pack.pl': fs.readFileSync(path.join(home, 'pack.pl')),
 });

@@ -13,4 +13,5 @@ if ! cmp -s playground/package-lock.json "$modules/installed.json"; then
     npm ci --prefix "$modules" --no-audit --no-fund --silent
     cp playground/package-lock.json "$modules/installed.json"
 fi
+node playground/image.mjs "$modules" "$modules/state.prc"
 exec node tests/playground/traces.mjs "$modules" "$@"

@@ -12,7 +12,8 @@ const lines = [];
 const { swipl, swiplWasm, locateFile } = swiplOf(modules);
 const { prolog } = await startProlog({
   swipl, swiplWasm, library: library(),
-  arguments: ['-q', '-p', 'library=/pack/prolog'],
+  state: fs.readFileSync(path.join(modules, 'state.prc')),
+  arguments: ['-q'],
   files: {
     ...pack(),
     ...folder(path.join(home, 'examples'), '/pack/examples'),

@@ -1,0 +1,31 @@
+// Makes the saved state from which a page starts: the pack, loaded by SWI-Prolog's WebAssembly
+// build.
+//
+//   node playground/image.mjs MODULES STATE
+
+import fs from 'node:fs';
+import { library, pack, swiplOf } from './parts.js';
+import { startProlog } from './prolog.js';
+
+/** What is ready at the start; other libraries of the pack are loaded when a program asks. */
+const LIBRARIES = ['ev3dev', 'ev3dev/sim', 'ev3dev/drive', 'ev3dev/events', 'ev3dev/rules', 'ev3dev/grid', 'ev3dev/planners',
+  'ev3dev/roadmap', 'ev3dev/golog', 'ev3dev/journal', 'ev3dev/localize', 'ev3dev/map', 'ev3dev/grid_belief', 'ev3dev/view'];
+
+const [modules, state] = process.argv.slice(2);
+const { swipl, swiplWasm, locateFile } = swiplOf(modules);
+const said = [];
+/** library(qsave) names it; here nothing is loaded by it. */
+const shlib = ':- module(shlib, [current_foreign_library/2]).\n:- dynamic current_foreign_library/2.\n';
+const started = await startProlog({
+  swipl, swiplWasm, library: library(), arguments: ['-q', '-p', 'library=/pack/prolog'], files: { ...pack(), '/swipl/library/shlib.pl': shlib },
+  host: { say: (text) => said.push(text) },
+  module: { locateFile, print: (line) => said.push(line), printErr: (line) => said.push(line), stdin: () => null },
+});
+for (const name of LIBRARIES) {
+  const answer = started.prolog.query(`use_module(library(${name}), [])`).once();
+  if (!answer.success) throw new Error(`${name}: ${answer.message ?? 'failed'}`);
+}
+const saved = started.prolog.query("qsave_program('/saved', [])").once();
+if (!saved.success) throw new Error(saved.message ?? 'qsave_program failed');
+if (said.length) throw new Error(said.join('\n'));
+fs.writeFileSync(state, started.FS.readFile('/saved'));
