@@ -25,7 +25,7 @@ for (const name of LIBRARIES) {
   const answer = started.prolog.query(`use_module(library(${name}), [])`).once();
   if (!answer.success) throw new Error(`${name}: ${answer.message ?? 'failed'}`);
 }
-const saved = started.prolog.query("qsave_program('/saved', [])").once();
+const saved = started.prolog.query("qsave_program('/saved', [class(development)])").once();
 if (!saved.success) throw new Error(saved.message ?? 'qsave_program failed');
 if (said.length) throw new Error(said.join('\n'));
 fs.writeFileSync(state, started.FS.readFile('/saved'));
