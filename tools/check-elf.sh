@@ -54,7 +54,7 @@ main() {
     check_symbols "$file"
     check_texts "$file"
 
-    limit=3300000
+    limit=3600000
     [[ $name == armel ]] && limit=2200000
     size=$(stat -c %s "$file")
     [[ $size -le $limit ]] || complain "has $size bytes; $limit is the limit"
