@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist check-playground \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist playground check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         lint bench pictures doc dist demo install clean distclean realclean
 
@@ -150,6 +150,10 @@ dist: doc
 # A second one made elsewhere has the same bytes
 check-dist: dist
 	@tools/check-dist.sh
+
+# Prolog, robot and world in a page, for any web server: dist/playground
+playground: build
+	@tools/playground.sh
 
 # In SWI-Prolog's WebAssembly build, in node: examples do the same as natively
 check-playground: build

@@ -25,6 +25,8 @@ for (const name of LIBRARIES) {
   const answer = started.prolog.query(`use_module(library(${name}), [])`).once();
   if (!answer.success) throw new Error(`${name}: ${answer.message ?? 'failed'}`);
 }
+const session = started.prolog.query("load_files(user:'/pack/playground/session.pl', [])").once();
+if (!session.success) throw new Error(session.message ?? 'session.pl');
 const saved = started.prolog.query("qsave_program('/saved', [class(development)])").once();
 if (!saved.success) throw new Error(saved.message ?? 'qsave_program failed');
 if (said.length) throw new Error(said.join('\n'));

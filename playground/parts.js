@@ -34,5 +34,6 @@ export const library = () => fs.readFileSync(path.join(home, 'target/page/ev3dev
 /** The pack as it is loaded in a page. */
 export const pack = () => ({
   ...folder(path.join(home, 'prolog'), '/pack/prolog', (file) => !/\/view\/[^/]*\.(?!pl$)/.test(file)),
+  '/pack/playground/session.pl': fs.readFileSync(path.join(home, 'playground/session.pl')),
   '/pack/pack.pl': fs.readFileSync(path.join(home, 'pack.pl')),
 });

@@ -116,7 +116,8 @@ fn no_thread<T, C: QueryableContextType>(call: &Call<C>, error: &io::Error) -> P
     no_such(call, "resource", "thread", &error.to_string())
 }
 
-/// Runs a simulation in the brick in use, in the place of the running one.
+/// Runs a simulation in the brick in use, in the place of the running one. Somebody who watches
+/// sees it at the pace of that.
 fn run<C: QueryableContextType>(
     call: &Call<C>,
     simulation: Simulation,
@@ -128,7 +129,12 @@ fn run<C: QueryableContextType>(
     let before = before.unwrap_or_else(selected);
     let running = Running { simulation: Arc::clone(&simulation), before, names };
     let ended = locked(&RUNNING).insert(brick_number(), running);
-    drop(ended);
+    let clock = simulation.clock();
+    if let Some(same) = ended.filter(|ended| ended.simulation.clock() == clock) {
+        if watch::is_watched() {
+            simulation.set_pace(same.simulation.pace());
+        }
+    }
     use_simulated(call, simulation, true)
 }
 

@@ -14,20 +14,12 @@ use swipl::prelude::*;
 static DOOR: Mutex<Option<Arc<Door>>> = Mutex::new(None);
 
 /// The files that a page can save.
-const MADE: [Made; 2] = [
-    Made {
-        path: "/world.pl",
-        kind: "text/plain; charset=utf-8",
-        make: || outside(|| Some(running_simulation()?.machine().world_facts())),
-        lacking: "No simulation runs.",
-    },
-    Made {
-        path: "/samples.csv",
-        kind: "text/csv; charset=utf-8",
-        make: || outside(|| simulated::csv(&running_simulation()?.machine())),
-        lacking: "There are no samples.",
-    },
-];
+const MADE: [Made; 1] = [Made {
+    path: "/samples.csv",
+    kind: "text/csv; charset=utf-8",
+    make: || outside(|| simulated::csv(&running_simulation()?.machine())),
+    lacking: "There are no samples.",
+}];
 
 natives! {
     /// view_serve_(+Address, +Port, +Token, +Files, -Served): serves the page, with the files of a

@@ -54,6 +54,17 @@ natives! {
         into_prolog_result(simulation()?.clock() == Clock::Virtual)
     }
 
+    /// view_facts_(-Text): the world as a file of facts.
+    semidet fn "view_facts_"(_context, text) {
+        let facts = simulation()?.machine().world_facts();
+        text.unify(facts.as_str())
+    }
+
+    /// view_held_: no time may pass just now, by the pace or as it is paused.
+    semidet fn "view_held_"(_context) {
+        into_prolog_result(simulation()?.is_held())
+    }
+
     /// view_pull_(+Port): fails if nothing is plugged in.
     semidet fn "view_pull_"(context, port) {
         let call = Call::of(context, "view", 1);

@@ -5,13 +5,5 @@
 #   tests/playground/check.sh [EXAMPLE...]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-tools/page.sh
-modules=target/playground
-mkdir -p "$modules"
-if ! cmp -s playground/package-lock.json "$modules/installed.json"; then
-    cp playground/package.json playground/package-lock.json "$modules/"
-    npm ci --prefix "$modules" --no-audit --no-fund --silent
-    cp playground/package-lock.json "$modules/installed.json"
-fi
-node playground/image.mjs "$modules" "$modules/state.prc"
-exec node tests/playground/traces.mjs "$modules" "$@"
+tools/playground.sh --state
+exec node tests/playground/traces.mjs target/playground "$@"

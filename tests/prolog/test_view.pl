@@ -183,35 +183,30 @@ test(a_page_with_the_token) :-
         has(Answer, "X-Content-Type-Options: nosniff")
     ;   true
     ).
-test(a_file_with_the_cookie, true(Code == 200)) :-
-    with_sim(room, viewed(Port, ( own(Port, Fields),
-                                  get(Port, '/world.pl', Fields, Code,
-                                      Answer) ))),
-    has(Answer, "bounds("),
-    has(Answer, "Content-Security-Policy: ").
 test(samples_as_a_table, true(Code == 200)) :-
     with_sim(room, viewed(Port, ( own(Port, Fields), wait(1),
                                   get(Port, '/samples.csv', Fields, Code,
                                       Answer) ))),
+    has(Answer, "Content-Security-Policy: "),
     has(Answer, "time,x,y,heading,outA.position,outA.speed,outA.duty,"),
     has(Answer, "\n0,40,40,40,0,0,0,"),
     has(Answer, "\n1,40,40,40,0,0,0,").
 
 % Each of these is refused.
 refused(403, '/', []).
-refused(403, '/world.pl', []).
+refused(403, '/samples.csv', []).
 refused(403, '/?t=wrong_token', []).
 refused(403, '/?t=test_tokem', []).
 refused(403, '/?t=', []).
-refused(403, '/world.pl?t=test_token', []).
-refused(403, '/world.pl', ["Cookie: ev3view_1=test_token"]).
-refused(403, '/world.pl', [own, "Host: example.org"]).
-refused(403, '/world.pl', [own, "Host: localhost"]).
-refused(403, '/world.pl', [own, "Host: localhost:1"]).
+refused(403, '/samples.csv?t=test_token', []).
+refused(403, '/samples.csv', ["Cookie: ev3view_1=test_token"]).
+refused(403, '/samples.csv', [own, "Host: example.org"]).
+refused(403, '/samples.csv', [own, "Host: localhost"]).
+refused(403, '/samples.csv', [own, "Host: localhost:1"]).
 refused(403, '/?t=test_token', ["Host: localhost.example.org:80"]).
-refused(403, '/world.pl', [own, "Origin: http://example.org"]).
-refused(403, '/world.pl', [own, "Origin: null"]).
-refused(403, '/world.pl', [own, "Origin: http://localhost:1"]).
+refused(403, '/samples.csv', [own, "Origin: http://example.org"]).
+refused(403, '/samples.csv', [own, "Origin: null"]).
+refused(403, '/samples.csv', [own, "Origin: http://localhost:1"]).
 refused(403, '/ws', [own]).
 refused(400, '/ws', [own, origin]).
 refused(404, '/missing.js', [own]).
@@ -223,7 +218,7 @@ test(refused, [forall(refused(Code0, Path, Fields0)), true(Code == Code0)]) :-
     with_sim([], viewed(Port, ( fields(Fields0, Port, Fields),
                                 get(Port, Path, Fields, Code, _) ))).
 
-method(405, "POST /world.pl").
+method(405, "POST /samples.csv").
 method(405, "PUT /").
 method(405, "DELETE /stop").
 method(405, "GET /stop").
@@ -284,7 +279,7 @@ test(other_names_of_this_computer,
                                                  '192.168.1.5'-other_token ]),
                            format(string(Host), "Host: ~w:~w", [Name, Port]),
                            cookie(Port, Secret, Cookie),
-                           get(Port, '/world.pl', [Host, Cookie], Code, _) ),
+                           get(Port, '/samples.csv', [Host, Cookie], Code, _) ),
                          Codes) ),
                [address(any)])).
 own(Port, [Cookie]) :-

@@ -25,20 +25,8 @@ firefox=${FIREFOX:-$(command -v firefox-esr || command -v firefox || true)}
 unset FIREFOX # which says to the tests in what they run
 browser=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)}
 [ -n "$browser" ] || [ "${1:-}" = --firefox ] || skip "there is no Chromium (Debian's package: chromium)"
-for program in node npm; do
-    command -v "$program" >/dev/null || skip "there is no $program (Debian's packages: nodejs npm)"
-done
-[ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] || skip "node is older than 18"
-
-# Installed beside what is built, and again only if the versions changed.
 modules=target/view
-mkdir -p "$modules"
-if ! cmp -s tests/view/package-lock.json "$modules/installed.json"; then
-    cp tests/view/package.json tests/view/package-lock.json "$modules/"
-    npm ci --prefix "$modules" --no-audit --no-fund --silent 2>"$modules/npm.log" ||
-        skip "npm cannot install puppeteer-core: $(tail -n 1 "$modules/npm.log")"
-    cp tests/view/package-lock.json "$modules/installed.json"
-fi
+why=$(tools/modules.sh tests/view "$modules") || skip "$why"
 
 in_firefox() {
     [ -n "$firefox" ] || skip "there is no Firefox (Debian's package: firefox-esr)"

@@ -597,8 +597,10 @@ fn a_paused_run_goes_on_as_far_as_it_may() {
     // It asks again and again, and time stands.
     thread::sleep(ms(50));
     assert!(now(&paused) < ms(110), "{:?}", now(&paused));
+    assert!(paused.is_held());
     ev3_sim::stay_outside(false);
     paused.set_paused(false);
+    assert!(!paused.is_held());
     assert_eq!(driver.join().unwrap(), free);
 }
 

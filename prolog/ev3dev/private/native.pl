@@ -173,8 +173,10 @@
             told_to_end_/0,
             view_close_/0,
             view_end_/2,
+            view_facts_/1,
             view_frame_/5,
             view_has_robot_/1,
+            view_held_/0,
             view_hear_/3,
             view_keep_/2,
             view_latch_/0,
@@ -527,6 +529,8 @@ missing.
 
 %!  view_move_(+Id, +X, +Y, +Heading) is semidet.
 %!  view_pace_(+Factor) is semidet.
+%!  view_facts_(-Text) is semidet.
+%!  view_held_ is semidet.
 %!  view_pause_(+Pauses) is semidet.
 %!  view_pull_(+Port) is semidet.
 %!  view_put_back_(+Port, -Driver) is semidet.

@@ -53,10 +53,12 @@ failure and a cut end it, whatever they leave.
 waited(Reason) :-
     (   Reason == pause
     ->  no_guard,
+        let_page_in,
         fail
     ;   Reason == tick
     ->  no_guard,
         serve,
+        let_page_in,
         fail
     ;   Reason == yield
     ->  no_guard,
@@ -229,10 +231,22 @@ yield_if_possible :-
 %   Lets the other branches of race/2 or both/2 go on; library(ev3dev/events)
 %   adds the clause.
 
+%!  page_turn is det.
+%
+%   Lets the page go on that Prolog runs in; where there is one, it adds the
+%   clause.
+
 :- multifile
+    page_turn/0,
     serve_events/0,
     serve_planned/0,
     yield/0.
+
+let_page_in :-
+    (   page_turn
+    ->  true
+    ;   true
+    ).
 
 serve :-
     forall(serve_planned, true),

@@ -1,6 +1,6 @@
 // STOP, time, driving with the arrow keys, and the menus.
 
-import { $, attribute, el, notice, pressed, toggle } from './dom.js';
+import { $, attribute, download, el, notice, pressed, toggle } from './dom.js';
 import { Choices } from './choices.js';
 import { LAYERS } from './world.js';
 
@@ -295,7 +295,7 @@ export class Hands {
       ...this.choices.entries(),
       entry('Take a snapshot', () => this.wire.send(`save snapshot-${n}`)),
       ...taken.map((name) => entry(`Go back to ${name}`, () => this.wire.send(`restore ${name}`))),
-      entry('Save the world as facts', () => el('a', { href: 'world.pl', download: 'world.pl' }).click()),
+      entry('Save the world as facts', () => this.wire.send('facts')),
       entry('Save the log', () => this.log.save()),
     ];
   }
@@ -303,9 +303,10 @@ export class Hands {
   /** What the program answered to a hand. */
   reply(message) {
     if (this.choices.reply(message)) return;
-    const { type, what, why, id } = message;
+    const { type, what, why, id, text: facts } = message;
     if (what === 'place') this.world.answered();
     if (type === 'refused') notice(sentence(why ?? `It cannot ${what}.`), { seconds: 6 });
+    else if (what === 'facts') download('world.pl', facts, 'text/plain');
     else if (what === 'reset') notice(`${this.ended ? 'The program was stopped. ' : ''}Everything is as at the start.`, { seconds: 3 });
     else if (what === 'save') notice('The snapshot is taken.', { seconds: 3 });
     if ((what === 'move' || what === 'remove') && type === 'done' && id === undefined) this.world.select(null);

@@ -250,7 +250,8 @@ impl Simulation {
             Leave::Go(_) => true,
             Leave::Wait(sleep) => {
                 ev3_os::sleep(sleep);
-                matches!(self.shared.with_pace(|pace| pace.leave(now)), Leave::Go(_))
+                // In a page nobody sleeps, and the program is held back between two calls.
+                !cfg!(unix) || matches!(self.shared.with_pace(|pace| pace.leave(now)), Leave::Go(_))
             }
         }
     }
@@ -276,6 +277,13 @@ impl Simulation {
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.shared.with_pace(Pace::is_paused)
+    }
+
+    /// Whether no time may pass just now, by the pace or as it is paused.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        let now = self.machine().now();
+        matches!(self.shared.with_pace(|pace| pace.leave(now)), Leave::Wait(_))
     }
 
     /// Lets this time pass while paused, as far as the program uses it.

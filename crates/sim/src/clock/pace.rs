@@ -87,11 +87,12 @@ impl Pace {
         locked(&self.state).is_paused
     }
 
-    /// Lets some time pass while paused.
+    /// Lets some time pass while paused. It begins at once.
     pub(crate) fn allow(&self, now: Duration, time: Duration) {
         let mut state = locked(&self.state);
         state.allowed = state.allowed.max(now).saturating_add(time);
         state.left = state.left.saturating_add(time);
+        state.since = None;
     }
 
     /// Whether time may pass at a moment of simulated time.
@@ -170,6 +171,17 @@ mod tests {
         assert_eq!(pace.of_wall(SECOND, 1.0), Duration::ZERO);
         pace.set_paused(false);
         assert_eq!(pace.leave(SECOND), Leave::Go(Duration::MAX));
+    }
+
+    #[test]
+    fn what_is_allowed_begins_at_once() {
+        let pace = Pace::default();
+        pace.set_factor(Some(1.0));
+        assert!(matches!(pace.leave(SECOND), Leave::Go(_)));
+        let ahead = SECOND + Duration::from_millis(500);
+        assert!(matches!(pace.leave(ahead), Leave::Wait(_)));
+        pace.allow(ahead, SECOND);
+        assert!(matches!(pace.leave(ahead), Leave::Go(_)));
     }
 
     #[test]

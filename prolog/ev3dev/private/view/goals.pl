@@ -1,6 +1,7 @@
 :- module(ev3dev_view_goals,
           [ goal_line/4,                % +Word, +Rest, +Page, -Refused
-            goals_end/1                 % +Page
+            goals_end/1,                % +Page
+            goal_solve/4                % +Text, +Page, +Number, :Next
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../native', [view_part_/0, view_say_/2]).
@@ -13,6 +14,8 @@ Only with the option `goals(true)`, and only at localhost. A goal runs in a
 thread of its own, as a part of the program. It stands in the log, with what
 it prints and its answers. There is nothing for it to read.
 */
+
+:- meta_predicate goal_solve(+, +, +, 1).
 
 :- dynamic running/3.                   % Page, Number, Thread
 
@@ -84,6 +87,18 @@ solve(Text, Number, Page, Former) :-
     thread_get_message(ev3dev_view_goal(begin)),
     view_part_,
     ended(Former),
+    goal_solve(Text, Page, Number, told).
+
+told(Word) :-
+    thread_get_message(ev3dev_view_goal(Word)).
+
+%!  goal_solve(+Text, +Page, +Number, :Next) is det.
+%
+%   Solve a goal, as a part of the program. After an answer that may not be the
+%   last one, call(Next, Word) waits for `more`, for the next one, or `enough`.
+%   An abort is thrown again.
+
+goal_solve(Text, Page, Number, Next) :-
     format(string(Line), "?- ~w", [Text]),
     note(goal, Line),
     thread_self(Me),
@@ -91,7 +106,7 @@ solve(Text, Number, Page, Former) :-
               open_string("\n", In),
               setup_call_cleanup(
                   true,
-                  solve_(Text, Number, Page, In),
+                  solve_(Text, Number, Page, In, Next),
                   part_ends(Me)),
               close(In)),
           Error, unsolved(Error, Text, Page, Number)).
@@ -120,7 +135,7 @@ unsolved(Ball, _, Page, Number) :-
 is_abort('$aborted').
 is_abort(unwind(abort)).
 
-solve_(Text, Number, Page, In) :-
+solve_(Text, Number, Page, In, Next) :-
     set_stream(In, alias(user_input)),
     set_input(In),
     thread_self(Me),
@@ -132,7 +147,7 @@ solve_(Text, Number, Page, In) :-
         (   Last == true
         ->  answer(Page, Number, last, Answer)
         ;   answer(Page, Number, more, Answer),
-            thread_get_message(ev3dev_view_goal(Word)),
+            call(Next, Word),
             part_begins(Me),
             Word == enough
         )

@@ -1,5 +1,6 @@
 :- module(ev3dev_view_jog,
           [ jog_line/3,                 % +Left, +Right, -Answer
+            jog_round/2,                % +Before, -After
             jog_end/0
           ]).
 :- use_module('../native',
@@ -69,29 +70,40 @@ ensure_jogger :-
         catch(thread_property(Thread, status(running)), _, fail)
     ->  true
     ;   retractall(jogger(_)),
-        thread_create(( view_thread, jogs ), Thread, [detached(true)]),
+        current_prolog_flag(threads, true)
+    ->  thread_create(( view_thread, get_time(Now), jogs(Now-none) ), Thread,
+                      [detached(true)]),
         assertz(jogger(Thread))
+    ;   true
     ).
 
-jogs :-
-    get_time(Now),
-    jogs(Now, none).
-
-%   When the robot has stopped, time passes until it has rolled out.
-jogs(Before, Rest0) :-
+jogs(Round0) :-
     period(Period),
     sleep(Period),
+    (   jog_round(Round0, Round)
+    ->  jogs(Round)
+    ;   true
+    ).
+
+%!  jog_round(+Before, -After) is semidet.
+%
+%   Let time pass while somebody drives. Before is the moment of the round
+%   before this one and, when the robot has stopped, the moment until which
+%   time passes so that it rolls out, else `none`: a pair; so is After. Fails
+%   if nobody drives.
+
+jog_round(Before-Rest0, Now-Rest) :-
+    program_state(idle),
+    wheels(_, _),
     get_time(Now),
     Passed is min(0.1, Now - Before),
-    (   \+ program_state(idle)
-    ->  true
-    ;   pass(Passed),
-        rest(Now, Rest0, Rest),
-        (   number(Rest),
-            Now > Rest
-        ->  true
-        ;   jogs(Now, Rest)
-        )
+    pass(Passed),
+    rest(Now, Rest0, Rest),
+    (   number(Rest),
+        Now > Rest
+    ->  retractall(wheels(_, _)),
+        fail
+    ;   true
     ).
 
 pass(Seconds) :-

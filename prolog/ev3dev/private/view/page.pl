@@ -1,6 +1,7 @@
 :- module(ev3dev_view_page,
           [ pages_serve/3,              % +Address, ?Port, +Token
             pages_close/0,
+            page_says/2,                % +Page, +Line
             page_settings/2             % +Rate, +Goals
           ]).
 :- use_module('../errors', [throw_error/3]).
@@ -134,6 +135,18 @@ heard(Line, Page, Wanted0, Last) :-
     ;   line(Word, Rest, Page)
     ->  converse(Page, Wanted0, Last)
     ;   view_end_(Page, 1008)
+    ).
+
+%!  page_says(+Page, +Line) is semidet.
+%
+%   Do what a page says that is served without a thread of its own: it gets
+%   each frame at once. Fails if that is no line.
+
+page_says(Page, Line) :-
+    word_rest(Line, Word, Rest),
+    (   Word == next
+    ->  frame_send(Page, Rest)
+    ;   line(Word, Rest, Page)
     ).
 
 %   A frame that is due is sent at once.

@@ -2,6 +2,7 @@
           [ watch_program/0,
             leave_program/0,
             program_state/1,            % -State
+            in_main/1,                  % :Goal
             part_begins/1,              % +Thread
             part_ends/1,                % +Thread
             prints/0,
@@ -9,6 +10,8 @@
             stop_program/0,
             end_program/1,              % +Seconds
             lift_latch/0,
+            is_stopping/0,
+            stopped/0,
             view_thread/0
           ]).
 :- use_module(library(lists), [delete/3, member/2]).
@@ -20,7 +23,13 @@
 /** <module> The program that is watched
 
 Whether a program runs at the toplevel, and how it is stopped.
+
+Where Prolog has no threads, who serves the page is the program itself, between
+two of its goals. There a goal of a page is the program, which whoever began
+it interrupts when a page has asked for it, see is_stopping/0 and stopped/0.
 */
+
+:- meta_predicate in_main(0).
 
 :- dynamic
     queries/1,                          % how many there were
@@ -151,7 +160,18 @@ probe(Pause) :-
     Next is Now + Pause,
     retractall(next_probe(_, _)),
     assertz(next_probe(Next, Pause)),
-    catch(thread_signal(main, ev3dev_view_program:probed), _, true).
+    in_main(ev3dev_view_program:probed).
+
+%!  in_main(:Goal) is det.
+%
+%   Have the main thread call Goal between two of its own, and do not wait for
+%   that; if there is no other thread, call it now.
+
+in_main(Goal) :-
+    (   current_prolog_flag(threads, true)
+    ->  catch(thread_signal(main, Goal), _, true)
+    ;   ignore(Goal)
+    ).
 
 %   Nothing says when the toplevel begins to wait for its first query: it is
 %   asked again, ever more seldom.
@@ -212,8 +232,26 @@ begin_to_stop :-
     !.
 begin_to_stop :-
     retractall(stopping(_)),
-    thread_create(interrupt, Thread, [detached(true)]),
-    assertz(stopping(Thread)).
+    (   current_prolog_flag(threads, true)
+    ->  thread_create(interrupt, Thread, [detached(true)]),
+        assertz(stopping(Thread))
+    ;   part(_)
+    ->  assertz(stopping(main))
+    ;   view_lift_
+    ).
+
+%!  stopped is det.
+%
+%   The program, which was also who serves the page, has ended.
+
+stopped :-
+    retractall(part(_)),
+    set_state(idle),
+    (   retract(stopping(main))
+    ->  stop_motors,
+        view_lift_
+    ;   true
+    ).
 
 interrupt :-
     view_thread,
@@ -319,6 +357,10 @@ lift_latch :-
                ->  true
                ;   view_lift_
                )).
+
+%!  is_stopping is semidet.
+%
+%   The program is to be interrupted, and has not ended yet.
 
 is_stopping :-
     stopping(Thread),

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [last/2]).
 :- use_module('../causes', [active_clause/1]).
 :- use_module('../native', [view_keep_/2]).
-:- use_module(program, [program_state/1]).
+:- use_module(program, [in_main/1, program_state/1]).
 
 /** <module> The text of the program, and what of it is active
 
@@ -212,7 +212,7 @@ ask :-
     ->  true
     ;   retractall(asked(_)),
         assertz(asked(waits)),
-        catch(thread_signal(main, ev3dev_view_source:look), _, true)
+        in_main(ev3dev_view_source:look)
     ).
 
 %   In the main thread.

@@ -7,12 +7,12 @@
 :- use_module('../arguments', [option/3, take_options/4]).
 :- use_module('../chance', [end_chance/0]).
 :- use_module('../facts', [facts_of_text/3, located_facts/3, shipped/2]).
-:- use_module('../native', [sim_fault_/3, view_source_/1]).
+:- use_module('../native', [sim_fault_/3, view_facts_/1, view_source_/1]).
 :- use_module('../world_name',
               [name_world/1, noted_world/2, world_name/1]).
 :- use_module(hands, [name_of/2]).
 :- use_module(log, [error_text/2]).
-:- use_module(program, [end_program/1]).
+:- use_module(program, [end_program/1, in_main/1]).
 :- use_module(source, [program_directory/1]).
 
 /** <module> The world as a page begins it
@@ -77,6 +77,7 @@ why(Formal, Context, refused(Text)) :-
     error_text(error(Formal, Context), Text).
 
 request(reset, "", reset).
+request(facts, "", facts).
 request(worlds, "", worlds).
 request(choose, Rest, choose(Kind, From, Name)) :-
     word_rest(Rest, Kind, Rest1),
@@ -109,10 +110,13 @@ answer(Request, Answer) :-
     ;   do(Request, Answer)
     ).
 
+needs(facts, [sim]).
 needs(reset, [sim]).
 needs(choose(_, _, _), [sim, none]).
 needs(begin(_, _), [sim, none]).
 
+do(facts, done([text=Text])) :-
+    view_facts_(Text).
 do(reset, done([])) :-
     noted(World, Options),
     (   world_name(Name)
@@ -191,8 +195,7 @@ begin(World, Options, Name) :-
     ev3dev_sim:sim_start(World, Options),
     % The numbers of the seed are for the program, not for this thread.
     end_chance,
-    catch(thread_signal(main, ev3dev_chance:begin_chance_of(Options)), _,
-          true),
+    in_main(ev3dev_chance:begin_chance_of(Options)),
     (   Name == none
     ->  true
     ;   name_world(Name)

@@ -1,0 +1,54 @@
+% Prints the examples that run in a page, as JSON: a list of objects with name, about, which is the
+% first sentence of the file, text, and lines of docs/view-protocol.md that begin its world.
+%
+%   swipl -p library=prolog playground/examples.pl EXAMPLE...
+
+:- use_module(library(http/json)).
+:- use_module(library(main)).
+:- load_files(demo_script:'../tools/demo.pl', []).
+
+:- initialization(main, main).
+
+main(Names) :-
+    findall(Json, ( member(Name, Names), example(Name, Json) ), Examples),
+    json_write(current_output, Examples, [width(0)]),
+    nl.
+
+example(Name, json([name=Name, about=About, text=Text, lines=Lines])) :-
+    format(atom(File), "examples/~w.pl", [Name]),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    about(Text, About),
+    (   demo_script:demo(Name, World, _) -> true ; World = room ),
+    (   demo_script:robot(Name, Robot) -> true ; Robot = default ),
+    world_line(World, Line),
+    format(string(RobotLine), "choose robot pack ~w", [Robot]),
+    Lines = [RobotLine, Line].
+
+world_line(World, Line) :-
+    is_list(World),
+    !,
+    with_output_to(string(Facts),
+                   forall(member(Fact, World), format("~q.~n", [Fact]))),
+    format(string(Line), "begin example ~w", [Facts]).
+world_line(World, Line) :-
+    format(string(Line), "choose world pack ~w", [World]).
+
+%   The first sentence of the comment at the beginning.
+about(Text, About) :-
+    split_string(Text, "\n", "", Lines),
+    comment(Lines, Words0),
+    atomic_list_concat(Words0, ' ', Words),
+    (   sub_atom(Words, Before, _, _, '. ')
+    ->  sub_atom(Words, 0, Before, _, Sentence)
+    ;   Sentence = Words
+    ),
+    atom_concat(Sentence, '.', About0),
+    atomic_list_concat(Parts, '..', About0),
+    atomic_list_concat(Parts, '.', About).
+
+comment([Line|Lines], [Words|Rest]) :-
+    string_concat("%", Words0, Line),
+    !,
+    split_string(Words0, "", " ", [Words]),
+    comment(Lines, Rest).
+comment(_, []).

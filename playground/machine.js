@@ -1,0 +1,98 @@
+// Prolog in its worker, as the page uses it.
+
+/** So long, in milliseconds, Prolog may take to answer STOP. Then its worker is ended. */
+const PATIENCE = 1000;
+/** So long nobody may ask for a frame, as a view that is not seen does not; then the page does. */
+const UNSEEN = 250;
+
+export class Machine {
+  /** `on` has: begins(), took(message), ends(why), and `heard(message)`, of each that is no frame. */
+  constructor(on) {
+    this.on = on;
+    this.view = null;
+    this.have = '';
+    this.asked = 0;
+    this.open = false;
+    /** What made the world as it is: lines that begin it again. */
+    this.world = [];
+    this.start();
+    setInterval(() => {
+      if (this.open && performance.now() - this.asked > UNSEEN) this.next(this.have);
+    }, UNSEEN);
+  }
+
+  start() {
+    this.worker = new Worker('worker.js');
+    this.worker.onmessage = ({ data }) => this.take(data);
+    this.worker.onerror = (event) => this.take({ fault: event.message });
+  }
+
+  take(data) {
+    if (typeof data !== 'string') {
+      if (data.ready) this.begins();
+      else this.fails(data.fault);
+      return;
+    }
+    const message = JSON.parse(data);
+    if (message.type === 'frame') {
+      this.have = message.have;
+      this.on.took(message);
+      // Goals are typed beside the program.
+      delete message.goals;
+      this.view?.take(message);
+      return;
+    }
+    if (message.what === 'stop') clearTimeout(this.late);
+    if (!this.on.heard(message)) this.view?.take(message);
+  }
+
+  begins() {
+    this.open = true;
+    this.have = '';
+    for (const line of this.world) this.worker.postMessage(line);
+    this.on.begins();
+    this.view?.begins();
+  }
+
+  /** The live view is there. */
+  show(view) {
+    this.view = view;
+    if (this.open) view.begins();
+  }
+
+  next(have) {
+    this.asked = performance.now();
+    this.send(have ? `next ${have}` : 'next');
+  }
+
+  send(line) {
+    if (!this.open) return false;
+    this.remember(line);
+    this.worker.postMessage(line);
+    return true;
+  }
+
+  /** A world that begins, or a robot, takes the place of the former one. */
+  remember(line) {
+    const kind = /^choose robot /.test(line) ? 'robot' : /^(choose world|begin) /.test(line) ? 'world' : null;
+    if (kind) this.world = [...this.world.filter((other) => (/^choose robot /.test(other) ? 'robot' : 'world') !== kind), line];
+  }
+
+  stop() {
+    if (!this.open) return;
+    this.send('stop');
+    clearTimeout(this.late);
+    this.late = setTimeout(() => this.fails('The program computed without a pause, and was ended. Prolog has begun again; your text is as it was.'), PATIENCE);
+  }
+
+  /** Begins again with another worker. */
+  fails(why) {
+    clearTimeout(this.late);
+    const before = this.open;
+    this.open = false;
+    this.worker.terminate();
+    this.view?.ends();
+    this.on.ends(why);
+    if (before) this.start();
+  }
+}

@@ -1,0 +1,353 @@
+:- module(ev3dev_playground,
+          [ session/0
+          ]).
+:- use_module(library(lists)).
+:- use_module(library(wasm), [(:=)/2, await/2, op(700, xfx, :=)]).
+% What is typed finds them without a program.
+:- user:use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim), []).
+:- use_module('../prolog/ev3dev/private/native',
+              [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
+                view_say_/2, view_step_/2, view_thread_/1 ]).
+:- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
+:- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
+:- use_module('../prolog/ev3dev/private/view/log', [note/2, watch_messages/0]).
+:- use_module('../prolog/ev3dev/private/view/page',
+              [page_says/2, page_settings/2]).
+:- use_module('../prolog/ev3dev/private/view/program',
+              [is_stopping/0, part_begins/1, stop_program/0, stopped/0]).
+:- use_module('../prolog/ev3dev/private/view/worlds', [worlds_settings/1]).
+
+/** <module> Prolog in a page
+
+Prolog runs in a worker of the page, in one thread. It waits for a line of the
+page, which says what is to be done: the lines of docs/view-protocol.md, and
+these:
+
+| line | meaning |
+|---|---|
+| `run NAME TEXT` | load TEXT as the program NAME, and run it |
+| `load NAME TEXT` | load it only |
+| `goal N TEXT`, `more N`, `enough N` | as there |
+
+`run` and `load` are answered by `done` with `errors`, a list of
+`{"line":3,"kind":"warning","text":".."}`.
+
+While the program runs, it lets the page go on between two slices of a wait,
+and after some thousand inferences: what the page has said is done then, and
+the page is sent a frame. STOP is an abort at such a place.
+*/
+
+:- dynamic
+    began/0,
+    driving/1,                          % Round
+    deferred/1,                         % Line: what is done when the program has ended
+    found/3,                            % Line, Kind, Text: of the program that is loaded
+    loading/0,
+    program_file/1.
+
+%   The page has no number: there is one.
+page(0).
+
+%   So many inferences until the page may go on again. Prolog looks at each 16th
+%   one, so a sixteenth of it has to be odd.
+beat(2032).
+
+%!  session
+%
+%   Do what the page says. Left only by an exception, as an abort; then it is
+%   to be called again.
+
+session :-
+    (   began
+    ->  true
+    ;   begin
+    ),
+    retractall(loading),
+    set_prolog_flag(heartbeat, 0),
+    nb_setval(ev3dev_playground_turn, off),
+    output_noted,
+    stopped,
+    repeat,
+    (   retract(deferred(Line))
+    ->  true
+    ;   next_line(Line)
+    ),
+    attend(Line),
+    fail.
+
+begin :-
+    assertz(began),
+    page_settings(60, true),
+    worlds_settings(localhost),
+    watch_messages,
+    view_open_,
+    working_directory(_, '/home/web_user'),
+    ev3dev_sim:sim_start(room, [seed(1)]),
+    as_hand(view_pace_(1.0)).
+
+%   What a person does takes no simulated time.
+as_hand(Goal) :-
+    setup_call_cleanup(view_thread_(true), once(Goal), view_thread_(false)).
+
+                /*******************************
+                *             LINES            *
+                *******************************/
+
+%   Waits for it; somebody may drive meanwhile.
+next_line(Line) :-
+    page(Page),
+    view_hear_(Page, 0, Line0),
+    (   Line0 \== none
+    ->  Line = Line0
+    ;   as_hand(drives)
+    ->  pause(20),
+        next_line(Line)
+    ;   Promise := ev3dev_line(),
+        await(Promise, _),
+        next_line(Line)
+    ).
+
+drives :-
+    (   retract(driving(Round0))
+    ->  true
+    ;   get_time(Now),
+        Round0 = Now-none
+    ),
+    jog_round(Round0, Round),
+    assertz(driving(Round)).
+
+pause(Milliseconds) :-
+    Promise := ev3dev_turn(Milliseconds),
+    await(Promise, _).
+
+attend(Line) :-
+    word_rest(Line, Word, Rest),
+    (   memberchk(Word, [run, load])
+    ->  word_rest(Rest, Name, Text),
+        program(Word, Name, Text)
+    ;   Word == goal
+    ->  word_rest(Rest, Number0, Text),
+        atom_number(Number0, Number),
+        goal(Text, Number)
+    ;   hand(Line)
+    ).
+
+hand(Line) :-
+    page(Page),
+    (   as_hand(page_says(Page, Line))
+    ->  true
+    ;   true
+    ).
+
+word_rest(Line, Word, Rest) :-
+    (   sub_string(Line, Before, 1, After, " ")
+    ->  sub_atom(Line, 0, Before, _, Word),
+        sub_string(Line, _, After, 0, Rest)
+    ;   atom_string(Word, Line),
+        Rest = ""
+    ).
+
+                /*******************************
+                *          THE PROGRAM         *
+                *******************************/
+
+%   What the former program has left is gone. Its file is beside it, as on a
+%   disk.
+program(Word, Name, Text) :-
+    forall(retract(program_file(File)),
+           unload_file(File)),
+    forall(( predicate_property(user:Head, dynamic),
+             \+ predicate_property(user:Head, imported_from(_)),
+             \+ predicate_property(user:Head, multifile) ),
+           retractall(user:Head)),
+    absolute_file_name(Name, File),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        write(Out, Text),
+        close(Out)),
+    assertz(program_file(File)),
+    retractall(found(_, _, _)),
+    running(loaded(File)),
+    findall(json([line=Line, kind=Kind, text=Said]),
+            found(Line, Kind, Said), Found),
+    page(Page),
+    view_say_(Page, json([type=done, what=Word, errors=Found])),
+    (   found(_, "error", _)
+    ->  true
+    ;   Word == run,
+        entry(Goal)
+    ->  goal(Goal, 0)
+    ;   true
+    ).
+
+loaded(File) :-
+    setup_call_cleanup(
+        assertz(loading),
+        load_files(user:File, []),
+        retractall(loading)).
+
+%   The predicate that a program is begun by.
+entry(Text) :-
+    member(Name, [start, main, go]),
+    current_predicate(user:Name/0),
+    !,
+    atom_string(Name, Text).
+
+goal(Text, Number) :-
+    page(Page),
+    running(goal_solve(Text, Page, Number, answered)).
+
+%   Wait for what the page says of an answer. Whatever else is to be solved
+%   ends this goal.
+answered(Word) :-
+    set_prolog_flag(heartbeat, 0),
+    next_line(Line),
+    word_rest(Line, Word0, _),
+    (   memberchk(Word0, [more, enough])
+    ->  Word = Word0
+    ;   ends(Word0)
+    ->  assertz(deferred(Line)),
+        Word = enough
+    ;   hand(Line),
+        answered(Word)
+    ),
+    beat(Beat),
+    set_prolog_flag(heartbeat, Beat).
+
+%   Lines that end a program.
+ends(run).
+ends(load).
+ends(goal).
+ends(reset).
+ends(begin).
+ends(choose).
+
+%   Run Goal as the program, with the page going on.
+running(Goal) :-
+    part_begins(main),
+    beat(Beat),
+    setup_call_cleanup(
+        set_prolog_flag(heartbeat, Beat),
+        ignore(Goal),
+        set_prolog_flag(heartbeat, 0)),
+    output_noted,
+    stopped.
+
+                /*******************************
+                *           THE TURN           *
+                *******************************/
+
+:- multifile
+    ev3dev_waits:page_turn/0,
+    prolog:heartbeat/0.
+
+ev3dev_waits:page_turn :-
+    turn.
+
+:- abolish(prolog:heartbeat/0).
+
+prolog:heartbeat :-
+    turn.
+
+%   Let the page go on, if it is time to, or if simulated time is held back.
+turn :-
+    nb_getval(ev3dev_playground_turn, off),
+    !,
+    (   view_held_
+    ->  Held = true
+    ;   Held = false
+    ),
+    (   can_yield
+    ->  (   Held == true
+        ->  let_in(4)
+        ;   Due := ev3dev_due(),
+            Due == true
+        ->  let_in(0)
+        ;   true
+        )
+    ;   Held == true
+    ->  % It cannot wait here.
+        as_hand(view_step_(0.02, false))
+    ;   true
+    ).
+turn.
+
+%   Not within a call of Prolog from elsewhere. Within an engine Prolog would
+%   never yield again.
+can_yield :-
+    \+ engine_self(_),
+    '$can_yield'.
+
+let_in(Milliseconds) :-
+    nb_setval(ev3dev_playground_turn, on),
+    pause(Milliseconds),
+    hear_all,
+    nb_setval(ev3dev_playground_turn, off),
+    (   is_stopping
+    ->  abort
+    ;   view_held_
+    ->  let_in(4)
+    ;   true
+    ).
+
+hear_all :-
+    output_noted,
+    page(Page),
+    view_hear_(Page, 0, Line),
+    (   Line == none
+    ->  true
+    ;   heard(Line),
+        hear_all
+    ).
+
+heard(Line) :-
+    word_rest(Line, Word, _),
+    (   Word == goal
+    ->  page(Page),
+        view_say_(Page, json([ type=refused, what=goal,
+                               why="A program runs. STOP ends it." ]))
+    ;   ends(Word)
+    ->  as_hand(stop_program),
+        assertz(deferred(Line))
+    ;   hand(Line)
+    ).
+
+                /*******************************
+                *       OUTPUT, MESSAGES       *
+                *******************************/
+
+output_noted :-
+    catch(flush_output(user_output), _, true),
+    Text := ev3dev_printed(),
+    (   atom_length(Text, 0)
+    ->  true
+    ;   note(output, Text)
+    ).
+
+%   What is said goes into the log, and is not printed as well.
+:- multifile user:message_hook/3.
+
+user:message_hook(Message, Kind, Lines) :-
+    ev3dev_playground:began,
+    ev3dev_playground:said(Kind, Message, Lines).
+
+said(Kind, _, Lines) :-
+    loading,
+    memberchk(Kind, [warning, error]),
+    source_location(_, Line),
+    text(Lines, Text),
+    atom_string(Kind, Word),
+    assertz(found(Line, Word, Text)),
+    fail.
+said(informational, _, Lines) :-
+    text(Lines, Text0),
+    string_concat("% ", Text0, Text),
+    note(output, Text),
+    fail.
+said(_, _, _).
+
+text(Lines, Text) :-
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text0, "", "\n ", [Text]).
