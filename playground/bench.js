@@ -32,6 +32,9 @@ const console_ = new Console((line) => machine.send(line), (line) => editor.goTo
 const editor = new Text($('text'), { changed: keep, run, words: [] });
 const tone = new Tone();
 let program = null;
+/** What was said of lines when the program was loaded, and by what the last goal failed. */
+let found = [];
+let failed = null;
 
 window.ev3dev = { machine, editor, state };
 
@@ -90,10 +93,19 @@ function took(frame) {
 /** What is of the program and of queries; everything else is of the live view. */
 function heard(message) {
   const { type, what, errors, why } = message;
-  if (type === 'answer') console_.answer(message);
+  if (type === 'answer') {
+    failed = message.state === 'error' ? message.text : null;
+    console_.answer(message);
+  } else if (type === 'raised') {
+    if (failed) {
+      const error = { line: message.line, kind: 'error', text: failed };
+      editor.errors([...found, error]);
+      console_.was(message.line);
+    }
+  }
   else if (what === 'run' || what === 'load') {
-    editor.errors(errors);
-    for (const { line, kind, text: words } of errors) if (kind === 'warning' && words.startsWith('There is no')) console_.say(kind, `${name()}:${line}: ${words}`);
+    found = errors;
+    editor.errors(found);
     if (errors.some(({ kind }) => kind === 'error')) {
       editor.goTo(errors.find(({ kind }) => kind === 'error').line);
       console_.say('stop', 'The program was not started: see the lines with a mark.');

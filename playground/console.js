@@ -16,6 +16,7 @@ export class Console {
     this.at = 0;
     this.next = 1;
     this.newest = -1;
+    this.line = null;
     $('query').addEventListener('submit', (event) => {
       event.preventDefault();
       this.ask(this.input.value.trim());
@@ -44,16 +45,26 @@ export class Console {
   say(kind, words) {
     const { list } = this;
     const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
-    const place = /(?:^|\/)[\w-]+\.pl:(\d+)(?::\d+)?:\s*/.exec(words);
-    const row = el('li', { class: kind }, place ? words.replace(/\S*\.pl:\d+(?::\d+)?:\s*/, '') : words);
-    if (place) {
-      const button = el('button', { type: 'button' }, `line ${place[1]}`);
-      button.addEventListener('click', () => this.goTo(Number(place[1])));
-      row.prepend(button, ' ');
-    }
+    const place = /^(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
+    const row = el('li', { class: kind }, place ? words.slice(place[0].length) : words);
+    if (place) this.link(row, Number(place[1]));
     list.append(row);
     while (list.children.length > MOST) list.firstChild.remove();
     if (atEnd) list.scrollTop = list.scrollHeight;
+    if (kind === 'error' && this.line) this.was(this.line);
+  }
+
+  link(row, line) {
+    const button = el('button', { type: 'button' }, `line ${line}`);
+    button.addEventListener('click', () => this.goTo(line));
+    row.prepend(button, ' ');
+  }
+
+  /** The last error was in a line; it may be said only now. */
+  was(line) {
+    const row = this.list.lastElementChild;
+    this.line = row?.className === 'error' ? null : line;
+    if (!this.line) this.link(row, line);
   }
 
   key(event) {
@@ -76,6 +87,7 @@ export class Console {
     }
     if (!this.send(`goal ${this.next} ${goal}`)) return this.say('warning', 'Prolog is not ready yet.');
     this.next += 1;
+    this.line = null;
     this.history.push(goal);
     this.at = this.history.length;
     this.input.value = '';

@@ -2,6 +2,7 @@
           [ session/0
           ]).
 :- use_module(library(lists)).
+:- use_module(library(prolog_codewalk), [prolog_walk_code/1]).
 :- use_module(library(wasm), [(:=)/2, await/2, op(700, xfx, :=)]).
 % What is typed finds them without a program.
 :- user:use_module(library(ev3dev)).
@@ -11,7 +12,8 @@
                 view_say_/2, view_step_/2, view_thread_/1 ]).
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
-:- use_module('../prolog/ev3dev/private/view/log', [note/2, watch_messages/0]).
+:- use_module('../prolog/ev3dev/private/view/log',
+              [error_text/2, note/2, watch_messages/0]).
 :- use_module('../prolog/ev3dev/private/view/page',
               [page_says/2, page_settings/2]).
 :- use_module('../prolog/ev3dev/private/view/program',
@@ -31,7 +33,9 @@ these:
 | `goal N TEXT`, `more N`, `enough N` | as there |
 
 `run` and `load` are answered by `done` with `errors`, a list of
-`{"line":3,"kind":"warning","text":".."}`.
+`{"line":3,"kind":"warning","text":".."}`. After a goal that has ended by an
+error comes `{"type":"raised","line":12}`: the clause of the program in which
+that was.
 
 While the program runs, it lets the page go on between two slices of a wait,
 and after some thousand inferences: what the page has said is done then, and
@@ -44,7 +48,8 @@ the page is sent a frame. STOP is an abort at such a place.
     deferred/1,                         % Line: what is done when the program has ended
     found/3,                            % Line, Kind, Text: of the program that is loaded
     loading/0,
-    program_file/1.
+    program_file/1,
+    raised/1.                           % Line: of the last error
 
 %   The page has no number: there is one.
 page(0).
@@ -152,11 +157,12 @@ word_rest(Line, Word, Rest) :-
                 *          THE PROGRAM         *
                 *******************************/
 
-%   What the former program has left is gone. Its file is beside it, as on a
-%   disk.
+%   The program begins as in a Prolog that was just started, in the world as it
+%   is.
 program(Word, Name, Text) :-
-    forall(retract(program_file(File)),
-           unload_file(File)),
+    forall(retract(program_file(Former)),
+           unload_file(Former)),
+    forall(ev3dev_brick:forget(0), true),
     forall(( predicate_property(user:Head, dynamic),
              \+ predicate_property(user:Head, imported_from(_)),
              \+ predicate_property(user:Head, multifile) ),
@@ -168,6 +174,12 @@ program(Word, Name, Text) :-
         close(Out)),
     assertz(program_file(File)),
     retractall(found(_, _, _)),
+    (   sub_string(Text, _, _, _, "library(ev3dev")
+    ->  true
+    ;   % Here it is there without that, elsewhere it is not.
+        finding(1, "The program does not load the robot\u2019s library: it \c
+                    begins with :- use_module(library(ev3dev)).")
+    ),
     running(loaded(File)),
     findall(json([line=Line, kind=Kind, text=Said]),
             found(Line, Kind, Said), Found),
@@ -185,7 +197,31 @@ loaded(File) :-
     setup_call_cleanup(
         assertz(loading),
         load_files(user:File, []),
-        retractall(loading)).
+        retractall(loading)),
+    prolog_walk_code([ undefined(trace), source(false), trace_reference(-),
+                       module(user), on_trace(ev3dev_playground:lacking) ]).
+
+:- public lacking/3.
+
+lacking(Called, Caller, clause_term_position(Clause, _)) :-
+    !,
+    lacking(Called, Caller, clause(Clause)).
+lacking(Called0, _, clause(Clause)) :-
+    strip_module(Called0, _, Called),
+    functor(Called, Name, Arity),
+    clause_property(Clause, line_count(Line)),
+    PI = Name/Arity,
+    error_text(error(existence_error(procedure, PI), PI), Text),
+    finding(Line, Text).
+
+%   A warning about a line, also in the log.
+finding(Line, Text) :-
+    (   found(Line, _, Text)
+    ->  true
+    ;   assertz(found(Line, "warning", Text)),
+        format(string(Said), "line ~d: ~s", [Line, Text]),
+        note(warning, Said)
+    ).
 
 %   The predicate that a program is begun by.
 entry(Text) :-
@@ -196,7 +232,34 @@ entry(Text) :-
 
 goal(Text, Number) :-
     page(Page),
-    running(goal_solve(Text, Page, Number, answered)).
+    retractall(raised(_)),
+    running(goal_solve(Text, Page, Number, answered)),
+    (   retract(raised(Line))
+    ->  view_say_(Page, json([type=raised, line=Line]))
+    ;   true
+    ).
+
+%   Where the last error was that was thrown, caught or not.
+:- multifile prolog:prolog_exception_hook/5.
+
+prolog:prolog_exception_hook(error(_, _), _, Frame, _, _) :-
+    ev3dev_playground:thrown_in(Frame),
+    fail.
+
+thrown_in(Frame) :-
+    program_file(File),
+    retractall(raised(_)),
+    frame_line(Frame, File, Line),
+    assertz(raised(Line)).
+
+frame_line(Frame, File, Line) :-
+    (   prolog_frame_attribute(Frame, clause, Clause),
+        clause_property(Clause, file(File)),
+        clause_property(Clause, line_count(Line0))
+    ->  Line = Line0
+    ;   prolog_frame_attribute(Frame, parent, Parent),
+        frame_line(Parent, File, Line)
+    ).
 
 %   Wait for what the page says of an answer. Whatever else is to be solved
 %   ends this goal.
@@ -332,11 +395,15 @@ user:message_hook(Message, Kind, Lines) :-
     ev3dev_playground:began,
     ev3dev_playground:said(Kind, Message, Lines).
 
-said(Kind, _, Lines) :-
+said(Kind, Message, Lines) :-
     loading,
     memberchk(Kind, [warning, error]),
-    source_location(_, Line),
-    text(Lines, Text),
+    (   place(Message, Line)
+    ->  true
+    ;   source_location(_, Line)
+    ),
+    text(Lines, Text0),
+    without_place(Text0, Text),
     atom_string(Kind, Word),
     assertz(found(Line, Word, Text)),
     fail.
@@ -346,6 +413,24 @@ said(informational, _, Lines) :-
     note(output, Text),
     fail.
 said(_, _, _).
+
+place(error(_, Context), Line) :-
+    nonvar(Context),
+    (   Context = file(_, Line, _, _)
+    ;   Context = stream(_, Line, _, _)
+    ;   Context = file(_, Line)
+    ).
+
+without_place(Text, Rest) :-
+    sub_string(Text, Before, _, After, ".pl:"),
+    \+ ( sub_string(Text, At, 1, _, " "), At < Before ),
+    sub_string(Text, _, After, 0, Place),
+    split_string(Place, " ", "", [_|Words]),
+    Words = [_|_],
+    !,
+    atomic_list_concat(Words, ' ', Rest0),
+    atom_string(Rest0, Rest).
+without_place(Text, Text).
 
 text(Lines, Text) :-
     with_output_to(string(Text0),

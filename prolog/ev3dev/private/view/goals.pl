@@ -120,9 +120,10 @@ unsolved(error(syntax_error(What), Context), Text, Page, Number) :-
     ),
     error_text(Error, Why),
     answer(Page, Number, error, Why).
-unsolved(Error, _, Page, Number) :-
-    Error = error(_, _),
+unsolved(Error0, _, Page, Number) :-
+    Error0 = error(_, _),
     !,
+    without_caller(Error0, Error),
     error_text(Error, Why),
     answer(Page, Number, error, Why).
 unsolved(Ball, _, Page, Number) :-
@@ -131,6 +132,14 @@ unsolved(Ball, _, Page, Number) :-
     ;   format(string(Why), "Unknown exception: ~p", [Ball]),
         answer(Page, Number, error, Why)
     ).
+
+%   What calls the goal is not of the program.
+without_caller(error(Formal, context(Caller, Text)), Error) :-
+    nonvar(Caller),
+    memberchk(Caller, [system:call_cleanup/2, system:'<meta-call>'/1]),
+    !,
+    Error = error(Formal, context(_, Text)).
+without_caller(Error, Error).
 
 is_abort('$aborted').
 is_abort(unwind(abort)).
