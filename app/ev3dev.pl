@@ -133,6 +133,14 @@ call_command(run, [File], Options) :-
         stop_all_motors),
     summary,
     report(Outcome, Goal).
+call_command(playground, Folders, Options) :-
+    use_module(library(ev3dev/private/playground), []),
+    playground_folder(Folders, Folder),
+    setting(port, Options, Port, 8034),
+    setting(address, Options, Address, localhost),
+    ( setting('no-open', Options, true) -> Open = false ; Open = display ),
+    Serve = ev3dev_playground_server:serve(Folder, Address, Port, Open),
+    call(Serve).
 call_command(devices, [], Options) :-
     start_world_if_any(virtual, Options),
     ev3_devices,
@@ -163,6 +171,21 @@ call_command(jog, [], Options) :-
     use_module(library(ev3dev/jog)),
     Jog = ev3dev_jog:jog([speed(Speed)]),
     call(Jog).
+
+%   That of make playground, unless another one is named.
+
+playground_folder(Folders, Folder) :-
+    (   Folders = [Named|_]
+    ->  true
+    ;   Named = ev3dev_pack('dist/playground')
+    ),
+    absolute_file_name(Named, Folder),
+    atom_concat(Folder, '/parts.bin', Parts),
+    (   exists_file(Parts)
+    ->  true
+    ;   throw(usage("~w has no playground: make playground, in a clone of \c
+                     the repository, builds one", [Folder]))
+    ).
 
 %   A file, or an example of the pack.
 

@@ -206,5 +206,5 @@ if ('serviceWorker' in navigator) navigator.serviceWorker.register('offline.js')
 
 /** For tests. */
 function state() {
-  return { open: machine.open, program, name: name(), text: editor.text, world: machine.world, said: [...$('said').children].map((row) => [row.className, row.textContent]) };
+  return { open: machine.open, program, name: name(), text: editor.text, world: machine.world, said: [...$('said').children].map((row) => [row.dataset.kind, row.textContent]) };
 }

@@ -46,7 +46,7 @@ export class Console {
     const { list } = this;
     const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 24;
     const place = /^(?:\S*\.pl:|line )(\d+)(?::\d+)?:\s*/.exec(words);
-    const row = el('li', { class: kind }, place ? words.slice(place[0].length) : words);
+    const row = el('li', { 'data-kind': kind }, place ? words.slice(place[0].length) : words);
     if (place) this.link(row, Number(place[1]));
     list.append(row);
     while (list.children.length > MOST) list.firstChild.remove();
@@ -63,7 +63,7 @@ export class Console {
   /** The last error was in a line; it may be said only now. */
   was(line) {
     const row = this.list.lastElementChild;
-    this.line = row?.className === 'error' ? null : line;
+    this.line = row?.dataset.kind === 'error' ? null : line;
     if (!this.line) this.link(row, line);
   }
 

@@ -78,6 +78,8 @@ export class Text {
         EditorView.updateListener.of((update) => { if (update.docChanged) changed(); }),
       ] }),
     });
+    // Also by keys, where lines are longer than it is wide
+    this.view.scrollDOM.tabIndex = 0;
   }
 
   get text() {

@@ -13,6 +13,7 @@
                 term_expansion/4, throw_error/3
               ]).
 :- use_module(private/arguments, [must_be_options/3, option/3]).
+:- use_module(private/browser, [open_browser/2]).
 :- use_module(private/native,
               [ view_close_/0, view_open_/0, view_value_/2 ]).
 :- use_module(private/view/hands, [hands_end/0]).
@@ -253,30 +254,6 @@ random_codes(Count, In, [Code|Codes]) :-
     char_code(Char, Code),
     Count1 is Count - 1,
     random_codes(Count1, In, Codes).
-
-%   The browser gets no socket of ours, and must not hold up the toplevel.
-open_browser(Open, Url) :-
-    (   browses(Open),
-        opener(Program)
-    ->  format(atom(Command),
-               '~w \'~w\' >/dev/null 2>&1 </dev/null &', [Program, Url]),
-        catch(shell(Command, _), _, true)
-    ;   true
-    ).
-
-browses(true).
-browses(display) :-
-    (   getenv('DISPLAY', Display)
-    ;   getenv('WAYLAND_DISPLAY', Display)
-    ),
-    Display \== '',
-    !.
-
-opener(Program) :-
-    '$member'(Program, ['xdg-open', 'sensible-browser', 'x-www-browser']),
-    format(atom(Command), 'command -v ~w >/dev/null 2>&1', [Program]),
-    catch(shell(Command, 0), _, fail),
-    !.
 
 :- multifile prolog:message//1.
 

@@ -21,6 +21,8 @@ prints by itself, and it knows no commands.
 command(view, '[FILE]', 'show the robot in a browser, and the toplevel').
 command(sim, 'WORLD', 'the same with a simulated robot').
 command(run, 'FILE', 'load a program, call start/0 or main/0 or --goal').
+command(playground, '[FOLDER]',
+        'serve the page that has Prolog and the robot in it').
 command(devices, '', 'what is connected').
 command(check, '', 'try each motor and sensor; lift the robot first').
 command(work, '', 'make the runs that sim_batch/5 asks for by Redis').
@@ -39,11 +41,12 @@ option(for, 'S', 'a number', [run],
        'end after S seconds of the robot\'s time').
 option(goal, 'GOAL', 'a goal', [run], 'call it').
 option(view, '', flag, [run, jog], 'show the robot in a browser').
-option(port, 'P', 'a whole number below 65536', [view, sim, run, jog],
-       'of the view\'s address').
-option(address, any, any, [view, sim, run, jog],
-       'other machines can open the view, too').
-option('no-open', '', flag, [view, sim, run, jog], 'open no browser').
+option(port, 'P', 'a whole number below 65536',
+       [view, sim, run, jog, playground], 'of the page\'s address').
+option(address, any, any, [view, sim, run, jog, playground],
+       'other machines can open the page, too').
+option('no-open', '', flag, [view, sim, run, jog, playground],
+       'open no browser').
 option(redis, 'ADDRESS', 'an address', [work],
        'of the server, as HOST:PORT: localhost:6379').
 option(workers, 'N', 'a whole number above 0', [work],
@@ -257,7 +260,7 @@ help(Command) :-
 
 line(Parts, Text) :-
     atomic_list_concat(Parts, Left),
-    format("  ~w~t~19|~w~n", [Left, Text]).
+    format("  ~w~t~22|~w~n", [Left, Text]).
 
 named_line(Name) :-
     named(Name, Kind, _),

@@ -1,0 +1,35 @@
+:- module(ev3dev_browser,
+          [ open_browser/2              % +Open, +Url
+          ]).
+
+/** <module> The browser of this machine
+*/
+
+%!  open_browser(+Open, +Url) is det.
+%
+%   Open a browser at Url if Open is `true`, or if it is `display` and there is
+%   a display. Does nothing if there is no browser.
+
+%   The browser gets no socket of ours, and must not hold up the toplevel.
+open_browser(Open, Url) :-
+    (   browses(Open),
+        opener(Program)
+    ->  format(atom(Command),
+               '~w \'~w\' >/dev/null 2>&1 </dev/null &', [Program, Url]),
+        catch(shell(Command, _), _, true)
+    ;   true
+    ).
+
+browses(true).
+browses(display) :-
+    (   getenv('DISPLAY', Display)
+    ;   getenv('WAYLAND_DISPLAY', Display)
+    ),
+    Display \== '',
+    !.
+
+opener(Program) :-
+    '$member'(Program, ['xdg-open', 'sensible-browser', 'x-www-browser']),
+    format(atom(Command), 'command -v ~w >/dev/null 2>&1', [Program]),
+    catch(shell(Command, 0), _, fail),
+    !.

@@ -1,0 +1,305 @@
+// What a person does with the playground, in a browser that has never seen it.
+
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import net from 'node:net';
+import { after, before, describe, test } from 'node:test';
+import { browse, home, isFirefox, until, violations } from '../view/session.mjs';
+
+const HEAD = ':- use_module(library(ev3dev)).\n';
+const ROBOT = 'set_robot(5.6, 10.6, outB, outC)';
+/** Ten lines that avoid boxes. */
+const AVOIDS = `${HEAD}
+start :-
+    ${ROBOT},
+    drive.
+
+drive :-
+    us_dist_cm(_, Distance),
+    ( Distance > 30 -> go(30) ; turn(30, 90) ),
+    drive.
+`;
+
+let browser;
+let server;
+let url;
+
+async function freePort() {
+  const probe = net.createServer();
+  await new Promise((resolve) => { probe.listen(0, '127.0.0.1', resolve); });
+  const { port } = probe.address();
+  await new Promise((resolve) => { probe.close(resolve); });
+  return port;
+}
+
+/** The server of `swipl ev3dev playground`. */
+async function serve(port) {
+  const started = spawn(process.env.SWIPL ?? 'swipl', ['app/ev3dev.pl', 'playground', '--no-open', '--port', port], { cwd: home, stdio: ['ignore', 'pipe', 'inherit'] });
+  let said = '';
+  started.stdout.on('data', (text) => { said += text; });
+  await until(() => said.includes('Ctrl-C'), 'the server');
+  return started;
+}
+
+const ended = (child) => new Promise((resolve) => {
+  child.on('exit', resolve);
+  child.kill('SIGKILL');
+});
+
+before(async () => {
+  const port = await freePort();
+  url = `http://localhost:${port}/`;
+  server = await serve(port);
+  browser = await browse();
+});
+after(async () => {
+  await browser?.close();
+  if (server) await ended(server);
+});
+
+/** A page in an empty profile. */
+async function visit({ fragment = '', width = 1300, height = 850, scheme = 'light' } = {}) {
+  const context = await browser.createBrowserContext();
+  const page = await context.newPage();
+  page.problems = [];
+  page.asked = [];
+  page.on('pageerror', (error) => page.problems.push(error.message));
+  page.on('console', (message) => { if (message.type() === 'error') page.problems.push(message.text()); });
+  page.on('request', (request) => page.asked.push(request.url()));
+  if (!isFirefox) await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  await page.setViewport({ width, height });
+  await page.goto(url + fragment);
+  await ready(page);
+  page.end = async () => {
+    assert.deepEqual(page.problems, []);
+    await context.close();
+  };
+  return page;
+}
+
+const state = (page) => page.evaluate(() => window.ev3dev.state());
+const ready = (page) => until(async () => (await page.evaluate(() => window.ev3dev?.state().open)) && robot(page), 'Prolog and the robot');
+/** Of the live view, in its frame; none while it is loaded. */
+const robot = (page) => page.evaluate(() => {
+  const view = document.getElementById('robot').contentWindow?.ev3view?.state();
+  return view?.robot && { time: view.time, pose: view.robot.true, world: view.world.name, clock: view.clock, state: view.program.state };
+}).catch(() => null);
+const said = (page, pattern) => until(async () => (await state(page)).said.find(([, text]) => pattern.test(text)), `${pattern} in the console`)
+  .catch(async (error) => { throw new Error(`${error.message}: ${JSON.stringify((await state(page)).said)}`); });
+const idle = (page) => until(async () => (await state(page)).program?.state === 'idle', 'the end of the program');
+
+async function type(page, text) {
+  await page.evaluate((words) => { window.ev3dev.editor.text = words; }, text);
+}
+
+async function run(page, text) {
+  await page.click('#said-clear');
+  await type(page, text);
+  await page.click('#run');
+}
+
+async function ask(page, goal) {
+  await page.click('#query-text');
+  await page.keyboard.type(`${goal}\n`);
+}
+
+/** The marks beside lines, as `2 error`. */
+const marks = (page) => page.$$eval('.cm-lint-marker', (all) => all.map((mark) => mark.className.replace(/.*cm-lint-marker-/, '')));
+
+describe('the playground', () => {
+  let page;
+  before(async () => { page = await visit(); });
+  after(() => page.end());
+
+  test('drives a robot that ten lines steer, and stops it', async () => {
+    await run(page, AVOIDS);
+    const { pose } = await robot(page);
+    await until(async () => {
+      const now = await robot(page);
+      return Math.hypot(now.pose[0] - pose[0], now.pose[1] - pose[1]) > 10;
+    }, 'a robot that has moved');
+    await until(() => page.$('.cm-called'), 'the clause that runs');
+    assert.equal(await page.$eval('#run', (button) => button.textContent), 'Stop');
+    await page.click('#run');
+    await idle(page);
+    await said(page, /^STOP/);
+    const { pose: stands } = await robot(page);
+    await new Promise((resolve) => { setTimeout(resolve, 300); });
+    assert.deepEqual((await robot(page)).pose, stands);
+  });
+
+  test('says what is wrong, at its line', async () => {
+    await run(page, `${HEAD}start :-\n    ${ROBOT},\n    go_cm(20, 30.\n`);
+    await said(page, /Syntax error/);
+    await said(page, /was not started/);
+    assert.deepEqual(await marks(page), ['error']);
+
+    await run(page, `${HEAD}start :-\n    ${ROBOT},\n    go_ahead(20, 30).\n`);
+    await said(page, /^line 2 .*go_ahead\/2/);
+    await said(page, /^(?!line 2 Unk).*go_ahead\/2/);
+    await idle(page);
+
+    await run(page, `${HEAD}start :-\n    motor_run(outX, 30).\n`);
+    await said(page, /there is no motor at outX; there are: outA/);
+    await idle(page);
+
+    await run(page, `${HEAD}start :-\n    go_cm(20, 30).\n`);
+    await said(page, /no robot is set/);
+    await idle(page);
+
+    await run(page, `${HEAD}start :-\n    half(ten).\n\nhalf(X) :-\n    Y is X / 2, print(Y).\n`);
+    await said(page, /^line 5 .*`ten\/0' is not a function/);
+    assert.ok((await marks(page)).includes('error'));
+
+    await run(page, 'start :- us_dist_cm(_, Cm), print(Cm).\n');
+    await said(page, /does not load the robot.s library/);
+    await idle(page);
+  });
+
+  test('stops what computes, with waits and without', async () => {
+    await run(page, `${HEAD}start :- repeat, catch((wait(0.1), fail), _, fail).\n`);
+    await until(async () => (await state(page)).program?.state === 'running', 'a program');
+    await page.click('#run');
+    await said(page, /^stopped/);
+    await idle(page);
+
+    await run(page, `${HEAD}start :- loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
+    await said(page, /start/).catch(() => {});
+    await page.evaluate(() => window.ev3dev.machine.stop());
+    await said(page, /computed without a pause/);
+    await ready(page);
+    assert.match((await state(page)).text, /loop\(N1\)/);
+    await ask(page, 'X is 6 * 7.');
+    await said(page, /X = 42/);
+  });
+
+  test('answers as at the toplevel', async () => {
+    await page.click('#said-clear');
+    await ask(page, 'member(X, [one, two, three]).');
+    await said(page, /^X = one/);
+    await page.keyboard.type(';');
+    await said(page, /^X = two/);
+    await page.keyboard.type('\n');
+    await ask(page, 'us_dist_cm(in1, Cm).');
+    await said(page, /^Cm = \d/);
+    await ask(page, 'format("hello~n").');
+    await said(page, /^hello/);
+  });
+
+  test('holds time, lets it pass by steps, and slowly or fast', async () => {
+    const view = (id) => page.evaluate((name) => document.getElementById('robot').contentDocument.getElementById(name).click(), id);
+    await run(page, `${HEAD}start :- us_dist_cm(_, Cm), Cm < 0.\nstart :- start.\n`);
+    await until(async () => (await robot(page)).state === 'running', 'a program');
+    await view('pause');
+    await until(async () => (await robot(page)).clock.paused, 'a pause');
+    const { time } = await robot(page);
+    await new Promise((resolve) => { setTimeout(resolve, 300); });
+    assert.equal((await robot(page)).time, time);
+    await view('step');
+    await until(async () => (await robot(page)).time > time, 'a step');
+    await view('pause');
+    await until(async () => !(await robot(page)).clock.paused, 'time that passes');
+    await page.click('#run');
+    await idle(page);
+  });
+
+  test('runs each example that it offers', async () => {
+    const names = await page.$$eval('#examples option', (all) => all.map((each) => each.value).filter(Boolean));
+    assert.ok(names.length > 20, names.join());
+    await page.evaluate(() => window.ev3dev.machine.send('pace max'));
+    for (const name of isFirefox ? names.slice(0, 2) : names) {
+      await page.select('#examples', name);
+      await until(async () => (await state(page)).name === `${name}.pl`, name);
+      await page.click('#said-clear');
+      await page.click('#run');
+      await until(async () => (await state(page)).program?.state === 'running' || (await state(page)).said.length > 1, `${name} to run`);
+      await new Promise((resolve) => { setTimeout(resolve, 200); });
+      if ((await state(page)).program?.state === 'running') await page.click('#run');
+      await idle(page);
+      const wrong = (await state(page)).said.filter(([kind]) => kind === 'error');
+      assert.deepEqual(wrong, [], name);
+    }
+  });
+
+  test('keeps the program in the browser', async () => {
+    await page.evaluate(() => { document.getElementById('name').value = 'mine.pl'; });
+    await type(page, '% This is mine.\n');
+    await page.reload();
+    await ready(page);
+    assert.equal((await state(page)).text, '% This is mine.\n');
+    assert.equal((await state(page)).name, 'mine.pl');
+  });
+
+  test('asks nobody else for anything', () => {
+    assert.deepEqual(page.asked.filter((asked) => !asked.startsWith(url) && !/^(blob|data):/.test(asked)), []);
+  });
+});
+
+describe('a link', () => {
+  test('has the program and its world in it', async () => {
+    const page = await visit();
+    await type(page, AVOIDS);
+    await page.evaluate(() => window.ev3dev.machine.send('begin my_world bounds(0,0,90,80).\nstart(30,30,0).\nbox(60,60,10,10).\n'));
+    await until(async () => (await robot(page)).world === 'my_world', 'the world');
+    await page.click('#share');
+    const link = await until(() => page.$eval('#link', (field) => field.value), 'a link');
+    await page.end();
+    const other = await visit({ fragment: link.slice(url.length) });
+    assert.equal((await state(other)).text, AVOIDS);
+    await until(async () => (await robot(other)).world === 'my_world', 'the world');
+    assert.deepEqual((await robot(other)).pose, [30, 30, 0]);
+    await other.end();
+  });
+
+  test('that is cut off says so', async () => {
+    const page = await visit({ fragment: '#q1YqSS0uUbJSKi4' });
+    assert.match(await page.$eval('#notice-text', (box) => box.textContent), /not complete/);
+    await page.end();
+  });
+});
+
+describe('a phone', () => {
+  test('has room for all of it, in two parts', async () => {
+    const page = await visit({ width: 390, height: 780 });
+    const wide = () => page.evaluate(() => [document, document.getElementById('robot').contentDocument].map((each) => each.documentElement.scrollWidth));
+    assert.ok((await wide())[0] <= 390);
+    await run(page, `${HEAD}start :- writeln(done).\n`);
+    await said(page, /^done/);
+    await page.click('#tabs [data-shows=robot]');
+    await until(async () => page.$eval('#robot', (frame) => frame.clientWidth > 300), 'the robot');
+    assert.ok((await wide()).every((width) => width <= 390));
+    await page.end();
+  });
+});
+
+describe('nothing is wrong for axe', () => {
+  for (const scheme of isFirefox ? [] : ['light', 'dark']) {
+    for (const [width, height] of [[1300, 850], [390, 780]]) {
+      test(`${scheme}, ${width} wide`, async () => {
+        const page = await visit({ scheme, width, height });
+        await run(page, `${HEAD}start :- writeln(done), X is foo + 1, print(X), print(Y).\n`);
+        await said(page, /was not started/);
+        assert.deepEqual(await violations(page), []);
+        await page.click('#share');
+        assert.deepEqual(await violations(page), []);
+        await page.end();
+      });
+    }
+  }
+});
+
+describe('without a network', () => {
+  test('it is there again', { skip: isFirefox && 'Firefox keeps no worker in a private window' }, async () => {
+    const page = await visit();
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    const port = new URL(url).port;
+    await ended(server);
+    page.problems = [];
+    await page.reload();
+    await ready(page);
+    await run(page, `${HEAD}start :- writeln(offline).\n`);
+    await said(page, /^offline/);
+    await page.end();
+    server = await serve(port);
+  });
+});
