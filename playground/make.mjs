@@ -33,6 +33,8 @@ await esbuild.build({ ...options, entryPoints: [here('worker.js')], format: 'iif
 const bytes = gzipSync(packed({
   'swipl-web.wasm': fs.readFileSync(locateFile('swipl-web.wasm')), 'swipl-web.data': fs.readFileSync(locateFile('swipl-web.data')),
   'ev3dev.wasm': library(), 'state.prc': fs.readFileSync(path.join(modules, 'state.prc')), ...pack(),
+  // What examples load from beside them
+  ...Object.fromEntries(['grid_planner', 'plnxt'].map((name) => [`/home/web_user/${name}.pl`, fs.readFileSync(path.join(home, `examples/${name}.pl`))])),
 }), { level: 9 });
 fs.writeFileSync(path.join(to, 'parts.bin'), bytes);
 

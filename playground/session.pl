@@ -187,10 +187,12 @@ program(Word, Name, Text) :-
     view_say_(Page, json([type=done, what=Word, errors=Found])),
     (   found(_, "error", _)
     ->  true
-    ;   Word == run,
-        entry(Goal)
+    ;   Word \== run
+    ->  true
+    ;   entry(Text, Goal)
     ->  goal(Goal, 0)
-    ;   true
+    ;   note(warning, "The program is loaded. It has no start/0 to begin with: \c
+                       type a query.")
     ).
 
 loaded(File) :-
@@ -223,12 +225,24 @@ finding(Line, Text) :-
         note(warning, Said)
     ).
 
-%   The predicate that a program is begun by.
-entry(Text) :-
+%   The goal that a program is begun by: the first query of its comments, or one
+%   of the usual names.
+entry(Text, Goal) :-
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("%", Comment, Line),
+    split_string(Comment, "", " .\r", [Query0]),
+    string_concat("?- ", Query, Query0),
+    !,
+    (   sub_string(Query, Before, _, _, ". ")
+    ->  sub_string(Query, 0, Before, _, Goal)
+    ;   Goal = Query
+    ).
+entry(_, Goal) :-
     member(Name, [start, main, go]),
     current_predicate(user:Name/0),
     !,
-    atom_string(Name, Text).
+    atom_string(Name, Goal).
 
 goal(Text, Number) :-
     page(Page),
