@@ -101,6 +101,8 @@ export async function startProlog({ swipl, swiplWasm, library, state, arguments:
         return [name, found ?? (() => { throw new Error(`${name} is missing`); })];
       }));
       if (missing.size) throw new Error(`SWI-Prolog lacks ${[...missing].join(' ')}`);
+      /** How much there is of it, in bytes. */
+      globalThis.ev3dev_memory = () => memory.buffer.byteLength;
       const grown = Math.max(0, TABLE_BASE + 8192 - table.length);
       table.grow(grown);
       let free = table.length - 1;

@@ -6,6 +6,7 @@
 :- use_module(library(wasm), [(:=)/2, await/2, op(700, xfx, :=)]).
 % What is typed finds them without a program.
 :- user:use_module(library(ev3dev)).
+:- user:use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim), []).
 :- use_module('../prolog/ev3dev/private/native',
               [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,

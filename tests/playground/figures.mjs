@@ -1,0 +1,113 @@
+// How long the playground takes, and how much memory; printed, not judged.
+
+import fs from 'node:fs';
+import http from 'node:http';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
+import { browse, home, until } from '../view/session.mjs';
+
+const TIMES = 5;
+const RUNS = 100;
+const root = path.join(home, 'dist/playground');
+const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json' };
+const BOXES = `:- use_module(library(ev3dev)).
+start :- set_robot(5.6, 10.6, outB, outC), drive.
+drive :- us_dist_cm(_, D), ( D > 30 -> go(30) ; turn(30, 90) ), drive.
+`;
+
+/** A server that compresses what is text, as most do. */
+let sent = 0;
+const server = http.createServer((request, answer) => {
+  const name = new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html');
+  if (!fs.existsSync(path.join(root, name))) return answer.writeHead(404).end();
+  const kind = KINDS[path.extname(name)];
+  const bytes = fs.readFileSync(path.join(root, name));
+  const body = kind ? gzipSync(bytes) : bytes;
+  sent += body.length;
+  return answer.writeHead(200, { 'content-type': kind ?? 'application/octet-stream', ...(kind && { 'content-encoding': 'gzip' }) }).end(body);
+});
+await new Promise((resolve) => { server.listen(0, '127.0.0.1', resolve); });
+const url = `http://localhost:${server.address().port}/`;
+
+const browser = await browse();
+const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
+const robot = (page) => page.evaluate(() => document.getElementById('robot').contentWindow?.ev3view?.state().robot?.true).catch(() => null);
+const open = (page) => until(() => page.evaluate(() => window.ev3dev?.state().open), 'Prolog');
+const idle = (page) => until(() => page.evaluate(() => window.ev3dev.state().program?.state === 'idle'), 'the end');
+
+/** From the link to a robot that moves, in ms. */
+async function moves(page) {
+  const begin = performance.now();
+  await page.goto(url, { waitUntil: 'commit' }).catch(() => page.goto(url));
+  await open(page);
+  const [x, y] = await until(() => robot(page), 'the robot');
+  await page.evaluate((text) => {
+    window.ev3dev.editor.text = text;
+    document.getElementById('run').click();
+  }, BOXES);
+  await until(async () => {
+    const now = await robot(page);
+    return now && (now[0] !== x || now[1] !== y);
+  }, 'a move');
+  return performance.now() - begin;
+}
+
+const [first, second] = [[], []];
+let bytes = 0;
+for (let i = 0; i < TIMES; i += 1) {
+  const context = await browser.createBrowserContext();
+  const page = await context.newPage();
+  sent = 0;
+  first.push(await moves(page));
+  bytes = sent;
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  second.push(await moves(page));
+  await context.close();
+}
+console.log(`from the link to a robot that moves: ${(median(first) / 1000).toFixed(2)} s in an empty profile, ${(median(second) / 1000).toFixed(2)} s the second time (medians of ${TIMES})`);
+console.log(`over the wire: ${(bytes / 1e6).toFixed(2)} MB until it moves`);
+
+const page = await browser.newPage();
+await page.goto(url);
+await open(page);
+const heap = () => page.workers()[0].evaluate(() => globalThis.ev3dev_memory());
+
+/** Frames in a second, while a program drives at x1. */
+await page.evaluate((text) => {
+  window.ev3dev.editor.text = text;
+  document.getElementById('run').click();
+}, BOXES);
+const frames = () => page.evaluate(() => document.getElementById('robot').contentWindow.ev3view.state().frames);
+await new Promise((resolve) => { setTimeout(resolve, 1000); });
+const [f0, t0] = [await frames(), performance.now()];
+await new Promise((resolve) => { setTimeout(resolve, 5000); });
+console.log(`${((await frames() - f0) / ((performance.now() - t0) / 1000)).toFixed(0)} frames a second at x1`);
+await page.click('#run');
+await idle(page);
+
+/** The program's own speed, with nobody who holds time. */
+const seconds = async (goal) => {
+  await page.evaluate(() => window.ev3dev.machine.send('pace max'));
+  await page.evaluate((text) => { window.ev3dev.machine.send(`goal 900 get_time(A), (${text}), get_time(B), T is B - A, format("~3f s~n", [T])`); }, goal);
+  const [, line] = await until(() => page.evaluate(() => window.ev3dev.state().said.filter(([kind, text]) => kind === 'output' && / s$/.test(text)).pop()), goal, 120);
+  await page.click('#said-clear');
+  return line;
+};
+for (const goal of ['sim_step(60)', 'set_robot(5.6, 10.6, outB, outC), forall(between(1, 10, _), (go_cm(50, 10), turn(50, 90)))', 'forall(between(1, 20000, _), us_dist_cm(in1, _))', 'numlist(1, 200000, L), foldl([X, A, B]>>(B is A + X), L, 0, _)']) {
+  console.log(`${goal}: ${await seconds(goal)}`);
+}
+
+// A hundred runs: the worker's memory does not grow.
+const sizes = [];
+for (let i = 1; i <= RUNS; i += 1) {
+  await page.evaluate((text) => {
+    window.ev3dev.editor.text = text;
+    document.getElementById('run').click();
+  }, `${BOXES.replace(', drive.', ', go_cm(50, 5), turn(50, 30).')}% ${i}`);
+  await until(() => page.evaluate(() => window.ev3dev.state().said.some(([kind, text]) => kind === 'answer' && /true/.test(text))), 'a run');
+  await page.click('#said-clear');
+  if (i === 10 || i === RUNS) sizes.push(await heap());
+}
+console.log(`memory of Prolog and the robot after 10 runs ${(sizes[0] / 1e6).toFixed(0)} MB, after ${RUNS} ${(sizes[1] / 1e6).toFixed(0)} MB`);
+await browser.close();
+server.close();
