@@ -4,7 +4,7 @@ const NAME = 'ev3dev-playground-@BUILD@';
 const FILES = '@FILES@'.split(' ');
 
 addEventListener('install', (event) => event.waitUntil((async () => {
-  await (await caches.open(NAME)).addAll(FILES.map((file) => new Request(file, { cache: 'reload' })));
+  await (await caches.open(NAME)).addAll(FILES.map((file) => new Request(file, { cache: 'no-cache' })));
   await skipWaiting();
 })()));
 

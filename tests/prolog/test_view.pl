@@ -1312,6 +1312,18 @@ test(a_reset_begins_the_world_again) :-
           Last.robot.true = [X0, Y0, _],
           Last.robot.believed.pose = [X, Y, _],
           near(X, X0, 1), near(Y, Y0, 1) )).
+test(a_reset_keeps_the_pace, true(Pace == "x2")) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          done(Page, "pace x2"),
+          done(Page, "reset"),
+          frame_with(Page, Frame, Frame.clock.time =:= 0, 2000),
+          Pace = Frame.clock.pace )).
+test(the_world_as_facts) :-
+    in_room(Top, _,
+        ( Top = top(_, _, Page),
+          page_ask(Page, "facts", Answer),
+          sub_string(Answer.text, 0, _, _, "bounds(0, 0, 300, 250).\n") )).
 test(a_reset_stops_the_program) :-
     in_room(Top, _,
         ( Top = top(_, _, Page),

@@ -728,6 +728,23 @@ group('the editor', ROOM, '', (it) => {
     assert.deepEqual(again.draft, draft);
   });
 
+  test('shows the world as facts, and takes what is written there', async () => {
+    if (!(await state(it.page)).edits) await it.page.click('#edit');
+    const { edits: { draft } } = await state(it.page);
+    await press('Facts');
+    const facts = await it.page.$eval('.facts', (box) => box.value);
+    assert.match(facts, /^bounds\(.*\)\.\nstart\(/);
+    assert.deepEqual(await violations(it.page), []);
+    await it.page.click('.facts');
+    await it.page.evaluate(() => document.querySelector('.facts').setSelectionRange(0, 0));
+    await it.page.keyboard.type('circle(20, 220, 4).\n');
+    await press('Use');
+    const { edits: now } = await edits((e) => e.draft.items.length === draft.items.length + 1, 'one thing more');
+    assert.ok(now.draft.items.some((item) => item.kind === 'circle' && item.x === 20 && item.y === 220));
+    await press('Facts');
+    assert.equal(await it.page.$eval('.facts', (box) => box.hidden), true);
+  });
+
   test('starts the world, with the robot at its start, and a program stopped', async () => {
     const { edits: { draft } } = await state(it.page);
     it.session.type('repeat, go(20), fail');

@@ -41,14 +41,17 @@ export class Editor {
     this.file = el('input', { type: 'file', accept: '.pl', hidden: true, 'aria-label': 'A world to open' });
     this.file.addEventListener('change', () => this.opened());
     this.saving = button('Save', () => this.save('write'));
+    this.text = el('textarea', { class: 'facts', spellcheck: false, autocapitalize: 'off', 'aria-label': 'The world as facts', hidden: true });
+    this.using = button('Use', () => this.use(this.text.value), { class: 'tool text main', title: 'Start the world of this text', hidden: true });
+    this.asFacts = button('Facts', () => this.turnFacts(this.text.hidden), { 'aria-pressed': 'false', title: 'The world as a text' });
     $('editor').append(
       el('header', {}, el('h2', { id: 'editor-title' }, 'Edit the world'), el('div', { class: 'actions' }, this.undoing, this.redoing, sign('close', 'Back to the robot', () => this.leave()))),
       el('div', { class: 'kinds', role: 'group', 'aria-label': 'Draw' }, ...this.tools.values()),
-      this.hint, this.fields, this.list,
+      this.hint, this.fields, this.list, this.text,
       el('div', { class: 'files' },
         el('label', { for: 'edit-name' }, 'Name'), this.name,
         button('Start', () => this.begin(), { class: 'tool text main', title: 'Start this world: the robot stands at its start, a program that runs is stopped' }),
-        this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts: it is started' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
+        this.using, this.asFacts, this.saving, button('Download', () => this.download()), button('Open', () => this.file.click(), { title: 'Open a file of facts: it is started' }), button('Empty', () => this.change(EMPTY), { title: 'Begin with nothing' }), this.file),
     );
   }
 
@@ -256,9 +259,22 @@ export class Editor {
     const facts = await file.text().catch(() => null);
     this.file.value = '';
     if (facts === null) notice(`${file.name} cannot be read.`, { seconds: 6 });
-    if (facts === null || !this.fits(facts)) return;
+    else this.use(facts, file.name.replace(/\.pl$/, ''));
+  }
+
+  /** Starts the world of a text; its drawing takes the place of this one. */
+  use(facts, name = this.name.value) {
+    if (!this.fits(facts)) return;
     this.opening = true;
-    this.send(`begin ${plain(file.name.replace(/\.pl$/, '')) || 'world'} ${facts}`);
+    this.send(`begin ${plain(name) || 'world'} ${facts}`);
+  }
+
+  /** The text of facts in the place of the list of things, or that again. */
+  turnFacts(shown) {
+    this.text.hidden = this.using.hidden = !shown;
+    this.list.hidden = shown;
+    pressed(this.asFacts, shown);
+    this.render();
   }
 
   // ------------------------------------------------------------- the canvas
@@ -451,6 +467,7 @@ export class Editor {
     this.said(this.thing());
     this.renderFields();
     this.renderList();
+    if (document.activeElement !== this.text) this.text.value = factsOf(this.draft);
     const { camera } = this.world;
     this.world.show(this.picture);
     if (!camera.own) {

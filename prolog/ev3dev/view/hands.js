@@ -164,7 +164,7 @@ export class Hands {
       return;
     }
     const { target } = event;
-    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea')) return;
     if (ARROWS[event.key] && this.driving && !target.closest('.charts, .log')) {
       if (!event.repeat) this.jog(ARROWS[event.key], true);
       event.preventDefault();
