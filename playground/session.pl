@@ -87,6 +87,8 @@ begin :-
     page_settings(60, true),
     worlds_settings(localhost),
     watch_messages,
+    asserta((user:message_hook(Message, Kind, Lines) :-
+                 ev3dev_playground:of_program(Kind, Message, Lines))),
     view_open_,
     working_directory(_, '/home/web_user'),
     ev3dev_sim:sim_start(room, [seed(1)]),
@@ -201,29 +203,42 @@ loaded(File) :-
         assertz(loading),
         load_files(user:File, []),
         retractall(loading)),
-    prolog_walk_code([ undefined(trace), source(false), trace_reference(-),
+    prolog_walk_code([ undefined(trace), source(true), trace_reference(-),
                        module(user), on_trace(ev3dev_playground:lacking) ]).
 
 :- public lacking/3.
 
-lacking(Called, Caller, clause_term_position(Clause, _)) :-
-    !,
-    lacking(Called, Caller, clause(Clause)).
-lacking(Called0, _, clause(Clause)) :-
+lacking(Called0, _, Location) :-
     strip_module(Called0, _, Called),
     functor(Called, Name, Arity),
-    clause_property(Clause, line_count(Line)),
+    line_of(Location, Line),
     PI = Name/Arity,
     error_text(error(existence_error(procedure, PI), PI), Text),
     finding(Line, Text).
 
+line_of(clause_term_position(Clause, Position), Line) :-
+    !,
+    arg(1, Position, Start),
+    clause_property(Clause, file(File)),
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        ( read_string(In, Start, _),
+          line_count(In, Line) ),
+        close(In)).
+line_of(clause(Clause), Line) :-
+    clause_property(Clause, line_count(Line)).
+
 %   A warning about a line, also in the log.
 finding(Line, Text) :-
+    finding(warning, Line, Text).
+
+finding(Kind, Line, Text) :-
     (   found(Line, _, Text)
     ->  true
-    ;   assertz(found(Line, "warning", Text)),
+    ;   atom_string(Kind, Word),
+        assertz(found(Line, Word, Text)),
         format(string(Said), "line ~d: ~s", [Line, Text]),
-        note(warning, Said)
+        note(Kind, Said)
     ).
 
 %   The goal that a program is begun by: the first query of its comments, or one
@@ -410,7 +425,15 @@ user:message_hook(Message, Kind, Lines) :-
     ev3dev_playground:began,
     ev3dev_playground:said(Kind, Message, Lines).
 
-said(Kind, Message, Lines) :-
+said(informational, _, Lines) :-
+    text(Lines, Text0),
+    string_concat("% ", Text0, Text),
+    note(output, Text),
+    fail.
+said(_, _, _).
+
+%   What is said of the program while it is loaded stands at its line.
+of_program(Kind, Message, Lines) :-
     loading,
     memberchk(Kind, [warning, error]),
     (   place(Message, Line)
@@ -419,15 +442,7 @@ said(Kind, Message, Lines) :-
     ),
     text(Lines, Text0),
     without_place(Text0, Text),
-    atom_string(Kind, Word),
-    assertz(found(Line, Word, Text)),
-    fail.
-said(informational, _, Lines) :-
-    text(Lines, Text0),
-    string_concat("% ", Text0, Text),
-    note(output, Text),
-    fail.
-said(_, _, _).
+    finding(Kind, Line, Text).
 
 place(error(_, Context), Line) :-
     nonvar(Context),

@@ -5,6 +5,7 @@ const { machine } = window.parent.ev3dev;
 
 // The text of the program is beside the view.
 document.getElementById('program-open').hidden = true;
+document.querySelector('.brand').classList.add('sr');
 
 export class Wire {
   /** `on` has: state(name, why), frame(object), reply(object). */

@@ -2,17 +2,24 @@
 # The playground: examples do the same in SWI-Prolog's WebAssembly build as natively, byte for
 # byte, and the page does what a person expects, in Chromium and in Firefox.
 #
-#   tests/playground/check.sh [--traces [EXAMPLE...] | --page [ARGUMENT...] | --figures]
+#   tests/playground/check.sh [--traces [EXAMPLE...] | --page [ARGUMENT...] | --figures |
+#       --pictures]
 #
 # Arguments of --page go to `node --test`, in Chromium alone. --figures prints how long things
-# take. Without a browser only traces are compared, and it says so.
+# take, --pictures makes those of docs/playground.md; these and --page take what `make playground`
+# has built. Without a browser only traces are compared, and it says so.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 what=${1:---all}
 [ $# -eq 0 ] || shift
-[ "$what" = --page ] || tools/playground.sh ${what:+$([ "$what" = --traces ] && echo --state)}
-[ "$what" = --page ] || [ "$what" = --figures ] || node tests/playground/traces.mjs target/playground "$@"
+case $what in
+    --traces) tools/playground.sh --state ;;
+    --all) tools/playground.sh ;;
+esac
+case $what in
+    --traces | --all) node tests/playground/traces.mjs target/playground "$@" ;;
+esac
 [ "$what" != --traces ] || exit 0
 
 why=$(tools/modules.sh tests/view target/view) || { echo "skipped: the playground in a browser: $why"; exit 0; }
@@ -21,9 +28,9 @@ unset FIREFOX
 CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)}
 [ -n "$CHROMIUM" ] || { echo "skipped: the playground in a browser: there is no Chromium"; exit 0; }
 export CHROMIUM EV3DEV_NODE_MODULES=$PWD/target/view
-if [ "$what" = --figures ]; then
-    exec node tests/playground/figures.mjs
-fi
+case $what in
+    --figures | --pictures) exec node "tests/playground/${what#--}.mjs" ;;
+esac
 node --test --test-reporter=spec "$@" tests/playground/page.test.mjs
 [ $# -gt 0 ] || [ -z "$firefox" ] ||
     FIREFOX=$firefox node --test --test-reporter=spec tests/playground/page.test.mjs

@@ -1,35 +1,17 @@
 // How long the playground takes, and how much memory; printed, not judged.
 
-import fs from 'node:fs';
-import http from 'node:http';
-import path from 'node:path';
-import { gzipSync } from 'node:zlib';
-import { browse, home, until } from '../view/session.mjs';
+import { listen } from './server.mjs';
+import { browse, until } from '../view/session.mjs';
 
 const TIMES = 5;
 const RUNS = 100;
-const root = path.join(home, 'dist/playground');
-const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json' };
 const BOXES = `:- use_module(library(ev3dev)).
 start :- set_robot(5.6, 10.6, outB, outC), drive.
 drive :- us_dist_cm(_, D), ( D > 30 -> go(30) ; turn(30, 90) ), drive.
 `;
 
-/** A server that compresses what is text, as most do. */
-let sent = 0;
-const server = http.createServer((request, answer) => {
-  const name = new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html');
-  if (!fs.existsSync(path.join(root, name))) return answer.writeHead(404).end();
-  const kind = KINDS[path.extname(name)];
-  const bytes = fs.readFileSync(path.join(root, name));
-  const etag = `"${bytes.length}"`;
-  if (request.headers['if-none-match'] === etag) return answer.writeHead(304, { etag }).end();
-  const body = kind ? gzipSync(bytes) : bytes;
-  sent += body.length;
-  return answer.writeHead(200, { etag, 'content-type': kind ?? 'application/octet-stream', ...(kind && { 'content-encoding': 'gzip' }) }).end(body);
-});
-await new Promise((resolve) => { server.listen(0, '127.0.0.1', resolve); });
-const url = `http://localhost:${server.address().port}/`;
+const server = await listen();
+const { url } = server;
 
 const browser = await browse();
 const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
@@ -59,9 +41,9 @@ let bytes = 0;
 for (let i = 0; i < TIMES; i += 1) {
   const context = await browser.createBrowserContext();
   const page = await context.newPage();
-  sent = 0;
+  server.sent = 0;
   first.push(await moves(page));
-  bytes = sent;
+  bytes = server.sent;
   await page.evaluate(() => navigator.serviceWorker.ready);
   second.push(await moves(page));
   await context.close();

@@ -135,8 +135,10 @@ describe('the playground', () => {
     assert.deepEqual(await marks(page), ['error']);
 
     await run(page, `${HEAD}start :-\n    ${ROBOT},\n    go_ahead(20, 30).\n`);
-    await said(page, /^line 2 .*go_ahead\/2/);
-    await said(page, /^(?!line 2 Unk).*go_ahead\/2/);
+    await said(page, /^line 4 .*go_ahead\/2/);
+    await idle(page);
+    await run(page, `${HEAD}start :-\n    go_cm(20, Distance).\n`);
+    await said(page, /^line 2 Singleton variables: \[Distance\]/);
     await idle(page);
 
     await run(page, `${HEAD}start :-\n    motor_run(outX, 30).\n`);

@@ -1,6 +1,7 @@
 :- module(ev3dev_explain,
           [ fail_because/1,             % +Cause
             advise/1,                   % +Cause
+            tell_again/0,
             explain/2                   % +Format, +Arguments
           ]).
 :- use_module(brick, [is_simulated/0]).
@@ -155,13 +156,18 @@ key(Cause, Key) :-
     copy_term(Cause, Key),
     numbervars(Key, 0, _).
 
-%   Each query of the toplevel is told again.
+%!  tell_again is det.
+%
+%   A query begins, of the toplevel or of a page, which is told anything again.
+
+tell_again :-
+    retractall(told(_)).
 
 :- multifile user:expand_query/4.
 :- dynamic user:expand_query/4.
 :- initialization(
        asserta((user:expand_query(_, _, _, _) :-
-                    retractall(ev3dev_explain:told(_)),
+                    ev3dev_explain:tell_again,
                     fail)),
        now).
 

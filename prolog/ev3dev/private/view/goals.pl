@@ -4,6 +4,7 @@
             goal_solve/4                % +Text, +Page, +Number, :Next
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../explain', [tell_again/0]).
 :- use_module('../native', [view_part_/0, view_say_/2]).
 :- use_module(log, [error_text/2, note/2]).
 :- use_module(program, [part_begins/1, part_ends/1, program_state/1]).
@@ -101,6 +102,7 @@ told(Word) :-
 goal_solve(Text, Page, Number, Next) :-
     format(string(Line), "?- ~w", [Text]),
     note(goal, Line),
+    tell_again,
     thread_self(Me),
     catch(setup_call_cleanup(
               open_string("\n", In),
