@@ -292,6 +292,58 @@ without_view(Typed, Line) :-
 
 %   An installed pack has no Makefile.
 
+:- begin_tests(app_playground, [condition(exists_source(library(http/http_files)))]).
+
+:- use_module(library(filesex)).
+:- use_module(library(http/http_open)).
+
+test(a_folder_without_one) :-
+    app("playground tests", 2, Output),
+    said(Output, ["tests has no playground: make playground, "]).
+test(its_files_are_served_and_no_other,
+     Type-Index-Found == 'text/html'-"<p>Here."-[]) :-
+    tmp_file(playground, Folder),
+    setup_call_cleanup(
+        ( make_directory(Folder),
+          written(Folder, 'parts.bin', ""),
+          written(Folder, 'index.html', "<p>Here.") ),
+        with_playground(Folder, Url,
+            ( got(Url, '', 200, Type, Index),
+              findall(Path, ( member(Path, ['none.js', '../secret', 'view/']),
+                              got(Url, Path, Code, _, _),
+                              Code < 400 ), Found) )),
+        delete_directory_and_contents(Folder)).
+
+written(Folder, Name, Text) :-
+    directory_file_path(Folder, Name, File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+
+:- meta_predicate with_playground(+, -, 0).
+
+with_playground(Folder, Url, Goal) :-
+    format(string(Text),
+           ":- use_module(library(ev3dev/private/playground)).~n\c
+            go :- serve(~q, localhost, 0, false).~n", [Folder]),
+    setup_call_cleanup(
+        start_program(Text, [goal(go)], Child),
+        ( Child = child(_, Out, _),
+          read_line_to_string(Out, Line),
+          string_concat("The playground is at ", Url, Line),
+          once(Goal) ),
+        kill_program(Child)).
+
+got(Url, Path, Code, Type, Text) :-
+    string_concat(Url, Path, Address),
+    setup_call_cleanup(
+        http_open(Address, In, [ status_code(Code),
+                                 header(content_type, Type0) ]),
+        read_string(In, _, Text),
+        close(In)),
+    split_string(Type0, ";", "", [Type1|_]),
+    atom_string(Type, Type1).
+
+:- end_tests(app_playground).
+
 :- begin_tests(install, [condition(exists_file('Makefile'))]).
 
 %   What `make check` would do, in the environment of pack_install or not.

@@ -7,8 +7,8 @@
 
 %!  open_browser(+Open, +Url) is det.
 %
-%   Open a browser at Url if Open is `true`, or if it is `display` and there is
-%   a display. Does nothing if there is no browser.
+%   Open a browser at Url if Open is `true`, or if it is `display` and there
+%   is a display. Does nothing if there is no browser.
 
 %   The browser gets no socket of ours, and must not hold up the toplevel.
 open_browser(Open, Url) :-

@@ -158,7 +158,8 @@ key(Cause, Key) :-
 
 %!  tell_again is det.
 %
-%   A query begins, of the toplevel or of a page, which is told anything again.
+%   A query begins, of the toplevel or of a page, which is told anything
+%   again.
 
 tell_again :-
     retractall(told(_)).

@@ -15,13 +15,13 @@ robot is in the browser.
 %!  serve(+Folder, +Address, +Port, +Open)
 %
 %   Serve the files of Folder at a port of `localhost`, or of `any` address,
-%   until Prolog is interrupted. Open is `false`, or `display`: a browser is
-%   opened if there is a display.
+%   until Prolog is interrupted; port 0 is any that is free. Open is `false`,
+%   or `display`: a browser is opened if there is a display.
 %
-%   @error permission_error(create, socket, Port) or the like if the port is
-%          in use
+%   @error socket_error(eaddrinuse, Text) if the port is in use
 
-serve(Folder, Address, Port, Open) :-
+serve(Folder, Address, Wanted, Open) :-
+    ( Wanted =:= 0 -> true ; Port = Wanted ),
     http_handler(root(.), ev3dev_playground_server:reply(Folder), [prefix]),
     (   Address == any
     ->  At = Port

@@ -95,9 +95,9 @@ told(Word) :-
 
 %!  goal_solve(+Text, +Page, +Number, :Next) is det.
 %
-%   Solve a goal, as a part of the program. After an answer that may not be the
-%   last one, call(Next, Word) waits for `more`, for the next one, or `enough`.
-%   An abort is thrown again.
+%   Solve a goal, as a part of the program. After an answer that may not be
+%   the last one, call(Next, Word) waits for `more`, for the next one, or
+%   `enough`. An abort is thrown again.
 
 goal_solve(Text, Page, Number, Next) :-
     format(string(Line), "?- ~w", [Text]),

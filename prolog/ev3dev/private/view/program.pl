@@ -24,9 +24,9 @@
 
 Whether a program runs at the toplevel, and how it is stopped.
 
-Where Prolog has no threads, who serves the page is the program itself, between
-two of its goals. There a goal of a page is the program, which whoever began
-it interrupts when a page has asked for it, see is_stopping/0 and stopped/0.
+Where Prolog has no threads, the program itself serves the page, between two
+of its goals. Who began it interrupts it if is_stopping/0 is true, and calls
+stopped/0 when it has ended.
 */
 
 :- meta_predicate in_main(0).
