@@ -232,8 +232,10 @@ test(a_limit_stops_the_motors_of_a_program_that_goes_on,
     signalled(Tree, Signal, ":- set_prolog_flag(ev3dev_stop_at_halt, false).
                              wait :- catch(wait(3), _, true).",
               [goal(main)], Status, eventually, B, C).
+% 7.2.3 ends by an assertion of its own when such a handler throws.
 test(one_that_goes_on_after_a_crash_drives_again,
-     [forall(( tree(Tree), Tree \== simulator )), true(Status == exit(5))]) :-
+     [condition(( current_prolog_flag(version, Version), Version >= 80000 )),
+      forall(( tree(Tree), Tree \== simulator )), true(Status == exit(5))]) :-
     signalled(Tree, 8, ":- on_signal(fpe, _, survived).
                         survived(_) :- throw(survived).
                         again :- catch(main, survived, true),
