@@ -86,6 +86,7 @@ try() {
 # What a person types and the papers show, at a terminal of this Prolog, with the pack's
 # library: the clone's own may want a newer C library than there is here
 sessions() {
+    built_swipl "$name" >/dev/null || export EV3DEV_EMULATED=1
     EV3DEV_SESSION_HOME=$home EV3DEV_SESSION_SECONDS=120 SWIPL=$home/swipl \
         "$tree/ev3dev/tests/sessions/play.py"
 }

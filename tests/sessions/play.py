@@ -41,7 +41,9 @@ and what is typed in it. What stands below a query has to come, numbers with a p
 within 3 %; where nothing stands, anything but an error, a warning or `false`. The
 commands of the shell follow. `tests/sessions/elsewhere.txt` names those that are run
 elsewhere, or nowhere, and why; each of its lines has to stand in a paper. A comment
-`<!-- file: square.pl -->` before a block says what the file of the block is called.
+`<!-- file: square.pl -->` before a block says what the file of the block is called,
+`<!-- only: >=9 -->` in which versions it is typed; `itself` is a Prolog that starts another
+one of itself, as those of tools/emulate.sh do not, which set EV3DEV_EMULATED.
 
 `--renew` writes an answer that differs in the place of the one in the file. It does not do
 so for an answer up to a key. A line of the file that agrees stays, as one with `...`. A query
@@ -217,16 +219,20 @@ class Paper:
         """Sorts the lines."""
         lines = self.path.read_text().split("\n")
         name = None
+        only = ""
         number = 0
         while number < len(lines):
             line = lines[number]
             named = re.fullmatch(r"<!-- file: (\S+) -->", line)
+            condition = re.fullmatch(r"<!-- only: (\S+) -->", line)
             if named:
                 name = named[1]
+            elif condition:
+                only = f"{{{condition[1]}}} "
             elif line.startswith("```"):
                 end = lines.index("```", number + 1)
-                self.block(line[3:], lines[number + 1 : end], name)
-                number, name = end, None
+                self.block(line[3:], lines[number + 1 : end], name, only)
+                number, name, only = end, None, ""
             elif line.startswith("    ") and name:
                 end = next(n for n in range(number, len(lines)) if lines[n] and not lines[n].startswith("    "))
                 self.files[name] = "".join(text[4:] + "\n" for text in lines[number:end]).rstrip("\n") + "\n"
@@ -235,7 +241,7 @@ class Paper:
                 self.commands.append(re.sub(r"\s+#.*", "", line[4:]))
             number += 1
 
-    def block(self, language, lines, name):
+    def block(self, language, lines, name, only):
         """Sorts the lines of a block of code."""
         if language not in ("", "prolog"):
             return
@@ -244,12 +250,13 @@ class Paper:
         elif lines[0].startswith("$ "):
             self.sessions.append(lines)
         elif language == "prolog":
-            asks = any(line.startswith("?- ") for line in lines)
+            queries = []
             is_query = False
             for line in lines:
                 # Below a query stands its answer, up to a line that is empty
                 is_query = line.startswith("?- ") or (is_query and line != "")
-                (self.queries if asks and is_query else self.program).append(line)
+                (queries if is_query else self.program).append(line)
+            self.queries += [only + line for line in continued(queries)]
 
     def plays(self, elsewhere):
         """The sessions, each a list of lines."""
@@ -258,7 +265,7 @@ class Paper:
             files += [f"--- {name}", *text.rstrip("\n").split("\n"), "---"]
         if self.queries:
             program = ["--- paper.pl", *self.program, "---"]
-            yield [*files, *program, "$ swipl -q paper.pl", *continued(self.queries)]
+            yield [*files, *program, "$ swipl -q paper.pl", *self.queries]
         for lines in self.sessions:
             yield [*files, lines[0].replace("swipl", "swipl -q", 1), *continued(lines[1:])]
         commands = [command for command in self.commands if command not in elsewhere]
@@ -287,6 +294,10 @@ class Version(tuple):
     def meets(self, condition):
         """condition: as ">=9.1", "<9", "7.2"."""
         for part in condition.split(","):
+            if part == "itself":
+                if "EV3DEV_EMULATED" in os.environ:
+                    return False
+                continue
             operator, text = re.fullmatch(r"(<|>=|)([0-9.]+)", part.strip()).groups()
             other = Version.of(text)
             mine = tuple(self[: len(other)])

@@ -127,7 +127,8 @@ swipl(Swipl) :-
 
 starts_itself :-
     current_prolog_flag(executable, Prolog),
-    process_create(Prolog, ['--version'], [stdout(null), stderr(null), process(Pid)]),
+    process_create(Prolog, ['-f', none, '-g', true, '-t', halt],
+                   [stdin(null), stdout(null), stderr(null), process(Pid)]),
     process_wait(Pid, exit(0)).
 
 status_options(Options) :-

@@ -26,6 +26,10 @@ const NONE: u8 = 0;
 const IS_IN: u8 = 1;
 const IS_OUT: u8 = 2;
 
+/// A handler on a stack of its own is not deeper than that; another stack is further away. It may
+/// be deeper than that stack, which in SWI-Prolog 9.2 has 8 kB, while Prolog runs there.
+const NEAR: usize = 128 * 1024;
+
 /// How long to wait for it, in steps.
 const STEP_NS: libc::c_long = 200_000;
 const STEPS: usize = 50;
@@ -75,9 +79,11 @@ extern "C" fn say(_: c_int) {
     let errno = Errno::last();
     let here = AtomicU32::new(0);
     let mark = MARK.load(Ordering::Relaxed);
-    let is_below = (&raw const here).addr() < mark.addr();
-    let is_in = is_apart() == IS_APART.load(Ordering::Relaxed)
-        && is_below
+    let depth = mark.addr().checked_sub((&raw const here).addr());
+    let is_deeper = |depth: usize| {
+        if IS_APART.load(Ordering::Relaxed) { depth < NEAR } else { !is_apart() }
+    };
+    let is_in = depth.is_some_and(is_deeper)
         // Safety: it is further up on the stack where this is, whatever is there now.
         && unsafe { &*mark }.load(Ordering::Relaxed) == NUMBER.load(Ordering::Relaxed);
     ANSWER.store(if is_in { IS_IN } else { IS_OUT }, Ordering::Release);
@@ -108,9 +114,9 @@ mod tests {
         let (go_on, goes_on) = channel();
         let thread = std::thread::spawn(move || {
             handler(&at, &goes_on);
-            deeper(&at, &goes_on);
+            deeper::<8>(&at, &goes_on);
             begins(libc::SIGBUS, &ELSEWHERE);
-            deeper(&at, &goes_on);
+            deeper::<8>(&at, &goes_on);
         });
         let says = |expected| {
             let end = Instant::now() + Duration::from_secs(20);
@@ -122,8 +128,12 @@ mod tests {
         assert_eq!(last().1, libc::SIGSEGV);
         says(true);
         IS_APART.store(true, Ordering::Relaxed);
-        says(false); // it was handled on a stack apart
+        says(true); // deeper than the stack apart, but near
+        go_on.send(()).unwrap();
+        is_at.recv().unwrap();
+        says(false); // on another stack
         IS_APART.store(false, Ordering::Relaxed);
+        says(true);
         for _ in 0..2 {
             go_on.send(()).unwrap();
             is_at.recv().unwrap();
@@ -139,13 +149,14 @@ mod tests {
         begins(libc::SIGSEGV, black_box(&mark));
         at.send(()).unwrap();
         goes_on.recv().unwrap();
+        deeper::<256>(at, goes_on);
         // As the frames of others would.
         mark.store(0, Ordering::Relaxed);
     }
 
-    /// Deeper in the stack than the handler was.
-    fn deeper(at: &Sender<()>, goes_on: &Receiver<()>) {
-        let room = black_box([0_u8; 8 * 1024]);
+    /// Deeper in the stack than the handler was, by so many kB.
+    fn deeper<const KB: usize>(at: &Sender<()>, goes_on: &Receiver<()>) {
+        let room = black_box([[0_u8; 1024]; KB]);
         at.send(()).unwrap();
         goes_on.recv().unwrap();
         black_box(room);
