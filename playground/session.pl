@@ -345,7 +345,7 @@ prolog:heartbeat :-
 
 %   Let the page go on, if it is time to, or if simulated time is held back.
 turn :-
-    nb_getval(ev3dev_playground_turn, off),
+    nb_current(ev3dev_playground_turn, off),
     !,
     (   view_held_
     ->  Held = true

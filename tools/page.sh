@@ -28,7 +28,7 @@ main() {
     cd "$root"
     export RUSTC=$toolchain/bin/rustc CARGO_TARGET_DIR=$root/target/page/cargo
     # A panic ends the page's worker.
-    export CARGO_PROFILE_RELEASE_PANIC=abort CARGO_PROFILE_RELEASE_OPT_LEVEL=s
+    export CARGO_PROFILE_RELEASE_PANIC=abort CARGO_PROFILE_RELEASE_OPT_LEVEL=3
     export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$root/target/page/ld
     local flags=(-Clinker-flavor=wasm-ld) argument
     for argument in --import-memory --import-table "--global-base=$window" \
