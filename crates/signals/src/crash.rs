@@ -154,7 +154,7 @@ mod tests {
         mark.store(0, Ordering::Relaxed);
     }
 
-    /// Deeper in the stack than the handler was, by so many kB.
+    /// Deeper in the stack than the handler was, by a number of kB.
     fn deeper<const KB: usize>(at: &Sender<()>, goes_on: &Receiver<()>) {
         let room = black_box([[0_u8; 1024]; KB]);
         at.send(()).unwrap();
