@@ -96,6 +96,8 @@ function heard(message) {
   if (type === 'answer') {
     failed = message.state === 'error' ? message.text : null;
     console_.answer(message);
+  } else if (type === 'say') {
+    window.speechSynthesis?.speak(new SpeechSynthesisUtterance(message.text));
   } else if (type === 'raised') {
     if (failed) {
       const error = { line: message.line, kind: 'error', text: failed };

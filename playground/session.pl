@@ -8,6 +8,7 @@
 :- user:use_module(library(ev3dev)).
 :- user:use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/sim), []).
+:- use_module(library(ev3dev/time), [wait/1]).
 :- use_module('../prolog/ev3dev/private/native',
               [ view_hear_/3, view_held_/0, view_open_/0, view_pace_/1,
                 view_say_/2, view_step_/2, view_thread_/1 ]).
@@ -409,6 +410,25 @@ heard(Line) :-
                 /*******************************
                 *       OUTPUT, MESSAGES       *
                 *******************************/
+
+%   The browser speaks. Nobody says how long that takes.
+:- multifile ev3dev_sound:spoken/2.
+
+ev3dev_sound:spoken(Text, Wait) :-
+    ev3dev_playground:speak(Text, Wait).
+
+speak(Text, Wait) :-
+    format(string(Words), "~w", [Text]),
+    format(string(Said), "the brick said ~s", [Words]),
+    note(output, Said),
+    page(Page),
+    view_say_(Page, json([type=say, text=Words])),
+    (   Wait == true
+    ->  string_length(Words, Length),
+        Seconds is 0.3 + 0.07*Length,
+        wait(Seconds)
+    ;   true
+    ).
 
 output_noted :-
     catch(flush_output(user_output), _, true),

@@ -232,9 +232,15 @@ say(Text) :-
 say(Text, Options) :-
     must_be(text, Text),
     wait_option([], Options, Wait),
-    say_(Text, Wait, Reason),
-    waited(Reason),
+    (   spoken(Text, Wait)
+    ->  true
+    ;   say_(Text, Wait, Reason),
+        waited(Reason)
+    ),
     !.
+
+%   A page that Prolog runs in speaks itself: it adds the clause.
+:- multifile spoken/2.                  % +Text, +Wait
 
 %!  play(+File) is semidet.
 %!  play(+File, +Options) is semidet.

@@ -261,6 +261,8 @@ typed(File, Typed) :-
     member(Line, Lines),
     member(Prefix, ["    swipl ev3dev ", "    swipl app/ev3dev.pl "]),
     string_concat(Prefix, Rest, Line),
+    % It serves until it is interrupted.
+    \+ sub_string(Rest, 0, _, _, "playground"),
     split_string(Rest, "#", " ", [Typed|_]).
 
 test(there_are_some) :-

@@ -185,6 +185,9 @@ describe('the playground', () => {
     await said(page, /^Cm = \d/);
     await ask(page, 'format("hello~n").');
     await said(page, /^hello/);
+    await ask(page, 'say(good_bye), writeln(over).');
+    await said(page, /^the brick said good_bye/);
+    await said(page, /^over/);
   });
 
   test('holds time, lets it pass by steps, and slowly or fast', async () => {

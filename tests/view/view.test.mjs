@@ -733,7 +733,7 @@ group('the editor', ROOM, '', (it) => {
     const { edits: { draft } } = await state(it.page);
     await press('Facts');
     const facts = await it.page.$eval('.facts', (box) => box.value);
-    assert.match(facts, /^bounds\(.*\)\.\nstart\(/);
+    assert.match(facts, /^bounds\(.*\nstart\(/s);
     assert.deepEqual(await violations(it.page), []);
     await it.page.click('.facts');
     await it.page.evaluate(() => document.querySelector('.facts').setSelectionRange(0, 0));
