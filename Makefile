@@ -97,10 +97,10 @@ pictures: build
 check-bench: build
 	@benches/run.py --smoke
 
-# Three hundred random programs, each ended in some way: none leaves a motor running
+# A hundred and fifty random programs, each ended in some way: none leaves a motor running
 check-endings: build
 	@tests/torture/torture.py --self-test
-	@tests/torture/torture.py --count 300
+	@tests/torture/torture.py --count 150
 
 # Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, 1000
 # maps, and all cases of which `make check` has a fifth

@@ -27,7 +27,7 @@ const KEY = 'ev3dev playground';
 const DIRECTORY = '/home/web_user/';
 
 const kept = read();
-const machine = new Machine({ begins, took, heard, ends });
+const machine = new Machine({ begins, took, heard, ends, worldChanged: keep });
 const console_ = new Console((line) => machine.send(line), (line) => editor.goTo(line));
 const editor = new Text($('text'), { changed: keep, run, words: [] });
 const tone = new Tone();
@@ -140,6 +140,9 @@ function running(runs) {
 // ----------------------------------------------------------------- the buttons
 
 $('run').addEventListener('click', run);
+document.addEventListener('keydown', (event) => {
+  if (event.key === 'Escape' && !event.defaultPrevented && program?.state === 'running') machine.stop();
+});
 $('name').addEventListener('change', () => {
   $('name').value = name();
   keep();

@@ -13,8 +13,9 @@ export class Machine {
     this.have = '';
     this.asked = 0;
     this.open = false;
-    /** What made the world as it is: lines that begin it again. */
+    /** What made the world as it is: lines that begin it again; and those that are not answered yet. */
     this.world = [];
+    this.begun = [];
     this.start();
     setInterval(() => {
       if (this.open && performance.now() - this.asked > UNSEEN) this.next(this.have);
@@ -43,13 +44,17 @@ export class Machine {
       return;
     }
     if (message.what === 'stop') clearTimeout(this.late);
+    if (message.what === 'begin' || message.what === 'choose') this.remember(message.type === 'done', this.begun.shift());
     if (!this.on.heard(message)) this.view?.take(message);
   }
 
   begins() {
     this.open = true;
     this.have = '';
-    for (const line of this.world) this.worker.postMessage(line);
+    const { world } = this;
+    this.world = [];
+    this.begun = [];
+    for (const line of world) this.send(line);
     this.on.begins();
     this.view?.begins();
   }
@@ -67,15 +72,16 @@ export class Machine {
 
   send(line) {
     if (!this.open) return false;
-    this.remember(line);
+    if (/^(choose|begin) /.test(line)) this.begun.push(line);
     this.worker.postMessage(line);
     return true;
   }
 
-  /** A world that begins, or a robot, takes the place of the former one. */
-  remember(line) {
-    const kind = /^choose robot /.test(line) ? 'robot' : /^(choose world|begin) /.test(line) ? 'world' : null;
-    if (kind) this.world = [...this.world.filter((other) => (/^choose robot /.test(other) ? 'robot' : 'world') !== kind), line];
+  /** A world that has begun, or a robot, takes the place of the former one. */
+  remember(isDone, line) {
+    const isRobot = (each) => /^choose robot /.test(each);
+    if (isDone && line) this.world = [...this.world.filter((other) => isRobot(other) !== isRobot(line)), line];
+    this.on.worldChanged();
   }
 
   stop() {

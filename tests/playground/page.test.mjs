@@ -190,6 +190,21 @@ describe('the playground', () => {
     await said(page, /^over/);
   });
 
+  test('goes on after engines, branches and output that is caught', async () => {
+    await page.click('#said-clear');
+    await ask(page, 'engine_create(L, (wait(0.2), numlist(1, 30000, L)), E), engine_next(E, [One|_]), writeln(engine(One)).');
+    await said(page, /^engine\(1\)/);
+    await idle(page);
+    await ask(page, 'use_module(library(ev3dev/events)), race([wait(0.2), (repeat, us_dist_cm(_, D), D < 0)], First), writeln(first(First)).');
+    await said(page, /^first\(1\)/);
+    await idle(page);
+    await ask(page, 'with_output_to(string(S), (wait(0.2), write(caught))), writeln(S), repeat, wait(0.1), fail.');
+    await said(page, /^caught/);
+    await page.keyboard.press('Escape');
+    await said(page, /^stopped/);
+    await idle(page);
+  });
+
   test('holds time, lets it pass by steps, and slowly or fast', async () => {
     const view = (id) => page.evaluate((name) => document.getElementById('robot').contentDocument.getElementById(name).click(), id);
     await run(page, `${HEAD}start :- us_dist_cm(_, Cm), Cm < 0.\nstart :- start.\n`);
