@@ -165,7 +165,8 @@ describe('the playground', () => {
     await said(page, /^stopped/);
     await idle(page);
 
-    await run(page, `${HEAD}start :- loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
+    await run(page, `${HEAD}start :- writeln(begins), wait(0.1), loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
+    await said(page, /^begins/);
     await page.evaluate(() => window.ev3dev.machine.stop());
     await said(page, /computed without a pause/);
     await ready(page);
