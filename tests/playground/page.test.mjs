@@ -167,6 +167,13 @@ describe('the playground', () => {
 
     await run(page, `${HEAD}start :- writeln(begins), wait(0.1), loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
     await said(page, /^begins/);
+    // No frame comes while it computes.
+    const frames = () => page.evaluate(() => document.getElementById('robot').contentWindow.ev3view.state().frames);
+    await until(async () => {
+      const before = await frames();
+      await new Promise((resolve) => { setTimeout(resolve, 300); });
+      return await frames() === before;
+    }, 'a program that computes');
     await page.evaluate(() => window.ev3dev.machine.stop());
     await said(page, /computed without a pause/);
     await ready(page);
