@@ -1,7 +1,9 @@
 // How long the playground takes, and how much memory; printed, not judged.
 
+import { execFile } from 'node:child_process';
+import { promisify } from 'node:util';
 import { listen } from './server.mjs';
-import { browse, until } from '../view/session.mjs';
+import { browse, home, until } from '../view/session.mjs';
 
 const TIMES = 5;
 const RUNS = 100;
@@ -77,8 +79,21 @@ const seconds = async (goal) => {
   await page.click('#said-clear');
   return line;
 };
-for (const goal of ['sim_step(60)', 'set_robot(5.6, 10.6, outB, outC), forall(between(1, 10, _), (go_cm(50, 10), turn(50, 90)))', 'forall(between(1, 20000, _), us_dist_cm(in1, _))', 'numlist(1, 300000, L), msort(L, M), sum_list(M, _), length(N, 5), findall(N, permutation([a, b, c, d, e, f, g, h], _), _)']) {
-  console.log(`${goal}: ${await seconds(goal)}`);
+/** The same natively, on the virtual clock. */
+async function natively(goal) {
+  const { stdout } = await promisify(execFile)(process.env.SWIPL ?? 'swipl', ['-q', '-f', 'none', '-p', 'library=prolog', '-g',
+    `use_module(library(ev3dev)), use_module(library(ev3dev/sim)), sim_start(room, [clock(virtual), seed(1)]), set_robot(5.6, 10.6, outB, outC), get_time(A), ((${goal}) -> true ; true), get_time(B), T is B - A, format("~3f", [T])`, '-t', 'halt'], { cwd: home });
+  return Number(stdout);
+}
+await seconds('set_robot(5.6, 10.6, outB, outC)');
+for (const goal of ['sim_step(60)', 'forall(between(1, 10, _), (go_cm(50, 10), turn(50, 90)))', 'forall(between(1, 20000, _), us_dist_cm(in1, _))',
+  'findall(N, permutation([a, b, c, d, e, f, g, h], N), _)', 'forall(between(1, 1000000, X), X > 0)']) {
+  const [here, there] = [[], []];
+  for (let i = 0; i < 3; i += 1) {
+    here.push(parseFloat(await seconds(goal)));
+    there.push(await natively(goal));
+  }
+  console.log(`${goal}: ${median(here)} s, natively ${median(there)} s, ${(median(here) / median(there)).toFixed(1)} times as long`);
 }
 
 // A hundred runs: the worker's memory does not grow.
