@@ -15,9 +15,9 @@
 :- use_module('../prolog/ev3dev/private/view/goals', [goal_solve/4]).
 :- use_module('../prolog/ev3dev/private/view/jog', [jog_round/2]).
 :- use_module('../prolog/ev3dev/private/view/log',
-              [error_text/2, note/2, watch_messages/0]).
+              [error_text/2, lines_text/2, note/2, watch_messages/0]).
 :- use_module('../prolog/ev3dev/private/view/page',
-              [page_says/2, page_settings/2]).
+              [page_says/2, page_settings/2, word_rest/3]).
 :- use_module('../prolog/ev3dev/private/view/program',
               [is_stopping/0, part_begins/1, stop_program/0, stopped/0]).
 :- use_module('../prolog/ev3dev/private/view/worlds', [worlds_settings/1]).
@@ -147,14 +147,6 @@ hand(Line) :-
     (   as_hand(page_says(Page, Line))
     ->  true
     ;   true
-    ).
-
-word_rest(Line, Word, Rest) :-
-    (   sub_string(Line, Before, 1, After, " ")
-    ->  sub_atom(Line, 0, Before, _, Word),
-        sub_string(Line, _, After, 0, Rest)
-    ;   atom_string(Word, Line),
-        Rest = ""
     ).
 
                 /*******************************
@@ -446,7 +438,7 @@ user:message_hook(Message, Kind, Lines) :-
     ev3dev_playground:said(Kind, Message, Lines).
 
 said(informational, _, Lines) :-
-    text(Lines, Text0),
+    lines_text(Lines, Text0),
     string_concat("% ", Text0, Text),
     note(output, Text),
     fail.
@@ -460,7 +452,7 @@ of_program(Kind, Message, Lines) :-
     ->  true
     ;   source_location(_, Line)
     ),
-    text(Lines, Text0),
+    lines_text(Lines, Text0),
     without_place(Text0, Text),
     finding(Kind, Line, Text).
 
@@ -481,8 +473,3 @@ without_place(Text, Rest) :-
     atomic_list_concat(Words, ' ', Rest0),
     atom_string(Rest0, Rest).
 without_place(Text, Text).
-
-text(Lines, Text) :-
-    with_output_to(string(Text0),
-                   print_message_lines(current_output, '', Lines)),
-    split_string(Text0, "", "\n ", [Text]).

@@ -4,7 +4,8 @@
             mark/1,                     % +Term
             log_commands/1,             % +Ended
             note/2,                     % +Kind, +Text
-            error_text/2                % +Error, -Text
+            error_text/2,               % +Error, -Text
+            lines_text/2                % +Lines, -Text
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../journal_words', [cause_words//1, command_words//2]).
@@ -71,6 +72,10 @@ begun(Cause) :-
 log_kind(rule, rule).
 log_kind(event, rule).
 log_kind(golog, golog).
+
+%!  lines_text(+Lines, -Text) is det.
+%
+%   The lines of a message as a string.
 
 lines_text(Lines, Text) :-
     with_output_to(string(Text0),

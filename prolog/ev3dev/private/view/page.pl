@@ -2,7 +2,8 @@
           [ pages_serve/3,              % +Address, ?Port, +Token
             pages_close/0,
             page_says/2,                % +Page, +Line
-            page_settings/2             % +Rate, +Goals
+            page_settings/2,            % +Rate, +Goals
+            word_rest/3                 % +Line, -Word, -Rest
           ]).
 :- use_module('../errors', [throw_error/3]).
 :- use_module('../native',
@@ -171,6 +172,11 @@ frame_send(Page, Have) :-
     ;   log_commands(false)
     ),
     view_frame_(Page, Have, State, Rate, Goals).
+
+%!  word_rest(+Line, -Word, -Rest) is det.
+%
+%   The word that a line of a page begins with, and what stands after it, a
+%   string, empty if nothing does.
 
 word_rest(Line, Word, Rest) :-
     (   sub_string(Line, Before, 1, After, " ")
