@@ -96,9 +96,18 @@ use_environment :-
     (   getenv('EV3DEV_FENCE', Socket)
     ->  unsetenv('EV3DEV_FENCE'),
         use_module(library(ev3dev/private/turn), []),
-        sim_fence_join_(Socket)
+        sim_fence_join_(Socket),
+        use_told
     ;   environment_directory('EV3DEV_SYSFS', Directory)
     ->  ev3_sysfs(Directory)
+    ;   true
+    ).
+
+use_told :-
+    (   getenv('EV3DEV_TOLD', File)
+    ->  unsetenv('EV3DEV_TOLD'),
+        use_module(library(ev3dev/private/told), []),
+        ev3dev_told:tell_to(File)
     ;   true
     ).
 

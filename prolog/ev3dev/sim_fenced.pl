@@ -1,6 +1,7 @@
 :- module(ev3dev_sim_fenced,
           [ sim_fenced/2,               % +File, -Ended
-            sim_fenced/3                % +File, -Ended, +Options
+            sim_fenced/3,               % +File, -Ended, +Options
+            can_enclose/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(private/compiled, []).
@@ -14,6 +15,7 @@
                 sim_fence_serve_/3 ]).
 :- use_module(sim_time, [sim_time/1]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(process),
               [process_create/3, process_group_kill/2, process_wait/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -65,44 +67,77 @@ Ended = over,
 %     - cpu(Seconds)
 %       How much time of a processor it may use, in whole seconds. By default
 %       as much as it likes.
+%     - memory(Megabytes)
+%       How much memory each of its processes may use. By default as much as it
+%       likes.
+%     - enclosed(Boolean)
+%       Whether the program is shut in by bwrap (bubblewrap): it has no
+%       network, sees no other processes, and no files but its own and those of
+%       SWI-Prolog and the pack. Default is `false`.
 %     - output(Text)
 %       Text is a string of what it has printed, errors and warnings, too: at
 %       most 1 MB.
+%     - told(Lines)
+%       Lines is a list of Time-Text, what began when, in words: rules that
+%       became active, events, actions of Golog. The first 4000 are kept, and
+%       the program could tell anything.
 %
 %   While it runs, no other thread may let simulated time pass. Fails if no
 %   simulation runs.
 %
 %   @error existence_error(source_sink, File)
 %   @error permission_error(fence, clock, realtime) if it is not virtual
+%   @error existence_error(program, bwrap) if it is to be enclosed and cannot be
 %   @error domain_error(sim_fenced_option, Option)
 
 sim_fenced(File, Ended) :-
     sim_fenced(File, Ended, []).
 
 sim_fenced(File, Ended, Options) :-
-    must_be_options(sim_fenced_option, [goal, seconds, wall, cpu, output],
-                    Options),
+    must_be_options(sim_fenced_option,
+                    [ goal, seconds, wall, cpu, memory, enclosed, output,
+                      told ], Options),
     option(goal(Goal), Options, main),
     must_be(callable, Goal),
     number_option(wall(Wall), seconds, Options, 60),
     limit_option(seconds(Seconds), Options),
     limit_option(cpu(Cpu), Options),
+    option(memory(Megabytes), Options, unlimited),
+    (   Megabytes == unlimited
+    ->  true
+    ;   must_be(positive_integer, Megabytes)
+    ),
+    option(enclosed(Enclosed), Options, false),
+    must_be(boolean, Enclosed),
+    (   Enclosed == true,
+        \+ can_enclose
+    ->  throw_error(existence_error(program, bwrap), _,
+                    'bubblewrap is not installed, or may not shut programs in')
+    ;   true
+    ),
     option(output(Text), Options, _),
+    option(told(Told), Options, none),
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     setup_call_cleanup(
         new_directory(Directory),
-        in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu),
-                     Ended, Text),
+        in_directory(Directory, Path, Goal,
+                     limits(Seconds, Wall, Cpu, Megabytes, Enclosed), Ended,
+                     Text, Told),
         ( sim_fence_close_, delete_directory_and_contents(Directory) )).
+
+%   What the program may write is in a directory of its own.
 
 new_directory(Directory) :-
     tmp_file(ev3dev_fence, Directory),
-    make_directory(Directory).
+    make_directory(Directory),
+    atom_concat(Directory, '/own', Own),
+    make_directory(Own).
 
-in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu), Ended,
-             Text) :-
-    atom_concat(Directory, '/robot', Socket),
+in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
+             Ended, Text, Told) :-
+    atom_concat(Directory, '/own/robot', Socket),
+    atom_concat(Directory, '/own/told', Tells),
     atom_concat(Directory, '/output', Output),
     sim_time(Now),
     (   sim_fence_open_(Socket)
@@ -116,27 +151,53 @@ in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu), Ended,
     ),
     get_time(Began),
     Deadline is Began + Wall,
+    (   Told == none
+    ->  ToldBy = ''
+    ;   ToldBy = Tells
+    ),
     setup_call_cleanup(
-        start(Socket, Output, Path, Goal, Cpu, Pid),
+        start(Directory, [Socket, ToldBy], Output, Path, Goal,
+              Cpu-Memory-Shut, Pid),
         served(Pid, Until, Deadline, Ended0),
         catch(process_group_kill(Pid, kill), _, true)),
     size_file(Output, Size),
     (   Size >= 1 << 20
     ->  Ended = limit(output)
-    ;   Ended0 == killed(9),
+    ;   memberchk(Ended0, [killed(9), exit(137)]),  % what bwrap makes of it
         Cpu \== infinite
     ->  Ended = limit(cpu)
     ;   Ended = Ended0
     ),
-    read_file_to_string(Output, Text, []).
+    read_file_to_string(Output, Text, [encoding(utf8)]),
+    (   Told == none
+    ->  true
+    ;   what_was_told(Tells, Told)
+    ).
+
+%   The program may have made anything of that file.
+
+what_was_told(File, Lines) :-
+    (   exists_file(File),
+        \+ read_link(File, _, _),
+        catch(read_file_to_string(File, Text, [encoding(utf8)]), _, fail)
+    ->  split_string(Text, "\n", "", Rows),
+        findall(Time-Row,
+                ( member(Whole, Rows),
+                  sub_string(Whole, Before, 1, _, "\t"),
+                  !,
+                  sub_string(Whole, 0, Before, _, Number),
+                  catch(number_string(Time, Number), _, fail),
+                  sub_string(Whole, Before, _, 0, Row0),
+                  split_string(Row0, "", "\t", [Row]) ),
+                Lines)
+    ;   Lines = []
+    ).
 
 %   The shell's limits: no file longer than 1 MB (2048 blocks of 512 bytes),
 %   and no core dump. Prolog is the one that runs this.
-start(Socket, Output, Path, Goal, Cpu, Pid) :-
+start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
     current_prolog_flag(executable, Prolog),
-    module_property(ev3dev_sim_fenced, file(This)),
-    file_directory_name(This, Ev3dev),
-    file_directory_name(Ev3dev, Library),
+    library_folder(Library),
     atom_concat('library=', Library, Alias),
     current_prolog_flag(version, Version),
     (   Version < 70500                 % where failing is no error
@@ -147,16 +208,93 @@ start(Socket, Output, Path, Goal, Cpu, Pid) :-
     ->  Limit = unlimited
     ;   Limit is max(1, ceiling(Cpu))
     ),
+    (   Memory == unlimited
+    ->  Kilobytes = unlimited
+    ;   Kilobytes is 1024*Memory
+    ),
+    (   Shut == true
+    ->  enclosure(Directory, Path, Walls),
+        Enclosure = [bwrap|Walls]
+    ;   Enclosure = []
+    ),
+    append(Enclosure,
+           [ Prolog, '-q', '-f', none, '-p', Alias, '-g', GoalText,
+             '-t', halt, '-s', file(Path) ], Command),
     process_create(
         path(sh),
-        [ '-c', 'ulimit -c 0; ulimit -f 2048; output=$2
+        [ '-c', 'ulimit -c 0; ulimit -f 2048; ulimit -v "$2"; output=$3
                  ulimit -t "$1"
-                 EV3DEV_FENCE=$3; export EV3DEV_FENCE; shift 3
+                 EV3DEV_FENCE=$4; export EV3DEV_FENCE
+                 [ -z "$5" ] || { EV3DEV_TOLD=$5; export EV3DEV_TOLD; }
+                 shift 5
                  exec "$@" </dev/null >"$output" 2>&1',
-          sh, Limit, file(Output), file(Socket),
-          Prolog, '-q', '-f', none, '-p', Alias, '-g', GoalText, '-t', halt,
-          '-s', file(Path) ],
+          sh, Limit, Kilobytes, file(Output), file(Socket), Tells | Command ],
         [ process(Pid), detached(true) ]).
+
+library_folder(Library) :-
+    module_property(ev3dev_sim_fenced, file(This)),
+    file_directory_name(This, Ev3dev),
+    file_directory_name(Ev3dev, Library).
+
+%!  can_enclose is semidet.
+%
+%   Whether sim_fenced/3 can shut a program in: bwrap is there, and Prolog
+%   starts within.
+
+can_enclose :-
+    (   enclosing(Whether)
+    ->  true
+    ;   (   catch(starts_enclosed, _, fail)
+        ->  Whether = true
+        ;   Whether = false
+        ),
+        assertz(enclosing(Whether))
+    ),
+    Whether == true.
+
+:- dynamic enclosing/1.
+:- volatile enclosing/1.
+
+starts_enclosed :-
+    current_prolog_flag(executable, Prolog),
+    library_folder(Library),
+    setup_call_cleanup(
+        new_directory(Directory),
+        ( enclosure(Directory, Library, Walls),
+          append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
+          process_create(path(bwrap), Arguments,
+                         [stdout(null), stderr(null), process(Pid)]),
+          process_wait(Pid, exit(0), []) ),
+        delete_directory_and_contents(Directory)).
+
+%   What bwrap is told to shut in what follows. The system's programs and
+%   libraries can be read, but nobody's home.
+
+enclosure(Directory, Path, Walls) :-
+    atom_concat(Directory, '/own', Own),
+    library_folder(Library),
+    file_directory_name(Library, Pack),
+    current_prolog_flag(home, Home),
+    current_prolog_flag(executable, Prolog0),
+    absolute_file_name(Prolog0, Prolog),
+    file_directory_name(Prolog, Programs),
+    findall([Bind, Folder, Folder],
+            (   member(Folder, ['/usr', '/bin', '/lib', '/lib64']),
+                Bind = '--ro-bind-try'
+            ;   member(Name, ['/prolog', '/lib', '/native']),
+                atom_concat(Pack, Name, Folder),
+                Bind = '--ro-bind-try'
+            ;   member(Folder, [Home, Programs, Path]),
+                Bind = '--ro-bind'
+            ;   Folder = Own,
+                Bind = '--bind'
+            ),
+            Binds0),
+    append([ ['--unshare-all', '--die-with-parent', '--new-session',
+              '--tmpfs', '/tmp']
+           | Binds0 ], Walls0),
+    append(Walls0, ['--proc', '/proc', '--dev', '/dev', '--chdir', Own, '--'],
+           Walls).
 
 served(Pid, Until, Deadline, Ended) :-
     sim_fence_serve_(Until, 0.2, State),

@@ -63,6 +63,7 @@ allowed(calibration,        [wheels, axle]).
 allowed(clock,              [realtime, scaled('Factor'), virtual]).
 allowed(color,
         [black, blue, green, yellow, red, white, brown, '#rrggbb']).
+allowed(count,              'a count is a whole number, or From-To').
 allowed(direction,          'a direction is a number from -100 to 100').
 allowed(distinct_ports,     'two different ports are expected').
 allowed(drive_option,       [use_gyro, speed, acceleration]).
