@@ -61,7 +61,8 @@ processor as with many.
 %   Options are those of sim_start/2 but `seed`, and
 %
 %     - world(World)
-%       Default is `room`.
+%       Default is `room`. With `none` no simulation is started: Test gets the
+%       seed, too, before its score, and may start its own.
 %     - workers(Number)
 %       How many runs there are at once. By default one for each processor.
 %     - wall(Seconds)

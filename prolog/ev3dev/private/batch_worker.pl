@@ -63,12 +63,18 @@ begin(begin(File, Test0, World, Options), Module:Test0,
     ;   Module = user
     ),
     functor(Test0, Name, Arity0),
-    Arity is Arity0+1,
+    (   World == none
+    ->  Arity is Arity0+2
+    ;   Arity is Arity0+1
+    ),
     (   current_predicate(Module:Name/Arity)
     ->  true
     ;   throw(error(existence_error(procedure, Name/Arity), _))
     ),
-    with_sim(World, true, Options).
+    (   World == none
+    ->  true
+    ;   with_sim(World, true, Options)
+    ).
 
 run(Out, Seed, Test, Start) :-
     catch(fork(Copy), Error, true),
@@ -87,10 +93,16 @@ run(Out, Seed, Test, Start) :-
     ).
 
 score(Seed, Test, start(World, Options), Score) :-
-    catch(( with_sim(World, call(Test, Found), [seed(Seed)|Options])
+    catch(( in_world(World, Seed, Test, Found, Options)
           ->  Score = Found
           ;   Score = failed
           ), Error, score_of(Error, Score)).
+
+in_world(none, Seed, Test, Found, _) :-
+    !,
+    call(Test, Seed, Found).
+in_world(World, Seed, Test, Found, Options) :-
+    with_sim(World, call(Test, Found), [seed(Seed)|Options]).
 
 %   What Prolog would print.
 

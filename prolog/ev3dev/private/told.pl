@@ -33,14 +33,7 @@ told(Counted, Out, Cause) :-
     phrase(cause_words(Copy), Words),
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Words)),
-    split_string(Text, "\n", " ", Lines0),
-    subtract_empty(Lines0, Lines),
+    split_string(Text, "", " \n", [Trimmed]),
+    split_string(Trimmed, "\n", " ", Lines),
     atomic_list_concat(Lines, ' ', Line),
     format(Out, '~3f\t~w~n', [Now, Line]).
-
-subtract_empty([], []).
-subtract_empty([""|Lines0], Lines) :-
-    !,
-    subtract_empty(Lines0, Lines).
-subtract_empty([Line|Lines0], [Line|Lines]) :-
-    subtract_empty(Lines0, Lines).

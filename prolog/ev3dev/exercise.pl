@@ -1,0 +1,333 @@
+:- module(ev3dev_exercise,
+          [ exercise_check/1,           % +Exercise
+            exercise_check/2,           % +Exercise, +Options
+            exercise_try/3,             % +Exercise, +File, +Options
+            exercise_mark/4,            % +Exercise, +Files, +Options, -Marks
+            collisions/1,               % ?Count
+            ended/1,                    % -How
+            duration/1,                 % -Seconds
+            ended_near/2,               % +Place, -Distance
+            path_length/1,              % -Length
+            time_to/2,                  % +Place, -Seconds
+            time_to/3,                  % +Place, +Radius, -Seconds
+            cells_visited/2,            % +Size, -Count
+            lap_fraction/2,             % +Distance, -Share
+            said/1,                     % -Text
+            printed/1                   % +Text
+          ]).
+:- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/arguments, [must_be_options/3, number_value/3]).
+:- use_module(private/errors, [must_be/2, term_expansion/4]).
+:- use_module(private/places, [place/2]).
+:- use_module(private/marking/mark,
+              [ check_solution/2, marks/4, tried/3 ]).
+:- use_module(private/marking/record,
+              [run_collision/1, run_fact/1, run_pose/4]).
+:- use_module(library(lists), [append/3, last/2, member/2]).
+:- reexport(random_worlds).
+
+/** <module> Exercises, and how programs do in them
+
+An exercise says what a robot's program is to do, in which worlds, and what
+that is worth. It is a file of facts and rules:
+
+```
+:- use_module(library(ev3dev/exercise)).
+
+exercise(obstacles, [goal(start), seconds(60), noise(true), seeds(1-10)]).
+
+world(Seed, World) :- random_room(Seed, [boxes(3-5)], World).
+
+score(5, 'touches nothing') :-
+    collisions(0),
+    path_length(Cm), Cm > 200.
+score(5, 'gets around') :-
+    cells_visited(30, Count), Count >= 12.
+score(partial(3), 'far from the start', Share) :-
+    ended_near(40-40, Cm), Share is Cm/200.
+
+forbid(shell/1).
+```
+
+A student tries a program, and a teacher marks those of a class:
+
+```sh
+swipl ev3dev try obstacles.pl mine.pl
+swipl ev3dev mark obstacles.pl submissions/
+```
+
+The program runs once with each seed, in a process of its own that sees the
+files of a robot and nothing else: see library(ev3dev/sim_fenced). It has no
+world, no seed and no marks, and where bubblewrap is installed no other files
+and no network. The same programs get the same marks, whatever else the
+machine has to do.
+
+## The facts of an exercise {#exercise-facts}
+
+  - exercise(Name, Options)
+    Once. Options:
+
+      - goal(Goal)
+        What is called after the program was loaded. Default is `start`.
+      - seconds(Seconds)
+        How much of the robot's time a run has. Default is 60.
+      - seeds(Seeds)
+        A list of integers, or `From-To`: the runs that are marked. Default is
+        1-10.
+      - open(Seeds)
+        With which students try. Default is the first three.
+      - robot(Robot), noise(Boolean)
+        As for sim_start/2.
+      - cpu(Seconds)
+        How much time of a processor a run may use. Default is 10.
+      - wall(Seconds)
+        How long a run may take. Default is 30.
+      - memory(Megabytes)
+        Default is 2000.
+      - solution(File)
+        For exercise_check/1, next to this file. Default is `solution.pl`.
+
+  - world(Seed, World)
+    The world of a seed, as for sim_start/2. Without it that is `room`.
+  - score(Points, Text)
+    A rule whose body is true of a run that earns Points. Text says for what.
+  - score(partial(Points), Text, Share)
+    The same for a Share of them, which is taken as 0 if it is less, and as 1
+    if it is more.
+  - forbid(Name/Arity)
+    A program that mentions such a predicate has no points. It is looked for
+    in the text, so this is a help and no fence.
+
+A program gets for each score the mean of its runs. A run earns nothing in
+which the robot was not used, and none that had to be ended by a limit on
+processor time, memory, wall time or output. If that happened with the first
+two seeds, the others are not run.
+
+## What a run was like {#exercise-runs}
+
+Scores ask about the run that has ended: collisions/1 and what follows it
+here. All places are `X-Y` in cm.
+*/
+
+                /*******************************
+                *            MARKS             *
+                *******************************/
+
+%!  exercise_mark(+Exercise, +Files, +Options, -Marks) is det.
+%
+%   Run each of the programs Files on the seeds of the file Exercise. Marks is
+%   a list in that order, of
+%
+%   ```
+%   mark(Name, Points, Of, Scores, Runs, Reason)
+%   ```
+%
+%   Name is the name of the file without `.pl`, and Points, of Of, what it
+%   earned. Scores is a list of score(Text, Points, Of, Missed), Missed being
+%   the number of runs that did not earn it whole. Runs is a list of
+%   run(Seed, Points, Ended, Seconds): Ended is as of sim_fenced/3, or
+%   `not_run`. Reason is a text of what is wrong with the program, or ''.
+%   Options:
+%
+%     - seeds(Seeds)
+%       Instead of those of the exercise.
+%     - jobs(Number)
+%       How many runs there are at once. By default one for each processor.
+%     - redis(Address)
+%       Have the workers of a Redis server make the runs: see sim_batch/5.
+%     - out(Directory)
+%       Write the reports into that directory: `index.html` for the teacher,
+%       a page for each program in `pages`, `marks.csv`, `junit.xml`,
+%       `results.json` with all marks, and for each program its result in
+%       Gradescope's form in `gradescope`.
+%     - formats(List)
+%       Which of `html`, `csv`, `junit`, `json`, `gradescope`. Default is all.
+%     - enclosed(Boolean)
+%       Whether to shut programs in by bubblewrap. By default if it is
+%       installed; a message says so if it is not.
+%
+%   @error existence_error(source_sink, File)
+%   @error domain_error(exercise, Fact) if something is wrong in Exercise
+%   @error domain_error(exercise_option, Option)
+%   @error the errors of sim_batch/5
+
+exercise_mark(Exercise, Files, Options, Marks) :-
+    must_be(list, Files),
+    must_be_options(exercise_option,
+                    [seeds, jobs, redis, out, formats, enclosed], Options),
+    marks(Exercise, Files, Options, Marks).
+
+%!  exercise_try(+Exercise, +File, +Options) is semidet.
+%
+%   Run the program File on the open seeds of Exercise, and print what it
+%   earns, and why it does not earn more. Fails if it did not earn all. Options
+%   are those of exercise_mark/4 but `out`, and
+%
+%     - page(File)
+%       Write a page with a picture of the worst run.
+%
+%   @error as exercise_mark/4
+
+exercise_try(Exercise, File, Options) :-
+    must_be_options(exercise_option, [seeds, jobs, redis, enclosed, page],
+                    Options),
+    tried(Exercise, File, Options).
+
+%!  exercise_check(+Exercise) is semidet.
+%!  exercise_check(+Exercise, +Options) is semidet.
+%
+%   For who writes an exercise: run its solution on all seeds, and print how
+%   its points spread. Fails if the solution does not earn all of them.
+%   Options are `seeds`, `jobs` and `enclosed` of exercise_mark/4.
+%
+%   @error as exercise_mark/4
+
+exercise_check(Exercise) :-
+    exercise_check(Exercise, []).
+
+exercise_check(Exercise, Options) :-
+    must_be_options(exercise_option, [seeds, jobs, enclosed], Options),
+    check_solution(Exercise, Options).
+
+                /*******************************
+                *           MEASURES           *
+                *******************************/
+
+%!  collisions(?Count) is semidet.
+%
+%   How often the robot ran into something; 256 if more often.
+
+collisions(Count) :-
+    findall(x, run_collision(_), Collisions),
+    length(Collisions, Count).
+
+%!  ended(-How) is semidet.
+%
+%   `over` if the time of the run was over, else exit(Status).
+
+ended(How) :-
+    run_fact(ended(How)).
+
+%!  duration(-Seconds) is semidet.
+%
+%   When the run ended, by the robot's time.
+
+duration(Seconds) :-
+    run_fact(seconds(Seconds)).
+
+%!  ended_near(+Place, -Distance) is semidet.
+%
+%   How far from Place the robot was at the end, in cm.
+
+ended_near(Place0, Distance) :-
+    place(Place0, X-Y),
+    findall(X1-Y1, run_pose(_, X1, Y1, _), Places),
+    last(Places, X1-Y1),
+    Distance is sqrt((X1-X)**2 + (Y1-Y)**2).
+
+%!  path_length(-Length) is semidet.
+%
+%   How long the robot's way was, in cm.
+
+path_length(Length) :-
+    findall(X-Y, run_pose(_, X, Y, _), Places),
+    way_length(Places, 0, Length).
+
+way_length([X-Y|Places], Length0, Length) :-
+    (   Places = [X1-Y1|_]
+    ->  Length1 is Length0 + sqrt((X1-X)**2 + (Y1-Y)**2),
+        way_length(Places, Length1, Length)
+    ;   Length = Length0
+    ).
+
+%!  time_to(+Place, -Seconds) is semidet.
+%!  time_to(+Place, +Radius, -Seconds) is semidet.
+%
+%   When the robot was first within Radius of Place, in cm; default is 10.
+%   Fails if it never was.
+
+time_to(Place, Seconds) :-
+    time_to(Place, 10, Seconds).
+
+time_to(Place0, Radius0, Seconds) :-
+    place(Place0, X-Y),
+    number_value(positive_number, Radius0, Radius),
+    run_pose(Time, X1, Y1, _),
+    (X1-X)**2 + (Y1-Y)**2 =< Radius**2,
+    !,
+    Seconds = Time.
+
+%!  cells_visited(+Size, -Count) is semidet.
+%
+%   In how many squares the middle of the robot was, if the floor is laid out
+%   with squares of Size cm, one of them with a corner at 0-0.
+
+cells_visited(Size0, Count) :-
+    number_value(positive_number, Size0, Size),
+    findall(X-Y,
+            ( run_pose(_, X0, Y0, _),
+              X is floor(X0/Size),
+              Y is floor(Y0/Size) ),
+            Cells0),
+    sort(Cells0, Cells),
+    length(Cells, Count).
+
+%!  lap_fraction(+Distance, -Share) is semidet.
+%
+%   Which Share of the first line of the world the robot has passed within
+%   Distance cm, from 0 to 1. Fails if the world has no line.
+
+lap_fraction(Distance0, Share) :-
+    number_value(positive_number, Distance0, Distance),
+    run_fact(world(Facts)),
+    member(line(_, _, Points), Facts),
+    !,
+    marks_on(Points, Marks),
+    findall(X-Y, run_pose(_, X, Y, _), Places),
+    findall(Mark, ( member(Mark, Marks), passed(Mark, Places, Distance) ),
+            Passed),
+    length(Marks, All),
+    length(Passed, Count),
+    All > 0,
+    Share is Count/float(All).
+
+passed(MX-MY, Places, Distance) :-
+    member(X-Y, Places),
+    (X-MX)**2 + (Y-MY)**2 =< Distance**2,
+    !.
+
+%   At least each 5 cm.
+
+marks_on([From|Points], Marks) :-
+    (   Points = [To|_]
+    ->  between_places(From, To, Here),
+        marks_on(Points, Others),
+        append(Here, Others, Marks)
+    ;   Marks = [From]
+    ).
+
+between_places(X0-Y0, X1-Y1, Places) :-
+    Count is max(1, ceiling(sqrt((X1-X0)**2 + (Y1-Y0)**2)/5)),
+    Last is Count-1,
+    findall(X-Y,
+            ( between(0, Last, N),
+              X is X0 + (X1-X0)*N/Count,
+              Y is Y0 + (Y1-Y0)*N/Count ),
+            Places).
+
+%!  said(-Text) is nondet.
+%
+%   What the robot said aloud, an atom.
+
+said(Text) :-
+    run_fact(said(Text)).
+
+%!  printed(+Text) is semidet.
+%
+%   Whether the program printed Text, among other things.
+
+printed(Text) :-
+    must_be(text, Text),
+    run_fact(output(Output)),
+    sub_string(Output, _, _, _, Text),
+    !.

@@ -1,0 +1,88 @@
+:- module(ev3dev_marking_alike,
+          [ alike/2                     % +Programs, -Pairs
+          ]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(ordsets), [ord_intersection/3, ord_subtract/3]).
+
+/** <module> Programs that look alike
+
+A hint for the teacher. Clauses are compared whole, whatever the names of
+variables; what most programs have, as from a skeleton, does not count.
+*/
+
+share_from(0.6).
+least_clauses(3).
+
+%!  alike(+Programs, -Pairs) is det.
+%
+%   Programs is a list of Name-Terms, with Terms as of program_terms/2. Pairs
+%   is a list of alike(A, B, Share), of pairs that share at least 60 % of
+%   their own clauses, and three of them; most alike first.
+
+alike(Programs, Pairs) :-
+    findall(Name-Shapes,
+            ( member(Name-Terms, Programs), shapes(Terms, Shapes) ),
+            Shaped0),
+    common(Shaped0, Common),
+    findall(Name-Own,
+            ( member(Name-Shapes, Shaped0),
+              ord_subtract(Shapes, Common, Own) ),
+            Shaped),
+    findall(Minus-alike(A, B, Share),
+            ( member(A-Of, Shaped),
+              member(B-Other, Shaped),
+              A @< B,
+              shared(Of, Other, Share),
+              Minus is -Share ),
+            Found0),
+    msort(Found0, Found),
+    findall(Pair, member(_-Pair, Found), Pairs).
+
+shapes(Terms, Shapes) :-
+    findall(Shape,
+            ( member(term(Term, _), Terms),
+              Term \= (:- _),
+              copy_term(Term, Shape),
+              numbervars(Shape, 0, _) ),
+            Shapes0),
+    sort(Shapes0, Shapes).
+
+%   What more than half of at least four programs have.
+
+common(Shaped, Common) :-
+    length(Shaped, Count),
+    (   Count < 4
+    ->  Common = []
+    ;   findall(Shape, ( member(_-Shapes, Shaped), member(Shape, Shapes) ),
+                All0),
+        msort(All0, All),
+        Most is Count//2,
+        repeated(All, Most, Common)
+    ).
+
+repeated([], _, []).
+repeated([Shape|Shapes], Most, Common) :-
+    same(Shapes, Shape, 1, Count, Others),
+    (   Count > Most
+    ->  Common = [Shape|Common1]
+    ;   Common = Common1
+    ),
+    repeated(Others, Most, Common1).
+
+same([Shape0|Shapes], Shape, Count0, Count, Others) :-
+    Shape0 == Shape,
+    !,
+    Count1 is Count0+1,
+    same(Shapes, Shape, Count1, Count, Others).
+same(Others, _, Count, Count, Others).
+
+shared(Of, Other, Share) :-
+    ord_intersection(Of, Other, Both),
+    length(Both, Count),
+    least_clauses(Least),
+    Count >= Least,
+    length(Of, A),
+    length(Other, B),
+    Share is Count/float(min(A, B)),
+    share_from(From),
+    Share >= From.

@@ -1,0 +1,382 @@
+:- module(ev3dev_marking_mark,
+          [ marks/4,                    % +Exercise, +Files, +Options, -Marks
+            tried/3,                    % +Exercise, +File, +Options
+            check_solution/2            % +Exercise, +Options
+          ]).
+:- use_module('../../sim_batch', [sim_batch/5]).
+:- use_module('../../sim_fenced', [can_enclose/0]).
+:- use_module('../arguments', [option/2, option/3]).
+:- use_module('../errors', [domain_error/2, in_own_name/1, must_be/2]).
+:- use_module(read,
+              [ exercise_seeds/3, exercise_setting/3, forbidden/3,
+                program_terms/2, read_exercise/2, seed_list/2 ]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists),
+              [append/3, last/2, member/2, memberchk/2, nth1/3, sum_list/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> Many runs of many programs, and what they are worth
+
+The runs are those of a batch, whose program is a file with the exercise and
+the texts of all programs in it; so it can go to another machine as it is.
+
+A program's result is marked(Name, Mark, Results, Terms): the mark as of
+exercise_mark/4; result(Seed, Result) for each seed, Result as of
+marked_run/5, or `not_run`; and its terms, for a comparison.
+*/
+
+%!  marks(+Exercise, +Files, +Options, -Marks) is det.
+
+marks(Exercise0, Files, Options, Marks) :-
+    prolog_file(Exercise0, Exercise),
+    read_exercise(Exercise, Read),
+    seeds(Read, all, Options, Seeds),
+    marked_files(Exercise, Read, Files, Seeds, Options, Marked),
+    findall(Mark, member(marked(_, Mark, _, _), Marked), Marks),
+    (   option(out(Directory), Options)
+    ->  option(formats(Formats), Options,
+               [html, csv, junit, json, gradescope]),
+        must_be(list, Formats),
+        forall(member(Format, Formats),
+               (   memberchk(Format, [html, csv, junit, json, gradescope])
+               ->  true
+               ;   domain_error(marks_format, Format)
+               )),
+        use_module(library(ev3dev/private/marking/report), []),
+        ev3dev_marking_report:write_reports(Formats, Directory, Read, Marked)
+    ;   true
+    ).
+
+prolog_file(File, Path) :-
+    in_own_name(absolute_file_name(File, Path,
+                                   [file_type(prolog), access(read)])).
+
+seeds(Read, Which, Options, Seeds) :-
+    (   option(seeds(Given), Options)
+    ->  (   seed_list(Given, Seeds)
+        ->  true
+        ;   domain_error(seeds, Given)
+        )
+    ;   exercise_seeds(Read, Which, Seeds)
+    ).
+
+%!  tried(+Exercise, +File, +Options) is semidet.
+
+tried(Exercise0, File, Options) :-
+    prolog_file(Exercise0, Exercise),
+    read_exercise(Exercise, Read),
+    seeds(Read, open, Options, Seeds),
+    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
+    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
+    forall(member(Score, Scores), print_score(Score, Runs)),
+    length(Runs, Count),
+    format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
+    (   Reason == ''
+    ->  true
+    ;   format("~w~n", [Reason])
+    ),
+    forall(( member(result(_, result(_, _, _, _, Why, _, _)), Results),
+             Why \== '' ),
+           format("~w~n", [Why])),
+    (   option(page(Page), Options)
+    ->  use_module(library(ev3dev/private/marking/report), []),
+        ev3dev_marking_report:write_page(Page, Read, Marked),
+        format("The picture: ~w~n", [Page])
+    ;   true
+    ),
+    Points =:= Of.
+
+print_score(score(Text, Points, Of, Missed), Runs) :-
+    (   Missed =:= 0
+    ->  format("  ~w~t~8|of ~w~t~16|~w~n", [Points, Of, Text])
+    ;   length(Runs, Count),
+        format("  ~w~t~8|of ~w~t~16|~w: not in ~d of ~d runs~n",
+               [Points, Of, Text, Missed, Count])
+    ).
+
+%!  check_solution(+Exercise, +Options) is semidet.
+
+check_solution(Exercise0, Options) :-
+    prolog_file(Exercise0, Exercise),
+    read_exercise(Exercise, Read),
+    exercise_setting(Read, solution(Solution), 'solution.pl'),
+    file_directory_name(Exercise, Folder),
+    directory_file_path(Folder, Solution, File),
+    seeds(Read, all, Options, Seeds),
+    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
+    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
+    forall(member(Score, Scores), print_score(Score, Runs)),
+    findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
+    keysort(Pairs, [Least-LeastSeed|_]),
+    findall(Earned, member(Earned-_, Pairs), All),
+    sort(All, Spread),
+    format("Together: ~w of ~w points; the least is ~w, with the seed ~w. \c
+            Points of runs: ~w~n",
+           [Points, Of, Least, LeastSeed, Spread]),
+    (   Reason == ''
+    ->  true
+    ;   format("~w~n", [Reason])
+    ),
+    forall(( member(result(_, result(_, _, _, _, Why, _, _)), Results),
+             Why \== '' ),
+           format("~w~n", [Why])),
+    Points =:= Of.
+
+                /*******************************
+                *             RUNS             *
+                *******************************/
+
+most_text(1000000).
+
+%   A program that had to be ended with the first two seeds is not run with
+%   the others; so the jobs come in two parts, whatever their number.
+
+marked_files(Exercise, Read, Files, Seeds, Options, Marked) :-
+    enclosed(Options, Enclosed),
+    programs(Files, 1, Read, Programs),
+    (   append([First, Second], Others, Seeds)
+    ->  true
+    ;   First-Others = none-[],
+        Seeds = [Second]
+    ),
+    (   First == none
+    ->  FirstSeeds = [Second]
+    ;   FirstSeeds = [First, Second]
+    ),
+    findall(Number-Seed,
+            ( member(program(Number, _, _, _, ''), Programs),
+              member(Seed, FirstSeeds) ),
+            Jobs1),
+    results(Jobs1, Exercise, Programs, Enclosed, Options, Results1),
+    findall(Number-Seed,
+            ( member(program(Number, _, _, _, ''), Programs),
+              \+ hopeless(Number, FirstSeeds, Results1),
+              member(Seed, Others) ),
+            Jobs2),
+    results(Jobs2, Exercise, Programs, Enclosed, Options, Results2),
+    append(Results1, Results2, Results),
+    findall(One,
+            ( member(Program, Programs),
+              marked(Program, Read, Seeds, Results, One) ),
+            Marked).
+
+hopeless(Number, Seeds, Results) :-
+    \+ ( member(Seed, Seeds),
+         \+ ( member(job(Number, Seed, result(Ended, _, _, _, _, _, _)),
+                     Results),
+              memberchk(Ended, [limit(_), killed(_)]) ) ).
+
+enclosed(Options, Enclosed) :-
+    (   option(enclosed(Enclosed), Options)
+    ->  must_be(boolean, Enclosed)
+    ;   can_enclose
+    ->  Enclosed = true
+    ;   Enclosed = false,
+        print_message(warning, ev3dev(not_enclosed))
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(ev3dev(not_enclosed)) -->
+    [ 'bubblewrap (bwrap) is not installed here, or may not be used: programs \c
+       can read files and use the network' ].
+
+%   program(Number, Name, Text, Terms, Reason): Reason is '' if it may run.
+
+programs([], _, _, []).
+programs([File|Files], Number, Read, [Program|Programs]) :-
+    file_base_name(File, Base),
+    (   catch(read_file_to_string(File, Text, [encoding(octet)]),
+              error(Formal, _), ( Text = "", Wrong = Formal ))
+    ->  true
+    ;   Text = ""
+    ),
+    string_length(Text, Length),
+    most_text(Most),
+    (   nonvar(Wrong)
+    ->  Terms = [],
+        Reason = 'It cannot be read.'
+    ;   Length > Most
+    ->  Terms = [],
+        Reason = 'It is longer than 1 MB.'
+    ;   program_terms(Text, Terms),
+        (   forbidden(Read, Terms, Reason)
+        ->  true
+        ;   Reason = ''
+        )
+    ),
+    program_name(Base, Name),
+    Program = program(Number, Name, Text, Terms, Reason),
+    Next is Number+1,
+    programs(Files, Next, Read, Programs).
+
+program_name(Base, Name) :-
+    (   file_name_extension(Name, pl, Base)
+    ->  true
+    ;   Name = Base
+    ).
+
+results([], _, _, _, _, []) :-
+    !.
+results(Jobs, Exercise, Programs, Enclosed, Options, Results) :-
+    tmp_file(ev3dev_marks, Base),
+    atom_concat(Base, '.pl', File),
+    findall(Option,
+            (   option(jobs(Count), Options),
+                Option = workers(Count)
+            ;   option(redis(Address), Options),
+                Option = redis(Address)
+            ),
+            BatchOptions),
+    length(Jobs, Count),
+    findall(N, between(1, Count, N), Numbers),
+    setup_call_cleanup(
+        write_batch(File, Jobs, Exercise, Programs, Enclosed),
+        sim_batch(File, marked, Numbers, Scores,
+                  [ world(none), wall(600), progress(false)
+                  | BatchOptions ]),
+        delete_file(File)),
+    findall(job(Program, Seed, Result),
+            ( member(N-Score, Scores),
+              nth1(N, Jobs, Program-Seed),
+              result_of(Score, Result) ),
+            Results).
+
+%   What is wrong here is wrong with the exercise, or the machine.
+
+result_of(Score, Result) :-
+    (   functor(Score, result, 7)
+    ->  Result = Score
+    ;   Score = error(Message),
+        Message \== died
+    ->  throw(error(system_error(Message), _))
+    ;   Result = result(Score, 0, none, 'The run was lost.', '', [], [])
+    ).
+
+write_batch(File, Jobs, Exercise, Programs, Enclosed) :-
+    read_file_to_string(Exercise, Text, [encoding(utf8)]),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        ( write_term_line(Out,
+              (:- use_module(library(ev3dev/private/marking/run)))),
+          write_term_line(Out,
+              (:- initialization(marking_exercise(Exercise, Text)))),
+          forall(( member(program(Number, Name, Source, _, ''), Programs),
+                   memberchk(Number-_, Jobs) ),
+                 write_term_line(Out, program(Number, Name, Source))),
+          forall(nth1(N, Jobs, Program-Seed),
+                 write_term_line(Out, job(N, Program, Seed))),
+          write_term_line(Out,
+              ( marked(Job, Result) :-
+                    job(Job, Program0, Seed0),
+                    program(Program0, Name0, Source0),
+                    atom_concat(Name0, '.pl', FileName),
+                    marked_run(FileName, Source0, Seed0, Enclosed,
+                               Result) )) ),
+        close(Out)).
+
+write_term_line(Out, Term) :-
+    \+ \+ ( numbervars(Term, 0, _),
+            write_term(Out, Term, [ quoted(true), ignore_ops(true),
+                                    numbervars(true) ]),
+            write(Out, ' .\n') ).
+
+                /*******************************
+                *             MARKS            *
+                *******************************/
+
+marked(program(Number, Name, _, Terms, Refused), Read, Seeds, Results,
+       marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,
+              Terms)) :-
+    Read = exercise(_, _, _, ScoreFacts),
+    length(Seeds, SeedCount),
+    findall(result(Seed, Result),
+            ( member(Seed, Seeds),
+              (   member(job(Number, Seed, Result), Results)
+              ->  true
+              ;   Result = not_run
+              ) ),
+            Its),
+    findall(score(Text, Earned, Full, Missed),
+            ( nth1(Index, ScoreFacts, score(Full, Text, _, _)),
+              findall(Share,
+                      ( member(result(_, Result), Its),
+                        share(Result, Index, Share) ),
+                      Shares),
+              sum_list(Shares, Sum),
+              in_hundredths(Full*Sum/SeedCount, Earned),
+              findall(x, ( member(Share, Shares), Share < 1 ), Misses),
+              length(Misses, Missed) ),
+            Scores),
+    findall(P, member(score(_, P, _, _), Scores), Ps),
+    sum_list(Ps, Points0),
+    in_hundredths(Points0, Points),
+    findall(P, member(score(P, _, _, _), ScoreFacts), Fulls),
+    sum_list(Fulls, Of),
+    findall(run(Seed, Earned, Ended, Seconds),
+            ( member(result(Seed, Result), Its),
+              run_points(Result, ScoreFacts, Earned),
+              run_end(Result, Ended, Seconds) ),
+            Runs),
+    (   Refused \== ''
+    ->  Reason = Refused
+    ;   most_often(Its, Reason)
+    ).
+
+share(result(_, _, Shares, _, _, _, _), Index, Share) :-
+    is_list(Shares),
+    !,
+    nth1(Index, Shares, Share).
+share(_, _, 0).
+
+run_points(result(_, _, Shares, _, _, _, _), ScoreFacts, Points) :-
+    is_list(Shares),
+    !,
+    findall(P,
+            ( nth1(Index, ScoreFacts, score(Full, _, _, _)),
+              nth1(Index, Shares, Share),
+              P is Full*Share ),
+            Ps),
+    sum_list(Ps, Sum),
+    in_hundredths(Sum, Points).
+run_points(_, _, 0).
+
+run_end(result(Ended, Seconds, _, _, _, _, _), Ended, Rounded) :-
+    !,
+    Rounded is round(Seconds*10)/10.0.
+run_end(not_run, not_run, 0).
+
+%   A whole number where it is one.
+
+in_hundredths(Exact, Number) :-
+    Hundredths is round(Exact*100),
+    (   Hundredths mod 100 =:= 0
+    ->  Number is Hundredths//100
+    ;   Number is Hundredths/100.0
+    ).
+
+%   The reason that most runs have; of several, the first.
+
+most_often(Results, Reason) :-
+    findall(Why,
+            ( member(result(_, result(_, _, _, Why, _, _, _)), Results),
+              Why \== '' ),
+            Whys),
+    (   Whys == []
+    ->  Reason = ''
+    ;   findall(Minus-Index,
+                ( nth1(Index, Whys, Why),
+                  findall(x, member(Why, Whys), Same),
+                  length(Same, Count),
+                  Minus is -Count ),
+                Counted),
+        msort(Counted, [_-First|_]),
+        nth1(First, Whys, Reason0),
+        length(Whys, Bad),
+        length(Results, All),
+        (   Bad =:= All
+        ->  Reason = Reason0
+        ;   format(atom(Reason), '~w (in ~d of ~d runs)',
+                   [Reason0, Bad, All])
+        )
+    ).

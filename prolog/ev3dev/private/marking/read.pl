@@ -1,0 +1,206 @@
+:- module(ev3dev_marking_read,
+          [ read_exercise/2,            % +File, -Exercise
+            exercise_setting/3,         % +Exercise, ?Setting, +Default
+            exercise_seeds/3,           % +Exercise, +Which, -Seeds
+            seed_list/2,                % +Seeds, -List
+            exercise_world/3,           % +Exercise, +Seed, -World
+            score_shares/2,             % +Exercise, -Shares
+            forbidden/3,                % +Exercise, +Terms, -Reason
+            program_terms/2             % +Text, -Terms
+          ]).
+:- use_module('../errors', [in_own_name/1, throw_error/3]).
+:- use_module(library(lists),
+              [append/3, last/2, member/2, memberchk/2, numlist/3]).
+
+% Those of library(ev3dev/rules)
+:- op(1160, xfx, ::).
+:- op(1150, xfx, ~>).
+
+/** <module> Exercises and programs, as files
+
+An exercise is exercise(Module, Name, Options, Scores): the module into which
+its file was loaded, and score(Points, Text, Head, Share) for each score, in
+the order of the file. A program is only read, never run.
+*/
+
+%!  read_exercise(+File, -Exercise) is det.
+%
+%   @error domain_error(exercise, What) with a sentence
+
+read_exercise(File, exercise(Module, Name, Options, Scores)) :-
+    atom_concat('exercise:', File, Module),
+    in_own_name(load_files(Module:File, [if(true), silent(true)])),
+    findall(Found-Its,
+            ( current_predicate(Module:exercise/2),
+              call(Module:exercise(Found, Its)) ),
+            Exercises),
+    (   Exercises = [Name-Options]
+    ->  true
+    ;   wrong(File, 'there must be one fact exercise(Name, Options)')
+    ),
+    (   is_list(Options),
+        \+ ( member(Option, Options), \+ good(Option) )
+    ->  true
+    ;   wrong(Options, 'an option is unknown, or its value makes no sense')
+    ),
+    findall(Line-score(Points, Text, Head, Share),
+            a_score(Module, Line, Points, Text, Head, Share), Found0),
+    keysort(Found0, Found1),
+    findall(Score, member(_-Score, Found1), Scores),
+    (   Scores == []
+    ->  wrong(File, 'it has no score/2 nor score/3')
+    ;   member(score(Points, Text, _, _), Scores),
+        \+ ( number(Points), Points > 0, atomic(Text) )
+    ->  wrong(score(Points, Text), 'points are numbers above 0')
+    ;   true
+    ).
+
+wrong(What, Message) :-
+    throw_error(domain_error(exercise, What), _, Message).
+
+good(goal(Goal)) :- callable(Goal).
+good(seconds(N)) :- number(N), N > 0.
+good(seeds(Seeds)) :- seed_list(Seeds, _).
+good(open(Seeds)) :- seed_list(Seeds, _).
+good(robot(Robot)) :- nonvar(Robot).
+good(noise(Boolean)) :- memberchk(Boolean, [true, false]).
+good(cpu(N)) :- number(N), N > 0.
+good(wall(N)) :- number(N), N > 0.
+good(memory(N)) :- integer(N), N > 0.
+good(solution(File)) :- atomic(File).
+
+a_score(Module, Line, Points, Text, Module:Head, Share) :-
+    (   Head = score(Points, Text),
+        Share = 1
+    ;   Head = score(partial(Points), Text, Share)
+    ),
+    functor(Head, score, Arity),
+    current_predicate(Module:score/Arity),
+    clause(Module:Head, _, Clause),
+    (   clause_property(Clause, line_count(Line))
+    ->  true
+    ;   Line = 0
+    ).
+
+%!  exercise_setting(+Exercise, ?Setting, +Default) is det.
+%
+%   Setting is Name(Value), of the options of exercise/2.
+
+exercise_setting(exercise(_, _, Options, _), Setting, Default) :-
+    (   memberchk(Setting, Options)
+    ->  true
+    ;   arg(1, Setting, Default)
+    ).
+
+%!  exercise_seeds(+Exercise, +Which, -Seeds) is det.
+%
+%   Which are `all` seeds, or the `open` ones.
+
+exercise_seeds(Exercise, all, Seeds) :-
+    exercise_setting(Exercise, seeds(Seeds0), 1-10),
+    seed_list(Seeds0, Seeds).
+exercise_seeds(Exercise, open, Seeds) :-
+    exercise_setting(Exercise, open(Open), first),
+    (   Open == first
+    ->  exercise_seeds(Exercise, all, All),
+        (   append([A, B, C], _, All)
+        ->  Seeds = [A, B, C]
+        ;   Seeds = All
+        )
+    ;   seed_list(Open, Seeds)
+    ).
+
+%!  seed_list(+Seeds, -List) is semidet.
+%
+%   Seeds is From-To, an integer, or a list of integers.
+
+seed_list(From-To, Seeds) :-
+    integer(From),
+    integer(To),
+    From =< To,
+    !,
+    numlist(From, To, Seeds).
+seed_list(Seed, [Seed]) :-
+    integer(Seed),
+    !.
+seed_list([Seed|Seeds], [Seed|Seeds]) :-
+    \+ ( member(One, [Seed|Seeds]), \+ integer(One) ).
+
+%!  exercise_world(+Exercise, +Seed, -World) is det.
+%
+%   @error domain_error(exercise, What)
+
+exercise_world(exercise(Module, _, _, _), Seed, World) :-
+    (   \+ current_predicate(Module:world/2)
+    ->  World = room
+    ;   call(Module:world(Seed, World))
+    ->  true
+    ;   wrong(world(Seed, _), 'it has no world for this seed')
+    ).
+
+%!  score_shares(+Exercise, -Shares) is det.
+%
+%   The shares, from 0 to 1, of the scores of the run that is recorded. An
+%   error in a score goes through.
+
+score_shares(exercise(_, _, _, Scores), Shares) :-
+    shares(Scores, Shares).
+
+shares([], []).
+shares([score(_, _, Head, Share)|Scores], [Earned|Shares]) :-
+    copy_term(Head-Share, Goal-Found),
+    (   call(Goal)
+    ->  Earned is max(0, min(1, Found))
+    ;   Earned = 0
+    ),
+    shares(Scores, Shares).
+
+%!  forbidden(+Exercise, +Terms, -Reason) is semidet.
+%
+%   A program of these terms mentions what the exercise forbids.
+
+forbidden(exercise(Module, _, _, _), Terms, Reason) :-
+    current_predicate(Module:forbid/1),
+    member(term(Term, Line), Terms),
+    call(Module:forbid(Name/Arity)),
+    mentions(Term, Name, Arity),
+    !,
+    format(atom(Reason), 'Line ~d: ~w/~w may not be used here.',
+           [Line, Name, Arity]).
+
+mentions(Term, Name, Arity) :-
+    nonvar(Term),
+    (   functor(Term, Name, Arity)
+    ->  true
+    ;   compound(Term),
+        Term =.. [_|Arguments],
+        member(Argument, Arguments),
+        mentions(Argument, Name, Arity)
+    ),
+    !.
+
+%!  program_terms(+Text, -Terms) is det.
+%
+%   The terms of a program, as term(Term, Line). What is no term is left out.
+
+program_terms(Text, Terms) :-
+    setup_call_cleanup(
+        open_string(Text, In),
+        terms(In, Terms),
+        close(In)).
+
+terms(In, Terms) :-
+    catch(read_term(In, Term, [ syntax_errors(quiet), term_position(Position),
+                                module(ev3dev_marking_read) ]), _, fail),
+    !,
+    (   Term == end_of_file
+    ->  Terms = []
+    ;   stream_position_data(line_count, Position, Line),
+        Terms = [term(Term, Line)|Terms1],
+        terms(In, Terms1)
+    ).
+terms(In, Terms) :-
+    (   at_end_of_stream(In)
+    ->  Terms = []
+    ;   terms(In, Terms)
+    ).

@@ -1,0 +1,156 @@
+:- module(ev3dev_marking_reasons,
+          [ reason/6                    % +Ended, +Output, +File, +Limits,
+                                        % +Seconds, -Reason
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+
+/** <module> Why a program ended, in a sentence
+
+What a program prints may be forged; it makes this sentence, and no mark.
+*/
+
+%!  reason(+Ended, +Output, +File, +Limits, +Seconds, -Reason) is det.
+%
+%   Reason is '' if nothing is wrong with a program that ended so, as of
+%   sim_fenced/3, at Seconds of the robot's time. Limits is limits(Cpu, Wall).
+
+reason(over, Output, File, _, _, Reason) :-
+    load_error(Output, File, Reason),
+    !.
+reason(over, _, _, _, _, '') :-
+    !.
+reason(exit(Status), Output, File, _, Seconds, Reason) :-
+    !,
+    (   load_error(Output, File, Reason)
+    ->  true
+    ;   Status == 0
+    ->  Reason = ''
+    ;   first_error(Output, File, Text)
+    ->  format(atom(Reason), 'It ended at ~1f s: ~w', [Seconds, Text])
+    ;   format(atom(Reason), 'It ended at ~1f s, with the status ~w.',
+               [Seconds, Status])
+    ).
+reason(killed(Signal), _, _, _, Seconds, Reason) :-
+    format(atom(Reason), 'It crashed at ~1f s, by the signal ~w.',
+           [Seconds, Signal]).
+reason(limit(cpu), _, _, limits(Cpu, _), Seconds, Reason) :-
+    format(atom(Reason),
+           'Does not end: ~w s of processor time, at ~1f s of the robot''s.',
+           [Cpu, Seconds]).
+reason(limit(wall), _, _, limits(_, Wall), Seconds, Reason) :-
+    format(atom(Reason),
+           'Does not end: it waited for ~w s, at ~1f s of the robot''s time. \c
+            Only wait/1 and what uses the robot lets that pass, not sleep/1.',
+           [Wall, Seconds]).
+reason(limit(output), _, _, _, Seconds, Reason) :-
+    format(atom(Reason), 'It had printed 1 MB at ~1f s.', [Seconds]).
+reason(refused(Why), _, _, _, Seconds, Reason) :-
+    format(atom(Reason),
+           'At ~1f s it asked the robot what no program asks: ~w.',
+           [Seconds, Why]).
+
+%   A syntax error comes before all that the program may print itself.
+
+load_error(Output, File, Reason) :-
+    messages(Output, File, Messages),
+    member(message(Where, Text), Messages),
+    Where \== '',
+    ( sub_atom(Text, _, _, _, 'Syntax error: ') -> true ; fail ),
+    !,
+    atom_concat(Before, Fault, Text),
+    atom_concat(_, 'Syntax error: ', Before),
+    format(atom(Reason), '~w: ~w.', [Where, Fault]).
+
+first_error(Output, File, Reason) :-
+    messages(Output, File, [message(Where, Text)|_]),
+    (   Where == ''
+    ->  without_call(Text, Reason)
+    ;   format(atom(Reason), '~w: ~w', [Where, Text])
+    ).
+
+%   -g start: catch/3: What was wrong
+
+without_call(Text0, Text) :-
+    (   sub_string(Text0, 0, _, _, "-g "),
+        sub_string(Text0, Before, 2, _, ": ")
+    ->  After is Before+2,
+        sub_string(Text0, After, _, 0, Text1),
+        (   string_concat("catch/3: ", Text2, Text1)
+        ->  Text = Text2
+        ;   Text = Text1
+        )
+    ;   Text = Text0
+    ).
+
+%   Lines that Prolog marks as errors or warnings. What follows, and is
+%   indented, belongs to the first. Where is a line of File, or ''.
+
+messages(Output, File, Messages) :-
+    split_string(Output, "\n", "\r", Lines),
+    found(Lines, File, Messages).
+
+found([], _, []).
+found([Line|Lines], File, Messages) :-
+    (   marked(Line, Text0)
+    ->  continued(Lines, Text0, Text1, Rest),
+        placed(Text1, File, Where, Text),
+        Messages = [message(Where, Text)|Messages1],
+        found(Rest, File, Messages1)
+    ;   found(Lines, File, Messages)
+    ).
+
+marked(Line, Text) :-
+    member(Mark, ["ERROR: ", "Warning: "]),
+    string_concat(Mark, Text, Line),
+    !.
+
+continued([Line|Lines], Text0, Text, Rest) :-
+    marked(Line, More0),
+    string_concat("  ", _, More0),
+    !,
+    split_string(More0, "", " ", [More]),
+    string_concat(Text0, " ", Text1),
+    string_concat(Text1, More, Text2),
+    continued(Lines, Text2, Text, Rest).
+continued(Lines, Text, Text, Lines).
+
+placed(Text0, File, Where, Text) :-
+    (   atom_string(File, Path),
+        string_concat(Path, ":", Head),
+        string_concat(Head, Rest, Text0)
+    ->  numbers(Rest, Numbers, Text1),
+        where(Numbers, Where)
+    ;   Where = '',
+        Text1 = Text0
+    ),
+    split_string(Text1, "", " ", [Text2]),
+    without_path(Text2, File, Text).
+
+%   12:34: or 12:
+
+numbers(Text, Numbers, Rest) :-
+    (   sub_string(Text, Before, 1, _, ":"),
+        sub_string(Text, 0, Before, _, First),
+        catch(number_string(Number, First), _, fail),
+        integer(Number)
+    ->  Numbers = [Number|Numbers1],
+        After is Before+1,
+        sub_string(Text, After, _, 0, Text1),
+        numbers(Text1, Numbers1, Rest)
+    ;   Numbers = [],
+        Rest = Text
+    ).
+
+where([], '').
+where([Line], Where) :-
+    format(atom(Where), 'Line ~d', [Line]).
+where([Line, Column|_], Where) :-
+    format(atom(Where), 'Line ~d, column ~d', [Line, Column]).
+
+%   Nobody needs to know where the marker has put the file.
+
+without_path(Text0, File, Text) :-
+    file_base_name(File, Name),
+    atom_string(Text1, Text0),
+    atomic_list_concat(Parts, File, Text1),
+    atomic_list_concat(Parts, Name, Text).

@@ -1,0 +1,133 @@
+:- module(ev3dev_marking_record,
+          [ run_pose/4,                 % ?Seconds, ?X, ?Y, ?Heading
+            run_collision/1,            % ?Collision
+            run_fact/1,                 % ?Fact
+            with_record/3,              % :Goal, +World, +Robot
+            record_end/3,               % +Ended, +Output, +Lines
+            recorded/3                  % -Film, -Collisions, -Seconds
+          ]).
+:- use_module('../../sim_time', [sim_at/2, sim_time/1]).
+:- use_module('../../sim_views',
+              [sim_collisions/1, sim_pose/3, sim_trace/1]).
+:- use_module('../facts', [located_facts/3]).
+:- use_module(library(lists), [member/2, memberchk/2, reverse/2]).
+
+/** <module> What a run was like, as far as scores and reports ask
+
+The pose is recorded ten times a second; collisions and what the robot said
+are as the simulator knows them at the end. What the sensors showed when it
+ran into something is kept at that moment, as the simulator forgets it.
+*/
+
+:- meta_predicate with_record(0, +, +).
+
+:- dynamic
+    run_pose/4,
+    run_collision/1,                    % collision(Time, X, Y, Heading)
+    run_fact/1.                         % ended(How), seconds(Time),
+                                        % world(Facts), robot(Facts),
+                                        % output(Text),
+                                        % said(Text), told(Time, Text),
+                                        % seen(Time, Port, Value)
+:- volatile
+    run_pose/4,
+    run_collision/1,
+    run_fact/1.
+
+%!  with_record(:Goal, +World, +Robot) is semidet.
+%
+%   Call Goal, while a simulation of Robot in World runs, and record it.
+
+with_record(Goal, World, Robot) :-
+    forget,
+    note_facts(world, World),
+    note_facts(robot, Robot),
+    record,
+    call(Goal).
+
+note_facts(Kind, Source) :-
+    located_facts(Kind, Source, Located),
+    findall(Fact, member(Fact-_, Located), Facts),
+    Noted =.. [Kind, Facts],
+    assertz(run_fact(Noted)).
+
+forget :-
+    retractall(run_pose(_, _, _, _)),
+    retractall(run_collision(_)),
+    retractall(run_fact(_)).
+
+%   Also at the very end, when nothing more is planned.
+
+record :-
+    note_pose(Time),
+    note_collision,
+    Next is Time+0.1,
+    sim_at(Next, ev3dev_marking_record:record).
+
+note_pose(Time) :-
+    sim_time(Time),
+    sim_pose(X, Y, Heading),
+    assertz(run_pose(Time, X, Y, Heading)).
+
+note_collision :-
+    (   run_fact(seen(_, _, _))
+    ->  true
+    ;   sim_collisions([collision(Time, _, _, _)|_])
+    ->  sim_trace(Trace),
+        reverse(Trace, Latest),
+        note_seen(Latest, Time, [])
+    ;   true
+    ).
+
+%   The last value of each sensor before that moment.
+
+note_seen([], _, _).
+note_seen([Then-Event|Events], Time, Seen) :-
+    (   Event = read(File, Text),
+        Then =< Time,
+        sub_atom(File, _, _, 0, '/value0'),
+        \+ memberchk(File, Seen)
+    ->  assertz(run_fact(seen(Then, File, Text))),
+        note_seen(Events, Time, [File|Seen])
+    ;   note_seen(Events, Time, Seen)
+    ).
+
+%!  record_end(+Ended, +Output, +Lines) is det.
+%
+%   The run has ended so, as of sim_fenced/3.
+
+record_end(Ended, Output, Lines) :-
+    note_pose(Time),
+    note_collision,
+    sim_collisions(Collisions),
+    forall(member(Collision, Collisions), assertz(run_collision(Collision))),
+    assertz(run_fact(ended(Ended))),
+    assertz(run_fact(seconds(Time))),
+    assertz(run_fact(output(Output))),
+    forall(member(Then-Text, Lines), assertz(run_fact(told(Then, Text)))),
+    sim_trace(Trace),
+    forall(member(_-said(Text), Trace), assertz(run_fact(said(Text)))).
+
+%!  recorded(-Film, -Collisions, -Seconds) is det.
+%
+%   Film is a list of [X, Y, Heading], five to a second, in tenths of a cm and
+%   degrees.
+
+recorded(Film, Collisions, Seconds) :-
+    findall([X, Y, H],
+            ( run_pose(_, X0, Y0, H0),
+              X is round(10*X0),
+              Y is round(10*Y0),
+              H is round(H0) ),
+            All),
+    every_other(All, Film),
+    findall(Collision, run_collision(Collision), Collisions),
+    run_fact(seconds(Seconds)),
+    !.
+
+every_other([], []).
+every_other([One|Others], [One|Film]) :-
+    (   Others = [_|Rest]
+    ->  every_other(Rest, Film)
+    ;   Film = []
+    ).

@@ -1,0 +1,98 @@
+:- module(ev3dev_marking_run,
+          [ marking_exercise/2,         % +File, +Text
+            marked_run/5                % +Name, +Text, +Seed, +Enclosed,
+                                        % -Result
+          ]).
+:- use_module(read,
+              [ exercise_setting/3, exercise_world/3, read_exercise/2,
+                score_shares/2 ]).
+:- use_module(reasons, [reason/6]).
+:- use_module(record, [record_end/3, recorded/3, with_record/3]).
+:- use_module(why, [collision_reason/2]).
+:- use_module('../../sim', [with_sim/3]).
+:- use_module('../../sim_fenced', [sim_fenced/3]).
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1, directory_file_path/3 ]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> One run of one program, in a process of the marker
+*/
+
+:- dynamic exercise/1.
+
+%!  marking_exercise(+File, +Text) is det.
+%
+%   The exercise in File. A machine that has no such file, or another one,
+%   takes its Text.
+
+marking_exercise(File, Text) :-
+    (   exists_file(File),
+        read_file_to_string(File, Text, [encoding(utf8)])
+    ->  Path = File
+    ;   tmp_file(ev3dev_exercise, Base),
+        atom_concat(Base, '.pl', Path),
+        setup_call_cleanup(
+            open(Path, write, Out, [encoding(utf8)]),
+            write(Out, Text),
+            close(Out))
+    ),
+    read_exercise(Path, Exercise),
+    retractall(exercise(_)),
+    assertz(exercise(Exercise)).
+
+%!  marked_run(+Name, +Text, +Seed, +Enclosed, -Result) is det.
+%
+%   Run the program Text, whose file is called Name. Result is
+%   result(Ended, Seconds, Shares, Reason, Collision, Film, Collisions): the
+%   share of each score, a text of what went wrong or '', and one of how it
+%   ran into something, or ''.
+
+marked_run(Name, Text, Seed, Enclosed, Result) :-
+    exercise(Exercise),
+    exercise_world(Exercise, Seed, World),
+    exercise_setting(Exercise, goal(Goal), start),
+    exercise_setting(Exercise, seconds(Seconds), 60),
+    exercise_setting(Exercise, noise(Noise), false),
+    exercise_setting(Exercise, robot(Robot), default),
+    exercise_setting(Exercise, cpu(Cpu), 10),
+    exercise_setting(Exercise, wall(Wall), 30),
+    exercise_setting(Exercise, memory(Memory), 2000),
+    tmp_file(ev3dev_mark, Directory),
+    make_directory(Directory),
+    directory_file_path(Directory, Name, File),
+    setup_call_cleanup(
+        octets(File, Text),
+        with_sim(World,
+                 ( ev3dev_marking_record:with_record(
+                       ev3dev_sim_fenced:sim_fenced(
+                           File, Ended,
+                           [ goal(Goal), seconds(Seconds), cpu(Cpu),
+                             wall(Wall), memory(Memory), enclosed(Enclosed),
+                             output(Output), told(Lines) ]),
+                       World, Robot),
+                   ev3dev_marking_record:record_end(Ended, Output, Lines) ),
+                 [ clock(virtual), seed(Seed), noise(Noise), robot(Robot) ]),
+        delete_directory_and_contents(Directory)),
+    recorded(Film, Collisions, Took),
+    reason(Ended, Output, File, limits(Cpu, Wall), Took, Reason),
+    (   Took =:= 0
+    ->  Shares = none,
+        ( Reason == '' -> Reason1 = 'It did not use the robot.'
+        ; Reason1 = Reason )
+    ;   memberchk(Ended, [over, exit(_)])
+    ->  score_shares(Exercise, Shares),
+        Reason1 = Reason
+    ;   Shares = none,
+        Reason1 = Reason
+    ),
+    (   collision_reason(Seed, Collision)
+    ->  true
+    ;   Collision = ''
+    ),
+    Result = result(Ended, Took, Shares, Reason1, Collision, Film, Collisions).
+
+octets(File, Text) :-
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(octet)]),
+        write(Out, Text),
+        close(Out)).
