@@ -159,6 +159,35 @@ call_command(work, [], Options) :-
     setting(workers, Options, Workers, Count),
     Work = ev3dev_sim_batch:sim_batch_work(Address, Workers),
     call(Work).
+call_command(try, [Exercise, Program], Options) :-
+    exercise_file(Exercise, File),
+    a_file(Program),
+    findall(Option, marking_option(Options, Option), Chosen),
+    (   setting(page, Options, Page)
+    ->  true
+    ;   file_name_extension(Base, _, Program),
+        file_base_name(Base, Name),
+        atom_concat(Name, '.html', Page)
+    ),
+    use_module(library(ev3dev/exercise), []),
+    Try = ev3dev_exercise:exercise_try(File, Program, [page(Page)|Chosen]),
+    call(Try).
+call_command(mark, [Exercise|Named], Options) :-
+    exercise_file(Exercise, File),
+    findall(Program, submitted(Named, Program), Programs),
+    (   Programs == []
+    ->  throw(usage("there are no programs (*.pl) in ~w", Named))
+    ;   true
+    ),
+    findall(Option, marking_option(Options, Option), Chosen),
+    setting(out, Options, Folder, marks),
+    use_module(library(ev3dev/exercise), []),
+    Mark = ev3dev_exercise:exercise_mark(File, Programs,
+                                         [out(Folder)|Chosen], Marks),
+    call(Mark),
+    forall(member(mark(Name, Points, Of, _, _, Reason), Marks),
+           format("~w~t~24|~w of ~w~t~36|~w~n", [Name, Points, Of, Reason])),
+    format("The reports: ~w~n", [Folder]).
 call_command(jog, [], Options) :-
     start_world_if_any(realtime, Options),
     start_view_if_any(Options),
@@ -171,6 +200,52 @@ call_command(jog, [], Options) :-
     use_module(library(ev3dev/jog)),
     Jog = ev3dev_jog:jog([speed(Speed)]),
     call(Jog).
+
+%   A folder with one, a file, or one of the course.
+
+exercise_file(Exercise, File) :-
+    (   member(Where, [ Exercise, ev3dev_pack(course/Exercise) ]),
+        (   absolute_file_name(Where, Folder,
+                               [file_type(directory), file_errors(fail)]),
+            atom_concat(Folder, '/exercise.pl', File),
+            exists_file(File)
+        ;   absolute_file_name(Where, File,
+                               [ file_type(prolog), access(read),
+                                 file_errors(fail) ]),
+            exists_file(File)
+        )
+    ->  true
+    ;   no_such(exercise, Exercise)
+    ).
+
+a_file(File) :-
+    (   exists_file(File)
+    ->  true
+    ;   throw(usage("there is no file ~w", [File]))
+    ).
+
+%   The programs of a folder are its own, and those of its folders: there is
+%   one for each student where a learning platform has collected them.
+
+submitted(Named, File) :-
+    member(Path, Named),
+    (   exists_directory(Path)
+    ->  member(Ending, ['/*.pl', '/*/*.pl']),
+        atom_concat(Path, Ending, Pattern),
+        expand_file_name(Pattern, Files),
+        member(File, Files)
+    ;   a_file(Path),
+        File = Path
+    ).
+
+marking_option(Options, jobs(Count)) :-
+    setting(jobs, Options, Count).
+marking_option(Options, seeds(Seeds)) :-
+    setting(seeds, Options, Seeds).
+marking_option(Options, formats([Format])) :-
+    setting(format, Options, Format).
+marking_option(Options, redis(Address)) :-
+    setting(redis, Options, Address).
 
 %   That of make playground, unless another one is named.
 

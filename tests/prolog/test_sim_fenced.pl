@@ -122,7 +122,7 @@ test(wrong_option, error(domain_error(sim_fenced_option, seed(1)))) :-
 
 :- end_tests(sim_fenced).
 
-:- begin_tests(sim_fenced_wire, [condition(has_unix_sockets)]).
+:- begin_tests(sim_fenced_wire, [condition(( starts_itself, has_unix_sockets ))]).
 
 %   A program may know the socket, and speak for itself. An answer that is an error is as
 %   long as the greeting, which comes before.

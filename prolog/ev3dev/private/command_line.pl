@@ -17,12 +17,15 @@ library(optparse) would save nothing: in 7.2.3 it takes no 60 for a float and
 prints by itself, and it knows no commands.
 */
 
-%   command(?Command, ?Argument, ?Text): [FILE] may be missing.
+%   command(?Command, ?Arguments, ?Text): [FILE] may be missing, and there may
+%   be several of PROGRAM...
 command(view, '[FILE]', 'show the robot in a browser, and the toplevel').
 command(sim, 'WORLD', 'the same with a simulated robot').
 command(run, 'FILE', 'load a program, call start/0 or main/0 or --goal').
 command(playground, '[FOLDER]',
         'serve the page that has Prolog and the robot in it').
+command(try, 'EXERCISE PROGRAM', 'what a program earns, and why not more').
+command(mark, 'EXERCISE PROGRAM...', 'mark programs, or those of folders').
 command(devices, '', 'what is connected').
 command(check, '', 'try each motor and sensor; lift the robot first').
 command(work, '', 'make the runs that sim_batch/5 asks for by Redis').
@@ -47,7 +50,15 @@ option(address, any, any, [view, sim, run, jog, playground],
        'other machines can open the page, too').
 option('no-open', '', flag, [view, sim, run, jog, playground],
        'open no browser').
-option(redis, 'ADDRESS', 'an address', [work],
+option(jobs, 'N', 'a whole number above 0', [try, mark],
+       'runs at a time: one for each processor').
+option(seeds, 'A-B', 'seeds, as 1-10', [try, mark],
+       'other runs than those of the exercise').
+option(page, 'PAGE', 'a file', [try], 'for the picture').
+option(out, 'FOLDER', 'a folder', [mark], 'for the reports: marks').
+option(format, 'FORMAT', 'one of html, csv, junit, json, gradescope', [mark],
+       'only this: html, csv, junit, json or gradescope').
+option(redis, 'ADDRESS', 'an address', [work, mark],
        'of the server, as HOST:PORT: localhost:6379').
 option(workers, 'N', 'a whole number above 0', [work],
        'runs at a time: one for each processor').
@@ -95,11 +106,14 @@ command_line([Command|Rest], Command, Files, Options) :-
                     [Command, Listed]))
     ),
     split(Rest, Command, Files, Options),
-    (   Files = [],
-        named(Argument, Kind, _)
-    ->  there_are(Kind, Listed),
-        throw(usage("~w needs a ~w: ~w", [Command, Kind, Listed]))
-    ;   ( Argument == '' -> Files = [Extra|_] ; Files = [_, Extra|_] )
+    atomic_list_concat(Words, ' ', Argument),
+    (   lacks(Words, Files, Missing)
+    ->  (   named(Missing, Kind, _)
+        ->  there_are(Kind, Listed),
+            throw(usage("~w needs a ~w: ~w", [Command, Kind, Listed]))
+        ;   throw(usage("~w needs a ~w", [Command, Missing]))
+        )
+    ;   beyond(Words, Files, Extra)
     ->  throw(usage("~w does not take ~w", [Command, Extra]))
     ;   member(Option, Options),
         functor(Option, Name, 1),
@@ -109,6 +123,34 @@ command_line([Command|Rest], Command, Files, Options) :-
         \+ setting(Other, Options, _)
     ->  throw(usage("--~w needs --~w", [Name, Other]))
     ;   true
+    ).
+
+%   The word for which there is no file; the file for which there is no word.
+
+lacks([Word|Words], Files, Missing) :-
+    (   Files = [_|Files1]
+    ->  lacks(Words, Files1, Missing)
+    ;   \+ memberchk(Word, ['', '[FILE]', '[FOLDER]']),
+        single(Word, Missing)
+    ).
+
+beyond([''], [Extra|_], Extra) :-
+    !.
+beyond([], [Extra|_], Extra).
+beyond([Word|Words], [_|Files], Extra) :-
+    \+ single(Word, _),
+    !,
+    Words \== [],
+    beyond(Words, Files, Extra).
+beyond([_|Words], [_|Files], Extra) :-
+    beyond(Words, Files, Extra).
+
+%   PROGRAM... is PROGRAM, several times.
+
+single(Word, Single) :-
+    (   atom_concat(Single0, '...', Word)
+    ->  Single = Single0
+    ;   Single = Word
     ).
 
 split([], _, [], []).
@@ -152,6 +194,13 @@ value_of(Type, Text, Value) :-
         atom_number(Text, Number),
         Condition
     ->  Value = Number
+    ;   Type == 'seeds, as 1-10'
+    ->  atomic_list_concat(Ends, -, Text),
+        findall(End, ( member(Part, Ends), atom_number(Part, End) ), Numbers),
+        (   Numbers = [From, To]
+        ->  Value = From-To
+        ;   Numbers = [Value]
+        )
     ;   number(Type, _, _)
     ->  Type = 'virtual, realtime, or a factor',
         memberchk(Text, [virtual, realtime]),
@@ -175,7 +224,7 @@ setting(Name, Options, Value, Default) :-
 
 %!  no_such(+Kind, +Name)
 %
-%   Throws that there is no `program`, `world` or `robot` Name.
+%   Throws that there is no `program`, `exercise`, `world` or `robot` Name.
 
 no_such(Kind, Name) :-
     there_are(Kind, Listed),
@@ -184,11 +233,19 @@ no_such(Kind, Name) :-
 there_are(Kind, Listed) :-
     named(_, Kind, Folder),
     absolute_file_name(Folder, Directory, [file_type(directory)]),
-    atom_concat(Directory, '/*.pl', Pattern),
+    (   Kind == exercise
+    ->  Ending = '/*/exercise.pl'
+    ;   Ending = '/*.pl'
+    ),
+    atom_concat(Directory, Ending, Pattern),
     expand_file_name(Pattern, Files),
     findall(Name,
             ( member(File, Files),
-              file_base_name(File, Base),
+              (   Kind == exercise
+              ->  file_directory_name(File, Path)
+              ;   Path = File
+              ),
+              file_base_name(Path, Base),
               file_name_extension(Name, _, Base) ),
             Names),
     atomic_list_concat(Names, ', ', Named),
@@ -196,6 +253,7 @@ there_are(Kind, Listed) :-
 
 %   named(?Argument, ?Kind, ?Folder): where those of the pack are.
 named('FILE', program, ev3dev_pack(examples)).
+named('EXERCISE', exercise, ev3dev_pack(course)).
 named('WORLD', world, library(ev3dev/worlds)).
 named('ROBOT', robot, library(ev3dev/robots)).
 
@@ -248,19 +306,21 @@ help(Command) :-
     command(Command, Argument, Text),
     line([Command, ' ', Argument], Text),
     findall(Value,
-            ( option(Name, Value, _, Commands, Words),
+            ( option(Name, Value, _, Commands, Meaning),
               memberchk(Command, Commands),
-              line(['--', Name, ' ', Value], Words) ),
+              line(['--', Name, ' ', Value], Meaning) ),
             Values),
-    forall(member(Name, ['FILE', 'WORLD', 'ROBOT']),
-           (   memberchk(Name, [Argument|Values])
+    atomic_list_concat(Words, ' ', Argument),
+    append(Words, Values, Shown),
+    forall(member(Name, ['FILE', 'EXERCISE', 'WORLD', 'ROBOT']),
+           (   memberchk(Name, Shown)
            ->  named_line(Name)
            ;   true
            )).
 
 line(Parts, Text) :-
     atomic_list_concat(Parts, Left),
-    format("  ~w~t~22|~w~n", [Left, Text]).
+    format("  ~w~t~28|~w~n", [Left, Text]).
 
 named_line(Name) :-
     named(Name, Kind, _),

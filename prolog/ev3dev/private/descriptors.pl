@@ -16,7 +16,11 @@ runs must get others.
 
 taken(Descriptor, Mode, Stream) :-
     atom_concat('/proc/self/fd/', Descriptor, File),
-    open(File, Mode, Stream, [encoding(utf8)]),
+    (   Mode == write
+    ->  How = append                    % a file keeps what it has
+    ;   How = Mode
+    ),
+    open(File, How, Stream, [encoding(utf8)]),
     open('/dev/null', Mode, Null),
     stream_property(Null, file_no(Nothing)),
     dup(Nothing, Descriptor).
