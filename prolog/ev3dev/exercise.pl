@@ -3,6 +3,8 @@
             exercise_check/2,           % +Exercise, +Options
             exercise_try/3,             % +Exercise, +File, +Options
             exercise_mark/4,            % +Exercise, +Files, +Options, -Marks
+            run_seed/1,                 % -Seed
+            run_world/1,                % -Facts
             collisions/1,               % ?Count
             ended/1,                    % -How
             duration/1,                 % -Seconds
@@ -94,6 +96,9 @@ machine has to do.
   - score(partial(Points), Text, Share)
     The same for a Share of them, which is taken as 0 if it is less, and as 1
     if it is more.
+  - happens(Seed)
+    A goal at the beginning of each run, which may plan what is to happen in
+    it by sim_at/2, sim_press/2 or sim_unplug/1.
   - forbid(Name/Arity)
     A program that mentions such a predicate has no points. It is looked for
     in the text, so this is a help and no fence.
@@ -192,6 +197,20 @@ exercise_check(Exercise, Options) :-
                 /*******************************
                 *           MEASURES           *
                 *******************************/
+
+%!  run_seed(-Seed) is semidet.
+%
+%   With which seed it was.
+
+run_seed(Seed) :-
+    run_fact(seed(Seed)).
+
+%!  run_world(-Facts) is semidet.
+%
+%   The facts of its world.
+
+run_world(Facts) :-
+    run_fact(world(Facts)).
 
 %!  collisions(?Count) is semidet.
 %

@@ -70,8 +70,8 @@ sim_collisions(Collisions) :-
 %     - released(Key)
 %       Somebody pressed a button, or released it.
 %
-%   The simulator keeps the latest 4096 events `read` and the latest 4096 of
-%   all others.
+%   The simulator keeps the latest 4096 events `read`, the latest 4096
+%   `written`, and the latest 4096 of all others.
 
 sim_trace(Trace) :-
     sim_trace_(Trace0),

@@ -1,6 +1,5 @@
 //! The record of events: the path of the robot, collisions, commands and readings. Memory stays
-//! bounded
-//! however long a run is.
+//! bounded however long a run is.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -126,9 +125,11 @@ impl Noted {
 pub struct Trace {
     path: Log<(Duration, Pose)>,
     spacing: u64,
-    /// Apart, so that a program that polls does not push its own commands out; with their order.
+    /// Apart, so that a program that polls does not push its own commands out, nor these what it
+    /// said; with their order.
     written: Log<Noted>,
     read: Log<Noted>,
+    other: Log<Noted>,
     event_count: u64,
     collisions: Log<Collision>,
     collision_count: u32,
@@ -141,6 +142,7 @@ impl Trace {
             spacing: FIRST_SPACING_TICKS,
             written: Log::new(EVENTS),
             read: Log::new(EVENTS),
+            other: Log::new(EVENTS),
             event_count: 0,
             collisions: Log::new(COLLISIONS),
             collision_count: 0,
@@ -152,10 +154,11 @@ impl Trace {
         self.path.iter()
     }
 
-    /// The newest accesses to files, oldest first: 4096 writes and 4096 reads.
+    /// The newest events, oldest first: 4096 writes, 4096 reads, and 4096 others.
     #[must_use]
     pub fn events(&self) -> Vec<Event> {
-        let mut events: Vec<_> = self.written.iter().chain(self.read.iter()).collect();
+        let logs = [&self.written, &self.read, &self.other];
+        let mut events: Vec<_> = logs.into_iter().flat_map(Log::iter).collect();
         events.sort_unstable_by_key(|noted| noted.order);
         events.into_iter().map(Noted::event).collect()
     }
@@ -189,7 +192,8 @@ impl Trace {
     pub(crate) fn event(&mut self, at: Duration, action: Action, file: Option<File>, text: &[u8]) {
         let log = match action {
             Action::Read => &mut self.read,
-            _ => &mut self.written,
+            Action::Written => &mut self.written,
+            _ => &mut self.other,
         };
         let order = self.event_count;
         self.event_count += 1;

@@ -4,6 +4,7 @@
             exercise_seeds/3,           % +Exercise, +Which, -Seeds
             seed_list/2,                % +Seeds, -List
             exercise_world/3,           % +Exercise, +Seed, -World
+            exercise_happens/2,         % +Exercise, +Seed
             score_shares/2,             % +Exercise, -Shares
             forbidden/3,                % +Exercise, +Terms, -Reason
             program_terms/2             % +Text, -Terms
@@ -29,6 +30,7 @@ the order of the file. A program is only read, never run.
 
 read_exercise(File, exercise(Module, Name, Options, Scores)) :-
     atom_concat('exercise:', File, Module),
+    Module:discontiguous([score/2, score/3]),
     in_own_name(load_files(Module:File, [if(true), silent(true)])),
     findall(Found-Its,
             ( current_predicate(Module:exercise/2),
@@ -136,6 +138,16 @@ exercise_world(exercise(Module, _, _, _), Seed, World) :-
     ;   call(Module:world(Seed, World))
     ->  true
     ;   wrong(world(Seed, _), 'it has no world for this seed')
+    ).
+
+%!  exercise_happens(+Exercise, +Seed) is det.
+%
+%   Plan what is to happen in a run that begins.
+
+exercise_happens(exercise(Module, _, _, _), Seed) :-
+    (   current_predicate(Module:happens/1)
+    ->  ignore(call(Module:happens(Seed)))
+    ;   true
     ).
 
 %!  score_shares(+Exercise, -Shares) is det.

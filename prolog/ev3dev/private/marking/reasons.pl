@@ -43,7 +43,7 @@ reason(limit(wall), _, _, limits(_, Wall), Seconds, Reason) :-
             Only wait/1 and what uses the robot lets that pass, not sleep/1.',
            [Wall, Seconds]).
 reason(limit(output), _, _, _, Seconds, Reason) :-
-    format(atom(Reason), 'It had printed 1 MB at ~1f s.', [Seconds]).
+    format(atom(Reason), 'It printed more than 1 MB, until ~1f s.', [Seconds]).
 reason(refused(Why), _, _, _, Seconds, Reason) :-
     format(atom(Reason),
            'At ~1f s it asked the robot what no program asks: ~w.',

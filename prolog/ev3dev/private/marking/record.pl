@@ -2,7 +2,7 @@
           [ run_pose/4,                 % ?Seconds, ?X, ?Y, ?Heading
             run_collision/1,            % ?Collision
             run_fact/1,                 % ?Fact
-            with_record/3,              % :Goal, +World, +Robot
+            with_record/4,              % :Goal, +Seed, +World, +Robot
             record_end/3,               % +Ended, +Output, +Lines
             recorded/3                  % -Film, -Collisions, -Seconds
           ]).
@@ -19,14 +19,14 @@ are as the simulator knows them at the end. What the sensors showed when it
 ran into something is kept at that moment, as the simulator forgets it.
 */
 
-:- meta_predicate with_record(0, +, +).
+:- meta_predicate with_record(0, +, +, +).
 
 :- dynamic
     run_pose/4,
     run_collision/1,                    % collision(Time, X, Y, Heading)
     run_fact/1.                         % ended(How), seconds(Time),
-                                        % world(Facts), robot(Facts),
-                                        % output(Text),
+                                        % seed(Seed), world(Facts),
+                                        % robot(Facts), output(Text),
                                         % said(Text), told(Time, Text),
                                         % seen(Time, Port, Value)
 :- volatile
@@ -34,12 +34,13 @@ ran into something is kept at that moment, as the simulator forgets it.
     run_collision/1,
     run_fact/1.
 
-%!  with_record(:Goal, +World, +Robot) is semidet.
+%!  with_record(:Goal, +Seed, +World, +Robot) is semidet.
 %
 %   Call Goal, while a simulation of Robot in World runs, and record it.
 
-with_record(Goal, World, Robot) :-
+with_record(Goal, Seed, World, Robot) :-
     forget,
+    assertz(run_fact(seed(Seed))),
     note_facts(world, World),
     note_facts(robot, Robot),
     record,

@@ -4,10 +4,10 @@
                                         % -Result
           ]).
 :- use_module(read,
-              [ exercise_setting/3, exercise_world/3, read_exercise/2,
-                score_shares/2 ]).
+              [ exercise_happens/2, exercise_setting/3, exercise_world/3,
+                read_exercise/2, score_shares/2 ]).
 :- use_module(reasons, [reason/6]).
-:- use_module(record, [record_end/3, recorded/3, with_record/3]).
+:- use_module(record, [record_end/3, recorded/3, with_record/4]).
 :- use_module(why, [collision_reason/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
@@ -63,13 +63,14 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     setup_call_cleanup(
         octets(File, Text),
         with_sim(World,
-                 ( ev3dev_marking_record:with_record(
+                 ( ev3dev_marking_read:exercise_happens(Exercise, Seed),
+                   ev3dev_marking_record:with_record(
                        ev3dev_sim_fenced:sim_fenced(
                            File, Ended,
                            [ goal(Goal), seconds(Seconds), cpu(Cpu),
                              wall(Wall), memory(Memory), enclosed(Enclosed),
                              output(Output), told(Lines) ]),
-                       World, Robot),
+                       Seed, World, Robot),
                    ev3dev_marking_record:record_end(Ended, Output, Lines) ),
                  [ clock(virtual), seed(Seed), noise(Noise), robot(Robot) ]),
         delete_directory_and_contents(Directory)),

@@ -21,7 +21,7 @@ collision_reason(Seed, Text) :-
            [Seed, Time, What]),
     (   findall(Rule, ( run_fact(told(Then, Rule)), Then =< Time ), Rules),
         last(Rules, Rule)
-    ->  format(atom(Text1), '~w What it did: ~w.', [Text0, Rule])
+    ->  format(atom(Text1), '~w It acted by: ~w.', [Text0, Rule])
     ;   Text1 = Text0
     ),
     findall(Shown,
