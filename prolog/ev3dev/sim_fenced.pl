@@ -17,7 +17,8 @@
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(process),
-              [process_create/3, process_group_kill/2, process_wait/3]).
+              [ process_create/3, process_group_kill/2, process_kill/2,
+                process_wait/3 ]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> A program that cannot see the world
@@ -159,12 +160,14 @@ in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
         start(Directory, [Socket, ToldBy], Output, Path, Goal,
               Cpu-Memory-Shut, Pid),
         served(Pid, Until, Deadline, Ended0),
-        catch(process_group_kill(Pid, kill), _, true)),
+        ended(Pid, Directory, Shut)),
+    get_time(Over),
     size_file(Output, Size),
     (   Size >= 1 << 20
     ->  Ended = limit(output)
     ;   memberchk(Ended0, [killed(9), exit(137)]),  % what bwrap makes of it
-        Cpu \== infinite
+        Cpu \== infinite,
+        Over-Began > Cpu/4                          % it may have threads
     ->  Ended = limit(cpu)
     ;   Ended = Ended0
     ),
@@ -172,6 +175,25 @@ in_directory(Directory, Path, Goal, limits(Seconds, Wall, Cpu, Memory, Shut),
     (   Told == none
     ->  true
     ;   what_was_told(Tells, Told)
+    ).
+
+%   What is shut in dies with bwrap. Otherwise a process may have left the
+%   group; it still has the environment that it began with.
+
+ended(Pid, Directory, Shut) :-
+    catch(process_group_kill(Pid, kill), _, true),
+    (   Shut == true
+    ->  true
+    ;   atom_concat('EV3DEV_FENCED=', Directory, Mark),
+        expand_file_name('/proc/[0-9]*', Processes),
+        forall(( member(Process, Processes),
+                 atom_concat(Process, '/environ', File),
+                 catch(read_file_to_string(File, Text, [encoding(octet)]), _,
+                       fail),
+                 once(sub_string(Text, _, _, _, Mark)),
+                 file_base_name(Process, Name),
+                 atom_number(Name, Other) ),
+               catch(process_kill(Other, kill), _, true))
     ).
 
 %   The program may have made anything of that file.
@@ -212,6 +234,7 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
     ->  Kilobytes = unlimited
     ;   Kilobytes is 1024*Memory
     ),
+    atom_concat(Directory, '/own', Own),
     (   Shut == true
     ->  enclosure(Directory, Path, Walls),
         Enclosure = [bwrap|Walls]
@@ -224,12 +247,14 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
         path(sh),
         [ '-c', 'ulimit -c 0; ulimit -f 2048; ulimit -v "$2"; output=$3
                  ulimit -t "$1"
-                 EV3DEV_FENCE=$4; export EV3DEV_FENCE
+                 EV3DEV_FENCE=$4; EV3DEV_FENCED=$6
+                 export EV3DEV_FENCE EV3DEV_FENCED
                  [ -z "$5" ] || { EV3DEV_TOLD=$5; export EV3DEV_TOLD; }
-                 shift 5
+                 shift 6
                  exec "$@" </dev/null >"$output" 2>&1',
-          sh, Limit, Kilobytes, file(Output), file(Socket), Tells | Command ],
-        [ process(Pid), detached(true) ]).
+          sh, Limit, Kilobytes, file(Output), file(Socket), Tells,
+          file(Directory) | Command ],
+        [ process(Pid), detached(true), cwd(Own) ]).
 
 library_folder(Library) :-
     module_property(ev3dev_sim_fenced, file(This)),
@@ -290,11 +315,10 @@ enclosure(Directory, Path, Walls) :-
                 Bind = '--bind'
             ),
             Binds0),
-    append([ ['--unshare-all', '--die-with-parent', '--new-session',
-              '--tmpfs', '/tmp']
+    append([ [ '--unshare-all', '--die-with-parent', '--new-session',
+              '--proc', '/proc', '--dev', '/dev', '--tmpfs', '/tmp' ]
            | Binds0 ], Walls0),
-    append(Walls0, ['--proc', '/proc', '--dev', '/dev', '--chdir', Own, '--'],
-           Walls).
+    append(Walls0, ['--chdir', Own, '--'], Walls).
 
 served(Pid, Until, Deadline, Ended) :-
     sim_fence_serve_(Until, 0.2, State),

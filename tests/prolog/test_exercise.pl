@@ -1,0 +1,253 @@
+% library(ev3dev/exercise): what is earned, that it is the same each time, and that no program
+% gets more than its due.
+
+:- use_module(library(plunit)).
+:- use_module('../support/cases').
+:- use_module('../support/cheats').
+:- use_module('../support/child').
+:- use_module('../support/simulation').
+:- use_module('../support/trees').
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/exercise)).
+:- use_module(library(ev3dev/sim_fenced), [can_enclose/0]).
+:- use_module(library(filesex)).
+:- use_module(library(readutil)).
+
+exercise_lines([ ":- use_module(library(ev3dev/exercise)).",
+                 "exercise(hundred, [seconds(8), seeds(1-3), cpu(1), wall(5), memory(1000)]).",
+                 "world(Seed, [bounds(0, 0, Width, 200), start(30, 30, 90)]) :-",
+                 "    Width is 180+Seed.",
+                 "score(4, 'drives') :- path_length(Cm), Cm > 100.",
+                 "score(partial(2), 'drives far', Share) :- path_length(Cm), Share is Cm/100.",
+                 "score(4, 'touches <nothing>') :- collisions(0).",
+                 "forbid(secret/1)." ]).
+
+:- dynamic folder/1.
+
+%   A folder with the exercise; file/2 writes programs into it.
+with_folder(Goal) :-
+    tmp_file(exercise, Folder),
+    make_directory(Folder),
+    setup_call_cleanup(
+        asserta(folder(Folder)),
+        ( exercise_lines(Lines), file(exercise, Lines, _), call(Goal) ),
+        ( retract(folder(Folder)), delete_directory_and_contents(Folder) )).
+
+file(Name, Lines, File) :-
+    folder(Folder),
+    atomic_list_concat([Folder, /, Name, '.pl'], File),
+    setup_call_cleanup(open(File, write, Out),
+                       forall(member(Line, Lines), ( write(Out, Line), nl(Out) )),
+                       close(Out)).
+
+:- meta_predicate with_folder(0).
+
+program(Name, File) :-
+    honest(Honest),
+    (   Name == honest
+    ->  Lines = Honest
+    ;   cheat(Name, Own),
+        Honest = [Loads|_],
+        Lines = [Loads|Own]
+    ),
+    file(Name, Lines, File).
+
+%   The marks of these programs, with what they said on the way.
+marked(Names, Options, Marks) :-
+    with_folder(( findall(File, ( member(Name, Names), program(Name, File) ), Files),
+                  mark_files(Files, Options, Marks) )).
+
+marked_lines(Lines, Options, Mark) :-
+    with_folder(( file(mine, Lines, File), mark_files([File], Options, [Mark]) )).
+
+mark_files(Files, Options, Marks) :-
+    folder(Folder),
+    atom_concat(Folder, '/exercise', Exercise),
+    quietly(exercise_mark(Exercise, Files, Options, Marks)).
+
+:- meta_predicate quietly(0).
+
+quietly(Goal) :-
+    setup_call_cleanup(
+        asserta((user:message_hook(ev3dev(not_enclosed), _, _) :- !), Clause),
+        once(Goal),
+        erase(Clause)).
+
+:- dynamic user:message_hook/3.
+:- multifile user:message_hook/3.
+
+%   Its points are not those of a file that loads nothing.
+earns(Lines, Points, Reason) :-
+    marked_lines(Lines, [seeds(1-2)], mark(mine, Points, 10, _, _, Reason)).
+
+reason(Names, Reasons) :-
+    marked(Names, [seeds(1-2)], Marks),
+    findall(Reason, member(mark(_, _, _, _, _, Reason), Marks), Reasons).
+
+:- begin_tests(exercise, [condition(starts_itself)]).
+
+test(honest, Marks == [ mark(honest, 10, 10,
+                             [ score(drives, 4, 4, 0), score('drives far', 2, 2, 0),
+                               score('touches <nothing>', 4, 4, 0) ],
+                             [run(1, 10, exit(0), T), run(2, 10, exit(0), T)], '') ]) :-
+    marked([honest], [seeds(1-2)], Marks),
+    Marks = [mark(_, _, _, _, [run(_, _, _, T)|_], _)].
+test(a_part_of_the_points, true(between(5, 6, Points))) :-
+    earns([ ":- use_module(library(ev3dev)).",
+            "start :- set_robot(5.6, 10.6, outB, outC), go_cm(60, 50)." ], Points, _).
+test(it_runs_into_something, Points-Missed == 6-2) :-
+    marked_lines([ ":- use_module(library(ev3dev)).",
+                   "start :- set_robot(5.6, 10.6, outB, outC), go(60), wait(10)." ],
+                 [seeds(1-2)], mark(_, Points, _, [_, _, score(_, _, _, Missed)], _, _)).
+test(one_that_goes_wrong_on_its_way, Points == 10) :-
+    earns([ ":- use_module(library(ev3dev)).",
+            "start :- set_robot(5.6, 10.6, outB, outC), go_cm(60, 110), nothing." ],
+          Points, Reason),
+    assertion(sub_atom(Reason, 0, _, _, 'It ended at ')),
+    assertion(sub_atom(Reason, _, _, _, 'nothing/0')).
+test(why_it_has_no_points, true(Reasons = [ 'It did not use the robot.',
+                                            'Does not end: 1 s of processor time, at 0.0 s of the robot\'s.',
+                                            'Line 2, column 11: Operator expected.' ])) :-
+    reason([halts_at_once, does_not_end, does_not_parse], Reasons).
+test(what_is_forbidden, Points-Reason == 0-'Line 2: secret/1 may not be used here.') :-
+    earns([ ":- use_module(library(ev3dev)).",
+            "start :- wait(1), call((true, secret(1)))." ], Points, Reason).
+test(no_such_file, Points-Reason == 0-'It cannot be read.') :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/nowhere.pl', File),
+                  mark_files([File], [seeds(1)], [mark(nowhere, Points, _, _, _, Reason)]) )).
+test(two_runs_that_do_not_end_are_enough, Ends == [limit(cpu), limit(cpu), not_run]) :-
+    marked([does_not_end], [], [mark(_, 0, _, _, Runs, _)]),
+    findall(End, member(run(_, _, End, _), Runs), Ends).
+test(the_same_with_any_number_of_jobs, Two == One) :-
+    Names = [honest, says_its_marks, does_not_parse],
+    marked(Names, [jobs(1)], One),
+    marked(Names, [jobs(2)], Two).
+test(the_red_team, true(Over == [])) :-
+    findall(Name, cheat(Name, _), All),
+    length(All, Count),
+    assertion(Count >= 40),
+    (   all_cases,
+        can_enclose                     % some would take the machine with them
+    ->  Names = All
+    ;   length(Names, 10),
+        append(Names, _, All)
+    ),
+    append(Names, [honest], Tried),
+    marked(Tried, [seeds(1-2)], Marks),
+    findall(Name, member(mark(Name, _, _, _, _, _), Marks), Found),
+    assertion(Found == Tried),
+    last(Marks, mark(honest, Best, _, _, _, _)),
+    assertion(Best == 10),
+    findall(Name-Points,
+            ( member(mark(Name, Points, _, _, _, _), Marks),
+              Name \== honest,
+              Points > 0 ),
+            Over).
+test(nobody_of_them_lives, Alive == []) :-
+    marked([leaves_a_process], [seeds(1), enclosed(false)], _),
+    expand_file_name('/proc/[0-9]*/cmdline', Files),
+    findall(Command,
+            ( member(File, Files),
+              catch(read_file_to_string(File, Command, []), _, fail),
+              sub_string(Command, _, _, _, "sleep\u00001000") ),
+            Alive).
+
+test(reports, true) :-
+    with_folder(( folder(Folder),
+                  atom_concat(Folder, '/marks', Out),
+                  program(honest, Honest),
+                  honest(Lines),
+                  file('<b>&"x', Lines, Odd),
+                  program(does_not_parse, Broken),
+                  mark_files([Honest, Odd, Broken], [out(Out)], _),
+                  read_report(Out, 'index.html', Index),
+                  read_report(Out, 'pages/honest.html', Page),
+                  read_report(Out, 'marks.csv', Csv),
+                  read_report(Out, 'junit.xml', Junit),
+                  read_report(Out, 'results.json', Json),
+                  read_report(Out, 'gradescope/honest.json', Gradescope) )),
+    assertion(\+ sub_string(Index, _, _, _, "<b>&")),
+    assertion(sub_string(Index, _, _, _, "Line 2, column 11: Operator expected.")),
+    assertion(sub_string(Index, _, _, _, "3 programs, 6.67 points in the mean")),
+    assertion(sub_string(Page, _, _, _, "touches &lt;nothing&gt;")),
+    assertion(sub_string(Page, _, _, _, "<svg ")),
+    assertion(sub_string(Page, _, _, _, "const film = [[300,300,90],")),
+    assertion(sub_string(Csv, 0, _, _, "name,points,of,drives,drives far,touches <nothing>,remark\r\nhonest,10,10,4,2,4,")),
+    assertion(sub_string(Junit, _, _, _, "failures=\"3\"")),
+    assertion(sub_string(Json, _, _, _, "\"points\":10")),
+    assertion(sub_string(Gradescope, _, _, _, "\"max_score\":4")).
+
+read_report(Out, Name, Text) :-
+    atomic_list_concat([Out, /, Name], File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+test(one_format, Names == ['marks.csv']) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
+                  program(honest, File),
+                  mark_files([File], [seeds(1), out(Out), formats([csv])], _),
+                  directory_files(Out, Found) )),
+    subtract(Found, ['.', '..'], Names).
+test(programs_that_are_alike, true(sub_string(Index, _, _, _, "a and b: 100 %"))) :-
+    Lines = ["one(X) :- two(X, _).", "two(A, B) :- three(A), three(B).", "three(_).", "start."],
+    Others = ["one(Y) :- two(Y, _).", "two(C, D) :- three(C), three(D).", "three(_).", "start."],
+    with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
+                  file(a, Lines, A), file(b, Others, B),
+                  mark_files([A, B], [seeds(1), out(Out), formats([html])], _),
+                  read_report(Out, 'index.html', Index) )).
+
+%   The solutions of the course earn all points; with few cases in two runs each.
+test(the_course, [forall(course(Exercise)), true]) :-
+    (   all_cases
+    ->  Options = []
+    ;   Options = [seeds(1-2)]
+    ),
+    with_output_to(string(Text), ( quietly(exercise_check(Exercise, Options)) -> All = true
+                                 ; All = false )),
+    assertion(All-Text == true-Text).
+
+course(File) :-
+    source_file(course(_), This),
+    file_directory_name(This, Tests),
+    atom_concat(Tests, '/../../course/*/exercise.pl', Pattern),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
+
+%   A skeleton is a program without a mistake that earns less.
+test(the_skeletons, Unequal == []) :-
+    findall(Name,
+            ( course(Exercise),
+              file_directory_name(Exercise, Folder),
+              file_base_name(Folder, Name),
+              member(Kind, [skeleton, solution]),
+              atomic_list_concat([Folder, /, Kind, '.pl'], File),
+              \+ exists_file(File) ),
+            Unequal).
+
+test(try, true(sub_string(Text, _, _, _, "Together: 10 of 10 points, in 3 runs."))) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
+                  program(honest, File),
+                  with_output_to(string(Text), quietly(exercise_try(Exercise, File, []))) )).
+test(try_fails, fail) :-
+    with_folder(( folder(Folder), atom_concat(Folder, '/exercise', Exercise),
+                  program(is_empty, File),
+                  with_output_to(string(_), quietly(exercise_try(Exercise, File, []))) )).
+
+wrong_exercise(Lines, What) :-
+    with_folder(( file(wrong, Lines, File),
+                  catch(exercise_mark(File, [], [], _), error(domain_error(exercise, What), _),
+                        true) )).
+
+test(no_exercise, true(nonvar(What))) :-
+    wrong_exercise(["score(1, x)."], What).
+test(no_scores, true(nonvar(What))) :-
+    wrong_exercise(["exercise(x, [])."], What).
+test(wrong_setting, What == [secs(3)]) :-
+    wrong_exercise(["exercise(x, [secs(3)]).", "score(1, x)."], What).
+test(wrong_points, What == score(lots, x)) :-
+    wrong_exercise(["exercise(x, []).", "score(lots, x)."], What).
+test(wrong_option, error(domain_error(exercise_option, seed(1)))) :-
+    exercise_mark(nowhere, [], [seed(1)], _).
+test(no_exercise_file, error(existence_error(source_sink, nowhere))) :-
+    exercise_mark(nowhere, [], [], _).
+
+:- end_tests(exercise).
