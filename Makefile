@@ -89,8 +89,9 @@ check-clients: build
 check-view: build
 	@tests/view/run.sh
 
-# The pictures of README.md and docs/view.md, from the simulator
+# The pictures of README.md and docs, and films of examples, from the simulator
 pictures: build
+	@$(SWIPL) -g main -t 'halt(1)' tools/films.pl
 	@tests/view/run.sh --pictures
 
 # The bench still runs, and its tables are those of its last run

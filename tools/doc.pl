@@ -44,6 +44,8 @@
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/sim_fenced)).
+:- use_module(library(ev3dev/random_worlds)).
+:- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/grid_belief)).
 :- use_module(library(ev3dev/localize)).
 :- use_module(library(ev3dev/map)).
@@ -63,6 +65,7 @@ task('See what is connected', [device_table, driver, files]).
 task('Ask why it did that', [journal]).
 task('Try it without a robot',
      [sim, sim_hand, sim_time, sim_views, sim_batch, sim_fenced]).
+task('Teach', [exercise, random_worlds]).
 task('Drive several robots', [bricks, worker]).
 task('Look on', [view]).
 task('Find a path', [grid, planners, roadmap, navigation]).

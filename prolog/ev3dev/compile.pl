@@ -62,6 +62,8 @@ unit(events, ['ev3dev/events']).
 unit(localize, ['ev3dev/localize']).
 unit(map, ['ev3dev/map']).
 unit(sim_fenced, ['ev3dev/sim_fenced']).
+unit(random_worlds, ['ev3dev/random_worlds']).
+unit(exercise, ['ev3dev/exercise']).
 unit(batch_redis, ['ev3dev/private/batch_redis']).
 unit(mail, ['ev3dev/private/mail']).
 unit(bricks, ['ev3dev/bricks']).

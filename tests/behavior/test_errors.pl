@@ -16,6 +16,8 @@
 :- use_module(library(ev3dev/bricks)).
 :- use_module(library(ev3dev/sim_batch)).
 :- use_module(library(ev3dev/sim_fenced)).
+:- use_module(library(ev3dev/random_worlds)).
+:- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/grid_belief)).
 :- use_module(library(ev3dev/localize)).
 :- use_module(library(ev3dev/map)).
@@ -111,6 +113,20 @@ bad(map_occupancy(0, 0, _), [_-1, far-2]).
 bad(explore([]), [_-1, [x(1)]-1]).
 bad(sim_fenced(nofile, _), [_-1]).
 bad(sim_fenced(nofile, _, []), [_-1, [seed(1)]-3, [wall(a)]-3, [seconds(-1)]-3, [cpu(a)]-3, [goal(1)]-3]).
+bad(random_room(1, [], _), [_-1, a-1, _-2, [size(3)]-2, [boxes(2-1)]-2, [box(1)]-2]).
+bad(random_grid(1, [], _), [_-1, a-1, [size(3)]-2, [boxes(a)]-2, [cell(0)]-2]).
+bad(random_maze(1, [], _), [_-1, a-1, [size(3)]-2, [cell(-1)]-2, [x(1)]-2]).
+bad(random_track(1, [], _), [_-1, a-1, [radius(0)]-2, [wave(a)]-2, [x(1)]-2]).
+bad(exercise_mark(nofile, [], [], _), [_-1, a-2, [seed(1)]-3]).
+bad(exercise_try(nofile, nofile, []), [_-1, [out(1)]-3]).
+bad(exercise_check(nofile), [_-1]).
+bad(exercise_check(nofile, []), [_-1, [out(1)]-2]).
+bad(time_to(0-0, _), [_-1, far-1]).
+bad(time_to(0-0, 10, _), [_-1, far-1, _-2, 0-2]).
+bad(ended_near(0-0, _), [_-1, far-1]).
+bad(cells_visited(30, _), [_-1, 0-1, a-1]).
+bad(lap_fraction(5, _), [_-1, 0-1]).
+bad(printed(a), [_-1, f(x)-1]).
 bad(sim_batch_work(localhost, 1), [_-1, 7-1, _-2, a-2, 0-2]).
 bad(sim_batch(nofile, a, [1], _, []), [_-1, [redis(1)]-5, [workers(0)]-5, [wall(-1)]-5, [cpu(a)]-5, [seed(1)]-5, [progress(1)]-5]).
 bad(sim_start(room, []), [nowhere-1, _-1, [clock(slow)]-2, [colour(red)]-2]).

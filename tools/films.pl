@@ -1,0 +1,182 @@
+% Draws the pictures of docs/first-afternoon.md, and films of examples for the gallery; run
+% by `make pictures`:
+%
+%   swipl -g main -t 'halt(1)' tools/films.pl
+%
+% What the paper's queries do is what its pictures show: they are called in their order, with
+% the paper's programs, and where a picture stands the world is drawn.
+
+:- asserta(user:file_search_path(library, prolog)).
+:- use_module(library(ev3dev)).
+:- use_module(library(ev3dev/sim)).
+:- use_module(library(ev3dev/drive)).
+:- use_module(library(ev3dev/private/marking/record)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(readutil)).
+
+% film(Example, Goal, World, Seconds)
+film(square,             start, [bounds(-130, -40, 140, 140), start(0, 0, 0)],
+     80).
+film(obstacle_avoidance, start, room, 40).
+film(rules_wander,       start, room, 40).
+film(line_following,     start, line, 45).
+film(braitenberg,        vehicle(aggression), lights, 25).
+film(slalom,             start, [bounds(-40, -60, 260, 100), start(0, 0, 90)], 30).
+film(grid_navigation,    start, grid, 45).
+film(golog_rescue,
+     ( sim_add(patch(red, [48-28, 72-28, 72-52, 48-52])), start ), grid, 60).
+film(room_navigation,    start, room, 40).
+film(explore_room,       start, room, 90).
+film(rules_sumo,         start, sumo, 25).
+
+main :-
+    paper('docs/first-afternoon.md'),
+    forall(film(Example, Goal, World, Seconds),
+           (   catch(film_of(Example, Goal, World, Seconds), E,
+                     ( print_message(error, E), fail ))
+           ->  true
+           ;   format(user_error, "no film of ~w~n", [Example])
+           )),
+    halt(0).
+
+                /*******************************
+                *            PAPER             *
+                *******************************/
+
+paper(File) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines),
+    sim_stop_if_any,
+    blocks(Lines, text, "", Parts),
+    atom_concat(paper_, first, Module),
+    tmp_file(paper, Base),
+    atom_concat(Base, '.pl', Program),
+    findall(Code, member(code(Code), Parts), Codes),
+    setup_call_cleanup(open(Program, write, Out),
+                       maplist(write(Out), Codes),
+                       close(Out)),
+    style_check(-discontiguous),
+    load_files(Module:Program, [silent(true)]),
+    delete_file(Program),
+    maplist(done(Module), Parts).
+
+sim_stop_if_any :-
+    ignore(sim_stop).
+
+blocks([], _, _, []).
+blocks(["```prolog"|Lines], text, _, Parts) :-
+    !,
+    blocks(Lines, code, "", Parts).
+blocks(["```"|Lines], code, Block, [Part|Parts]) :-
+    !,
+    (   string_concat("?- ", _, Block)
+    ->  Part = queries(Block)
+    ;   Part = code(Block)
+    ),
+    blocks(Lines, text, "", Parts).
+blocks([Line|Lines], code, Block, Parts) :-
+    !,
+    string_concat(Block, Line, Block1),
+    string_concat(Block1, "\n", Block2),
+    blocks(Lines, code, Block2, Parts).
+blocks([Line|Lines], text, Block, [picture(Name)|Parts]) :-
+    sub_string(Line, Before, _, _, "](pictures/afternoon-"),
+    !,
+    Start is Before+2,
+    sub_string(Line, Start, _, 1, Name),
+    blocks(Lines, text, Block, Parts).
+blocks([_|Lines], text, Block, Parts) :-
+    blocks(Lines, text, Block, Parts).
+
+done(_, code(_)).
+done(_, picture(Name)) :-
+    string_concat("docs/", Name, File),
+    sim_svg(File).
+done(Module, queries(Block)) :-
+    split_string(Block, "\n", "", Lines),
+    forall(( member(Line, Lines), string_concat("?- ", Query, Line) ),
+           asked(Module, Query)).
+
+%   Those that go wrong in the paper do so here.
+
+asked(Module, Query) :-
+    term_string(Goal, Query, [module(Module)]),
+    setup_call_cleanup(
+        asserta((user:message_hook(_, _, _) :- !), Clause),
+        with_output_to(string(_), ignore(catch(Module:Goal, _, true))),
+        erase(Clause)).
+
+:- dynamic user:message_hook/3.
+:- multifile user:message_hook/3.
+
+                /*******************************
+                *            FILMS             *
+                *******************************/
+
+%   The path stays; the robot moves along it, ten times as fast as it did.
+
+film_of(Example, Goal, World, Seconds) :-
+    format("~w~n", [Example]),
+    atomic_list_concat(['examples/', Example, '.pl'], Source),
+    load_files(Example:Source, [silent(true)]),
+    ( module_property(Own, file(Path)), atom_concat(_, Source, Path) -> true ; Own = Example ),
+    atomic_list_concat(['docs/pictures/film-', Example, '.svg'], File),
+    tmp_file(film, Svg),
+    with_sim(World,
+             ( ev3dev_marking_record:with_record(
+                   user:ignore(for_seconds(Seconds, Own:Goal)), 1, World, default),
+               ev3dev_marking_record:record_end(over, "", []),
+               sim_svg(Svg) ),
+             [clock(virtual), seed(1)]),
+    read_file_to_string(Svg, Text, [encoding(utf8)]),
+    recorded(Film0, _, Took),
+    thinned(Film0, Film),
+    once(sub_string(Text, Begin, _, _, "<g class=\"robot\"")),
+    sub_string(Text, 0, Begin, _, Head0),
+    sub_string(Text, Begin, _, 0, Robot0),
+    sub_string(Robot0, Close, 1, _, ">"),
+    !,
+    After is Close+1,
+    sub_string(Robot0, After, _, 0, Robot),
+    half_size(Head0, Head),
+    Duration is Took/10,
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        ( write(Out, Head),
+          format(Out, "<g class=\"robot\">~n", []),
+          animation(Out, translate, Film, Duration),
+          animation(Out, rotate, Film, Duration),
+          write(Out, Robot) ),
+        close(Out)).
+
+animation(Out, Type, Film, Duration) :-
+    findall(Value, ( member(Pose, Film), moved(Type, Pose, Value) ), Values),
+    atomic_list_concat(Values, ;, Text),
+    format(Out, "<animateTransform attributeName=\"transform\" type=\"~w\" \c
+                 additive=\"sum\" dur=\"~2fs\" repeatCount=\"indefinite\" \c
+                 values=\"~w\"/>~n", [Type, Duration, Text]).
+
+moved(translate, [X, Y, _], Value) :-
+    CmX is X/10,
+    CmY is Y/10,
+    format(atom(Value), '~1f,~1f', [CmX, CmY]).
+moved(rotate, [_, _, H], Value) :-
+    Value is -H.
+
+%   At most 150 poses.
+
+thinned(Film, Thin) :-
+    length(Film, Count),
+    Step is max(1, ceiling(Count/150)),
+    findall(Pose, ( nth0(N, Film, Pose), N mod Step =:= 0 ), Thin).
+
+half_size(Text0, Text) :-
+    sub_string(Text0, Before, _, _, " width=\""),
+    sub_string(Text0, After, _, _, "\">\n"),
+    After > Before,
+    !,
+    sub_string(Text0, 0, Before, _, Head),
+    From is After+1,
+    sub_string(Text0, From, _, 0, Tail),
+    string_concat(Head, Tail, Text).
