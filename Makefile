@@ -140,7 +140,7 @@ check-old: build
 	@$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 
 # HTML pages about all predicates, worlds, robots and planners: doc/index.html
-doc: build
+doc: setup
 	@rm -rf doc
 	@$(SWIPL) -g main -t 'halt(1)' tools/doc.pl doc
 

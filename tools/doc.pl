@@ -8,6 +8,22 @@
 % pages are names of files without a folder. It needs no network.
 
 :- asserta(user:file_search_path(library, prolog)).
+
+% The pages need no library that Rust would have to make: what it defines does nothing here.
+:- dynamic ev3dev_library_file:loaded/0.
+:- assertz(ev3dev_library_file:loaded).
+
+native_does_nothing :-
+    setup_call_cleanup(open('prolog/ev3dev/private/native.pl', read, In),
+                       read_term(In, (:- module(Module, Exports)), []),
+                       close(In)),
+    forall(member(Name/Arity, Exports),
+           ( functor(Head, Name, Arity),
+             dynamic(Module:Name/Arity),
+             assertz(Module:Head) )).
+
+:- native_does_nothing.
+
 :- use_module(library(pldoc)).
 :- use_module(library(pldoc/doc_html), [doc_for_file/2]).
 :- use_module(library(pldoc/doc_process), [doc_comment/4]).
@@ -327,11 +343,11 @@ write_worlds(Directory, Map) :-
 wiki(Dom) -->
     pldoc_html:html(Dom).
 
+%   As `make pictures` has drawn it
+
 draw_world(Directory, Name) :-
-    format(atom(File), '~w/world_~w.svg', [Directory, Name]),
-    setup_call_cleanup(sim_start(Name, [clock(virtual)]),
-                       sim_svg(File),
-                       sim_stop).
+    format(atom(Picture), 'docs/pictures/world_~w.svg', [Name]),
+    copy_file(Picture, Directory).
 
 write_robots(Directory) :-
     fact_files(robots, Files),

@@ -1,5 +1,5 @@
-% Draws the pictures of docs/first-afternoon.md, and films of examples for the gallery; run
-% by `make pictures`:
+% Draws the pictures of docs/first-afternoon.md and of worlds, and films of examples for the
+% gallery; run by `make pictures`:
 %
 %   swipl -g main -t 'halt(1)' tools/films.pl
 %
@@ -32,6 +32,8 @@ film(rules_sumo,         start, sumo, 25).
 
 main :-
     paper('docs/first-afternoon.md'),
+    expand_file_name('prolog/ev3dev/worlds/*.pl', Worlds),
+    forall(member(World, Worlds), world(World)),
     forall(film(Example, Goal, World, Seconds),
            (   catch(film_of(Example, Goal, World, Seconds), E,
                      ( print_message(error, E), fail ))
@@ -109,6 +111,12 @@ asked(Module, Query) :-
 
 :- dynamic user:message_hook/3.
 :- multifile user:message_hook/3.
+
+world(Path) :-
+    file_base_name(Path, Base),
+    file_name_extension(Name, _, Base),
+    format(atom(Picture), 'docs/pictures/world_~w.svg', [Name]),
+    with_sim(Name, sim_svg(Picture), [clock(virtual)]).
 
                 /*******************************
                 *            FILMS             *
