@@ -11,7 +11,7 @@ LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
 .PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist playground check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
-        lint bench pictures doc dist demo install clean distclean realclean
+        check-site lint bench pictures doc site dist demo install clean distclean realclean
 
 # Who loads the pack by its path has it compiled, too
 all: build
@@ -66,6 +66,7 @@ check-all: lint check
 	$(MAKE) mutants SAMPLE=60 LEAST=70 \
 	    SINCE=$$(sed -n 's/.* on commit \([0-9a-f]*\),.*/\1/p' docs/checked.md)
 	$(MAKE) check-playground
+	$(MAKE) check-site
 	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
 	@tools/checked.sh
 
@@ -144,6 +145,11 @@ doc: setup
 	@rm -rf doc
 	@$(SWIPL) -g main -t 'halt(1)' tools/doc.pl doc
 
+# A folder for any web server: papers, course, gallery, predicates, and the playground if it was
+# built: dist/site
+site: doc
+	@tools/site.py
+
 # The binary pack, for machines that cannot build: dist/ev3dev-<version>.tgz
 dist: doc
 	@tools/dist.sh
@@ -159,6 +165,10 @@ playground: build
 # In SWI-Prolog's WebAssembly build, in node: examples do the same as natively
 check-playground: build
 	@tests/playground/check.sh
+
+# A lesson from the site's first page to a marked exercise, in Chromium
+check-site: site
+	@tests/site/check.sh
 
 # On an emulated EV3: installs the binary pack, then the suite
 check-brick: dist

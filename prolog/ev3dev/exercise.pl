@@ -165,8 +165,8 @@ exercise_mark(Exercise, Files, Options, Marks) :-
 %!  exercise_try(+Exercise, +File, +Options) is semidet.
 %
 %   Run the program File on the open seeds of Exercise, and print what it
-%   earns, and why it does not earn more. Fails if it did not earn all. Options
-%   are those of exercise_mark/4 but `out`, and
+%   earns, and why it does not earn more. Fails if it did not earn all.
+%   Options are those of exercise_mark/4 but `out`, and
 %
 %     - page(File)
 %       Write a page with a picture of the worst run.

@@ -12,7 +12,7 @@
                 throw_error/3 ]).
 :- use_module(roadmap, [roadmap_path/5]).
 :- use_module(library(lists),
-              [ append/3, max_list/2, member/2, memberchk/2, min_list/2,
+              [ append/3, max_list/2, member/2, min_list/2,
                 nth0/3, nth1/3, numlist/3, reverse/2, subtract/3 ]).
 
 /** <module> Worlds that chance makes
@@ -135,7 +135,7 @@ nearer(X-Y, X1-Y1, Distance) :-
 %     - free(Cells)
 %       Cells, each [X, Y], in which there is no box. The robot's is free.
 %
-%   @error resource_error(grid) if so many boxes leave no way between all
+%   @error resource_error(grid) if that many boxes leave no way between all
 %          other cells
 %   @error domain_error(random_grid_option, Option)
 

@@ -69,12 +69,12 @@ Ended = over,
 %       How much time of a processor it may use, in whole seconds. By default
 %       as much as it likes.
 %     - memory(Megabytes)
-%       How much memory each of its processes may use. By default as much as it
-%       likes.
+%       How much memory each of its processes may use. By default as much as
+%       it likes.
 %     - enclosed(Boolean)
 %       Whether the program is shut in by bwrap (bubblewrap): it has no
-%       network, sees no other processes, and no files but its own and those of
-%       SWI-Prolog and the pack. Default is `false`.
+%       network, sees no other processes, and no files but its own and those
+%       of SWI-Prolog and the pack. Default is `false`.
 %     - output(Text)
 %       Text is a string of what it has printed, errors and warnings, too: at
 %       most 1 MB.
@@ -88,7 +88,7 @@ Ended = over,
 %
 %   @error existence_error(source_sink, File)
 %   @error permission_error(fence, clock, realtime) if it is not virtual
-%   @error existence_error(program, bwrap) if it is to be enclosed and cannot be
+%   @error existence_error(program, bwrap) if it is to be enclosed and cannot
 %   @error domain_error(sim_fenced_option, Option)
 
 sim_fenced(File, Ended) :-
@@ -113,7 +113,7 @@ sim_fenced(File, Ended, Options) :-
     (   Enclosed == true,
         \+ can_enclose
     ->  throw_error(existence_error(program, bwrap), _,
-                    'bubblewrap is not installed, or may not shut programs in')
+                    'bubblewrap is not installed, or may not be used')
     ;   true
     ),
     option(output(Text), Options, _),

@@ -8,7 +8,7 @@
    asserta(user:file_search_path(library, Library)).
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/sim)).
-:- use_module(library(ev3dev/private/descriptors), [taken/3]).
+:- use_module(library(ev3dev/private/descriptors), [dropped/1, taken/3]).
 :- use_module(library(unix), [fork/1, wait/2]).
 
 %!  work is det.
@@ -27,14 +27,14 @@ work :-
     set_prolog_flag(ev3dev_hints, off),
     read(In, How),
     (   How = quiet(Begin)
-    ->  taken(2, write, _)
+    ->  dropped(2)
     ;   How = loud(Begin)
     ),
     catch(( begin(Begin, Test, Start),
             Answer = ready ), Error,
           Answer = refused(Error)),
     (   How = loud(_)
-    ->  taken(2, write, _)
+    ->  dropped(2)
     ;   true
     ),
     reply(Out, Answer),

@@ -1,4 +1,7 @@
-:- module(ev3dev_descriptors, [taken/3]).
+:- module(ev3dev_descriptors,
+          [ taken/3,                    % +Descriptor, +Mode, -Stream
+            dropped/1                   % +Descriptor
+          ]).
 :- use_module(library(unix), [dup/2]).
 
 /** <module> A process that speaks with another one
@@ -21,6 +24,17 @@ taken(Descriptor, Mode, Stream) :-
     ;   How = Mode
     ),
     open(File, How, Stream, [encoding(utf8)]),
+    to_nowhere(Descriptor, Mode).
+
+%!  dropped(+Descriptor) is det.
+%
+%   What is written to this file descriptor goes nowhere from now on. It may
+%   be a socket, which no file leads to.
+
+dropped(Descriptor) :-
+    to_nowhere(Descriptor, write).
+
+to_nowhere(Descriptor, Mode) :-
     open('/dev/null', Mode, Null),
     stream_property(Null, file_no(Nothing)),
     dup(Nothing, Descriptor).

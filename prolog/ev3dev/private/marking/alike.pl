@@ -1,7 +1,7 @@
 :- module(ev3dev_marking_alike,
           [ alike/2                     % +Programs, -Pairs
           ]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_intersection/3, ord_subtract/3]).
 
 /** <module> Programs that look alike

@@ -12,7 +12,7 @@
                 program_terms/2, read_exercise/2, seed_list/2 ]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/3, last/2, member/2, memberchk/2, nth1/3, sum_list/2]).
+              [append/3, last/2, member/2, nth1/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> Many runs of many programs, and what they are worth
@@ -178,8 +178,8 @@ enclosed(Options, Enclosed) :-
 :- multifile prolog:message//1.
 
 prolog:message(ev3dev(not_enclosed)) -->
-    [ 'bubblewrap (bwrap) is not installed here, or may not be used: programs \c
-       can read files and use the network' ].
+    [ 'bubblewrap (bwrap) is not installed here, or may not be used:'-[], nl,
+      'programs can read files and use the network'-[] ].
 
 %   program(Number, Name, Text, Terms, Reason): Reason is '' if it may run.
 

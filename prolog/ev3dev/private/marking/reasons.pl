@@ -39,11 +39,13 @@ reason(limit(cpu), _, _, limits(Cpu, _), Seconds, Reason) :-
            [Cpu, Seconds]).
 reason(limit(wall), _, _, limits(_, Wall), Seconds, Reason) :-
     format(atom(Reason),
-           'Does not end: it waited for ~w s, at ~1f s of the robot''s time. \c
-            Only wait/1 and what uses the robot lets that pass, not sleep/1.',
+           'Does not end: it waited for ~w s, at ~1f s of the robot''s \c
+            time. Only wait/1 and what uses the robot lets that pass, \c
+            not sleep/1.',
            [Wall, Seconds]).
 reason(limit(output), _, _, _, Seconds, Reason) :-
-    format(atom(Reason), 'It printed more than 1 MB, until ~1f s.', [Seconds]).
+    format(atom(Reason), 'It printed more than 1 MB, until ~1f s.',
+           [Seconds]).
 reason(refused(Why), _, _, _, Seconds, Reason) :-
     format(atom(Reason),
            'At ~1f s it asked the robot what no program asks: ~w.',

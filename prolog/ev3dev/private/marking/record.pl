@@ -10,7 +10,7 @@
 :- use_module('../../sim_views',
               [sim_collisions/1, sim_pose/3, sim_trace/1]).
 :- use_module('../facts', [located_facts/3]).
-:- use_module(library(lists), [member/2, memberchk/2, reverse/2]).
+:- use_module(library(lists), [member/2, reverse/2]).
 
 /** <module> What a run was like, as far as scores and reports ask
 

@@ -10,7 +10,7 @@
 :- use_module(library(csv), [csv_write_stream/3]).
 :- use_module(library(http/json), [json_write/2]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth1/3, sum_list/2]).
+              [append/3, member/2, nth1/3, sum_list/2]).
 :- use_module(library(sgml), [xml_quote_attribute/3]).
 :- use_module(library(uri), [uri_encoded/3]).
 
@@ -121,7 +121,7 @@ one_page(Exercise, marked(_, Mark, Results, _)) :-
              ) )),
     format("</table></div>~n<h2>Runs</h2>~n<div class=\"wide\"><table>~n\c
             <tr><th class=\"n\">Seed<th class=\"n\">Points\c
-            <th class=\"n\">Seconds<th>End<th>~n", []),
+            <th class=\"n\">Seconds<th>End<th>Remark~n", []),
     forall(( nth1(N, Runs, run(Seed, P, Ended, Seconds)),
              nth1(N, Results, result(_, Result)) ),
            ( format("<tr><td class=\"n\">~w<td class=\"n\">~w\c
@@ -178,7 +178,7 @@ class_body(Scores, Marked) :-
     Mean is Sum/max(1, Count),
     format("<p>~d programs, ~2f points in the mean.</p>~n\c
             <div class=\"wide\"><table>~n<tr><th>Program\c
-            <th class=\"n\">Points<th class=\"n\">of<th><th>Remark~n",
+            <th class=\"n\">Points<th class=\"n\">of<th>Share<th>Remark~n",
            [Count, Mean]),
     forall(member(marked(Name, mark(_, P, Of, _, _, Reason), _, _), Marked),
            ( Percent is round(100*P/Of),
@@ -208,16 +208,17 @@ class_body(Scores, Marked) :-
              length(Misses, MissCount),
              format("<tr><td>", []),
              text(Text),
-             format("<td class=\"n\">~w<td class=\"n\">~2f<td class=\"n\">~d~n",
-                    [Full, EarnedMean, MissCount]) )),
+             format("<td class=\"n\">~w<td class=\"n\">~2f\c
+                     <td class=\"n\">~d~n", [Full, EarnedMean, MissCount])
+           )),
     format("</table></div>~n", []),
     findall(Name-Terms, member(marked(Name, _, _, Terms), Marked), Programs),
     alike(Programs, Pairs),
     (   Pairs == []
     ->  true
-    ;   format("<h2>Programs that look alike</h2>~n<p>Their clauses are the \c
-                same but for the names of variables. That is a reason to ask, \c
-                and no judgement.</p>~n<ul>~n", []),
+    ;   format("<h2>Programs that look alike</h2>~n<p>Their clauses are \c
+                the same but for the names of variables. That is a reason \c
+                to ask, and no judgement.</p>~n<ul>~n", []),
         forall(member(alike(A, B, Share), Pairs),
                ( AlikePercent is round(100*Share),
                  format("<li>", []), text(A), format(" and ", []), text(B),

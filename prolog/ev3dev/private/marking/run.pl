@@ -90,7 +90,8 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     ->  true
     ;   Collision = ''
     ),
-    Result = result(Ended, Took, Shares, Reason1, Collision, Film, Collisions).
+    Result = result(Ended, Took, Shares, Reason1, Collision, Film,
+                    Collisions).
 
 octets(File, Text) :-
     setup_call_cleanup(
