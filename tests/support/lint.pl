@@ -5,7 +5,6 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/sensor_table/lego)).
 :- use_module(library(ev3dev/private/sensor_table/other)).
-:- use_module(library(ev3dev/private/told)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
