@@ -5,6 +5,8 @@
 //! system: error numbers and their words are those of Linux, a page has the clock ([`page`]), and
 //! nobody can sleep.
 pub mod linux;
+#[cfg(unix)]
+pub mod mailbox;
 #[cfg(not(unix))]
 pub mod page;
 

@@ -1,6 +1,7 @@
 //! A machine that several threads use, and a way to wait for its time to pass.
 
 use ev3_os::Instant;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::time::Duration;
 
@@ -15,6 +16,8 @@ use crate::machine::{Machine, crowd};
 pub struct Shared {
     machine: Mutex<Machine>,
     changed: Condvar,
+    /// How many wait for that: to wake nobody asks the kernel, too.
+    waiting: AtomicUsize,
     /// Locked after the machine.
     wall: OnceLock<Mutex<Wall>>,
     pace: Pace,
@@ -52,7 +55,7 @@ impl Crowd {
     fn step(&self, dt: Duration) {
         self.with_all(|machines| crowd::step(machines, dt));
         for member in &self.members {
-            member.changed.notify_all();
+            member.wake();
         }
     }
 }
@@ -75,6 +78,7 @@ impl Shared {
         Shared {
             machine: Mutex::new(machine),
             changed: Condvar::new(),
+            waiting: AtomicUsize::new(0),
             wall: OnceLock::new(),
             pace: Pace::default(),
             crowd: OnceLock::new(),
@@ -182,7 +186,9 @@ impl Shared {
 
     /// Wakes all waiting threads, to check again.
     pub fn wake(&self) {
-        self.changed.notify_all();
+        if self.waiting.load(Ordering::SeqCst) > 0 {
+            self.changed.notify_all();
+        }
     }
 
     /// Releases the lock until [`Shared::wake`] is called, for at most this wall time.
@@ -191,7 +197,10 @@ impl Shared {
         guard: MutexGuard<'a, Machine>,
         at_most: Duration,
     ) -> MutexGuard<'a, Machine> {
+        // Under the lock: who changes something under it afterwards knows of this one.
+        self.waiting.fetch_add(1, Ordering::SeqCst);
         let woken = self.changed.wait_timeout(guard, at_most);
+        self.waiting.fetch_sub(1, Ordering::SeqCst);
         woken.unwrap_or_else(PoisonError::into_inner).0
     }
 }

@@ -1,0 +1,265 @@
+//! Memory that two processes have in common, in which they hand each other letters in turn.
+//!
+//! One asks, the other one answers. Who waits gives the processor away for a while, which takes
+//! a microsecond where the other one has something to say, and then sleeps; the caller wakes it by
+//! other means. Neither believes the other one: a letter is copied before it is read.
+
+use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, ftruncate, memfd_create};
+use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
+use rustix::net::{
+    RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, SendAncillaryBuffer,
+    SendAncillaryMessage, SendFlags, recvmsg, sendmsg,
+};
+use std::io::{self, IoSlice, IoSliceMut};
+use std::mem::MaybeUninit;
+use std::os::fd::{AsFd, OwnedFd};
+use std::os::unix::net::UnixStream;
+use std::ptr::NonNull;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::thread;
+
+/// The words before a letter: whose it is, who sleeps, and its length in bytes.
+const HEAD: usize = 16;
+const WHOSE: usize = 0;
+const SLEEPS: usize = 1;
+const LENGTH: usize = 3;
+
+/// Room for a letter, in words: a screen, and more.
+const ROOM: usize = (1 << 16) + 64;
+
+const BYTES: usize = 4 * (HEAD + ROOM);
+
+/// How often who waits looks again before it sleeps: a tenth of a millisecond or two.
+const LOOKS: u32 = 100;
+
+/// Who writes: the numbers of the words that say so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Side {
+    /// Asks.
+    Program = 0,
+    /// Answers.
+    Host = 1,
+}
+
+impl Side {
+    fn other(self) -> Side {
+        match self {
+            Side::Program => Side::Host,
+            Side::Host => Side::Program,
+        }
+    }
+
+    /// The word in [`WHOSE`] for a letter of this side.
+    fn sign(self) -> u32 {
+        self as u32 + 1
+    }
+}
+
+/// A letter and who has written it.
+#[derive(Debug)]
+pub struct Mailbox {
+    file: OwnedFd,
+    words: NonNull<AtomicU32>,
+}
+
+// Safety: all access is by atomic words.
+unsafe impl Send for Mailbox {}
+// Safety: the same.
+unsafe impl Sync for Mailbox {}
+
+impl Mailbox {
+    /// An empty one, whose size nobody can change.
+    ///
+    /// # Errors
+    /// The system's, as where there are no files in memory.
+    pub fn new() -> io::Result<Mailbox> {
+        let file = memfd_create("ev3dev-mailbox", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
+        ftruncate(&file, BYTES as u64)?;
+        fcntl_add_seals(&file, SealFlags::SHRINK | SealFlags::GROW | SealFlags::SEAL)?;
+        Mailbox::of(file)
+    }
+
+    fn of(file: OwnedFd) -> io::Result<Mailbox> {
+        // Safety: a new mapping, of a file that has this length and keeps it.
+        let words = unsafe {
+            let access = ProtFlags::READ | ProtFlags::WRITE;
+            mmap(std::ptr::null_mut(), BYTES, access, MapFlags::SHARED, &file, 0)?
+        };
+        let words = NonNull::new(words.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
+        Ok(Mailbox { file, words })
+    }
+
+    /// Sends some bytes, and with them this mailbox.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn send(&self, stream: &UnixStream, bytes: &[u8]) -> io::Result<()> {
+        let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
+        let mut with = SendAncillaryBuffer::new(&mut space);
+        let files = [self.file.as_fd()];
+        with.push(SendAncillaryMessage::ScmRights(&files));
+        let sent = sendmsg(stream, &[IoSlice::new(bytes)], &mut with, SendFlags::NOSIGNAL)?;
+        if sent == bytes.len() { Ok(()) } else { Err(io::ErrorKind::WriteZero.into()) }
+    }
+
+    /// Receives exactly so many bytes, and the mailbox that was sent with them, if one was.
+    ///
+    /// # Errors
+    /// The system's; `UnexpectedEof` if there are less.
+    pub fn receive(stream: &UnixStream, bytes: &mut [u8]) -> io::Result<Option<Mailbox>> {
+        let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
+        let mut with = RecvAncillaryBuffer::new(&mut space);
+        let mut file = None;
+        let mut got = 0;
+        while got < bytes.len() {
+            let parts = &mut [IoSliceMut::new(&mut bytes[got..])];
+            let flags = RecvFlags::CMSG_CLOEXEC;
+            match recvmsg(stream, parts, &mut with, flags) {
+                Ok(received) if received.bytes == 0 => {
+                    return Err(io::ErrorKind::UnexpectedEof.into());
+                }
+                Ok(received) => got += received.bytes,
+                Err(rustix::io::Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+            for message in with.drain() {
+                if let RecvAncillaryMessage::ScmRights(mut files) = message {
+                    file = files.next();
+                }
+            }
+        }
+        file.map(Mailbox::of).transpose()
+    }
+
+    fn word(&self, index: usize) -> &AtomicU32 {
+        assert!(index < HEAD + ROOM);
+        // Safety: within the mapping, which lives as long as this.
+        unsafe { self.words.add(index).as_ref() }
+    }
+
+    /// Leaves a letter for the other side; whether that sleeps, and is to be woken. A letter that is
+    /// too long is `None`.
+    #[must_use]
+    pub fn post(&self, from: Side, letter: &[u8]) -> Option<bool> {
+        let length = u32::try_from(letter.len()).ok()?;
+        if letter.len() > 4 * ROOM {
+            return None;
+        }
+        for (index, part) in letter.chunks(4).enumerate() {
+            let mut bytes = [0; 4];
+            bytes[..part.len()].copy_from_slice(part);
+            self.word(HEAD + index).store(u32::from_le_bytes(bytes), Ordering::Relaxed);
+        }
+        self.word(LENGTH).store(length, Ordering::Relaxed);
+        self.word(WHOSE).store(from.sign(), Ordering::SeqCst);
+        let sleeps = self.word(SLEEPS + from.other() as usize);
+        Some(sleeps.swap(0, Ordering::SeqCst) != 0)
+    }
+
+    fn has_come(&self, to: Side) -> bool {
+        self.word(WHOSE).load(Ordering::SeqCst) == to.other().sign()
+    }
+
+    /// Looks for a letter of the other side for a short while. If there is none, who asks sleeps from
+    /// now on: the other side will say that it is to be woken.
+    #[must_use]
+    pub fn wait(&self, to: Side) -> bool {
+        for _ in 0..LOOKS {
+            if self.has_come(to) {
+                return true;
+            }
+            thread::yield_now();
+        }
+        let sleeps = self.word(SLEEPS + to as usize);
+        sleeps.store(1, Ordering::SeqCst);
+        // If the other side has seen that already, it wakes this one.
+        self.has_come(to) && sleeps.swap(0, Ordering::SeqCst) != 0
+    }
+
+    /// A copy of the letter that is there, or of as much as there is room for.
+    #[must_use]
+    pub fn letter(&self) -> Vec<u8> {
+        let length = self.word(LENGTH).load(Ordering::Relaxed) as usize;
+        let length = length.min(4 * ROOM);
+        let mut letter = Vec::with_capacity(length + 4);
+        for index in 0..length.div_ceil(4) {
+            letter.extend(self.word(HEAD + index).load(Ordering::Relaxed).to_le_bytes());
+        }
+        letter.truncate(length);
+        letter
+    }
+}
+
+impl Drop for Mailbox {
+    fn drop(&mut self) {
+        // Safety: the mapping of `of`, which nobody uses any more.
+        let _ = unsafe { munmap(self.words.as_ptr().cast(), BYTES) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair() -> (Mailbox, Mailbox) {
+        let (here, there) = UnixStream::pair().unwrap();
+        let host = Mailbox::new().unwrap();
+        host.send(&there, b"hello").unwrap();
+        let mut bytes = [0; 5];
+        let program = Mailbox::receive(&here, &mut bytes).unwrap().unwrap();
+        assert_eq!(&bytes, b"hello");
+        (program, host)
+    }
+
+    #[test]
+    fn letters_go_to_and_fro() {
+        let (program, host) = pair();
+        let answers = thread::spawn(move || {
+            for number in 0..2000_u32 {
+                while !host.wait(Side::Host) {}
+                assert_eq!(host.letter(), number.to_le_bytes());
+                let _ = host.post(Side::Host, &[7; 10][..number as usize % 10]);
+            }
+        });
+        for number in 0..2000_u32 {
+            let _ = program.post(Side::Program, &number.to_le_bytes());
+            while !program.wait(Side::Program) {}
+            assert_eq!(program.letter(), vec![7; number as usize % 10]);
+        }
+        answers.join().unwrap();
+    }
+
+    #[test]
+    fn who_sleeps_is_to_be_woken() {
+        let (program, host) = pair();
+        assert!(!host.wait(Side::Host));
+        assert_eq!(program.post(Side::Program, b"?"), Some(true));
+        assert_eq!(program.post(Side::Program, b"?"), Some(false));
+        assert!(host.wait(Side::Host));
+    }
+
+    #[test]
+    fn a_length_that_is_a_lie_is_cut() {
+        let (program, host) = pair();
+        let _ = program.post(Side::Program, b"abc");
+        program.word(LENGTH).store(u32::MAX, Ordering::Relaxed);
+        assert_eq!(host.letter().len(), 4 * ROOM);
+        assert_eq!(program.post(Side::Program, &vec![0; 4 * ROOM + 1]), None);
+    }
+
+    #[test]
+    fn its_size_cannot_be_changed() {
+        let (program, _host) = pair();
+        assert!(ftruncate(&program.file, 0).is_err());
+    }
+
+    #[test]
+    fn bytes_without_a_mailbox() {
+        let (here, there) = UnixStream::pair().unwrap();
+        std::io::Write::write_all(&mut &there, b"hello").unwrap();
+        assert!(Mailbox::receive(&here, &mut [0; 5]).unwrap().is_none());
+        drop(there);
+        assert!(Mailbox::receive(&here, &mut [0; 5]).is_err());
+    }
+}
