@@ -5,12 +5,14 @@
 :- use_module('../support/cases').
 :- use_module('../support/cheats').
 :- use_module('../support/child').
+:- use_module('../support/redis').
 :- use_module('../support/simulation').
 :- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/exercise)).
 :- use_module(library(ev3dev/sim_fenced), [can_enclose/0]).
 :- use_module(library(filesex)).
+:- use_module(library(process)).
 :- use_module(library(readutil)).
 
 exercise_lines([ ":- use_module(library(ev3dev/exercise)).",
@@ -122,6 +124,17 @@ test(the_same_with_any_number_of_jobs, Two == One) :-
     Names = [honest, says_its_marks, does_not_parse],
     marked(Names, [jobs(1)], One),
     marked(Names, [jobs(2)], Two).
+test(the_same_by_redis, [condition(can_use_redis), There == Here]) :-
+    Names = [honest, does_not_parse],
+    marked(Names, [seeds(1-2)], Here),
+    current_prolog_flag(executable, Swipl),
+    with_redis_server(Port,
+        ( format(atom(Address), 'localhost:~w', [Port]),
+          setup_call_cleanup(
+              process_create(Swipl, ['-q', 'app/ev3dev.pl', work, '--redis', Address, '--workers', 1],
+                             [stdin(null), stdout(null), stderr(null), process(Pid)]),
+              marked(Names, [seeds(1-2), redis(localhost:Port)], There),
+              ( process_kill(Pid, int), process_wait(Pid, _) )) )).
 test(the_red_team, true(Over == [])) :-
     findall(Name, cheat(Name, _), All),
     length(All, Count),
@@ -133,7 +146,7 @@ test(the_red_team, true(Over == [])) :-
         append(Names, _, All)
     ),
     append(Names, [honest], Tried),
-    marked(Tried, [seeds(1-2)], Marks),
+    marked(Tried, [seeds(1)], Marks),
     findall(Name, member(mark(Name, _, _, _, _, _), Marks), Found),
     assertion(Found == Tried),
     last(Marks, mark(honest, Best, _, _, _, _)),
@@ -195,11 +208,11 @@ test(programs_that_are_alike, true(sub_string(Index, _, _, _, "a and b: 100 %"))
                   mark_files([A, B], [seeds(1), out(Out), formats([html])], _),
                   read_report(Out, 'index.html', Index) )).
 
-%   The solutions of the course earn all points; with few cases in two runs each.
+%   The solutions of the course earn all points; with few cases in one run each.
 test(the_course, [forall(course(Exercise)), true]) :-
     (   all_cases
     ->  Options = []
-    ;   Options = [seeds(1-2)]
+    ;   Options = [seeds(1)]
     ),
     with_output_to(string(Text), ( quietly(exercise_check(Exercise, Options)) -> All = true
                                  ; All = false )),
