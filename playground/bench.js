@@ -175,7 +175,10 @@ for (const tab of $('tabs').children) {
 
 async function examples() {
   const all = await (await fetch('examples.json')).json();
-  $('examples').append(...all.map(({ name: value, about }) => el('option', { value, title: about }, `${value}: ${about}`)));
+  for (const label of new Set(all.map(({ group }) => group))) {
+    $('examples').append(el('optgroup', { label }, ...all.filter(({ group }) => group === label)
+      .map(({ name: value, about }) => el('option', { value, title: about }, `${value}: ${about}`))));
+  }
   $('examples').addEventListener('change', () => {
     const found = all.find(({ name: value }) => value === $('examples').value);
     $('examples').value = '';

@@ -1,20 +1,27 @@
-% Prints the examples that run in a page, as JSON: a list of objects with name, about, which is the
-% first sentence of the file, text, and lines of docs/view-protocol.md that begin its world.
+% Prints the examples that run in a page, and the skeletons of the course, as JSON: a list of
+% objects with group, name, about, which is the first sentence of the file, text, and lines of
+% docs/view-protocol.md that begin its world.
 %
 %   swipl -p library=prolog playground/examples.pl EXAMPLE...
 
 :- use_module(library(http/json)).
 :- use_module(library(main)).
+:- use_module(library(ev3dev/private/marking/read)).
 :- load_files(demo_script:'../tools/demo.pl', []).
 
 :- initialization(main, main).
 
 main(Names) :-
-    findall(Json, ( member(Name, Names), example(Name, Json) ), Examples),
+    findall(Json,
+            (   member(Name, Names),
+                example(Name, Json)
+            ;   skeleton(Json)
+            ),
+            Examples),
     json_write(current_output, Examples, [width(0)]),
     nl.
 
-example(Name, json([name=Name, about=About, text=Text, lines=Lines])) :-
+example(Name, json([group='Examples', name=Name, about=About, text=Text, lines=Lines])) :-
     format(atom(File), "examples/~w.pl", [Name]),
     read_file_to_string(File, Text, [encoding(utf8)]),
     about(Text, About),
@@ -23,6 +30,23 @@ example(Name, json([name=Name, about=About, text=Text, lines=Lines])) :-
     world_line(World, Line),
     format(string(RobotLine), "choose robot pack ~w", [Robot]),
     Lines = [RobotLine, Line].
+
+%   An exercise begins in the world of its first seed.
+skeleton(json([group='Course', name=Name, about=About, text=Text, lines=[RobotLine, Line]])) :-
+    expand_file_name('course/*/exercise.pl', Files),
+    member(File, Files),
+    file_directory_name(File, Folder),
+    file_base_name(Folder, Name),
+    atom_concat(Folder, '/skeleton.pl', Skeleton),
+    read_file_to_string(Skeleton, Text, [encoding(utf8)]),
+    about(Text, About),
+    absolute_file_name(File, Path),
+    read_exercise(Path, Exercise),
+    exercise_seeds(Exercise, open, [Seed|_]),
+    exercise_world(Exercise, Seed, World),
+    exercise_setting(Exercise, robot(Robot), default),
+    format(string(RobotLine), "choose robot pack ~w", [Robot]),
+    world_line(World, Line).
 
 world_line(World, Line) :-
     is_list(World),
