@@ -103,7 +103,7 @@ impl Mailbox {
         if sent == bytes.len() { Ok(()) } else { Err(io::ErrorKind::WriteZero.into()) }
     }
 
-    /// Receives exactly so many bytes, and the mailbox that was sent with them, if one was.
+    /// Receives exactly as many bytes as there is room for, and the mailbox that was sent with them, if one was.
     ///
     /// # Errors
     /// The system's; `UnexpectedEof` if there are less.
