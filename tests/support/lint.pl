@@ -5,6 +5,7 @@
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/sensor_table/lego)).
 :- use_module(library(ev3dev/private/sensor_table/other)).
+:- use_module(library(ev3dev/private/told)).
 :- use_module(library(ev3dev/drive)).
 :- use_module(library(ev3dev/golog)).
 :- use_module(library(ev3dev/grid)).
@@ -64,7 +65,9 @@ undocumented(Module, Name/Arity) :-
     member(Name/Arity, Exports),
     functor(Head, Name, Arity),
     \+ predicate_property(Module:Head, imported_from(_)),
-    \+ doc_comment(Module:Name/Arity, _, _, _).
+    \+ doc_comment(Module:Name/Arity, _, _, _),
+    Less is Arity-2,
+    \+ doc_comment(Module:Name//Less, _, _, _).
 
 %!  without_partner(-File) is nondet.
 %

@@ -103,7 +103,7 @@ impl Mailbox {
         if sent == bytes.len() { Ok(()) } else { Err(io::ErrorKind::WriteZero.into()) }
     }
 
-    /// Receives exactly as many bytes as there is room for, and the mailbox that was sent with them, if one was.
+    /// Receives exactly as many bytes as there is room for, and the mailbox that came with them.
     ///
     /// # Errors
     /// The system's; `UnexpectedEof` if there are less.
@@ -138,8 +138,8 @@ impl Mailbox {
         unsafe { self.words.add(index).as_ref() }
     }
 
-    /// Leaves a letter for the other side; whether that sleeps, and is to be woken. A letter that is
-    /// too long is `None`.
+    /// Leaves a letter for the other side; whether that sleeps, and is to be woken. `None` if the
+    /// letter is too long.
     #[must_use]
     pub fn post(&self, from: Side, letter: &[u8]) -> Option<bool> {
         let length = u32::try_from(letter.len()).ok()?;
@@ -161,8 +161,8 @@ impl Mailbox {
         self.word(WHOSE).load(Ordering::SeqCst) == to.other().sign()
     }
 
-    /// Looks for a letter of the other side for a short while. If there is none, who asks sleeps from
-    /// now on: the other side will say that it is to be woken.
+    /// Looks for a letter of the other side for a short while. If there is none, this side sleeps
+    /// from now on, as the other one will be told.
     #[must_use]
     pub fn wait(&self, to: Side) -> bool {
         for _ in 0..LOOKS {
