@@ -1,5 +1,6 @@
 :- use_module(library(plunit)).
 :- use_module('../support/cases').
+:- use_module('../support/trees').
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/random_worlds)).
 :- use_module(library(ev3dev/roadmap)).

@@ -57,7 +57,7 @@ cheat(reads_the_exercise,   ["start :- expand_file_name('/tmp/*exercise*', L), p
 cheat(writes_marks,         ["start :- forall(member(D, ['.', '..']),",
                              "    catch(( atom_concat(D, '/marks.csv', F), open(F, write, O),",
                              "            writeln(O, me), close(O) ), _, true))."]).
-cheat(links_its_reports,    ["start :- catch(shell('[ -S robot ] && for f in *; do ln -sf /etc/passwd $f; done'), _, true)."]).
+cheat(links_its_reports,    ["start :- catch(shell('[ -S robot ] && for f in *; do ln -sf /proc/version $f; done'), _, true)."]).
 cheat(makes_a_pipe,         ["start :- catch(shell('rm -f told; mkfifo told'), _, true)."]).
 cheat(tells_lies,           ["start :- catch(( open(told, write, O), format(O, '1.0\trule <script>alert(1)</script>~n', []), close(O) ), _, true)."]).
 cheat(exits_with_a_status,  ["start :- halt(137)."]).

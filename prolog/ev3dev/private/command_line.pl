@@ -110,7 +110,9 @@ command_line([Command|Rest], Command, Files, Options) :-
     (   lacks(Words, Files, Missing)
     ->  (   named(Missing, Kind, _)
         ->  there_are(Kind, Listed),
-            throw(usage("~w needs a ~w: ~w", [Command, Kind, Listed]))
+            ( Kind == exercise -> Article = an ; Article = a ),
+            throw(usage("~w needs ~w ~w: ~w",
+                        [Command, Article, Kind, Listed]))
         ;   throw(usage("~w needs a ~w", [Command, Missing]))
         )
     ;   beyond(Words, Files, Extra)

@@ -12,7 +12,7 @@
                 program_terms/2, read_exercise/2, seed_list/2 ]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/3, last/2, member/2, nth1/3, sum_list/2]).
+              [append/3, member/2, nth1/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> Many runs of many programs, and what they are worth
@@ -65,34 +65,14 @@ seeds(Read, Which, Options, Seeds) :-
 tried(Exercise0, File, Options) :-
     prolog_file(Exercise0, Exercise),
     read_exercise(Exercise, Read),
-    seeds(Read, open, Options, Seeds),
-    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
-    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
-    forall(member(Score, Scores), print_score(Score, Runs)),
-    length(Runs, Count),
-    format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
-    (   Reason == ''
-    ->  true
-    ;   format("~w~n", [Reason])
-    ),
-    forall(( member(result(_, result(_, _, _, _, Why, _, _)), Results),
-             Why \== '' ),
-           format("~w~n", [Why])),
+    printed(Exercise, Read, open, File, Options, Marked),
     (   option(page(Page), Options)
     ->  use_module(library(ev3dev/private/marking/report), []),
         ev3dev_marking_report:write_page(Page, Read, Marked),
         format("The picture: ~w~n", [Page])
     ;   true
     ),
-    Points =:= Of.
-
-print_score(score(Text, Points, Of, Missed), Runs) :-
-    (   Missed =:= 0
-    ->  format("  ~w~t~8|of ~w~t~16|~w~n", [Points, Of, Text])
-    ;   length(Runs, Count),
-        format("  ~w~t~8|of ~w~t~16|~w: not in ~d of ~d runs~n",
-               [Points, Of, Text, Missed, Count])
-    ).
+    earned_all(Marked).
 
 %!  check_solution(+Exercise, +Options) is semidet.
 
@@ -102,25 +82,45 @@ check_solution(Exercise0, Options) :-
     exercise_setting(Read, solution(Solution), 'solution.pl'),
     file_directory_name(Exercise, Folder),
     directory_file_path(Folder, Solution, File),
-    seeds(Read, all, Options, Seeds),
-    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
-    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
-    forall(member(Score, Scores), print_score(Score, Runs)),
+    printed(Exercise, Read, all, File, Options, Marked),
+    Marked = marked(_, mark(_, _, _, _, Runs, _), _, _),
     findall(Earned-Seed, member(run(Seed, Earned, _, _), Runs), Pairs),
     keysort(Pairs, [Least-LeastSeed|_]),
     findall(Earned, member(Earned-_, Pairs), All),
     sort(All, Spread),
-    format("Together: ~w of ~w points; the least is ~w, with the seed ~w. \c
-            Points of runs: ~w~n",
-           [Points, Of, Least, LeastSeed, Spread]),
-    (   Reason == ''
-    ->  true
-    ;   format("~w~n", [Reason])
-    ),
-    forall(( member(result(_, result(_, _, _, _, Why, _, _)), Results),
-             Why \== '' ),
-           format("~w~n", [Why])),
+    format("The least of a run is ~w, with the seed ~w; all: ~w~n",
+           [Least, LeastSeed, Spread]),
+    earned_all(Marked).
+
+earned_all(marked(_, mark(_, Points, Of, _, _, _), _, _)) :-
     Points =:= Of.
+
+%   Run the program on the seeds that Which or Options say, and print what it
+%   earns, and why not more.
+
+printed(Exercise, Read, Which, File, Options, Marked) :-
+    seeds(Read, Which, Options, Seeds),
+    marked_files(Exercise, Read, [File], Seeds, Options, [Marked]),
+    Marked = marked(_, mark(_, Points, Of, Scores, Runs, Reason), Results, _),
+    length(Runs, Count),
+    forall(member(Score, Scores), print_score(Score, Count)),
+    format("Together: ~w of ~w points, in ~d runs.~n", [Points, Of, Count]),
+    forall(( member(Why, [Reason|Results]), why_text(Why, Text) ),
+           format("~w~n", [Text])).
+
+why_text(result(_, Result), Text) :-
+    !,
+    Result = result(_, _, _, _, Text, _, _),
+    Text \== ''.
+why_text(Reason, Reason) :-
+    Reason \== ''.
+
+print_score(score(Text, Points, Of, Missed), Count) :-
+    format("  ~w~t~8|of ~w~t~16|~w", [Points, Of, Text]),
+    (   Missed =:= 0
+    ->  nl
+    ;   format(": not in ~d of ~d runs~n", [Missed, Count])
+    ).
 
                 /*******************************
                 *             RUNS             *
