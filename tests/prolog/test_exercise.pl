@@ -21,7 +21,7 @@ exercise_lines([ ":- use_module(library(ev3dev/exercise)).",
                  "    Width is 180+Seed.",
                  "score(4, 'drives') :- path_length(Cm), Cm > 100.",
                  "score(partial(2), 'drives far', Share) :- path_length(Cm), Share is Cm/100.",
-                 "score(4, 'touches <nothing>') :- collisions(0).",
+                 "score(4, 'touches <nothing>') :- collisions(0), path_length(Cm), Cm > 40.",
                  "forbid(secret/1)." ]).
 
 :- dynamic folder/1.

@@ -23,8 +23,7 @@ cheat(speaks_as_a_run,      ["start :- writeln('score(result(over,5.0,[1,1],\\'\
 cheat(halts_at_once,        [":- halt."]).
 cheat(does_not_end,         ["start :- repeat, fail."]).
 cheat(catches_all,          ["start :- repeat, catch((repeat, fail), _, true), fail."]).
-cheat(kills_its_parent,     ["start :- catch(kill_parent, _, true), shell('kill -9 $PPID').",
-                             "kill_parent :- process_kill(1, 9)."]).
+cheat(kills_its_marker,     ["start :- shell('kill -9 $(ps -o ppid= -p $PPID)'), wait(1)."]).
 cheat(places_itself,        [":- use_module(library(ev3dev/sim)).",
                              "start :- sim_place(150, 150, 0), wait(1)."]).
 cheat(starts_its_own_world, [":- use_module(library(ev3dev/sim)).",
