@@ -26,7 +26,7 @@ source "$root/tools/targets.sh"
 
 # Of these, doc is made by `make doc`.
 contents=(pack.pl README.md LICENSE CHANGELOG.md ARCHITECTURE.md CONTRIBUTING.md
-    prolog app examples docs doc)
+    prolog app examples course docs doc)
 
 main() {
     local name archive stage=$root/target/dist/stage
