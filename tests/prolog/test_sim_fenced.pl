@@ -69,6 +69,16 @@ test(buttons_and_screen, Text == "shown\nenter at 3 s\n[up]\n") :-
                  in_room(( sim_press(enter, [after(3), for(1)]),
                            sim_at(4, sim_press(up)),
                            sim_fenced(File, exit(0), [output(Text)]) ))).
+test(what_its_rules_did, Rules == [first, second]) :-
+    fenced([":- use_module(library(ev3dev/rules)).",
+            "first :: ev3_time(T), T < 1 ~> wait(0.1).",
+            "second :: true ~> wait(0.1).",
+            "main :- behave([first, second])."],
+           over, _, _, [seconds(3), told(Lines)]),
+    findall(Rule, ( member(_-Text, Lines), member(Rule, [first, second]),
+                    atom_concat('rule ', Rule, Words),
+                    sub_string(Text, 0, _, _, Words) ), Found),
+    sort(Found, Rules).
 test(the_world_is_not_seen, Text == "existence_error\n") :-
     fenced(["main :- catch(sim_pose(_, _, _), error(E, _), true), functor(E, Name, _),",
             "    print(Name), nl."], exit(0), Text, _, []).
