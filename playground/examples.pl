@@ -21,32 +21,32 @@ main(Names) :-
     json_write(current_output, Examples, [width(0)]),
     nl.
 
-example(Name, json([group='Examples', name=Name, about=About, text=Text, lines=Lines])) :-
+example(Name, Json) :-
     format(atom(File), "examples/~w.pl", [Name]),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    about(Text, About),
     (   demo_script:demo(Name, World, _) -> true ; World = room ),
     (   demo_script:robot(Name, Robot) -> true ; Robot = default ),
-    world_line(World, Line),
-    format(string(RobotLine), "choose robot pack ~w", [Robot]),
-    Lines = [RobotLine, Line].
+    entry('Examples', Name, File, World, Robot, Json).
 
 %   An exercise begins in the world of its first seed.
-skeleton(json([group='Course', name=Name, about=About, text=Text, lines=[RobotLine, Line]])) :-
+skeleton(Json) :-
     expand_file_name('course/*/exercise.pl', Files),
     member(File, Files),
     file_directory_name(File, Folder),
     file_base_name(Folder, Name),
     atom_concat(Folder, '/skeleton.pl', Skeleton),
-    read_file_to_string(Skeleton, Text, [encoding(utf8)]),
-    about(Text, About),
     absolute_file_name(File, Path),
     read_exercise(Path, Exercise),
     exercise_seeds(Exercise, open, [Seed|_]),
     exercise_world(Exercise, Seed, World),
     exercise_setting(Exercise, robot(Robot), default),
+    entry('Course', Name, Skeleton, World, Robot, Json).
+
+entry(Group, Name, File, World, Robot,
+      json([group=Group, name=Name, about=About, text=Text, lines=[RobotLine, WorldLine]])) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    about(Text, About),
     format(string(RobotLine), "choose robot pack ~w", [Robot]),
-    world_line(World, Line).
+    world_line(World, WorldLine).
 
 world_line(World, Line) :-
     is_list(World),

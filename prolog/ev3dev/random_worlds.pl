@@ -13,7 +13,7 @@
 :- use_module(roadmap, [roadmap_path/5]).
 :- use_module(library(lists),
               [ append/3, max_list/2, member/2, min_list/2,
-                nth0/3, nth1/3, numlist/3, reverse/2, subtract/3 ]).
+                nth0/3, reverse/2, subtract/3, sum_list/2 ]).
 
 /** <module> Worlds that chance makes
 
@@ -317,16 +317,12 @@ track_point(Step, Radius, Waves, X-Y) :-
             ( member(wave(N, Share, Phase), Waves),
               Part is Share*cos(N*Angle + Phase*pi/180) ),
             Parts),
-    sum_of(Parts, 1, Factor),
+    sum_list(Parts, Sum),
+    Factor is 1+Sum,
     X0 is Radius*Factor*cos(Angle),
     Y0 is Radius*Factor*sin(Angle),
     rounded(X0, 10, X),
     rounded(Y0, 10, Y).
-
-sum_of([], Sum, Sum).
-sum_of([Part|Parts], Sum0, Sum) :-
-    Sum1 is Sum0+Part,
-    sum_of(Parts, Sum1, Sum).
 
 %   The circle through a point and those six before and behind it, which are
 %   far enough that rounding does not matter.

@@ -4,7 +4,7 @@
             can_enclose/0
           ]).
 :- set_prolog_flag(generate_debug_info, false).
-:- use_module(private/compiled, []).
+:- use_module(private/compiled, [pack_folder/1]).
 :- use_module(private/arguments,
               [ limit_option/2, must_be_options/3, number_option/4,
                 option/3 ]).
@@ -218,8 +218,8 @@ what_was_told(File, Lines) :-
 %   and no core dump. Prolog is the one that runs this.
 start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
     current_prolog_flag(executable, Prolog),
-    library_folder(Library),
-    atom_concat('library=', Library, Alias),
+    pack_folder(Pack),
+    atomic_list_concat(['library=', Pack, '/prolog'], Alias),
     current_prolog_flag(version, Version),
     (   Version < 70500                 % where failing is no error
     ->  format(atom(GoalText), '(~q->true;halt(1))', [Goal])
@@ -255,11 +255,6 @@ start(Directory, [Socket, Tells], Output, Path, Goal, Cpu-Memory-Shut, Pid) :-
           file(Directory) | Command ],
         [ process(Pid), detached(true), cwd(Own) ]).
 
-library_folder(Library) :-
-    module_property(ev3dev_sim_fenced, file(This)),
-    file_directory_name(This, Ev3dev),
-    file_directory_name(Ev3dev, Library).
-
 %!  can_enclose is semidet.
 %
 %   Whether sim_fenced/3 can shut a program in: bwrap is there, and Prolog
@@ -281,10 +276,10 @@ can_enclose :-
 
 starts_enclosed :-
     current_prolog_flag(executable, Prolog),
-    library_folder(Library),
+    pack_folder(Pack),
     setup_call_cleanup(
         new_directory(Directory),
-        ( enclosure(Directory, Library, Walls),
+        ( enclosure(Directory, Pack, Walls),
           append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
           process_create(path(bwrap), Arguments,
                          [stdout(null), stderr(null), process(Pid)]),
@@ -296,8 +291,7 @@ starts_enclosed :-
 
 enclosure(Directory, Path, Walls) :-
     atom_concat(Directory, '/own', Own),
-    library_folder(Library),
-    file_directory_name(Library, Pack),
+    pack_folder(Pack),
     current_prolog_flag(home, Home),
     current_prolog_flag(executable, Prolog0),
     absolute_file_name(Prolog0, Prolog),

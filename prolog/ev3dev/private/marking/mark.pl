@@ -34,11 +34,11 @@ marks(Exercise0, Files, Options, Marks) :-
     marked_files(Exercise, Read, Files, Seeds, Options, Marked),
     findall(Mark, member(marked(_, Mark, _, _), Marked), Marks),
     (   option(out(Directory), Options)
-    ->  option(formats(Formats), Options,
-               [html, csv, junit, json, gradescope]),
+    ->  All = [html, csv, junit, json, gradescope],
+        option(formats(Formats), Options, All),
         must_be(list, Formats),
         forall(member(Format, Formats),
-               (   memberchk(Format, [html, csv, junit, json, gradescope])
+               (   memberchk(Format, All)
                ->  true
                ;   domain_error(marks_format, Format)
                )),
@@ -135,13 +135,9 @@ marked_files(Exercise, Read, Files, Seeds, Options, Marked) :-
     enclosed(Options, Enclosed),
     programs(Files, 1, Read, Programs),
     (   append([First, Second], Others, Seeds)
-    ->  true
-    ;   First-Others = none-[],
-        Seeds = [Second]
-    ),
-    (   First == none
-    ->  FirstSeeds = [Second]
-    ;   FirstSeeds = [First, Second]
+    ->  FirstSeeds = [First, Second]
+    ;   FirstSeeds = Seeds,
+        Others = []
     ),
     findall(Number-Seed,
             ( member(program(Number, _, _, _, ''), Programs),
@@ -186,11 +182,8 @@ prolog:message(ev3dev(not_enclosed)) -->
 programs([], _, _, []).
 programs([File|Files], Number, Read, [Program|Programs]) :-
     file_base_name(File, Base),
-    (   catch(read_file_to_string(File, Text, [encoding(octet)]),
-              error(Formal, _), ( Text = "", Wrong = Formal ))
-    ->  true
-    ;   Text = ""
-    ),
+    catch(read_file_to_string(File, Text, [encoding(octet)]),
+          error(Wrong, _), Text = ""),
     string_length(Text, Length),
     most_text(Most),
     (   nonvar(Wrong)

@@ -11,7 +11,7 @@
           ]).
 :- use_module('../errors', [in_own_name/1, throw_error/3]).
 :- use_module(library(lists),
-              [append/3, last/2, member/2, numlist/3]).
+              [append/3, member/2, numlist/3]).
 
 % Those of library(ev3dev/rules)
 :- op(1160, xfx, ::).

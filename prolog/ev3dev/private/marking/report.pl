@@ -36,15 +36,6 @@ write_report(html, Directory, Exercise, Marked) :-
              write_page(File, Exercise, One) )),
     directory_file_path(Directory, 'index.html', Index),
     to_file(Index, class_page(Exercise, Marked)).
-write_report(csv, Directory, Exercise, Marked) :-
-    directory_file_path(Directory, 'marks.csv', File),
-    to_file(File, csv(Exercise, Marked)).
-write_report(junit, Directory, Exercise, Marked) :-
-    directory_file_path(Directory, 'junit.xml', File),
-    to_file(File, junit(Exercise, Marked)).
-write_report(json, Directory, Exercise, Marked) :-
-    directory_file_path(Directory, 'results.json', File),
-    to_file(File, json_marks(Exercise, Marked)).
 write_report(gradescope, Directory, _, Marked) :-
     directory_file_path(Directory, gradescope, Folder),
     make_directory_path(Folder),
@@ -52,6 +43,15 @@ write_report(gradescope, Directory, _, Marked) :-
            ( atom_concat(Name, '.json', Base),
              directory_file_path(Folder, Base, File),
              to_file(File, gradescope(Mark)) )).
+
+write_report(Format, Directory, Exercise, Marked) :-
+    one_file(Format, Name, Writer),
+    directory_file_path(Directory, Name, File),
+    to_file(File, call(Writer, Exercise, Marked)).
+
+one_file(csv, 'marks.csv', csv).
+one_file(junit, 'junit.xml', junit).
+one_file(json, 'results.json', json_marks).
 
 html_file(Folder, Name, File) :-
     atom_concat(Name, '.html', Base),

@@ -31,10 +31,7 @@ marking_exercise(File, Text) :-
     ->  Path = File
     ;   tmp_file(ev3dev_exercise, Base),
         atom_concat(Base, '.pl', Path),
-        setup_call_cleanup(
-            open(Path, write, Out, [encoding(utf8)]),
-            write(Out, Text),
-            close(Out))
+        write_text(Path, utf8, Text)
     ),
     read_exercise(Path, Exercise),
     retractall(exercise(_)),
@@ -61,7 +58,7 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     make_directory(Directory),
     directory_file_path(Directory, Name, File),
     setup_call_cleanup(
-        octets(File, Text),
+        write_text(File, octet, Text),
         with_sim(World,
                  ( ev3dev_marking_read:exercise_happens(Exercise, Seed),
                    ev3dev_marking_record:with_record(
@@ -93,8 +90,8 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     Result = result(Ended, Took, Shares, Reason1, Collision, Film,
                     Collisions).
 
-octets(File, Text) :-
+write_text(File, Encoding, Text) :-
     setup_call_cleanup(
-        open(File, write, Out, [encoding(octet)]),
+        open(File, write, Out, [encoding(Encoding)]),
         write(Out, Text),
         close(Out)).
