@@ -156,14 +156,9 @@ test(the_red_team, true(Over == [])) :-
               Name \== honest,
               Points > 0 ),
             Over).
-test(nobody_of_them_lives, Alive == []) :-
+test(nobody_of_them_lives) :-
     marked([leaves_a_process], [seeds(1), enclosed(false)], _),
-    expand_file_name('/proc/[0-9]*/cmdline', Files),
-    findall(Command,
-            ( member(File, Files),
-              catch(read_file_to_string(File, Command, []), _, fail),
-              sub_string(Command, _, _, _, "sleep\u00001000") ),
-            Alive).
+    \+ descendant("sleep\u00001000").
 
 test(reports, true) :-
     with_folder(( folder(Folder),

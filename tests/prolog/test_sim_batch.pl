@@ -61,18 +61,7 @@ scores(File, Test, Seeds, Options, Scores) :-
 %   Copies that were killed may take a moment.
 
 no_worker_is_left :-
-    between(1, 200, _),
-    (   no_worker
-    ->  true
-    ;   sleep(0.02),
-        fail
-    ),
-    !.
-
-no_worker :-
-    \+ ( catch(process_create(path(pgrep), ['-f', 'batch_worker[.]pl'],
-                              [stdout(null), process(Pid)]), _, fail),
-         process_wait(Pid, exit(0)) ).
+    eventually(\+ descendant('batch_worker.pl')).
 
 call_soon(Goal) :-
     thread_self(Me),

@@ -11,6 +11,7 @@
             end_program/3,              % +Child, -Status, -Output
             end_output/2,               % +Child, -Output
             kill_program/1,             % +Child
+            descendant/1,               % +Text
             swipl/1,                    % -Program
             starts_itself/0
           ]).
@@ -109,6 +110,30 @@ run_script(File, Arguments, Typed, Status, Output) :-
     close(In),
     read_to_end(Out, Output),
     process_wait(Pid, Status).
+
+%!  descendant(+Text) is semidet.
+%
+%   A process lives that has Text in its command line, and this one, or a child of a
+%   child of it, has started: other tests may run at the same time.
+
+:- current_prolog_flag(pid, Pid),
+   setenv('EV3DEV_TEST_PROCESS', Pid).
+
+descendant(Text) :-
+    current_prolog_flag(pid, Pid),
+    format(string(Mark), 'EV3DEV_TEST_PROCESS=~d\u0000', [Pid]),
+    expand_file_name('/proc/[0-9]*', Processes),
+    member(Process, Processes),
+    atom_concat('/proc/', Other, Process),
+    \+ atom_number(Other, Pid),
+    process_file_has(Process, cmdline, Text),
+    process_file_has(Process, environ, Mark),
+    !.
+
+process_file_has(Process, Name, Text) :-
+    directory_file_path(Process, Name, File),
+    catch(read_file_to_string(File, Content, [encoding(octet)]), error(_, _), fail),
+    once(sub_string(Content, _, _, _, Text)).
 
 %!  swipl(-Program)
 %
