@@ -27,7 +27,7 @@ const KEY = 'ev3dev playground';
 const DIRECTORY = '/home/web_user/';
 
 const kept = read();
-const machine = new Machine({ begins, took, heard, ends, worldChanged: keep });
+const machine = new Machine({ begins, took, runs, heard, ends, worldChanged: keep });
 const console_ = new Console((line) => machine.send(line), (line) => editor.goTo(line));
 const editor = new Text($('text'), { changed: keep, run, words: [] });
 const tone = new Tone();
@@ -88,6 +88,12 @@ function took(frame) {
   program = frame.program;
   tone.take(frame.brick?.tone ?? 0);
   if (frame.active !== undefined) editor.active((frame.active ?? []).filter(({ file }) => file === DIRECTORY + name()));
+}
+
+/** What was begun runs, until a frame says that it has ended. */
+function runs() {
+  program = { state: 'running' };
+  running(true);
 }
 
 /** What is of the program and of queries; everything else is of the live view. */

@@ -6,7 +6,7 @@ const PATIENCE = 1000;
 const UNSEEN = 250;
 
 export class Machine {
-  /** `on` has: begins(), took(message), ends(why), and `heard(message)`, of each that is no frame. */
+  /** `on` has: begins(), took(message), runs(), ends(why), and `heard(message)`, of each that is no frame. */
   constructor(on) {
     this.on = on;
     this.view = null;
@@ -37,6 +37,8 @@ export class Machine {
     const message = JSON.parse(data);
     if (message.type === 'frame') {
       this.have = message.have;
+      this.frames += 1;
+      if (this.frames <= this.before) message.program = { ...message.program, state: 'running' };
       this.on.took(message);
       // Goals are typed beside the program.
       delete message.goals;
@@ -51,6 +53,8 @@ export class Machine {
   begins() {
     this.open = true;
     this.have = '';
+    /** Frames that were asked for, and that came; those up to `before` do not know what was begun last. */
+    [this.wanted, this.frames, this.before] = [0, 0, 0];
     const { world } = this;
     this.world = [];
     this.begun = [];
@@ -67,6 +71,7 @@ export class Machine {
 
   next(have) {
     this.asked = performance.now();
+    this.wanted += 1;
     this.send(have ? `next ${have}` : 'next');
   }
 
@@ -74,6 +79,10 @@ export class Machine {
     if (!this.open) return false;
     if (/^(choose|begin) /.test(line)) this.begun.push(line);
     this.worker.postMessage(line);
+    if (/^(run|load|goal|more) /.test(line)) {
+      this.before = this.wanted;
+      this.on.runs();
+    }
     return true;
   }
 

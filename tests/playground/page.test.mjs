@@ -165,7 +165,7 @@ describe('the playground', () => {
     await said(page, /^stopped/);
     await idle(page);
 
-    await run(page, `${HEAD}start :- writeln(begins), wait(0.1), loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
+    await run(page, `${HEAD}start :- writeln(begins), wait(2), loop(1).\nloop(N) :- N1 is N + 1, loop(N1).\n`);
     await said(page, /^begins/);
     // No frame comes while it computes.
     const frames = () => page.evaluate(() => document.getElementById('robot').contentWindow.ev3view.state().frames);
