@@ -462,7 +462,7 @@ test(a_message_goes_and_one_comes, From-X =@= bob-f("a b", 'C', [_])) :-
       with_other(Port, "robot_receive(F, ping(X), []), robot_send(F, pong(X))",
         joined(Port, answer(ping(f("a b", 'C', [_])), From, pong(X))))).
 test(a_server_that_went_away_is_found_again,
-     [ setup(assertz((user:message_hook(ev3dev(mail_lost(_)), _, _)), Told)),
+     [ setup(asserta((user:message_hook(ev3dev(mail_lost(_)), _, _)), Told)),
        cleanup(erase(Told)) ]) :-
     with_redis_server(Port,
       with_other(Port, "repeat, robot_receive(F, ping(X), []),
