@@ -57,8 +57,8 @@ with_directory(Directory, Goal) :-
 
 %!  can_mount
 %
-%   True if this machine has FUSE, and the library was built with it. It is tried
-%   once.
+%   True if this machine has FUSE, with the helper that a user needs who is not root, and
+%   the library was built with it. It is tried once.
 
 can_mount :-
     (   mountable(_)
@@ -76,8 +76,18 @@ mounts_here :-
     with_directory(Directory, with_sim(room, mounts(Directory))).
 
 mounts(Directory) :-
-    catch(sim_mount(Directory), error(existence_error(feature, _), _), fail),
+    catch(sim_mount(Directory), error(Formal, _), cannot_be_had(Formal)),
     sim_unmount.
+
+cannot_be_had(existence_error(feature, _)) :-
+    !,
+    fail.
+cannot_be_had(domain_error(mountable_directory, _)) :-
+    \+ absolute_file_name(path(fusermount3), _, [access(execute), file_errors(fail)]),
+    !,
+    fail.
+cannot_be_had(Formal) :-
+    throw(error(Formal, _)).
 
 %!  near(+Value, +Expected, +Tolerance)
 
