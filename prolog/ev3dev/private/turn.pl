@@ -12,16 +12,20 @@ goals in any order, so that their names and ages tell nothing.
 %!  about(-Text) is det.
 %
 %   The goals that this thread is in, from the native predicate that asks
-%   outward.
+%   outward; "" where Prolog cannot write them: a cyclic term, or in the
+%   threads of 9.2.9 a large integer, as the state of a generator is.
 
 about(Text) :-
     prolog_current_frame(Frame),
     goals(Frame, 20, Goals),
-    (   acyclic_term(Goals)
-    ->  copy_term(Goals, Copy, _),
+    (   acyclic_term(Goals),
+        copy_term(Goals, Copy, _),
         numbervars(Copy, 0, _),
-        format(string(Text), "~W",
-               [Copy, [quoted(true), numbervars(true), max_depth(50)]])
+        catch(format(string(Text0), "~W",
+                     [ Copy,
+                       [quoted(true), numbervars(true), max_depth(50)] ]),
+              error(resource_error(_), _), fail)
+    ->  Text = Text0
     ;   Text = ""
     ).
 
