@@ -26,7 +26,7 @@ main() {
         xargs -P "${JOBS:-$(($(nproc) + 1))}" -L 1 "$0" --one "$logs" || true
     sed -n '/^skipped: /p' "$logs"/*.log | sort -u
     sed 's/^/FAILED: /' "$logs/failed" 2>/dev/null || true
-    sed -nE 's/^% All ([0-9]+) tests passed.*/\1/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
+    sed -nE 's/^% All ([0-9]+) (\(\+[0-9]+ sub-tests\) )?tests passed.*/\1/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
         awk '{ tests += $1 } END { print tests+0 " tests passed" }'
     echo "$(lines "$logs/passed") files passed, $(lines "$logs/failed") failed"
     [ "$(lines "$logs/passed")" = $# ]

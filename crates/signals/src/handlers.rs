@@ -119,7 +119,12 @@ fn take(signal: c_int, before: &libc::sigaction) {
     }
     let mut ours = *before;
     ours.sa_sigaction = handle as *const () as usize;
-    ours.sa_flags |= libc::SA_SIGINFO | libc::SA_ONSTACK;
+    ours.sa_flags |= libc::SA_SIGINFO;
+    // Where the stack is at its end. Prolog may run a program's handler within its own, for
+    // which the 8 kB that it takes for such signals would be too little.
+    if [libc::SIGSEGV, libc::SIGBUS].contains(&signal) {
+        ours.sa_flags |= libc::SA_ONSTACK;
+    }
     if STANDING.contains(&signal) {
         ours.sa_flags |= libc::SA_RESTART;
     }
