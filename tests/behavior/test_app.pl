@@ -160,8 +160,10 @@ test(help_of_a_command_has_its_options_alone,
     assertion(\+ has(Output, "--axle")),
     assertion(\+ has(Output, "Status")).
 test(it_says_its_version) :-
+    pack_version(Version),
     app("--version", 0, Output),
-    said(Output, ["ev3dev 0.", "SWI-Prolog "]).
+    string_concat("ev3dev ", Version, Said),
+    said(Output, [Said, "SWI-Prolog "]).
 test(a_wrong_command_line_ends_with_2,
      [forall(refused(Line, Why)), true(Status-Said == 2-true)]) :-
     app(Line, Status, Output),

@@ -230,8 +230,8 @@ test(a_limit_stops_the_motors_of_a_program_that_goes_on,
        true(Status-B-C == exit(0)-stop-stop) ]) :-
     % Nothing else does.
     signalled(Tree, Signal, ":- set_prolog_flag(ev3dev_stop_at_halt, false).
-                             wait :- catch(wait(3), _, true).",
-              [goal(main)], Status, eventually, B, C).
+                             limited :- catch(main, _, true).",
+              [goal(limited)], Status, eventually, B, C).
 % 7.2.3 ends by an assertion of its own when such a handler throws.
 test(one_that_goes_on_after_a_crash_drives_again,
      [condition(( current_prolog_flag(version, Version), Version >= 80000 )),

@@ -12,6 +12,7 @@
             end_output/2,               % +Child, -Output
             kill_program/1,             % +Child
             descendant/1,               % +Text
+            pack_version/1,             % -Version
             swipl/1,                    % -Program
             starts_itself/0
           ]).
@@ -134,6 +135,17 @@ process_file_has(Process, Name, Text) :-
     directory_file_path(Process, Name, File),
     catch(read_file_to_string(File, Content, [encoding(octet)]), error(_, _), fail),
     once(sub_string(Content, _, _, _, Text)).
+
+%!  pack_version(-Version)
+%
+%   What pack.pl of this working copy says, an atom.
+
+pack_version(Version) :-
+    library_directory_under_test(Library),
+    file_directory_name(Library, Home),
+    directory_file_path(Home, 'pack.pl', File),
+    read_file_to_terms(File, Terms, []),
+    memberchk(version(Version), Terms).
 
 %!  swipl(-Program)
 %

@@ -64,7 +64,10 @@ load_error(Output, File, Reason) :-
     format(atom(Reason), '~w: ~w.', [Where, Fault]).
 
 first_error(Output, File, Reason) :-
-    messages(Output, File, [message(Where, Text)|_]),
+    messages(Output, File, Messages),
+    member(message(Where, Text), Messages),
+    \+ string_concat("Prolog initialisation failed:", _, Text), % 7.2.3's
+    !,
     (   Where == ''
     ->  without_call(Text, Reason)
     ;   format(atom(Reason), '~w: ~w', [Where, Text])
