@@ -5,11 +5,15 @@
 #   target/dist/<target>/ev3dev.so
 #
 # Usage: tools/cross.sh [TARGET...]        default: all of them
+#        tools/cross.sh --example PACKAGE NAME
+#
+# The second builds an example for the EV3 alone, and prints where it is.
 #
 # TARGET is armel (EV3), armhf or arm64 (Raspberry Pi) or amd64 (PC). The files
 # hold the simulator, but not its mount as real files: that is for programs in
-# other languages on a PC, where one can build. They need a C library of 2.24 or later and nothing of SWI-Prolog at link time; the
-# same sources give the same bytes. tools/check-elf.sh holds them to that.
+# other languages on a PC, where one can build. They need a C library of 2.24
+# or later and nothing of SWI-Prolog at link time; the same sources give the same
+# bytes. tools/check-elf.sh holds them to that.
 #
 # Environment: as for tools/toolchain.sh; CARGO_HOME.
 
@@ -21,6 +25,13 @@ source "$root/tools/targets.sh"
 
 main() {
     local name
+    if [[ ${1:-} == --example ]]; then
+        "$root/tools/toolchain.sh" >&2
+        locked cross
+        build armel --package "$2" --example "$3"
+        echo "$root/target/cross/$(triple_of armel)/brick/examples/$3"
+        return
+    fi
     [[ $# -gt 0 ]] || set -- "${all_targets[@]}"
     for name; do
         triple_of "$name" >/dev/null
@@ -28,16 +39,23 @@ main() {
     "$root/tools/toolchain.sh"
     locked cross
     for name; do
-        build "$name"
+        build "$name" --package ev3dev --no-default-features --features sim
+        install -D -m 644 "$root/target/cross/$(triple_of "$name")/$(profile_of "$name")/libev3dev.so" \
+            "$root/target/dist/$name/ev3dev.so"
         "$root/tools/check-elf.sh" "$name" "$root/target/dist/$name/ev3dev.so"
     done
 }
 
+# What keeps the simulator below the brick's limit
+profile_of() {
+    if [[ $1 == armel ]]; then echo brick; else echo release; fi
+}
+
+# build TARGET WHAT...
 build() {
-    local name=$1 triple profile=release
+    local name=$1 triple
+    shift
     triple=$(triple_of "$name")
-    # What keeps the simulator below the brick's limit
-    [[ $name != armel ]] || profile=brick
     (
         cd "$root"
         clean_environment
@@ -48,12 +66,9 @@ build() {
         "$toolchain/bin/cargo" fetch --quiet --locked --target "$triple"
         CARGO_ENCODED_RUSTFLAGS=$(rust_flags "$name")
         export CARGO_ENCODED_RUSTFLAGS
-        "$toolchain/bin/cargo" build --quiet --profile "$profile" --locked \
-            --package ev3dev --target "$triple" \
-            --no-default-features --features sim
+        "$toolchain/bin/cargo" build --quiet --profile "$(profile_of "$name")" --locked \
+            --target "$triple" "$@"
     )
-    install -D -m 644 "$root/target/cross/$triple/$profile/libev3dev.so" \
-        "$root/target/dist/$name/ev3dev.so"
 }
 
 # What is set for cargo on this machine must not change the bytes.

@@ -14,6 +14,7 @@
 # It sees neither the packs nor the settings of this machine. Environment:
 #   EMULATED_HOME   its home (default: .toolchain/swipl/<name>/home)
 #   EMULATED_PATH   its PATH (default: ours)
+#   EMULATED_CPU    the processor that armel has (default: arm926, which is the EV3's)
 # and those of tools/debian.sh; EV3DEV_TOOLCHAIN (see toolchain.sh).
 
 set -euo pipefail
@@ -111,8 +112,7 @@ run() {
     shift 4
     [[ $program == /* ]] || program=$dir/usr/bin/$program
     case $arch in
-    # the EV3's processor
-    armel) emulator=("$(qemu arm)" -cpu arm926) ;;
+    armel) emulator=("$(qemu arm)" -cpu "${EMULATED_CPU:-arm926}") ;;
     armhf) emulator=("$(qemu arm)") ;;
     arm64) emulator=("$(qemu aarch64)") ;;
     esac

@@ -104,10 +104,15 @@ found([Line|Lines], File, Messages) :-
     ;   found(Lines, File, Messages)
     ).
 
+%   Prolog 10 says which thread it is.
 marked(Line, Text) :-
     member(Mark, ["ERROR: ", "Warning: "]),
-    string_concat(Mark, Text, Line),
-    !.
+    string_concat(Mark, Text0, Line),
+    !,
+    (   string_concat("[Thread main] ", Text1, Text0)
+    ->  Text = Text1
+    ;   Text = Text0
+    ).
 
 continued([Line|Lines], Text0, Text, Rest) :-
     marked(Line, More0),
