@@ -44,8 +44,9 @@ const LEFT: [c_int; 8] = [
     33,
 ];
 
-/// How long a thread may take from its look at the latch to the end of its write.
-const WRITING_NS: libc::c_long = 5_000_000;
+/// How often, a millisecond apart, it is asked whether a thread is still starting a motor. Where
+/// the handler has interrupted that thread itself it will be.
+const WAITS: u32 = 100;
 
 /// What each signal did before, by its number; null for what the kernel does by itself.
 static BEFORE: [AtomicPtr<libc::sigaction>; LAST as usize + 1] =
@@ -209,12 +210,14 @@ fn is_sent(info: *const siginfo_t) -> bool {
 /// Stops the motors, whatever other threads are doing.
 pub(crate) fn stop_for(reason: Reason) -> bool {
     latch::set(reason);
-    let any = kept::stop();
-    if any {
-        let time = libc::timespec { tv_sec: 0, tv_nsec: WRITING_NS };
-        // Safety: waits only. A thread that had looked at the latch before has written then.
-        unsafe { libc::nanosleep(&raw const time, null_mut()) };
-        kept::stop();
+    let mut any = kept::stop();
+    if latch::is_any_starting() {
+        for _ in (0..WAITS).take_while(|_| latch::is_any_starting()) {
+            let time = libc::timespec { tv_sec: 0, tv_nsec: 1_000_000 };
+            // Safety: waits only.
+            unsafe { libc::nanosleep(&raw const time, null_mut()) };
+        }
+        any |= kept::stop();
     }
     any
 }

@@ -4,7 +4,7 @@
 //! has been interrupted. So whatever starts a motor looks at the latch last, beside its
 //! write and under the motor's lock; and a stop of the motors sets it first. A handler
 //! of a signal may do so, too.
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
 /// Why no motor may start. Each reason is set and lifted for itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,35 @@ pub enum Reason {
 }
 
 static REASONS: AtomicU8 = AtomicU8::new(0);
+
+/// How many threads are between their look at the latch and the end of their write.
+static STARTING: AtomicU32 = AtomicU32::new(0);
+
+/// A thread that is about to start a motor, until it has written that.
+#[must_use]
+pub struct Starting(());
+
+impl Starting {
+    /// To be called before the look at the latch.
+    #[inline]
+    pub fn begin() -> Self {
+        STARTING.fetch_add(1, Ordering::SeqCst);
+        Self(())
+    }
+}
+
+impl Drop for Starting {
+    #[inline]
+    fn drop(&mut self) {
+        STARTING.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Whether a thread may have looked at the latch before it was set, and has not written yet.
+#[cfg(unix)]
+pub(crate) fn is_any_starting() -> bool {
+    STARTING.load(Ordering::SeqCst) != 0
+}
 
 /// Sets the latch for a reason.
 pub fn set(reason: Reason) {
@@ -50,4 +79,34 @@ pub fn is_set_as(reason: Reason) -> bool {
 #[must_use]
 pub fn is_ending() -> bool {
     is_set_as(Reason::Ending) || is_set_as(Reason::Halting)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicBool;
+    use std::sync::mpsc;
+    use std::thread;
+    use std::time::Duration;
+
+    static WRITTEN: AtomicBool = AtomicBool::new(false);
+
+    #[test]
+    fn a_stop_waits_for_those_who_looked_at_the_latch_before() {
+        let (looks, looked) = mpsc::channel();
+        let writer = thread::spawn(move || {
+            let starting = Starting::begin();
+            assert!(!is_set());
+            looks.send(()).unwrap();
+            thread::sleep(Duration::from_millis(20));
+            WRITTEN.store(true, Ordering::SeqCst);
+            drop(starting);
+        });
+        looked.recv().unwrap();
+        crate::stop_for(Reason::Crashed);
+        assert!(WRITTEN.load(Ordering::SeqCst));
+        lift(Reason::Crashed);
+        writer.join().unwrap();
+        assert!(!is_any_starting());
+    }
 }
