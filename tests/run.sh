@@ -32,13 +32,15 @@ main() {
     [ "$(lines "$logs/passed")" = $# ]
 }
 
-# one FILE: its output when it is over
+# one FILE: its output when it is over. Newer versions of plunit take a warning that a test
+# expects for one of its faults, unless they print what a test prints.
 one() {
-    local log
+    local log options
+    options="set_prolog_flag(ev3dev_hints,off),catch(set_test_options([output(always)]),_,true)"
     log=$logs/$(basename "$1" .pl).log
     SECONDS=0
     if timeout 1200 "$SWIPL" --on-warning=status --on-error=status \
-        -g "set_prolog_flag(ev3dev_hints,off),(run_tests->true;halt(1))" -t halt "$1" </dev/null >"$log" 2>&1; then
+        -g "$options,(run_tests->true;halt(1))" -t halt "$1" </dev/null >"$log" 2>&1; then
         echo "$1" >>"$logs/passed"
     else
         echo "$1" >>"$logs/failed"
