@@ -58,7 +58,7 @@ check-install:
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/smoke.pl </dev/null
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/example.pl </dev/null
 
-# What takes an hour: all that is below, too. docs/checked.md says when it last
+# What takes four hours: all that is below, too. docs/checked.md says when it last
 # passed.
 check-all: lint check
 	$(MAKE) dist
