@@ -3,9 +3,10 @@
 %
 %   swipl -p library=prolog -g main -t 'halt(1)' benches/localize.pl -- [SEEDS [MINUTES [CASE ...]]]
 %
-% By default 20 seeds, and drives of 20 minutes. Prints a line for each case: how many of the seeds reached what the line says. A place is
-% right within 10 cm and 10 degrees. A claim is a look at localized/1 after a scan, or each
-% second of a drive, that is above 0.9; it is wrong if the place is.
+% By default 20 seeds, and drives of 20 minutes. Prints a line for each case: how many of the
+% seeds reached what the line says. A place is right within 10 cm and 10 degrees. A claim is a
+% look at localized/1 after a scan, or each second of a drive, that is above 0.9; it is wrong
+% if the place is.
 
 :- use_module(library(ev3dev)).
 :- use_module(library(ev3dev/drive)).

@@ -21,8 +21,8 @@ sensors:
 Each is one process that lives through the run. In each round every job is
 measured once by everyone who does it, one after the other; what counts is the
 median over the rounds, and ratios of medians. Writes benches/results.json, and
-from that the tables of docs/performance.md and docs/localization.md; --table does the latter alone. What
-cannot take part ends the run: no column is left out in silence. --part measures
+from that the tables of docs/performance.md and docs/localization.md; --table does the
+latter alone. What cannot take part ends the run: no column is left out in silence. --part measures
 one part again, and keeps the others; --count counts instructions again, and writes
 benches/instructions.json.
 
