@@ -125,10 +125,24 @@ batch_step(Limits, now(Todos0, Idle0, Busy0, Done0), Now) :-
     ->  has_died
     ;   findall(Out, member(busy(worker(_, _, Out), _, _, _, _), Busy),
                 Outs),
-        wait_for_input(Outs, Ready, 0.2),
+        ready_soon(Outs, Ready),
         Limits = limits(_, Cpu),
         foldl(progress(Ready, Cpu), Busy, now(Todos, Idle, [], Done0), Now)
     ).
+
+%   9.2.9 crashes some time after wait_for_input/3 was left by Ctrl-C or a
+%   signal, so it does not wait.
+
+ready_soon(Outs, Ready) :-
+    between(1, 20, Look),
+    wait_for_input(Outs, Ready, 0),
+    (   Ready == [],
+        Look < 20
+    ->  sleep(0.01),
+        fail
+    ;   true
+    ),
+    !.
 
 given([Todo|Todos0], [Worker|Idle0], Busy0, Limits, Todos, Idle, Busy) :-
     !,
