@@ -131,11 +131,11 @@ batch_step(Limits, now(Todos0, Idle0, Busy0, Done0), Now) :-
     ).
 
 %   9.2.9 crashes some time after wait_for_input/3 was left by Ctrl-C or a
-%   signal, so it does not wait.
+%   signal, so it does not wait. By 0 it would wait for ever in 7.2.3.
 
 ready_soon(Outs, Ready) :-
     between(1, 20, Look),
-    wait_for_input(Outs, Ready, 0),
+    wait_for_input(Outs, Ready, 0.000001),
     (   Ready == [],
         Look < 20
     ->  sleep(0.01),
