@@ -3,6 +3,7 @@
 //! The handler of a crash returns, or Prolog leaves it by longjmp and goes on, or it waits for
 //! ever, as one that writes the stack down while another thread has the allocator's lock. The
 //! thread itself knows: it is asked by a signal that is handled on the stack where it is.
+use crate::stack::SIZE;
 use nix::errno::Errno;
 use nix::libc::{self, c_int};
 use std::mem::zeroed;
@@ -27,8 +28,8 @@ const IS_IN: u8 = 1;
 const IS_OUT: u8 = 2;
 
 /// A handler on a stack of its own is not deeper than that; another stack is further away. It may
-/// be deeper than that stack, which in SWI-Prolog 9.2 has 8 kB, while Prolog runs there.
-const NEAR: usize = 128 * 1024;
+/// be deeper than that of another thread, for which SWI-Prolog 9.2 takes 8 kB.
+const NEAR: usize = SIZE;
 
 /// How long to wait for it, in steps.
 const STEP_NS: libc::c_long = 200_000;

@@ -1,5 +1,6 @@
 //! What is done in the handlers of signals themselves.
 use crate::latch::{self, Reason};
+use crate::stack::own_handlers_stack;
 use crate::{crash, kept, watchdog};
 use nix::errno::Errno;
 use nix::libc::{self, c_int, c_void, siginfo_t};
@@ -63,6 +64,7 @@ static STANDS: AtomicBool = AtomicBool::new(false);
 
 /// Takes all signals that end a process, or make it stand. Those that are ignored stay so.
 pub(crate) fn take_all() {
+    own_handlers_stack();
     let prologs = action(libc::SIGTERM).sa_sigaction;
     for signal in (1..=LAST).filter(|signal| !LEFT.contains(signal)) {
         let before = action(signal);
@@ -120,12 +122,7 @@ fn take(signal: c_int, before: &libc::sigaction) {
     }
     let mut ours = *before;
     ours.sa_sigaction = handle as *const () as usize;
-    ours.sa_flags |= libc::SA_SIGINFO;
-    // Where the stack is at its end. Prolog may run a program's handler within its own, for
-    // which the 8 kB that it takes for such signals would be too little.
-    if [libc::SIGSEGV, libc::SIGBUS].contains(&signal) {
-        ours.sa_flags |= libc::SA_ONSTACK;
-    }
+    ours.sa_flags |= libc::SA_SIGINFO | libc::SA_ONSTACK;
     if STANDING.contains(&signal) {
         ours.sa_flags |= libc::SA_RESTART;
     }

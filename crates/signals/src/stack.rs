@@ -6,8 +6,8 @@
 use nix::libc::{self, stack_t};
 use std::cell::RefCell;
 
-/// Four times what Prolog takes.
-const SIZE: usize = 32 * 1024;
+/// Prolog takes 8 kB, and may run a program's handler within its own: 9.2 crashes by that.
+pub(crate) const SIZE: usize = 256 * 1024;
 
 thread_local! {
     static STACK: RefCell<Option<Stack>> = const { RefCell::new(None) };
@@ -31,8 +31,8 @@ impl Drop for Stack {
     }
 }
 
-/// Gives this thread a stack of its own for handlers. To be called when an engine that has run
-/// in it is gone.
+/// Gives this thread a stack of its own for handlers. To be called where handlers of programs
+/// may run, and when an engine that has run in a thread is gone.
 pub fn own_handlers_stack() {
     // A thread that ends needs none.
     let _ = STACK.try_with(|stack| {
