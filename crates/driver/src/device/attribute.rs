@@ -166,8 +166,8 @@ pub(super) fn open(
 
 /// Writes a text and a newline in one go: one write is one call of the driver.
 fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
-    let starting = text.trim_start().starts_with("run").then(latch::Starting::begin);
-    if starting.is_some() && latch::is_set() && path.ends_with("command") {
+    let starting = text.starts_with("run").then(latch::Starting::begin);
+    if latch::is_set() && starts_motor(path, text) {
         return Err(Error::Latched { path: path.to_owned() });
     }
     let mut line = [b'\n'; SHORT];
@@ -180,6 +180,12 @@ fn write_line(node: &dyn AttributeFile, path: &Path, text: &str) -> Result<()> {
     };
     drop(starting);
     written.map_err(|source| Error::Write { path: path.to_owned(), text: text.to_owned(), source })
+}
+
+/// Whether that text in that file starts a motor.
+#[cold]
+fn starts_motor(path: &Path, text: &str) -> bool {
+    path.ends_with("command") && text.trim_start().starts_with("run")
 }
 
 /// Reads all there is. More than fits cannot be an attribute's text: rather
