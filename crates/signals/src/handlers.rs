@@ -207,8 +207,10 @@ fn is_sent(info: *const siginfo_t) -> bool {
 /// Stops the motors, whatever other threads are doing.
 pub(crate) fn stop_for(reason: Reason) -> bool {
     latch::set(reason);
+    // Before the first stop: who is done then is stopped by it.
+    let is_any_starting = latch::is_any_starting();
     let mut any = kept::stop();
-    if latch::is_any_starting() {
+    if is_any_starting {
         for _ in (0..WAITS).take_while(|_| latch::is_any_starting()) {
             let time = libc::timespec { tv_sec: 0, tv_nsec: 1_000_000 };
             // Safety: waits only.

@@ -301,6 +301,7 @@ mod tests {
     // One test, as there is one record.
     #[test]
     fn those_that_run_are_stopped_and_lines_are_used_again() {
+        let _alone = crate::latch::ALONE.lock().unwrap();
         survivor::survive(false);
         let folder = std::env::temp_dir().join(format!("ev3-kept-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();

@@ -81,6 +81,10 @@ pub fn is_ending() -> bool {
     is_set_as(Reason::Ending) || is_set_as(Reason::Halting)
 }
 
+/// A stop is one of all motors, also of those of another test.
+#[cfg(test)]
+pub(crate) static ALONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
@@ -93,6 +97,7 @@ mod tests {
 
     #[test]
     fn a_stop_waits_for_those_who_looked_at_the_latch_before() {
+        let _alone = ALONE.lock().unwrap();
         let (looks, looked) = mpsc::channel();
         let writer = thread::spawn(move || {
             let starting = Starting::begin();
