@@ -14,6 +14,7 @@
             time_to/3,                  % +Place, +Radius, -Seconds
             cells_visited/2,            % +Size, -Count
             lap_fraction/2,             % +Distance, -Share
+            commands/1,                 % ?Count
             said/1,                     % -Text
             printed/1                   % +Text
           ]).
@@ -333,6 +334,15 @@ between_places(X0-Y0, X1-Y1, Places) :-
               X is X0 + (X1-X0)*N/Count,
               Y is Y0 + (Y1-Y0)*N/Count ),
             Places).
+
+%!  commands(?Count) is semidet.
+%
+%   How many commands the program gave to motors, among the last 4096 files
+%   that it wrote: to start, to stop, to hold. A new speed while a motor runs
+%   is one, too, and so is the library's that stops a motor at the end.
+
+commands(Count) :-
+    run_fact(commands(Count)).
 
 %!  said(-Text) is nondet.
 %

@@ -38,7 +38,7 @@ with_folder(Goal) :-
 file(Name, Lines, File) :-
     folder(Folder),
     atomic_list_concat([Folder, /, Name, '.pl'], File),
-    setup_call_cleanup(open(File, write, Out),
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
                        forall(member(Line, Lines), ( write(Out, Line), nl(Out) )),
                        close(Out)).
 
@@ -97,6 +97,15 @@ test(honest, Marks == [ mark(honest, 10, 10,
 test(a_part_of_the_points, true(between(5, 6, Points))) :-
     earns([ ":- use_module(library(ev3dev)).",
             "start :- set_robot(5.6, 10.6, outB, outC), go_cm(60, 50)." ], Points, _).
+%   One is the library's, which stops the other motor at the end.
+test(commands, Points == 2) :-
+    with_folder(( file(exercise,
+                       [ ":- use_module(library(ev3dev/exercise)).",
+                         "exercise(four, [seeds(1)]).", "score(2, four) :- commands(4)." ], _),
+                  file(mine, [ ":- use_module(library(ev3dev)).",
+                               "start :- motor_run(outB, 100), motor_run(outC, 100), wait(1),",
+                               "    col_color(in3, _), motor_stop(outB)." ], File),
+                  mark_files([File], [], [mark(mine, Points, _, _, _, _)]) )).
 test(it_runs_into_something, Points-Missed == 6-2) :-
     marked_lines([ ":- use_module(library(ev3dev)).",
                    "start :- set_robot(5.6, 10.6, outB, outC), go(60), wait(10)." ],
@@ -189,6 +198,8 @@ read_report(Out, Name, Text) :-
     atomic_list_concat([Out, /, Name], File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
+test(a_forbidden_word_in_utf8, Reason == 'Line 1: secret/1 may not be used here.') :-
+    marked_lines(["start :- secret('\u00e9'), \u00e9."], [], mark(mine, _, _, _, _, Reason)).
 test(one_format, Names == ['marks.csv']) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
                   program(honest, File),
@@ -198,10 +209,25 @@ test(one_format, Names == ['marks.csv']) :-
 test(programs_that_are_alike, true(sub_string(Index, _, _, _, "a and b: 100 %"))) :-
     Lines = ["one(X) :- two(X, _).", "two(A, B) :- three(A), three(B).", "three(_).", "start."],
     Others = ["one(Y) :- two(Y, _).", "two(C, D) :- three(C), three(D).", "three(_).", "start."],
+    alike(Lines, Others, Index).
+test(they_are_side_by_side, Marked-Plain == 9-1) :-
+    Lines = ["one(X) :- two(X).", "two(A) :- three(A),", "    three(A).", "three(_).",
+             "own(\u00e9).", "start."],
+    Others = ["three(_).", "start.", "one(Y) :- two(Y).", "", "% A remark.",
+              "two(C) :- three(C), three(C)."],
+    alike(Lines, Others, Index),
+    occurrences("<mark>", Index, Marked),
+    occurrences("\nown(\u00e9).\n", Index, Plain).
+
+alike(Lines, Others, Index) :-
     with_folder(( folder(Folder), atom_concat(Folder, '/marks', Out),
                   file(a, Lines, A), file(b, Others, B),
                   mark_files([A, B], [seeds(1), out(Out), formats([html])], _),
                   read_report(Out, 'index.html', Index) )).
+
+occurrences(Part, Text, Count) :-
+    findall(x, sub_string(Text, _, _, _, Part), All),
+    length(All, Count).
 
 %   The solutions of the course earn all points; with few cases in one run each.
 test(the_course, [forall(course(Exercise)), true]) :-

@@ -1,8 +1,10 @@
 :- module(ev3dev_marking_alike,
-          [ alike/2                     % +Programs, -Pairs
+          [ alike/2,                    % +Programs, -Pairs
+            clause_lines/3              % +Terms, +Clauses, -Lines
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(ordsets), [ord_intersection/3, ord_subtract/3]).
+:- use_module(library(ordsets),
+              [ord_intersection/3, ord_memberchk/2, ord_subtract/3]).
 
 /** <module> Programs that look alike
 
@@ -16,8 +18,9 @@ least_clauses(3).
 %!  alike(+Programs, -Pairs) is det.
 %
 %   Programs is a list of Name-Terms, with Terms as of program_terms/2. Pairs
-%   is a list of alike(A, B, Share), of pairs that share at least 60 % of
-%   their own clauses, and three of them; most alike first.
+%   is a list of alike(A, B, Share, Clauses), of pairs that share at least
+%   60 % of their own clauses, and three of them; most alike first. Clauses
+%   are those that both have, for clause_lines/3.
 
 alike(Programs, Pairs) :-
     findall(Name-Shapes,
@@ -28,11 +31,11 @@ alike(Programs, Pairs) :-
             ( member(Name-Shapes, Shaped0),
               ord_subtract(Shapes, Common, Own) ),
             Shaped),
-    findall(Minus-alike(A, B, Share),
+    findall(Minus-alike(A, B, Share, Both),
             ( member(A-Of, Shaped),
               member(B-Other, Shaped),
               A @< B,
-              shared(Of, Other, Share),
+              shared(Of, Other, Share, Both),
               Minus is -Share ),
             Found0),
     msort(Found0, Found),
@@ -40,12 +43,26 @@ alike(Programs, Pairs) :-
 
 shapes(Terms, Shapes) :-
     findall(Shape,
-            ( member(term(Term, _), Terms),
-              Term \= (:- _),
-              copy_term(Term, Shape),
-              numbervars(Shape, 0, _) ),
+            ( member(term(Term, _), Terms), shape(Term, Shape) ),
             Shapes0),
     sort(Shapes0, Shapes).
+
+shape(Term, Shape) :-
+    Term \= (:- _),
+    copy_term(Term, Shape),
+    numbervars(Shape, 0, _).
+
+%!  clause_lines(+Terms, +Clauses, -Lines) is det.
+%
+%   At which Lines of a program those of its Terms begin that are Clauses of
+%   alike/2.
+
+clause_lines(Terms, Clauses, Lines) :-
+    findall(Line,
+            ( member(term(Term, Line), Terms),
+              shape(Term, Shape),
+              ord_memberchk(Shape, Clauses) ),
+            Lines).
 
 %   What more than half of at least four programs have.
 
@@ -76,7 +93,7 @@ same([Shape0|Shapes], Shape, Count0, Count, Others) :-
     same(Shapes, Shape, Count1, Count, Others).
 same(Others, _, Count, Count, Others).
 
-shared(Of, Other, Share) :-
+shared(Of, Other, Share, Both) :-
     ord_intersection(Of, Other, Both),
     length(Both, Count),
     least_clauses(Least),

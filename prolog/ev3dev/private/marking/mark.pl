@@ -14,15 +14,16 @@
 :- use_module(library(lists),
               [append/3, member/2, nth1/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(utf8), [utf8_codes/3]).
 
 /** <module> Many runs of many programs, and what they are worth
 
 The runs are those of a batch, whose program is a file with the exercise and
 the texts of all programs in it; so it can go to another machine as it is.
 
-A program's result is marked(Name, Mark, Results, Terms): the mark as of
+A program's result is marked(Name, Mark, Results, Source): the mark as of
 exercise_mark/4; result(Seed, Result) for each seed, Result as of
-marked_run/5, or `not_run`; and its terms, for a comparison.
+marked_run/5, or `not_run`; and source(Text, Terms), for a comparison.
 */
 
 %!  marks(+Exercise, +Files, +Options, -Marks) is det.
@@ -192,7 +193,8 @@ programs([File|Files], Number, Read, [Program|Programs]) :-
     ;   Length > Most
     ->  Terms = [],
         Reason = 'It is longer than 1 MB.'
-    ;   program_terms(Text, Terms),
+    ;   decoded(Text, Decoded),
+        program_terms(Decoded, Terms),
         (   forbidden(Read, Terms, Reason)
         ->  true
         ;   Reason = ''
@@ -202,6 +204,15 @@ programs([File|Files], Number, Read, [Program|Programs]) :-
     Program = program(Number, Name, Text, Terms, Reason),
     Next is Number+1,
     programs(Files, Next, Read, Programs).
+
+%   It is run as it is; here it is UTF-8, if it can be.
+
+decoded(Text, Decoded) :-
+    string_codes(Text, Bytes),
+    (   phrase(utf8_codes(Codes), Bytes)
+    ->  string_codes(Decoded, Codes)
+    ;   Decoded = Text
+    ).
 
 program_name(Base, Name) :-
     (   file_name_extension(Name, pl, Base)
@@ -278,9 +289,10 @@ write_term_line(Out, Term) :-
                 *             MARKS            *
                 *******************************/
 
-marked(program(Number, Name, _, Terms, Refused), Read, Seeds, Results,
+marked(program(Number, Name, Bytes, Terms, Refused), Read, Seeds, Results,
        marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,
-              Terms)) :-
+              source(Decoded, Terms))) :-
+    decoded(Bytes, Decoded),
     Read = exercise(_, _, _, ScoreFacts),
     length(Seeds, SeedCount),
     findall(result(Seed, Result),

@@ -28,6 +28,7 @@ ran into something is kept at that moment, as the simulator forgets it.
                                         % seed(Seed), world(Facts),
                                         % robot(Facts), output(Text),
                                         % said(Text), told(Time, Text),
+                                        % commands(Count),
                                         % seen(Time, Port, Value)
 :- volatile
     run_pose/4,
@@ -107,7 +108,13 @@ record_end(Ended, Output, Lines) :-
     assertz(run_fact(output(Output))),
     forall(member(Then-Text, Lines), assertz(run_fact(told(Then, Text)))),
     sim_trace(Trace),
-    forall(member(_-said(Text), Trace), assertz(run_fact(said(Text)))).
+    forall(member(_-said(Text), Trace), assertz(run_fact(said(Text)))),
+    findall(File,
+            ( member(_-written(File, _), Trace),
+              sub_atom(File, _, _, 0, '/command') ),
+            Written),
+    length(Written, Commands),
+    assertz(run_fact(commands(Commands))).
 
 %!  recorded(-Film, -Collisions, -Seconds) is det.
 %

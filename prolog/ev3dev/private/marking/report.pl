@@ -3,7 +3,7 @@
                                         % +Marked
             write_page/3                % +File, +Exercise, +Marked
           ]).
-:- use_module(alike, [alike/2]).
+:- use_module(alike, [alike/2, clause_lines/3]).
 :- use_module(film, [film/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -87,6 +87,8 @@ style :-
             th, td { padding: .3rem .6rem; text-align: left; \c
             border-bottom: 1px solid #8886; vertical-align: top }~n\c
             td.n, th.n { text-align: right }~n\c
+            .two { display: flex; gap: 1rem }~n\c
+            .two pre { flex: 1; overflow-x: auto }~n\c
             .bar { background: #36c; height: .7rem; min-width: 1px }~n\c
             .wide { overflow-x: auto }~n\c
             svg { max-width: 100%; height: auto; background: #fff }~n\c
@@ -212,19 +214,49 @@ class_body(Scores, Marked) :-
                      <td class=\"n\">~d~n", [Full, EarnedMean, MissCount])
            )),
     format("</table></div>~n", []),
-    findall(Name-Terms, member(marked(Name, _, _, Terms), Marked), Programs),
+    findall(Name-Terms,
+            member(marked(Name, _, _, source(_, Terms)), Marked), Programs),
     alike(Programs, Pairs),
     (   Pairs == []
     ->  true
     ;   format("<h2>Programs that look alike</h2>~n<p>Their clauses are \c
                 the same but for the names of variables. That is a reason \c
-                to ask, and no judgement.</p>~n<ul>~n", []),
-        forall(member(alike(A, B, Share), Pairs),
-               ( AlikePercent is round(100*Share),
-                 format("<li>", []), text(A), format(" and ", []), text(B),
-                 format(": ~d %~n", [AlikePercent]) )),
-        format("</ul>~n", [])
+                to ask, and no judgement.</p>~n", []),
+        forall(member(Pair, Pairs), side_by_side(Pair, Marked))
     ).
+
+%   What both have is marked.
+
+side_by_side(alike(A, B, Share, Clauses), Marked) :-
+    Percent is round(100*Share),
+    format("<details><summary>", []), text(A), format(" and ", []), text(B),
+    format(": ~d %</summary>~n<div class=\"two\">~n", [Percent]),
+    forall(( member(Name, [A, B]),
+             member(marked(Name, _, _, source(Text, Terms)), Marked) ),
+           ( clause_lines(Terms, Clauses, Starts),
+             findall(Line, member(term(_, Line), Terms), Lines),
+             split_string(Text, "\n", "\r", Texts),
+             format("<pre>", []),
+             marked_lines(Texts, 1, plain, Lines, Starts),
+             format("</pre>~n", []) )),
+    format("</div></details>~n", []).
+
+%   A clause ends where the next term begins, or at an empty line.
+
+marked_lines([], _, _, _, _).
+marked_lines([Text|Texts], Number, Kind0, Lines, Starts) :-
+    (   memberchk(Number, Starts)
+    ->  Kind = mark
+    ;   ( Text == "" ; memberchk(Number, Lines) )
+    ->  Kind = plain
+    ;   Kind = Kind0
+    ),
+    (   Kind == mark
+    ->  format("<mark>", []), text(Text), format("</mark>~n", [])
+    ;   text(Text), nl
+    ),
+    Next is Number+1,
+    marked_lines(Texts, Next, Kind, Lines, Starts).
 
 paragraph(Text) :-
     format("<p>", []),
