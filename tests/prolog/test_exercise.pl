@@ -97,6 +97,8 @@ test(honest, Marks == [ mark(honest, 10, 10,
 test(a_part_of_the_points, true(between(5, 6, Points))) :-
     earns([ ":- use_module(library(ev3dev)).",
             "start :- set_robot(5.6, 10.6, outB, outC), go_cm(60, 50)." ], Points, _).
+test(it_reads_and_does_nothing, Points-Reason == 0-'It started no motor.') :-
+    earns([":- use_module(library(ev3dev)).", "start :- us_dist_cm(_, _), start."], Points, Reason).
 %   One is the library's, which stops the other motor at the end.
 test(commands, Points == 2) :-
     with_folder(( file(exercise,

@@ -7,12 +7,14 @@
               [ exercise_happens/2, exercise_setting/3, exercise_world/3,
                 read_exercise/2, score_shares/2 ]).
 :- use_module(reasons, [reason/6]).
-:- use_module(record, [record_end/3, recorded/3, with_record/4]).
+:- use_module(record,
+              [record_end/3, recorded/3, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3 ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /** <module> One run of one program, in a process of the marker
@@ -79,7 +81,13 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
         ; Reason1 = Reason )
     ;   memberchk(Ended, [over, exit(_)])
     ->  score_shares(Exercise, Shares),
-        Reason1 = Reason
+        (   Reason == '',
+            run_fact(commands(0)),
+            member(Share, Shares),
+            Share < 1
+        ->  Reason1 = 'It started no motor.'
+        ;   Reason1 = Reason
+        )
     ;   Shares = none,
         Reason1 = Reason
     ),
