@@ -61,10 +61,10 @@ impl Model {
         }
     }
 
-    /// The likelihood of what the map says.
+    /// The likelihood of what the map says; a deviation in cm adds to that of the model.
     #[must_use]
-    pub fn peak(&self, expected: Option<f64>) -> f64 {
-        let hit = |expected: f64| self.hit * PEAK / self.deviation(expected);
+    pub fn peak(&self, expected: Option<f64>, more: f64) -> f64 {
+        let hit = |expected: f64| self.hit * PEAK / (self.deviation(expected) + more);
         expected.map_or(self.hit + self.missing, |expected| hit(expected) + self.random / FAR)
     }
 

@@ -109,10 +109,11 @@ impl Particles {
         heard: Option<f64>,
     ) -> f64 {
         let (mut sum, mut fit) = (0.0, 0.0);
+        let coarse = field.coarseness();
         let weighed = |expected| {
-            let likelihood = model.likelihood(expected, heard, 0.0);
+            let likelihood = model.likelihood(expected, heard, coarse);
             let factor = libm::pow(likelihood, model.exponent);
-            (factor, (likelihood / model.peak(expected)).min(1.0))
+            (factor, (likelihood / model.peak(expected, coarse)).min(1.0))
         };
         let mut known = Known::default();
         for particle in &mut self.all {

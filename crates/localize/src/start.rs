@@ -55,6 +55,7 @@ struct Round<'a> {
 
 impl Round<'_> {
     fn log_likelihood(&self, pose: Pose, vague: f64) -> f64 {
+        let vague = vague + self.field.coarseness();
         let each = self.looks.iter().map(|(sensor, heard)| {
             let expected = self.field.heard(sensor.from(pose));
             libm::log(self.model.likelihood(expected, *heard, vague))
@@ -63,10 +64,11 @@ impl Round<'_> {
     }
 
     fn fit(&self, pose: Pose) -> f64 {
+        let coarse = self.field.coarseness();
         let each = self.looks.iter().map(|(sensor, heard)| {
             let expected = self.field.heard(sensor.from(pose));
-            let likelihood = self.model.likelihood(expected, *heard, 0.0);
-            (likelihood / self.model.peak(expected)).min(1.0)
+            let likelihood = self.model.likelihood(expected, *heard, coarse);
+            (likelihood / self.model.peak(expected, coarse)).min(1.0)
         });
         each.sum::<f64>() / float(self.looks.len())
     }
