@@ -39,6 +39,7 @@ numbers(Rest, [], Rest).
 % case(Name, Kind, setting(World, Map, Robot, Options of the simulation, of the localizer))
 
 case(room, scans(3), setting(room, room, [], [noise(true)], [])).
+case(room_by_table, scans(3), setting(room, room, [], [noise(true)], [table(true)])).
 case(noise_doubled, scans(12), setting(room, room, Noise, [noise(true)], [])) :-
     doubled(Noise).
 case(three_rooms_wide, scans(3), setting(World, World, [], [noise(true)], [])) :-
@@ -54,6 +55,7 @@ case(kidnapped, kidnapped(2), setting(room, room, [], [noise(true)], [])).
 case(two_alike, alike, setting(World, World, [], [noise(true)], [])) :-
     two_alike(World).
 case(drive, drive(2.5, 5), setting(room, room, [], [noise(true)], [])).
+case(drive_by_table, drive(2.5, 5), setting(room, room, [], [noise(true)], [table(true)])).
 case(drive_bad_odometry, drive(4, 10), setting(room, room, Facts, [noise(true)], [])) :-
     bad_odometry(Facts).
 case(drive_no_gyro, drive(5, 15), setting(room, room, Facts, [noise(true)], [])) :-

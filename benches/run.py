@@ -322,6 +322,7 @@ def rules(is_smoke=False):
 # Case of benches/localize.pl: what it is
 PLACES = {
     "room": "`room`, at most 3 looks around",
+    "room_by_table": "the same with the EV3's table",
     "noise_doubled": "twice the noise, 12",
     "three_rooms_wide": "three rooms, 3",
     "real_sonar": "a sonar that misses echoes: `echo(in1, [incidence(40), miss(0.05), "
@@ -336,6 +337,7 @@ PLACES = {
 }
 DRIVES = {
     "drive": "`noise(true)`",
+    "drive_by_table": "the same with the EV3's table",
     "drive_bad_odometry": "slip 2 %, a wheel 1 % small, axle 2 % long, a gyro that drifts",
     "drive_no_gyro": "the same without a gyro",
     "drive_real_sonar": "the sonar that misses",
