@@ -8,6 +8,7 @@
 :- use_module(private/arguments,
               [ limit_option/2, must_be_options/3, number_option/4,
                 option/3 ]).
+:- use_module(private/directory, [new_directory/2]).
 :- use_module(private/errors,
               [in_own_name/1, must_be/2, term_expansion/4, throw_error/3]).
 :- use_module(private/native,
@@ -121,7 +122,7 @@ sim_fenced(File, Ended, Options) :-
     in_own_name(absolute_file_name(File, Path,
                                    [file_type(prolog), access(read)])),
     setup_call_cleanup(
-        new_directory(Directory),
+        fence_directory(Directory),
         in_directory(Directory, Path, Goal,
                      limits(Seconds, Wall, Cpu, Megabytes, Enclosed), Ended,
                      Text, Told),
@@ -129,9 +130,8 @@ sim_fenced(File, Ended, Options) :-
 
 %   What the program may write is in a directory of its own.
 
-new_directory(Directory) :-
-    tmp_file(ev3dev_fence, Directory),
-    make_directory(Directory),
+fence_directory(Directory) :-
+    new_directory(ev3dev_fence, Directory),
     atom_concat(Directory, '/own', Own),
     make_directory(Own).
 
@@ -278,7 +278,7 @@ starts_enclosed :-
     current_prolog_flag(executable, Prolog),
     pack_folder(Pack),
     setup_call_cleanup(
-        new_directory(Directory),
+        fence_directory(Directory),
         ( enclosure(Directory, Pack, Walls),
           append(Walls, [Prolog, '-f', none, '-g', halt], Arguments),
           process_create(path(bwrap), Arguments,

@@ -98,6 +98,19 @@ test(it_takes_too_much_of_the_processor, Ended == limit(cpu)) :-
 test(it_prints_without_end, Ended-Length == limit(output)-1048576) :-
     fenced(["main :- repeat, write('so it goes'), nl, fail."], Ended, Text, _, []),
     string_length(Text, Length).
+%   As of a process that was killed and had this number.
+test(a_directory_that_was_left, Made == true) :-
+    tmp_file(left, Last),
+    atomic_list_concat(Parts, '_', Last),
+    once(append(Before, [Number0], Parts)),
+    atom_number(Number0, Number),
+    Next is Number + 1,
+    append(Before, [Next], Parts1),
+    atomic_list_concat(Parts1, '_', Left),
+    make_directory(Left),
+    call_cleanup(ev3dev_directory:new_directory(left, Directory), delete_directory(Left)),
+    ( exists_directory(Directory) -> Made = true ; Made = false ),
+    delete_directory(Directory).
 test(it_halts, Ended == exit(3)) :-
     fenced(["main :- halt(3)."], Ended, _, _, []).
 test(it_fails, Ended == exit(1)) :-

@@ -2,7 +2,8 @@
           [ file_path/2,                % +File, -Path
             readable_file/3,            % +File, +Extension, -Path
             directory_path/2,           % +Directory, -Path
-            environment_directory/2     % +Variable, -Directory
+            environment_directory/2,    % +Variable, -Directory
+            new_directory/2             % +Base, -Directory
           ]).
 :- use_module(errors,
               [existence_error/2, in_own_name/1, must_be/2, throw_error/3]).
@@ -68,3 +69,17 @@ no_directory(Directory) :-
 environment_directory(Variable, Directory) :-
     getenv(Variable, Directory),
     Directory \== ''.
+
+%!  new_directory(+Base, -Directory) is det.
+%
+%   Make a directory for what is not kept, as tmp_file/2 names it. One of that
+%   name may be left of a process that was killed and had the same number.
+
+new_directory(Base, Directory) :-
+    between(1, 100, Time),
+    tmp_file(Base, Directory),
+    (   Time < 100
+    ->  catch(make_directory(Directory), error(_, _), fail)
+    ;   make_directory(Directory)
+    ),
+    !.

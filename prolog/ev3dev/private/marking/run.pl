@@ -10,6 +10,7 @@
 :- use_module(record,
               [record_end/3, recorded/3, run_fact/1, with_record/4]).
 :- use_module(why, [collision_reason/2]).
+:- use_module('../directory', [new_directory/2]).
 :- use_module('../../sim', [with_sim/3]).
 :- use_module('../../sim_fenced', [sim_fenced/3]).
 :- use_module(library(filesex),
@@ -56,8 +57,7 @@ marked_run(Name, Text, Seed, Enclosed, Result) :-
     exercise_setting(Exercise, cpu(Cpu), 10),
     exercise_setting(Exercise, wall(Wall), 30),
     exercise_setting(Exercise, memory(Memory), 2000),
-    tmp_file(ev3dev_mark, Directory),
-    make_directory(Directory),
+    new_directory(ev3dev_mark, Directory),
     directory_file_path(Directory, Name, File),
     setup_call_cleanup(
         write_text(File, octet, Text),
