@@ -178,7 +178,8 @@ prolog:message(ev3dev(not_enclosed)) -->
     [ 'bubblewrap (bwrap) is not installed here, or may not be used:'-[], nl,
       'programs can read files and use the network'-[] ].
 
-%   program(Number, Name, Text, Terms, Reason): Reason is '' if it may run.
+%   program(Number, Name, Text, Source, Reason): Reason is '' if it may run.
+%   Text is as in the file; Source is source(Decoded, Terms).
 
 programs([], _, _, []).
 programs([File|Files], Number, Read, [Program|Programs]) :-
@@ -188,20 +189,21 @@ programs([File|Files], Number, Read, [Program|Programs]) :-
     string_length(Text, Length),
     most_text(Most),
     (   nonvar(Wrong)
-    ->  Terms = [],
+    ->  Source = source("", []),
         Reason = 'It cannot be read.'
     ;   Length > Most
-    ->  Terms = [],
+    ->  Source = source("", []),
         Reason = 'It is longer than 1 MB.'
     ;   decoded(Text, Decoded),
         program_terms(Decoded, Terms),
+        Source = source(Decoded, Terms),
         (   forbidden(Read, Terms, Reason)
         ->  true
         ;   Reason = ''
         )
     ),
     program_name(Base, Name),
-    Program = program(Number, Name, Text, Terms, Reason),
+    Program = program(Number, Name, Text, Source, Reason),
     Next is Number+1,
     programs(Files, Next, Read, Programs).
 
@@ -289,10 +291,9 @@ write_term_line(Out, Term) :-
                 *             MARKS            *
                 *******************************/
 
-marked(program(Number, Name, Bytes, Terms, Refused), Read, Seeds, Results,
+marked(program(Number, Name, _, Source, Refused), Read, Seeds, Results,
        marked(Name, mark(Name, Points, Of, Scores, Runs, Reason), Its,
-              source(Decoded, Terms))) :-
-    decoded(Bytes, Decoded),
+              Source)) :-
     Read = exercise(_, _, _, ScoreFacts),
     length(Seeds, SeedCount),
     findall(result(Seed, Result),
