@@ -15,7 +15,8 @@ pub(crate) fn unify_value(term: &Term, value: &Value) -> PrologResult<()> {
 /// Calls a predicate of Prolog once.
 pub(crate) trait Ask {
     /// As `call_once`, but after an exception nothing is called: Prolog's handlers of signals
-    /// may raise one at any moment.
+    /// may raise one at any moment. And the query is cut, not closed: to close it undoes what
+    /// it did, and 9.0.4 may lose the exception with that.
     fn ask<P: Callable<N>, const N: usize>(
         &self,
         predicate: P,
@@ -32,6 +33,9 @@ impl<C: QueryableContextType> Ask for Context<'_, C> {
         if self.has_exception() {
             return Err(PrologError::Exception);
         }
-        self.call_once(predicate, arguments)
+        let query = self.open(predicate, arguments);
+        let result = query.next_solution().map(|_| ());
+        query.cut();
+        result
     }
 }
