@@ -1,5 +1,5 @@
 //! Localization as it goes on: a search, then tracking, and a search again once the robot is lost.
-use crate::field::{Field, float};
+use crate::field::{COARSENESS, Field, float};
 use crate::model::{FAR, Model, Move, Wander};
 use crate::particles::{Cluster, Count, Particle, Particles, beside};
 use crate::start::{Look, Place, particles, places, spread_particles};
@@ -100,7 +100,10 @@ pub struct Localizer {
 impl Localizer {
     /// A robot that may be anywhere.
     #[must_use]
-    pub fn new(field: Field, options: Options) -> Localizer {
+    pub fn new(field: Field, mut options: Options) -> Localizer {
+        if field.has_table() {
+            options.model.sigma[0] += COARSENESS;
+        }
         let generator = Pcg32::new(options.seed, 1);
         let mut localizer = Localizer {
             field,

@@ -61,11 +61,13 @@ impl Model {
         }
     }
 
-    /// The likelihood of what the map says; a deviation in cm adds to that of the model.
-    #[must_use]
-    pub fn peak(&self, expected: Option<f64>, more: f64) -> f64 {
-        let hit = |expected: f64| self.hit * PEAK / (self.deviation(expected) + more);
-        expected.map_or(self.hit + self.missing, |expected| hit(expected) + self.random / FAR)
+    /// How well a measurement of that likelihood fits, from 0 to 1: its ratio to the likelihood
+    /// of what the map says.
+    pub(crate) fn fit(&self, expected: Option<f64>, likelihood: f64) -> f64 {
+        let hit = |expected: f64| self.hit * PEAK / self.deviation(expected);
+        let peak =
+            expected.map_or(self.hit + self.missing, |expected| hit(expected) + self.random / FAR);
+        (likelihood / peak).min(1.0)
     }
 
     fn deviation(&self, expected: f64) -> f64 {

@@ -109,11 +109,10 @@ impl Particles {
         heard: Option<f64>,
     ) -> f64 {
         let (mut sum, mut fit) = (0.0, 0.0);
-        let coarse = field.coarseness();
         let weighed = |expected| {
-            let likelihood = model.likelihood(expected, heard, coarse);
+            let likelihood = model.likelihood(expected, heard, 0.0);
             let factor = libm::pow(likelihood, model.exponent);
-            (factor, (likelihood / model.peak(expected, coarse)).min(1.0))
+            (factor, model.fit(expected, likelihood))
         };
         let mut known = Known::default();
         for particle in &mut self.all {

@@ -55,7 +55,6 @@ struct Round<'a> {
 
 impl Round<'_> {
     fn log_likelihood(&self, pose: Pose, vague: f64) -> f64 {
-        let vague = vague + self.field.coarseness();
         let each = self.looks.iter().map(|(sensor, heard)| {
             let expected = self.field.heard(sensor.from(pose));
             libm::log(self.model.likelihood(expected, *heard, vague))
@@ -64,11 +63,10 @@ impl Round<'_> {
     }
 
     fn fit(&self, pose: Pose) -> f64 {
-        let coarse = self.field.coarseness();
         let each = self.looks.iter().map(|(sensor, heard)| {
             let expected = self.field.heard(sensor.from(pose));
-            let likelihood = self.model.likelihood(expected, *heard, coarse);
-            (likelihood / self.model.peak(expected, coarse)).min(1.0)
+            let likelihood = self.model.likelihood(expected, *heard, 0.0);
+            self.model.fit(expected, likelihood)
         });
         each.sum::<f64>() / float(self.looks.len())
     }
