@@ -6,11 +6,11 @@
 :- use_module(batch_pool,
               [ batch_step/3, end_workers/1, start_workers/2,
                 workers_ready/2 ]).
+:- use_module(directory, [new_directory/2]).
 :- use_module(errors, [must_be/2]).
 :- use_module(redis, [ask/3, connection_lost/1, with_redis/3]).
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
+              [ delete_directory_and_contents/1, directory_file_path/3 ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket), [gethostname/1]).
@@ -293,8 +293,7 @@ here(File, Program, Here, Folder) :-
               error(_, _), fail)
     ->  Here = File,
         Folder = none
-    ;   tmp_file(batch, Folder),
-        make_directory_path(Folder),
+    ;   new_directory(batch, Folder),
         file_base_name(File, Name),
         directory_file_path(Folder, Name, Here),
         setup_call_cleanup(
