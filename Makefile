@@ -110,7 +110,7 @@ check-endings: build
 # maps, and all cases of which `make check` has a fifth
 check-torture: build
 	@tests/torture/torture.py --count 10000
-	@EV3DEV_TEST_SCHEDULES=1-10000 \
+	@LIMIT=7200 EV3DEV_TEST_SCHEDULES=1-10000 \
 	    tests/run.sh $$(grep -lE 'support/(cases|robots)' tests/*/test_*.pl)
 
 # Changes of single clauses, each of which a test should notice, in FILES, in lines changed

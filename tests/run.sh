@@ -10,8 +10,8 @@
 # SWIPL names another Prolog, JOBS how many files run at once (default: one for
 # each processor, and one that waits). A leftover choice point or any other
 # warning fails the run (before SWI-Prolog 9 a failed test alone), and so does a
-# file that takes twenty minutes. Hints (tests/behavior/test_hints.pl) are off, as
-# tests make many calls that fail.
+# file that takes LIMIT seconds, 1200 by default. Hints (tests/behavior/test_hints.pl)
+# are off, as tests make many calls that fail.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -39,7 +39,7 @@ one() {
     options="set_prolog_flag(ev3dev_hints,off),catch(set_test_options([output(always)]),_,true)"
     log=$logs/$(basename "$1" .pl).log
     SECONDS=0
-    if timeout 1200 "$SWIPL" --on-warning=status --on-error=status \
+    if timeout "${LIMIT:-1200}" "$SWIPL" --on-warning=status --on-error=status \
         -g "$options,(run_tests->true;halt(1))" -t halt "$1" </dev/null >"$log" 2>&1; then
         echo "$1" >>"$logs/passed"
     else

@@ -219,7 +219,8 @@ run_world(Facts) :-
 
 collisions(Count) :-
     findall(x, run_collision(_), Collisions),
-    length(Collisions, Count).
+    length(Collisions, Found),
+    Count = Found.
 
 %!  ended(-How) is semidet.
 %
@@ -290,7 +291,8 @@ cells_visited(Size0, Count) :-
               Y is floor(Y0/Size) ),
             Cells0),
     sort(Cells0, Cells),
-    length(Cells, Count).
+    length(Cells, Found),
+    Count = Found.
 
 %!  lap_fraction(+Distance, -Share) is semidet.
 %

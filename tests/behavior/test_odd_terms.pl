@@ -173,7 +173,8 @@ all_wrong(Kind, Wrongs) :-
     setup_call_cleanup(
         ( make_directory(Directory), working_directory(_, Directory) ),
         findall(Seed:Wrong,
-                ( between(First, Last, Seed), once(wrong(Kind, Seed, Wrong)) ),
+                ( between(First, Last, Seed), once(wrong(Kind, Seed, Term)),
+                  format(string(Wrong), "~W", [Term, [quoted(true), max_depth(12)]]) ),
                 Wrongs),
         ( working_directory(_, Before), delete_directory_and_contents(Directory) )).
 
