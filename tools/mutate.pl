@@ -224,12 +224,12 @@ tests([chance, turn],                     [sim, events, grid]).
 tests([command_line, scripts, last_goal], [app, halt]).
 tests([compiled, units],                  [compile]).
 tests([conditions, one_of],               [sensor_wait, events, rules]).
-tests([directory],                        [files, sound, app]).
+tests([directory],                        [files, sim_fenced, sound, app]).
 tests([drive_moves, robot_state],         [drive, robot, plnxt, jog]).
 tests([events],                           [events, rules, journal]).
 tests([explain, uncaught],                [hints, errors, halt]).
 tests([far, far_frames],                  [worker]).
-tests([files],                            [files, sim_default, bricks]).
+tests([files],                            [files, sim_fenced, sim_default, bricks]).
 tests([forgotten, forms, libraries, own_help, help_index], [help, errors]).
 tests([limits, plans],                    [sim_time, sim]).
 tests([ports],                            [ports, hints]).

@@ -55,6 +55,7 @@ with_program(Lines, File, Goal) :-
 %   Loads no view and drives no motor: the command line alone is wrong.
 refused("frob", "there is no command frob; there are: view, sim, run, ").
 refused("run", "run needs a program: ").
+refused("try line", "try needs a PROGRAM").
 refused("sim", "sim needs a world: convoy, delivery, dohyo, ").
 refused("run a.pl b.pl", "run does not take b.pl").
 refused("devices a.pl", "devices does not take a.pl").

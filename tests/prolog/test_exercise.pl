@@ -108,6 +108,16 @@ test(commands, Points == 2) :-
                                "start :- motor_run(outB, 100), motor_run(outC, 100), wait(1),",
                                "    col_color(in3, _), motor_stop(outB)." ], File),
                   mark_files([File], [], [mark(mine, Points, _, _, _, _)]) )).
+%   11 of 21 marks.
+test(half_a_lap, Points == 5.24) :-
+    with_folder(( file(exercise,
+                       [ ":- use_module(library(ev3dev/exercise)).",
+                         "exercise(lap, [seeds(1)]).",
+                         "world(_, [start(0, 0, 90), line(black, 2, [0-0, 100-0])]).",
+                         "score(partial(10), lap, Share) :- lap_fraction(5, Share)." ], _),
+                  file(mine, [ ":- use_module(library(ev3dev)).",
+                               "start :- set_robot(5.6, 10.6, outB, outC), go_cm(30, 47)." ], File),
+                  mark_files([File], [], [mark(mine, Points, _, _, _, _)]) )).
 test(it_runs_into_something, Points-Missed == 6-2) :-
     marked_lines([ ":- use_module(library(ev3dev)).",
                    "start :- set_robot(5.6, 10.6, outB, outC), go(60), wait(10)." ],

@@ -27,7 +27,10 @@ test(it_explores_the_room_and_makes_a_world_of_it, Reason-Collisions == explored
               free_share(Share), Share > 0.9,
               forall(member(P-Q, [90-165, 200-90, 150-125]), is_near_thing(P, Q)),
               map_facts(Facts) )),
-    memberchk(bounds(_, _, _, _), Facts),
+    memberchk(bounds(Left, Low, Right, High), Facts),
+    forall(member(wall(A, B, C, D, _), Facts),
+           ( assertion(( A > Left, C > Left, A < Right, C < Right )),
+             assertion(( B > Low, D > Low, B < High, D < High )) )),
     memberchk(start(_, _, _), Facts),
     length(Facts, Count), Count < 100,
     % It is a world, and a map of it.

@@ -10,6 +10,16 @@
 starts(World) :-
     with_sim(World, sim_collisions([]), [clock(virtual)]).
 
+%   How many things of that kind there are in some of 50 rooms.
+counts_of(Thing, Counts) :-
+    setof(Count, Seed^rooms_count(Seed, Thing, Count), Counts).
+
+rooms_count(Seed, Thing, Count) :-
+    between(1, 50, Seed),
+    random_room(Seed, [], World),
+    findall(x, member(Thing, World), Things),
+    length(Things, Count).
+
 :- begin_tests(random_worlds).
 
 test(a_seed_is_a_world, true(One-Two == Again-Again2)) :-
@@ -35,6 +45,9 @@ test(rooms, forall(case(20, Seed))) :-
     forall(( member(circle(X, Y, R), World) ),
            assertion((X-250)**2 + (Y-200)**2 >= (R+30)**2)),
     starts(World).
+test(what_is_in_a_room, Boxes-Pillars == [3, 4, 5]-[0, 1, 2]) :-
+    counts_of(box(_, _, _, _, _), Boxes),
+    counts_of(circle(_, _, _), Pillars).
 test(a_room_of_another_size, World == [bounds(0, 0, 200, 180), start(90, 60, 45)]) :-
     random_room(1, [size(200-180), boxes(0), pillars(0), start(90, 60, 45)], World).
 test(a_room_that_is_too_full, error(resource_error(room))) :-

@@ -65,6 +65,8 @@ test(what_is_no_condition_throws,
                          (us_dist_cm(in1) < _)-instantiation_error ]) )),
        error(Error, context(sensor_wait/1, _)) ]) :-
     with_tree(Tree, sensor_wait(Condition)).
+test(the_readings_that_there_are, true(sub_atom(Text, _, _, _, 'touch, us_dist_cm'))) :-
+    catch(sensor_wait(smell(in1) < 5), error(_, context(_, Text)), true).
 test(a_goal_is_waited_for_too,
      [ forall(member(Condition, [ ( us_dist_cm(_, D), D < 25 ),
                                   ( us_dist_cm(in1) < 25 ; touch(_) = pressed ),

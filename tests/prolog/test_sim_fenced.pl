@@ -111,6 +111,8 @@ test(a_directory_that_was_left, Made == true) :-
     call_cleanup(ev3dev_directory:new_directory(left, Directory), delete_directory(Left)),
     ( exists_directory(Directory) -> Made = true ; Made = false ),
     delete_directory(Directory).
+test(a_directory_that_cannot_be_made, error(existence_error(directory, _))) :-
+    ev3dev_directory:new_directory('no/such', _).
 test(it_halts, Ended == exit(3)) :-
     fenced(["main :- halt(3)."], Ended, _, _, []).
 test(it_fails, Ended == exit(1)) :-
@@ -124,8 +126,9 @@ test(it_does_not_parse, true(sub_string(Text, _, _, _, "Syntax error"))) :-
     fenced(["main :- a b."], _, Text, _, []).
 test(it_is_called_by_another_goal, Text == "[a,'B']\n") :-
     fenced(["shows(X) :- print(X), nl."], exit(0), Text, _, [goal(shows([a, 'B']))]).
-test(its_processes_have_no_robot, Text == "none\n") :-
-    fenced(["main :- shell('echo ${EV3DEV_FENCE-none}')."], exit(0), Text, _, []).
+test(its_processes_have_no_robot, Text == "none none\n") :-
+    fenced(["main :- shell('echo ${EV3DEV_FENCE-none} ${EV3DEV_TOLD-none}')."], exit(0), Text, _,
+           [told(_)]).
 
 test(after_one_comes_the_next, Texts == ["1\n", "1\n"]) :-
     with_program(["main :- us_dist_cm(in1, _), write(1), nl."], File,

@@ -76,10 +76,11 @@ environment_directory(Variable, Directory) :-
 %   name may be left of a process that was killed and had the same number.
 
 new_directory(Base, Directory) :-
-    between(1, 100, Time),
-    tmp_file(Base, Directory),
-    (   Time < 100
-    ->  catch(make_directory(Directory), error(_, _), fail)
-    ;   make_directory(Directory)
-    ),
-    !.
+    tmp_file(Base, Named),
+    catch(make_directory(Named), Error, true),
+    (   var(Error)
+    ->  Directory = Named
+    ;   exists_directory(Named)
+    ->  new_directory(Base, Directory)
+    ;   throw(Error)
+    ).
