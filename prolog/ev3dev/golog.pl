@@ -415,7 +415,7 @@ eval(M:Condition, History, Truth) :-
     ).
 
 situation_now(M, History, S, X) :-
-    must_be(list, History),
+    must_be(list(nonvar), History),
     prepare(M),
     context(M, [], X),
     (   situation_of_run(History, M, S0, X)
@@ -569,6 +569,7 @@ report_message(Kind, Message) :-
 get_integer(Low, Integer, High) :-
     must_be(integer, Low),
     must_be(integer, High),
+    ( var(Integer) -> true ; must_be(integer, Integer) ),
     between(Low, High, Integer).
 
 %!  pathfind(:Start, +End, -Moves) is semidet.

@@ -69,13 +69,13 @@ bad(pddl_write(x), [_-1]).
 bad(why_not(x), [_-1, off(_)-1]).
 bad(why_not(x, _), [_-1]).
 bad(do([], _), [_-1, fly-1]).
-bad(do([], [], _), [_-1, fly-1, a-2]).
+bad(do([], [], _), [_-1, fly-1, a-2, [_]-2]).
 bad(trans([], [], _, _), [_-1, fly-1, a-2]).
 bad(final([], []), [_-1, a-2]).
 bad(holds(true, []), [_-1, 7-1, wet(1)-1, a-2]).
 bad(has_val(f, _, []), [_-1, a-3]).
 bad(eval(true, [], _), [_-1, a-2]).
-bad(get_integer(1, _, 3), [a-1, _-1, a-3, _-3]).
+bad(get_integer(1, _, 3), [a-1, _-1, a-2, a-3, _-3]).
 bad(pathfind(a, b, _), [_-1, _-2]).
 bad(domain(_, [1]), [_-2, 1-2]).
 bad(rdomain(_, [1]), [_-2, 1-2]).

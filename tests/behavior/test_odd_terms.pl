@@ -41,8 +41,8 @@ exported(Module, Name/Arity) :-
     Arity > 0,
     \+ left_out(Name).
 
-% They wait for a person, for a goal, or as long as asked; are for a session of its own; end
-% the process; or take a map that grid_map/2 made.
+% They wait for a person, for a goal, for an answer, or as long as asked; are for a session of
+% its own; end the process; or take a map that grid_map/2 made.
 left_out(jog).
 left_out(button_wait).
 left_out(view_visit_).
@@ -54,6 +54,7 @@ left_out(ask_exog_occurs).
 left_out(ending_).
 left_out(halts_by_).
 left_out(at_halt_).
+left_out(sim_fence_join_).
 left_out(Name) :-
     sub_atom(Name, 0, _, _, grid_).
 
