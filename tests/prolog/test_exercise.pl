@@ -138,7 +138,8 @@ test(what_is_forbidden, Points-Reason == 0-'Line 2: secret/1 may not be used her
 test(no_such_file, Points-Reason == 0-'It cannot be read.') :-
     with_folder(( folder(Folder), atom_concat(Folder, '/nowhere.pl', File),
                   mark_files([File], [seeds(1)], [mark(nowhere, Points, _, _, _, Reason)]) )).
-test(two_runs_that_do_not_end_are_enough, Ends == [limit(cpu), limit(cpu), not_run]) :-
+%   On a busy machine the wall's limit may come first.
+test(two_runs_that_do_not_end_are_enough, true(Ends = [limit(_), limit(_), not_run])) :-
     marked([does_not_end], [], [mark(_, 0, _, _, Runs, _)]),
     findall(End, member(run(_, _, End, _), Runs), Ends).
 test(the_same_with_any_number_of_jobs, Two == One) :-
