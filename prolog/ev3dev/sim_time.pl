@@ -147,8 +147,9 @@ sim_at(Seconds0, Goal) :-
 %   million inferences for each second of simulated time, and as many while
 %   time stands, which takes some seconds; then it is left, and for_seconds/2
 %   throws an error. So it does after 120 s by the wall clock in which Goal
-%   sleeps, or reads from the terminal, and no time passes; but not while it
-%   is debugged. (A goal of race/2 or both/2 that only computes is not left.)
+%   sleeps, or reads from the terminal, and no time passes; computing counts
+%   a tenth, and nothing counts while it is debugged. (A goal of race/2 or
+%   both/2 that only computes is not left.)
 %
 %   @error domain_error(seconds, Seconds)
 %   @error resource_error(inferences) if Goal is left because it computes

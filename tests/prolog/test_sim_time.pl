@@ -366,6 +366,18 @@ test(leaves_a_goal_that_computes,
     with_most(300000, 100, with_sim([], for_seconds(5, Goal))).
 test(leaves_a_goal_that_sleeps, error(resource_error(seconds), context(for_seconds/2, _))) :-
     with_most(100000000, 0.3, with_sim([], for_seconds(5, ( repeat, sleep(0.05), fail )))).
+test(computing_counts_a_tenth_of_sleeping) :-
+    get_time(Start),
+    ev3dev_limits:used_so_far(_, _, Idle0),
+    statistics(cputime, Computed0),
+    repeat,
+    statistics(cputime, Computed),
+    Computed > Computed0 + 0.5,
+    !,
+    ev3dev_limits:used_so_far(_, _, Idle),
+    get_time(End),
+    Idle - Idle0 < End - Start - 0.9*(Computed-Computed0) + 0.001,
+    Idle > Idle0.
 test(computing_is_allowed_while_time_passes) :-
     with_most(1000000, 100,
               with_sim([], ( for_seconds(20, ( repeat, computes(500000), wait(1), fail )),

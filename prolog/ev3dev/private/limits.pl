@@ -26,7 +26,8 @@ before each goal that it calls.
 
 While a program computes, no time passes on the virtual clock, and the plan
 does not come. An alarm looks at the goal five times a second by the wall
-clock. What it looks at are inferences, which do not depend on the machine.
+clock. What it looks at are inferences, which do not depend on the machine,
+and how long the goal was idle: a slow processor takes its time for them.
 */
 
 :- dynamic
@@ -34,7 +35,7 @@ clock. What it looks at are inferences, which do not depend on the machine.
     held/4,                             % Brick, Id, Thread, Seconds left
     left/3,                             % Id, Thread, Why
     used/5,                             % Id, Inferences, all Inferences so
-                                        % far, Time, Wall
+                                        % far, Time, Idle
     alarm_of/2,                         % Id, Alarm
     aborts/1,                           % Ball
     most/2.                             % Inferences, Seconds
@@ -42,8 +43,9 @@ clock. What it looks at are inferences, which do not depend on the machine.
 :- volatile
     aborts/1.
 
-%   For each second of simulated time, and as long as none passes; by the wall
-%   clock while none passes. A brick has less than a million in a second.
+%   For each second of simulated time, and as long as none passes; seconds in
+%   which it is idle while none passes. A brick has less than a million
+%   inferences in a second.
 most(100000000, 120).
 
 %   How long a clean-up may take: seconds of simulated time, inferences,
@@ -205,11 +207,11 @@ look(Id) :-
     retractall(alarm_of(Id, _)),
     (   limit(Id, _, _)
     ->  set_alarm(Id),
-        use(Id, Inferences, Wall),
-        allowed(Id, MostInferences, MostWall),
+        use(Id, Inferences, Idle),
+        allowed(Id, MostInferences, MostIdle),
         (   Inferences > MostInferences
         ->  leave(Id, inferences)
-        ;   Wall > MostWall
+        ;   Idle > MostIdle
         ->  leave(Id, seconds)
         ;   is_overdue(Id)
         ->  leave(Id, over)
@@ -232,16 +234,16 @@ is_overdue(Id) :-
     Now > End + 0.5.
 
 %   What was used since: inferences, less those for which there was time, and
-%   seconds by the wall clock since time has passed. In the debugger a person
-%   thinks, not the program.
+%   seconds in which it was idle since time has passed. In the debugger a
+%   person thinks, not the program.
 
 begin_use(Id) :-
-    used_so_far(All, Now, Wall),
+    used_so_far(All, Now, Idle),
     retractall(used(Id, _, _, _, _)),
-    assertz(used(Id, 0, All, Now, Wall)).
+    assertz(used(Id, 0, All, Now, Idle)).
 
 use(Id, Inferences, Seconds) :-
-    used_so_far(All, Now, Wall),
+    used_so_far(All, Now, Idle),
     retract(used(Id, Inferences0, All0, Before, Since0)),
     !,
     passed(Before, Now, Passed),
@@ -250,9 +252,9 @@ use(Id, Inferences, Seconds) :-
     (   Now == Before,
         \+ current_prolog_flag(debug, true)
     ->  Since = Since0
-    ;   Since = Wall
+    ;   Since = Idle
     ),
-    Seconds is Wall - Since,
+    Seconds is Idle - Since,
     assertz(used(Id, Inferences, All, Now, Since)).
 
 passed(Before, Now, Passed) :-
@@ -262,9 +264,12 @@ passed(Before, Now, Passed) :-
     ;   Passed = 0
     ).
 
-used_so_far(All, Now, Wall) :-
+%   Computing counts a tenth: a step may take long, and be one inference.
+used_so_far(All, Now, Idle) :-
     statistics(inferences, All),
+    statistics(cputime, Computed),
     get_time(Wall),
+    Idle is Wall - 0.9*Computed,
     ignore(clock(Now)).
 
                 /*******************************
