@@ -364,12 +364,14 @@ class Run:
     def by_hand(self):
         """A signal, keys, or the end of the terminal."""
         program = self.program
-        for _ in range(2 if program.twice else 1):
-            if program.ending == "hang-up":
-                self.close_output()
-            elif program.ending in KEYS:
-                self.type(KEYS[program.ending])
-            else:
+        times = 2 if program.twice else 1
+        if program.ending == "hang-up":
+            self.close_output()
+        elif program.ending in KEYS:
+            # At once: a second Ctrl-Z that the kernel reads after SIGCONT stops it again
+            self.type(KEYS[program.ending] * times)
+        else:
+            for _ in range(times):
                 self.send(program.signal)
         if program.signal in STANDING or program.ending == "Ctrl-Z":
             self.stand()
