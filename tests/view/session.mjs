@@ -127,14 +127,15 @@ function comesLate(time) {
   };
 }
 
-export const state = (page) => page.evaluate(() => window.ev3view.state());
+/** Undefined while the page's modules have not run. */
+export const state = (page) => page.evaluate(() => window.ev3view?.state());
 
 /** Waits until the page's state satisfies a test; answers that state. */
 export async function shows(page, test, what, seconds = 20) {
   let last = null;
   return until(async () => {
     last = await state(page);
-    return test(last) ? last : null;
+    return last && test(last) ? last : null;
   }, what, seconds).catch((error) => {
     throw new Error(`${error.message}; last: ${JSON.stringify({ ...last, world: undefined })}`);
   });
