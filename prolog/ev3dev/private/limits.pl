@@ -27,7 +27,7 @@ before each goal that it calls.
 While a program computes, no time passes on the virtual clock, and the plan
 does not come. An alarm looks at the goal five times a second by the wall
 clock. What it looks at are inferences, which do not depend on the machine,
-and how long the goal was idle: a slow processor takes its time for them.
+and seconds in which the goal is idle: on a slow processor computing is long.
 */
 
 :- dynamic
@@ -49,7 +49,7 @@ and how long the goal was idle: a slow processor takes its time for them.
 most(100000000, 120).
 
 %   How long a clean-up may take: seconds of simulated time, inferences,
-%   seconds by the wall clock.
+%   seconds in which it is idle.
 grace(1, 10000000, 10).
 
 look_every(0.2).
