@@ -19,6 +19,7 @@
             printed/1                   % +Text
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/arguments, [must_be_options/3, number_value/3]).
 :- use_module(private/errors, [must_be/2, term_expansion/4]).
 :- use_module(private/places, [place/2]).

@@ -34,6 +34,7 @@
             checkOtherExog/1            % -Actions
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(private/arguments,

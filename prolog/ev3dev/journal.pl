@@ -6,6 +6,7 @@
             journal_replay/1            % +File
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(private/errors,
               [ existence_error/2, goal_of_program/1, in_own_name/1,

@@ -5,6 +5,7 @@
             random_track/3              % +Seed, +Options, -World
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/arguments,
               [ must_be_options/3, number_option/4, option/3 ]).
 :- use_module(private/errors,

@@ -8,6 +8,7 @@
             view_value/2                % +Name, +Number
           ]).
 :- set_prolog_flag(generate_debug_info, false).
+:- use_module(private/compiled, []).
 :- use_module(private/errors,
               [ domain_error/2, evaluated/2, in_own_name/1, must_be/2,
                 term_expansion/4, throw_error/3

@@ -19,6 +19,7 @@
 :- use_module(library(ev3dev/private/help_words), [words_for/2]).
 :- use_module(library(ev3dev/private/libraries), [in_library/2]).
 :- use_module('../support/child').
+:- use_module('../support/libraries').
 
 %   Prolog as Debian and others package it may come without it. Versions before
 %   8.2 have another one, which calls a hook if its manual is installed.
@@ -34,9 +35,11 @@ test(costs_nothing_before_it_is_asked, true(Loaded == [])) :-
     costs_a_session(Loaded).
 test(answers_for_each_export, true(Without == [])) :-
     findall(PI,
-            ( offered(Library, PI),
+            ( some_export(PI),
               \+ ( help_text(PI, Text),
                    shows(Text, PI),
+                   public_export(Name, PI),
+                   library_name(Name, Library),
                    from(Text, Library) ) ),
             Without).
 test(answers_for_a_name_alone, true(Shown == true)) :-
@@ -74,12 +77,29 @@ test(has_no_answer_for_no_name, fail) :-
     help_text(_, _).
 
 test(apropos_finds_each_export, true(Without == [])) :-
-    findall(Library:Name/Arity,
-            ( offered(Library, Name/Arity),
+    findall(Name/Arity,
+            ( some_export(Name/Arity),
               \+ ( found(Name, Found),
+                   public_export(File, Name/Arity),
+                   library_name(File, Library),
                    member(Line, Found),
                    lists(Line, Library:Name/Arity) ) ),
             Without).
+test(a_call_says_which_library_to_load, true(Without == [])) :-
+    findall(PI,
+            ( some_export(PI),
+              \+ public_export(ev3dev, PI),
+              \+ ( hint(PI, Text),
+                   public_export(Library, PI),
+                   atomic_list_concat(['library(ev3dev/', Library,
+                                       '), which is not loaded'], Words),
+                   sub_string(Text, _, _, _, Words) ) ),
+            Without).
+test(that_is_the_library_which_a_program_loads,
+     [ forall(home(PI, Library)), true(Libraries == [Library]) ]) :-
+    findall(Found,
+            ( in_library(Found, PIs), memberchk(PI, PIs) ),
+            Libraries).
 test(apropos_knows_words_of_a_student,
      [forall(first_for(Word, Expected)), true(First == Expected)]) :-
     found(Word, [Line|_]),
@@ -104,7 +124,7 @@ test(words_are_those_of_predicates, true(Unknown == [])) :-
     findall(Name,
             ( words_for(_, Names),
               member(Name, Names),
-              \+ offered(_, Name/_) ),
+              \+ public_export(_, Name/_) ),
             Unknown).
 
 test(is_asked_by_help,
@@ -134,13 +154,33 @@ is_old :-
     current_prolog_flag(version, Version),
     Version < 80200.
 
-offered(ev3dev, PI) :-
-    module_property(ev3dev, exports(Exports)),
-    member(PI, Exports).
-offered(Library, PI) :-
-    in_library(Name, PIs),
-    atom_concat('ev3dev/', Name, Library),
-    member(PI, PIs).
+some_export(PI) :-
+    setof(Library, public_export(Library, PI), _).
+
+library_name(ev3dev, ev3dev) :-
+    !.
+library_name(Name, Library) :-
+    atom_concat('ev3dev/', Name, Library).
+
+%   Several libraries have these, or a part of a library has.
+
+home(until/2, events).
+home(golog/2, golog).
+home(random_room/3, random_worlds).
+home(sim_place/3, sim).
+home(sim_wait/1, sim).
+home(pose/3, drive).
+home(calibrate/3, drive).
+home(navigate_to/2, roadmap).
+home(grid_map/2, grid).
+home(plan/3, planners).
+home(nxt_sound/1, plnxt).
+
+hint(PI, Text) :-
+    Error = error(existence_error(procedure, PI), _),
+    '$messages':translate_message(Error, Lines, []),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
 
 help_text(What, Text) :-
     with_output_to(string(Text), ev3dev_help_index:asked(help(What))).

@@ -11,6 +11,8 @@
    absolute_file_name(Up, Home, [file_type(directory)]),
    assertz(pack_under_test(Home)).
 
+:- use_module('../../prolog/ev3dev/private/libraries', [in_library/2]).
+
 :- dynamic
     pack_under_test/1,
     copy/1.
@@ -202,6 +204,15 @@ test(is_used_by_a_library_that_is_loaded_first,
                    format('~~w ', [U]))", [Library, Units]),
     atomic_list_concat(Units, ' ', Joined),
     string_concat(Joined, " ", Used),
+    run(Goal, Result).
+test(is_used_by_each_library_that_is_loaded_first,
+     [ forall(( in_library(Library, _), Library \== compile )),
+       true(Result == 0-"compiled") ]) :-
+    format(string(Goal),
+           "use_module(library(ev3dev/~w)),
+            ( current_predicate(ev3dev_compiled:used/1), ev3dev_compiled:used(_) ->
+                  write(compiled) ; write(sources) )",
+           [Library]),
     run(Goal, Result).
 test(has_the_same_exports) :-
     same_compiled_or_not(

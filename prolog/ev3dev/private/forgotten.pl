@@ -212,8 +212,7 @@ unqualified(Predicate0, Predicate) :-
     ground(Predicate),
     Predicate = _/_.
 
-%   True if library(ev3dev/Library) is the one to load for Predicate. The
-%   table is loaded when it is needed for the first time.
+%   True if library(ev3dev/Library) is the one to load for Predicate.
 
 library_of(Predicate, Library) :-
     ask(libraries, in_library(Library, Predicates)),

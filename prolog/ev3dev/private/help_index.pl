@@ -5,7 +5,7 @@
           ]).
 :- set_prolog_flag(generate_debug_info, false).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- use_module(libraries, [in_library/2]).
+:- use_module(libraries, [in_library/2, pack_file/2]).
 :- use_module(help_words, [words_for/2]).
 
 :- meta_predicate load_help(:, +).
@@ -435,33 +435,19 @@ read_comments_once :-
     predicate_(_, _, _),
     !.
 read_comments_once :-
-    module_property(ev3dev_help_index, file(This)),
-    file_directory_name(This, Private),
-    file_directory_name(Private, Ev3dev),
-    file_directory_name(Ev3dev, Directory),
-    forall(( folder(Folder, Kind),
-             atomic_list_concat([Directory, /, Folder, '/*.pl'], Pattern),
-             expand_file_name(Pattern, Files),
-             member(File, Files) ),
-           read_file(Kind, Folder, File)).
+    forall(( pack_file(Folder, File), exports(File, Exports) ),
+           read_file(Folder, File, Exports)).
 
 %   A predicate that a public library takes from another file has its comment
 %   there. Each file of planners is a library for itself.
 
-folder(ev3dev, part).
-folder('ev3dev/planners', library).
-folder('ev3dev/private', part).
-folder('ev3dev/private/golog', part).
-folder('ev3dev/private/grid', part).
-
-read_file(Kind, Folder, File) :-
-    (   Kind == library
-    ->  file_base_name(File, Base),
+read_file(Folder, File, Exports) :-
+    (   ( Folder == '' ; sub_atom(Folder, 0, _, _, private) )
+    ->  Offer = offer(none, [])
+    ;   file_base_name(File, Base),
         file_name_extension(Stem, _, Base),
-        atomic_list_concat([Folder, /, Stem], Library),
-        exports(File, Exports)
-    ;   Library = none,
-        Exports = []
+        atomic_list_concat([ev3dev, /, Folder, /, Stem], Library),
+        Offer = offer(Library, Exports)
     ),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
@@ -469,17 +455,16 @@ read_file(Kind, Folder, File) :-
         close(In)),
     split_string(Text, "\n", "", Lines),
     forall(comment(Lines, Heads, Body),
-           add_comment(offer(Library, Exports), Heads, Body)).
+           add_comment(Offer, Heads, Body)).
+
+%   Files of worlds and robots are no modules.
 
 exports(File, Exports) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         read(In, First),
         close(In)),
-    (   First = (:- module(_, Exports))
-    ->  true
-    ;   Exports = []
-    ).
+    First = (:- module(_, Exports)).
 
 %   comment(+Lines, -Heads, -Body)
 %

@@ -1,100 +1,180 @@
 :- module(ev3dev_libraries,
-          [ in_library/2                % ?Library, ?Predicates
+          [ in_library/2,               % ?Library, ?Predicates
+            pack_file/2                 % ?Folder, -File
           ]).
+:- set_prolog_flag(generate_debug_info, false).
 
 /** <module> Which library has a predicate
 
-For messages about predicates of libraries that are not loaded. Nothing loads
-this file before one is needed. `tests/behavior/test_library.pl` compares it
-with what the libraries export.
+For help/1, apropos/1, and messages about predicates of libraries that are not
+loaded. Nothing loads this file before one is needed. At the first question it
+reads the directives at the beginning of the libraries' files, and keeps what
+they say: a file names what it exports, and what it takes from others.
 */
+
+%   library_(Library, Predicates)
+%   head_(File, Exports, Taken, Apart): Taken is a list of File-Import, as in
+%   reexport/2. Apart is true if a program may load File by itself.
+:- dynamic
+    library_/2,
+    head_/4.
+:- volatile
+    library_/2,
+    head_/4.
 
 %!  in_library(?Library, ?Predicates) is nondet.
 %
 %   library(ev3dev/Library) is the one to load for Predicates, a list of
-%   Name/Arity. Those of library(ev3dev) are not here.
+%   Name/Arity. Those of library(ev3dev) are not here. If several libraries
+%   offer a predicate, it is in one of them: the one that others take it from,
+%   else the first by its name.
 
-in_library(sim,
-    [ for_seconds/2, sim_add/1, sim_add/2, sim_at/2, sim_collisions/1,
-      sim_jam/2, sim_mount/1, sim_mount/2, sim_place/3, sim_plug/2,
-      sim_pose/3, sim_press/1, sim_press/2, sim_release/1, sim_remote/2,
-      sim_remove/1, sim_restore/1, sim_show/3, sim_snapshot/1, sim_start/1,
-      sim_start/2, sim_step/1, sim_stop/0, sim_svg/1, sim_time/1,
-      sim_trace/1, sim_unmount/0, sim_unplug/1, sim_unshow/2,
-      sim_wait/1, sim_where/0,
-      with_sim/2, with_sim/3
-    ]).
-in_library(drive,
-    [ arc/2, arc/3, arc_cm/3, arc_cm/4, calibrate/3, drive_cm/2,
-      drive_cm/3, drive_option/2, drive_wait/2, face/1, face/2, follow/1,
-      follow/2, go_cm/3, go_to/1, go_to/2, go_to/3, go_to/4,
-      heading_wrapped/2, pose/3, pose_uncertainty/1, set_pose/3, steer/2,
-      steer/3, turn/3
-    ]).
-in_library(events,
-    [ after/2, after/3, both/2, event/2, event_cancel/1, every/2, every/3,
-      on/2, on/3, race/2, until/2, until/3
-    ]).
-in_library(rules,
-    [ become/1, behave/1, behave/2, received/1, send_message/1,
-      set_state/1, state/1
-    ]).
-in_library(grid,
-    [ direction_heading/2, execute_plan/1, free_cell/2, grid_beside/4,
-      grid_bounds/5, grid_cell/2, grid_changed/3, grid_cost/4,
-      grid_costs/4, grid_direction/2, grid_map/2, grid_neighbors/2,
-      grid_place/2, grid_problem/4, grid_start/2, grid_step/4, grid_turn/4,
-      obstacle_add/1, obstacle_remove/1, obstructed/1, plan_and_go_to/2,
-      plan_and_go_to/3, set_grid/1, state_position/2
-    ]).
-in_library(roadmap,
-    [ navigate_to/2, navigate_to/3, roadmap_legs/5, roadmap_path/4,
-      roadmap_path/5, roadmap_svg/5
-    ]).
-in_library(planners,
-    [ compare_planners/3, plan/3, plan/4, planner/1, planner_claim/2,
-      planning/3, replan/5
-    ]).
-in_library(golog,
-    [ ask_execute/2, ask_exog_occurs/1, checkOtherExog/1, do/2, do/3,
-      domain/2, eval/3, final/2, finalizeExog/0, finalizeRcx/0,
-      get_integer/3, getdomain/2, golog/2, golog_exog/1, has_val/3,
-      holds/2, indigolog/0, indigolog/1, initializeExog/0, initializeRcx/0,
-      now/1, pathfind/3, rdomain/2, receiveRcxActionNumber/1,
-      report_message/2, sendRcxActionNumber/2, sensing_action/2,
-      set_option/2, shuffle/2, trans/4, why_not/1, why_not/2
-    ]).
-in_library(pddl,
-    [ pddl_domain/1, pddl_problem/1, pddl_write/1
-    ]).
-in_library(view,
-    [ view/0, view/1, view_mark/1, view_stop/0, view_url/1, view_value/2,
-      view_watch/2
-    ]).
-in_library(journal,
-    [ because/2, journal/1, journal_replay/1, why/1, why/2
-    ]).
-in_library(jog,
-    [ jog/0, jog/1
-    ]).
-in_library(colors,
-    [ col_hsv/2, col_rgb/2, col_white/1, color_name/2
-    ]).
-in_library(console,
-    [ screen_forget/0, screen_format/2, screen_print/1
-    ]).
-in_library(raw,
-    [ analog_voltage/2, i2c_read/4, i2c_write/3
-    ]).
-in_library(plnxt,
-    [ nxt_close/0, nxt_go/1, nxt_go_cm/2, nxt_go_sec/2, nxt_goal/2,
-      nxt_goal/3, nxt_light/1, nxt_light_LED/1, nxt_light_LED/2,
-      nxt_open/0, nxt_play_tone/2, nxt_robot/2, nxt_rotate/2, nxt_sound/1,
-      nxt_stop/0, nxt_threads/0, nxt_touch/1, nxt_touch/2, nxt_turn/2,
-      nxt_ultrasonic/1, nxt_ultrasonic/2, timer_create/3, timer_create/4,
-      timer_kill/1, timer_killall/0, trigger_create/3, trigger_create/4,
-      trigger_kill/1, trigger_killall/0
-    ]).
-in_library(compile,
-    [ ev3dev_compile/0
-    ]).
+in_library(Library, Predicates) :-
+    with_mutex(ev3dev_libraries, read_libraries),
+    library_(Library, Predicates).
+
+read_libraries :-
+    library_(_, _),
+    !.
+read_libraries :-
+    pack_folder(Folder),
+    atom_concat(Folder, '/private/core.pl', Core),
+    offers(Core, Common),
+    findall(File, ( pack_file('', File), is_apart(File) ), Files),
+    add_libraries(Files, Common),
+    retractall(head_(_, _, _, _)).
+
+add_libraries([], _).
+add_libraries([File|Files], Others0) :-
+    offers(File, Offered0),
+    without(Offered0, Others0, Offered),
+    file_base_name(File, Base),
+    file_name_extension(Library, _, Base),
+    assertz(library_(Library, Offered)),
+    together(Offered, Others0, Others),
+    add_libraries(Files, Others).
+
+%!  pack_file(?Folder, -File) is nondet.
+%
+%   File is a Prolog file of the pack in Folder, which is '' for the folder of
+%   the public libraries, or `private` or the like below it. Files of worlds
+%   and robots are there, too.
+
+pack_file(Below, File) :-
+    pack_folder(Top),
+    file_below('', Top, Below, File).
+
+file_below(Below, Folder, Below, File) :-
+    entry(Folder, Name),
+    file_name_extension(_, pl, Name),
+    atomic_list_concat([Folder, /, Name], File).
+file_below(Here, Folder, Below, File) :-
+    entry(Folder, Name),
+    \+ sub_atom(Name, _, _, _, '.'),
+    atomic_list_concat([Folder, /, Name], Inner),
+    exists_directory(Inner),
+    (   Here == ''
+    ->  There = Name
+    ;   atomic_list_concat([Here, /, Name], There)
+    ),
+    file_below(There, Inner, Below, File).
+
+%   In a saved program there may be no folder.
+
+entry(Folder, Name) :-
+    exists_directory(Folder),
+    directory_files(Folder, Names0),
+    msort(Names0, Names),
+    one_of(Names, Name).
+
+pack_folder(Folder) :-
+    module_property(ev3dev_libraries, file(This)),
+    file_directory_name(This, Private),
+    file_directory_name(Private, Folder).
+
+                /*******************************
+                *             HEADS            *
+                *******************************/
+
+%   offers(+File, -Predicates)
+%
+%   Predicates are those that File exports, but what it takes from a file that
+%   a program may load by itself.
+
+offers(File, Predicates) :-
+    head(File, Exports, Taken, _),
+    findall(Name/Arity,
+            ( one_of(Exports, Name/Arity)
+            ; one_of(Taken, From-Import),
+              \+ is_apart(From),
+              offers(From, All),
+              imported(Import, All, Name/Arity)
+            ),
+            Predicates).
+
+imported(all, All, Predicate) :-
+    one_of(All, Predicate).
+imported(except(Others), All, Predicate) :-
+    without(All, Others, Some),
+    one_of(Some, Predicate).
+imported([Import|Imports], _, Predicate) :-
+    one_of([Import|Imports], Predicate).
+
+is_apart(File) :-
+    head(File, _, _, true).
+
+head(File, Exports, Taken, Apart) :-
+    (   head_(File, _, _, _)
+    ->  true
+    ;   setup_call_cleanup(
+            open(File, read, In, [encoding(utf8)]),
+            directives(In, Directives),
+            close(In)),
+        Directives = [module(_, Exports0)|_],
+        file_directory_name(File, Folder),
+        findall(From-Import, taken(Directives, Folder, From, Import), Taken0),
+        (   one_of(Directives, use_module(private/compiled, _))
+        ->  Apart0 = true
+        ;   Apart0 = false
+        ),
+        assertz(head_(File, Exports0, Taken0, Apart0))
+    ),
+    head_(File, Exports, Taken, Apart).
+
+%   As far as the first clause, or the first term that Prolog cannot read here
+
+directives(In, Directives) :-
+    catch(read(In, Term), error(_, _), fail),
+    nonvar(Term),
+    Term = (:- Directive),
+    !,
+    Directives = [Directive|Directives1],
+    directives(In, Directives1).
+directives(_, []).
+
+%   Each library loads `private/compiled` first if a program may load it.
+
+taken(Directives, Folder, File, Import) :-
+    one_of(Directives, Directive),
+    (   Directive = reexport(Spec),
+        Import = all
+    ;   Directive = reexport(Spec, Import)
+    ),
+    format(atom(Name), '~w/~w.pl', [Folder, Spec]),
+    absolute_file_name(Name, File).
+
+one_of([X|_], X).
+one_of([_|Xs], X) :-
+    one_of(Xs, X).
+
+without([], _, []).
+without([X|Xs], Others, Rest) :-
+    (   memberchk(X, Others)
+    ->  Rest = Rest1
+    ;   Rest = [X|Rest1]
+    ),
+    without(Xs, Others, Rest1).
+
+together([], Xs, Xs).
+together([X|Xs], Ys, [X|Zs]) :-
+    together(Xs, Ys, Zs).
