@@ -9,7 +9,7 @@ EXAMPLE   ?= obstacle_avoidance
 TESTS   = $(wildcard tests/prolog/test_*.pl tests/behavior/test_*.pl)
 LIBRARY = $(PACKSODIR)/ev3dev.$(SOEXT)
 
-.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture mutants check-all check-old check-dist playground check-playground \
+.PHONY: all setup build check check-install check-rust check-prolog check-sessions check-clients check-view check-bench check-endings check-torture check-cases mutants check-all check-night check-old check-dist playground check-playground \
         check-brick check-brick-smoke check-versions check-brick-prolog brick-prolog \
         check-site lint bench pictures doc site dist demo install clean distclean realclean
 
@@ -44,11 +44,18 @@ place:
 ifneq ($(SWIHOME)$(SWIPL_HOME_DIR),)
 check: check-install
 else
-# In minutes: a browser is waited for most of the time, so Prolog runs beside it. How
-# programs end is measured in fractions of a second, so it is alone.
-check: build check-rust
-	$(MAKE) -j2 check-prolog check-sessions check-clients check-view check-bench
-	$(MAKE) check-endings
+# What each is, how long it took and what failed are said at the end. Those that wait most of
+# the time run beside those that compute.
+check: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
+check: build
+	@tests/run.sh $(TESTS) \
+	    'Rust=$(MAKE) --no-print-directory check-rust' \
+	    'sessions=$(MAKE) --no-print-directory check-sessions' \
+	    'clients=$(MAKE) --no-print-directory check-clients' \
+	    'view in Chromium=tests/view/run.sh --chromium' \
+	    'view in Firefox=tests/view/run.sh --firefox' \
+	    'bench=$(MAKE) --no-print-directory check-bench' \
+	    'endings=$(MAKE) --no-print-directory check-endings'
 endif
 
 # Every predicate can be called, a motor and a sensor do what they should, and a robot
@@ -58,17 +65,31 @@ check-install:
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/smoke.pl </dev/null
 	@EV3DEV_PACK=. $(SWIPL) -q -f none -g main -t 'halt(1)' tests/brick/example.pl </dev/null
 
-# What takes four hours: all that is below, too. docs/checked.md says when it last
-# passed.
+# What takes longer, in 100 minutes: other Prologs, the page, the site, the emulated brick, more
+# random programs, and changes that tests should notice. docs/checked.md says when it last passed.
 check-all: lint check
 	$(MAKE) dist
-	$(MAKE) check-torture
-	$(MAKE) mutants SAMPLE=60 LEAST=70 \
+	$(MAKE) check-torture COUNT=1000
+	$(MAKE) mutants SAMPLE=40 LEAST=70 \
 	    SINCE=$$(sed -n 's/.* on commit \([0-9a-f]*\),.*/\1/p' docs/checked.md)
 	$(MAKE) check-playground
 	$(MAKE) check-site
-	$(MAKE) -k -j2 check-brick check-dist check-versions check-brick-prolog
+	$(MAKE) check-versions
+	$(MAKE) check-brick SUITE="$(ON_BRICK)"
+	$(MAKE) -k -j2 check-dist check-brick-prolog
 	@tools/checked.sh
+
+# What an emulated brick may do in another way: time, native code, endings, a long computation
+ON_BRICK = $(patsubst %,tests/%.pl,behavior/test_halt behavior/test_threads prolog/test_sim_time \
+    prolog/test_compile prolog/test_localize prolog/test_planners prolog/test_events)
+
+# What takes a night: all random programs and cases, the whole suite on the emulated brick, and
+# a larger sample of changes
+check-night: check-all
+	$(MAKE) check-torture
+	$(MAKE) check-cases
+	$(MAKE) mutants SAMPLE=240 LEAST=70
+	$(MAKE) check-brick
 
 check-rust:
 	$(CARGO) test --workspace --locked --quiet
@@ -87,7 +108,7 @@ check-sessions: build
 
 # Programs in other languages on the simulator's mount
 check-clients: build
-	@tests/clients/run.sh
+	@$(WITH_PYTHON) tests/clients/run.sh
 
 # The page of library(ev3dev/view) in a headless Chromium and in Firefox, where there are
 check-view: build
@@ -106,10 +127,13 @@ check-bench: build
 check-endings: build
 	@$(WITH_PYTHON) tests/torture/torture.py --self-test && tests/torture/torture.py --count 150
 
-# Ten thousand random programs, moves, signals, worlds, sets of rules and odd calls, 1000
-# maps, and all cases of which `make check` has a fifth
+# Random programs, of which `make check` has a hundred and fifty
 check-torture: build
-	@tests/torture/torture.py --count 10000
+	@tests/torture/torture.py --count $(or $(COUNT),10000)
+
+# Ten thousand moves, signals, worlds, sets of rules and odd calls, 1000 maps, and all cases of
+# which `make check` has a fifth
+check-cases: build
 	@LIMIT=7200 EV3DEV_TEST_SCHEDULES=1-10000 \
 	    tests/run.sh $$(grep -lE 'support/(cases|robots)' tests/*/test_*.pl)
 

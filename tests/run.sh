@@ -1,62 +1,184 @@
 #!/usr/bin/env bash
-# Runs plunit files, each in a process of its own, and counts.
+# Runs checks side by side, each in a session of its own, and sums them up.
 #
-#   tests/run.sh [FILE...]        default: all of tests/prolog and tests/behavior
+#   tests/run.sh [JOB...]         default: all of tests/prolog and tests/behavior
+#
+# A JOB is a file of plunit, or NAME=COMMAND: a command of the shell. One that took long the
+# last time is started early; target/check-times has that.
 #
 # Tests of devices run over several trees (see tests/support/trees.pl): plain
 # files, the simulator within the process, and its mount where FUSE can be had.
 # TREES leaves out those that it does not name, as in TREES="plain simulator".
 #
-# SWIPL names another Prolog, JOBS how many files run at once (default: one for
-# each processor, and one that waits). A leftover choice point or any other
-# warning fails the run (before SWI-Prolog 9 a failed test alone), and so does a
-# file that takes LIMIT seconds, 1200 by default. Hints (tests/behavior/test_hints.pl)
-# are off, as tests make many calls that fail.
+# SWIPL names another Prolog, JOBS how many run at once (default: one for each
+# processor, and two that wait). A leftover choice point or any other warning fails
+# the run (before SWI-Prolog 9 a failed test alone). So does a job of which a process
+# computes for LIMIT seconds, 1800 by default, or which does nothing at all for ten
+# minutes. No limit is about how long a job takes: that depends on the rest of the
+# machine. Hints (tests/behavior/test_hints.pl) are off, as tests make many calls that
+# fail.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 export SWIPL=${SWIPL:-swipl}
+times=target/check-times
 logs=$(mktemp -d)
-trap 'rm -rf "$logs"' EXIT
 
 main() {
+    local jobs running=0 number=0 job
     [ $# -gt 0 ] || set -- tests/{prolog,behavior}/test_*.pl
-    # The large ones first, so that nothing is left to wait for at the end
-    find "$@" -printf "%s %p\n" | sort -rn | cut -d " " -f 2 |
-        xargs -P "${JOBS:-$(($(nproc) + 1))}" -L 1 "$0" --one "$logs" || true
-    sed -n '/^skipped: /p' "$logs"/*.log | sort -u
-    sed 's/^/FAILED: /' "$logs/failed" 2>/dev/null || true
-    sed -nE 's/^% All ([0-9]+) (\(\+[0-9]+ sub-tests\) )?tests passed.*/\1/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
-        awk '{ tests += $1 } END { print tests+0 " tests passed" }'
-    echo "$(lines "$logs/passed") files passed, $(lines "$logs/failed") failed"
-    [ "$(lines "$logs/passed")" = $# ]
-}
-
-# one FILE: its output when it is over. Newer versions of plunit take a warning that a test
-# expects for one of its faults, unless they print what a test prints.
-one() {
-    local log options
-    options="set_prolog_flag(ev3dev_hints,off),catch(set_test_options([output(always)]),_,true)"
-    log=$logs/$(basename "$1" .pl).log
+    readarray -t jobs < <(by_length "$@")
+    trap 'end_all; rm -rf "$logs"' EXIT
+    trap 'exit 130' INT TERM HUP
+    watch_idle &
+    watcher=$!
     SECONDS=0
-    if timeout "${LIMIT:-1200}" "$SWIPL" --on-warning=status --on-error=status \
-        -g "$options,(run_tests->true;halt(1))" -t halt "$1" </dev/null >"$log" 2>&1; then
-        echo "$1" >>"$logs/passed"
-    else
-        echo "$1" >>"$logs/failed"
-    fi
-    printf '== %s, %s s\n%s\n' "$1" "$SECONDS" "$(cat "$log")"
+    for job in "${jobs[@]}"; do
+        if [ $running -ge "${JOBS:-$(($(nproc) + 2))}" ]; then
+            wait -n -p ended || true
+            [ "$ended" = $watcher ] || running=$((running - 1))
+        fi
+        number=$((number + 1))
+        one $number "$job" &
+        running=$((running + 1))
+    done
+    while [ "$(find "$logs" -name '*.result' | wc -l)" -lt $number ]; do
+        wait -n || true
+    done
+    summary "${#jobs[@]}"
 }
 
-lines() {
-    if [ -e "$1" ]; then wc -l <"$1"; else echo 0; fi
+# by_length JOB...: those that took longest come first, unknown ones before them, the large
+# files first
+by_length() {
+    local job size
+    for job; do
+        size=$(stat -c %s -- "$job" 2>/dev/null || echo 1000000000)
+        printf '%s\t%s\n' "$size" "$job"
+    done | awk -F '\t' -v times="$times" '
+        BEGIN { while ((getline <times) > 0) took[$2] = $1 }
+        { known = ($2 in took)
+          print (known ? took[$2] : 1e6) "\t" $1 "\t" $2 }' |
+        sort -t $'\t' -k 1,1rn -k 2,2rn | cut -f 3
 }
 
-if [ "${1:-}" = --one ]; then
+# one NUMBER JOB: its output when it is over
+one() {
+    local base=$logs/$1 job=$2 name=${2%%=*} how=passed took
+    begin "$job" "$base" || how=failed
+    took=$(cat "$base.took" 2>/dev/null || echo "0 0")
+    [ $how = failed ] || ! only_skipped "$base.log" || how=skipped
+    {
+        printf '== %s: %s, %s s, %s s of a processor\n' "$name" $how ${took}
+        cat "$base.log"
+    }
+    printf '%s\t%s\t%s\t%s\n' $how ${took} "$name" >"$base.new"
+    mv "$base.new" "$base.result"
+}
+
+# begin JOB BASE: runs it in a session of its own, whose number is in BASE.session
+begin() {
+    local TIMEFORMAT="%1R %1U+%1S"
+    # shellcheck disable=SC2016
+    { time setsid --wait bash -c '
+        echo $$ >"$2.session"
+        ulimit -S -t "${LIMIT:-1800}"
+        case $1 in
+        *=*) eval "${1#*=}" ;;
+        *) exec "$SWIPL" --on-warning=status --on-error=status -g "$3" -t halt "$1" ;;
+        esac' -- "$1" "$2" "$plunit" </dev/null >"$2.log" 2>&1; } 2>"$2.time" && local how=0 || local how=$?
+    rm -f "$2.session"
+    tail -n 1 "$2.time" | awk '{ split($2, cpu, "+"); print $1, cpu[1] + cpu[2] }' >"$2.took"
+    return $how
+}
+
+# Newer versions of plunit take a warning that a test expects for one of its faults, unless
+# they print what a test prints.
+plunit="set_prolog_flag(ev3dev_hints,off),catch(set_test_options([output(always)]),_,true),(run_tests->true;halt(1))"
+
+# A job that says nothing but why it did nothing
+only_skipped() {
+    [ -s "$1" ] && ! grep -qv '^skipped: ' "$1"
+}
+
+# A job none of whose processes has computed for ten minutes waits for what will never come
+watch_idle() {
     trap - EXIT
-    rm -r "$logs"
-    logs=$2
-    one "$3"
-else
-    main "$@"
-fi
+    local -A before=() looks=()
+    local session of now
+    while sleep 15; do
+        for session in "$logs"/*.session; do
+            [ -e "$session" ] && of=$(cat "$session") && [ -n "$of" ] || continue
+            now=$(ticks "$of")
+            if [ "$now" = "${before[$of]:-}" ]; then
+                looks[$of]=$((${looks[$of]} + 1))
+            else
+                before[$of]=$now looks[$of]=0
+            fi
+            if [ "${looks[$of]}" -ge 40 ]; then
+                echo "ERROR: ended, as it has done nothing for ten minutes" >>"${session%.session}.log"
+                kill -KILL -- "-$of" || true
+            fi
+        done
+    done
+}
+
+# ticks SESSION: processor time of all its processes
+ticks() {
+    # shellcheck disable=SC2016
+    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/.*) //' |
+        awk -v session="$1" '$4 == session { all += $12 + $13 + $14 + $15 } END { print all+0 }'
+}
+
+end_all() {
+    local session
+    kill $watcher 2>/dev/null || true
+    for session in "$logs"/*.session; do
+        [ ! -e "$session" ] || kill -KILL -- "-$(cat "$session")" 2>/dev/null || true
+    done
+}
+
+summary() {
+    local how took cpu name base
+    echo "== Summary"
+    for base in "$logs"/*.result; do
+        base=${base%.result}
+        IFS=$'\t' read -r how took cpu name <"$base.result"
+        [ "$how" = failed ] || continue
+        echo "FAILED: $name"
+        first_lines "$base.log" | sed 's/^/    /'
+    done
+    cat "$logs"/*.log | sed -n 's/^\(skipped: .*\)/\1/p' | sort -u
+    remember
+    echo "longest: $(cat "$logs"/*.result | sort -t $'\t' -k 2,2rn | head -n 6 |
+        awk -F '\t' '{ printf "%s%s %d s", sep, $4, $2; sep = ", " }')"
+    sed -nE 's/^% All ([0-9]+) (\(\+[0-9]+ sub-tests\) )?tests passed.*/\1/p; s/^% [Tt]est passed.*/1/p' "$logs"/*.log |
+        awk '{ tests += $1 } END { print tests+0 " tests of Prolog passed" }'
+    cat "$logs"/*.result | awk -F '\t' -v took=$SECONDS '
+        { count[$1]++; cpu += $3 }
+        END { printf "%d s, %d s of processors\n%d passed, %d failed, %d skipped\n",
+                  took, cpu, count["passed"], count["failed"], count["skipped"] }'
+    ! grep -q '^failed' "$logs"/*.result
+}
+
+# first_lines LOG: where it goes wrong, or else its end
+first_lines() {
+    local lines
+    lines=$(grep -nEm 1 '(^|[^a-z])(ERROR|Warning|FAILED|not ok|panicked|error)' "$1" | cut -d : -f 1)
+    if [ -n "$lines" ]; then
+        tail -n "+$lines" "$1" | head -n 8
+    else
+        tail -n 8 "$1"
+    fi
+}
+
+remember() {
+    mkdir -p target
+    touch "$times"
+    cat "$logs"/*.result "$times" |
+        awk -F '\t' 'NF == 4 && !seen[$4]++ { print $2 "\t" $4 }
+                     NF == 2 && !seen[$2]++' >"$logs/times"
+    cp "$logs/times" "$times"
+}
+
+main "$@"

@@ -14,7 +14,10 @@ for program in node npm; do
 done
 [ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ] || { echo "node is older than 18"; exit 1; }
 
+# Two checks that run at the same time install them once
 mkdir -p "$modules"
+exec 9>"$modules/lock"
+flock 9
 if ! cmp -s "$from/package-lock.json" "$modules/installed.json"; then
     cp "$from/package.json" "$from/package-lock.json" "$modules/"
     npm ci --prefix "$modules" --no-audit --no-fund --silent 2>"$modules/npm.log" ||

@@ -13,13 +13,14 @@
 #                       in no package. They need the packages clib, plunit, sgml,
 #                       http and archive; pack_install of 7.2.3 ssl, too.
 #              SUITE    the test files (default: those in tests/prolog and tests/behavior)
+#              JOBS     how many of them run at once (default: one for each
+#                       processor, and two that wait)
 
 set -euo pipefail
 # shellcheck source=tools/common.sh
 source "$(dirname "$0")/common.sh"
 
 pc=(8.2.4 9.0.4 9.2.9)
-passed=0 failed=0
 
 main() {
     local name
@@ -33,6 +34,7 @@ main() {
     fi
     work=$(mktemp -d)
     trap 'rm -rf "$work"' EXIT
+    touch "$work/results"
     unset EV3DEV_SYSFS EV3DEV_DEV TREES RUST_BACKTRACE
     # It is the Prologs that are tried here. Without a floating point unit, and
     # emulated, geometry takes two hundred times as long.
@@ -41,8 +43,8 @@ main() {
         [[ $name != *armel ]] || EV3DEV_TEST_PERCENT=2
         try "$name"
     done
-    echo "$passed passed, $failed failed"
-    [[ $failed == 0 ]]
+    echo "$(grep -c passed "$work/results") passed, $(grep -c failed "$work/results") failed"
+    ! grep -q failed "$work/results"
 }
 
 try() {
@@ -74,13 +76,19 @@ try() {
     step "$name: an example" nothing_to_build_with \
         -g main -t 'halt(1)' "$root/tests/brick/example.pl"
     cd "$tree/ev3dev"
-    for file in ${SUITE:-tests/prolog/test_*.pl tests/behavior/test_*.pl}; do
-        step "$name: $file" run_swipl \
-            -g 'set_prolog_flag(ev3dev_hints,off),(run_tests->halt;halt(1))' "$file"
-    done
-    cd "$root"
     # Emulated, a terminal is slow, and its keys are not those of a brick
-    [[ $name == *arm* ]] || step "$name: sessions" sessions
+    [[ $name == *arm* ]] || step "$name: sessions" sessions &
+    # The large ones first, so that nothing is left to wait for at the end
+    # shellcheck disable=SC2046,SC2086
+    for file in $(ls -S -- ${SUITE:-tests/prolog/test_*.pl tests/behavior/test_*.pl}); do
+        while [[ $(jobs -rp | wc -l) -ge ${JOBS:-$(($(nproc) + 2))} ]]; do
+            wait -n
+        done
+        step "$name: $file" run_swipl \
+            -g 'set_prolog_flag(ev3dev_hints,off),(run_tests->halt;halt(1))' "$file" &
+    done
+    wait
+    cd "$root"
 }
 
 # What a person types and the papers show, at a terminal of this Prolog, with the pack's
@@ -121,15 +129,15 @@ nothing_to_build_with() {
 
 # step TEXT COMMAND...: silent but for its last line, unless it goes wrong
 step() {
-    local text=$1 log=$work/log
+    local text=$1 log
+    log=$(mktemp "$work/log.XXXXXX")
     shift
     if "$@" </dev/null >"$log" 2>&1 && ! grep -qE '^(Warning|ERROR)' "$log"; then
-        passed=$((passed + 1))
+        echo passed >>"$work/results"
         echo "ok      $text"
     else
-        failed=$((failed + 1))
-        echo "FAILED  $text"
-        sed 's/^/        /' "$log"
+        echo failed >>"$work/results"
+        printf 'FAILED  %s\n%s\n' "$text" "$(sed 's/^/        /' "$log")"
     fi
 }
 

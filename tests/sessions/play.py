@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plays sessions: what a person types at a terminal, and what it answers.
 
-    tests/sessions/play.py [--show] [FILE...]    default: tests/sessions/*.txt and the papers
+    tests/sessions/play.py [-j N] [--show] [FILE...]    default: tests/sessions/*.txt and the papers
     tests/sessions/play.py --renew FILE...       writes into the sessions what came
 
 A session is a text as one sees it on the screen:
@@ -55,6 +55,8 @@ a machine without network, too.
 
 import argparse
 import fcntl
+import functools
+import multiprocessing
 import os
 import pty
 import re
@@ -596,6 +598,8 @@ def papers():
 def main():
     parser = argparse.ArgumentParser(description="Plays sessions.")
     parser.add_argument("--show", action="store_true", help="print what comes")
+    parser.add_argument("-j", type=int, default=4 * os.cpu_count(), dest="jobs", metavar="N",
+                        help="so many files at once, as a terminal waits most of the time")
     parser.add_argument("--renew", action="store_true", help="write what comes into the sessions")
     parser.add_argument("file", nargs="*", type=Path)
     arguments = parser.parse_args()
@@ -608,14 +612,16 @@ def main():
     failed = stale()
     passed = typed = 0
     files = arguments.file or sorted({*HERE.glob("*.txt")} - {HERE / "elsewhere.txt"}) + papers()
+    files.sort(key=lambda path: -path.stat().st_size)
+    playing = functools.partial(play, home=home, show=arguments.show, renew=arguments.renew)
     try:
-        for path in files:
-            count, wrong = play(path, home, arguments.show, arguments.renew)
-            if count or wrong:
-                print(f"FAILED {wrong}" if wrong else f"ok     {path.name}: {count} times typed", flush=True)
-            failed += wrong is not None
-            passed += count > 0 and wrong is None
-            typed += count
+        with multiprocessing.Pool(1 if arguments.show else arguments.jobs) as pool:
+            for path, (count, wrong) in zip(files, pool.imap(playing, files, chunksize=1)):
+                if count or wrong:
+                    print(f"FAILED {wrong}" if wrong else f"ok     {path.name}: {count} times typed", flush=True)
+                failed += wrong is not None
+                passed += count > 0 and wrong is None
+                typed += count
     finally:
         home.remove()
     print(f"{typed} lines and keys typed in SWI-Prolog {'.'.join(map(str, home.version))}")

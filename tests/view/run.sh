@@ -2,7 +2,7 @@
 # The page of library(ev3dev/view), driven in a headless Chromium; and what the
 # tests name IN_FIREFOX in Firefox, which takes a minute.
 #
-#   tests/view/run.sh [--pictures | --figures | --firefox] [ARGUMENT...]
+#   tests/view/run.sh [--pictures | --figures | --chromium | --firefox] [ARGUMENT...]
 #
 # Arguments go to `node --test`, as --test-name-pattern=STOP, in Chromium alone;
 # with --firefox in Firefox alone. With --pictures it makes the pictures of
@@ -37,6 +37,7 @@ export CHROMIUM=$browser EV3DEV_NODE_MODULES=$PWD/$modules
 case ${1:-} in
     --pictures) exec node tests/view/pictures.mjs "${@:2}" ;;
     --figures) exec node tests/view/figures.mjs "${@:2}" ;;
+    --chromium) exec node --test --test-reporter=spec "${@:2}" tests/view/view.test.mjs ;;
     --firefox)
         in_firefox "${@:2}"
         exit

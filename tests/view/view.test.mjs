@@ -27,7 +27,7 @@ const free = (page) => async () => {
     in its own way. All of it has one page in front and no finger, which BiDi does not have. */
 const IN_FIREFOX = new RegExp(['is drawn where', 'is seen to move', 'is dragged by', 'shows keys', 'lights and screen', 'loses a wire',
   'boxes are added', 'key Delete', 'is measured', 'is followed', 'by the arrow keys', 'beside it', 'by Escape', 'by steps', 'never ends$', 'alone, pressed',
-  'a program names', 'held, read off', 'what the program prints', 'chosen by part', 'as at the toplevel', 'show that they run', 'nothing is wrong for axe',
+  'a program names', 'held, read off', 'what the program prints', 'chosen by part', 'as at the toplevel', 'show that they run', 'axe on a screen, light', 'axe on a phone, dark',
   'by its files', 'a foreign Host', 'another token'].join('|'));
 
 let wanted = [];
