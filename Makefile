@@ -47,15 +47,18 @@ else
 # What each is, how long it took and what failed are said at the end. Those that wait most of
 # the time run beside those that compute.
 check: export EV3DEV_TEST_PERCENT := $(or $(EV3DEV_TEST_PERCENT),20)
+# Not $(MAKE) itself, as `make -n check` would run it
+AGAIN = $(MAKE) --no-print-directory
+
 check: build
 	@tests/run.sh $(TESTS) \
-	    'Rust=$(MAKE) --no-print-directory check-rust' \
-	    'sessions=$(MAKE) --no-print-directory check-sessions' \
-	    'clients=$(MAKE) --no-print-directory check-clients' \
+	    'Rust=$(AGAIN) check-rust' \
+	    'sessions=$(AGAIN) check-sessions' \
+	    'clients=$(AGAIN) check-clients' \
 	    'view in Chromium=tests/view/run.sh --chromium' \
 	    'view in Firefox=tests/view/run.sh --firefox' \
-	    'bench=$(MAKE) --no-print-directory check-bench' \
-	    'endings=$(MAKE) --no-print-directory check-endings'
+	    'bench=$(AGAIN) check-bench' \
+	    'endings=$(AGAIN) check-endings'
 endif
 
 # Every predicate can be called, a motor and a sensor do what they should, and a robot

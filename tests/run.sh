@@ -108,7 +108,8 @@ watch_idle() {
     local session of now
     while sleep 15; do
         for session in "$logs"/*.session; do
-            [ -e "$session" ] && of=$(cat "$session") && [ -n "$of" ] || continue
+            of=$(cat "$session" 2>/dev/null || true)
+            [ -n "$of" ] || continue
             now=$(ticks "$of")
             if [ "$now" = "${before[$of]:-}" ]; then
                 looks[$of]=$((${looks[$of]} + 1))
@@ -126,7 +127,7 @@ watch_idle() {
 # ticks SESSION: processor time of all its processes
 ticks() {
     # shellcheck disable=SC2016
-    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/.*) //' |
+    { cat /proc/[0-9]*/stat 2>/dev/null || true; } | sed 's/.*) //' |
         awk -v session="$1" '$4 == session { all += $12 + $13 + $14 + $15 } END { print all+0 }'
 }
 
