@@ -147,7 +147,7 @@ summary() {
         IFS=$'\t' read -r how took cpu name <"$base.result"
         [ "$how" = failed ] || continue
         echo "FAILED: $name"
-        first_lines "$base.log" | sed 's/^/    /'
+        first_lines "$base.log" | cut -c 1-160 | sed 's/^/    /'
     done
     cat "$logs"/*.log | sed -n 's/^\(skipped: .*\)/\1/p' | sort -u
     remember
