@@ -22,6 +22,11 @@
    ),
    assertz(user:file_search_path(ev3dev_pack, Pack)).
 :- use_module(library(ev3dev)).
+% The pack has said that its native library is missing.
+:- (   current_module(ev3dev_no_library)
+   ->  halt(1)
+   ;   true
+   ).
 :- use_module(library(ev3dev/sim)).
 :- use_module(library(ev3dev/private/command_line)).
 :- use_module(library(ev3dev/private/last_goal)).

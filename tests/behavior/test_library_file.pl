@@ -1,8 +1,14 @@
 :- module(test_library_file, []).
 :- asserta(user:file_search_path(library, prolog)).
 :- use_module(library(ev3dev/private/library_file)).
+:- use_module('../support/child', [swipl/1]).
+:- use_module('../support/libraries', [public_library/1]).
+:- use_module(library(apply)).
 :- use_module(library(filesex)).
+:- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
 
 /** <module> Tests: the library that suits, among some that do not
 
@@ -54,6 +60,91 @@ test(names_what_there_is_if_none_suits) :-
     !.
 
 :- end_tests(library_file).
+
+% As after a pack_install that found no Rust
+:- begin_tests(no_library, [setup(make_copy), cleanup(delete_copy)]).
+
+test(each_public_library_says_so_once,
+     [ forall(public_library(Library)), true(Wrong == []) ]) :-
+    load_goal(Library, Goal),
+    run(Goal, Output),
+    findall(Line, ( member(Line, Output), \+ says_so(Line) ), Wrong0),
+    (   length(Output, Count), Count =< 2
+    ->  Wrong = Wrong0
+    ;   Wrong = Output
+    ).
+test(it_says_what_to_do, true(Missing == [])) :-
+    load_goal(ev3dev, Goal),
+    run(Goal, Output),
+    atomic_list_concat(Output, Text),
+    findall(Word,
+            ( member(Word, ['https://rustup.rs', make, 'binary pack',
+                            'docs/brick.md']),
+              \+ sub_atom(Text, _, _, _, Word) ),
+            Missing).
+test(a_call_says_so_too, true(Output == ["go_cm/2", "pose/3"])) :-
+    run("use_module(library(ev3dev)), use_module(library(ev3dev/drive)),
+         forall(member(G, [go_cm(30, 20), pose(_, _, _)]),
+                catch(G, error(existence_error(foreign_library, ev3dev), _),
+                      ( functor(G, N, A), format('~q~n', [N/A]) )))", Output0),
+    findall(Line, ( member(Line, Output0), \+ says_so(Line) ), Output).
+test(the_app_ends, [condition(exists_file('app/ev3dev.pl')), true(Wrong == [])]) :-
+    copy(Copy),
+    atom_concat(Copy, '/app/ev3dev.pl', File),
+    run([File, view], Output),
+    findall(Line, ( member(Line, Output), \+ says_so(Line) ), Wrong).
+
+:- end_tests(no_library).
+
+:- dynamic copy/1.
+
+make_copy :-
+    tmp_file(no_library, Copy),
+    make_directory(Copy),
+    findall(file(Folder),
+            ( member(Folder, [prolog, app]), exists_directory(Folder) ),
+            Folders),
+    append([['-R'], Folders, [file(Copy)]], Arguments),
+    process_create(path(cp), Arguments, [process(Pid)]),
+    process_wait(Pid, exit(0)),
+    assertz(copy(Copy)).
+
+delete_copy :-
+    retract(copy(Copy)),
+    delete_directory_and_contents(Copy).
+
+load_goal(ev3dev, "use_module(library(ev3dev))") :-
+    !.
+load_goal(Library, Goal) :-
+    format(string(Goal), "use_module(library(ev3dev/~w))", [Library]).
+
+%   Two lines of one message
+
+says_so(Line) :-
+    member(Part, ["library_file.pl:", "cannot be used"]),
+    sub_string(Line, _, _, _, Part),
+    !.
+
+run(What, Lines) :-
+    copy(Copy),
+    swipl(Program),
+    (   is_list(What)
+    ->  Arguments = What
+    ;   Arguments = ['-g', What, '-t', halt]
+    ),
+    atom_concat(Copy, '/prolog', Library),
+    atom_concat('library=', Library, Path),
+    process_create(path(env), [Program, '-q', '-f', none, '-p', Path|Arguments],
+                   [ process(Pid), stdin(null), stdout(pipe(Out)),
+                     stderr(pipe(Error)) ]),
+    read_string(Error, _, Errors),
+    read_string(Out, _, Printed),
+    close(Error),
+    close(Out),
+    process_wait(Pid, _),
+    string_concat(Errors, Printed, Text),
+    split_string(Text, "\n", " \t", Lines0),
+    exclude(==(""), Lines0, Lines).
 
 own_kind(Kind) :-
     ev3dev_library_file:program_kind(Kind),

@@ -169,11 +169,14 @@ no_suitable_file(Pack) :-
             ( built_file(Pack, File) ; shipped_file(Pack, File) ),
             Files),
     (   Files == []
-    ->  Found = 'none: run "make" there, or install the binary pack'
+    ->  Found = 'none'
     ;   atomic_list_concat(Files, ', ', Found)
     ),
     format(atom(Message),
-           '~w has no library for this machine (~w, ~w); there is ~w',
+           '~w has no native library for this machine (~w, ~w); there is \c
+            ~w. Install Rust from https://rustup.rs and run "make" there, or \c
+            install the binary pack, which "make dist" makes on a PC that \c
+            has Rust (docs/brick.md)',
            [Pack, Arch, Text, Found]),
     throw(error(existence_error(foreign_library, ev3dev),
                 context(ev3dev_library_file:library_file/1, Message))).
@@ -193,5 +196,23 @@ machine_text(62, _, 'x86-64').
 machine_text(183, _, 'AArch64').
 machine_text(243, _, 'RISC-V').
 
+%   Without a library nothing of the pack works: one message says so, and not
+%   each file that needs it.
+
+load_or_say :-
+    catch(load_library, error(existence_error(Kind, Name), Context), true),
+    (   var(Kind)
+    ->  true
+    ;   private_file(no_library, File),
+        load_files(File, [if(not_loaded), imports([])]),
+        ev3dev_no_library:without_library(
+            error(existence_error(Kind, Name), Context))
+    ).
+
+private_file(Name, File) :-
+    module_property(ev3dev_library_file, file(This)),
+    file_directory_name(This, Private),
+    atomic_list_concat([Private, /, Name], File).
+
 % This directive stands last because it needs all predicates above.
-:- initialization(load_library, now).
+:- initialization(load_or_say, now).
