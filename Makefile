@@ -158,6 +158,8 @@ lint: build
 	tools/layers.py
 	tools/papers.py --self-test
 	tools/papers.py
+	@if command -v cargo-deny >/dev/null; then $(CARGO) deny --locked check bans licenses sources; \
+	    else echo "skipped: cargo-deny is not installed, so deny.toml is not checked"; fi
 	$(SWIPL) -g main -t 'halt(1)' tests/support/lint.pl
 	$(SWIPL) -g main -t 'halt(1)' tests/brick/old.pl
 	@! command -v shellcheck >/dev/null || shellcheck -x tools/*.sh tools/zig-cc tests/*.sh tests/*/*.sh
