@@ -147,7 +147,7 @@ order and in several files.
 %       no_step(Program) if nothing at all was, `stopped` by abort/0,
 %       `timeout`, `limit`, failed(Action), or exception(Error). Far says how
 %       far the search came: [steps(N), depth(D), inferences(I), seconds(S)];
-%       it had tried N steps, at most D in a row.
+%       it had tried N steps, at most D in a row, and computed for S seconds.
 %     - history(-History)
 %       The history, newest first: actions, sensing results e(Fluent, Value)
 %       or e(Action, Outcome), failed(Action) and interrupted(Action).
@@ -160,7 +160,7 @@ order and in several files.
 %       End after that time, also in the middle of a wait or a search. Default
 %       is `infinite`. The time is that of the robot or the simulation, if
 %       there is one. On a virtual clock no time passes during a search; then
-%       one step may take that long by the wall clock.
+%       one step may compute for that long.
 %     - initial(+History)
 %       What is taken to have happened before. Default is [].
 %     - on_failed(+What)

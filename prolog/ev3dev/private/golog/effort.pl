@@ -14,11 +14,12 @@
 
 An effort counts the steps of a search, and knows its limits:
 
-    effort(Id, Steps, Deepest, Limits, Wall0, Inferences0, Trial, Watch,
+    effort(Id, Steps, Deepest, Limits, Cpu0, Inferences0, Trial, Watch,
            Outer, Asked)
 
-A limit is steps(N), inferences(N) or seconds(S), by the wall clock. At one of
-them '$golog_gave_up'(Id, Limit) is thrown. A search within another one counts
+A limit is steps(N), inferences(N) or seconds(S). Seconds are those in which
+the thread computes, so another program cannot use them up. At a limit
+'$golog_gave_up'(Id, Limit) is thrown. A search within another one counts
 for both. Watch is watch(Closure, Record, Next): of an online run, what else
 may end it. From the time Next on call(Closure, Record, Effort) is called;
 then again after 15 ms. Trial is true if the search tries actions in the
@@ -34,10 +35,10 @@ changed in place, also when a search goes back.
 %   words of its context.
 
 effort(Limits, Options, Outer, Effort) :-
-    Effort = effort(Id, 0, 0, Limits, Wall, Inferences, Trial, Watch, Outer,
+    Effort = effort(Id, 0, 0, Limits, Cpu, Inferences, Trial, Watch, Outer,
                     false),
     flag(ev3dev_golog_effort, Id, Id+1),
-    get_time(Wall),
+    statistics(cputime, Cpu),
     statistics(inferences, Inferences),
     (   Outer == none
     ->  Watch = none,
@@ -55,9 +56,10 @@ effort(Limits, Options, Outer, Effort) :-
 %   Effort is that of a step of an online run.
 
 watched_effort(Watch, Record, Effort) :-
-    get_time(Wall),
-    next_look(Wall, Next),
-    Effort = effort(none, 0, 0, [], Wall, 0, false,
+    get_time(Now),
+    next_look(Now, Next),
+    statistics(cputime, Cpu),
+    Effort = effort(none, 0, 0, [], Cpu, 0, false,
                     watch(Watch, Record, Next), none, false).
 
 next_look(Now, Next) :-
@@ -129,12 +131,12 @@ is_reached(seconds(Most), Effort) :-
     spent(Effort, _, Seconds),
     Seconds >= Most.
 
-spent(effort(_, _, _, _, Wall0, Inferences0, _, _, _, _), Inferences,
+spent(effort(_, _, _, _, Cpu0, Inferences0, _, _, _, _), Inferences,
       Seconds) :-
     statistics(inferences, Inferences1),
     Inferences is Inferences1-Inferences0,
-    get_time(Wall),
-    Seconds is Wall-Wall0.
+    statistics(cputime, Cpu),
+    Seconds is Cpu-Cpu0.
 
 looked(Watch, Effort) :-
     Watch = watch(Closure, Record, Next0),

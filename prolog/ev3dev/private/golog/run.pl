@@ -240,7 +240,7 @@ cycle(State0, Steps0, R0, Reason) :-
 
 watching(Number, S, R0, R) :-
     R0 = r(X0, Agent, Settings, Deadline, Again),
-    get_time(Now),
+    statistics(cputime, Now),
     Watch = watched(S, R0, began(Now, none)),
     recording(Number, ev3dev_golog_run:Watch, X0, X),
     R = r(X, Agent, Settings, Deadline, Again).
@@ -340,7 +340,7 @@ performed_or_left(Left, E, S, State0, R, State, Next) :-
 %   watched(+Situation, +Run, +Began, +Record, +Effort): the step that is
 %   looked for in Situation is given up if the time of the run is up, or if
 %   something has happened meanwhile. It is called every 15 ms, see effort.pl.
-%   Began is began(Wall, Seconds): on the wall, and by the clock of the robot
+%   Began is began(Cpu, Seconds): what it had computed, and the robot's clock
 %   when this was called last, in place.
 %
 %   On a virtual clock no time passes while a program computes, so that of the
@@ -371,11 +371,11 @@ is_over(R, _, Effort) :-
     \+ in_trial(Effort),
     is_over(R),
     !.
-is_over(r(_, _, Settings, _, _), began(Wall0, _), _) :-
+is_over(r(_, _, Settings, _, _), began(Cpu0, _), _) :-
     arg(6, Settings, Timeout),
     Timeout \== infinite,
-    get_time(Wall),
-    Wall-Wall0 >= Timeout.
+    statistics(cputime, Cpu),
+    Cpu-Cpu0 >= Timeout.
 
 seen_meanwhile(agent(M, Robot0, Queue, Device), Began, Effort, New, All) :-
     (   Robot0 == robot,
