@@ -76,7 +76,7 @@ await idle(page);
 const seconds = async (goal) => {
   await page.evaluate(() => window.ev3dev.machine.send('pace max'));
   await page.evaluate((text) => { window.ev3dev.machine.send(`goal 900 get_time(A), (${text}), get_time(B), T is B - A, format("~3f s~n", [T])`); }, goal);
-  const [, line] = await until(() => page.evaluate(() => window.ev3dev.state().said.filter(([kind, text]) => kind === 'output' && / s$/.test(text)).pop()), goal, 120);
+  const [, line] = await until(() => page.evaluate(() => window.ev3dev.state().said.filter(([kind, text]) => kind === 'output' && / s$/.test(text)).pop()), goal);
   await page.click('#said-clear');
   return line;
 };

@@ -16,7 +16,7 @@ const take = async (name) => keep(browser, await page.screenshot({ encoding: 'ba
 
 await until(async () => (await state()).open && await time() !== null, 'the robot');
 await page.click('#run');
-await until(async () => await time() > 14, 'some seconds', 60);
+await until(async () => await time() > 14, 'some seconds');
 await take('playground');
 
 await page.click('#run');

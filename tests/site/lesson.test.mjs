@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { after, before, describe, test } from 'node:test';
-import { browse, home, until, violations } from '../view/session.mjs';
+import { browse, home, patient, until, violations } from '../view/session.mjs';
 
 const site = path.join(home, 'dist/site');
 let browser;
@@ -23,7 +23,7 @@ after(async () => {
 
 /** A page of the site, and what it asks of others. */
 async function open(name) {
-  const page = await browser.newPage();
+  const page = patient(await browser.newPage());
   page.asked = [];
   page.errors = [];
   page.on('request', (request) => {

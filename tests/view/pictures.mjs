@@ -6,7 +6,7 @@ import { keep } from './keep.mjs';
 /** Runs an example for simulated seconds at once, and then on as at x1. */
 async function runs(session, page, goal, seconds) {
   session.type(`sim_at(${seconds}, ev3dev_native:view_pace_(1)), (${goal})`);
-  await shows(page, (s) => s.time > seconds + 1.5, `${seconds} s of ${goal}`, 120);
+  await shows(page, (s) => s.time > seconds + 1.5, `${seconds} s of ${goal}`);
 }
 
 const PICTURES = [

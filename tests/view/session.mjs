@@ -11,13 +11,17 @@ const require = createRequire(`${process.env.EV3DEV_NODE_MODULES}/`);
 const puppeteer = require('puppeteer-core');
 export const axePath = require.resolve('axe-core/axe.min.js');
 
-/** Waits until `ask` answers something true; the tests bound no time but this. */
-export async function until(ask, what, seconds = 20) {
-  const end = Date.now() + 1000 * seconds;
+/** The tests bound no time but this, in ms: what comes later does not come, or the machine is
+    much too busy. */
+const GUARD = 300_000;
+
+/** Waits until `ask` answers something true. */
+export async function until(ask, what) {
+  const end = Date.now() + GUARD;
   for (;;) {
     const answer = await ask();
     if (answer) return answer;
-    if (Date.now() > end) throw new Error(`it did not come: ${what}`);
+    if (Date.now() > end) throw new Error(`it did not come in ${GUARD / 60_000} minutes, or the machine was too busy: ${what}`);
     await new Promise((resolve) => { setTimeout(resolve, 20); });
   }
 }
@@ -51,14 +55,14 @@ export class Session {
   }
 
   /** Types a query and waits for its end; answers what was printed. */
-  async ask(query, seconds = 30) {
+  async ask(query) {
     this.asked += 1;
     const [begin, end] = [`<<${this.asked}>>`, `<</${this.asked}>>`];
     const from = this.output.length;
     // The marks are no output of the program.
     const mark = (text) => `flush_output, format(user_error, "${text}", [${this.asked}])`;
     this.type(`${mark('~n<<~d>>')}, ( catch((${query}), E, (print_message(error, E), fail)) -> true ; write(failed) ), ${mark('<</~d>>~n')}`);
-    await until(() => this.output.indexOf(end, from) >= 0, `the end of ${query} in ${this.output.slice(from)}`, seconds);
+    await until(() => this.output.indexOf(end, from) >= 0, `the end of ${query} in ${this.output.slice(from)}`);
     const start = this.output.indexOf(begin, from) + begin.length;
     return this.output.slice(start, this.output.indexOf(end, from));
   }
@@ -83,7 +87,7 @@ export class Session {
 
   async end() {
     this.prolog.stdin.end('halt.\n');
-    const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, 5000, false); })]);
+    const ended = await Promise.race([this.ended.then(() => true), new Promise((resolve) => { setTimeout(resolve, GUARD, false); })]);
     if (!ended) this.prolog.kill('SIGKILL');
     await this.ended;
     sessions.delete(this);
@@ -95,17 +99,25 @@ export const isFirefox = Boolean(process.env.FIREFOX);
 
 /** The colors matter to Firefox only: WebDriver BiDi cannot say which one page has. */
 export async function browse(scheme = 'light') {
-  if (isFirefox) return puppeteer.launch({ browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': scheme === 'light' ? 1 : 0 } });
+  // puppeteer's own limits are 30 s to start, 180 s for an answer
+  const patience = { timeout: GUARD, protocolTimeout: GUARD };
+  if (isFirefox) return puppeteer.launch({ ...patience, browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, extraPrefsFirefox: { 'layout.css.prefers-color-scheme.content-override': scheme === 'light' ? 1 : 0 } });
   return puppeteer.launch({
-    executablePath: process.env.CHROMIUM, headless: true,
+    ...patience, executablePath: process.env.CHROMIUM, headless: true,
     args: [...(process.getuid?.() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--font-render-hinting=none'],
   });
+}
+
+/** A page whose own limits are those of the tests. */
+export function patient(page) {
+  page.setDefaultTimeout(GUARD);
+  return page;
 }
 
 /** A page at an address; keeps what its console said and what it asked for. What the program
     says comes `late`, by so many ms. */
 export async function open(browser, url, { width = 1280, height = 800, scheme = 'light', phone = false, scale = 1, late = 0 } = {}) {
-  const page = await browser.newPage();
+  const page = patient(await browser.newPage());
   if (late) await page.evaluateOnNewDocument(comesLate, late);
   page.said = [];
   page.requests = [];
@@ -131,12 +143,12 @@ function comesLate(time) {
 export const state = (page) => page.evaluate(() => window.ev3view?.state());
 
 /** Waits until the page's state satisfies a test; answers that state. */
-export async function shows(page, test, what, seconds = 20) {
+export async function shows(page, test, what) {
   let last = null;
   return until(async () => {
     last = await state(page);
     return last && test(last) ? last : null;
-  }, what, seconds).catch((error) => {
+  }, what).catch((error) => {
     throw new Error(`${error.message}; last: ${JSON.stringify({ ...last, world: undefined })}`);
   });
 }

@@ -11,7 +11,7 @@ export const LAYERS = [
 const GRAB = 14;
 
 /** How long the program may take to answer that it has put the robot somewhere, in ms. */
-const ANSWERED_WITHIN = 2000;
+const ANSWERED_WITHIN = 10000;
 
 /** A number as the program gets it. */
 const short = (n) => Number(n.toFixed(2));
