@@ -60,11 +60,11 @@ class KnownButton(Button):
 LEFT, RIGHT = "ev3-ports:outB", "ev3-ports:outC"
 
 
-def until(holds, seconds=5):
-    end = time.monotonic() + seconds
+def until(holds):
+    end = time.monotonic() + 300
     while not holds():
         if time.monotonic() > end:
-            raise AssertionError("it took too long")
+            raise AssertionError("it does not come, or the machine is too busy")
         time.sleep(0.01)
 
 
@@ -91,10 +91,9 @@ class Client(unittest.TestCase):
         left, right = LargeMotor(LEFT), LargeMotor(RIGHT)
         left.on(SpeedPercent(15))
         right.on(SpeedPercent(-15))
-        time.sleep(0.5)
+        until(lambda: gyro.angle - before > 10)
         left.off()
         right.off()
-        self.assertGreater(gyro.angle - before, 10)
 
     def test_bad_speed_raises_its_error(self):
         with self.assertRaises(ValueError):
@@ -179,30 +178,24 @@ class Client(unittest.TestCase):
         servo.float()
         self.assertEqual((servo.state, servo.position_sp), ([], -150))
 
-    def eventually(self, is_so):
-        deadline = time.monotonic() + 10
-        while not is_so():
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.01)
-
     def test_buttons_are_down_while_they_are_pressed(self):
         button = Button()
         self.assertEqual(button.buttons_pressed, [])
         simulator("sim_press(up), sim_press(back)")
-        self.eventually(lambda: button.check_buttons(["up", "backspace"]))
+        until(lambda: button.check_buttons(["up", "backspace"]))
         self.assertTrue(button.up)
         self.assertFalse(button.enter)
         simulator("sim_release(up), sim_release(back)")
-        self.eventually(lambda: not button.any())
+        until(lambda: not button.any())
 
     def test_button_handlers_are_called(self):
         button, seen = Button(), []
         button.on_enter = seen.append
         button.process()
         simulator("sim_press(enter)")
-        self.eventually(lambda: button.process() or seen == [True])
+        until(lambda: button.process() or seen == [True])
         simulator("sim_release(enter)")
-        self.eventually(lambda: button.process() or seen == [True, False])
+        until(lambda: button.process() or seen == [True, False])
 
     def test_waiting_for_a_button_ends_when_it_is_pressed(self):
         button, done = KnownButton(), []
@@ -215,7 +208,7 @@ class Client(unittest.TestCase):
             simulator("sim_press(left), sleep(0.05), sim_release(left)")
             waiter.join(0.2)
             return not waiter.is_alive()
-        self.eventually(bumped)
+        until(bumped)
         self.assertEqual(done, [True])
 
     def test_the_key_device_introduces_itself(self):

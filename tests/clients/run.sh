@@ -30,8 +30,7 @@ server=$!
 exec 3>"$mount.over"
 trap 'exec 3>&-; wait $server || true; rm -rf "$mount" "$mount.dev" "$mount.over"' EXIT
 
-for _ in $(seq 100); do
-    [ -d "$mount/tacho-motor" ] && [ -e "$mount.dev/fb0" ] && break
+until [ -d "$mount/tacho-motor" ] && [ -e "$mount.dev/fb0" ]; do
     kill -0 $server 2>/dev/null || skip "the tree could not be mounted"
     sleep 0.1
 done

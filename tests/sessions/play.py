@@ -73,7 +73,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-PATIENCE = float(os.environ.get("EV3DEV_SESSION_SECONDS", "60"))
+PATIENCE = 600  # seconds, after which it hangs or the machine is too busy
 PROMPT = re.compile(r"(?:^|\n)(?:\|: )?(?:\d+ )?\?- $")
 PROMPT_START = re.compile(r"^(?:\d+ )?\?- ")
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|\x1b[=>()][0-9A-B]?|[\r\a]")
@@ -135,7 +135,7 @@ class Terminal:
         while not condition(self.news()):
             left = deadline - time.monotonic()
             if left <= 0:
-                raise Wrong(f"waited {PATIENCE:.0f} s for {what}")
+                raise Wrong(f"waited {PATIENCE} s, in which a busy machine may not have come to {what}")
             if not self.ended:
                 self.read(left)
             elif not condition(self.news()):
@@ -144,10 +144,19 @@ class Terminal:
 
     def until_edited(self):
         """A line editor, if there is one, takes over the terminal after the prompt; a key
-        before that would be the terminal's."""
-        deadline = time.monotonic() + 1
-        while termios.tcgetattr(self.fd)[3] & termios.ICANON and time.monotonic() < deadline:
+        before that would be the terminal's. There is none if the program sleeps before."""
+        asleep = 0
+        while asleep < 5 and termios.tcgetattr(self.fd)[3] & termios.ICANON:
             self.read(0.02)
+            asleep = asleep + 1 if self.is_asleep() else 0
+
+    def is_asleep(self):
+        """Does the program in the foreground wait, and not only for the processor?"""
+        try:
+            stat = Path(f"/proc/{os.tcgetpgrp(self.fd)}/stat").read_text()
+        except OSError:  # it has ended
+            return True
+        return stat.rpartition(")")[2].split()[0] == "S"
 
     def wait(self):
         """Waits for the end; the status as a shell has it."""
