@@ -19,7 +19,7 @@ REST_S = 0.5  # from the end of the process, or a stop of it, to motors that res
 LEFT_S = 1.0  # from the end of the process to that of all that it started
 HALT_S = 3.0  # from a program's own halt to motors that rest
 START_S = 20.0
-LATE_S = 0.25  # a machine on which 0.1 s take so much longer measures nothing
+SHARE = 0.05  # of a processor, which the program has at least
 LIMITS = {
     "nofile": (resource.RLIMIT_NOFILE, 32),
     "stack": (resource.RLIMIT_STACK, 512 << 10),
@@ -129,8 +129,7 @@ class Run:
         self.used = False
         self.said_at = {}
         self.ended_at = None
-        self.late = 0.0
-        self.control = None
+        self.delays = {}
         self.popen = None
         self.leader = None
 
@@ -257,23 +256,29 @@ class Run:
             self.reads = None
 
     def wait(self, seconds, condition):
-        """Waits until the condition holds, and says whether it does."""
-        deadline = time.monotonic() + seconds
+        """Waits until the condition holds, and says whether it does. The time in which
+        the program or the simulation waits for a processor does not count."""
+        began, before, looked = time.monotonic(), self.delay(), 0.0
         while not condition():
-            if time.monotonic() >= deadline:
-                return False
+            passed = time.monotonic() - began
+            if passed >= seconds and passed >= looked + 0.2:
+                looked = passed
+                if max(passed - (self.delay() - before), SHARE * passed) >= seconds:
+                    return False
             self.look()
-            self.watch_control()
         return True
 
-    def watch_control(self):
-        """How late is another process that sleeps for 0.1 s?"""
-        now = time.monotonic()
-        if self.control is None:
-            self.control = subprocess.Popen(["sleep", "0.1"], stdin=subprocess.DEVNULL), now
-        elif self.control[0].poll() is not None:
-            self.late = max(self.late, now - self.control[1] - 0.1)
-            self.control = None
+    def delay(self):
+        """For how many seconds threads of these processes have waited for a processor."""
+        server = [self.stage.mount.server.pid] if self.stage.mount else []
+        for pid in [*server, *self.stage.descendants()]:
+            try:
+                for thread in os.listdir(f"/proc/{pid}/task"):
+                    with open(f"/proc/{pid}/task/{thread}/schedstat", encoding="ascii") as file:
+                        self.delays[thread] = int(file.read().split()[1])
+            except (OSError, IndexError):
+                pass
+        return sum(self.delays.values()) / 1e9
 
     def send(self, number):
         """Sends a signal to the process, or to its group."""
@@ -291,15 +296,12 @@ class Run:
             self.wait(START_S, self.is_under_way)
             self.used = bool(self.tree.running())
             self.spoil()
-            self.late = 0.0
             if not self.ended():
                 self.end()
             self.used = self.used or self.tree.used()
             self.after_end()
             self.read_output()
         finally:
-            if self.control:
-                self.control[0].wait()
             self.stage.clear()
             self.close_output()
             if self.popen:
@@ -417,8 +419,7 @@ class Run:
 
     def left(self):
         """What the program has left: not the leader of its terminal, nor a command of its own."""
-        known = (self.leader, self.control and self.control[0].pid)
-        return [pid for pid in self.stage.descendants() if pid not in known and OWN not in command_of(pid)]
+        return [pid for pid in self.stage.descendants() if pid != self.leader and OWN not in command_of(pid)]
 
     def may_crash(self):
         """Was a crash the aim, or can it come of what the program lacks?"""
