@@ -7,11 +7,13 @@
 %   --since=COMMIT  only in lines that have changed since
 %   --tests=LIST    these test files, with commas between; else see tests_of/3
 %   --least=P       exit with 1 if less than P percent are noticed
+%   --jobs=N        N changes at once (as many as processors), each in a copy of its own
 %   --self_test     check this program
 %
 % FILEs are all of prolog/ev3dev by default. Only a copy of the pack is written to. TREES
 % in the environment names the trees of the tests.
 
+:- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
@@ -20,6 +22,7 @@
 :- use_module(library(process)).
 :- use_module(library(random)).
 :- use_module(library(readutil)).
+:- use_module(library(thread), [concurrent/3]).
 
 main :-
     current_prolog_flag(argv, Argv),
@@ -267,11 +270,27 @@ judged(Mutants, Options, Verdicts) :-
     findall(Test, ( member(Mutant, Mutants), arg(1, Mutant, File), tests_of(File, Options, Tests),
                     member(Test, Tests) ), All0),
     sort(All0, All),
+    current_prolog_flag(cpu_count, Processors),
+    option(jobs(Jobs), Options, Processors),
     setup_call_cleanup(
-        copied(Copy),
-        ( maplist(limit(Copy), All, Limits),
-          maplist(judged(Copy, Limits, Options), Mutants, Verdicts) ),
-        delete_directory_and_contents(Copy)).
+        ( findall(Copy, ( between(1, Jobs, _), copied(Copy) ), Copies),
+          message_queue_create(Free),
+          maplist(thread_send_message(Free), Copies) ),
+        ( findall(in_copy(Free, limit, Test, _), member(Test, All), Goals0),
+          maplist(result, Goals0, Limits),
+          concurrent(Jobs, Goals0, []),
+          findall(in_copy(Free, judged(Limits, Options), Mutant, _), member(Mutant, Mutants), Goals),
+          maplist(result, Goals, Verdicts),
+          concurrent(Jobs, Goals, []) ),
+        maplist(delete_directory_and_contents, Copies)).
+
+result(Goal, Result) :-
+    arg(4, Goal, Result).
+
+in_copy(Free, Goal, In, Result) :-
+    setup_call_cleanup(thread_get_message(Free, Copy),
+                       call(Goal, Copy, In, Result),
+                       thread_send_message(Free, Copy)).
 
 %   Without what ev3dev_compile/0 has made: it would be loaded in place of a changed file.
 copied(Copy) :-
@@ -282,17 +301,17 @@ copied(Copy) :-
            [Copy, Copy]),
     process_create(path(bash), ['-c', Command], []).
 
-%   How long a test may take, by what it takes without a change.
-limit(Copy, Test, Test-Limit) :-
-    get_time(Begin),
-    tested(Copy, Test, 1200, Verdict),
-    get_time(End),
+%   How many seconds a test may compute, and how long it may be asleep, by what it does
+%   without a change. What it waits for the processor does not count.
+limit(Copy, Test, Test-limit(Cpu, Asleep)) :-
+    tested(Copy, Test, limit(1200, 1200), Verdict, Cpu0, Asleep0),
     (   Verdict == survived
-    ->  Limit is ceiling(4 * (End - Begin) + 10)
+    ->  Cpu is ceiling(4 * Cpu0 + 10),
+        Asleep is 4 * Asleep0 + 10
     ;   throw(format("~w fails without a change", [Test]))
     ).
 
-judged(Copy, Limits, Options, mutant(File, Line, From-To, New), Verdict) :-
+judged(Limits, Options, Copy, mutant(File, Line, From-To, New), Verdict) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
     sub_string(Text, 0, From, _, Before),
     sub_string(Text, To, _, 0, After),
@@ -301,7 +320,7 @@ judged(Copy, Limits, Options, mutant(File, Line, From-To, New), Verdict) :-
     setup_call_cleanup(write_file(Changed, [Before, ' ', New, ' ', After]),
                        (   member(Test, Tests),
                            memberchk(Test-Limit, Limits),
-                           tested(Copy, Test, Limit, Verdict),
+                           tested(Copy, Test, Limit, Verdict, _, _),
                            Verdict \== survived
                        ->  true
                        ;   Verdict = survived
@@ -321,7 +340,7 @@ write_file(File, Texts) :-
 
 %   The first error or warning that the test file does not expect ends it, but not one of
 %   style: a change may leave a variable that occurs once. Nor a text, as a test prints one.
-tested(Copy, Test, Limit, Verdict) :-
+tested(Copy, Test, limit(MostCpu, MostAsleep), Verdict, Cpu, Asleep) :-
     format(atom(Goal),
            "Hook = (user:message_hook(T, K, _) :- memberchk(K, [error, warning]), \c
                     functor(T, N, _), \\+ memberchk(N, [singletons, multitons, \c
@@ -329,15 +348,66 @@ tested(Copy, Test, Limit, Verdict) :-
             assertz(Hook, Ref), load_files(user:'~w', []), erase(Ref), assertz(Hook), \c
             set_prolog_flag(ev3dev_hints, off), run_tests", [Test]),
     current_prolog_flag(executable, Swipl),
-    process_create(path(timeout), ['-k', 5, Limit, Swipl, '-g', Goal, '-t', halt],
+    process_create(path(setsid), [Swipl, '-g', Goal, '-t', halt],
                    [cwd(Copy), stdin(null), stdout(null), stderr(null), process(Pid)]),
-    process_wait(Pid, Status),
+    watched(Pid, MostCpu, MostAsleep, 0, Asleep, 0, Cpu, Status),
     (   Status == exit(0)
     ->  Verdict = survived
-    ;   memberchk(Status, [exit(124), exit(137), killed(9)])
+    ;   Status == late
     ->  Verdict = late
     ;   Verdict = killed
     ).
+
+%   watched(Pid, MostCpu, MostAsleep, Asleep0, Asleep, Cpu0, Cpu, Status): what it computed,
+%   and how long nothing of its session could run or waited for the processor, until its end.
+watched(Pid, MostCpu, MostAsleep, Asleep0, Asleep, Cpu0, Cpu, Status) :-
+    sleep(0.2),
+    findall(State-Ticks, task(Pid, State, Ticks), Tasks),
+    aggregate_all(sum(Ticks), member(_-Ticks, Tasks), Sum),
+    Cpu1 is max(Cpu0, Sum / 100),
+    (   member(State-_, Tasks),
+        memberchk(State, ["R", "D"])
+    ->  Asleep1 = Asleep0
+    ;   Asleep1 is Asleep0 + 0.2
+    ),
+    process_wait(Pid, Status0, [timeout(0)]),
+    (   Status0 \== timeout
+    ->  Asleep = Asleep1,
+        Cpu = Cpu1,
+        Status = Status0
+    ;   ( Cpu1 > MostCpu ; Asleep1 > MostAsleep )
+    ->  format(atom(Session), "-~d", [Pid]),
+        process_create(path(kill), ['-KILL', '--', Session], []),
+        process_wait(Pid, _),
+        Asleep = Asleep1,
+        Cpu = Cpu1,
+        Status = late
+    ;   watched(Pid, MostCpu, MostAsleep, Asleep1, Asleep, Cpu1, Cpu, Status)
+    ).
+
+%   task(Session, State, Ticks): a thread of it, and for how many hundredths of a second it ran.
+task(Session, State, Ticks) :-
+    directory_files('/proc', Names),
+    member(Name, Names),
+    atom_number(Name, Process),
+    stat([Process], [_, _, _, Session|_]),
+    format(atom(Threads), "/proc/~d/task", [Process]),
+    catch(directory_files(Threads, Ids), _, fail),
+    member(Id, Ids),
+    atom_number(Id, Thread),
+    stat([Process, task, Thread], [State, _, _, _, _, _, _, _, _, _, _, User, System|_]),
+    Ticks is User + System.
+
+%   The fields behind the name of the program, numbers as such.
+stat(Path, Fields) :-
+    atomic_list_concat(Path, /, Inner),
+    format(atom(File), "/proc/~w/stat", [Inner]),
+    catch(read_file_to_string(File, Text, []), _, fail),
+    split_string(Text, ")", " \n", Parts),
+    last(Parts, Last),
+    split_string(Last, " ", "", [State|Words]),
+    maplist(number_string, Numbers, Words),
+    Fields = [State|Numbers].
 
 self_test :-
     Text = "p(1) :- ( X < 2.0 -> q, ! ; X is Y - 3, \\+ r ).",
@@ -353,4 +423,7 @@ self_test :-
     sub_string(Library, From, Length, _, "wait_(Seconds, Reason)"),
     To is From + Length,
     findall(mutant(File, 0, From-To, New), member(New, [fail, 'wait_(Seconds,Reason)']), Mutants),
-    judged(Mutants, [], [killed, survived]).
+    judged(Mutants, [], [killed, survived]),
+    % It waits, or computes, without an end
+    forall(member(Endless, ["thread_get_message(never)", "repeat, fail"]),
+           judged([mutant(File, 0, From-To, Endless)], [], [late])).
