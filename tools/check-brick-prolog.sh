@@ -169,7 +169,7 @@ swipl() {
     fi
     (
         cd "$work/root/home/robot"
-        timeout -k 10 300 env -i PATH="$PATH" HOME="$PWD" \
+        guarded env -i PATH="$PATH" HOME="$PWD" \
             LOCPATH="$here/lib/locale" LC_ALL=C.UTF-8 \
             "$qemu" -cpu arm926 "$here/libexec/swipl" \
             --library-path "$here/lib" --argv0 "$here/bin/swipl" \
@@ -179,7 +179,7 @@ swipl() {
 
 # brick COMMAND...: in the new root, with the variables of with
 brick() {
-    timeout -k 10 300 env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=/home/robot \
+    guarded env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=/home/robot \
         QEMU_CPU=arm926 QEMU_UNAME=4.14.117 ${variable:+"$variable"} \
         "$chroot" "$work/root" /bin/sh -c 'cd && exec "$@"' sh "$@"
 }

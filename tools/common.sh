@@ -16,6 +16,14 @@ say() {
     echo "${0##*/}: $*" >&2
 }
 
+# guarded COMMAND...: ends it after two hours, which no check takes, and says so
+guarded() {
+    local status=0
+    "$(PATH=/usr/bin:/bin type -P timeout)" -k 10 7200 "$@" || status=$?
+    [[ $status != 124 ]] || say "ended after two hours: it hangs, or this machine is too busy"
+    return $status
+}
+
 # have COMMAND...: are all of these there?
 have() {
     local command

@@ -23,7 +23,7 @@ main() {
 }
 
 on_brick() {
-    EV3DEV_PACK=$pack EMULATED_HOME=$pack/home timeout 600 "$root/tools/emulate.sh" armel \
+    EV3DEV_PACK=$pack EMULATED_HOME=$pack/home guarded "$root/tools/emulate.sh" armel \
         swipl -q -g main -t 'halt(1)' "$1" </dev/null
 }
 

@@ -95,7 +95,7 @@ try() {
 # library: the clone's own may want a newer C library than there is here
 sessions() {
     built_swipl "$name" >/dev/null || export EV3DEV_EMULATED=1
-    EV3DEV_SESSION_HOME=$home EV3DEV_SESSION_SECONDS=120 SWIPL=$home/swipl \
+    EV3DEV_SESSION_HOME=$home SWIPL=$home/swipl \
         "$tree/ev3dev/tests/sessions/play.py"
 }
 
@@ -109,16 +109,14 @@ built_swipl() {
 }
 
 run_swipl() {
-    local timeout
-    timeout=$(type -P timeout)
     if built_swipl "$name" >/dev/null; then
         (
             unset XDG_DATA_HOME XDG_CONFIG_HOME
             export HOME=$home SWIPL=$home/swipl PATH=${EMULATED_PATH:-$PATH}
-            exec "$timeout" 5400 "$SWIPL" -q "$@"
+            guarded "$SWIPL" -q "$@"
         )
     else
-        SWIPL=$home/swipl EMULATED_HOME=$home timeout 5400 \
+        SWIPL=$home/swipl EMULATED_HOME=$home guarded \
             "$root/tools/emulate.sh" "$name" swipl -q "$@"
     fi
 }
