@@ -1,7 +1,7 @@
-% No author/2, home/1 and download/1 yet: there is no public address that would be true,
-% and SWI-Prolog 7.2.3 refuses an author without one. The authors are the ev3dev pack
-% contributors (LICENSE). No requires/1: SWI-Prolog 7.2.3 or later is enough, which
-% older versions take for the name of a pack.
+% There is no author/2, home/1 or download/1 yet: no public address would be
+% true, and SWI-Prolog 7.2.3 refuses an author without one. The authors are
+% the ev3dev pack contributors (LICENSE). There is no requires/1: older
+% versions would take SWI-Prolog's own name for that of a pack.
 name(ev3dev).
 version('1.0.0').
 title('Control LEGO EV3 robots running ev3dev').

@@ -174,9 +174,9 @@ no_suitable_file(Pack) :-
     ),
     format(atom(Message),
            '~w has no native library for this machine (~w, ~w); there is \c
-            ~w. Install Rust from https://rustup.rs and run "make" there, or \c
-            install the binary pack, which "make dist" makes on a PC that \c
-            has Rust (docs/brick.md)',
+            ~w. Install Rust from https://rustup.rs and run "make" there, \c
+            or install the binary pack, which "make dist" makes on a PC \c
+            that has Rust (docs/brick.md)',
            [Pack, Arch, Text, Found]),
     throw(error(existence_error(foreign_library, ev3dev),
                 context(ev3dev_library_file:library_file/1, Message))).

@@ -35,6 +35,12 @@ ran into something is kept at that moment, as the simulator forgets it.
     run_collision/1,
     run_fact/1.
 
+%!  run_pose(?Seconds, ?X, ?Y, ?Heading) is nondet.
+%!  run_collision(?Collision) is nondet.
+%!  run_fact(?Fact) is nondet.
+%
+%   What was recorded of the run; they are dynamic.
+
 %!  with_record(:Goal, +Seed, +World, +Robot) is semidet.
 %
 %   Call Goal, while a simulation of Robot in World runs, and record it.

@@ -69,7 +69,10 @@ set_state(State) :-
     flag(ev3dev_view_idle, _, Idle),
     prints.
 
+%!  prints is det.
+%
 %   What is written from now on is the program's, or the toplevel's.
+
 prints :-
     program_state(State),
     (   State == running
